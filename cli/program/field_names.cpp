@@ -14,6 +14,7 @@ using Names = std::pair<std::string_view, std::string_view>;
 
 constexpr std::array kNames{
     Names{"allow_mixed_vertical", "--allow-mixed-vertical"},
+    Names{"attributes", "--attributes"},
     Names{"azimuth", "--azimuth"},
     Names{"band", "--band"},
     Names{"base", "--base"},
@@ -32,6 +33,7 @@ constexpr std::array kNames{
     Names{"height_step", "--height-step"},
     Names{"height_threshold", "--height-threshold"},
     Names{"hub", "--hub"},
+    Names{"id_field", "--id-field"},
     Names{"kind", "--kind"},
     Names{"layer", "--layer"},
     Names{"max_gap", "--max-gap"},

@@ -77,8 +77,18 @@ class ImportVerb final : public Verb {
                    "Such rasters: to the nearest step (default), up, never lower than the raster, or down, never "
                    "higher")
         ->type_name("WAY");
-    app.add_option("--name-field", options_.name_field, "What messages call a building, wall or wood")
+    app.add_option("--id-field", options_.id_field,
+                   "Lines and footprints: the field of a feature's id, for exports and reports (default: the source's "
+                   "own number for it)")
         ->type_name("FIELD");
+    app.add_option("--name-field", options_.name_field,
+                   "Lines and footprints: the field of a feature's name, for exports, reports and messages")
+        ->type_name("FIELD");
+    app.add_option("--attributes", attributes_,
+                   "Lines and footprints: the fields that the store keeps for exports: all (default; numbers, texts, "
+                   "dates and times), none, or names")
+        ->type_name("all|none|FIELD,...")
+        ->delimiter(',');
     app.add_option("--layer", options_.layer, "Vector files: the layer to read")->type_name("NAME");
     app.add_option("--where", options_.where, "Vector files: only features that this SQL condition holds for")
         ->type_name("SQL");
@@ -132,6 +142,10 @@ class ImportVerb final : public Verb {
       throw InputError("--theme: terrain has no theme; leave it out");
     }
     validate_raised();
+    if (attributes_ == std::vector<std::string>{"none"})
+      options_.attributes.emplace();
+    else if (!attributes_.empty() && attributes_ != std::vector<std::string>{"all"})
+      options_.attributes = attributes_;
     options_.repair = !no_repair_;
     if (!classes_.empty()) options_.classes = parse_wholes("--class", classes_, 0, 255);
     if (!band_.empty()) options_.band = parse_whole("--band", band_, 1, 65535);
@@ -163,7 +177,9 @@ class ImportVerb final : public Verb {
     given("height_rounding", height_rounding_);
     given("source_note", options_.source_note);
     if (options_.band) parameters["band"] = *options_.band;
+    given("id_field", options_.id_field);
     given("name_field", options_.name_field);
+    if (options_.attributes) parameters["attributes"] = *options_.attributes;
     given("layer", options_.layer);
     given("where", options_.where);
     if (!options_.classes.empty()) parameters["classes"] = options_.classes;
@@ -303,6 +319,7 @@ class ImportVerb final : public Verb {
   bool no_repair_ = false;
   std::string classes_, band_, sea_level_, max_gap_, levels_, resolution_, memory_;
   std::string height_, base_, roof_, thickness_, height_step_, height_threshold_, height_rounding_;
+  std::vector<std::string> attributes_;
   ImportOptions options_;
 };
 

@@ -44,7 +44,10 @@ class TinVerb final : public Verb {
     picture_.declare(app, "the surface");
     app.add_option("--topology", topology_, "Write this structure of the triangulation: triangle, vertex or edge")
         ->type_name("KIND");
-    app.add_option("--lines", lines_, "Write the lines of these themes in place of triangles, joined (.gpkg)")
+    app.add_option("--lines", lines_,
+                   "Write the lines of these themes in place of triangles, one for each feature and as far as it goes "
+                   "on, with its "
+                   "id, name and attributes (.gpkg or .geojson)")
         ->type_name("THEME,...")
         ->delimiter(',');
     detail_.declare(app);
@@ -61,7 +64,8 @@ class TinVerb final : public Verb {
     if (output_.empty() && !topology_.empty()) throw InputError("--topology: give --output FILE.json with it");
     picture_.validate();
     if (!topology_.empty()) kind_ = topology_kind(topology_);
-    if (!lines_.empty() && output_.empty()) throw InputError("--lines: give --output FILE.gpkg with it");
+    if (!lines_.empty() && output_.empty())
+      throw InputError("--lines: give --output FILE.gpkg or FILE.geojson with it");
     if (!lines_.empty() && kind_) throw InputError("--lines and --topology write different files: give one of them");
   }
 
@@ -92,7 +96,7 @@ class TinVerb final : public Verb {
     if (tin.triangles.empty() && !picture_.path().empty())
       throw InputError(window_.no_ground(store.metadata()) + "; there is nothing to draw");
     const Document surface = surface_document(store.metadata(), detail, themes);
-    if (!output_.empty()) write(tin, lines, store.metadata(), surface, progress);
+    if (!output_.empty()) write(store, {tin, window, detail, lines}, surface, progress);
     if (!picture_.path().empty()) picture_.write(store, tin, detail, policy_.overwrite, progress);
     Result result{document(tin, store.metadata(), surface), text(tin), {}, {}};
     warn_of_scale(store.metadata(), result.warnings);
@@ -130,16 +134,15 @@ class TinVerb final : public Verb {
     return numbers;
   }
 
-  void write(const Tin& tin, const std::vector<std::uint16_t>& lines, const StoreMetadata& metadata,
-             const Document& surface, Progress& progress) {
+  void write(const Store& store, const WindowLines& lines, const Document& surface, Progress& progress) {
     const TinExportOptions options =
-        tin_export_options(metadata, {{"command", query()}, {"surface", surface}}, policy_.overwrite);
-    if (!lines.empty()) {
-      joined_ = export_lines(tin, lines, output_, options);
+        tin_export_options(store.metadata(), {{"command", query()}, {"surface", surface}}, policy_.overwrite);
+    if (!lines.themes.empty()) {
+      joined_ = export_lines(store, lines, output_, options, progress);
     } else if (kind_) {
-      export_topology(tin, *kind_, output_, options, progress);
+      export_topology(lines.tin, *kind_, output_, options, progress);
     } else {
-      export_tin(tin, output_, options, progress);
+      export_tin(lines.tin, output_, options, progress);
     }
   }
 

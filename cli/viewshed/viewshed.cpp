@@ -198,6 +198,8 @@ class ViewshedVerb final : public Verb {
     result.document["sources"] = sources_document(sources);
     result.document["outputs"] = outputs_.paths();
     if (!features.is_null()) result.document["features"] = features;
+    if (request_.mode == viewshed::Mode::kBlocker)
+      result.document["blockers"] = viewshed::blockers_document(store, computed.result);
     if (!targets.empty()) result.document["horizon_targets"] = targets;
     result.text = text(computed.result, missing);
     return result;

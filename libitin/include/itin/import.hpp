@@ -36,6 +36,10 @@ struct ImportOptions {
       z_field;  ///< the height attribute of point layers and CSV; default: Z of the geometry, or the third column
   std::string layer;
   std::string where;
+  /// Of layers of lines and footprints: what the store keeps of their features, for exports and reports.
+  std::string id_field;                                ///< default: the source's number for the feature
+  std::string name_field;                              ///< also the name of a raised feature in messages; default: none
+  std::optional<std::vector<std::string>> attributes;  ///< fields; default: all of numbers, texts, dates and times
   std::optional<int> band;  ///< of rasters: the one that holds heights, from 1; default: their only one
 
   // For raised features only: CityJSON, and buildings, vegetation and walls for which one of the first three is given.
@@ -43,7 +47,6 @@ struct ImportOptions {
   std::string eaves_field;          ///< of the eaves above the base
   std::optional<double> height;     ///< metres; of features that have none in the fields
   std::string base_field;           ///< elevation of the base
-  std::string name_field;           ///< the name of a feature in messages
   std::optional<BaseRule> base;     ///< of buildings without base_field; default: minimum, or the floors of CityJSON
   std::optional<RoofKind> roof;     ///< default: flat
   std::optional<double> thickness;  ///< metres; of what stands on lines; default: 0.3

@@ -61,6 +61,18 @@ BaseRule base_rule(std::string_view name);
 /// "nearest", "up", "down". Throws InputError.
 HeightRounding height_rounding(std::string_view name);
 
+/// The type of a field's values.
+enum class AttributeType : std::uint8_t { number, whole, text };
+/// "number", "whole" or "text".
+std::string_view name_of(AttributeType type);
+
+/// An attribute of a theme's features, as their sources name it.
+struct AttributeField {
+  std::string name;
+  AttributeType type = AttributeType::text;
+  friend bool operator==(const AttributeField&, const AttributeField&) = default;
+};
+
 struct ThemeInfo {
   std::string name;
   ThemeKind kind = ThemeKind::Breaklines;
@@ -69,6 +81,10 @@ struct ThemeInfo {
   std::uint64_t segments = 0;  ///< of the full surface, after crossings were resolved
   /// Blocks of a store that keep its footprints as they were imported; none for lines on the ground.
   std::uint32_t footprint_blocks = 0;
+  /// Blocks of a store that keep ids, names and attributes of its features; none where no import kept any.
+  std::uint32_t feature_blocks = 0;
+  std::vector<AttributeField> fields = {};  ///< of its features, in the order in which imports brought them
+  bool segments_have_features = false;      ///< its lines know which feature they are of
 
   bool is_raised() const { return footprint_blocks > 0; }
 };

@@ -34,10 +34,14 @@
 #include <string_view>
 #include <vector>
 
+#include <itin/detail.hpp>
 #include <itin/progress.hpp>
 #include <itin/tin.hpp>
+#include <itin/window.hpp>
 
 namespace itin {
+
+class Store;
 
 struct TinExportOptions {
   std::vector<std::string> theme_names;  ///< of Tin::lines: theme t is theme_names[t - 1]
@@ -74,12 +78,24 @@ void export_tin(const Tin& tin, const std::string& path, const TinExportOptions&
 void export_topology(const Tin& tin, TopologyKind kind, const std::string& path, const TinExportOptions& options,
                      Progress& progress);
 
-/// Writes the lines of these themes (from 1), as long as they go on: a line ends where other than two of its theme's
-/// edges meet, and at the window's edge. A GeoPackage (.gpkg) with the layer `lines`: z, the theme's name, and
-/// `length_m`, horizontally. At a tolerance these are the lines generalised to it. Returns how many there are. Errors
-/// as above.
-std::size_t export_lines(const Tin& tin, const std::vector<std::uint16_t>& themes, const std::string& path,
-                         const TinExportOptions& options);
+/// What lines to write: those of the themes (from 1) in a window.
+struct WindowLines {
+  const Tin& tin;  ///< triangulate() of the window at the detail, with these themes
+  const Window& window;
+  const Detail& detail;
+  std::vector<std::uint16_t> themes;
+};
+
+/// Writes lines with z as a GeoPackage (.gpkg), layer `lines`, or GeoJSON (.geojson) in the store's CRS. At a tolerance
+/// these are the lines generalised to it. The columns are the theme, `feature_id`, `feature_name` and the attributes
+/// that the import kept, and `length_m`, horizontally. Returns how many there are. Errors as above, and CorruptStore.
+///
+/// Of lines on the ground these are all edges of the surface that meet the window, whatever the window, feature by
+/// feature and as far as they go on: a line ends where other than two edges of its feature meet, and at the window. Of
+/// themes that stand they are the sides of the footprints that have a part of the surface, as they were imported, at
+/// the height of the terrain under them.
+std::size_t export_lines(const Store& store, const WindowLines& lines, const std::string& path,
+                         const TinExportOptions& options, Progress& progress);
 /// Throws what export_lines() would throw before writing.
 void require_lines_output(const std::string& path, bool overwrite);
 

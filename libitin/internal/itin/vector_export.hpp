@@ -1,4 +1,4 @@
-// Small sets of points and lines as GeoPackage layers.
+// Small sets of points and lines as GeoPackage layers and GeoJSON.
 //
 //   VectorLayer ends{"ends", VectorLayer::Shape::kPoints, {{"name", VectorLayer::Type::kText}}, {}};
 //   ends.features.push_back({{{x, y, z}}, {std::string("A")}});
@@ -34,5 +34,8 @@ struct VectorLayer {
 /// Equal calls write equal bytes. Throws FileError if the file exists and may not be replaced, or cannot be written.
 void write_geopackage(const std::string& path, const std::string& crs_wkt, const std::vector<VectorLayer>& layers,
                       bool overwrite);
+
+/// In the CRS, named in the `crs` member of GeoJSON 2008. Throws as above, and InputError for a CRS without EPSG code.
+void write_geojson(const std::string& path, const std::string& crs_wkt, const VectorLayer& layer, bool overwrite);
 
 }  // namespace itin

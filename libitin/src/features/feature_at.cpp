@@ -1,11 +1,15 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numeric>
+
+#include <fmt/format.h>
 
 #include <itin/feature_at.hpp>
 #include <itin/store.hpp>
 
+#include "store/feature_table.hpp"
 #include "store/footprint_codec.hpp"
 
 namespace itin {
@@ -84,7 +88,18 @@ std::vector<std::size_t> from_west(const std::vector<Point2>& places) {
   return order;
 }
 
+void add_ids(const Store& store, std::uint16_t theme, std::vector<std::optional<FeatureAt>>& features) {
+  FeatureTable table(store, theme);
+  for (std::optional<FeatureAt>& feature : features)
+    if (const FeatureRecord* record = feature ? table.at(feature->number) : nullptr) feature->id = record->id;
+}
+
 }  // namespace
+
+std::string title_of(const FeatureAt& feature) {
+  if (feature.id.empty() || feature.name == "feature " + feature.id) return feature.name;
+  return fmt::format("{} (id {})", feature.name, feature.id);
+}
 
 std::vector<std::optional<FeatureAt>> features_at(const Store& store, std::uint16_t theme,
                                                   const std::vector<Point2>& places) {
@@ -101,11 +116,32 @@ std::vector<std::optional<FeatureAt>> features_at(const Store& store, std::uint1
       for (; i != order.end() && places[*i].x <= box.xmax + kNear; ++i) {
         if (places[*i].y < box.ymin - kNear || places[*i].y > box.ymax + kNear) continue;
         const double distance = distance_to(footprint.feature, places[*i]);
-        if (distance < nearest[*i]) nearest[*i] = distance, found[*i] = {number, footprint.feature.name};
+        if (distance < nearest[*i]) nearest[*i] = distance, found[*i] = {number, footprint.feature.name, {}};
       }
       ++number;
     }
   }
+  add_ids(store, theme, found);
+  return found;
+}
+
+std::vector<std::optional<FeatureAt>> features_numbered(const Store& store, std::uint16_t theme,
+                                                        const std::vector<std::int64_t>& numbers) {
+  const std::uint32_t blocks = store.metadata().themes[theme - std::size_t{1}].footprint_blocks;
+  std::map<std::uint32_t, std::vector<std::size_t>> wanted;  // places among the numbers, by block
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    const std::uint64_t block = static_cast<std::uint64_t>(numbers[i]) / kFootprintsInBlock;
+    if (numbers[i] >= 0 && block < blocks) wanted[static_cast<std::uint32_t>(block)].push_back(i);
+  }
+  std::vector<std::optional<FeatureAt>> found(numbers.size());
+  for (const auto& [block, places] : wanted) {
+    const std::vector<StoredFootprint> footprints = stored_footprints(store, theme, block);
+    for (const std::size_t i : places) {
+      const std::size_t place = static_cast<std::size_t>(numbers[i]) % kFootprintsInBlock;
+      if (place < footprints.size()) found[i] = {numbers[i], footprints[place].feature.name, {}};
+    }
+  }
+  add_ids(store, theme, found);
   return found;
 }
 

@@ -34,6 +34,11 @@ bool in_pocket(const std::vector<Position>& vertices, std::size_t from, std::siz
   return inside;
 }
 
+Segment plan_between(Position p, Position q, std::uint16_t theme) {
+  const auto [a, b] = std::minmax({p, q});
+  return {a.x, a.y, b.x, b.y, theme};
+}
+
 /// How far a vertex is from a shortcut, as a share of the tolerance.
 double misfit(Position a, std::int32_t za, Position b, std::int32_t zb, Position p, std::int32_t z,
               const LineTolerance& tolerance) {
@@ -263,19 +268,42 @@ void LineHierarchy::for_each_edge(const Chain& chain, const Visit& visit) const 
   }
 }
 
+/// Calls visit(segment) for every edge of every level and every theme of the chain.
+template <class Visit>
+void LineHierarchy::for_each_segment(const Chain& chain, const Visit& visit) const {
+  for_each_edge(
+      chain, [&](std::size_t from, std::size_t to, std::uint8_t finest, std::uint8_t coarsest, const GridBox& extent) {
+        const auto [a, b] = std::minmax({chain.vertices[from], chain.vertices[to]});
+        const std::int32_t reach = std::max({std::min(a.x, b.x) - extent.xmin, extent.xmax - std::max(a.x, b.x),
+                                             std::min(a.y, b.y) - extent.ymin, extent.ymax - std::max(a.y, b.y)});
+        for (const std::uint16_t theme : chain.themes)
+          visit(Segment{a.x, a.y, b.x, b.y, theme, finest, coarsest, reach});
+      });
+}
+
 std::vector<Segment> LineHierarchy::segments() const {
   std::vector<Segment> result;
+  for (const Chain& chain : chains_) for_each_segment(chain, [&](const Segment& s) { result.push_back(s); });
+  std::sort(result.begin(), result.end());
+  return result;
+}
+
+std::vector<SegmentFeature> LineHierarchy::features(const std::vector<SegmentFeature>& of_whole) const {
+  std::vector<SegmentFeature> whole;
+  for (const auto& [s, feature] : of_whole)
+    whole.push_back({plan_between({s.ax, s.ay}, {s.bx, s.by}, s.theme), feature});
+  std::sort(whole.begin(), whole.end());
+  std::vector<SegmentFeature> result;
   for (const Chain& chain : chains_) {
-    for_each_edge(chain, [&](std::size_t from, std::size_t to, std::uint8_t finest, std::uint8_t coarsest,
-                             const GridBox& extent) {
-      const auto [a, b] = std::minmax({chain.vertices[from], chain.vertices[to]});
-      const std::int32_t reach = std::max({std::min(a.x, b.x) - extent.xmin, extent.xmax - std::max(a.x, b.x),
-                                           std::min(a.y, b.y) - extent.ymin, extent.ymax - std::max(a.y, b.y)});
-      for (const std::uint16_t theme : chain.themes)
-        result.push_back({a.x, a.y, b.x, b.y, theme, finest, coarsest, reach});
+    for_each_segment(chain, [&](const Segment& s) {
+      const Segment first = plan_between(chain.vertices[0], chain.vertices[1], s.theme);
+      for (auto f = std::lower_bound(whole.begin(), whole.end(), SegmentFeature{first, 0});
+           f != whole.end() && f->segment == first; ++f)
+        result.push_back({s, f->feature});
     });
   }
   std::sort(result.begin(), result.end());
+  result.erase(std::unique(result.begin(), result.end()), result.end());
   return result;
 }
 

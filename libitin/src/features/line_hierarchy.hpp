@@ -20,7 +20,7 @@
 #include <itin/geometry.hpp>
 
 #include "geometry/predicates.hpp"
-#include "store/point_index.hpp"
+#include "store/segment_features.hpp"
 
 namespace itin {
 
@@ -42,6 +42,9 @@ class LineHierarchy {
 
   /// The segments of all levels, ascending; without those of `whole`.
   std::vector<Segment> segments() const;
+  /// Which features the segments of all levels are of, ascending; `of_whole` tells it of the segments that it was made
+  /// of. Precondition: `nodes` has all vertices where a theme's line goes on as another feature's.
+  std::vector<SegmentFeature> features(const std::vector<SegmentFeature>& of_whole) const;
 
   struct VertexLevel {
     std::uint64_t code;
@@ -69,6 +72,8 @@ class LineHierarchy {
   bool may_replace(const Chain& chain, std::size_t from, std::size_t to) const;
   template <class Visit>
   void for_each_edge(const Chain& chain, const Visit& visit) const;
+  template <class Visit>
+  void for_each_segment(const Chain& chain, const Visit& visit) const;
 
   int coarsest_ = 0;
   std::vector<Chain> chains_;

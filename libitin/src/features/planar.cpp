@@ -112,7 +112,7 @@ class SnapRounding {
 
   struct Piece {
     Position from, to;
-    std::uint32_t owner;
+    std::uint32_t owner, feature;
     friend auto operator<=>(const Piece&, const Piece&) = default;
   };
 
@@ -151,7 +151,7 @@ class SnapRounding {
     });
     std::sort(way.begin(), way.end());
     for (const auto& [order, p] : way) heights_.push_back(height_at(s, p));
-    for (std::size_t i = 1; i < way.size(); ++i) add_piece(way[i - 1].second, way[i].second, s.owner);
+    for (std::size_t i = 1; i < way.size(); ++i) add_piece(way[i - 1].second, way[i].second, s);
   }
 
   static Height height_at(const OwnedSegment& s, Position p) {
@@ -167,9 +167,11 @@ class SnapRounding {
     return {code_of(p), s.owner, true, -std::clamp<std::int64_t>(s.a.z + rise, low, high)};
   }
 
-  void add_piece(Position p, Position q, std::uint32_t owner) {
+  /// `of` is the segment or the piece that it is part of.
+  template <class Whole>
+  void add_piece(Position p, Position q, const Whole& of) {
     if (q < p) std::swap(p, q);
-    pieces_.push_back({p, q, owner});
+    pieces_.push_back({p, q, of.owner, of.feature});
   }
 
   /// The heights that count, one per position.
@@ -202,7 +204,7 @@ class SnapRounding {
         if (p != piece.from && p != piece.to && on_segment(piece.from, piece.to, p)) way.push_back(p);
       });
       std::sort(way.begin(), way.end());  // by x, then y: in order along a straight line
-      for (std::size_t i = 1; i < way.size(); ++i) add_piece(way[i - 1], way[i], piece.owner);
+      for (std::size_t i = 1; i < way.size(); ++i) add_piece(way[i - 1], way[i], piece);
     }
     sort_pieces();
   }
@@ -226,12 +228,18 @@ class SnapRounding {
     const auto number_of = [&](Position p) {
       return static_cast<std::uint32_t>(std::lower_bound(codes.begin(), codes.end(), code_of(p)) - codes.begin());
     };
+    std::vector<std::pair<PlanarEdge, std::uint32_t>> of_features;
     for (const Piece& piece : pieces_) {
       stop_if_asked();
       const auto [from, to] = std::minmax({number_of(piece.from), number_of(piece.to)});
-      lines.edges.push_back({from, to, piece.owner});
+      of_features.push_back({{from, to, piece.owner}, piece.feature});
     }
-    std::sort(lines.edges.begin(), lines.edges.end());
+    std::sort(of_features.begin(), of_features.end());
+    for (const auto& [edge, feature] : of_features) {
+      if (lines.edges.empty() || lines.edges.back() != edge) lines.edges.push_back(edge);
+      if (feature != kNoFeature)
+        lines.features.push_back({static_cast<std::uint32_t>(lines.edges.size() - 1), feature});
+    }
     return lines;
   }
 

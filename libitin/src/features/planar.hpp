@@ -21,12 +21,16 @@
 #include <itin/geometry.hpp>
 #include <itin/progress.hpp>
 
+#include "store/segment_features.hpp"
+
 namespace itin {
 
-/// A piece of a line. Owners are themes, say, in the order in which they decide about heights.
+/// A piece of a line. Owners are themes, say, in the order in which they decide about heights; a feature is one of its
+/// owner's, or kNoFeature.
 struct OwnedSegment {
   GridPoint a, b;
   std::uint32_t owner = 0;
+  std::uint32_t feature = kNoFeature;
   friend auto operator<=>(const OwnedSegment&, const OwnedSegment&) = default;
 };
 
@@ -36,10 +40,17 @@ struct PlanarEdge {
   friend auto operator<=>(const PlanarEdge&, const PlanarEdge&) = default;
 };
 
+/// An edge, by its number, is part of a feature of its owner.
+struct EdgeFeature {
+  std::uint32_t edge, feature;
+  friend auto operator<=>(const EdgeFeature&, const EdgeFeature&) = default;
+};
+
 struct PlanarLines {
-  std::vector<GridPoint> vertices;  ///< in Morton order, distinct, each an end of an edge
-  std::vector<PlanarEdge> edges;    ///< ascending; one that several owners share is listed for each
-  std::uint64_t crossings = 0;      ///< pairs of segments that crossed between their ends
+  std::vector<GridPoint> vertices;    ///< in Morton order, distinct, each an end of an edge
+  std::vector<PlanarEdge> edges;      ///< ascending; one that several owners share is listed for each
+  std::vector<EdgeFeature> features;  ///< ascending
+  std::uint64_t crossings = 0;        ///< pairs of segments that crossed between their ends
 };
 
 /// O((n + k) log n) for n segments and k crossings, as long as segments are not much denser than 64 in 256 grid steps.

@@ -21,6 +21,11 @@ std::string_view name_of(ThemeKind kind) {
   return kKinds.at(static_cast<std::size_t>(kind));
 }
 
+std::string_view name_of(AttributeType type) {
+  constexpr std::array<std::string_view, 3> kTypes{"number", "whole", "text"};
+  return kTypes.at(static_cast<std::size_t>(type));
+}
+
 ThemeKind theme_kind(std::string_view name) {
   const auto* found = std::find(kKinds.begin(), kKinds.end(), name);
   if (found == kKinds.end())

@@ -167,15 +167,18 @@ void StorePass::add_source(TerrainSource& source, Progress& progress) {
 
 void StorePass::add_lines(LineLayer& layer, Progress& progress) {
   const std::uint32_t theme = collection_.theme(options_.theme, *options_.kind, false);
-  const ReadCounts counts = layer.read(
-      {additions_.plan.grid, additions_.plan.crs_wkt},
+  const std::vector<std::size_t> places =
+      places_among(collection_.fields(theme), layer.fields().fields(), layer.path());
+  std::uint32_t feature = kNoFeature;
+  const LineLayer::Sink sink{
       [&](std::span<const GridPoint> line) {
-        collection_.add(theme, next_number(), line);
+        collection_.add(theme, next_number(), feature, line);
         collection_.require_room(layer.path());
       },
-      progress);
+      [&](FeatureRecord record) { feature = collection_.add_feature(theme, arranged(std::move(record), places)); }};
+  const ReadCounts counts = layer.read({additions_.plan.grid, additions_.plan.crs_wkt}, sink, progress);
   require_true_scale(additions_.plan, layer.path(), counts.bounds);
-  collection_.add_features(theme, layer.features());
+  collection_.count_features(theme, layer.features());
   report_.read += counts.read;
   report_.read_features += layer.features();
   report_.voids += counts.voids;
@@ -193,8 +196,13 @@ void StorePass::add_footprints(FootprintFile& file) {
   report_.low_cells += file.low_cells;
   if (file.cells > 0) std::tie(report_.height_error_low, report_.height_error_high) = height_error_of(options_);
   report_.filtered += file.footprints.filtered;
-  for (FootprintFeature& feature : file.footprints.features)
-    collection_.add_footprint(theme, {std::move(feature), next_number()});
+  FootprintSource& source = file.footprints;
+  const std::vector<std::size_t> places = places_among(collection_.fields(theme), source.fields, file.info.path);
+  for (std::size_t i = 0; i < source.features.size(); ++i) {
+    std::optional<FeatureRecord> record;
+    if (!source.records.empty()) record = arranged(std::move(source.records[i]), places);
+    collection_.add_footprint(theme, {std::move(source.features[i]), next_number()}, std::move(record));
+  }
   collection_.require_room(file.info.path);
 }
 
@@ -219,7 +227,8 @@ PyramidReport StorePass::build(const ThemeLines& lines, const std::vector<double
 }
 
 void StorePass::set_aside(const PyramidReport& pyramid, const ThemeLines& lines, StoreWriter& writer) const {
-  const std::vector<SetAsideLines> of_themes = set_aside_of(collection_.imported(), pyramid.placed, lines);
+  const std::vector<SetAsideLines> of_themes =
+      set_aside_of(collection_.imported(), pyramid.placed, pyramid.of_features, lines);
   for (std::size_t t = 0; t < of_themes.size(); ++t) writer.set_aside(static_cast<std::uint16_t>(t + 1), of_themes[t]);
   const SetAsideCounts before = counts_of(ground_);
   writer.count_set_aside({pyramid.replaced, pyramid.isolated, ground_ != nullptr ? before.segments : pyramid.left_out,
@@ -243,6 +252,7 @@ void StorePass::count(const PyramidReport& pyramid, const ThemeLines& lines) {
 void StorePass::commit(const PyramidReport& pyramid, const ThemeLines& lines, StoreWriter& writer) {
   std::vector<ThemeInfo> themes = counted_themes(collection_, lines, pyramid);
   writer.add_footprints(themes, collection_.footprints());
+  writer.add_features(themes, collection_.features());
   std::vector<ThemePart> parts;
   for (const PlacedPart& part : lines.parts) parts.push_back(part.part);
   writer.commit(std::move(sources_), std::move(themes), std::move(parts));

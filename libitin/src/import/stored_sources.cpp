@@ -74,11 +74,11 @@ StoredPoints add_stored(const Store& store, PointSorter& sorter, LineCollection&
   const StoreRows& rows = file_of(store).rows();
   StoredPoints stored;
   lines.take_themes(store.metadata());
-  lines.take_segments(store.points());
+  lines.take_segments(store);
   add_surface(store, sorter, lines, stored, progress);
   add_set_aside(rows, sorter, stored, progress);
   lines.take_set_aside(rows);
-  lines.take_footprints(store);
+  lines.take_features(store);
   std::sort(stored.inferred.begin(), stored.inferred.end(),
             [](const GridPoint& a, const GridPoint& b) { return code_of(a) < code_of(b); });
   return stored;

@@ -54,6 +54,7 @@ std::optional<LineHierarchy> generalised(const PlacedLines& placed, const std::v
   std::vector<LineTolerance> by_level;
   for (const double t : tolerances) by_level.push_back({t, lateral_tolerance(t)});
   std::vector<std::uint64_t> nodes = placed.on_outline;
+  nodes.insert(nodes.end(), placed.feature_ends.begin(), placed.feature_ends.end());
   for (const Segment& s : outline) {
     nodes.push_back(morton(s.ax, s.ay));
     nodes.push_back(morton(s.bx, s.by));
@@ -194,6 +195,7 @@ class PyramidBuild {
     set_points_aside(imported(), sources_, writer_, progress_);
     report_.placed = std::move(placed_.terrain);
     append(report_.placed, placed_.features);
+    report_.of_features = std::move(placed_.of_features);
     return std::move(report_);
   }
 
@@ -322,7 +324,17 @@ class PyramidBuild {
       report_.vertices_of_source[lines_.parts[p].source] += lines_.parts[p].vertices.size();
     }
     append(segments, masked);
-    writer_.add_segments(segments);
+    writer_.add_segments(segments, segment_features());
+  }
+
+  /// Those of lines on the ground are whole at all levels.
+  std::vector<SegmentFeature> segment_features() const {
+    std::vector<SegmentFeature> features;
+    if (hierarchy_) features = hierarchy_->features(placed_.of_features);
+    std::copy_if(placed_.of_features.begin(), placed_.of_features.end(), std::back_inserter(features),
+                 [&](const SegmentFeature& f) { return !lines_.terrain[f.segment.theme - std::size_t{1}]; });
+    std::sort(features.begin(), features.end());
+    return features;
   }
 
   /// The vertices of lines on the ground.

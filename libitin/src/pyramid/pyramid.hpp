@@ -32,6 +32,7 @@ struct PyramidReport {
   std::vector<std::uint64_t> segments;       ///< by theme and then by part, of the full surface
   std::vector<std::uint64_t> line_vertices;  ///< by theme and then by part
   std::vector<Segment> placed;               ///< of lines on the ground, of the full surface
+  std::vector<SegmentFeature> of_features;   ///< which features they are of
   std::uint64_t flat_before = 0;             ///< flat triangles of contours (features/flat_triangles.hpp)
   std::uint64_t flat_after = 0;              ///< those that the repair did not mend
 };

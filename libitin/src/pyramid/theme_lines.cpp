@@ -171,6 +171,34 @@ std::vector<ThemeVertex> crossings_of_ground(const ThemeLines& lines) {
   return crossings;
 }
 
+namespace {
+
+/// Where a theme's line goes on as another feature's: of the theme's segments that meet there, not all are of the same
+/// features.
+Codes ends_of_features(const std::vector<Segment>& segments, const std::vector<SegmentFeature>& of_features) {
+  using End = std::pair<std::uint64_t, std::uint16_t>;  // code, theme
+  std::vector<End> all;
+  std::vector<std::pair<End, std::uint32_t>> own;  // with a feature
+  for (const Segment& s : segments)
+    for (const std::uint64_t code : {morton(s.ax, s.ay), morton(s.bx, s.by)}) all.emplace_back(code, s.theme);
+  for (const auto& [s, feature] : of_features)
+    for (const std::uint64_t code : {morton(s.ax, s.ay), morton(s.bx, s.by)}) own.push_back({{code, s.theme}, feature});
+  std::sort(all.begin(), all.end());
+  std::sort(own.begin(), own.end());
+  Codes codes;
+  for (auto at = own.begin(); at != own.end();) {
+    const auto next = std::upper_bound(at, own.end(), *at);
+    const auto [first, last] = std::equal_range(all.begin(), all.end(), at->first);
+    // Lines that only lie on the ground are not among them: they are whole at every level.
+    if (first != last && last - first != next - at) codes.push_back(at->first.first);
+    at = next;
+  }
+  codes.erase(std::unique(codes.begin(), codes.end()), codes.end());
+  return codes;
+}
+
+}  // namespace
+
 PlacedLines place_lines(const ThemeLines& lines, const WorkingIndex& index, const std::vector<CurveRange>& tiles,
                         const Sources& ground, const std::vector<std::array<double, 4>>& gap_bases,
                         const std::vector<Segment>& outline, Progress& progress) {
@@ -189,15 +217,23 @@ PlacedLines place_lines(const ThemeLines& lines, const WorkingIndex& index, cons
   const auto lies = [&](std::uint32_t v) { return std::binary_search(on_ground.begin(), on_ground.end(), codes[v]); };
 
   std::vector<Segment> candidates;
-  for (const PlanarEdge& e : lines.lines.edges) {
+  std::vector<std::uint32_t> edges;  // their numbers
+  for (std::uint32_t i = 0; i < lines.lines.edges.size(); ++i) {
+    const PlanarEdge& e = lines.lines.edges[i];
     if (!lines.lies(e) || !lies(e.from) || !lies(e.to)) continue;
     const GridPoint &a = vertices[e.from], &b = vertices[e.to];
     candidates.push_back({a.x, a.y, b.x, b.y, static_cast<std::uint16_t>(e.owner + 1)});
+    edges.push_back(i);
   }
   const OutlineTest test(outline, candidates);
   PlacedLines placed;
-  for (const Segment& s : candidates) {
+  auto feature = lines.lines.features.begin();
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    const Segment& s = candidates[i];
     if (!test.inside(s)) continue;
+    while (feature != lines.lines.features.end() && feature->edge < edges[i]) ++feature;
+    for (; feature != lines.lines.features.end() && feature->edge == edges[i]; ++feature)
+      placed.of_features.push_back({s, feature->feature});
     const bool terrain = lines.terrain[s.theme - std::size_t{1}];
     (terrain ? placed.terrain : placed.features).push_back(s);
     for (const std::uint64_t end : {morton(s.ax, s.ay), morton(s.bx, s.by)}) placed.ends.push_back(end);
@@ -205,6 +241,8 @@ PlacedLines place_lines(const ThemeLines& lines, const WorkingIndex& index, cons
   }
   const auto on_the_ground = std::count_if(lines.lines.edges.begin(), lines.lines.edges.end(),
                                            [&](const PlanarEdge& e) { return lines.lies(e); });
+  std::sort(placed.of_features.begin(), placed.of_features.end());
+  placed.feature_ends = ends_of_features(placed.terrain, placed.of_features);
   placed.left_out = static_cast<std::uint64_t>(on_the_ground) - placed.terrain.size() - placed.features.size();
   std::sort(placed.ends.begin(), placed.ends.end());
   placed.ends.erase(std::unique(placed.ends.begin(), placed.ends.end()), placed.ends.end());

@@ -61,14 +61,16 @@ struct ThemeLines {
 
 /// The lines as far as they lie on the ground.
 struct PlacedLines {
-  std::vector<Segment> terrain;           ///< part of the full surface; their ends are points of the index
-  std::vector<Segment> features;          ///< on it
-  std::vector<Segment> standing;          ///< of parts
-  std::vector<Segment> ground;            ///< edges of the full surface about these, at level 0
-  std::vector<std::uint64_t> ends;        ///< of the first two, ascending Morton codes
-  std::vector<std::uint64_t> on_outline;  ///< of these, those on it
-  std::vector<std::uint64_t> strays;      ///< vertices of terrain lines beyond the ground
-  std::uint64_t left_out = 0;             ///< segments beyond the ground, or that leave it
+  std::vector<Segment> terrain;             ///< part of the full surface; their ends are points of the index
+  std::vector<Segment> features;            ///< on it
+  std::vector<SegmentFeature> of_features;  ///< of the first two: which features they are of; ascending
+  std::vector<std::uint64_t> feature_ends;  ///< ascending Morton codes: where a theme's line goes on as another feature
+  std::vector<Segment> standing;            ///< of parts
+  std::vector<Segment> ground;              ///< edges of the full surface about these, at level 0
+  std::vector<std::uint64_t> ends;          ///< of the first two, ascending Morton codes
+  std::vector<std::uint64_t> on_outline;    ///< of these, those on it
+  std::vector<std::uint64_t> strays;        ///< vertices of terrain lines beyond the ground
+  std::uint64_t left_out = 0;               ///< segments beyond the ground, or that leave it
 };
 
 /// The segments of the parts of standing themes, which lie on the ground already.

@@ -25,6 +25,7 @@ class Inspection {
     }
     for (const auto& [tree, chunks] : file_.chunks()) inspect_tree(tree, chunks);
     inspect_footprints();
+    inspect_features();
     if (file_.rows().version() >= format::kFirstVersionThatSetsAside) guarded([&] { inspect_set_aside(); });
     compare_keys(BlobKind::Directory, chunk_keys_);
     compare_keys(BlobKind::Block, block_keys_);
@@ -100,6 +101,30 @@ class Inspection {
     for (const Segment& s : file_.read_edges(leaf)) {
       // A segment is listed in every leaf it meets: it counts where it starts, as part of the full surface.
       if (s.finest == 0 && leaf.cell.contains(morton(s.ax, s.ay))) segments_[s.theme] += 1;
+    }
+    inspect_segment_features(leaf);
+  }
+
+  void inspect_segment_features(const Leaf& leaf) {
+    const std::size_t theme = format::theme_of(leaf.level);
+    if (theme == 0 || theme > file_.metadata().themes.size()) return;
+    const ThemeInfo& info = file_.metadata().themes[theme - 1];
+    if (!info.segments_have_features) return;
+    const std::uint64_t most = std::uint64_t{info.feature_blocks} * kFeaturesInBlock;
+    for (const SegmentFeature& f : file_.read_segment_features(leaf)) {
+      if (f.feature < most) continue;
+      damage_.push_back({format::place("block", leaf.key), "names a feature that the store does not have"});
+      return;
+    }
+  }
+
+  void inspect_features() {
+    const std::vector<ThemeInfo>& themes = file_.metadata().themes;
+    for (std::size_t t = 1; t <= themes.size(); ++t) {
+      for (std::uint32_t i = 0; i < themes[t - 1].feature_blocks; ++i) {
+        block_keys_.push_back(format::feature_key(t, i));
+        guarded([&] { static_cast<void>(file_.read_features(static_cast<std::uint16_t>(t), i)); });
+      }
     }
   }
 

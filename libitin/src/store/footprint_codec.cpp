@@ -1,11 +1,10 @@
 #include "store/footprint_codec.hpp"
 
-#include <bit>
 #include <limits>
 #include <optional>
 #include <string>
 
-#include "store/byte_stream.hpp"
+#include "store/content_stream.hpp"
 #include "store/zstd_frame.hpp"
 
 namespace itin {
@@ -19,56 +18,24 @@ constexpr auto kLastBase = static_cast<std::uint64_t>(BaseRule::terrain_followin
 constexpr auto kLastRounding = static_cast<std::uint64_t>(HeightRounding::down);
 constexpr std::uint64_t kMostCells = 0x7fffffff;
 
-class Writer {
+class Writer : public ContentWriter {
  public:
-  void whole(std::uint64_t v) { put_varint(bytes_, v); }
-  void number(double v) {
-    const auto bits = std::bit_cast<std::uint64_t>(v);
-    for (int shift = 0; shift < 64; shift += 8) bytes_.push_back(static_cast<std::uint8_t>(bits >> shift));
-  }
   void optional(const std::optional<double>& v) {
     whole(v ? 1 : 0);
     if (v) number(*v);
   }
-  void change(std::int64_t v) { put_varint(bytes_, zigzag(v)); }
   void place(Point2 p) { number(p.x), number(p.y); }
-  void text(const std::string& s) {
-    whole(s.size());
-    bytes_.insert(bytes_.end(), s.begin(), s.end());
-  }
-  const std::vector<std::uint8_t>& bytes() const { return bytes_; }
-
- private:
-  std::vector<std::uint8_t> bytes_;
 };
 
-class Reader {
+class Reader : public ContentReader {
  public:
-  explicit Reader(std::span<const std::uint8_t> bytes) : in_(bytes) {}
-  std::uint64_t whole(std::uint64_t most) { return in_.varint(0, most); }
-  /// A number of things that follow, each of at least one byte.
-  std::size_t count() { return static_cast<std::size_t>(in_.varint(0, in_.rest().size())); }
-  double number() {
-    std::uint64_t bits = 0;
-    for (int shift = 0; shift < 64; shift += 8) bits |= static_cast<std::uint64_t>(in_.byte()) << shift;
-    return std::bit_cast<double>(bits);
-  }
+  using ContentReader::ContentReader;
   std::int32_t small(std::uint64_t most) { return static_cast<std::int32_t>(whole(most)); }
-  std::int64_t change() { return in_.signed_varint(); }
   Point2 place() {
     const double x = number(), y = number();
     return {x, y};
   }
   std::optional<double> optional() { return whole(1) == 1 ? std::optional(number()) : std::nullopt; }
-  std::string text() {
-    std::string s;
-    for (std::size_t n = count(); n > 0; --n) s.push_back(static_cast<char>(in_.byte()));
-    return s;
-  }
-  bool at_end() const { return in_.rest().empty(); }
-
- private:
-  ByteReader in_;
 };
 
 void write(Writer& out, const HeightCells& c) {

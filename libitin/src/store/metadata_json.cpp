@@ -70,16 +70,37 @@ SourceInfo source_from_json(const json& j) {
   return source;
 }
 
+/// What a store without tables of features has not is left out.
 ordered_json theme_to_json(const ThemeInfo& theme) {
-  return {{"name", theme.name},         {"kind", name_of(theme.kind)}, {"features", theme.features},
-          {"vertices", theme.vertices}, {"segments", theme.segments},  {"footprint_blocks", theme.footprint_blocks}};
+  ordered_json j{{"name", theme.name},         {"kind", name_of(theme.kind)},
+                 {"features", theme.features}, {"vertices", theme.vertices},
+                 {"segments", theme.segments}, {"footprint_blocks", theme.footprint_blocks}};
+  if (theme.feature_blocks > 0) j["feature_blocks"] = theme.feature_blocks;
+  if (theme.segments_have_features) j["segments_have_features"] = true;
+  for (const AttributeField& field : theme.fields)
+    j["fields"].push_back({{"name", field.name}, {"type", name_of(field.type)}});
+  return j;
+}
+
+AttributeField field_from_json(const json& j) {
+  const std::string type = j.at("type").get<std::string>();
+  for (const AttributeType t : {AttributeType::number, AttributeType::whole, AttributeType::text})
+    if (type == name_of(t)) return {j.at("name").get<std::string>(), t};
+  throw DecodeError("a field is of no type");
 }
 
 ThemeInfo theme_from_json(const json& j) {
   try {
-    return {j.at("name").get<std::string>(),       theme_kind(j.at("kind").get<std::string>()),
-            j.at("features").get<std::uint64_t>(), j.at("vertices").get<std::uint64_t>(),
-            j.at("segments").get<std::uint64_t>(), j.value("footprint_blocks", std::uint32_t{0})};
+    ThemeInfo theme{j.at("name").get<std::string>(),
+                    theme_kind(j.at("kind").get<std::string>()),
+                    j.at("features").get<std::uint64_t>(),
+                    j.at("vertices").get<std::uint64_t>(),
+                    j.at("segments").get<std::uint64_t>(),
+                    j.value("footprint_blocks", std::uint32_t{0}),
+                    j.value("feature_blocks", std::uint32_t{0})};
+    theme.segments_have_features = j.value("segments_have_features", false);
+    for (const json& field : j.value("fields", json::array())) theme.fields.push_back(field_from_json(field));
+    return theme;
   } catch (const InputError& e) {
     throw DecodeError(e.what());
   }

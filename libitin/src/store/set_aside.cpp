@@ -1,6 +1,9 @@
 #include "store/set_aside.hpp"
 
+#include <algorithm>
+#include <functional>
 #include <limits>
+#include <utility>
 
 #include "store/block_codec.hpp"
 #include "store/byte_stream.hpp"
@@ -55,6 +58,19 @@ ImportedSegment imported_after(const ImportedSegment& last, ByteReader& in) {
   return s;
 }
 
+/// 0 for none, so that a block without any ends before them.
+std::uint32_t numbered(std::uint32_t feature) {
+  return feature + 1;
+}
+
+void read_features(ByteReader& in, std::vector<ImportedSegment>& imported) {
+  std::uint32_t before = 0;
+  for (ImportedSegment& s : imported) {
+    before = whole<std::uint32_t>(in, before);
+    s.feature = before - 1;
+  }
+}
+
 Segment made_after(const Segment& last, ByteReader& in) {
   Segment s;
   s.ax = coordinate(in, last.ax);
@@ -70,13 +86,14 @@ SetAsideLines decode_set_aside_lines(std::span<const std::uint8_t> bytes) {
   SetAsideLines lines;
   for (std::size_t n = count(in); n > 0; --n) {
     const bool first = lines.imported.empty();
-    const ImportedSegment s = imported_after(first ? ImportedSegment{} : lines.imported.back(), in);
-    if (!first && !(lines.imported.back() < s)) throw DecodeError("lines are not in order");
-    lines.imported.push_back(s);
+    lines.imported.push_back(imported_after(first ? ImportedSegment{} : lines.imported.back(), in));
   }
   Segment last;
   for (std::size_t n = count(in); n > 0; --n) lines.made.push_back(last = made_after(last, in));
+  if (!in.rest().empty()) read_features(in, lines.imported);
   if (!in.rest().empty()) throw DecodeError("has too many bytes");
+  const auto disordered = std::adjacent_find(lines.imported.begin(), lines.imported.end(), std::greater_equal<>());
+  if (disordered != lines.imported.end()) throw DecodeError("lines are not in order");
   return lines;
 }
 
@@ -131,6 +148,11 @@ std::vector<std::uint8_t> encode_set_aside(std::span<const ImportedSegment> impo
     out.put(s.ax, before.ax), out.put(s.ay, before.ay);
     out.put(s.bx, s.ax), out.put(s.by, s.ay);
     before = s;
+  }
+  const auto known = [](const ImportedSegment& s) { return s.feature != kNoFeature; };
+  if (std::any_of(imported.begin(), imported.end(), known)) {
+    std::uint32_t feature = 0;
+    for (const ImportedSegment& s : imported) out.put(numbered(s.feature), std::exchange(feature, numbered(s.feature)));
   }
   return compress(out.bytes());
 }

@@ -9,6 +9,7 @@
 
 #include "geometry/cell.hpp"
 #include "store/point_index.hpp"
+#include "store/segment_features.hpp"
 #include "store/store_rows.hpp"
 
 namespace itin {
@@ -17,6 +18,7 @@ namespace itin {
 struct ImportedSegment {
   GridPoint a, b;
   std::uint16_t source = 0;
+  std::uint32_t feature = kNoFeature;  ///< of its theme (segment_features.hpp)
   friend auto operator<=>(const ImportedSegment&, const ImportedSegment&) = default;
 };
 

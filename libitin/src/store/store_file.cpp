@@ -59,11 +59,33 @@ Block StoreFile::read_block(const Leaf& leaf, BlockOrder order) const {
   });
 }
 
+bool StoreFile::has_segment_features(std::uint16_t theme) const {
+  return theme != kCoverage && theme <= metadata_.themes.size() &&
+         metadata_.themes[theme - std::size_t{1}].segments_have_features;
+}
+
 std::vector<Segment> StoreFile::read_edges(const Leaf& leaf) const {
-  return decoded(rows_, BlobKind::Block, leaf.key, [&](const auto& bytes) {
+  return decoded(rows_, BlobKind::Block, leaf.key, [&](std::span<const std::uint8_t> bytes) {
     const std::uint16_t theme = format::theme_of(leaf.level);
-    return theme == kCoverage ? decode_outline(leaf.cell, leaf.points, bytes)
-                              : decode_lines(leaf.cell, theme, leaf.points, bytes);
+    if (theme == kCoverage) return decode_outline(leaf.cell, leaf.points, bytes);
+    return decode_lines(leaf.cell, theme, leaf.points,
+                        has_segment_features(theme) ? split_edge_block(bytes).lines : bytes);
+  });
+}
+
+std::vector<SegmentFeature> StoreFile::read_segment_features(const Leaf& leaf) const {
+  return decoded(rows_, BlobKind::Block, leaf.key, [&](std::span<const std::uint8_t> bytes) {
+    const EdgeBlock block = split_edge_block(bytes);
+    return decode_segment_features(decode_lines(leaf.cell, format::theme_of(leaf.level), leaf.points, block.lines),
+                                   block.features);
+  });
+}
+
+void StoreFile::segment_features(std::uint16_t theme, const GridBox& box, std::vector<SegmentFeature>& out) const {
+  if (!has_segment_features(theme)) return;
+  for_each_leaf(format::edge_tree(theme), box, [&](const Leaf& leaf) {
+    const std::vector<SegmentFeature> features = read_segment_features(leaf);
+    out.insert(out.end(), features.begin(), features.end());
   });
 }
 
@@ -176,6 +198,12 @@ void StoreFile::segments(int tree, const GridBox& box, std::vector<Segment>& out
 std::vector<StoredFootprint> StoreFile::read_footprints(std::uint16_t theme, std::uint32_t number) const {
   return decoded(rows_, BlobKind::Block, format::footprint_key(theme, number),
                  [](const auto& bytes) { return decode_footprints(bytes); });
+}
+
+std::vector<FeatureRecord> StoreFile::read_features(std::uint16_t theme, std::uint32_t number) const {
+  return decoded(rows_, BlobKind::Block, format::feature_key(theme, number), [&](const auto& bytes) {
+    return decode_features(bytes, metadata_.themes[theme - std::size_t{1}].fields.size());
+  });
 }
 
 std::int32_t StoreFile::greatest_height(std::uint16_t part, const GridBox& box) const {

@@ -13,8 +13,10 @@
 #include "store/block_cache.hpp"
 #include "store/block_codec.hpp"
 #include "store/directory.hpp"
+#include "store/feature_table.hpp"
 #include "store/footprint_codec.hpp"
 #include "store/point_index.hpp"
+#include "store/segment_features.hpp"
 #include "store/store_rows.hpp"
 
 namespace itin {
@@ -41,6 +43,11 @@ class StoreFile final : public PointIndex {
 
   /// One of the theme's footprint blocks.
   std::vector<StoredFootprint> read_footprints(std::uint16_t theme, std::uint32_t number) const;
+  /// One of the theme's feature blocks.
+  std::vector<FeatureRecord> read_features(std::uint16_t theme, std::uint32_t number) const;
+  /// Appends what features the theme's segments that meet the box are of, and perhaps others nearby; the same may come
+  /// twice.
+  void segment_features(std::uint16_t theme, const GridBox& box, std::vector<SegmentFeature>& out) const;
   /// The greatest height of the part's features about the box above the full surface, grid units; 0 where there are
   /// none.
   std::int32_t greatest_height(std::uint16_t part, const GridBox& box) const;
@@ -56,6 +63,7 @@ class StoreFile final : public PointIndex {
   DirectoryChunk read_chunk(int tree, const ChunkEntry& entry) const;
   Block read_block(const Leaf& leaf, BlockOrder order = BlockOrder::kMorton) const;
   std::vector<Segment> read_edges(const Leaf& leaf) const;
+  std::vector<SegmentFeature> read_segment_features(const Leaf& leaf) const;
 
  private:
   static constexpr auto kSkipNone = [](const ChunkEntry&) { return false; };
@@ -63,6 +71,7 @@ class StoreFile final : public PointIndex {
   /// of chunks that skip(chunk) is true of.
   template <typename Visit, typename Skip = decltype(kSkipNone)>
   void for_each_leaf(int tree, const GridBox& box, const Visit& visit, const Skip& skip = kSkipNone) const;
+  bool has_segment_features(std::uint16_t theme) const;
   std::shared_ptr<const DirectoryChunk> chunk(int tree, const ChunkEntry& entry) const;
   void segments(int tree, const GridBox& box, std::vector<Segment>& out) const;
 

@@ -11,9 +11,10 @@
 namespace itin::format {
 
 inline constexpr std::uint32_t kApplicationId = 0x4954494e;  // "ITIN"
-inline constexpr std::uint32_t kVersion = 5;  ///< of stores with rasters of heights or terraces that stand
+inline constexpr std::uint32_t kVersion = 6;              ///< of stores that keep features
+inline constexpr std::uint32_t kVersionWithTerraces = 5;  ///< of others with rasters of heights or terraces that stand
 /// Of all others: readers of that version read them.
-inline constexpr std::uint32_t kEarlierVersion = 4;
+inline constexpr std::uint32_t kPlainVersion = 4;
 /// Earlier ones kept nothing of what their surfaces left out.
 inline constexpr int kFirstVersionThatSetsAside = 4;
 inline constexpr int kPageSize = 16384;
@@ -34,6 +35,8 @@ inline constexpr int kMaxThemes = 900;  ///< and parts of themes, which are numb
 inline constexpr int kFootprintTree = 2046;
 /// Imported points and lines that are not in the surface (set_aside.hpp); blocks without a directory but for one list.
 inline constexpr int kSetAsideTree = 2045;
+/// Tables of features (feature_table.hpp); blocks without a directory.
+inline constexpr int kFeatureTree = 2044;
 /// Added to the source of a part's vertex that lies between a feature and the ground.
 inline constexpr std::uint16_t kOnOutline = 0x8000;
 inline constexpr std::size_t kMaxSources = 0x7fff;
@@ -68,6 +71,9 @@ constexpr std::uint64_t key(int tree, std::uint64_t code) {
 }
 constexpr std::uint64_t footprint_key(std::uint64_t theme, std::uint64_t number) {
   return static_cast<std::uint64_t>(kFootprintTree) << 52 | theme << 32 | number;
+}
+constexpr std::uint64_t feature_key(std::uint64_t theme, std::uint64_t number) {
+  return static_cast<std::uint64_t>(kFeatureTree) << 52 | theme << 32 | number;
 }
 /// Theme 0: the points.
 constexpr std::uint64_t set_aside_key(std::uint64_t theme, std::uint64_t number) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 #include <optional>
+#include <set>
 #include <stdexcept>
 #include <utility>
 
@@ -27,7 +28,7 @@ static_assert(kLeafCapacity <= kMaxBlockPoints);
 
 namespace {
 
-/// Readers of kEarlierVersion know no footprints of these kinds, or no theme of them.
+/// Readers of kPlainVersion know no footprints of these kinds, or no theme of them.
 bool is_new(FeatureKind kind) {
   return kind == FeatureKind::cells || kind == FeatureKind::terrace;
 }
@@ -56,8 +57,9 @@ class StoreWriter::Impl {
                           std::span<const std::uint16_t> sources);
   void add_part_vertices(std::uint16_t part, std::span<const GridPoint> points, std::span<const std::uint16_t> sources,
                          std::span<const FeatureReach> reaches);
-  void add_segments(const std::vector<Segment>& segments);
+  void add_segments(const std::vector<Segment>& segments, std::span<const SegmentFeature> features);
   std::uint32_t add_footprints(std::uint16_t theme, std::span<const StoredFootprint> footprints);
+  std::uint32_t add_features(std::uint16_t theme, std::span<const FeatureRecord> records);
   void set_aside(const Cell& cell, std::span<const GridPoint> points, std::span<const std::uint16_t> sources);
   void set_aside(std::uint16_t theme, const SetAsideLines& lines);
   void count_set_aside(const SetAsideCounts& counts) { set_aside_.counts = counts; }
@@ -65,7 +67,8 @@ class StoreWriter::Impl {
 
  private:
   void add_points(const EncodedLeaf& encoded);
-  void add_edges(std::uint16_t theme, std::vector<Segment> segments);
+  void add_edges(std::uint16_t theme, std::vector<Segment> segments, std::span<const SegmentFeature> features);
+  void require_version(std::uint32_t version);
   void add_leaf(const Leaf& leaf, std::span<const std::uint8_t> block);
   void flush_chunk();
   void insert(Statement& statement, BlobKind kind, std::uint64_t key, std::span<const std::uint8_t> bytes);
@@ -79,7 +82,9 @@ class StoreWriter::Impl {
   DirectoryChunk chunk_;
   ChunkList chunks_;
   SetAsideList set_aside_;
-  Leaf last_;  ///< added; only its tree and cell matter
+  std::uint32_t version_ = format::kPlainVersion;
+  std::set<std::uint16_t> with_features_;  ///< themes whose segments know their features
+  Leaf last_;                              ///< added; only its tree and cell matter
   bool has_last_ = false;
 };
 
@@ -94,10 +99,16 @@ StoreWriter::Impl::Impl(std::unique_ptr<ReplacementFile> file, const std::string
   for (const double t : tolerances) metadata_.levels.push_back({t, lateral_tolerance(t), 0, {}});
   database_.execute("PRAGMA page_size=" + std::to_string(format::kPageSize) + ";PRAGMA encoding='UTF-8';");
   database_.execute("PRAGMA application_id=" + std::to_string(format::kApplicationId) +
-                    ";PRAGMA user_version=" + std::to_string(format::kEarlierVersion) + ";");
+                    ";PRAGMA user_version=" + std::to_string(version_) + ";");
   database_.execute(std::string("BEGIN;") + format::kSchema);
   insert_block_ = database_.prepare("INSERT INTO block(key, data) VALUES(?, ?)");
   insert_chunk_ = database_.prepare("INSERT INTO directory(key, data) VALUES(?, ?)");
+}
+
+void StoreWriter::Impl::require_version(std::uint32_t version) {
+  if (version <= version_) return;
+  version_ = version;
+  database_.execute("PRAGMA user_version=" + std::to_string(version_));
 }
 
 void StoreWriter::Impl::insert(Statement& statement, BlobKind kind, std::uint64_t key,
@@ -167,10 +178,12 @@ void StoreWriter::Impl::add_theme_vertices(std::uint16_t theme, std::span<const 
   cutter.finish();
 }
 
-void StoreWriter::Impl::add_segments(const std::vector<Segment>& segments) {
+void StoreWriter::Impl::add_segments(const std::vector<Segment>& segments, std::span<const SegmentFeature> features) {
   std::map<std::uint16_t, std::vector<Segment>> by_theme;
   for (const Segment& s : segments) by_theme[s.theme].push_back(s);
-  for (auto& [theme, of_theme] : by_theme) add_edges(theme, std::move(of_theme));
+  for (const SegmentFeature& f : features) with_features_.insert(f.segment.theme);
+  if (!with_features_.empty()) require_version(format::kVersion);
+  for (auto& [theme, of_theme] : by_theme) add_edges(theme, std::move(of_theme), features);
 }
 
 void StoreWriter::Impl::add_part_vertices(std::uint16_t part, std::span<const GridPoint> points,
@@ -202,9 +215,20 @@ std::uint32_t StoreWriter::Impl::add_footprints(std::uint16_t theme, std::span<c
   for (; !footprints.empty(); ++blocks) {
     const auto some = footprints.first(std::min(footprints.size(), kFootprintsInBlock));
     if (std::any_of(some.begin(), some.end(), [](const StoredFootprint& f) { return is_new(f.feature.kind); }))
-      database_.execute("PRAGMA user_version=" + std::to_string(format::kVersion));
+      require_version(format::kVersionWithTerraces);
     insert(*insert_block_, BlobKind::Block, format::footprint_key(theme, blocks), encode_footprints(some));
     footprints = footprints.subspan(some.size());
+  }
+  return blocks;
+}
+
+std::uint32_t StoreWriter::Impl::add_features(std::uint16_t theme, std::span<const FeatureRecord> records) {
+  if (!records.empty()) require_version(format::kVersion);
+  std::uint32_t blocks = 0;
+  for (; !records.empty(); ++blocks) {
+    const auto some = records.first(std::min(records.size(), kFeaturesInBlock));
+    insert(*insert_block_, BlobKind::Block, format::feature_key(theme, blocks), encode_features(some));
+    records = records.subspan(some.size());
   }
   return blocks;
 }
@@ -231,13 +255,19 @@ void StoreWriter::Impl::set_aside(std::uint16_t theme, const SetAsideLines& line
            encode_set_aside(some(imported), some(made)));
 }
 
-void StoreWriter::Impl::add_edges(std::uint16_t theme, std::vector<Segment> segments) {
+void StoreWriter::Impl::add_edges(std::uint16_t theme, std::vector<Segment> segments,
+                                  std::span<const SegmentFeature> features) {
   if (theme > format::kMaxThemes) throw std::invalid_argument("too many themes");
+  const auto bytes_of = [&](const Cell& cell, const std::vector<Segment>& in_cell) {
+    if (theme == kCoverage) return encode_outline(cell, in_cell);
+    std::vector<std::uint8_t> lines = encode_lines(cell, in_cell);
+    return with_features_.contains(theme) ? joined({encode_segment_features(in_cell, features), lines}) : lines;
+  };
   for_each_edge_leaf(std::move(segments), [&](const Cell& cell, const std::vector<Segment>& in_cell) {
     stop_if_asked();
     const int tree = format::edge_tree(theme);
     add_leaf({cell, tree, static_cast<std::uint32_t>(in_cell.size()), 0, 0, 0, 0, format::key(tree, cell.code)},
-             theme == kCoverage ? encode_outline(cell, in_cell) : encode_lines(cell, in_cell));
+             bytes_of(cell, in_cell));
   });
 }
 
@@ -248,6 +278,8 @@ void StoreWriter::Impl::commit(std::vector<SourceInfo> sources, std::vector<Them
   insert(*insert_chunk_, BlobKind::Directory, format::kChunkListKey, encode_chunk_list(chunks_));
   metadata_.sources = std::move(sources);
   metadata_.themes = std::move(themes);
+  for (const std::uint16_t theme : with_features_)
+    metadata_.themes.at(theme - std::size_t{1}).segments_have_features = true;
   metadata_.parts = std::move(parts);
   if (metadata_.vertices > 0)
     metadata_.scale = grid_scale_if_known(metadata_.crs_wkt, metadata_.grid.box(metadata_.bounds));
@@ -283,8 +315,8 @@ void StoreWriter::add_leaf(int level, const Cell& cell, std::span<const GridPoin
 void StoreWriter::add_leaf(const EncodedLeaf& leaf) {
   impl_->add_point_leaf(leaf);
 }
-void StoreWriter::add_segments(const std::vector<Segment>& segments) {
-  impl_->add_segments(segments);
+void StoreWriter::add_segments(const std::vector<Segment>& segments, std::span<const SegmentFeature> features) {
+  impl_->add_segments(segments, features);
 }
 void StoreWriter::add_theme_vertices(std::uint16_t theme, std::span<const GridPoint> points,
                                      std::span<const std::uint16_t> sources) {
@@ -298,6 +330,12 @@ void StoreWriter::add_footprints(std::vector<ThemeInfo>& themes,
                                  const std::vector<std::vector<StoredFootprint>>& footprints) {
   for (std::size_t t = 0; t < footprints.size(); ++t)
     themes[t].footprint_blocks = impl_->add_footprints(static_cast<std::uint16_t>(t + 1), footprints[t]);
+}
+void StoreWriter::add_features(std::vector<ThemeInfo>& themes, const std::vector<ThemeFeatures>& features) {
+  for (std::size_t t = 0; t < features.size(); ++t) {
+    themes[t].fields = features[t].fields;
+    themes[t].feature_blocks = impl_->add_features(static_cast<std::uint16_t>(t + 1), features[t].records);
+  }
 }
 void StoreWriter::set_aside(const Cell& cell, std::span<const GridPoint> points,
                             std::span<const std::uint16_t> sources) {

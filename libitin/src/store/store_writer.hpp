@@ -7,6 +7,7 @@
 //   writer.add_segments(segments);
 //   for each cell and then each theme of what is not in the surface as it came: writer.set_aside(...);
 //   writer.add_footprints(themes, footprints);
+//   writer.add_features(themes, features);
 //   writer.commit(sources, themes);
 //
 // Until commit() returns, and whatever happens before, the file at `path` is what it was. Destroying an uncommitted
@@ -22,9 +23,11 @@
 #include <itin/store.hpp>
 
 #include "store/encoded_leaf.hpp"
+#include "store/feature_table.hpp"
 #include "store/footprint_codec.hpp"
 #include "store/point_index.hpp"
 #include "store/replacement_file.hpp"
+#include "store/segment_features.hpp"
 #include "store/set_aside.hpp"
 
 namespace itin {
@@ -63,7 +66,8 @@ class StoreWriter {
   void add_part_vertices(std::uint16_t part, std::span<const GridPoint> points, std::span<const std::uint16_t> sources,
                          std::span<const FeatureReach> reaches);
   /// The coverage outline and the lines of all themes, all at once, in any order; kept in one edge quadtree per theme.
-  void add_segments(const std::vector<Segment>& segments);
+  /// `features`: which features they are of; ascending.
+  void add_segments(const std::vector<Segment>& segments, std::span<const SegmentFeature> features = {});
   /// Points of the ground that are not in it as they came; cell by cell, in Morton order.
   void set_aside(const Cell& cell, std::span<const GridPoint> points, std::span<const std::uint16_t> sources);
   /// Lines of a theme that are not in the surface as they came.
@@ -71,6 +75,8 @@ class StoreWriter {
   void count_set_aside(const SetAsideCounts& counts);
   /// `themes` gets the number of blocks of its footprints, which may be none.
   void add_footprints(std::vector<ThemeInfo>& themes, const std::vector<std::vector<StoredFootprint>>& footprints);
+  /// `themes` gets the fields of its features and the number of blocks of their records, which may be none.
+  void add_features(std::vector<ThemeInfo>& themes, const std::vector<ThemeFeatures>& features);
   /// Certified error of each level = the union of its leaves'. Syncs and renames. Throws FileError (disk full, ...).
   void commit(std::vector<SourceInfo> sources, std::vector<ThemeInfo> themes = {}, std::vector<ThemePart> parts = {});
 

@@ -7,14 +7,13 @@ namespace itin {
 
 namespace {
 
-/// The theme's edges, each seen from both ends.
+/// Edges, each seen from both ends.
 class LineGraph {
  public:
-  LineGraph(const Tin& tin, std::uint16_t theme) {
-    for (const LineEdge& e : tin.lines) {
-      if (e.theme != theme) continue;
-      ends_.emplace_back(e.from, e.to);
-      ends_.emplace_back(e.to, e.from);
+  explicit LineGraph(std::span<const LineEnds> edges) {
+    for (const auto& [from, to] : edges) {
+      ends_.emplace_back(from, to);
+      ends_.emplace_back(to, from);
     }
     std::sort(ends_.begin(), ends_.end());
     taken_.resize(ends_.size());
@@ -59,14 +58,14 @@ class LineGraph {
     }
   }
 
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> ends_;  ///< vertex, and the vertex at the other end
+  std::vector<LineEnds> ends_;  ///< vertex, and the vertex at the other end
   std::vector<bool> taken_;
 };
 
 }  // namespace
 
-std::vector<JoinedLine> joined_lines(const Tin& tin, std::uint16_t theme) {
-  return LineGraph(tin, theme).join();
+std::vector<JoinedLine> joined_lines(std::span<const LineEnds> edges) {
+  return LineGraph(edges).join();
 }
 
 }  // namespace itin

@@ -20,6 +20,7 @@
 
 #include <itin/detail.hpp>
 #include <itin/earth.hpp>
+#include <itin/feature_at.hpp>
 #include <itin/geometry.hpp>
 #include <itin/store.hpp>
 #include <itin/theme.hpp>
@@ -168,7 +169,7 @@ struct LosReport : LineFindings {
   std::optional<double> geodesic_m;                        ///< between the ends on WGS 84, where they have positions
   std::vector<std::string> themes;                         ///< names by ProfilePoint::theme; 0 is the terrain
   std::vector<ThemeKind> theme_kinds;                      ///< by ProfilePoint::theme - 1; over a store alone
-  std::map<std::pair<std::uint16_t, std::int64_t>, std::string> features;  ///< names by theme and feature
+  std::map<std::pair<std::uint16_t, std::int64_t>, FeatureAt> features;  ///< by theme and feature
   /// Of the rows of the printed profile; nothing: about 30 of them; 0: no such table.
   std::optional<double> table_spacing_m;
 

@@ -127,7 +127,7 @@ std::string cause_of(const LosReport& report, std::uint16_t theme, std::int64_t 
   if (theme == 0) return "terrain";
   const std::string name = theme < report.themes.size() ? report.themes[theme] : fmt::format("theme {}", theme);
   const auto known = report.features.find({theme, feature});
-  return known == report.features.end() ? name : name + ", " + known->second;
+  return known == report.features.end() ? name : name + ", " + title_of(known->second);
 }
 
 }  // namespace itin::profile

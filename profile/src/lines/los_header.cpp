@@ -60,7 +60,7 @@ void name_features(const Store& store, LosReport& report) {
     for (std::size_t i = 0; i < found.size(); ++i) {
       if (!found[i]) continue;
       *these.features[i] = found[i]->number;
-      report.features[{theme, found[i]->number}] = found[i]->name;
+      report.features[{theme, found[i]->number}] = *found[i];
     }
   }
 }

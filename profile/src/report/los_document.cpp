@@ -20,28 +20,27 @@ Document cause(const LosReport& report, std::uint16_t theme) {
   return cause_of(report, theme);
 }
 
-/// The name that the source gives the feature, or null.
-Document feature(const LosReport& report, std::uint16_t theme, std::int64_t number) {
+/// Adds the feature's name and id by its source, and its number from 0 in the order of import; null where there is
+/// none.
+void add_feature(const LosReport& report, std::uint16_t theme, std::int64_t number, Document& document) {
   const auto known = report.features.find({theme, number});
-  return known == report.features.end() ? Document(nullptr) : Document(known->second);
-}
-
-/// From 0, in the order of import.
-Document feature_number(std::int64_t number) {
-  return number < 0 ? Document(nullptr) : Document(number);
+  const bool found = known != report.features.end();
+  document["feature"] = found ? Document(known->second.name) : Document(nullptr);
+  document["feature_id"] = found && !known->second.id.empty() ? Document(known->second.id) : Document(nullptr);
+  document["feature_number"] = number < 0 ? Document(nullptr) : Document(number);
 }
 
 Document place_document(const LosReport& report, const std::optional<ProfilePoint>& place) {
   if (!place) return nullptr;
   const ProfilePoint& p = *place;
   const bool placed = !report.crs_wkt.empty();
-  return {{"distance_m", p.distance_m},
-          {"x", placed ? Document(p.x) : Document(nullptr)},
-          {"y", placed ? Document(p.y) : Document(nullptr)},
-          {"z", p.ground_m},
-          {"theme", cause(report, p.theme)},
-          {"feature", feature(report, p.theme, p.feature)},
-          {"feature_number", feature_number(p.feature)}};
+  Document document{{"distance_m", p.distance_m},
+                    {"x", placed ? Document(p.x) : Document(nullptr)},
+                    {"y", placed ? Document(p.y) : Document(nullptr)},
+                    {"z", p.ground_m},
+                    {"theme", cause(report, p.theme)}};
+  add_feature(report, p.theme, p.feature, document);
+  return document;
 }
 
 /// What reports call the critical point.
@@ -59,9 +58,8 @@ Document obstructions_document(const LosReport& report, const LineFindings& foun
                     {"peak_at_m", o.peak_at_m},
                     {"peak_m", o.peak_m},
                     {"depth_m", o.depth_m},
-                    {"theme", cause(report, o.theme)},
-                    {"feature", feature(report, o.theme, o.feature)},
-                    {"feature_number", feature_number(o.feature)}});
+                    {"theme", cause(report, o.theme)}});
+    add_feature(report, o.theme, o.feature, list.back());
   }
   return list;
 }

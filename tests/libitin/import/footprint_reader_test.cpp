@@ -68,7 +68,7 @@ TEST_F(FootprintReader, ReadsPolygonsMultipolygonsHolesAndLines) {
                      feature(R"("h":2,"n":"c")", "LineString", "[[300020,200000],[300030,200000]]") + "," +
                      feature(R"("h":2,"n":"d")", "Point", "[300020,200000]"));
   query.height_field = "h";
-  query.name_field = "n";
+  query.kept.name_field = "n";
   query.thickness = 0.5;
   const FootprintSource source = read(query);
   ASSERT_EQ(source.features.size(), 3U);
@@ -284,7 +284,7 @@ TEST(RealFootprints, DelftOutlinesWithThePeersHeights) {
   ASSERT_EQ(measured.size(), 160U);
   FootprintQuery query;
   query.path = path;
-  query.name_field = "lokaalid";
+  query.kept.name_field = "lokaalid";
   FootprintSource source = read_footprints(query, wkt("EPSG:28992"), {{84900, 447500}, 0.01}, quiet);
   ASSERT_EQ(source.features.size(), 160U);
   for (FootprintFeature& f : source.features) {

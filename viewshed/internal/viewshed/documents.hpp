@@ -17,6 +17,10 @@ std::uint64_t cells_without_loss(const Result& result);
 /// `crs`, `surface`, `refraction`, `grid`, `cells`, `area_m2`, of a certified one `decided_percent`, and `statistics`.
 Document viewshed_document(const StoreMetadata& metadata, const Result& result);
 
+/// Of mode kBlocker: the features that hide cells, with their theme, name and id by their source (null where it gives
+/// none), number and cells; what hides most first.
+Document blockers_document(const Store& store, const Result& result);
+
 /// Adds to such a document how much of the area in view has no ground: `no_data` among `cells` and `area_m2`,
 /// `beyond_the_data`, and `share_without_data`.
 void add_missing_ground(const MissingGround& missing, Document& document);

@@ -1,6 +1,12 @@
+#include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
+#include <vector>
 
 #include <itin/coordinates.hpp>
+#include <itin/feature_at.hpp>
+#include <itin/store.hpp>
 #include <viewshed/documents.hpp>
 
 namespace itin::viewshed {
@@ -76,6 +82,33 @@ Document viewshed_document(const StoreMetadata& metadata, const Result& result) 
   document["area_m2"] = of_verdicts(result, [&](std::uint64_t cells) { return static_cast<double>(cells) * area; });
   if (result.certified) document["decided_percent"] = decided_percent(result.cells);
   document["statistics"] = statistics_document(result.statistics);
+  return document;
+}
+
+Document blockers_document(const Store& store, const Result& result) {
+  std::map<std::uint16_t, std::map<std::int64_t, std::uint64_t>> hidden;  // cells by theme and feature
+  for (std::size_t cell = 0; cell < result.blocker_feature.size(); ++cell)
+    if (result.blocker_feature[cell] != kNoBlocker)
+      ++hidden[static_cast<std::uint16_t>(result.blocker_theme[cell])][result.blocker_feature[cell]];
+  std::vector<std::pair<std::uint64_t, Document>> blockers;
+  for (const auto& [theme, of_features] : hidden) {
+    std::vector<std::int64_t> numbers;
+    for (const auto& [number, cells] : of_features) numbers.push_back(number);
+    const auto found = features_numbered(store, theme, numbers);
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+      const bool has_id = found[i] && !found[i]->id.empty();
+      const std::uint64_t cells = of_features.at(numbers[i]);
+      blockers.push_back({cells,
+                          {{"theme", store.metadata().themes[theme - std::size_t{1}].name},
+                           {"feature", found[i] ? Document(found[i]->name) : Document(nullptr)},
+                           {"feature_id", has_id ? Document(found[i]->id) : Document(nullptr)},
+                           {"feature_number", numbers[i]},
+                           {"cells", cells}}});
+    }
+  }
+  std::stable_sort(blockers.begin(), blockers.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  Document document = Document::array();
+  for (auto& [cells, blocker] : blockers) document.push_back(std::move(blocker));
   return document;
 }
 

@@ -82,7 +82,7 @@ FootprintSource read_layer(const std::string& path, const ImportOptions& options
   query.height_field = options.height_field;
   query.eaves_field = options.eaves_field;
   query.base_field = options.base_field;
-  query.name_field = options.name_field;
+  query.kept = feature_query(options);
   query.crs = options.crs;
   query.height = options.height;
   query.kind = feature_kind(*options.kind);

@@ -26,7 +26,7 @@ namespace itin {
 namespace {
 
 struct Fields {
-  int height = -1, eaves = -1, base = -1, name = -1;
+  int height = -1, eaves = -1, base = -1;
 };
 
 class FootprintLayer {
@@ -37,7 +37,9 @@ class FootprintLayer {
         findings_(query.path),
         dataset_(open_vector_file(query.path, nullptr, "a layer of polygons or lines")) {
     layer_ = &choose_layer(*dataset_, query.path, query.layer);
-    fields_ = {field(query.height_field), field(query.eaves_field), field(query.base_field), field(query.name_field)};
+    fields_ = {field(query.height_field), field(query.eaves_field), field(query.base_field)};
+    kept_.emplace(*layer_, query.path, query.kept);
+    source_.fields = kept_->fields();
     source_.filtered = select_features(*layer_, query.path, query.where);
     const OGRSpatialReference* own = layer_->GetSpatialRef();
     const Crs crs = source_crs(query.path, query.crs, own ? wkt_of(*own) : std::string());
@@ -72,8 +74,8 @@ class FootprintLayer {
 
   void add(const OGRFeature& feature) {
     FootprintFeature footprint;
-    footprint.name =
-        fields_.name >= 0 ? feature.GetFieldAsString(fields_.name) : fmt::format("feature {}", feature.GetFID());
+    FeatureRecord record = kept_->record(feature);
+    footprint.name = query_.kept.name_field.empty() ? fmt::format("feature {}", feature.GetFID()) : record.name;
     footprint.kind = query_.kind;
     footprint.roof = query_.roof;
     const OGRGeometry* geometry = feature.GetGeometryRef();
@@ -91,6 +93,7 @@ class FootprintLayer {
     }
     add_heights(feature, footprint);
     source_.features.push_back(std::move(footprint));
+    if (kept_->any()) source_.records.push_back(std::move(record));
   }
 
   void pass_over(const std::string& name, const std::string& why) {
@@ -174,6 +177,7 @@ class FootprintLayer {
   GDALDatasetUniquePtr dataset_;
   OGRLayer* layer_ = nullptr;
   Fields fields_;
+  std::optional<FeatureFields> kept_;
   std::optional<PointTransform> transform_;
   HeightAxis axis_;
   double lowest_ = 0, highest_ = 0;  ///< elevations that Z of the feature at hand has, metres

@@ -14,6 +14,7 @@
 #include <itin/geometry.hpp>
 #include <itin/progress.hpp>
 
+#include "import/source/feature_fields.hpp"
 #include "store/footprint.hpp"
 
 namespace itin {
@@ -32,7 +33,7 @@ struct FootprintQuery {
   std::string height_field;      ///< of the highest point above the base
   std::string eaves_field;       ///< of the eaves above the base
   std::string base_field;        ///< elevation of the base; default: left to the terrain
-  std::string name_field;        ///< default: "feature" and the file's number for it
+  FeatureQuery kept;             ///< features without a name are called "feature" and the file's number for them
   std::string crs;               ///< overrides the layer's own
   std::optional<double> height;  ///< metres; of features that have none in height_field
   FeatureKind kind = FeatureKind::building;
@@ -43,6 +44,8 @@ struct FootprintQuery {
 
 struct FootprintSource {
   std::vector<FootprintFeature> features;  ///< in the file's order
+  std::vector<AttributeField> fields;      ///< that are kept of them
+  std::vector<FeatureRecord> records;      ///< of each; none where nothing is kept
   std::string crs;                         ///< as found or given
   std::uint64_t filtered = 0;              ///< left out by where
   std::vector<std::string> warnings;       ///< one line each: features that were passed over, units assumed

@@ -29,16 +29,19 @@ bool is_as_it_came(const GridPoint& p, std::uint16_t source, const ThemeLines& l
 class Placed {
  public:
   void add(const Segment& s) { plans_.push_back(plan_of(s)); }
+  void add(const SegmentFeature& f) { features_.push_back({plan_of(f.segment), f.feature}); }
   void finish() {
     std::sort(plans_.begin(), plans_.end());
+    std::sort(features_.begin(), features_.end());
     came_.resize(plans_.size());
   }
-  /// Whether there is one with these ends that is not taken, and of which came() is true; then it is taken.
+  /// Whether there is one with these ends that is not taken, of this feature and no other, and of which came() is true;
+  /// then it is taken.
   template <class Came>
   bool take_if(const ImportedSegment& s, const Came& came) {
     const auto at = std::lower_bound(plans_.begin(), plans_.end(), plan_of(s));
     const auto number = static_cast<std::size_t>(at - plans_.begin());
-    if (at == plans_.end() || *at != plan_of(s) || came_[number] || !came()) return false;
+    if (at == plans_.end() || *at != plan_of(s) || came_[number] || !is_of_one(*at, s.feature) || !came()) return false;
     return came_[number] = true;
   }
   std::vector<Segment> not_taken() const {
@@ -49,7 +52,16 @@ class Placed {
   }
 
  private:
-  std::vector<Segment> plans_;  ///< ascending
+  /// The store's segments tell which features they are of, but not which of these they came with.
+  bool is_of_one(const Segment& plan, std::uint32_t feature) const {
+    const auto first = std::lower_bound(features_.begin(), features_.end(), SegmentFeature{plan, 0});
+    if (first == features_.end() || first->segment != plan) return feature == kNoFeature;
+    const auto next = first + 1;
+    return first->feature == feature && (next == features_.end() || next->segment != plan);
+  }
+
+  std::vector<Segment> plans_;            ///< ascending
+  std::vector<SegmentFeature> features_;  ///< ascending
   std::vector<bool> came_;
 };
 
@@ -77,9 +89,10 @@ std::vector<ImportedPiece> imported_pieces(const StoreRows& rows, std::size_t th
 }
 
 std::vector<SetAsideLines> set_aside_of(std::span<const ImportedPiece> pieces, const std::vector<Segment>& placed,
-                                        const ThemeLines& lines) {
+                                        const std::vector<SegmentFeature>& features, const ThemeLines& lines) {
   std::vector<Placed> of_theme(lines.themes());
   for (const Segment& s : placed) of_theme[s.theme - std::size_t{1}].add(s);
+  for (const SegmentFeature& f : features) of_theme[f.segment.theme - std::size_t{1}].add(f);
   for (Placed& p : of_theme) p.finish();
   std::vector<SetAsideLines> result(lines.themes());
   for (const ImportedPiece& piece : pieces) {

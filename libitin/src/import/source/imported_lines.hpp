@@ -20,13 +20,14 @@ struct ImportedPiece {
 };
 
 /// In any order. `stored`: all segments of the store's lines; `with_heights` gives the ends of one as the store has
-/// them, and its source.
+/// them, its source and its feature.
 std::vector<ImportedPiece> imported_pieces(const StoreRows& rows, std::size_t themes,
                                            const std::vector<Segment>& stored,
                                            const std::function<ImportedSegment(const Segment&)>& with_heights);
 
-/// By theme, what tells these pieces (ascending, all distinct) from the segments `placed` of the lines.
+/// By theme, what tells these pieces (ascending, all distinct) from the segments `placed` of the lines, which are of
+/// these `features`.
 std::vector<SetAsideLines> set_aside_of(std::span<const ImportedPiece> pieces, const std::vector<Segment>& placed,
-                                        const ThemeLines& lines);
+                                        const std::vector<SegmentFeature>& features, const ThemeLines& lines);
 
 }  // namespace itin

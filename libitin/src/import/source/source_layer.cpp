@@ -114,6 +114,11 @@ std::string SourceLayer::crs() const {
   return reference ? wkt_of(*reference) : std::string();
 }
 
+FeatureFields SourceLayer::feature_fields(const ImportOptions& options) const {
+  const QuietGdal quiet;
+  return {*layer_, path_, feature_query(options)};
+}
+
 double SourceLayer::height(const OGRFeature& feature) const {
   if (!feature.IsFieldSetAndNotNull(height_field_)) return std::numeric_limits<double>::quiet_NaN();
   const OGRFieldDefn& field = *feature.GetFieldDefnRef(height_field_);

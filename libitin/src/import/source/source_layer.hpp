@@ -10,6 +10,8 @@
 
 #include <itin/import.hpp>
 
+#include "import/source/feature_fields.hpp"
+
 namespace itin {
 
 /// With these open options, which may be null. `what` says in messages what it should hold: "a layer of points". Throws
@@ -53,6 +55,8 @@ class SourceLayer {
   std::string crs() const;
   OGRwkbGeometryType geometry_type() const { return layer_->GetGeomType(); }
   bool has_height_field() const { return height_field_ >= 0; }
+  /// What is kept of the features. Throws FileError, InputError.
+  FeatureFields feature_fields(const ImportOptions& options) const;
   /// Features that the filter lets pass, and those it does not.
   std::uint64_t matching() const { return matching_; }
   std::uint64_t filtered() const { return filtered_; }

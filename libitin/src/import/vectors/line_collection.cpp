@@ -12,6 +12,7 @@
 
 #include "features/part_vertices.hpp"
 #include "import/source/source_order.hpp"
+#include "store/store_file.hpp"
 #include "store/store_format.hpp"
 
 namespace itin {
@@ -38,6 +39,15 @@ std::optional<Position> apex_of(const Store& ground, Position from, Position to)
   return std::nullopt;
 }
 
+std::uint64_t bytes_of(const FeatureRecord& record) {
+  std::uint64_t bytes = sizeof record + record.id.size() + record.name.size();
+  for (const AttributeValue& value : record.values) {
+    const auto* text = std::get_if<std::string>(&value);
+    bytes += sizeof value + (text != nullptr ? text->size() : 0);
+  }
+  return bytes;
+}
+
 const GridPoint* vertex_at(const RaisedPart& part, Position p) {
   const std::uint64_t code = morton(p.x, p.y);
   const auto at = std::lower_bound(part.vertices.begin(), part.vertices.end(), code,
@@ -61,7 +71,8 @@ std::vector<StoredFootprint> in_order_of_content(const std::vector<StoredFootpri
 }  // namespace
 
 void LineCollection::require_room(const std::string& source) const {
-  const std::uint64_t needed = line_vertices_ * kBytesPerLineVertex + feature_vertices_ * kBytesPerFeatureVertex;
+  const std::uint64_t needed =
+      line_vertices_ * kBytesPerLineVertex + feature_vertices_ * kBytesPerFeatureVertex + record_bytes_;
   if (needed <= memory_bytes_) return;
   throw InputError(
       fmt::format("{}: the lines and features of the store have now more than {} vertices, for which {} MB of memory "
@@ -73,6 +84,7 @@ void LineCollection::require_room(const std::string& source) const {
 void LineCollection::take_themes(const StoreMetadata& metadata) {
   themes_ = metadata.themes;
   footprints_.resize(themes_.size());
+  features_.resize(themes_.size());
   for (const ThemeInfo& theme : themes_) raised_.push_back(theme.is_raised());
   for (const SourceInfo& source : metadata.sources) theme_of_source_.push_back(source.theme);
   find_first_sources(metadata.sources);
@@ -91,8 +103,13 @@ void LineCollection::find_first_sources(const std::vector<SourceInfo>& sources) 
   }
 }
 
-void LineCollection::take_segments(const PointIndex& index) {
-  index.segments(index.bounds(), stored_);
+void LineCollection::take_segments(const Store& store) {
+  store.points().segments(store.points().bounds(), stored_);
+  for (std::uint16_t theme = 1; theme <= themes_.size(); ++theme)
+    file_of(store).segment_features(theme, store.points().bounds(), stored_features_);
+  std::erase_if(stored_features_, [](const SegmentFeature& f) { return f.segment.finest > 0; });
+  std::sort(stored_features_.begin(), stored_features_.end());
+  stored_features_.erase(std::unique(stored_features_.begin(), stored_features_.end()), stored_features_.end());
   // The lines that keep the ground about features are made again with the features.
   std::erase_if(stored_, [&](const Segment& s) {
     return s.theme == kCoverage || s.finest > 0 || s.theme > themes_.size() || raised_[s.theme - std::size_t{1}];
@@ -135,6 +152,15 @@ std::uint16_t LineCollection::source_of_stored(const Segment& s) const {
   return first_source_[theme];
 }
 
+/// At least one: kNoFeature where none is known.
+std::vector<std::uint32_t> LineCollection::features_of(const Segment& s) const {
+  std::vector<std::uint32_t> features;
+  for (auto f = std::lower_bound(stored_features_.begin(), stored_features_.end(), SegmentFeature{s, 0});
+       f != stored_features_.end() && f->segment == s; ++f)
+    features.push_back(f->feature);
+  return features.empty() ? std::vector{kNoFeature} : features;
+}
+
 void LineCollection::take_set_aside(const StoreRows& rows) {
   imported_ = imported_pieces(rows, themes_.size(), stored_, [&](const Segment& s) {
     const bool of_terrain = is_terrain(themes_[s.theme - std::size_t{1}].kind);
@@ -143,7 +169,7 @@ void LineCollection::take_set_aside(const StoreRows& rows) {
       return GridPoint{x, y, found == vertices_.end() ? 0 : found->second.z};
     };
     const auto [a, b] = std::minmax({vertex(s.ax, s.ay), vertex(s.bx, s.by)});
-    return ImportedSegment{a, b, source_of_stored(s)};
+    return ImportedSegment{a, b, source_of_stored(s), features_of(s).front()};
   });
   // Those left out beyond the ground come with the others.
   line_vertices_ = std::max(line_vertices_, std::uint64_t{imported_.size()});
@@ -152,7 +178,7 @@ void LineCollection::take_set_aside(const StoreRows& rows) {
 /// The lines with their heights. As they lie, a vertex of the terrain has its own, one of another line gets it anew.
 void LineCollection::add_lines() {
   if (as_ == LinesAs::imported) {
-    for (const auto& [theme, s] : imported_) segments_.push_back({s.a, s.b, theme});
+    for (const auto& [theme, s] : imported_) segments_.push_back({s.a, s.b, theme, s.feature});
     return;
   }
   const auto vertex = [&](std::int32_t x, std::int32_t y) {
@@ -160,13 +186,18 @@ void LineCollection::add_lines() {
     return GridPoint{x, y, found == vertices_.end() ? 0 : found->second.z};
   };
   for (const Segment& s : stored_)
-    segments_.push_back({vertex(s.ax, s.ay), vertex(s.bx, s.by), static_cast<std::uint32_t>(s.theme - 1)});
+    for (const std::uint32_t feature : features_of(s))
+      segments_.push_back({vertex(s.ax, s.ay), vertex(s.bx, s.by), static_cast<std::uint32_t>(s.theme - 1), feature});
 }
 
-void LineCollection::take_footprints(const Store& store) {
-  for (std::size_t t = 0; t < store.metadata().themes.size(); ++t)
-    for (StoredFootprint& footprint : stored_footprints(store, static_cast<std::uint16_t>(t + 1)))
+void LineCollection::take_features(const Store& store) {
+  for (std::size_t t = 0; t < store.metadata().themes.size(); ++t) {
+    const auto number = static_cast<std::uint16_t>(t + 1);
+    for (StoredFootprint& footprint : stored_footprints(store, number))
       add_footprint(static_cast<std::uint32_t>(t), std::move(footprint));
+    features_[t] = stored_features(store, number);
+    for (const FeatureRecord& record : features_[t].records) record_bytes_ += bytes_of(record);
+  }
 }
 
 std::uint32_t LineCollection::theme(const std::string& name, ThemeKind kind, bool raised) {
@@ -177,6 +208,7 @@ std::uint32_t LineCollection::theme(const std::string& name, ThemeKind kind, boo
     themes_.push_back({name, kind, 0, 0, 0});
     raised_.push_back(raised);
     footprints_.emplace_back();
+    features_.emplace_back();
     return static_cast<std::uint32_t>(themes_.size() - 1);
   }
   if (found->kind != kind)
@@ -190,18 +222,32 @@ std::uint32_t LineCollection::theme(const std::string& name, ThemeKind kind, boo
   return number;
 }
 
-void LineCollection::add(std::uint32_t theme, std::uint16_t source, std::span<const GridPoint> line) {
+void LineCollection::add(std::uint32_t theme, std::uint16_t source, std::uint32_t feature,
+                         std::span<const GridPoint> line) {
   line_vertices_ += line.size();
   const bool of_terrain = is_terrain(themes_[theme].kind);
   const auto vertex = [&](const GridPoint& p) { return GridPoint{p.x, p.y, of_terrain ? p.z : 0}; };
   for (std::size_t i = 1; i < line.size(); ++i) {
     const auto [a, b] = std::minmax({vertex(line[i - 1]), vertex(line[i])});
     // Upright, its ends are those of its neighbours.
-    if (a.x != b.x || a.y != b.y) imported_.push_back({theme, {a, b, source}});
+    if (a.x != b.x || a.y != b.y) imported_.push_back({theme, {a, b, source, feature}});
   }
 }
 
-void LineCollection::add_footprint(std::uint32_t theme, StoredFootprint footprint) {
+std::uint32_t LineCollection::add_feature(std::uint32_t theme, FeatureRecord record) {
+  record_bytes_ += bytes_of(record);
+  std::vector<FeatureRecord>& records = features_[theme].records;
+  records.push_back(std::move(record));
+  return static_cast<std::uint32_t>(records.size() - 1);
+}
+
+void LineCollection::add_footprint(std::uint32_t theme, StoredFootprint footprint,
+                                   std::optional<FeatureRecord> record) {
+  if (record) {
+    // Records have the numbers of their footprints.
+    features_[theme].records.resize(footprints_[theme].size());
+    add_feature(theme, std::move(*record));
+  }
   feature_vertices_ += vertex_count(footprint.feature);
   footprints_[theme].push_back(std::move(footprint));
 }
@@ -319,6 +365,7 @@ void LineCollection::put_in_order(ThemeLines& result) {
   std::vector<ThemeInfo> themes;
   std::vector<bool> raised;
   std::vector<std::vector<StoredFootprint>> footprints;
+  std::vector<ThemeFeatures> features;
   std::vector<ChangedGround> changed(order.size());
   changed_.resize(order.size());
   for (std::uint32_t i = 0; i < order.size(); ++i) {
@@ -326,6 +373,7 @@ void LineCollection::put_in_order(ThemeLines& result) {
     themes.push_back(themes_[order[i]]);
     raised.push_back(raised_[order[i]]);
     footprints.push_back(std::move(footprints_[order[i]]));
+    features.push_back(std::move(features_[order[i]]));
     changed[i] = std::move(changed_[order[i]]);
     result.terrain.push_back(is_terrain(themes.back().kind));
     result.kinds.push_back(themes.back().kind);
@@ -340,6 +388,7 @@ void LineCollection::put_in_order(ThemeLines& result) {
   themes_ = std::move(themes);
   raised_ = std::move(raised);
   footprints_ = std::move(footprints);
+  features_ = std::move(features);
   changed_ = std::move(changed);
 }
 

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <unordered_map>
@@ -18,6 +19,7 @@
 #include "features/raised_theme.hpp"
 #include "import/source/imported_lines.hpp"
 #include "pyramid/theme_lines.hpp"
+#include "store/feature_table.hpp"
 #include "store/point_index.hpp"
 
 namespace itin {
@@ -48,22 +50,28 @@ class LineCollection {
 
   /// Takes a store's themes over, then its lines, then their vertices, then how they were imported: in this order.
   void take_themes(const StoreMetadata& metadata);
-  void take_segments(const PointIndex& index);
+  void take_segments(const Store& store);
   /// Whether the vertex (`of_terrain`: of the full surface) comes from lines, and so is taken over with them, not with
   /// the points.
   bool take_vertex(const GridPoint& p, std::uint16_t source, bool of_terrain);
   void take_set_aside(const StoreRows& rows);
 
-  /// Standing themes' footprints; their lines are not taken over, but made again.
-  void take_footprints(const Store& store);
+  /// Standing themes' footprints, whose lines are not taken over, but made again; and the records of all features.
+  void take_features(const Store& store);
 
   /// The number of a theme, which is made if there is none of the name. Throws InputError where one has another kind,
   /// or is raised where the other is not.
   std::uint32_t theme(const std::string& name, ThemeKind kind, bool raised);
-  void add(std::uint32_t theme, std::uint16_t source, std::span<const GridPoint> line);
-  void add_features(std::uint32_t theme, std::uint64_t count) { themes_[theme].features += count; }
+  /// A line of a feature of the theme, by its number, or of kNoFeature.
+  void add(std::uint32_t theme, std::uint16_t source, std::uint32_t feature, std::span<const GridPoint> line);
+  void count_features(std::uint32_t theme, std::uint64_t count) { themes_[theme].features += count; }
 
-  void add_footprint(std::uint32_t theme, StoredFootprint footprint);
+  /// The fields of a theme's features.
+  std::vector<AttributeField>& fields(std::uint32_t theme) { return features_[theme].fields; }
+  /// The number of one more feature of a theme of lines on the ground, its values as fields() has them.
+  std::uint32_t add_feature(std::uint32_t theme, FeatureRecord record);
+  /// With a record where its source keeps any.
+  void add_footprint(std::uint32_t theme, StoredFootprint footprint, std::optional<FeatureRecord> record = {});
   /// Whether any theme is raised.
   bool is_raised() const;
   /// Builds all standing themes on a store's ground. Throws InputError where that takes more than the memory.
@@ -79,6 +87,7 @@ class LineCollection {
   /// After finish(): the themes in order, their features counted.
   const std::vector<ThemeInfo>& themes() const { return themes_; }
   const std::vector<std::vector<StoredFootprint>>& footprints() const { return footprints_; }
+  const std::vector<ThemeFeatures>& features() const { return features_; }
 
  private:
   struct Vertex {
@@ -90,6 +99,7 @@ class LineCollection {
     RaisedPart part;
   };
   std::uint16_t source_of_stored(const Segment& s) const;
+  std::vector<std::uint32_t> features_of(const Segment& s) const;
   void add_lines();
   void find_first_sources(const std::vector<SourceInfo>& sources);
   void find_vertices(const std::vector<SourceInfo>& sources);
@@ -102,15 +112,17 @@ class LineCollection {
 
   LinesAs as_;
   std::uint64_t memory_bytes_;
-  std::uint64_t line_vertices_ = 0, feature_vertices_ = 0;  ///< so far
+  std::uint64_t line_vertices_ = 0, feature_vertices_ = 0, record_bytes_ = 0;  ///< so far
   std::vector<ThemeInfo> themes_;
   std::vector<std::uint16_t> first_source_;               ///< by theme, and then by part
   std::vector<bool> raised_;                              ///< by theme
   std::vector<std::vector<StoredFootprint>> footprints_;  ///< by theme
+  std::vector<ThemeFeatures> features_;                   ///< by theme
   std::vector<OwnPart> parts_;
   bool keeps_set_aside_ = true;                            ///< the store does
   std::vector<std::string> theme_of_source_;               ///< by the store's source; empty for points
   std::vector<Segment> stored_;                            ///< of the store's lines, on the ground
+  std::vector<SegmentFeature> stored_features_;            ///< of them, ascending
   std::unordered_map<std::uint64_t, std::uint32_t> ends_;  ///< theme by Morton code: those of the stored terrain lines
   std::vector<ImportedPiece> imported_;
   std::vector<OwnedSegment> segments_;

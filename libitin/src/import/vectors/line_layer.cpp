@@ -18,6 +18,7 @@ namespace itin {
 
 LineLayer::LineLayer(const std::string& path, const ImportOptions& options)
     : layer_(path, options, "a layer of lines"),
+      fields_(layer_.feature_fields(options)),
       kind_(options.kind.value()),
       max_gap_(options.max_gap),
       crs_(source_crs(path, options.crs, layer_.crs())) {
@@ -107,7 +108,8 @@ ReadCounts LineLayer::read(const SourceContext& context, const Sink& sink, Progr
       placement.place(line.x, line.y, line.z, points);
       if (points.size() != line.z.size()) continue;
       vertices += points.size();
-      sink(points);
+      if (!any && fields_.any()) sink.feature(fields_.record(*feature));
+      sink.line(points);
       any = true;
     }
     features_ += any ? 1 : 0;

@@ -16,8 +16,12 @@ namespace itin {
 
 class LineLayer final : public OpenedFile {
  public:
-  /// A polyline on the grid, at least two positions.
-  using Sink = std::function<void(std::span<const GridPoint>)>;
+  struct Sink {
+    /// A polyline on the grid, at least two positions.
+    std::function<void(std::span<const GridPoint>)> line;
+    /// The feature that the next lines are of.
+    std::function<void(FeatureRecord)> feature;
+  };
 
   /// Lines and polygons, multi-geometries, collections and curves of options.layer; polygons are their rings. Heights
   /// are the field options.z_field, otherwise Z; lines of kinds that lie on the surface need none. Throws FileError,
@@ -29,8 +33,12 @@ class LineLayer final : public OpenedFile {
   Point2 centre() const override { return centre_; }
   std::vector<std::string> warnings() const override { return warnings_; }
 
-  /// Hands on every line. Lines with a vertex that has no height or no position are left out and counted as voids.
-  /// Throws FileError, InputError, Cancelled, and what the sink throws.
+  /// What is kept of the features.
+  const FeatureFields& fields() const { return fields_; }
+
+  /// Hands on every line, and before those of a feature what is kept of it, if anything is. Lines with a vertex that
+  /// has no height or no position are left out and counted as voids. Throws FileError, InputError, Cancelled, and what
+  /// the sink throws.
   ReadCounts read(const SourceContext& context, const Sink& sink, Progress& progress);
 
   /// Complete after read().
@@ -49,6 +57,7 @@ class LineLayer final : public OpenedFile {
   void describe(const ReadCounts& counts, const Grid& grid, Progress& progress);
 
   SourceLayer layer_;
+  FeatureFields fields_;
   ThemeKind kind_;
   double max_gap_;
   Crs crs_;
