@@ -18,11 +18,15 @@ std::vector<std::uint64_t> query_vertices(const StoreMetadata& metadata) {
 Document themes_document(const StoreMetadata& metadata) {
   Document themes = Document::array();
   for (const ThemeInfo& theme : metadata.themes) {
+    Document fields = Document::array();
+    for (const AttributeField& field : theme.fields)
+      fields.push_back({{"name", field.name}, {"type", name_of(field.type)}});
     themes.push_back({{"name", theme.name},
                       {"kind", name_of(theme.kind)},
                       {"features", theme.features},
                       {"vertices", theme.vertices},
-                      {"segments", theme.segments}});
+                      {"segments", theme.segments},
+                      {"fields", std::move(fields)}});
   }
   return themes;
 }
@@ -32,9 +36,10 @@ std::string themes_table(const StoreMetadata& metadata) {
   std::string table;
   for (const ThemeInfo& theme : metadata.themes) {
     table +=
-        fmt::format("{:<12}{} ({}{}): {}, {}, {}\n", table.empty() ? "themes" : "", theme.name, name_of(theme.kind),
+        fmt::format("{:<12}{} ({}{}): {}, {}, {}{}\n", table.empty() ? "themes" : "", theme.name, name_of(theme.kind),
                     is_terrain(theme.kind) ? ", part of the terrain" : "", counted(theme.features, "feature"),
-                    counted(theme.vertices, "vertex", "vertices"), counted(theme.segments, "segment"));
+                    counted(theme.vertices, "vertex", "vertices"), counted(theme.segments, "segment"),
+                    theme.fields.empty() ? "" : ", " + counted(theme.fields.size(), "field"));
   }
   return table;
 }

@@ -78,15 +78,16 @@ class ImportVerb final : public Verb {
                    "higher")
         ->type_name("WAY");
     app.add_option("--id-field", options_.id_field,
-                   "Lines and footprints: the field of a feature's id, for exports and reports (default: the source's "
-                   "own number for it)")
+                   "Lines, footprints and CityJSON: the field of a feature's id, for exports and reports (default: the "
+                   "source's own number or key for it)")
         ->type_name("FIELD");
     app.add_option("--name-field", options_.name_field,
-                   "Lines and footprints: the field of a feature's name, for exports, reports and messages")
+                   "Lines, footprints and CityJSON: the field of a feature's name, for exports, reports and messages")
         ->type_name("FIELD");
-    app.add_option("--attributes", attributes_,
-                   "Lines and footprints: the fields that the store keeps for exports: all (default; numbers, texts, "
-                   "dates and times), none, or names")
+    app.add_option(
+           "--attributes", attributes_,
+           "Lines, footprints and CityJSON: the fields that the store keeps for exports: all (default; numbers, texts, "
+           "dates and times), none, or names")
         ->type_name("all|none|FIELD,...")
         ->delimiter(',');
     app.add_option("--layer", options_.layer, "Vector files: the layer to read")->type_name("NAME");

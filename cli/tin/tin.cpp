@@ -45,9 +45,8 @@ class TinVerb final : public Verb {
     app.add_option("--topology", topology_, "Write this structure of the triangulation: triangle, vertex or edge")
         ->type_name("KIND");
     app.add_option("--lines", lines_,
-                   "Write the lines of these themes in place of triangles, one for each feature and as far as it goes "
-                   "on, with its "
-                   "id, name and attributes (.gpkg or .geojson)")
+                   "Write the lines of these themes in place of triangles, each feature's with its id, name and "
+                   "attributes; those of the terrain simplified to the tolerance (.gpkg or .geojson)")
         ->type_name("THEME,...")
         ->delimiter(',');
     detail_.declare(app);

@@ -1,13 +1,11 @@
 // Stores made before imports minded that lengths in their CRS are true.
 #include <gtest/gtest.h>
-#include <sqlite3.h>
 
 #include <itin/store.hpp>
 
 #include "cli/shell.hpp"
 #include "gdal/crs.hpp"
-#include "store/metadata_json.hpp"
-#include "store/seal.hpp"
+#include "support/forged_rows.hpp"
 
 namespace itin::test {
 
@@ -17,17 +15,7 @@ namespace {
 void relabel(const std::string& path, const std::string& crs) {
   StoreMetadata metadata = Store(path).metadata();
   metadata.crs_wkt = parse_crs(crs, "test").wkt;
-  const std::string json = metadata_to_json(metadata);
-  sqlite3* database = nullptr;
-  ASSERT_EQ(sqlite3_open(path.c_str(), &database), SQLITE_OK);
-  sqlite3_stmt* update = nullptr;
-  sqlite3_prepare_v2(database, "UPDATE metadata SET value = ?, checksum = ? WHERE name = 'store'", -1, &update,
-                     nullptr);
-  sqlite3_bind_text(update, 1, json.c_str(), -1, SQLITE_TRANSIENT);
-  sqlite3_bind_int64(update, 2, text_checksum(json));
-  ASSERT_EQ(sqlite3_step(update), SQLITE_DONE);
-  sqlite3_finalize(update);
-  sqlite3_close(database);
+  forge_metadata(path, metadata);
 }
 
 TEST(OldStore, WithWrongLengthsIsWarnedOf) {

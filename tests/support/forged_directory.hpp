@@ -5,13 +5,10 @@
 #include <string>
 #include <vector>
 
-#include <gtest/gtest.h>
-#include <sqlite3.h>
-
 #include "store/directory.hpp"
-#include "store/seal.hpp"
 #include "store/store_format.hpp"
 #include "store/store_rows.hpp"
+#include "support/forged_rows.hpp"
 
 namespace itin::test {
 
@@ -40,23 +37,9 @@ inline void forge_directory(const std::string& path, int tree, const std::functi
     old_keys.push_back(format::kChunkListKey);
     rows.emplace_back(format::kChunkListKey, encode_chunk_list(list));
   }
-  sqlite3* database = nullptr;
-  ASSERT_EQ(sqlite3_open(path.c_str(), &database), SQLITE_OK);
-  const auto run = [&](const char* sql, std::uint64_t key, const std::vector<std::uint8_t>* data) {
-    sqlite3_stmt* statement = nullptr;
-    ASSERT_EQ(sqlite3_prepare_v2(database, sql, -1, &statement, nullptr), SQLITE_OK);
-    sqlite3_bind_int64(statement, 1, static_cast<sqlite3_int64>(key));
-    if (data != nullptr)
-      sqlite3_bind_blob(statement, 2, data->data(), static_cast<int>(data->size()), SQLITE_TRANSIENT);
-    EXPECT_EQ(sqlite3_step(statement), SQLITE_DONE);
-    sqlite3_finalize(statement);
-  };
-  for (const std::uint64_t key : old_keys) run("DELETE FROM directory WHERE key = ?", key, nullptr);
-  for (const auto& [key, bytes] : rows) {
-    const std::vector<std::uint8_t> sealed = seal(BlobKind::Directory, key, bytes);
-    run("INSERT INTO directory(key, data) VALUES(?, ?)", key, &sealed);
-  }
-  sqlite3_close(database);
+  for (const std::uint64_t key : old_keys)
+    execute_sql(path, "DELETE FROM directory WHERE key = ?", {static_cast<std::int64_t>(key)});
+  for (const auto& [key, bytes] : rows) forge_row(path, BlobKind::Directory, key, bytes);
 }
 
 }  // namespace itin::test

@@ -36,8 +36,8 @@ struct ImportOptions {
       z_field;  ///< the height attribute of point layers and CSV; default: Z of the geometry, or the third column
   std::string layer;
   std::string where;
-  /// Of layers of lines and footprints: what the store keeps of their features, for exports and reports.
-  std::string id_field;                                ///< default: the source's number for the feature
+  /// Of lines, footprints and CityJSON: what the store keeps of their features, for exports and reports.
+  std::string id_field;                                ///< default: the source's number or key for the feature
   std::string name_field;                              ///< also the name of a raised feature in messages; default: none
   std::optional<std::vector<std::string>> attributes;  ///< fields; default: all of numbers, texts, dates and times
   std::optional<int> band;  ///< of rasters: the one that holds heights, from 1; default: their only one

@@ -93,7 +93,8 @@ struct WindowLines {
 /// Of lines on the ground these are all edges of the surface that meet the window, whatever the window, feature by
 /// feature and as far as they go on: a line ends where other than two edges of its feature meet, and at the window. Of
 /// themes that stand they are the sides of the footprints that have a part of the surface, as they were imported, at
-/// the height of the terrain under them.
+/// the height of the terrain under them; measured roofs without footprints have the outlines of their surfaces together,
+/// and rasters of heights have none.
 std::size_t export_lines(const Store& store, const WindowLines& lines, const std::string& path,
                          const TinExportOptions& options, Progress& progress);
 /// Throws what export_lines() would throw before writing.

@@ -97,7 +97,7 @@ void add_ids(const Store& store, std::uint16_t theme, std::vector<std::optional<
 }  // namespace
 
 std::string title_of(const FeatureAt& feature) {
-  if (feature.id.empty() || feature.name == "feature " + feature.id) return feature.name;
+  if (feature.id.empty() || feature.name == feature.id || feature.name == "feature " + feature.id) return feature.name;
   return fmt::format("{} (id {})", feature.name, feature.id);
 }
 

@@ -24,9 +24,11 @@ struct FeatureLine {
 /// are all edges of the surface that meet the window, joined as far as they go on, whatever the window; an edge that
 /// features share is part of a line of each. Of themes that stand they are the outlines of the footprints that have a
 /// part of the surface, as they were imported, rounded to the grid, at the height of the terrain under them: all sides
-/// that meet the window and have terrain under both ends. Rasters of heights have no outlines.
+/// that meet the window and have terrain under both ends. Measured roofs without footprints have the outlines of their
+/// surfaces together, and rasters of heights have none.
 ///
-/// Cost: O(n log n) in the edges, and for themes that stand that of features_at(). Throws CorruptStore, Cancelled.
+/// Cost: O(n log n) in the edges, and for themes that stand that of features_at(). Throws CorruptStore, Cancelled, and
+/// InputError for a roof whose surfaces cross too often to have an outline.
 std::vector<FeatureLine> feature_lines(const Store& store, const WindowLines& lines, Progress& progress);
 
 }  // namespace itin

@@ -3,9 +3,13 @@
 #include <algorithm>
 #include <utility>
 
+#include <fmt/format.h>
+
+#include <itin/error.hpp>
 #include <itin/feature_at.hpp>
 #include <itin/triangulate.hpp>
 
+#include "features/plan_on_grid.hpp"
 #include "store/footprint_codec.hpp"
 #include "triangulate/grid_window.hpp"
 
@@ -40,6 +44,23 @@ std::vector<GridPoint> corners_of(const PlanRing& ring, const Grid& grid) {
   return corners;
 }
 
+/// A measured roof without a footprint has the outline of its surfaces.
+std::vector<std::vector<GridPoint>> rings_of(const FootprintFeature& feature, const Grid& grid) {
+  std::vector<std::vector<GridPoint>> rings;
+  for (const PlanRing& ring : feature.rings) rings.push_back(corners_of(ring, grid));
+  if (!rings.empty()) return rings;
+  try {
+    for (const GridPolygon& polygon : plan_of(feature.surfaces, grid))
+      for_each_ring(polygon, [&](const GridRing& ring) {
+        std::vector<GridPoint>& corners = rings.emplace_back();
+        for (const Position& p : ring) corners.push_back({p.x, p.y, 0});
+      });
+  } catch (const OverlayError& error) {
+    throw InputError(fmt::format("the roof of '{}' has no outline: {}", feature.name, error.what()));
+  }
+  return rings;
+}
+
 /// The runs of consecutive sides that are there: each by the numbers of its corners, the first of them again at the end
 /// of a whole ring.
 std::vector<std::vector<std::size_t>> runs_of(const std::vector<bool>& sides) {
@@ -68,8 +89,8 @@ class Outlines {
       for (const StoredFootprint& f : stored_footprints(store, theme, block))
         if (const std::int64_t own = number++;
             !f.feature.cells && std::binary_search(numbers.begin(), numbers.end(), own))
-          for (const PlanRing& ring : f.feature.rings)
-            rings_.push_back({static_cast<std::uint32_t>(own), corners_of(ring, grid_)});
+          for (std::vector<GridPoint>& corners : rings_of(f.feature, grid_))
+            rings_.push_back({static_cast<std::uint32_t>(own), std::move(corners)});
   }
 
   std::vector<FeatureLine> lines(const Store& store, const WindowLines& window_lines, Progress& progress) const {

@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "features/plan_on_grid.hpp"
+
 namespace itin {
 
 namespace {
@@ -44,31 +46,9 @@ class Preparing {
     return false;
   }
 
-  template <class Ring>
-  std::optional<GridRing> on_grid(const Ring& ring) const {
-    GridRing result;
-    for (const auto& p : ring) {
-      if (!std::isfinite(p.x) || !std::isfinite(p.y) || !options_.grid.covers({p.x, p.y})) return std::nullopt;
-      const GridPoint q = options_.grid.quantise({p.x, p.y, 0});
-      result.push_back({q.x, q.y});
-    }
-    return result;
-  }
-
-  template <class Rings>
-  std::optional<EvenOdd> polygons(const Rings& rings) const {
-    std::vector<GridRing> quantised;
-    for (const auto& ring : rings) {
-      auto r = on_grid(ring);
-      if (!r) return std::nullopt;
-      quantised.push_back(std::move(*r));
-    }
-    return even_odd(quantised);
-  }
-
   /// The plan. A measured roof without an outline of its own has that of its surfaces.
   bool place() {
-    auto plan = polygons(source_.rings);
+    auto plan = plan_on_grid(source_.rings, options_.grid);
     if (!plan) return refuse("has coordinates beyond the grid");
     if (plan->polygons.empty() && !out_.feature.measured) return refuse("has no area");
     if (plan->repaired)
@@ -94,7 +74,8 @@ class Preparing {
     if (!out_.feature.measured && !check_heights()) return false;
     std::optional<double> base = source_.base;
     if (!base && !terrain_) return refuse("has no base height, and there is no terrain to take it from");
-    if (!base) base = terrain_->base_height(plan_.empty() ? outline_of_surfaces() : plan_, source_.base_rule);
+    if (!base)
+      base = terrain_->base_height(plan_.empty() ? plan_of(source_.surfaces, options_.grid) : plan_, source_.base_rule);
     if (!base) return refuse("has no base height and lies outside the terrain");
     RoofHeights& heights = out_.feature.heights;
     heights.base = units(*base);
@@ -114,15 +95,6 @@ class Preparing {
     if (height && eaves && *eaves > *height)
       return refuse(fmt::format("its eaves at {} m are above its top at {} m", *eaves, *height));
     return true;
-  }
-
-  GridPolygons outline_of_surfaces() const {
-    GridPolygons all;
-    for (const RoofSurface& surface : source_.surfaces) {
-      if (const auto plan = polygons(surface.rings))
-        all.insert(all.end(), plan->polygons.begin(), plan->polygons.end());
-    }
-    return merged(all);
   }
 
   void add_patch(GridPolygons plan, const Plane& top) {
@@ -153,7 +125,7 @@ class Preparing {
     int upright = 0;
     double worst = 0;
     for (const RoofSurface& surface : source_.surfaces) {
-      const auto plan = polygons(surface.rings);
+      const auto plan = plan_on_grid(surface.rings, options_.grid);
       if (!plan) return refuse("has coordinates beyond the grid");
       std::vector<GridPoint> ring;
       for (const Point3& p : surface.rings.front()) ring.push_back(options_.grid.quantise(p));

@@ -14,6 +14,9 @@ namespace itin {
 
 namespace {
 
+constexpr const char* kForeignSource = "names a source that the store does not have";
+constexpr const char* kForeignFeature = "names a feature that the store does not have";
+
 class Inspection {
  public:
   Inspection(const StoreFile& file, Progress& progress) : file_(file), progress_(progress) {}
@@ -23,9 +26,9 @@ class Inspection {
     for (const auto& [tree, chunks] : file_.chunks()) {
       for (const ChunkEntry& entry : chunks) total_ += entry.leaves;
     }
+    inspect_features();
     for (const auto& [tree, chunks] : file_.chunks()) inspect_tree(tree, chunks);
     inspect_footprints();
-    inspect_features();
     if (file_.rows().version() >= format::kFirstVersionThatSetsAside) guarded([&] { inspect_set_aside(); });
     compare_keys(BlobKind::Directory, chunk_keys_);
     compare_keys(BlobKind::Block, block_keys_);
@@ -92,9 +95,7 @@ class Inspection {
       foreign |= !mask && (of_part ? source & ~format::kOnOutline : source) >= sources;
     }
     vertices_[static_cast<std::size_t>(leaf.level)] += vertices;
-    if (foreign) {
-      damage_.push_back({format::place("block", leaf.key), "names a source that the store does not have"});
-    }
+    if (foreign) damage_.push_back({format::place("block", leaf.key), kForeignSource});
   }
 
   void inspect_edges(const Leaf& leaf) {
@@ -108,14 +109,10 @@ class Inspection {
   void inspect_segment_features(const Leaf& leaf) {
     const std::size_t theme = format::theme_of(leaf.level);
     if (theme == 0 || theme > file_.metadata().themes.size()) return;
-    const ThemeInfo& info = file_.metadata().themes[theme - 1];
-    if (!info.segments_have_features) return;
-    const std::uint64_t most = std::uint64_t{info.feature_blocks} * kFeaturesInBlock;
-    for (const SegmentFeature& f : file_.read_segment_features(leaf)) {
-      if (f.feature < most) continue;
-      damage_.push_back({format::place("block", leaf.key), "names a feature that the store does not have"});
-      return;
-    }
+    if (!file_.metadata().themes[theme - 1].segments_have_features) return;
+    const std::vector<SegmentFeature> features = file_.read_segment_features(leaf);
+    if (std::any_of(features.begin(), features.end(), [&](const auto& f) { return f.feature >= features_[theme]; }))
+      damage_.push_back({format::place("block", leaf.key), kForeignFeature});
   }
 
   void inspect_features() {
@@ -123,7 +120,9 @@ class Inspection {
     for (std::size_t t = 1; t <= themes.size(); ++t) {
       for (std::uint32_t i = 0; i < themes[t - 1].feature_blocks; ++i) {
         block_keys_.push_back(format::feature_key(t, i));
-        guarded([&] { static_cast<void>(file_.read_features(static_cast<std::uint16_t>(t), i)); });
+        std::size_t records = kFeaturesInBlock;  // of a damaged block: what names them is not damaged
+        guarded([&] { records = file_.read_features(static_cast<std::uint16_t>(t), i).size(); });
+        features_[t] += records;
       }
     }
   }
@@ -136,9 +135,7 @@ class Inspection {
         guarded([&] {
           for (const StoredFootprint& f : file_.read_footprints(static_cast<std::uint16_t>(t), i)) {
             if (f.source < file_.metadata().sources.size()) continue;
-            damage_.push_back({format::place("block", format::footprint_key(t, i)),
-                               "names a source that the store "
-                               "does not have"});
+            damage_.push_back({format::place("block", format::footprint_key(t, i)), kForeignSource});
           }
         });
       }
@@ -149,25 +146,28 @@ class Inspection {
     const StoreRows& rows = file_.rows();
     chunk_keys_.push_back(format::kSetAsideListKey);
     const SetAsideList list = set_aside_list(rows);
-    const auto inspect = [&](std::uint64_t theme, std::uint32_t block, const auto& sources_of) {
+    const auto is_foreign = [&](std::uint16_t source) { return source >= file_.metadata().sources.size(); };
+    const auto inspect = [&](std::uint64_t theme, std::uint32_t block, const auto& what_is_wrong) {
       const std::uint64_t key = format::set_aside_key(theme, block);
       block_keys_.push_back(key);
       guarded([&] {
-        for (const std::uint16_t source : sources_of()) {
-          if (source < file_.metadata().sources.size()) continue;
-          damage_.push_back({format::place("block", key), "names a source that the store does not have"});
-          return;
-        }
+        if (const char* what = what_is_wrong()) damage_.push_back({format::place("block", key), what});
       });
     };
-    for (std::uint32_t i = 0; i < list.point_blocks; ++i)
-      inspect(0, i, [&] { return set_aside_points(rows, i).sources; });
+    for (std::uint32_t i = 0; i < list.point_blocks; ++i) {
+      inspect(0, i, [&]() -> const char* {
+        const std::vector<std::uint16_t> sources = set_aside_points(rows, i).sources;
+        return std::any_of(sources.begin(), sources.end(), is_foreign) ? kForeignSource : nullptr;
+      });
+    }
     for (std::uint16_t theme = 1; theme <= list.line_blocks.size(); ++theme) {
       for (std::uint32_t i = 0; i < list.blocks_of(theme); ++i) {
-        inspect(theme, i, [&] {
-          std::vector<std::uint16_t> sources;
-          for (const ImportedSegment& s : set_aside_lines(rows, theme, i).imported) sources.push_back(s.source);
-          return sources;
+        inspect(theme, i, [&]() -> const char* {
+          for (const ImportedSegment& s : set_aside_lines(rows, theme, i).imported) {
+            if (is_foreign(s.source)) return kForeignSource;
+            if (s.feature != kNoFeature && s.feature >= features_[theme]) return kForeignFeature;
+          }
+          return nullptr;
         });
       }
     }
@@ -219,6 +219,8 @@ class Inspection {
   std::vector<std::uint64_t> chunk_keys_, block_keys_;
   std::vector<std::uint64_t> vertices_ = std::vector<std::uint64_t>(format::kFirstEdgeTree);  ///< by tree
   std::vector<std::uint64_t> segments_ = std::vector<std::uint64_t>(format::kLastTree);       ///< by theme
+  std::vector<std::uint64_t> features_ =
+      std::vector<std::uint64_t>(format::kMaxThemes + 1);  ///< with records, by theme
   GridBox bounds_;
 };
 

@@ -28,14 +28,14 @@ class LikelyFeatures {
  public:
   const Features& of(const Segment& s) const {
     const Told* latest = &none_;
-    for (const End end : {End{s.ax, s.ay}, End{s.bx, s.by}})
+    for (const End& end : {End{s.ax, s.ay}, End{s.bx, s.by}})
       if (const auto told = told_.find(end); told != told_.end() && told->second.number > latest->number)
         latest = &told->second;
     return latest->features;
   }
   void tell(const Segment& s, const Features& features) {
     ++count_;
-    for (const End end : {End{s.ax, s.ay}, End{s.bx, s.by}}) told_[end] = {count_, features};
+    for (const End& end : {End{s.ax, s.ay}, End{s.bx, s.by}}) told_[end] = {count_, features};
   }
 
  private:
@@ -106,7 +106,7 @@ std::vector<SegmentFeature> decode_segment_features(std::span<const Segment> seg
     for (const std::uint32_t feature : own) features.push_back({s, feature});
     likely.tell(s, own);
   }
-  if (!in.at_end()) throw DecodeError("has bytes too many");
+  if (!in.at_end()) throw DecodeError("has too many bytes");
   return features;
 }
 

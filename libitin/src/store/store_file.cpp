@@ -202,7 +202,11 @@ std::vector<StoredFootprint> StoreFile::read_footprints(std::uint16_t theme, std
 
 std::vector<FeatureRecord> StoreFile::read_features(std::uint16_t theme, std::uint32_t number) const {
   return decoded(rows_, BlobKind::Block, format::feature_key(theme, number), [&](const auto& bytes) {
-    return decode_features(bytes, metadata_.themes[theme - std::size_t{1}].fields.size());
+    const ThemeInfo& info = metadata_.themes[theme - std::size_t{1}];
+    std::vector<FeatureRecord> records = decode_features(bytes, info.fields.size());
+    if (number + 1 < info.feature_blocks && records.size() < kFeaturesInBlock)
+      throw DecodeError("has the wrong number of features");
+    return records;
   });
 }
 

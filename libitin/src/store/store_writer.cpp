@@ -28,11 +28,6 @@ static_assert(kLeafCapacity <= kMaxBlockPoints);
 
 namespace {
 
-/// Readers of kPlainVersion know no footprints of these kinds, or no theme of them.
-bool is_new(FeatureKind kind) {
-  return kind == FeatureKind::cells || kind == FeatureKind::terrace;
-}
-
 /// To the leaves, which tile the root along the curve, that the reach's box meets.
 void raise(std::vector<Leaf>& leaves, const FeatureReach& reach) {
   const MortonRange range(reach.box);
@@ -214,7 +209,7 @@ std::uint32_t StoreWriter::Impl::add_footprints(std::uint16_t theme, std::span<c
   std::uint32_t blocks = 0;
   for (; !footprints.empty(); ++blocks) {
     const auto some = footprints.first(std::min(footprints.size(), kFootprintsInBlock));
-    if (std::any_of(some.begin(), some.end(), [](const StoredFootprint& f) { return is_new(f.feature.kind); }))
+    if (std::any_of(some.begin(), some.end(), [](const StoredFootprint& f) { return f.feature.cells.has_value(); }))
       require_version(format::kVersionWithTerraces);
     insert(*insert_block_, BlobKind::Block, format::footprint_key(theme, blocks), encode_footprints(some));
     footprints = footprints.subspan(some.size());
@@ -278,6 +273,9 @@ void StoreWriter::Impl::commit(std::vector<SourceInfo> sources, std::vector<Them
   insert(*insert_chunk_, BlobKind::Directory, format::kChunkListKey, encode_chunk_list(chunks_));
   metadata_.sources = std::move(sources);
   metadata_.themes = std::move(themes);
+  if (std::any_of(metadata_.themes.begin(), metadata_.themes.end(),
+                  [](const ThemeInfo& t) { return t.kind == ThemeKind::Terraces; }))
+    require_version(format::kVersionWithTerraces);
   for (const std::uint16_t theme : with_features_)
     metadata_.themes.at(theme - std::size_t{1}).segments_have_features = true;
   metadata_.parts = std::move(parts);

@@ -20,14 +20,14 @@ Document cause(const LosReport& report, std::uint16_t theme) {
   return cause_of(report, theme);
 }
 
-/// Adds the feature's name and id by its source, and its number from 0 in the order of import; null where there is
+/// Adds the feature's name by its source, its number from 0 in the order of import, and its id; null where there is
 /// none.
 void add_feature(const LosReport& report, std::uint16_t theme, std::int64_t number, Document& document) {
   const auto known = report.features.find({theme, number});
   const bool found = known != report.features.end();
   document["feature"] = found ? Document(known->second.name) : Document(nullptr);
-  document["feature_id"] = found && !known->second.id.empty() ? Document(known->second.id) : Document(nullptr);
   document["feature_number"] = number < 0 ? Document(nullptr) : Document(number);
+  document["feature_id"] = found && !known->second.id.empty() ? Document(known->second.id) : Document(nullptr);
 }
 
 Document place_document(const LosReport& report, const std::optional<ProfilePoint>& place) {

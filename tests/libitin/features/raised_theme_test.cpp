@@ -374,7 +374,6 @@ TEST_F(RaisedFeatures, TerracesFollowTheTerrainWhereHousesAreLevel) {
   EXPECT_NEAR(height(house, 300102.9, 199609), height(terrace, 300102.9, 199609), 1e-9);
   expect_sound();
   const Store store(path("s.itin"));
-  EXPECT_EQ(store.metadata().format_version, 5);
   EXPECT_EQ(store.metadata().themes.at(0).kind, ThemeKind::Buildings);
   EXPECT_EQ(store.metadata().themes.at(1).kind, ThemeKind::Terraces);
 }

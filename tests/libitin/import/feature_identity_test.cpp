@@ -1,6 +1,7 @@
 // A line in a store is its feature's, at every level and in every window, whatever was imported when.
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <map>
 #include <random>
 #include <set>
@@ -60,6 +61,23 @@ Edges edges_of(const Store& store, const Window& window, const Detail& detail) {
   return edges;
 }
 
+/// What a store says of features, by theme and id: names, and values by field.
+using Records =
+    std::map<std::pair<std::string, std::string>, std::pair<std::string, std::map<std::string, AttributeValue>>>;
+
+Records records_of(const Store& store) {
+  Records records;
+  for (const std::uint16_t theme : all_themes(store)) {
+    const ThemeFeatures features = stored_features(store, theme);
+    for (const FeatureRecord& record : features.records) {
+      auto& [name, values] = records[{store.metadata().themes[theme - std::size_t{1}].name, record.id}];
+      name = record.name;
+      for (std::size_t i = 0; i < record.values.size(); ++i) values[features.fields[i].name] = record.values[i];
+    }
+  }
+  return records;
+}
+
 /// In doubles, which are exact for what they clip but for the very last bits.
 bool meets_box(const GridBox& box, const GridPoint& a, const GridPoint& b) {
   double from = 0, to = 1;
@@ -116,6 +134,22 @@ class FeatureIdentity : public testing::Test {
       lines_[prefix + std::to_string(i)] = f.vertices;
     }
     return features;
+  }
+
+  std::vector<LineFeature> houses(int count) {
+    std::vector<LineFeature> features;
+    for (int i = 0; i < count; ++i) {
+      const double x = in(300100, 300850), y = in(199100, 199850);
+      features.push_back(test::box(x, y, x + in(5, 30), y + in(5, 30), 8));
+      features.back().properties = fmt::format(R"({{"h":8,"ref":"house{}"}})", i);
+    }
+    return features;
+  }
+
+  ImportOptions raised(const std::string& file, const std::string& theme) const {
+    ImportOptions houses = options(file, ThemeKind::Buildings, theme);
+    houses.height_field = "h";
+    return houses;
   }
 
   ImportOptions options(const std::string& file, ThemeKind kind, const std::string& theme) const {
@@ -195,18 +229,10 @@ TEST_F(FeatureIdentity, HoldsAtEveryLevel) {
 
 TEST_F(FeatureIdentity, IsThatOfTheWholeInEveryWindow) {
   test::write_lines(path("ridges.geojson"), wandering("ridge", 16));
-  std::vector<LineFeature> houses;
-  for (int i = 0; i < 30; ++i) {
-    const double x = in(300100, 300850), y = in(199100, 199850);
-    houses.push_back(test::box(x, y, x + in(5, 30), y + in(5, 30), 8));
-    houses.back().properties = fmt::format(R"({{"h":8,"ref":"house{}"}})", i);
-  }
-  test::write_lines(path("houses.geojson"), houses);
+  test::write_lines(path("houses.geojson"), houses(30));
   import("hill.itin", ground());
   import("hill.itin", options("ridges.geojson", ThemeKind::Breaklines, "ridges"));
-  ImportOptions raised = options("houses.geojson", ThemeKind::Buildings, "houses");
-  raised.height_field = "h";
-  import("hill.itin", raised);
+  import("hill.itin", raised("houses.geojson", "houses"));
   const Store store(path("hill.itin"));
   const Grid& grid = store.metadata().grid;
   for (const double tolerance : {0.0, 1.0, 8.0}) {
@@ -230,22 +256,33 @@ TEST_F(FeatureIdentity, KnowsNoOrderOfImport) {
   test::write_lines(path("ridges.geojson"), wandering("ridge", 10));
   test::write_lines(path("edges.geojson"), wandering("edge", 6));
   test::write_lines(path("lanes.geojson"), wandering("lane", 10));
+  test::write_lines(path("houses.geojson"), houses(20));
+  test::write_raster(path("survey.tif"), {300300, 199700, 5, 60, 60, 27700},
+                     [](int c, int r) { return 110 + 3 * std::sin(c / 3.0) + 2 * std::cos(r / 4.0); });
+  ImportOptions survey = ground();
+  survey.sources = {path("survey.tif")};
+  survey.replace = true;
   std::vector<ImportOptions> sources{options("ridges.geojson", ThemeKind::Breaklines, "ridges"),
                                      options("edges.geojson", ThemeKind::Breaklines, "ridges"),
-                                     options("lanes.geojson", ThemeKind::Roads, "lanes")};
+                                     options("lanes.geojson", ThemeKind::Roads, "lanes"),
+                                     raised("houses.geojson", "houses"), survey};
   import("first.itin", ground());
   for (const ImportOptions& source : sources) import("first.itin", source);
   const Store first(path("first.itin"));
-  for (int round = 0; round < 2; ++round) {
+  EXPECT_EQ(records_of(first).size(), 46U);
+  for (int round = 0; round < 3; ++round) {
     std::shuffle(sources.begin(), sources.end(), random_);
     const std::string name = fmt::format("other{}.itin", round);
     import(name, ground());
     for (const ImportOptions& source : sources) import(name, source);
     const Store other(path(name));
+    EXPECT_EQ(records_of(first) == records_of(other), true) << round;
     for (const double tolerance : {0.0, 2.0}) {
       const Detail detail = Detail::tolerance(tolerance);
-      EXPECT_EQ(edges_of(first, Window::all(), detail) == edges_of(other, Window::all(), detail), true) << tolerance;
+      EXPECT_EQ(edges_of(first, Window::all(), detail) == edges_of(other, Window::all(), detail), true)
+          << tolerance << " m, round " << round;
     }
+    test::expect_sound(other);
   }
 }
 
@@ -301,8 +338,8 @@ TEST_F(FeatureIdentity, IsToldOfWhatStands) {
   hall.properties = R"({"h":12,"ref":"42","label":"Town Hall"})";
   test::write_lines(path("hall.geojson"), {test::box(300300, 199200, 300340, 199220, 5), hall});
   import("town.itin", ground());
-  ImportOptions houses = options("hall.geojson", ThemeKind::Buildings, "houses");
-  houses.height_field = "h", houses.name_field = "label";
+  ImportOptions houses = raised("hall.geojson", "houses");
+  houses.name_field = "label";
   import("town.itin", houses);
   const Store store(path("town.itin"));
   const auto found = features_at(store, 1, {{300210, 199210}, {300310, 199210}, {300100, 199100}});
@@ -315,6 +352,30 @@ TEST_F(FeatureIdentity, IsToldOfWhatStands) {
   EXPECT_FALSE(numbered[2]);
   EXPECT_EQ(title_of({3, "feature 7", "7"}), "feature 7");
   EXPECT_EQ(title_of({3, "Barn", ""}), "Barn");
+  EXPECT_EQ(title_of({3, "NL.7", "NL.7"}), "NL.7");
+}
+
+TEST_F(FeatureIdentity, OfMeasuredRoofsHasTheirOutlineTogether) {
+  // Two halves of one roof, and no footprint.
+  std::ofstream(path("barn.json")) << R"({"type":"CityJSON","version":"2.0",
+    "metadata":{"referenceSystem":"https://www.opengis.net/def/crs/EPSG/0/27700"},
+    "CityObjects":{"barn":{"type":"Building","attributes":{"use":"hay"},"geometry":[{"type":"MultiSurface","lod":"2",
+      "boundaries":[[[0,1,4,5]],[[5,4,2,3]]],
+      "semantics":{"surfaces":[{"type":"RoofSurface"}],"values":[0,0]}}]}},
+    "vertices":[[300200,199200,120],[300230,199200,120],[300230,199220,120],[300200,199220,120],
+                [300230,199210,126],[300200,199210,126]]})";
+  import("farm.itin", ground());
+  ImportOptions barn = options("barn.json", ThemeKind::Buildings, "barns");
+  barn.id_field.clear();
+  import("farm.itin", barn);
+  const Store store(path("farm.itin"));
+  double length = 0;
+  for (const IdentifiedEdge& e : edges_of(store, Window::all(), Detail::tolerance(0))) {
+    EXPECT_EQ(e.id, "barn");
+    length += std::hypot(e.b.x - e.a.x, e.b.y - e.a.y) * store.metadata().grid.resolution;
+  }
+  EXPECT_NEAR(length, 100, 0.05);
+  EXPECT_EQ(records_of(store).at({"barns", "barn"}).second.at("use"), AttributeValue(std::string("hay")));
 }
 
 }  // namespace

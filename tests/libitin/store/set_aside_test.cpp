@@ -5,7 +5,6 @@
 #include <random>
 
 #include <gtest/gtest.h>
-#include <sqlite3.h>
 
 #include <itin/error.hpp>
 #include <itin/store.hpp>
@@ -13,6 +12,7 @@
 #include "libitin/store/random_points.hpp"
 #include "store/store_file.hpp"
 #include "store/store_writer.hpp"
+#include "support/forged_rows.hpp"
 #include "support/seed.hpp"
 #include "support/temporary_directory.hpp"
 
@@ -42,12 +42,7 @@ class SetAside : public testing::Test {
     writer.count_set_aside({1, 2, 3, 4});
     writer.commit(std::vector<SourceInfo>(3));
   }
-  void execute(const std::string& sql) {
-    sqlite3* db = nullptr;
-    ASSERT_EQ(sqlite3_open(path_.c_str(), &db), SQLITE_OK);
-    ASSERT_EQ(sqlite3_exec(db, sql.c_str(), nullptr, nullptr, nullptr), SQLITE_OK) << sqlite3_errmsg(db);
-    sqlite3_close(db);
-  }
+  void execute(const std::string& sql) { test::execute_sql(path_, sql); }
   std::vector<std::string> damaged_places() {
     NoProgress progress;
     std::vector<std::string> places;

@@ -5,13 +5,13 @@
 #include <random>
 
 #include <gtest/gtest.h>
-#include <sqlite3.h>
 
 #include <itin/error.hpp>
 #include <itin/store.hpp>
 
 #include "libitin/store/random_points.hpp"
 #include "store/point_index.hpp"
+#include "support/forged_rows.hpp"
 #include "support/seed.hpp"
 
 namespace itin {
@@ -62,12 +62,7 @@ class StoreDamage : public testing::Test {
       EXPECT_EQ(std::string(e.what()).find('\n'), std::string::npos) << e.what();
     }
   }
-  void execute(const std::string& sql) {
-    sqlite3* db = nullptr;
-    ASSERT_EQ(sqlite3_open(path_.c_str(), &db), SQLITE_OK);
-    ASSERT_EQ(sqlite3_exec(db, sql.c_str(), nullptr, nullptr, nullptr), SQLITE_OK) << sqlite3_errmsg(db);
-    sqlite3_close(db);
-  }
+  void execute(const std::string& sql) { test::execute_sql(path_, sql); }
   std::vector<std::string> damaged_places() {
     NoProgress progress;
     std::vector<std::string> places;

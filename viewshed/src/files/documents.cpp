@@ -101,8 +101,8 @@ Document blockers_document(const Store& store, const Result& result) {
       blockers.push_back({cells,
                           {{"theme", store.metadata().themes[theme - std::size_t{1}].name},
                            {"feature", found[i] ? Document(found[i]->name) : Document(nullptr)},
-                           {"feature_id", has_id ? Document(found[i]->id) : Document(nullptr)},
                            {"feature_number", numbers[i]},
+                           {"feature_id", has_id ? Document(found[i]->id) : Document(nullptr)},
                            {"cells", cells}}});
     }
   }

@@ -17,6 +17,7 @@
 
 #include "gdal/crs.hpp"
 #include "gdal/quiet_gdal.hpp"
+#include "import/footprints/city_json_attributes.hpp"
 #include "import/footprints/city_json_values.hpp"
 #include "import/source/findings.hpp"
 #include "import/source/source_context.hpp"
@@ -50,7 +51,7 @@ constexpr std::uint64_t kMemoryPerByte = 16;
 class CityModel {
  public:
   CityModel(const CityJsonQuery& query, const std::string& to_crs)
-      : query_(query), findings_(query.path), model_(parse(query)) {
+      : query_(query), findings_(query.path), model_(parse(query)), attributes_(query.path, query.kept) {
     in_place({}, [&] { place_vertices(to_crs); });
   }
 
@@ -59,12 +60,15 @@ class CityModel {
     in_place({}, [&] {
       const CityJsonCounts counts(model_);
       check_templates(model_, counts);
-      for (const auto& [name, value] : member_or_empty(model_, "CityObjects", Json::value_t::object).items())
+      const Json& objects = member_or_empty(model_, "CityObjects", Json::value_t::object);
+      for (const auto& [name, value] : objects.items())
         in_place(name, [&, &title = name, &city_object = value] { read(title, city_object, counts, others); });
+      keep_attributes(objects);
     });
     for (const auto& [type, count] : others)
       source_.warnings.push_back(fmt::format("{}: {} objects of type {} passed over", query_.path, count, type));
     for (std::string& line : findings_.lines()) source_.warnings.push_back(std::move(line));
+    for (std::string& line : attributes_.warnings()) source_.warnings.push_back(std::move(line));
     return std::move(source_);
   }
 
@@ -92,15 +96,28 @@ class CityModel {
 
   void read(const std::string& name, const Json& city_object, const CityJsonCounts& counts,
             std::map<std::string, int>& others) {
-    const std::string type = text_member(city_object, "type");
     const Json& geometries = member_or_empty(city_object, "geometry", Json::value_t::array);
     for (const Json& geometry : geometries) check_indices(geometry, counts);
-    if (type != "Building" && type != "BuildingPart") {
-      ++others[type];
-    } else if (!geometries.empty()) {
+    if (!is_building(city_object)) {
+      ++others[text_member(city_object, "type")];
+      return;
+    }
+    attributes_.note(city_object);
+    if (!geometries.empty()) {
       add(name, geometries);
     } else if (!city_object.contains("children")) {
       pass_over(name, "has no geometry");
+    }
+  }
+
+  /// Features have been called by their keys so far.
+  void keep_attributes(const Json& objects) {
+    attributes_.finish(objects);
+    source_.fields = attributes_.fields();
+    for (FootprintFeature& feature : source_.features) {
+      FeatureRecord record = attributes_.record(feature.name);
+      if (!record.name.empty()) feature.name = record.name;
+      if (query_.kept.any()) source_.records.push_back(std::move(record));
     }
   }
 
@@ -329,6 +346,7 @@ class CityModel {
   const CityJsonQuery& query_;
   Findings findings_;
   const Json model_;
+  CityJsonAttributes attributes_;
   std::vector<Point3> vertices_;
   FootprintSource source_;
 };

@@ -17,12 +17,14 @@ struct CityJsonQuery {
   std::string crs;  ///< overrides the file's own
   std::uint64_t memory_bytes = std::uint64_t{4} << 30;
   bool ground_as_base = true;  ///< the least elevation of the ground surfaces, or of all; else the terrain's
+  FeatureQuery kept;           ///< attributes; objects that have no name or id among them are called by their keys
 };
 
 /// In the CRS `to_crs` (WKT). Objects that cannot be used are passed over with a warning: one line per object, or one
 /// per type for those that are no buildings. Throws FileError for a file that is not readable, no CityJSON, or holds an
-/// index that is no whole number in range (naming the object), InputError for a CRS that is missing or unknown, for
-/// heights beyond kFarthestHeight and, before it is read, for a file that takes more than the memory.
+/// index that is no whole number in range (naming the object) or for an attribute that no building has, InputError for
+/// a CRS that is missing or unknown, for heights beyond kFarthestHeight, for attributes that a store cannot keep and,
+/// before it is read, for a file that takes more than the memory.
 FootprintSource read_city_json(const CityJsonQuery& query, const std::string& to_crs);
 
 }  // namespace itin

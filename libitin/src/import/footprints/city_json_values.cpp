@@ -145,6 +145,11 @@ std::size_t index_of(const Json& number, std::size_t count, const char* what) {
   return static_cast<std::size_t>(value);
 }
 
+bool is_building(const Json& city_object) {
+  const std::string type = text_member(city_object, "type");
+  return type == "Building" || type == "BuildingPart";
+}
+
 double level_of_detail(const Json& geometry) {
   const auto lod = geometry.find("lod");
   if (lod == geometry.end()) return 0;

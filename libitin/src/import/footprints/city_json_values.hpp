@@ -30,6 +30,8 @@ const nlohmann::json::array_t& items_of(const nlohmann::json& array, const char*
 std::array<double, 3> coordinates(const nlohmann::json& array, const char* what);
 /// A whole number below `count`; `what` the index is of.
 std::size_t index_of(const nlohmann::json& number, std::size_t count, const char* what);
+/// Whether the object is a building or a part of one.
+bool is_building(const nlohmann::json& city_object);
 /// Numbers and texts: "2", "2.2".
 double level_of_detail(const nlohmann::json& geometry);
 /// How many arrays enclose a surface; 0 for geometries without surfaces.

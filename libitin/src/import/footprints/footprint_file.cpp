@@ -70,6 +70,7 @@ FootprintSource read_model(const std::string& path, const ImportOptions& options
   query.crs = options.crs;
   query.ground_as_base = !options.base;
   query.memory_bytes = options.memory_bytes;
+  query.kept = feature_query(options);
   return read_city_json(query, store.crs_wkt);
 }
 

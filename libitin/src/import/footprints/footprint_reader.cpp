@@ -64,6 +64,7 @@ class FootprintLayer {
       add(*feature);
     }
     for (std::string& line : findings_.lines()) source_.warnings.push_back(std::move(line));
+    for (std::string& line : kept_->warnings()) source_.warnings.push_back(std::move(line));
     if (unused_z_)
       source_.warnings.push_back(query_.path + ": Z of the footprints is not used; say whether it is base or top");
     return std::move(source_);
@@ -75,7 +76,7 @@ class FootprintLayer {
   void add(const OGRFeature& feature) {
     FootprintFeature footprint;
     FeatureRecord record = kept_->record(feature);
-    footprint.name = query_.kept.name_field.empty() ? fmt::format("feature {}", feature.GetFID()) : record.name;
+    footprint.name = record.name.empty() ? fmt::format("feature {}", feature.GetFID()) : record.name;
     footprint.kind = query_.kind;
     footprint.roof = query_.roof;
     const OGRGeometry* geometry = feature.GetGeometryRef();

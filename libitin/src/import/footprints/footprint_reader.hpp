@@ -14,7 +14,7 @@
 #include <itin/geometry.hpp>
 #include <itin/progress.hpp>
 
-#include "import/source/feature_fields.hpp"
+#include "import/source/kept_features.hpp"
 #include "store/footprint.hpp"
 
 namespace itin {

@@ -119,6 +119,7 @@ ReadCounts LineLayer::read(const SourceContext& context, const Sink& sink, Progr
   ReadCounts counts = placement.counts();
   counts.read = vertices;
   counts.filtered = layer_.filtered();
+  for (std::string& line : fields_.warnings()) counts.warnings.push_back(std::move(line));
   describe(counts, context.grid, progress);
   return counts;
 }

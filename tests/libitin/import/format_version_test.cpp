@@ -1,0 +1,58 @@
+// A store has the lowest format that can hold what is in it, so that older programs read what they can.
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include <itin/import.hpp>
+#include <itin/store.hpp>
+
+#include "support/raster_file.hpp"
+#include "support/temporary_directory.hpp"
+#include "support/vector_file.hpp"
+
+namespace itin {
+namespace {
+
+class FormatVersion : public testing::Test {
+ protected:
+  FormatVersion() {
+    test::write_raster(directory_.file("ground.tif"), {300000, 200000, 20, 20, 20, 27700}, [](int, int) { return 5; });
+    test::write_lines(directory_.file("rows.geojson"), {test::box(300100, 199800, 300140, 199820, 7)});
+  }
+
+  int of(ThemeKind kind, bool standing, bool attributes) {
+    const std::string path = directory_.file(std::to_string(++stores_) + ".itin");
+    ImportOptions ground, rows;
+    NoProgress progress;
+    ground.sources = {directory_.file("ground.tif")};
+    import_terrain(path, ground, progress);
+    EXPECT_EQ(Store(path).metadata().format_version, 4);
+    rows.sources = {directory_.file("rows.geojson")};
+    rows.kind = kind;
+    rows.theme = "rows";
+    if (standing) rows.height_field = "h";
+    if (!attributes) rows.attributes.emplace();
+    import_lines(path, rows, progress);
+    // Nothing is lost when it is written again.
+    const int version = Store(path).metadata().format_version;
+    import_terrain(path, ground, progress);
+    EXPECT_EQ(Store(path).metadata().format_version, version);
+    return version;
+  }
+
+  const test::TemporaryDirectory directory_;
+  int stores_ = 0;
+};
+
+TEST_F(FormatVersion, IsTheLowestThatHoldsTheStore) {
+  EXPECT_EQ(of(ThemeKind::Roads, false, false), 4);
+  EXPECT_EQ(of(ThemeKind::Buildings, true, false), 4);
+  EXPECT_EQ(of(ThemeKind::Terraces, false, false), 5);
+  EXPECT_EQ(of(ThemeKind::Terraces, true, false), 5);
+  EXPECT_EQ(of(ThemeKind::Roads, false, true), 6);
+  EXPECT_EQ(of(ThemeKind::Buildings, true, true), 6);
+  EXPECT_EQ(of(ThemeKind::Terraces, true, true), 6);
+}
+
+}  // namespace
+}  // namespace itin
