@@ -36,7 +36,7 @@ struct ImportOptions {
       z_field;  ///< the height attribute of point layers and CSV; default: Z of the geometry, or the third column
   std::string layer;
   std::string where;
-  /// Of lines, footprints and CityJSON: what the store keeps of their features, for exports and reports.
+  /// What the store keeps of the features of lines, footprints and CityJSON, for exports and reports.
   std::string id_field;                                ///< default: the source's number or key for the feature
   std::string name_field;                              ///< also the name of a raised feature in messages; default: none
   std::optional<std::vector<std::string>> attributes;  ///< fields; default: all of numbers, texts, dates and times

@@ -20,9 +20,9 @@ struct FeatureLine {
   std::vector<Point3> points;            ///< at least two; the first is also the last of a ring
 };
 
-/// Theme by theme, those that no feature is known of first, then by the features' numbers. Of lines on the ground these
-/// are all edges of the surface that meet the window, joined as far as they go on, whatever the window; an edge that
-/// features share is part of a line of each. Of themes that stand they are the outlines of the footprints that have a
+/// Theme by theme, those that no feature is known of first, then by the features' numbers. Lines on the ground are
+/// all edges of the surface that meet the window, joined as far as they go on, whatever the window; an edge that
+/// features share is part of a line of each. Themes that stand have the outlines of the footprints that have a
 /// part of the surface, as they were imported, rounded to the grid, at the height of the terrain under them: all sides
 /// that meet the window and have terrain under both ends. Measured roofs without footprints have the outlines of their
 /// surfaces together, and rasters of heights have none.

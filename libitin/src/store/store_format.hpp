@@ -11,9 +11,11 @@
 namespace itin::format {
 
 inline constexpr std::uint32_t kApplicationId = 0x4954494e;  // "ITIN"
-inline constexpr std::uint32_t kVersion = 6;              ///< of stores that keep features
-inline constexpr std::uint32_t kVersionWithTerraces = 5;  ///< of others with a theme of terraces, or rasters of heights that stand
-/// Of all others: readers of that version read them.
+/// For stores that keep ids, names or attributes of features.
+inline constexpr std::uint32_t kVersion = 6;
+/// For others with a theme of terraces, or rasters of heights that stand.
+inline constexpr std::uint32_t kVersionWithTerraces = 5;
+/// For all others: readers of that version read them.
 inline constexpr std::uint32_t kPlainVersion = 4;
 /// Earlier ones kept nothing of what their surfaces left out.
 inline constexpr int kFirstVersionThatSetsAside = 4;

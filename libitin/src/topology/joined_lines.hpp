@@ -19,8 +19,8 @@ struct JoinedLine {
 };
 
 /// Every edge is part of one line, once. Lines begin and end at vertices where other than two edges meet; what has none
-/// is a ring, which begins at its first vertex. The same order for the same set of edges. O(n log n). Precondition: no
-/// edge comes twice.
+/// is a ring, which begins at its first vertex. Their order depends on the set of edges alone. O(n log n).
+/// Precondition: no edge comes twice.
 std::vector<JoinedLine> joined_lines(std::span<const LineEnds> edges);
 
 }  // namespace itin

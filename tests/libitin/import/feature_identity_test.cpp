@@ -204,7 +204,7 @@ TEST_F(FeatureIdentity, HoldsAtEveryLevel) {
         pieces.push_back({grid.point(e->a), grid.point(e->b)});
         for (const Point3& p : pieces.back()) EXPECT_LE(distance_to(line, p), tolerance) << id;
       }
-      // Of the whole line nothing is missing, its ends least of all.
+      // Nothing of the whole line is missing, its ends least of all.
       for (const Point3& p : line) {
         double least = tolerance + 1;
         for (const auto& piece : pieces) least = std::min(least, distance_to(piece, p));

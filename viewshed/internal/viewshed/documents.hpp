@@ -17,7 +17,7 @@ std::uint64_t cells_without_loss(const Result& result);
 /// `crs`, `surface`, `refraction`, `grid`, `cells`, `area_m2`, of a certified one `decided_percent`, and `statistics`.
 Document viewshed_document(const StoreMetadata& metadata, const Result& result);
 
-/// Of mode kBlocker: the features that hide cells, with their theme, name and id by their source (null where it gives
+/// Mode kBlocker: the features that hide cells, with their theme, name and id by their source (null where it gives
 /// none), number and cells; what hides most first.
 Document blockers_document(const Store& store, const Result& result);
 

@@ -30,8 +30,8 @@ class CityJsonAttributes {
   void finish(const nlohmann::json& objects);
   const std::vector<AttributeField>& fields() const { return fields_; }
 
-  /// Of the object with this key, which is its id unless another was asked for. Truth values are 0 and 1. Throws
-  /// InputError, naming object and attribute, for a text that is too long in an attribute that was asked for.
+  /// What is kept of the object with this key, which is its id unless another was asked for. Truth values are 0 and 1.
+  /// Throws InputError, naming object and attribute, for a text that is too long in an attribute that was asked for.
   FeatureRecord record(const std::string& key);
   /// What was not kept of the records so far, though all was asked for. One line each.
   std::vector<std::string> warnings() const { return texts_.warnings(); }
