@@ -58,7 +58,7 @@ class Columns {
     std::vector<std::size_t>& places = places_[number];
     for (const AttributeField& field : theme.fields) {
       const auto [at, fresh] = attributes_.try_emplace(field.name, fields_.size());
-      if (fresh) fields_.push_back({unused(field.name), type_of(field.type)});
+      if (fresh) fields_.emplace_back(unused(field.name), type_of(field.type));
       Type& type = fields_[at->second].second;
       if (type != type_of(field.type)) type = Type::kText;
       places.push_back(at->second);

@@ -160,7 +160,8 @@ class Inspection {
         return std::any_of(sources.begin(), sources.end(), is_foreign) ? kForeignSource : nullptr;
       });
     }
-    for (std::uint16_t theme = 1; theme <= list.line_blocks.size(); ++theme) {
+    for (std::size_t t = 1; t <= list.line_blocks.size(); ++t) {
+      const auto theme = static_cast<std::uint16_t>(t);
       for (std::uint32_t i = 0; i < list.blocks_of(theme); ++i) {
         inspect(theme, i, [&]() -> const char* {
           for (const ImportedSegment& s : set_aside_lines(rows, theme, i).imported) {

@@ -73,11 +73,12 @@ std::vector<ImportedPiece> imported_pieces(const StoreRows& rows, std::size_t th
   const SetAsideList list = set_aside_list(rows);
   std::vector<ImportedPiece> pieces;
   std::vector<std::vector<Segment>> made(themes);
-  for (std::uint16_t theme = 1; theme <= themes; ++theme) {
-    for (std::uint32_t i = 0; i < list.blocks_of(theme); ++i) {
-      const SetAsideLines lines = set_aside_lines(rows, theme, i);
-      made[theme - 1].insert(made[theme - 1].end(), lines.made.begin(), lines.made.end());
-      for (const ImportedSegment& s : lines.imported) pieces.push_back({theme - 1U, s});
+  for (std::uint32_t theme = 0; theme < themes; ++theme) {
+    const auto number = static_cast<std::uint16_t>(theme + 1);
+    for (std::uint32_t i = 0; i < list.blocks_of(number); ++i) {
+      const SetAsideLines lines = set_aside_lines(rows, number, i);
+      made[theme].insert(made[theme].end(), lines.made.begin(), lines.made.end());
+      for (const ImportedSegment& s : lines.imported) pieces.push_back({theme, s});
     }
   }
   for (const Segment& s : stored) {

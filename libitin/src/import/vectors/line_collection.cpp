@@ -105,8 +105,8 @@ void LineCollection::find_first_sources(const std::vector<SourceInfo>& sources) 
 
 void LineCollection::take_segments(const Store& store) {
   store.points().segments(store.points().bounds(), stored_);
-  for (std::uint16_t theme = 1; theme <= themes_.size(); ++theme)
-    file_of(store).segment_features(theme, store.points().bounds(), stored_features_);
+  for (std::size_t t = 1; t <= themes_.size(); ++t)
+    file_of(store).segment_features(static_cast<std::uint16_t>(t), store.points().bounds(), stored_features_);
   std::erase_if(stored_features_, [](const SegmentFeature& f) { return f.segment.finest > 0; });
   std::sort(stored_features_.begin(), stored_features_.end());
   stored_features_.erase(std::unique(stored_features_.begin(), stored_features_.end()), stored_features_.end());
