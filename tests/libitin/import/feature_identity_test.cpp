@@ -12,14 +12,8 @@
 #include "libitin/import/feature_imports.hpp"
 #include "support/sound_store.hpp"
 
-namespace itin {
+namespace itin::test {
 namespace {
-
-using test::Edges;
-using test::edges_of;
-using test::IdentifiedEdge;
-using test::LineFeature;
-using test::records_of;
 
 /// In doubles, which are exact for what they clip but for the very last bits.
 bool meets_box(const GridBox& box, const GridPoint& a, const GridPoint& b) {
@@ -44,14 +38,14 @@ double distance_to(const std::vector<Point3>& line, Point3 p) {
   return least;
 }
 
-class FeatureIdentity : public test::FeatureImports {};
+class FeatureIdentity : public FeatureImports {};
 
 /// In the plane, for steps of 1 cm: where lines were led through crossings, and where their vertices are rounded.
 constexpr double kRoundedBy = 0.015;
 
 TEST_F(FeatureIdentity, HoldsAtEveryLevel) {
-  test::write_lines(path("ridges.geojson"), wandering("ridge", 16));
-  test::write_lines(path("lanes.geojson"), wandering("lane", 16));
+  write_lines(path("ridges.geojson"), wandering("ridge", 16));
+  write_lines(path("lanes.geojson"), wandering("lane", 16));
   import("hill.itin", ground());
   import("hill.itin", options("ridges.geojson", ThemeKind::Breaklines, "ridges"));
   import("hill.itin", options("lanes.geojson", ThemeKind::Roads, "lanes"));
@@ -90,12 +84,12 @@ TEST_F(FeatureIdentity, HoldsAtEveryLevel) {
       }
     }
   }
-  test::expect_sound(store);
+  expect_sound(store);
 }
 
 TEST_F(FeatureIdentity, IsThatOfTheWholeInEveryWindow) {
-  test::write_lines(path("ridges.geojson"), wandering("ridge", 16));
-  test::write_lines(path("houses.geojson"), houses(30));
+  write_lines(path("ridges.geojson"), wandering("ridge", 16));
+  write_lines(path("houses.geojson"), houses(30));
   import("hill.itin", ground());
   import("hill.itin", options("ridges.geojson", ThemeKind::Breaklines, "ridges"));
   import("hill.itin", raised("houses.geojson", "houses"));
@@ -119,20 +113,20 @@ TEST_F(FeatureIdentity, IsThatOfTheWholeInEveryWindow) {
 }
 
 TEST_F(FeatureIdentity, KnowsNoOrderOfImport) {
-  test::write_lines(path("ridges.geojson"), wandering("ridge", 10));
-  test::write_lines(path("edges.geojson"), wandering("edge", 6));
+  write_lines(path("ridges.geojson"), wandering("ridge", 10));
+  write_lines(path("edges.geojson"), wandering("edge", 6));
   std::vector<LineFeature> lanes = wandering("lane", 10);
-  test::write_lines(path("lanes.geojson"), lanes);
+  write_lines(path("lanes.geojson"), lanes);
   // Nothing is kept of these, of which some run along lanes.
   std::vector<LineFeature> unnamed = wandering("path", 4);
   unnamed.insert(unnamed.end(), lanes.begin() + 2, lanes.begin() + 4);
-  test::write_lines(path("unnamed.geojson"), unnamed);
+  write_lines(path("unnamed.geojson"), unnamed);
   ImportOptions nameless = options("unnamed.geojson", ThemeKind::Roads, "lanes");
   nameless.id_field.clear();
   nameless.attributes.emplace();
-  test::write_lines(path("houses.geojson"), houses(20));
-  test::write_raster(path("survey.tif"), {300300, 199700, 5, 60, 60, 27700},
-                     [](int c, int r) { return 110 + 3 * std::sin(c / 3.0) + 2 * std::cos(r / 4.0); });
+  write_lines(path("houses.geojson"), houses(20));
+  write_raster(path("survey.tif"), {300300, 199700, 5, 60, 60, 27700},
+               [](int c, int r) { return 110 + 3 * std::sin(c / 3.0) + 2 * std::cos(r / 4.0); });
   ImportOptions survey = ground();
   survey.sources = {path("survey.tif")};
   survey.replace = true;
@@ -158,9 +152,9 @@ TEST_F(FeatureIdentity, KnowsNoOrderOfImport) {
       EXPECT_EQ(edges_of(first, Window::all(), detail) == edges_of(other, Window::all(), detail), true)
           << tolerance << " m, round " << round;
     }
-    test::expect_sound(other);
+    expect_sound(other);
   }
 }
 
 }  // namespace
-}  // namespace itin
+}  // namespace itin::test

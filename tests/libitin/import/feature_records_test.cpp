@@ -11,19 +11,13 @@
 #include "libitin/import/feature_imports.hpp"
 #include "support/sound_store.hpp"
 
-namespace itin {
+namespace itin::test {
 namespace {
 
-using test::Edges;
-using test::edges_of;
-using test::IdentifiedEdge;
-using test::LineFeature;
-using test::records_of;
-
-class FeatureRecords : public test::FeatureImports {};
+class FeatureRecords : public FeatureImports {};
 
 TEST_F(FeatureRecords, ComeWithAttributesOrWithNone) {
-  test::write_lines(path("lanes.geojson"), wandering("lane", 3));
+  write_lines(path("lanes.geojson"), wandering("lane", 3));
   import("hill.itin", ground());
   ImportOptions lanes = options("lanes.geojson", ThemeKind::Roads, "lanes");
   lanes.name_field = "ref";
@@ -44,7 +38,7 @@ TEST_F(FeatureRecords, ComeWithAttributesOrWithNone) {
   // A field that holds texts elsewhere holds texts, and one more field comes last.
   LineFeature other{{{300200, 199200, 0}, {300300, 199300, 0}}};
   other.properties = R"({"rank":"high","owner":"council"})";
-  test::write_lines(path("paths.geojson"), {other});
+  write_lines(path("paths.geojson"), {other});
   ImportOptions paths = options("paths.geojson", ThemeKind::Roads, "lanes");
   paths.id_field.clear();
   import("hill.itin", paths);
@@ -55,7 +49,7 @@ TEST_F(FeatureRecords, ComeWithAttributesOrWithNone) {
   EXPECT_EQ(table.at(3)->id, "0");
   EXPECT_EQ(table.at(3)->values[3], AttributeValue(std::string("council")));
   EXPECT_EQ(table.at(2)->values[1], AttributeValue(std::int64_t{2}));
-  test::expect_sound(store);
+  expect_sound(store);
 
   import("bare.itin", ground());
   lanes.id_field.clear(), lanes.name_field.clear();
@@ -70,9 +64,9 @@ TEST_F(FeatureRecords, ComeWithAttributesOrWithNone) {
 }
 
 TEST_F(FeatureRecords, AreToldOfWhatStands) {
-  LineFeature hall = test::box(300200, 199200, 300240, 199220, 12);
+  LineFeature hall = box(300200, 199200, 300240, 199220, 12);
   hall.properties = R"({"h":12,"ref":"42","label":"Town Hall"})";
-  test::write_lines(path("hall.geojson"), {test::box(300300, 199200, 300340, 199220, 5), hall});
+  write_lines(path("hall.geojson"), {box(300300, 199200, 300340, 199220, 5), hall});
   import("town.itin", ground());
   ImportOptions houses = raised("hall.geojson", "houses");
   houses.name_field = "label";
@@ -115,4 +109,4 @@ TEST_F(FeatureRecords, OfMeasuredRoofsComeWithTheirOutlineTogether) {
 }
 
 }  // namespace
-}  // namespace itin
+}  // namespace itin::test

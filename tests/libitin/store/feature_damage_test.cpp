@@ -99,6 +99,17 @@ class FeatureDamage : public testing::Test {
   void forge(std::uint64_t key, const std::vector<std::uint8_t>& bytes) {
     test::forge_row(path_, BlobKind::Block, key, bytes);
   }
+  /// Calls visit(key, bytes) for a block of each kind that tells of features, and mends it.
+  template <class Visit>
+  void for_each_kind(const Visit& visit) {
+    for (const int tree : {format::kFeatureTree, format::edge_tree(kLanes), format::kSetAsideTree}) {
+      SCOPED_TRACE(tree);
+      const std::uint64_t key = keys(tree).front();
+      const std::vector<std::uint8_t> whole = bytes_of(key);
+      visit(key, whole);
+      forge(key, whole);
+    }
+  }
   /// Only this block is found damaged, and what reads it says so.
   void expect_found(std::uint64_t key, const std::string& trace) {
     const std::string place = format::place("block", key);
@@ -142,23 +153,18 @@ TEST_F(FeatureDamage, OfAnyByte) {
 }
 
 TEST_F(FeatureDamage, OfBlocksThatEndEarlyOrLate) {
-  for (const int tree : {format::kFeatureTree, format::edge_tree(kLanes), format::kSetAsideTree}) {
-    const std::uint64_t key = keys(tree).front();
-    const std::vector<std::uint8_t> whole = bytes_of(key);
+  for_each_kind([&](std::uint64_t key, const std::vector<std::uint8_t>& whole) {
     for (int i = 0; i < 8; ++i) {
       std::vector<std::uint8_t> bytes = whole;
-      bytes.resize(i == 0 ? 0 : random_() % whole.size());
+      bytes.resize(i == 0 ? 0 : i == 1 ? whole.size() + 1 : random_() % whole.size());
       forge(key, bytes);
-      expect_found(key, std::to_string(tree) + " cut to " + std::to_string(bytes.size()));
+      expect_found(key, std::to_string(bytes.size()) + " bytes of " + std::to_string(whole.size()));
     }
-    forge(key, whole);
-  }
+  });
 }
 
 TEST_F(FeatureDamage, OfBitsUnderAFittingSeal) {
-  for (const int tree : {format::kFeatureTree, format::edge_tree(kLanes), format::kSetAsideTree}) {
-    const std::uint64_t key = keys(tree).front();
-    const std::vector<std::uint8_t> whole = bytes_of(key);
+  for_each_kind([&](std::uint64_t key, const std::vector<std::uint8_t>& whole) {
     for (int i = 0; i < 60; ++i) {
       std::vector<std::uint8_t> bytes = whole;
       bytes[random_() % bytes.size()] ^= static_cast<std::uint8_t>(1U << random_() % 8);
@@ -171,8 +177,7 @@ TEST_F(FeatureDamage, OfBitsUnderAFittingSeal) {
         EXPECT_EQ(e.place(), format::place("block", key));
       }
     }
-    forge(key, whole);
-  }
+  });
 }
 
 TEST_F(FeatureDamage, OfTheNumberOfRecords) {
