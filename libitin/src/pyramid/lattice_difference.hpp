@@ -29,7 +29,7 @@ class LatticeDifference {
   /// What difference() and over_triangles() say of those of the triangles about the lattice's box whose own boxes meet
   /// the square, but for rounding in the last places of crossings. After compare().
   DifferenceRange over(const GridBox& square) const;
-  /// Of all these triangles.
+  /// Over all these triangles.
   DifferenceRange whole() const { return over(posts_.bounds()); }
 
  private:

@@ -27,7 +27,7 @@ struct Extent {
   std::int64_t first = 0, count = 0;
 };
 
-/// Of all posts that squares at [from, to] have, those within [least, greatest], where all data ends.
+/// The posts within [least, greatest], where all data ends, of all that squares at [from, to] have.
 std::optional<Extent> extent(std::int64_t origin, std::int64_t step, std::int64_t from, std::int64_t to,
                              std::int64_t least, std::int64_t greatest) {
   const std::int64_t first = std::max(ceil_divide(from - step - origin, step), ceil_divide(least - origin, step)),

@@ -23,7 +23,7 @@ class WholeLattice {
   /// where the fullest leaf at the box has no two columns and rows.
   static std::optional<WholeLattice> about(const PointIndex& index, const GridBox& box);
 
-  /// Of posts, two at least; counted from the lower left one.
+  /// How many posts, two at least; counted from the lower left one.
   std::int32_t columns() const { return columns_; }
   std::int32_t rows() const { return rows_; }
   /// Grid units.
