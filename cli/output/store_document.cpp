@@ -27,6 +27,7 @@ Document themes_document(const StoreMetadata& metadata) {
                       {"vertices", theme.vertices},
                       {"segments", theme.segments},
                       {"fields", std::move(fields)}});
+    if (theme.wall_offset) themes.back()["wall_offset_m"] = *theme.wall_offset;
   }
   return themes;
 }

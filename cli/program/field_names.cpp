@@ -58,6 +58,7 @@ constexpr std::array kNames{
     Names{"to_crs", "--to-crs"},
     Names{"tolerance", "--tolerance"},
     Names{"tolerances", "--levels"},
+    Names{"wall_offset", "--wall-offset"},
     Names{"where", "--where"},
     Names{"z_field", "--z-field"},
 };

@@ -66,6 +66,10 @@ class ImportVerb final : public Verb {
     app.add_option("--roof", roof_, "Buildings: flat (default), gabled, hipped or skeleton")->type_name("KIND");
     app.add_option("--thickness", thickness_, "Of walls and hedges that are given as lines (default: 0.3)")
         ->type_name("METRES");
+    app.add_option("--wall-offset", wall_offset_,
+                   "Of all features of a theme that stands: how far within its outline a feature has its full height; "
+                   "walls lean inwards by that much (default: 0.05, or two steps of --resolution)")
+        ->type_name("METRES");
     app.add_option("--height-step", height_step_,
                    "Rasters of buildings, vegetation or a surface: cells stand a multiple of this above the terrain, "
                    "and those of equal height together are a feature; more features take more memory (default: 2)")
@@ -173,6 +177,7 @@ class ImportVerb final : public Verb {
     given("base", base_);
     given("roof", roof_);
     if (options_.thickness) parameters["thickness_m"] = *options_.thickness;
+    if (options_.wall_offset) parameters["wall_offset_m"] = *options_.wall_offset;
     if (options_.height_step) parameters["height_step_m"] = *options_.height_step;
     if (options_.height_threshold) parameters["height_threshold_m"] = *options_.height_threshold;
     given("height_rounding", height_rounding_);
@@ -211,6 +216,7 @@ class ImportVerb final : public Verb {
   void validate_raised() {
     if (!height_.empty()) options_.height = parse_height("--height", height_, Range::kPositive);
     if (!thickness_.empty()) options_.thickness = parse_number("--thickness", thickness_, Range::kPositive);
+    if (!wall_offset_.empty()) options_.wall_offset = parse_number("--wall-offset", wall_offset_, Range::kPositive);
     if (!height_step_.empty()) options_.height_step = parse_height("--height-step", height_step_, Range::kPositive);
     if (!height_threshold_.empty())
       options_.height_threshold = parse_height("--height-threshold", height_threshold_, Range::kNotNegative);
@@ -319,7 +325,7 @@ class ImportVerb final : public Verb {
   std::string kind_ = "terrain";
   bool no_repair_ = false;
   std::string classes_, band_, sea_level_, max_gap_, levels_, resolution_, memory_;
-  std::string height_, base_, roof_, thickness_, height_step_, height_threshold_, height_rounding_;
+  std::string height_, base_, roof_, thickness_, wall_offset_, height_step_, height_threshold_, height_rounding_;
   std::vector<std::string> attributes_;
   ImportOptions options_;
 };

@@ -50,6 +50,9 @@ struct ImportOptions {
   std::optional<BaseRule> base;     ///< of buildings without base_field; default: minimum, or the floors of CityJSON
   std::optional<RoofKind> roof;     ///< default: flat
   std::optional<double> thickness;  ///< metres; of what stands on lines; default: 0.3
+  /// Metres, from two grid steps to 10: how far within its outline a feature's walls reach their full height. One for
+  /// all features of a theme; default: that of the theme, and of a new one 0.05 or two grid steps.
+  std::optional<double> wall_offset;
 
   // For rasters of heights that stand only: heights above the ground, of buildings and vegetation, and the elevations
   // of a surface.

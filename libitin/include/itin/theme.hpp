@@ -11,6 +11,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -85,6 +86,9 @@ struct ThemeInfo {
   std::uint32_t feature_blocks = 0;
   std::vector<AttributeField> fields = {};  ///< of its features, in the order in which imports brought them
   bool segments_have_features = false;      ///< its lines know which feature they are of
+  /// Metres: how far within their outlines the walls of its features reach their full height, where an import said so;
+  /// elsewhere 0.05 or two grid steps.
+  std::optional<double> wall_offset = {};
 
   bool is_raised() const { return footprint_blocks > 0; }
 };

@@ -19,10 +19,7 @@ namespace itin {
 namespace {
 
 void check(const FeatureOptions& options, const TerrainHeights* terrain) {
-  const double least = 2 * options.grid.resolution;
-  if (!(options.wall_offset >= least && options.wall_offset <= 10))
-    throw InputError(
-        fmt::format("a wall offset of {} m: from {} (two grid steps) to 10 m is possible", options.wall_offset, least));
+  require_wall_offset(options.wall_offset, options.grid);
   if (!(options.pitch_degrees > 0 && options.pitch_degrees < 80))
     throw InputError(
         fmt::format("a roof pitch of {} degrees: above 0 and below 80 is possible", options.pitch_degrees));
@@ -75,6 +72,14 @@ GridBox box_of(const PreparedFeature& feature) {
 }
 
 }  // namespace
+
+void require_wall_offset(double metres, const Grid& grid) {
+  constexpr double kGreatest = 10;
+  const double least = 2 * grid.resolution;
+  if (metres >= least && metres <= kGreatest) return;
+  throw InputError(fmt::format("`wall_offset`: {} m; from {} m (two steps of the grid) to {} m is possible", metres,
+                               least, kGreatest));
+}
 
 FeatureMesh build_feature_mesh(std::span<const FootprintFeature> features, const FeatureOptions& options,
                                const TerrainHeights* terrain, Progress& progress) {

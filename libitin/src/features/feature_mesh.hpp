@@ -65,9 +65,12 @@ struct FeatureMesh {
   std::uint64_t flat_instead = 0;  ///< roofs that were refused, each reported
 };
 
+/// Throws InputError unless it lies between two steps of the grid and 10 m.
+void require_wall_offset(double metres, const Grid& grid);
+
 struct FeatureOptions {
   Grid grid;
-  double wall_offset = 0.05;  ///< metres; at least 2 grid units
+  double wall_offset = 0.05;  ///< metres
   double pitch_degrees = 35;  ///< of roofs that do not say
 };
 

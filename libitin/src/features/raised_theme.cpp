@@ -32,8 +32,6 @@ namespace {
 
 /// Metres: the side of the pieces of ground that are triangulated at once.
 constexpr double kPiece = 1000;
-/// Metres, or two grid steps where those are more.
-constexpr double kWallOffset = 0.05;
 /// Memory of the ground's triangulation while features are raised on it. Measured, rounded up.
 constexpr std::uint64_t kBytesPerPoint = 400;
 /// The most points of ground that are triangulated at once, for several groups of features.
@@ -113,14 +111,14 @@ class Standing {
  public:
   /// `is_patch` by footprint, or empty.
   Standing(const Store& ground, std::span<const StoredFootprint> footprints, std::vector<bool> is_patch,
-           std::uint64_t memory_bytes)
+           double wall_offset, std::uint64_t memory_bytes)
       : ground_(ground),
         footprints_(footprints),
         is_patch_(std::move(is_patch)),
         memory_bytes_(memory_bytes),
         grid_(ground.metadata().grid) {
     options_.grid = grid_;
-    options_.wall_offset = std::max(kWallOffset, 2 * grid_.resolution);
+    options_.wall_offset = wall_offset;
     for (const LevelInfo& level : ground.metadata().levels)
       lateral_.push_back(level.lateral_tolerance / grid_.resolution);
   }
@@ -363,11 +361,15 @@ class Standing {
 
 }  // namespace
 
-RaisedFeatureTheme stand(const Store& ground, std::span<const StoredFootprint> footprints, std::uint64_t memory_bytes,
-                         Progress& progress) {
+double default_wall_offset(const Grid& grid) {
+  return std::max(0.05, 2 * grid.resolution);
+}
+
+RaisedFeatureTheme stand(const Store& ground, std::span<const StoredFootprint> footprints, double wall_offset,
+                         std::uint64_t memory_bytes, Progress& progress) {
   CellFeatures made = with_patches(ground, footprints, memory_bytes, progress);
   RaisedFeatureTheme theme = Standing(ground, made.any ? std::span<const StoredFootprint>(made.footprints) : footprints,
-                                      std::move(made.is_patch), memory_bytes)
+                                      std::move(made.is_patch), wall_offset, memory_bytes)
                                  .run(progress);
   theme.reports.insert(theme.reports.begin(), made.reports.begin(), made.reports.end());
   return theme;

@@ -47,10 +47,13 @@ struct RaisedFeatureTheme {
   std::uint64_t built = 0, refused = 0;
 };
 
-/// Footprints that reach beyond the ground are refused. Reads the ground in pieces of about a square kilometre; memory
-/// follows these and the features. Throws InputError where the ground about features that hang together takes more than
-/// `memory_bytes`, Cancelled, and what triangulate() throws.
-RaisedFeatureTheme stand(const Store& ground, std::span<const StoredFootprint> footprints, std::uint64_t memory_bytes,
-                         Progress& progress);
+/// Metres: what walls are offset by where no import says so.
+double default_wall_offset(const Grid& grid);
+
+/// `wall_offset` in metres. Footprints that reach beyond the ground are refused. Reads the ground in pieces of about a
+/// square kilometre; memory follows these and the features. Throws InputError where the ground about features that hang
+/// together takes more than `memory_bytes`, Cancelled, and what triangulate() throws.
+RaisedFeatureTheme stand(const Store& ground, std::span<const StoredFootprint> footprints, double wall_offset,
+                         std::uint64_t memory_bytes, Progress& progress);
 
 }  // namespace itin

@@ -189,6 +189,7 @@ void StorePass::add_lines(LineLayer& layer, Progress& progress) {
 
 void StorePass::add_footprints(FootprintFile& file) {
   const std::uint32_t theme = collection_.theme(options_.theme, *options_.kind, true);
+  if (options_.wall_offset) collection_.offset_walls(theme, *options_.wall_offset, additions_.plan.grid);
   report_.read_features += file.cells > 0 ? 0 : file.footprints.features.size();
   report_.read += file.vertices + file.cells;
   report_.voids += file.voids;

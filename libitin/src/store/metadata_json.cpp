@@ -77,6 +77,7 @@ ordered_json theme_to_json(const ThemeInfo& theme) {
                  {"segments", theme.segments}, {"footprint_blocks", theme.footprint_blocks}};
   if (theme.feature_blocks > 0) j["feature_blocks"] = theme.feature_blocks;
   if (theme.segments_have_features) j["segments_have_features"] = true;
+  if (theme.wall_offset) j["wall_offset_m"] = *theme.wall_offset;
   for (const AttributeField& field : theme.fields)
     j["fields"].push_back({{"name", field.name}, {"type", name_of(field.type)}});
   return j;
@@ -99,6 +100,7 @@ ThemeInfo theme_from_json(const json& j) {
                     j.value("footprint_blocks", std::uint32_t{0}),
                     j.value("feature_blocks", std::uint32_t{0})};
     theme.segments_have_features = j.value("segments_have_features", false);
+    if (j.contains("wall_offset_m")) theme.wall_offset = j.at("wall_offset_m").get<double>();
     for (const json& field : j.value("fields", json::array())) theme.fields.push_back(field_from_json(field));
     return theme;
   } catch (const InputError& e) {

@@ -60,6 +60,8 @@ constexpr std::array kOptions{
     Option{"`attributes`", [](const ImportOptions& o) { return o.attributes.has_value(); },
            kLines | kFootprints | kCityModels},
     Option{"`thickness`", [](const ImportOptions& o) { return o.thickness.has_value(); }, kFootprints},
+    Option{"`wall_offset`", [](const ImportOptions& o) { return o.wall_offset.has_value(); },
+           kFootprints | kCityModels | kCells},
     Option{"`base_field`", [](const ImportOptions& o) { return !o.base_field.empty(); }, kBuildings},
     Option{"`base`", [](const ImportOptions& o) { return o.base.has_value(); }, kBuildings | kCityModels},
     Option{"`height_step`", [](const ImportOptions& o) { return o.height_step.has_value(); }, kCells},

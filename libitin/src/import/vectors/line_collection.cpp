@@ -10,6 +10,7 @@
 #include <itin/error.hpp>
 #include <itin/triangulate.hpp>
 
+#include "features/feature_mesh.hpp"
 #include "features/part_vertices.hpp"
 #include "import/source/source_order.hpp"
 #include "store/store_file.hpp"
@@ -222,6 +223,17 @@ std::uint32_t LineCollection::theme(const std::string& name, ThemeKind kind, boo
   return number;
 }
 
+void LineCollection::offset_walls(std::uint32_t theme, double metres, const Grid& grid) {
+  require_wall_offset(metres, grid);
+  ThemeInfo& info = themes_[theme];
+  const double before = info.wall_offset.value_or(default_wall_offset(grid));
+  if (metres != before && !footprints_[theme].empty())
+    throw InputError(fmt::format(
+        "theme '{}': has a `wall_offset` of {} m already, not {} m; leave it out, or choose another name with `theme`",
+        info.name, before, metres));
+  info.wall_offset = metres;
+}
+
 void LineCollection::add(std::uint32_t theme, std::uint16_t source, std::uint32_t feature,
                          std::span<const GridPoint> line) {
   line_vertices_ += line.size();
@@ -261,7 +273,9 @@ void LineCollection::raise(const Store& ground, RaisedFeatures& report, Progress
   changed_.resize(themes_.size());
   for (std::uint32_t t = 0; t < themes_.size(); ++t) {
     if (footprints_[t].empty()) continue;
-    RaisedFeatureTheme standing = stand(ground, in_order_of_content(footprints_[t]), memory_bytes_, progress);
+    const double wall_offset = themes_[t].wall_offset.value_or(default_wall_offset(ground.metadata().grid));
+    RaisedFeatureTheme standing =
+        stand(ground, in_order_of_content(footprints_[t]), wall_offset, memory_bytes_, progress);
     themes_[t].features = standing.built;
     report.features += standing.built;
     report.refused += standing.refused;

@@ -62,6 +62,9 @@ class LineCollection {
   /// The number of a theme, which is made if there is none of the name. Throws InputError where one has another kind,
   /// or is raised where the other is not.
   std::uint32_t theme(const std::string& name, ThemeKind kind, bool raised);
+  /// Where the walls of a standing theme reach their height. Throws InputError for an offset out of range, and for
+  /// another one than the theme's footprints so far have.
+  void offset_walls(std::uint32_t theme, double metres, const Grid& grid);
   /// A line of a feature of the theme, by its number, or of kNoFeature.
   void add(std::uint32_t theme, std::uint16_t source, std::uint32_t feature, std::span<const GridPoint> line);
   void count_features(std::uint32_t theme, std::uint64_t count) { themes_[theme].features += count; }
