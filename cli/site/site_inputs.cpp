@@ -68,13 +68,21 @@ class InputReader {
     request.mast_height = options_.masts.front().height;
     request.target_height = options_.target_height;
     request.earth = options_.earth.earth();
+    request.themes = options_.themes.choice();
+    request.on_surface = options_.on_surface;
+    request.targets_on_surface = options_.targets_on_surface;
     for (const viewshed::Proposal& proposal : viewshed::propose_sites(store_, area, request, progress_)) {
       inputs_.candidates.push_back({.id = fmt::format("{}", inputs_.candidates.size()),
                                     .position = proposal.position,
                                     .height = std::nullopt,
                                     .cost = 0,
-                                    .why = proposal.summit ? "summit" : "visibility index"});
+                                    .why = reason_for(proposal)});
     }
+  }
+
+  static std::string reason_for(const viewshed::Proposal& proposal) {
+    if (proposal.roof) return proposal.summit ? "highest roof" : "roof by visibility index";
+    return proposal.summit ? "summit" : "visibility index";
   }
 
   void read_candidates() {

@@ -6,7 +6,8 @@
 //
 // The area is cut into squares of the spacing. Each proposes its highest post, if that is a summit (no neighbour nearby
 // is higher), and the post of the greatest visibility index: the share that it sees of a few targets at random
-// distances and azimuths.
+// distances and azimuths. What stands on the ground hides; where sites may stand on it, roofs of buildings take part as
+// posts do, in their middle, and the highest roof of a square as a summit does.
 #pragma once
 
 #include <vector>
@@ -14,6 +15,7 @@
 #include <itin/earth.hpp>
 #include <itin/progress.hpp>
 #include <itin/store.hpp>
+#include <itin/theme.hpp>
 #include <itin/window.hpp>
 
 namespace itin::viewshed {
@@ -24,11 +26,15 @@ struct ProposalRequest {
   double mast_height = 20;
   double target_height = 2;
   Earth earth;
+  ThemeChoice themes = ThemeChoice::none();  ///< what stands on the ground
+  bool on_surface = false;                   ///< on roofs of these as well, at least three metres high
+  bool targets_on_surface = false;           ///< targets stand on these themes, too
 };
 
 struct Proposal {
   Point2 position;
-  bool summit = false;
+  bool summit = false;          ///< or the highest roof
+  bool roof = false;            ///< stands on a building
   double visibility_index = 0;  ///< 0 to 1
 };
 

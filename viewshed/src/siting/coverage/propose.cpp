@@ -1,11 +1,12 @@
 #include <algorithm>
 #include <cmath>
-#include <unordered_map>
+#include <optional>
 
 #include <fmt/format.h>
 
 #include <itin/call_progress.hpp>
 #include <itin/error.hpp>
+#include <itin/grid_units.hpp>
 #include <itin/level_choice.hpp>
 #include <itin/triangulate.hpp>
 #include <viewshed/site_proposal.hpp>
@@ -26,6 +27,10 @@ constexpr unsigned kTargets = 2 * SightLines::kSize;
 /// Posts tried in a square: the highest, and others spread over the rest.
 constexpr std::size_t kHighest = 8, kOthers = 8;
 constexpr double kMostSquares = 1e6;
+/// Roofs to stand on are so high, and their triangles so large; metres and square metres.
+constexpr double kLeastRoofHeight = 3, kLeastRoofArea = 2;
+/// What rises by more above a post, metres, stands on it.
+constexpr double kStandsOnPost = 0.05;
 
 bool within(const Window::Ring& ring, Point2 p) {
   bool inside = false;
@@ -35,6 +40,13 @@ bool within(const Window::Ring& ring, Point2 p) {
   }
   return inside;
 }
+
+/// A place where a site may stand.
+struct Post {
+  Point3 place;  ///< metres
+  std::uint64_t seed = 0;
+  bool summit = false, roof = false;
+};
 
 std::vector<bool> summits(const Tin& tin) {
   std::vector<bool> highest(tin.vertices.size(), true);
@@ -48,16 +60,80 @@ std::vector<bool> summits(const Tin& tin) {
   return highest;
 }
 
+bool is_raised(const Tin& tin, std::uint32_t vertex) {
+  return !tin.standing.empty() && tin.standing[vertex] != 0;
+}
+
+/// Vertices of the ground that nothing stands on, nor beside where these are the surface's own.
+std::vector<Post> posts_on_ground(const Tin& tin, const SampledSurface* surface) {
+  std::vector<bool> beside(tin.vertices.size());
+  for (const Triangle& t : tin.triangles) {
+    if (std::none_of(t.begin(), t.end(), [&](std::uint32_t v) { return is_raised(tin, v); })) continue;
+    for (const std::uint32_t v : t) beside[v] = true;
+  }
+  const auto is_free = [&](std::uint32_t v) {
+    if (beside[v] || surface == nullptr) return !beside[v];
+    const GridPoint& p = tin.vertices[v];
+    const auto height = surface->height({static_cast<double>(p.x), static_cast<double>(p.y)});
+    return height && (*height - p.z) * tin.grid.resolution <= kStandsOnPost;
+  };
+  const std::vector<bool> highest = summits(tin);
+  std::vector<Post> posts;
+  for (std::uint32_t v = 0; v < tin.vertices.size(); ++v)
+    if (is_free(v)) posts.push_back({tin.point(v), tin.id(v), highest[v], false});
+  return posts;
+}
+
+bool is_roof(const Tin& tin, const Triangle& t, const std::vector<ThemeInfo>& themes) {
+  const std::uint16_t theme = tin.theme(t);
+  if (theme == 0 || themes[theme - 1U].kind != ThemeKind::Buildings) return false;
+  // Walls have a corner at their foot.
+  if (!std::all_of(t.begin(), t.end(), [&](std::uint32_t v) { return is_raised(tin, v); })) return false;
+  const Point3 a = tin.point(t[0]), b = tin.point(t[1]), c = tin.point(t[2]);
+  return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x) >= 2 * kLeastRoofArea;
+}
+
+/// The middles of the triangles of roofs, on the grid.
+void add_roofs(const Store& store, const Tin& tin, const SampledSurface& surface, const SampledSurface& ground,
+               std::vector<Post>& posts) {
+  const Grid& units = tin.grid;
+  for (const Triangle& t : tin.triangles) {
+    if (!is_roof(tin, t, store.metadata().themes)) continue;
+    Point2 middle;
+    std::uint64_t seed = 0;
+    for (const std::uint32_t v : t) {
+      const GridPoint& p = tin.vertices[v];
+      middle = {middle.x + p.x / 3.0, middle.y + p.y / 3.0};
+      seed += tin.id(v);
+    }
+    middle = {std::round(middle.x), std::round(middle.y)};
+    const auto roof = surface.height(middle), under = ground.height(middle);
+    if (!roof || !under || (*roof - *under) * units.resolution < kLeastRoofHeight) continue;
+    const Point2 place{units.origin.x + middle.x * units.resolution, units.origin.y + middle.y * units.resolution};
+    posts.push_back({{place.x, place.y, *roof * units.resolution}, seed, true, true});
+  }
+}
+
 class Proposer {
  public:
-  Proposer(const Surface& surface, const Window& area, const ProposalRequest& request)
-      : tin_(surface.tin),
-        area_(area),
+  /// `surface` hides; `ground` is what lies under all that stands on it, or null where nothing does.
+  Proposer(const Store& store, const Surface& surface, const Surface* ground, const Window& area,
+           const ProposalRequest& request)
+      : area_(area),
         request_(request),
         surface_(surface, request.earth, kPoints * kTargets),
-        sampler_(surface_, surface_, {request.radius, request.target_height, kTargets}, NoData::kClear),
-        squares_(RasterGrid::aligned(area.bounds(), request.spacing)),
-        summits_(summits(tin_)) {}
+        squares_(RasterGrid::aligned(area.bounds(), request.spacing)) {
+    if (ground != nullptr) ground_.emplace(*ground, request.earth, 0);
+    const SampledSurface& bare = ground_ ? *ground_ : surface_;
+    sampler_.emplace(surface_, request.targets_on_surface ? surface_ : bare,
+                     VisibilitySampler::Targets{request.radius, request.target_height, kTargets}, NoData::kClear);
+    if (ground != nullptr && !request.on_surface) {
+      posts_ = posts_on_ground(ground->tin, &surface_);
+    } else {
+      posts_ = posts_on_ground(surface.tin, nullptr);
+      add_roofs(store, surface.tin, surface_, bare, posts_);
+    }
+  }
 
   std::vector<Proposal> run(Progress& progress) const {
     const std::vector<std::vector<std::uint32_t>> posts = by_square();
@@ -71,10 +147,10 @@ class Proposer {
  private:
   std::vector<std::vector<std::uint32_t>> by_square() const {
     std::vector<std::vector<std::uint32_t>> posts(squares_.cell_count());
-    for (std::uint32_t v = 0; v < tin_.vertices.size(); ++v) {
-      const Point3 p = tin_.point(v);
-      const auto square = squares_.cell_at({p.x, p.y});
-      if (square && lies_in(area_, {p.x, p.y})) posts[squares_.index(*square)].push_back(v);
+    for (std::uint32_t i = 0; i < posts_.size(); ++i) {
+      const Point2 place = plan(i);
+      const auto square = squares_.cell_at(place);
+      if (square && lies_in(area_, place)) posts[squares_.index(*square)].push_back(i);
     }
     return posts;
   }
@@ -82,43 +158,40 @@ class Proposer {
   std::vector<Proposal> propose(std::vector<std::uint32_t> posts) const {
     if (posts.empty()) return {};
     std::stable_sort(posts.begin(), posts.end(),
-                     [&](std::uint32_t a, std::uint32_t b) { return tin_.vertices[a].z > tin_.vertices[b].z; });
+                     [&](std::uint32_t a, std::uint32_t b) { return posts_[a].place.z > posts_[b].place.z; });
     std::vector<std::uint32_t> tried(posts.begin(),
                                      posts.begin() + static_cast<std::ptrdiff_t>(std::min(posts.size(), kHighest)));
     const std::size_t step = std::max<std::size_t>(1, (posts.size() - tried.size()) / kOthers);
     for (std::size_t i = tried.size() + step / 2; i < posts.size(); i += step) tried.push_back(posts[i]);
     std::uint32_t best = tried.front();
     double most = -1;
-    for (const std::uint32_t v : tried) {
-      const double index = visibility_index(v);
-      if (index > most) most = index, best = v;
+    for (const std::uint32_t post : tried) {
+      const double index = visibility_index(post);
+      if (index > most) most = index, best = post;
     }
     std::vector<Proposal> result;
-    const auto summit = std::find_if(posts.begin(), posts.end(), [&](std::uint32_t v) { return summits_[v]; });
-    if (summit != posts.end()) result.push_back({plan(*summit), true, visibility_index(*summit)});
-    if (summit == posts.end() || best != *summit) result.push_back({plan(best), false, most});
+    const auto summit = std::find_if(posts.begin(), posts.end(), [&](std::uint32_t i) { return posts_[i].summit; });
+    if (summit != posts.end()) result.push_back({plan(*summit), true, posts_[*summit].roof, visibility_index(*summit)});
+    if (summit == posts.end() || best != *summit) result.push_back({plan(best), false, posts_[best].roof, most});
     return result;
   }
 
-  Point2 plan(std::uint32_t v) const {
-    const Point3 p = tin_.point(v);
-    return {p.x, p.y};
-  }
+  Point2 plan(std::uint32_t post) const { return {posts_[post].place.x, posts_[post].place.y}; }
 
   /// The share seen; what has no ground is not seen.
-  double visibility_index(std::uint32_t v) const {
-    const Point3 post = tin_.point(v);
-    const auto tally = sampler_.observe({post.x, post.y}, post.z + request_.mast_height, tin_.id(v));
+  double visibility_index(std::uint32_t post) const {
+    const auto& [place, seed, summit, roof] = posts_[post];
+    const auto tally = sampler_->observe({place.x, place.y}, place.z + request_.mast_height, seed);
     return static_cast<double>(tally.seen) / tally.asked;
   }
 
-  const Tin& tin_;
   const Window& area_;
   const ProposalRequest& request_;
   SampledSurface surface_;
-  VisibilitySampler sampler_;
+  std::optional<SampledSurface> ground_;
+  std::optional<VisibilitySampler> sampler_;
   RasterGrid squares_;
-  std::vector<bool> summits_;
+  std::vector<Post> posts_;
 };
 
 }  // namespace
@@ -141,9 +214,14 @@ std::vector<Proposal> propose_sites(const Store& store, const Window& area, cons
   box = {box.xmin - request.radius, box.ymin - request.radius, box.xmax + request.radius, box.ymax + request.radius};
   const Detail detail = detail_of(store.metadata(), finest_level_of(store, box, kPoints));
   CallProgress call(progress);
-  const Surface surface{triangulate(store, Window::box(box), detail, call.step(0.3)), nullptr, {}};
-  if (surface.tin.triangles.empty()) throw InputError("the search area holds no ground");
-  std::vector<Proposal> proposals = Proposer(surface, area, request).run(call.step(1));
+  const Window window = Window::box(box);
+  const Surface ground{triangulate(store, window, detail, call.step(0.3)), nullptr, {}};
+  if (ground.tin.triangles.empty()) throw InputError("the search area holds no ground");
+  std::optional<Surface> raised;
+  if (request.themes.includes_raised(store.metadata().themes))
+    raised = Surface{triangulate(store, window, detail, call.step(0.4), request.themes), nullptr, {}};
+  std::vector<Proposal> proposals =
+      Proposer(store, raised ? *raised : ground, raised ? &ground : nullptr, area, request).run(call.step(1));
   call.finish();
   if (proposals.empty()) throw InputError("the search area holds no ground");
   return proposals;
