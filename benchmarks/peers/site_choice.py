@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Candidates for benchmarks/peers/site.sh, and the greedy choice by brute force on exact viewsheds.
+"""Candidates for benchmarks/peers/site.sh, and, for town.sh as well, the greedy choice by brute force on exact viewsheds.
 
     site_choice.py candidates                          500 of them, as CSV
     site_choice.py compare CANDIDATES FOLDER SITES     exits with 1 where the choices differ
@@ -41,12 +41,12 @@ def compare(table, folder, sites):
     seen = numpy.split(index, ends[:-1])
     open_cells = numpy.ones(len(every), bool)
     brute = []
-    for _ in range(10):
+    chosen = [(row["id"], int(float(row["gain"]))) for row in csv.DictReader(open(sites))]
+    for _ in chosen:
         gains = [int(open_cells[s].sum()) for s in seen]
         best = int(numpy.argmax(gains))  # the first of several
         brute.append((names[best], gains[best]))
         open_cells[seen[best]] = False
-    chosen = [(row["id"], int(float(row["gain"]))) for row in csv.DictReader(open(sites))]
     for a, b in zip(brute, chosen):
         print(f"  brute force {a[0]:>5} +{a[1]:<7} itin site {b[0]:>5} +{b[1]}")
     print("  the same choice" if brute == chosen else "  DIFFERENT choices")
