@@ -29,10 +29,10 @@ inline RasterGrid bins_over(Point2 north_west, double width, double height, doub
   return {{north_west.x - bin / 2, north_west.y + bin / 2}, bin, bin, count(width), count(height)};
 }
 
-class BinBounds {
+/// Where the bins over a surface of these grid units lie.
+class BinGrid {
  public:
-  BinBounds(const BinBounds&) = delete;
-  BinBounds& operator=(const BinBounds&) = delete;
+  BinGrid(const Grid& units, const RasterGrid& grid) : units_(units), grid_(grid) {}
 
   const Grid& units() const { return units_; }
   std::int64_t columns() const { return grid_.columns(); }
@@ -50,18 +50,28 @@ class BinBounds {
                                    std::max(std::abs(row), std::abs(row - static_cast<double>(rows()))));
   }
 
+ protected:
+  ~BinGrid() = default;
+  BinGrid(BinGrid&&) = default;
+
+  const Grid units_;
+  const RasterGrid grid_;
+};
+
+class BinBounds : public BinGrid {
+ public:
+  BinBounds(const BinBounds&) = delete;
+  BinBounds& operator=(const BinBounds&) = delete;
+
   /// Rounded outwards. Unread ground counts as bare.
   const RunBounds& runs() const { return runs_; }
   /// The surface's greatest absolute height, grid units.
   double greatest_magnitude() const { return greatest_magnitude_; }
 
  protected:
-  BinBounds(const Grid& units, const RasterGrid& grid)
-      : units_(units), grid_(grid), runs_(grid.columns(), grid.rows()) {}
+  BinBounds(const Grid& units, const RasterGrid& grid) : BinGrid(units, grid), runs_(grid.columns(), grid.rows()) {}
   ~BinBounds() = default;
 
-  const Grid units_;
-  const RasterGrid grid_;
   RunBounds runs_;
   double greatest_magnitude_ = 0;
 };

@@ -6,6 +6,7 @@
 #include <itin/parallel.hpp>
 
 #include "bounds/triangle_in_bins.hpp"
+#include "bounds/triangle_slope.hpp"
 #include "line/cell_tiles.hpp"
 #include "line/rounded_outwards.hpp"
 
@@ -21,37 +22,6 @@ RasterGrid bin_grid(const Box& box, double bin) {
 /// Grid units. Features bend the ground about them, at positions rounded to the grid: there it is no lower and no
 /// higher than the bare one is so near, but for a rounded height.
 constexpr double kStepsBeside = 2, kStepsUp = 1;
-
-/// How low and how high a triangle is about the middle of a bin, as far as its plane reaches within the bin, and no
-/// farther than its corners do.
-class Slope {
- public:
-  /// `bin` is its side, grid units.
-  Slope(const Tin& tin, std::uint32_t triangle, double bin) {
-    const auto [a, b, c] = tin.corners(triangle);
-    least_ = std::min({a.z, b.z, c.z}), greatest_ = std::max({a.z, b.z, c.z});
-    corner_ = {static_cast<double>(a.x), static_cast<double>(a.y), static_cast<double>(a.z)};
-    const double bx = 1.0 * b.x - a.x, by = 1.0 * b.y - a.y, bz = 1.0 * b.z - a.z;
-    const double cx = 1.0 * c.x - a.x, cy = 1.0 * c.y - a.y, cz = 1.0 * c.z - a.z;
-    const double doubled_area = bx * cy - by * cx;
-    is_plane_ = doubled_area != 0;
-    if (!is_plane_) return;
-    x_ = (bz * cy - by * cz) / doubled_area, y_ = (bx * cz - bz * cx) / doubled_area;
-    // Rounding is far less than the last two terms.
-    spread_ =
-        (std::abs(x_) + std::abs(y_)) * (bin / 2 + kStepsBeside) * (1 + 1e-6) + 1e-9 * (greatest_ - least_) + 1e-3;
-  }
-
-  double middle(double x, double y) const { return corner_.z + x_ * (x - corner_.x) + y_ * (y - corner_.y); }
-  double low(double middle) const { return is_plane_ ? std::max(least_, middle - spread_) : least_; }
-  double high(double middle) const { return is_plane_ ? std::min(greatest_, middle + spread_) : greatest_; }
-
- private:
-  Point3 corner_;
-  bool is_plane_ = false;
-  double x_ = 0, y_ = 0, spread_ = 0;
-  double least_ = 0, greatest_ = 0;
-};
 
 }  // namespace
 
@@ -86,7 +56,8 @@ void EnvelopeBounds::bound(const Tin& lower, const Tin& upper) {
 
 void EnvelopeBounds::bound_triangle(const Tin& lower, const Tin& upper, std::uint32_t triangle, const Bins& within) {
   const TriangleInBins in_bins(lower, lower.triangles[triangle], grid_, slack());
-  const Slope low(lower, triangle, bin_size()), high(upper, triangle, bin_size());
+  const double half = bin_size() / 2 + kStepsBeside;
+  const TriangleSlope low(lower, triangle, half), high(upper, triangle, half);
   for (std::int64_t row = std::max(in_bins.box().north, within.north);
        row <= std::min(in_bins.box().south, within.south); ++row) {
     const auto [first, last] = in_bins.columns_in(row);

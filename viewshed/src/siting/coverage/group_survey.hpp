@@ -47,6 +47,12 @@ std::unique_ptr<GroupSurvey> survey_cells_exactly(const SiteSurvey& survey, Surf
 std::unique_ptr<GroupSurvey> survey_points(const SiteSurvey& survey, const Request& request, Envelope envelope,
                                            bool zones);
 
+/// Surveys cells or points by how low and how high the full surface is within bins, with what stands on it; they are as
+/// narrow as so many bytes allow. Reads that surface piece by piece. Zones are not judged. Throws as triangulate()
+/// does.
+std::unique_ptr<GroupSurvey> survey_by_bins(const Store& store, const SiteSurvey& survey, std::uint64_t bytes,
+                                            Statistics& statistics, Progress& progress);
+
 /// The request of one option or several, for the parts of viewsheds that take one.
 Request request_of(const SiteSurvey& survey, std::span<const std::size_t> options);
 

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <atomic>
-#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -14,6 +13,7 @@
 #include "progress/stage.hpp"
 #include "siting/coverage/group_survey.hpp"
 #include "siting/coverage/point_bins.hpp"
+#include "siting/coverage/point_blocks.hpp"
 
 namespace itin::viewshed {
 
@@ -66,12 +66,9 @@ class PointPass {
             const std::vector<GroundBounds>& grounds)
       : scene_(scene), zone_(zone), survey_(survey), grounds_(grounds) {}
 
-  /// The bits of `open` that are certainly served, and those that certainly are not, for points `first` and on.
-  struct Served {
-    std::uint64_t certain = 0, never = 0;
-  };
-  Served judge(const EnvelopeScene::View& view, std::size_t first, std::uint64_t open, Occluder& occluder) const {
-    Served served;
+  /// What becomes of `open` ones among points `first` and on.
+  ServedPoints judge(const EnvelopeScene::View& view, std::size_t first, std::uint64_t open, Occluder& occluder) const {
+    ServedPoints served;
     for (unsigned at = 0; at < 64; at += SightLines::kSize) {
       const Decided decided = judge_packet(view, first + at, static_cast<unsigned>(open >> at & 0xffff), occluder);
       served.certain |= std::uint64_t{decided.visible} << at;
@@ -144,12 +141,6 @@ class PointPass {
   const std::vector<GroundBounds>& grounds_;
 };
 
-std::uint64_t certain_of(const DemandSet& set, std::uint32_t number,
-                         std::vector<DemandSet::Block>::const_iterator& at) {
-  while (at != set.blocks().end() && at->number < number) ++at;
-  return at != set.blocks().end() && at->number == number ? at->members : 0;
-}
-
 class PointSurvey final : public GroupSurvey {
  public:
   PointSurvey(const SiteSurvey& survey, const Request& request, Envelope envelope, bool zones)
@@ -176,31 +167,17 @@ class PointSurvey final : public GroupSurvey {
     for_each_step(result.size(), "sight lines of candidates", progress, [&](std::size_t i) {
       const EnvelopeScene::View view =
           scene_.view_from(eye_at(scene_.envelope.lower.grid, sites.request, survey_.positions[sites.options[i]]));
-      rays += judge(pass, view, *sites.bounds[i], result[i]);
+      Occluder occluder;
+      rays += judge_points(*sites.bounds[i], result[i], [&](std::size_t first, std::uint64_t open) {
+        return pass.judge(view, first, open, occluder);
+      });
+      result[i].exact = scene_.exact;
     });
     statistics.lines += rays;
     return result;
   }
 
  private:
-  /// Returns how many sight lines that took.
-  std::uint64_t judge(const PointPass& pass, const EnvelopeScene::View& view, const CoverageBounds& before,
-                      CoverageBounds& after) const {
-    Occluder occluder;
-    std::uint64_t rays = 0;
-    auto certain = before.certain.blocks().begin();
-    for (const DemandSet::Block& block : before.possible.blocks()) {
-      const std::uint64_t known = certain_of(before.certain, block.number, certain);
-      const std::uint64_t open = block.members & ~known;
-      const PointPass::Served served = pass.judge(view, std::size_t{64} * block.number, open, occluder);
-      after.certain.add(block.number, known | served.certain);
-      after.possible.add(block.number, block.members & ~served.never);
-      rays += static_cast<std::uint64_t>(std::popcount(open));
-    }
-    after.exact = scene_.exact;
-    return rays;
-  }
-
   const SiteSurvey& survey_;
   RasterGrid bins_;
   EnvelopeScene scene_;

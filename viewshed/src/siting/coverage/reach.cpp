@@ -3,13 +3,11 @@
 #include <numbers>
 
 #include <itin/call_progress.hpp>
-#include <itin/parallel.hpp>
 #include <viewshed/site_coverage.hpp>
 
-#include "bounds/surface_heights.hpp"
-#include "bounds/triangle_bins.hpp"
 #include "siting/coverage/cell_blocks.hpp"
 #include "siting/coverage/point_bins.hpp"
+#include "siting/coverage/target_ground.hpp"
 #include "window/retrieval.hpp"
 
 namespace itin::viewshed {
@@ -86,48 +84,38 @@ std::uint64_t bytes_of_coverage(const SiteSurvey& survey) {
 
 namespace {
 
-DemandSet cells_with_ground(const Store& store, const RasterGrid& grid, Progress& progress) {
-  const Tin tin = coverage_of(store, Window::box(grid.bounds()), progress);
-  const RasterGrid tiles = grid_of_tiles(grid);
-  const TriangleBins bins(tin, tiles);
-  const CellBlocks blocks(grid);
-  std::vector<std::uint64_t> members(blocks.count());
-  parallel_for(tiles.cell_count(), [&](std::size_t t) {
-    const Tile tile = tile_at(grid, tiles, t);
-    const auto heights = std::make_unique<TileValues<double>>();
-    scan_convert(tin, bins.triangles(t), tile, TileCentres(tin.grid, grid, tile), *heights);
-    for_each_cell(tile, [&](std::size_t cell, RasterGrid::Cell place) {
-      if (!std::isnan((*heights)[cell])) members[blocks.block(place)] |= std::uint64_t{1} << CellBlocks::bit(place);
-    });
-  });
+/// The members of each block.
+DemandSet set_of_words(const std::vector<std::uint64_t>& words) {
   DemandSet set;
-  for (std::size_t b = 0; b < members.size(); ++b) set.add(static_cast<std::uint32_t>(b), members[b]);
+  for (std::size_t b = 0; b < words.size(); ++b) set.add(static_cast<std::uint32_t>(b), words[b]);
   return set;
 }
 
-DemandSet points_with_ground(const Store& store, const std::vector<Point2>& points, Progress& progress) {
-  const RasterGrid bins_grid = bins_of_points(points);
-  const Tin tin = coverage_of(store, Window::box(bins_grid.bounds()), progress);
-  const TriangleBins bins(tin, bins_grid);
-  DemandSet set;
-  for (std::size_t first = 0; first < points.size(); first += 64) {
-    std::uint64_t members = 0;
-    for (std::size_t i = first; i < std::min(points.size(), first + 64); ++i) {
-      const auto bin = bins_grid.cell_at(points[i]);
-      if (bin && surface_height(tin, bins.triangles(bins_grid.index(*bin)), points[i]))
-        members |= std::uint64_t{1} << (i - first);
-    }
-    set.add(static_cast<std::uint32_t>(first / 64), members);
-  }
-  return set;
+DemandSet cells_with_ground(const Tin& ground, const RasterGrid& grid) {
+  const CellBlocks blocks(grid);
+  std::vector<std::uint64_t> members(blocks.count());
+  for_each_tile_on(ground, grid, [&](const Tile& tile, const TileValues<double>& heights) {
+    for_each_cell(tile, [&](std::size_t cell, RasterGrid::Cell place) {
+      if (!std::isnan(heights[cell])) members[blocks.block(place)] |= std::uint64_t{1} << CellBlocks::bit(place);
+    });
+  });
+  return set_of_words(members);
+}
+
+DemandSet points_with_ground(const Tin& ground, const std::vector<Point2>& points) {
+  std::vector<std::uint64_t> members((points.size() + 63) / 64);
+  for_each_point_on(ground, points,
+                    [&](std::size_t point, double) { members[point / 64] |= std::uint64_t{1} << point % 64; });
+  return set_of_words(members);
 }
 
 }  // namespace
 
 DemandSet with_ground(const Store& store, const SiteTargets& targets, Progress& progress) {
+  const Box box = targets.grid ? targets.grid->bounds() : bins_of_points(targets.points).bounds();
   CallProgress call(progress);
-  DemandSet set =
-      targets.grid ? cells_with_ground(store, *targets.grid, call) : points_with_ground(store, targets.points, call);
+  const Tin ground = coverage_of(store, Window::box(box), call);
+  DemandSet set = targets.grid ? cells_with_ground(ground, *targets.grid) : points_with_ground(ground, targets.points);
   call.finish();
   return set;
 }

@@ -95,14 +95,14 @@ class SiteCoverage::Impl {
   /// Over the envelopes of all options, group by group, so that what is found does not depend on what was found before.
   void explore() {
     CallProgress call(progress_);
-    const auto together = groups(all_options(), levels_.front());
+    const auto together = groups(all_options(), looks_.front());
     std::size_t left = together.size();
     for (const std::vector<std::size_t>& group : together) {
       call.step(1 / static_cast<double>(left--));
       std::vector<std::size_t> fresh;
       std::copy_if(group.begin(), group.end(), std::back_inserter(fresh),
                    [&](std::size_t option) { return states_[option].stage < 0; });
-      if (!fresh.empty()) judge_group(fresh, group, 0, levels_.front(), false, call);
+      if (!fresh.empty()) judge_group(fresh, group, 0, call);
     }
     call.finish();
   }
@@ -126,14 +126,15 @@ class SiteCoverage::Impl {
     int stage = -1;  ///< of the last look
   };
   const State& state(std::size_t option) const { return states_[option]; }
-  int last_stage() const { return static_cast<int>(levels_.size()) - (themed_ ? 0 : 1); }
+  int last_stage() const { return static_cast<int>(looks_.size()) - 1; }
 
   std::string stage_name(int stage) const {
     if (stage < 0) return "radius alone";
-    if (stage >= static_cast<int>(levels_.size())) return "exact, with themes";
-    const int level = levels_[static_cast<std::size_t>(stage)];
-    if (level == 0) return themed_ ? "exact, bare terrain" : "exact";
-    return fmt::format("tolerance {:g} m", store_.metadata().levels[static_cast<std::size_t>(level)].tolerance);
+    const Look& look = looks_[static_cast<std::size_t>(stage)];
+    if (look.binned) return "bounds, with themes";
+    if (look.themed) return "exact, with themes";
+    if (look.level == 0) return themed_ ? "exact, bare terrain" : "exact";
+    return fmt::format("tolerance {:g} m", store_.metadata().levels[static_cast<std::size_t>(look.level)].tolerance);
   }
 
   void restore(std::size_t option, int stage, const CoverageBounds& bounds) {
@@ -163,14 +164,21 @@ class SiteCoverage::Impl {
   void choose_levels(const Box& box) {
     const std::uint64_t all = store_.points_about(0, box);
     whole_fits_ = fits(all * (themed_ ? 3 : 1), survey_.positions.size(), 0) || read_whole_lattice();
+    if (themed_ && !survey_.tolerance) {
+      // Over a surface in memory, a site is judged exactly in the time that its bounds would take.
+      if (!whole_fits_) looks_.push_back({.themed = true, .binned = true});
+      looks_.push_back({.themed = true});
+      return;
+    }
     // To look at cells exactly takes no longer than to look at them coarsely.
     const bool exact_at_once = all <= kFewPoints || (survey_.targets.grid && whole_fits_);
     const int first = survey_.tolerance ? level_within(store_.metadata(), *survey_.tolerance)
                       : exact_at_once
                           ? 0
                           : finest_level_of(store_, box, all / (whole_fits_ ? kFirstShareOfWhole : kFirstShare));
-    levels_ = {first};
-    if (first > 0) levels_.push_back(0);
+    looks_.push_back({.level = first});
+    if (first > 0) looks_.push_back({});
+    if (themed_) looks_.push_back({.themed = true});
   }
 
   /// Takes little memory, but whether it is one is known only then.
@@ -203,6 +211,13 @@ class SiteCoverage::Impl {
     return points * (swept ? kBytesPerSweptPoint : kBytesPerRayPoint) + sets <= memory();
   }
 
+  /// What a stage judges over: the bare terrain of a level, or the full surface with the themes; or bins of this.
+  struct Look {
+    int level = 0;
+    bool themed = false;
+    bool binned = false;
+  };
+
   using Options = std::span<std::size_t>;
 
   std::uint64_t points_of(Options options, int level) const {
@@ -212,7 +227,9 @@ class SiteCoverage::Impl {
   }
 
   /// Neighbours together, as many as the memory holds.
-  std::vector<std::vector<std::size_t>> groups(std::vector<std::size_t> options, int level) const {
+  std::vector<std::vector<std::size_t>> groups(std::vector<std::size_t> options, const Look& look) const {
+    if (look.binned) return {std::move(options)};
+    const int level = look.level;
     const auto fit_or_is_one = [&](Options some) {
       return some.size() < 2 || fits(points_of(some, level), some.size(), level);
     };
@@ -238,22 +255,28 @@ class SiteCoverage::Impl {
   /// Takes the options, all at one stage, to the next.
   void judge(const std::vector<std::size_t>& options, Progress& progress) {
     const int stage = states_[options.front()].stage + 1;
-    const bool themed = stage == static_cast<int>(levels_.size());
-    const int level = themed ? 0 : levels_[static_cast<std::size_t>(stage)];
     CallProgress call(progress);
-    const auto together = groups(options, level);
+    const auto together = groups(options, looks_[static_cast<std::size_t>(stage)]);
     std::size_t left = together.size();
     for (const std::vector<std::size_t>& group : together)
-      judge_group(group, group, stage, level, themed, call.step(1 / static_cast<double>(left--)));
+      judge_group(group, group, stage, call.step(1 / static_cast<double>(left--)));
   }
 
   /// Over coarse surfaces zones take as long as over the full one, which is looked at next, if the memory holds it.
   bool zones_at(int level) const { return level == 0 || !whole_fits_; }
 
-  std::unique_ptr<GroupSurvey> survey_of(const std::vector<std::size_t>& group, int level, bool themed,
-                                         Progress& progress) {
-    return judges_cells_exactly(level) ? exact_cells(group, themed, progress)
-                                       : enveloped(group, level, themed, progress);
+  std::unique_ptr<GroupSurvey> survey_of(const std::vector<std::size_t>& group, const Look& look, Progress& progress) {
+    if (look.binned) return binned(progress);
+    return judges_cells_exactly(look.level) ? exact_cells(group, look.themed, progress)
+                                            : enveloped(group, look.level, look.themed, progress);
+  }
+
+  /// About all sites, whatever the group.
+  std::unique_ptr<GroupSurvey> binned(Progress& progress) {
+    Stopwatch watch;
+    auto survey = survey_by_bins(store_, survey_, memory(), statistics_, progress);
+    statistics_.retrieval_seconds += watch.lap();
+    return survey;
   }
 
   Request request_of(std::span<const std::size_t> options, bool themed) const {
@@ -313,38 +336,39 @@ class SiteCoverage::Impl {
   }
 
   /// The full surface about all sites, once and for all, where the memory holds it: bare, and then with the themes.
-  const GroupSurvey& whole_survey(bool themed, Progress& progress) {
-    std::unique_ptr<GroupSurvey>& whole = whole_[themed ? 1 : 0];
-    if (!whole) whole = survey_of(all_options(), 0, themed, progress);
+  const GroupSurvey& whole_survey(const Look& look, CallProgress& call) {
+    std::unique_ptr<GroupSurvey>& whole = whole_[look.themed ? 1 : 0];
+    if (!whole) whole = survey_of(all_options(), look, call.step(kReading));
     return *whole;
   }
 
   /// `options` among those of the group, over whose surface they are looked at.
-  void judge_group(const std::vector<std::size_t>& options, const std::vector<std::size_t>& group, int stage, int level,
-                   bool themed, Progress& progress) {
+  void judge_group(const std::vector<std::size_t>& options, const std::vector<std::size_t>& group, int stage,
+                   Progress& progress) {
     CallProgress call(progress);
+    const Look& look = looks_[static_cast<std::size_t>(stage)];
     std::unique_ptr<GroupSurvey> own;
-    if (level > 0 || !whole_fits_) own = survey_of(group, level, themed, call.step(kReading));
-    const GroupSurvey& survey = own ? *own : whole_survey(themed, call.step(whole_[themed ? 1 : 0] ? 0 : kReading));
+    if (look.binned || look.level > 0 || !whole_fits_) own = survey_of(group, look, call.step(kReading));
+    const GroupSurvey& survey = own ? *own : whole_survey(look, call);
     // Few at a time: a run that is killed goes on from what has been settled.
     for (std::size_t first = 0; first < options.size(); first += kJudgedTogether) {
       const auto begin = options.begin() + static_cast<std::ptrdiff_t>(first);
       const auto count = static_cast<std::ptrdiff_t>(std::min(kJudgedTogether, options.size() - first));
       call.step(static_cast<double>(count) / static_cast<double>(options.size() - first));
-      judge_some({begin, begin + count}, survey, stage, level, themed, call);
+      judge_some({begin, begin + count}, survey, stage, call);
     }
   }
 
-  void judge_some(const std::vector<std::size_t>& options, const GroupSurvey& survey, int stage, int level, bool themed,
-                  Progress& progress) {
+  void judge_some(const std::vector<std::size_t>& options, const GroupSurvey& survey, int stage, Progress& progress) {
+    const Look& look = looks_[static_cast<std::size_t>(stage)];
     Stopwatch watch;
     std::vector<const CoverageBounds*> before;
     for (const std::size_t option : options) before.push_back(&states_[option].bounds);
     std::vector<CoverageBounds> after =
-        survey.judge({request_of(options, themed), options, before}, progress, statistics_);
+        survey.judge({request_of(options, look.themed), options, before}, progress, statistics_);
     for (std::size_t i = 0; i < options.size(); ++i) {
-      if (themed_ && !themed) after[i].certain = {}, after[i].exact = false;  // features may hide it
-      if (survey_.fresnel && !zones_at(level)) after[i].certain = {};         // or its zone is cut
+      if (themed_ && !look.themed) after[i].certain = {}, after[i].exact = false;  // features may hide it
+      if (survey_.fresnel && !zones_at(look.level)) after[i].certain = {};         // or its zone is cut
       settle(options[i], stage, std::exchange(after[i], {}));
     }
     statistics_.lines_seconds += watch.lap();
@@ -386,7 +410,7 @@ class SiteCoverage::Impl {
   bool whole_fits_ = false;
   std::optional<Surface> whole_lattice_;  ///< until it is looked at
   std::array<std::unique_ptr<GroupSurvey>, 2> whole_;
-  std::vector<int> levels_;  ///< of the looks at the bare terrain
+  std::vector<Look> looks_;  ///< of each stage
   std::vector<State> states_;
   Statistics statistics_;
 };

@@ -1,0 +1,62 @@
+// How low and how high a surface is within bins; and within far smaller ones where a thin thing stands on it, such as a
+// garden wall, that no bin lies wholly upon. So houses and walls alike hide for certain, though bins are as wide as a
+// wall is high. A surface that the memory does not hold at once is added piece by piece.
+//
+//   SurfaceBins bins(tin.grid, box, side);
+//   bins.add(tin, all_cells(bins.tiles()));
+//   bins.range(bin).low                                // grid units
+//   if (const SurfaceBins::Parts* parts = bins.parts(bin)) ...
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <itin/tin.hpp>
+
+#include "bounds/bin_bounds.hpp"
+#include "bounds/boundary.hpp"
+#include "line/cell_tiles.hpp"
+
+namespace itin::viewshed {
+
+class SurfaceBins final : public BinGrid {
+ public:
+  using Range = RunBounds::Range<float>;
+  static constexpr std::int64_t kParts = 8;  ///< along the side of a bin that is divided
+  using Parts = std::array<Range, kParts * kParts>;
+
+  static constexpr std::uint64_t kBytesPerBin = 12, kBytesPerDivided = sizeof(Parts);
+
+  /// Square bins of this side over a box, metres, of which so many are divided at most.
+  SurfaceBins(const Grid& units, const Box& box, double side, std::size_t most_divided);
+
+  /// Tiles of bins (line/cell_tiles.hpp), as the cells of a grid.
+  RasterGrid tiles() const { return grid_of_tiles(grid_); }
+  /// Bounds the bins of these tiles, by a surface that holds all ground that meets them. Each is added once.
+  void add(const Tin& surface, const CellRectangle& tiles);
+
+  /// -infinity to -infinity where there is no ground, and from -infinity where there may be none. Holds what rises
+  /// above or lies below a place by a tenth of a millimetre.
+  const Range& range(RasterGrid::Cell bin) const { return ranges_[grid_.index(bin)]; }
+  /// Row by row; null where the bin is not divided.
+  const Parts* parts(RasterGrid::Cell bin) const {
+    const std::uint32_t number = divided_[grid_.index(bin)];
+    return number == 0 ? nullptr : &parts_[number - 1];
+  }
+
+ private:
+  bool is_thin(RasterGrid::Cell bin) const;
+  void bound(const Tin& surface, std::span<const std::uint32_t> triangles, const Tile& tile);
+  void forget_depth_along(const std::vector<BoundaryEdge>& outline, const Tin& surface, const CellRectangle& bins);
+  void divide(const Tin& surface, std::span<const std::uint32_t> triangles, const Tile& tile);
+
+  std::size_t most_divided_;
+  std::vector<Range> ranges_;
+  std::vector<std::uint32_t> divided_;  ///< by bin: one more than where its parts are; 0 where it has none
+  std::vector<Parts> parts_;
+};
+
+}  // namespace itin::viewshed

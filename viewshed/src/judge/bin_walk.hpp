@@ -1,0 +1,40 @@
+// What the bins that a sight line crosses tell of it, one after the other: it is hidden for certain where it runs below
+// the least height of one, and visible for certain where it runs above the greatest heights of all.
+//
+//   const BinWalk walk(bins, request.earth.drop_coefficient() * resolution);
+//   if (walk.along(eye.units, target) == Verdict::kHidden) ...
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <itin/geometry.hpp>
+#include <viewshed/viewshed.hpp>
+
+#include "bounds/surface_bins.hpp"
+
+namespace itin::viewshed {
+
+class BinWalk {
+ public:
+  /// The bins must be complete, and outlive it. `drop`: grid units for a squared grid unit.
+  BinWalk(const SurfaceBins& bins, double drop);
+
+  /// Ends are in grid units. kUndecided where bins leave it open. What lies beside all bins hides nothing. Cost: about
+  /// two nanoseconds per bin that has something above the line within some bins of it.
+  Verdict along(const Point3& from, const Point3& to) const;
+
+ private:
+  struct Line;
+  /// Fractions of the length.
+  struct Stretch {
+    double first, last;
+  };
+
+  const SurfaceBins& bins_;
+  double drop_;
+  std::int64_t block_columns_, block_rows_;
+  std::vector<float> block_high_;  ///< the greatest height of each block of bins
+};
+
+}  // namespace itin::viewshed
