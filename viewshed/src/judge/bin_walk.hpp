@@ -20,8 +20,8 @@ class BinWalk {
   /// The bins must be complete, and outlive it. `drop`: grid units for a squared grid unit.
   BinWalk(const SurfaceBins& bins, double drop);
 
-  /// Ends are in grid units. kUndecided where bins leave it open. What lies beside all bins hides nothing. Cost: about
-  /// two nanoseconds per bin that has something above the line within some bins of it.
+  /// Ends are in grid units. kUndecided where bins leave it open. What lies beside all bins hides nothing. Cost: one
+  /// step per bin, or per block of 8 x 8 bins that the line passes above.
   Verdict along(const Point3& from, const Point3& to) const;
 
  private:
