@@ -60,7 +60,8 @@ void SiteOptions::declare_candidates(CLI::App& app) {
       ->type_name("H[,H...]");
   app.add_option("--mast-cost", mast_cost_text_, "What each of these costs, besides the place (default: 1)")
       ->type_name("C[,C...]");
-  app.add_option("--observer-on", observer_on_, "Masts stand on the ground (default), or on the roofs of --themes, which are then proposed, too")
+  app.add_option("--observer-on", observer_on_,
+                 "Masts stand on the ground (default), or on the roofs of --themes, which are then proposed, too")
       ->type_name("ground|surface");
   in_crs.declare(app);
 }
