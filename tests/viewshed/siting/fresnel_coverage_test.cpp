@@ -13,6 +13,7 @@
 #include "support/houses.hpp"
 #include "support/raster_file.hpp"
 #include "support/seed.hpp"
+#include "support/slow_greedy.hpp"
 #include "support/temporary_directory.hpp"
 #include "support/terrain_tin.hpp"
 #include "support/vector_file.hpp"
@@ -217,28 +218,12 @@ TEST_F(FresnelSites, TheChoiceIsThatOfBruteForce) {
   make_survey(16);
   const std::vector<DemandSet> truth = all_served();
   const Demand demand(element_count(*survey_.targets.grid));
-  std::vector<std::size_t> slow;
-  std::vector<DemandSet> served;
-  Weight before = 0;
-  for (int step = 0; step < 5; ++step) {
-    Weight best = before;
-    std::size_t taken = 0;
-    for (std::size_t i = 0; i < truth.size(); ++i) {
-      served.push_back(truth[i]);
-      const Weight value = served_by(demand, served, 1);
-      served.pop_back();
-      if (value > best) best = value, taken = i;
-    }
-    if (best == before) break;
-    slow.push_back(taken);
-    served.push_back(truth[taken]);
-    before = best;
-  }
+  const std::vector<std::size_t> slow = test::greedy_by_brute_force(truth, demand, 5);
   const Choice choice = choose_by_bounds(5, true);
   std::vector<std::size_t> chosen;
   for (const ChosenSite& site : choice.chosen) chosen.push_back(site.option);
   EXPECT_EQ(chosen, slow);
-  EXPECT_EQ(choice.value, before);
+  EXPECT_EQ(choice.value, test::value_of(slow, truth, demand));
 }
 
 TEST_F(FresnelSites, TheZoneChangesTheChoice) {

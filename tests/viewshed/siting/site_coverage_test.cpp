@@ -14,6 +14,7 @@
 #include "support/full_detail.hpp"
 #include "support/raster_file.hpp"
 #include "support/seed.hpp"
+#include "support/slow_greedy.hpp"
 #include "support/temporary_directory.hpp"
 #include "support/terrain_tin.hpp"
 #include "viewshed/siting/survey_points.hpp"
@@ -217,20 +218,7 @@ TEST_F(Sites, TheChoiceIsThatOfBruteForce) {
   std::vector<SiteOption> options;
   for (std::size_t i = 0; i < truth.size(); ++i) options.push_back({i, 1});
 
-  std::vector<std::size_t> slow;
-  std::vector<DemandSet> served;
-  while (slow.size() < 6) {
-    Weight best = 0;
-    std::size_t taken = 0;
-    for (std::size_t i = 0; i < truth.size(); ++i) {
-      served.push_back(truth[i]);
-      const Weight value = served_by(demand, served, 1);
-      served.pop_back();
-      if (value > best) best = value, taken = i;
-    }
-    slow.push_back(taken);
-    served.push_back(truth[taken]);
-  }
+  const std::vector<std::size_t> slow = test::greedy_by_brute_force(truth, demand, 6);
 
   SiteCoverage coverage(*store_, survey_, progress_);
   coverage.explore();
@@ -241,7 +229,7 @@ TEST_F(Sites, TheChoiceIsThatOfBruteForce) {
   std::vector<std::size_t> chosen;
   for (const ChosenSite& site : choice.chosen) chosen.push_back(site.option);
   EXPECT_EQ(chosen, slow);
-  EXPECT_EQ(choice.value, served_by(demand, served, 1));
+  EXPECT_EQ(choice.value, test::value_of(slow, truth, demand));
   std::size_t refined = 0;
   for (std::size_t i = 0; i < truth.size(); ++i) refined += coverage.stage(i) > 0;
   EXPECT_LT(refined, truth.size());

@@ -26,6 +26,7 @@
 #include "support/full_detail.hpp"
 #include "support/raster_file.hpp"
 #include "support/seed.hpp"
+#include "support/slow_greedy.hpp"
 #include "support/temporary_directory.hpp"
 #include "support/terrain_tin.hpp"
 #include "support/told_progress.hpp"
@@ -60,25 +61,6 @@ void expect_bounds_hold(const CoverageBounds& bounds, const DemandSet& truth) {
   EXPECT_TRUE(!bounds.exact || (bounds.certain == truth && bounds.possible == truth));
 }
 
-std::vector<std::size_t> greedy_by_brute_force(const std::vector<DemandSet>& truth, const Demand& demand,
-                                               std::size_t count) {
-  std::vector<std::size_t> chosen;
-  std::vector<DemandSet> served;
-  while (chosen.size() < count) {
-    Weight best = -1;
-    std::size_t taken = 0;
-    for (std::size_t i = 0; i < truth.size(); ++i) {
-      served.push_back(truth[i]);
-      const Weight value = served_by(demand, served, 1);
-      served.pop_back();
-      if (value > best) best = value, taken = i;
-    }
-    chosen.push_back(taken);
-    served.push_back(truth[taken]);
-  }
-  return chosen;
-}
-
 /// The choice on a survey's bounds. Returns how many sites were judged again.
 std::size_t expect_choice(const Store& store, const SiteSurvey& survey, const std::vector<DemandSet>& truth,
                           std::size_t count) {
@@ -100,7 +82,7 @@ std::size_t expect_choice(const Store& store, const SiteSurvey& survey, const st
   const Choice choice = choose(demand, options, coverage, goal, progress);
   std::vector<std::size_t> chosen;
   for (const ChosenSite& site : choice.chosen) chosen.push_back(site.option);
-  EXPECT_EQ(chosen, greedy_by_brute_force(truth, demand, count));
+  EXPECT_EQ(chosen, test::greedy_by_brute_force(truth, demand, count));
   std::size_t again = 0;
   for (std::size_t i = 0; i < truth.size(); ++i) {
     expect_bounds_hold(coverage.bounds(i), truth[i]);
