@@ -46,7 +46,8 @@ class ThemeEdges {
       for (const Segment& edge : near) {
         if (edge.theme != kEdge) continue;
         for (const Segment& s : near)
-          if (s.theme != kEdge && lies_on(edge, s)) append(features, s, of_edge[edge]);
+          if (s.theme != kEdge && lies_on(edge, s))
+            for (const SegmentFeature& f : of_segment(features, s)) of_edge[edge].push_back(f.feature);
       }
     });
     std::map<std::optional<std::uint32_t>, std::vector<LineEnds>> result;
@@ -77,12 +78,6 @@ class ThemeEdges {
   static bool lies_on(const Segment& edge, const Segment& s) {
     const Position a{s.ax, s.ay}, b{s.bx, s.by};
     return on_segment(a, b, Position{edge.ax, edge.ay}) && on_segment(a, b, Position{edge.bx, edge.by});
-  }
-
-  static void append(const std::vector<SegmentFeature>& features, const Segment& s, std::vector<std::uint32_t>& out) {
-    for (auto f = std::lower_bound(features.begin(), features.end(), SegmentFeature{s, 0});
-         f != features.end() && f->segment == s; ++f)
-      out.push_back(f->feature);
   }
 
   const Tin& tin_;

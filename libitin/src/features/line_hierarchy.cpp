@@ -297,9 +297,7 @@ std::vector<SegmentFeature> LineHierarchy::features(const std::vector<SegmentFea
   for (const Chain& chain : chains_) {
     for_each_segment(chain, [&](const Segment& s) {
       const Segment first = plan_between(chain.vertices[0], chain.vertices[1], s.theme);
-      for (auto f = std::lower_bound(whole.begin(), whole.end(), SegmentFeature{first, 0});
-           f != whole.end() && f->segment == first; ++f)
-        result.push_back({s, f->feature});
+      for (const SegmentFeature& f : of_segment(whole, first)) result.push_back({s, f.feature});
     });
   }
   std::sort(result.begin(), result.end());

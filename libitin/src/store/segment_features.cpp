@@ -15,12 +15,6 @@ namespace {
 constexpr std::size_t kMostSegmentFeatureBytes = std::size_t{1} << 28;
 constexpr std::uint64_t kMostFeature = kNoFeature - 1;
 
-std::span<const SegmentFeature> of_segment(std::span<const SegmentFeature> features, const Segment& s) {
-  const auto first = std::lower_bound(features.begin(), features.end(), SegmentFeature{s, 0});
-  const auto last = std::find_if(first, features.end(), [&](const SegmentFeature& f) { return f.segment != s; });
-  return {first, last};
-}
-
 using Features = std::vector<std::uint32_t>;
 
 /// What features a segment is likely of: those of the latest one before it that it shares an end with.
@@ -50,6 +44,12 @@ class LikelyFeatures {
 };
 
 }  // namespace
+
+std::span<const SegmentFeature> of_segment(std::span<const SegmentFeature> features, const Segment& s) {
+  const auto first = std::lower_bound(features.begin(), features.end(), SegmentFeature{s, 0});
+  const auto last = std::find_if(first, features.end(), [&](const SegmentFeature& f) { return f.segment != s; });
+  return {first, last};
+}
 
 std::vector<std::uint8_t> encode_segment_features(std::span<const Segment> segments,
                                                   std::span<const SegmentFeature> features) {

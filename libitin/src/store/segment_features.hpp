@@ -18,6 +18,9 @@ struct SegmentFeature {
   friend auto operator<=>(const SegmentFeature&, const SegmentFeature&) = default;
 };
 
+/// Those of one segment. `features` ascending.
+std::span<const SegmentFeature> of_segment(std::span<const SegmentFeature> features, const Segment& segment);
+
 /// `segments` as in encode_lines(); `features` ascending, of these and perhaps others.
 std::vector<std::uint8_t> encode_segment_features(std::span<const Segment> segments,
                                                   std::span<const SegmentFeature> features);

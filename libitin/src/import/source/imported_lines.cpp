@@ -54,10 +54,9 @@ class Placed {
  private:
   /// The store's segments tell which features they are of, but not which of these they came with.
   bool is_of_one(const Segment& plan, std::uint32_t feature) const {
-    const auto first = std::lower_bound(features_.begin(), features_.end(), SegmentFeature{plan, 0});
-    if (first == features_.end() || first->segment != plan) return feature == kNoFeature;
-    const auto next = first + 1;
-    return first->feature == feature && (next == features_.end() || next->segment != plan);
+    const auto own = of_segment(features_, plan);
+    if (own.empty()) return feature == kNoFeature;
+    return own.size() == 1 && own.front().feature == feature;
   }
 
   std::vector<Segment> plans_;            ///< ascending

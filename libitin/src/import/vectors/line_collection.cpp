@@ -156,9 +156,7 @@ std::uint16_t LineCollection::source_of_stored(const Segment& s) const {
 /// At least one: kNoFeature where none is known.
 std::vector<std::uint32_t> LineCollection::features_of(const Segment& s) const {
   std::vector<std::uint32_t> features;
-  for (auto f = std::lower_bound(stored_features_.begin(), stored_features_.end(), SegmentFeature{s, 0});
-       f != stored_features_.end() && f->segment == s; ++f)
-    features.push_back(f->feature);
+  for (const SegmentFeature& f : of_segment(stored_features_, s)) features.push_back(f.feature);
   return features.empty() ? std::vector{kNoFeature} : features;
 }
 
