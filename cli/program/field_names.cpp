@@ -50,6 +50,7 @@ constexpr std::array kNames{
     Names{"scale", "--sheet-scale"},
     Names{"sea_area", "--sea-area"},
     Names{"sea_level", "--sea-level"},
+    Names{"stay", "--stay"},
     Names{"table_spacing_m", "--table-spacing"},
     Names{"target_height", "--target-height"},
     Names{"theme", "--theme"},

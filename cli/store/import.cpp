@@ -110,7 +110,12 @@ class ImportVerb final : public Verb {
         "Contours: infer no points where the triangles of a contour would be flat, in the whole store, whatever "
         "other imports say");
     app.add_flag("--replace", options_.replace,
-                 "Take the place of coarser terrain within the sources' coverage, in whatever order they come");
+                 "Take the place of coarser terrain, and of lines with heights, within the sources' coverage, in "
+                 "whatever order they come");
+    app.add_flag(
+        "--stay", options_.stay,
+        "Contours, breaklines and water: stay within the coverage of terrain that was imported with --replace, "
+        "where such lines make room otherwise, in whatever order they come");
     app.add_option("--sea-level", sea_level_,
                    "Rasters: fill ground that is missing within the box about the sources, voids included, with the "
                    "level sea at this elevation on their datum. Any other ground takes its place, whenever it is "
@@ -193,6 +198,7 @@ class ImportVerb final : public Verb {
     if (options_.sea_level) parameters["sea_level_m"] = *options_.sea_level;
     given("sea_area", options_.sea_area);
     parameters["replace"] = options_.replace;
+    if (options_.stay) parameters["stay"] = true;
     if (options_.kind == ThemeKind::Contours) parameters["repair"] = options_.repair;
     if (!options_.tolerances.empty()) parameters["tolerances_m"] = options_.tolerances;
     parameters["resolution_m"] = options_.resolution;
@@ -247,6 +253,7 @@ class ImportVerb final : public Verb {
     document["filtered"] = report.filtered;
     document["duplicates"] = report.duplicates;
     document["replaced"] = report.replaced;
+    document["line_pieces_replaced"] = report.made_room;
     document["isolated"] = report.isolated;
     document["features"] = report.features;
     document["refused"] = report.refused;
@@ -283,6 +290,7 @@ class ImportVerb final : public Verb {
       text += fmt::format(", {} where another point was already", counted(report.duplicates, "point"));
     if (report.sea > 0) text += fmt::format(", {} of the sea", counted(report.sea, "vertex", "vertices"));
     mention(report.replaced, "coarser point", "replaced");
+    mention(report.made_room, "piece", "of lines replaced by finer ground");
     mention(report.isolated, "isolated point", "left out");
     mention(report.refused, "feature", "that cannot stand");
     mention(report.crossings, "crossing", "resolved");

@@ -44,6 +44,7 @@ Document sources_document(const StoreMetadata& metadata, const StatedHeights& he
                        {"vertices", source.vertices},
                        {"spacing_m", source.spacing},
                        {"replaces", source.replaces},
+                       {"makes_room", source.makes_room},
                        {"note", source.note.empty() ? Document(nullptr) : Document(source.note)}});
   }
   return sources;

@@ -71,8 +71,10 @@ struct ImportOptions {
   /// metres, on their datum: the sea. Any other ground takes its place, whenever it is imported. Nothing: it is
   /// missing.
   std::optional<double> sea_level;
-  std::string sea_area;            ///< polygons, as text or a file: only within them, and all of them
-  bool replace = false;            ///< these sources take the place of coarser ones within their coverage
+  std::string sea_area;  ///< polygons, as text or a file: only within them, and all of them
+  bool replace = false;  ///< these sources take the place of coarser ones within their coverage
+  bool stay = false;     ///< import_lines() of contours, breaklines and water: they stay within the coverage of sources
+                         ///< that replace others
   std::vector<double> tolerances;  ///< metres; default: those of 0.5,1,2,4,8,16,32 that are no less than the
                                    ///< resolution. An existing store keeps its own.
   double resolution = 0.01;        ///< metres; an existing store keeps its own
@@ -90,6 +92,8 @@ struct ImportReport {
   std::uint64_t filtered = 0;       ///< points and features left out by class or where
   std::uint64_t duplicates = 0;     ///< positions that were there already
   std::uint64_t replaced = 0;       ///< coarser points that made room now
+  std::uint64_t made_room = 0;      ///< pieces of lines, of all imports so far, that made room for ground that replaces
+                                    ///< others, wholly or in part; not counted where features are imported
   std::uint64_t isolated = 0;       ///< points left out now because no ground could be triangulated about them
   std::uint64_t features = 0;       ///< line features read, or features that stand now
   std::uint64_t refused = 0;        ///< features that could not stand, of all imports so far; warnings say why

@@ -55,6 +55,7 @@ struct SourceInfo {
   std::array<double, 4> gap_basis{};  ///< ux, uy, vx, vy
   double spacing = 0;                 ///< metres: lattice step (geometric mean of the two), or mean point spacing
   bool replaces = false;              ///< took the place of coarser ground
+  bool makes_room = false;            ///< of lines: they end at the border of ground that replaces others
   std::string note;                   ///< product, date and licence, as the import or the file says; may be empty
 };
 

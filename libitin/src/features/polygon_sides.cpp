@@ -33,18 +33,23 @@ bool above(Place a, Place b, const Place& p) {
   return side > 0 || (side == 0 && b.y <= a.y);
 }
 
+std::vector<GridEdge> edges_of(const GridPolygon& polygon) {
+  std::vector<GridEdge> edges;
+  for_each_edge(polygon, [&](Position a, Position b) { edges.emplace_back(a, b); });
+  return edges;
+}
+
 double length(const GridEdge& e) {
   return std::hypot(double{1} * e.second.x - e.first.x, double{1} * e.second.y - e.first.y);
 }
 
 }  // namespace
 
-PolygonSides::PolygonSides(const GridPolygon& polygon) {
+PolygonSides::PolygonSides(const GridPolygon& polygon) : PolygonSides(edges_of(polygon)) {}
+
+PolygonSides::PolygonSides(std::vector<GridEdge> edges) : edges_(std::move(edges)) {
   GridBox box;
-  for_each_edge(polygon, [&](Position a, Position b) {
-    edges_.emplace_back(a, b);
-    box.extend(a.x, a.y);
-  });
+  for (const auto& [a, b] : edges_) box.extend(a.x, a.y);
   if (edges_.empty()) return;
   choose_cells(box);
   fill_cells();

@@ -1,4 +1,4 @@
-// Where positions lie relative to one polygon, however many corners it has.
+// Where positions lie relative to one polygon, or one area, however many corners it has.
 //
 //   const PolygonSides sides(polygon);
 //   if (sides.at(p) == Side::inside) ...
@@ -20,6 +20,8 @@ namespace itin {
 class PolygonSides {
  public:
   explicit PolygonSides(const GridPolygon& polygon);
+  /// Of the area that closed lines bound, by the even-odd rule.
+  explicit PolygonSides(std::vector<GridEdge> edges);
 
   /// As side_of().
   Side at(Position p) const;

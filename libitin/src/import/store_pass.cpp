@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <limits>
+#include <numeric>
 #include <optional>
 #include <span>
 #include <tuple>
 #include <utility>
+
+#include <fmt/format.h>
 
 #include <itin/call_progress.hpp>
 #include <itin/error.hpp>
@@ -31,6 +33,10 @@ SourceInfo recorded(SourceInfo source, const ImportOptions& options) {
   return source;
 }
 
+bool replaces(const TerrainSource& source, const ImportOptions& options) {
+  return options.replace && !is_sea(source.info());
+}
+
 SourceInfo inferred_source() {
   SourceInfo source;
   source.path = "inferred from contours";
@@ -47,18 +53,6 @@ void require_true_scale(const ImportPlan& plan, const std::string& path, const G
 std::string directory_of(const std::string& path) {
   const std::string parent = std::filesystem::path(path).parent_path().string();
   return parent.empty() ? "." : parent;
-}
-
-std::vector<SourceRank> ranks_for_sorting(const std::vector<SourceInfo>& sources) {
-  const std::vector<std::uint32_t> order = ranks_of(sources);
-  std::vector<SourceRank> ranks;
-  // Where the sea has a post and the ground, too, the ground's counts.
-  const auto spacing = [](const SourceInfo& s) {
-    return is_sea(s) ? std::numeric_limits<double>::infinity() : s.spacing;
-  };
-  for (std::size_t s = 0; s < sources.size(); ++s)
-    ranks.push_back({spacing(sources[s]), is_ground(sources[s]), !sources[s].theme.empty(), order[s]});
-  return ranks;
 }
 
 /// Sums over the parts of each theme.
@@ -78,8 +72,8 @@ std::vector<ThemeInfo> counted_themes(const LineCollection& collection, const Th
 }
 
 /// Shares of an import's time, as rasters of millions of posts took it: of all of it; with features, of what is then
-/// left; and of the rest.
-constexpr double kCollecting = 0.05, kRaising = 0.6, kSorting = 0.03;
+/// left; where lines make room, of that; and of the rest.
+constexpr double kCollecting = 0.05, kRaising = 0.6, kReplacing = 0.2, kSorting = 0.03;
 
 }  // namespace
 
@@ -96,7 +90,8 @@ StorePass::StorePass(const Target& target, const PassSources& of, const ImportOp
       report_(report),
       repair_(will_repair(options, of.base)),
       sources_(imported_sources(of.base)),
-      sorter_(directory_of(target.passing), options.memory_bytes / 2),
+      replacing_(replacing_lines()),
+      points_(directory_of(target.passing), options.memory_bytes / 2, replacing_),
       collection_(of.ground == nullptr ? LinesAs::imported : LinesAs::laid, options.memory_bytes) {
   require_numbers();
 }
@@ -105,7 +100,9 @@ bool StorePass::run(RaisedFeatures& raised, Progress& progress) {
   CallProgress call(progress);
   collect(call.step(kCollecting));
   if (ground_ != nullptr) collection_.raise(*ground_, raised, call.step(kRaising));
-  const ThemeLines lines = collection_.finish(sources_, ground_, progress);
+  const std::optional<ReplacingGround> replacing =
+      points_.replacing_ground(sources_, additions_.plan.grid, call.step(replacing_.empty() ? 0 : kReplacing));
+  const ThemeLines lines = collection_.finish(sources_, ground_, replacing ? &*replacing : nullptr, progress);
   add_line_vertices(lines);
   const bool done =
       target_.last || !collection_.is_raised() || (ground_ != nullptr && !collection_.changes_terrain(lines));
@@ -120,6 +117,21 @@ bool StorePass::run(RaisedFeatures& raised, Progress& progress) {
   return done;
 }
 
+/// The sources whose ground lines make room for, where any do. Lines that lie on a ground have done so already.
+Sources StorePass::replacing_lines() const {
+  const auto& [plan, footprints] = additions_;
+  const bool make_room =
+      std::any_of(sources_.begin(), sources_.end(), [](const SourceInfo& s) { return s.makes_room; }) ||
+      std::any_of(plan.lines.begin(), plan.lines.end(), [](const auto& layer) { return layer->info().makes_room; });
+  Sources replacing;
+  if (ground_ != nullptr || !make_room) return replacing;
+  for (std::size_t s = 0; s < sources_.size(); ++s)
+    if (sources_[s].replaces) replacing.insert(static_cast<std::uint16_t>(s));
+  for (std::size_t i = 0; i < plan.sources.size(); ++i)
+    if (replaces(*plan.sources[i], options_)) replacing.insert(static_cast<std::uint16_t>(sources_.size() + i));
+  return replacing;
+}
+
 void StorePass::require_numbers() const {
   const std::size_t added =
       additions_.plan.sources.size() + additions_.plan.lines.size() + additions_.footprints.size();
@@ -131,11 +143,11 @@ void StorePass::require_numbers() const {
 void StorePass::collect(Progress& progress) {
   CallProgress call(progress);
   auto left = static_cast<double>(additions_.plan.sources.size() + additions_.plan.lines.size()) + 1;
-  if (base_ != nullptr) stored_ = add_stored(*base_, sorter_, collection_, call.step(1 / left));
+  if (base_ != nullptr) stored_ = add_stored(*base_, points_, collection_, call.step(1 / left));
   for (const auto& source : additions_.plan.sources) {
     add_source(*source, call.step(1 / --left));
     sources_.push_back(recorded(source->info(), options_));
-    sources_.back().replaces = options_.replace && !is_sea(sources_.back());
+    sources_.back().replaces = replaces(*source, options_);
   }
   for (const auto& layer : additions_.plan.lines) {
     add_lines(*layer, call.step(1 / --left));
@@ -155,7 +167,7 @@ void StorePass::add_source(TerrainSource& source, Progress& progress) {
       [&](std::span<const GridPoint> points) {
         raw.clear();
         for (const GridPoint& p : points) raw.push_back({morton(p.x, p.y), p.z, next_number(), 0});
-        sorter_.add(raw);
+        points_.add(raw);
       },
       progress);
   require_true_scale(additions_.plan, source.info().path, counts.bounds);
@@ -211,7 +223,7 @@ void StorePass::add_footprints(FootprintFile& file) {
 void StorePass::add_line_vertices(const ThemeLines& lines) {
   for (const std::uint32_t v : lines.terrain_vertices()) {
     const GridPoint& p = lines.lines.vertices[v];
-    sorter_.add({code_of(p), p.z, lines.sources[v], 0});
+    points_.add({code_of(p), p.z, lines.sources[v], 0});
   }
 }
 
@@ -219,7 +231,7 @@ PyramidReport StorePass::build(const ThemeLines& lines, const std::vector<double
                                Progress& progress) {
   CallProgress call(progress);
   std::uint64_t duplicates = 0;
-  SortedPoints points = sorter_.finish(ranks_for_sorting(sources_), call.step(kSorting), &duplicates);
+  SortedPoints points = points_.finish(sources_, call.step(kSorting), &duplicates);
   report_.duplicates += duplicates;
   // Ground that features stand on stays as it is.
   const bool keep = ground_ != nullptr && collection_.is_raised();
@@ -236,7 +248,26 @@ void StorePass::set_aside(const PyramidReport& pyramid, const ThemeLines& lines,
                           ground_ != nullptr ? before.crossings : lines.lines.crossings});
 }
 
+/// Whoever imports lines learns that they are not in the surface.
+void StorePass::count_made_room() {
+  const std::vector<std::uint64_t>& made_room = collection_.made_room();
+  report_.made_room = std::accumulate(made_room.begin(), made_room.end(), std::uint64_t{0});
+  std::size_t source = imported_sources(base_).size() + additions_.plan.sources.size();
+  for (const auto& layer : additions_.plan.lines) {
+    const std::vector<ImportedPiece>& imported = collection_.imported();
+    const auto pieces = std::count_if(imported.begin(), imported.end(),
+                                      [&](const ImportedPiece& p) { return p.segment.source == source; });
+    if (made_room[source] > 0)
+      report_.warnings.push_back(
+          fmt::format("{}: {} of {} pieces of lines make room, wholly or in part, for ground that was imported with "
+                      "`replace`; lines imported with `stay` do not",
+                      layer->path(), made_room[source], pieces));
+    ++source;
+  }
+}
+
 void StorePass::count(const PyramidReport& pyramid, const ThemeLines& lines) {
+  if (!additions_.empty() && additions_.footprints.empty()) count_made_room();
   if (ground_ != nullptr) report_.crossings = std::max(report_.crossings, lines.lines.crossings);
   report_.flat_before = pyramid.flat_before;
   report_.flat_after = pyramid.flat_after;

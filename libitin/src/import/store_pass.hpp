@@ -12,6 +12,7 @@
 #include <itin/store.hpp>
 
 #include "import/footprints/footprint_file.hpp"
+#include "import/point_intake.hpp"
 #include "import/source/terrain_source.hpp"
 #include "import/stored_sources.hpp"
 #include "import/vectors/line_collection.hpp"
@@ -58,6 +59,7 @@ class StorePass {
   bool run(RaisedFeatures& raised, Progress& progress);
 
  private:
+  Sources replacing_lines() const;
   void require_numbers() const;
   void collect(Progress& progress);
   void add_source(TerrainSource& source, Progress& progress);
@@ -68,6 +70,7 @@ class StorePass {
   PyramidReport build(const ThemeLines& lines, const std::vector<double>& tolerances, StoreWriter& writer,
                       Progress& progress);
   void set_aside(const PyramidReport& pyramid, const ThemeLines& lines, StoreWriter& writer) const;
+  void count_made_room();
   void count(const PyramidReport& pyramid, const ThemeLines& lines);
   void commit(const PyramidReport& pyramid, const ThemeLines& lines, StoreWriter& writer);
 
@@ -79,7 +82,8 @@ class StorePass {
   ImportReport& report_;
   const bool repair_;                ///< of contours
   std::vector<SourceInfo> sources_;  ///< of the new store; the last one stands for inferred points where it is repaired
-  PointSorter sorter_;
+  const Sources replacing_;          ///< the sources whose ground lines make room for
+  PointIntake points_;
   LineCollection collection_;
   StoredPoints stored_;
 };

@@ -12,7 +12,7 @@ namespace itin {
 namespace {
 
 /// The points of the surface that come neither from lines nor from what was inferred.
-void add_surface(const Store& store, PointSorter& sorter, LineCollection& lines, StoredPoints& stored,
+void add_surface(const Store& store, PointIntake& intake, LineCollection& lines, StoredPoints& stored,
                  Progress& progress) {
   const std::size_t inferred = imported_sources(&store).size();
   std::vector<Leaf> leaves;
@@ -30,19 +30,19 @@ void add_surface(const Store& store, PointSorter& sorter, LineCollection& lines,
       else if (!lines.take_vertex(p, block->sources[k], leaves[i].theme == 0))
         points.push_back({code_of(p), p.z, block->sources[k], 0});
     }
-    sorter.add(points);
+    intake.add(points);
     stored.count += points.size();
     progress.report("reading the store", static_cast<double>(i + 1) / static_cast<double>(leaves.size()));
   }
 }
 
-void add_set_aside(const StoreRows& rows, PointSorter& sorter, StoredPoints& stored, Progress& progress) {
+void add_set_aside(const StoreRows& rows, PointIntake& intake, StoredPoints& stored, Progress& progress) {
   const std::uint32_t blocks = set_aside_list(rows).point_blocks;
   for (std::uint32_t i = 0; i < blocks; ++i) {
     progress.throw_if_cancelled();
     const Block block = set_aside_points(rows, i);
     for (std::size_t k = 0; k < block.points.size(); ++k)
-      sorter.add({code_of(block.points[k]), block.points[k].z, block.sources[k], 0});
+      intake.add({code_of(block.points[k]), block.points[k].z, block.sources[k], 0});
     stored.count += block.points.size();
   }
 }
@@ -70,13 +70,13 @@ std::vector<SourceInfo> imported_sources(const Store* store) {
   return sources;
 }
 
-StoredPoints add_stored(const Store& store, PointSorter& sorter, LineCollection& lines, Progress& progress) {
+StoredPoints add_stored(const Store& store, PointIntake& intake, LineCollection& lines, Progress& progress) {
   const StoreRows& rows = file_of(store).rows();
   StoredPoints stored;
   lines.take_themes(store.metadata());
   lines.take_segments(store);
-  add_surface(store, sorter, lines, stored, progress);
-  add_set_aside(rows, sorter, stored, progress);
+  add_surface(store, intake, lines, stored, progress);
+  add_set_aside(rows, intake, stored, progress);
   lines.take_set_aside(rows);
   lines.take_features(store);
   std::sort(stored.inferred.begin(), stored.inferred.end(),

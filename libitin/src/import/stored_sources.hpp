@@ -8,8 +8,8 @@
 #include <itin/progress.hpp>
 #include <itin/store.hpp>
 
+#include "import/point_intake.hpp"
 #include "import/vectors/line_collection.hpp"
-#include "pyramid/sorted_points.hpp"
 
 namespace itin {
 
@@ -28,6 +28,6 @@ struct StoredPoints {
 
 /// Adds the points of the ground that a store has imported, also those that its surface leaves out, and takes its lines
 /// and footprints over. Throws CorruptStore, Cancelled.
-StoredPoints add_stored(const Store& store, PointSorter& sorter, LineCollection& lines, Progress& progress);
+StoredPoints add_stored(const Store& store, PointIntake& intake, LineCollection& lines, Progress& progress);
 
 }  // namespace itin

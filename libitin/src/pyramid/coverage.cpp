@@ -111,6 +111,15 @@ std::vector<std::uint64_t> isolated_of(const std::vector<RawPoint>& points, cons
 
 }  // namespace
 
+std::vector<std::array<double, 4>> gap_bases_of(const std::vector<SourceInfo>& sources, const Grid& grid) {
+  std::vector<std::array<double, 4>> bases;
+  for (const SourceInfo& source : sources) {
+    bases.push_back(source.gap_basis);
+    for (double& component : bases.back()) component /= grid.resolution;
+  }
+  return bases;
+}
+
 GridBox reach_of(const CurveRange& tile) {
   const GridBox square = square_of(tile.cell);
   return tile.count == 0 ? square : widened(square, fringe(square, tile.count));

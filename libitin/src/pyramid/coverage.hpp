@@ -7,12 +7,17 @@
 #include <cstdint>
 #include <vector>
 
+#include <itin/store.hpp>
+
 #include "pyramid/greedy.hpp"
 #include "pyramid/source_index.hpp"
 #include "pyramid/working_index.hpp"
 #include "triangulate/region.hpp"
 
 namespace itin {
+
+/// By source: SourceInfo::gap_basis in grid units.
+std::vector<std::array<double, 4>> gap_bases_of(const std::vector<SourceInfo>& sources, const Grid& grid);
 
 /// The full surface about one tile, and what its own points have of the coverage.
 struct TileSurvey {

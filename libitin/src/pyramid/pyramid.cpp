@@ -26,20 +26,6 @@ namespace itin {
 
 namespace {
 
-/// Points a tile of greedy insertion: few borders, but still enough tiles for all threads.
-std::uint32_t tile_points(std::uint64_t points) {
-  return static_cast<std::uint32_t>(std::clamp<std::uint64_t>(points / 32, 1 << 15, 1 << 18));
-}
-
-std::vector<std::array<double, 4>> gap_bases(const std::vector<SourceInfo>& sources, const Grid& grid) {
-  std::vector<std::array<double, 4>> bases;
-  for (const SourceInfo& source : sources) {
-    bases.push_back(source.gap_basis);
-    for (double& component : bases.back()) component /= grid.resolution;
-  }
-  return bases;
-}
-
 /// The codes of the vertices of the terrain's lines, ascending, as those are in Morton order.
 std::vector<std::uint64_t> terrain_codes(const ThemeLines& lines) {
   std::vector<std::uint64_t> codes;
@@ -166,7 +152,7 @@ class PyramidBuild {
         lines_(of.lines),
         inferred_(of.inferred),
         levels_(static_cast<int>(of.tolerances.size())),
-        bases_(gap_bases(of.sources, of.grid)),
+        bases_(gap_bases_of(of.sources, of.grid)),
         writer_(writer),
         progress_(progress) {
     for (const double metres : of.tolerances) {
@@ -206,7 +192,7 @@ class PyramidBuild {
 
   void index_points() {
     index_.emplace(points_, levels_, kLeafCapacity);
-    tiles_ = index_->tiles(tile_points(points_.size()));
+    tiles_ = index_->work_tiles();
   }
 
   /// All points that were imported, also where those of the surface are more by now.

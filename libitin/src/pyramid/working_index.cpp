@@ -179,6 +179,10 @@ std::vector<CurveRange> WorkingIndex::tiles(std::uint32_t capacity) const {
   return result;
 }
 
+std::vector<CurveRange> WorkingIndex::work_tiles() const {
+  return tiles(static_cast<std::uint32_t>(std::clamp<std::uint64_t>(points_.size() / 32, 1 << 15, 1 << 18)));
+}
+
 std::vector<RawPoint> WorkingIndex::read(const CurveRange& range) const {
   std::vector<RawPoint> result(range.count);
   points_.read(range.first, result);

@@ -45,6 +45,8 @@ class WorkingIndex final : public PointIndex {
   std::uint64_t selected_points(int level) const;
   /// Coarser cells with at most `capacity` points each, perhaps none, that together cover bounds().
   std::vector<CurveRange> tiles(std::uint32_t capacity) const;
+  /// Tiles to work on at the same time: few borders, but still enough for all threads.
+  std::vector<CurveRange> work_tiles() const;
 
   std::vector<RawPoint> read(const CurveRange& range) const;
   void write(const CurveRange& range, std::span<const RawPoint> points);

@@ -50,6 +50,7 @@ ordered_json source_to_json(const SourceInfo& source) {
                  {"sha256", source.sha256},     {"source_crs", source.source_crs},
                  {"vertices", source.vertices}, {"gap_basis_m", source.gap_basis},
                  {"spacing_m", source.spacing}, {"replaces", source.replaces}};
+  if (source.makes_room) j["makes_room"] = true;
   if (!source.note.empty()) j["note"] = source.note;
   return j;
 }
@@ -66,6 +67,7 @@ SourceInfo source_from_json(const json& j) {
   source.gap_basis = j.at("gap_basis_m").get<std::array<double, 4>>();
   source.spacing = j.at("spacing_m").get<double>();
   source.replaces = j.at("replaces").get<bool>();
+  source.makes_room = j.value("makes_room", false);
   source.note = j.value("note", "");
   return source;
 }

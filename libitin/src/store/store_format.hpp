@@ -11,8 +11,10 @@
 namespace itin::format {
 
 inline constexpr std::uint32_t kApplicationId = 0x4954494e;  // "ITIN"
-/// For stores that keep ids, names or attributes of features.
-inline constexpr std::uint32_t kVersion = 6;
+/// The newest: for stores with lines that make room for ground that replaces others.
+inline constexpr std::uint32_t kVersion = 7;
+/// For others that keep ids, names or attributes of features.
+inline constexpr std::uint32_t kVersionWithFeatures = 6;
 /// For others with a theme of terraces, or rasters of heights that stand.
 inline constexpr std::uint32_t kVersionWithTerraces = 5;
 /// For all others: readers of that version read them.

@@ -177,7 +177,7 @@ void StoreWriter::Impl::add_segments(const std::vector<Segment>& segments, std::
   std::map<std::uint16_t, std::vector<Segment>> by_theme;
   for (const Segment& s : segments) by_theme[s.theme].push_back(s);
   for (const SegmentFeature& f : features) with_features_.insert(f.segment.theme);
-  if (!with_features_.empty()) require_version(format::kVersion);
+  if (!with_features_.empty()) require_version(format::kVersionWithFeatures);
   for (auto& [theme, of_theme] : by_theme) add_edges(theme, std::move(of_theme), features);
 }
 
@@ -218,7 +218,7 @@ std::uint32_t StoreWriter::Impl::add_footprints(std::uint16_t theme, std::span<c
 }
 
 std::uint32_t StoreWriter::Impl::add_features(std::uint16_t theme, std::span<const FeatureRecord> records) {
-  if (!records.empty()) require_version(format::kVersion);
+  if (!records.empty()) require_version(format::kVersionWithFeatures);
   std::uint32_t blocks = 0;
   for (; !records.empty(); ++blocks) {
     const auto some = records.first(std::min(records.size(), kFeaturesInBlock));
@@ -276,6 +276,11 @@ void StoreWriter::Impl::commit(std::vector<SourceInfo> sources, std::vector<Them
   if (std::any_of(metadata_.themes.begin(), metadata_.themes.end(),
                   [](const ThemeInfo& t) { return t.kind == ThemeKind::Terraces; }))
     require_version(format::kVersionWithTerraces);
+  // Older programs would add to them as though no line made room.
+  const auto any_source = [&](bool SourceInfo::*does) {
+    return std::any_of(metadata_.sources.begin(), metadata_.sources.end(), [&](const auto& s) { return s.*does; });
+  };
+  if (any_source(&SourceInfo::makes_room) && any_source(&SourceInfo::replaces)) require_version(format::kVersion);
   for (const std::uint16_t theme : with_features_)
     metadata_.themes.at(theme - std::size_t{1}).segments_have_features = true;
   metadata_.parts = std::move(parts);

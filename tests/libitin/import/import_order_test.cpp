@@ -131,7 +131,8 @@ class ImportOrder : public testing::Test {
     options.kind = kind;
     options.theme = theme;
     if (standing) options.height_field = "h";
-    return {theme, options};
+    options.stay = is_terrain(kind) && chance(3);
+    return {theme + (options.stay ? " staying" : ""), options};
   }
 
   /// Over the edge of the coarse ground, now and then through its posts.

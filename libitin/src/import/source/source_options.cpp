@@ -40,6 +40,7 @@ constexpr std::array kOptions{
     Option{"`allow_mixed_vertical`", [](const ImportOptions& o) { return o.allow_mixed_vertical; },
            kTerrain | kLines | kSurfaces},
     Option{"`replace`", [](const ImportOptions& o) { return o.replace; }, kTerrain},
+    Option{"`stay`", [](const ImportOptions& o) { return o.stay; }, kContours | kTerrainLines},
     Option{"`sea_level`", [](const ImportOptions& o) { return o.sea_level.has_value(); }, kRasters},
     Option{"`sea_area`", [](const ImportOptions& o) { return !o.sea_area.empty(); }, kRasters},
     Option{"`band`", [](const ImportOptions& o) { return o.band.has_value(); }, kRasters | kCells},

@@ -175,9 +175,16 @@ void LineCollection::take_set_aside(const StoreRows& rows) {
 }
 
 /// The lines with their heights. As they lie, a vertex of the terrain has its own, one of another line gets it anew.
-void LineCollection::add_lines() {
+void LineCollection::add_lines(const std::vector<SourceInfo>& sources, const ReplacingGround* replacing) {
+  made_room_.assign(sources.size(), 0);
   if (as_ == LinesAs::imported) {
-    for (const auto& [theme, s] : imported_) segments_.push_back({s.a, s.b, theme, s.feature});
+    for (const auto& [theme, s] : imported_) {
+      using Pieces = std::vector<ReplacingGround::Piece>;
+      const Pieces whole{{s.a, s.b}};
+      const Pieces pieces = replacing != nullptr && sources[s.source].makes_room ? replacing->outside(s.a, s.b) : whole;
+      made_room_[s.source] += pieces != whole ? 1 : 0;
+      for (const auto& [a, b] : pieces) segments_.push_back({a, b, theme, s.feature});
+    }
     return;
   }
   const auto vertex = [&](std::int32_t x, std::int32_t y) {
@@ -396,7 +403,6 @@ void LineCollection::put_in_order(ThemeLines& result) {
   for (OwnPart& own : parts_) own.theme = number[own.theme];
   for (ImportedPiece& i : imported_) i.theme = number[i.theme];
   std::sort(imported_.begin(), imported_.end());
-  imported_.erase(std::unique(imported_.begin(), imported_.end()), imported_.end());
   themes_ = std::move(themes);
   raised_ = std::move(raised);
   footprints_ = std::move(footprints);
@@ -417,8 +423,10 @@ void LineCollection::find_vertices(const std::vector<SourceInfo>& sources) {
 }
 
 ThemeLines LineCollection::finish(const std::vector<SourceInfo>& sources, const Store* ground,
-                                  const Progress& progress) {
-  add_lines();
+                                  const ReplacingGround* replacing, const Progress& progress) {
+  std::sort(imported_.begin(), imported_.end());
+  imported_.erase(std::unique(imported_.begin(), imported_.end()), imported_.end());
+  add_lines(sources, replacing);
   ThemeLines result;
   put_in_order(result);
   find_first_sources(sources);

@@ -18,6 +18,7 @@
 #include "features/mask_index.hpp"
 #include "features/raised_theme.hpp"
 #include "import/source/imported_lines.hpp"
+#include "pyramid/replacing_ground.hpp"
 #include "pyramid/theme_lines.hpp"
 #include "store/feature_table.hpp"
 #include "store/point_index.hpp"
@@ -81,10 +82,14 @@ class LineCollection {
   void raise(const Store& ground, RaisedFeatures& report, Progress& progress);
 
   /// Puts the themes in order and the lines of all of them into one plane. `ground` as in raise(), if it was called.
-  ThemeLines finish(const std::vector<SourceInfo>& sources, const Store* ground, const Progress& progress);
+  /// Lines as they were imported make room for `replacing`, which may be null, where their sources do.
+  ThemeLines finish(const std::vector<SourceInfo>& sources, const Store* ground, const ReplacingGround* replacing,
+                    const Progress& progress);
   /// After finish(), for lines as they lie on the ground: whether raised features have given lines of the terrain
   /// vertices that they do not have there.
   bool changes_terrain(const ThemeLines& lines) const;
+  /// After finish(): how many of the pieces in imported() made room, by source.
+  const std::vector<std::uint64_t>& made_room() const { return made_room_; }
   /// After finish(), in order: all lines on the ground as they were imported.
   const std::vector<ImportedPiece>& imported() const { return imported_; }
   /// After finish(): the themes in order, their features counted.
@@ -103,7 +108,7 @@ class LineCollection {
   };
   std::uint16_t source_of_stored(const Segment& s) const;
   std::vector<std::uint32_t> features_of(const Segment& s) const;
-  void add_lines();
+  void add_lines(const std::vector<SourceInfo>& sources, const ReplacingGround* replacing);
   void find_first_sources(const std::vector<SourceInfo>& sources);
   void find_vertices(const std::vector<SourceInfo>& sources);
   void put_in_order(ThemeLines& result);
@@ -128,6 +133,7 @@ class LineCollection {
   std::vector<SegmentFeature> stored_features_;            ///< of them, ascending
   std::unordered_map<std::uint64_t, std::uint32_t> ends_;  ///< theme by Morton code: those of the stored terrain lines
   std::vector<ImportedPiece> imported_;
+  std::vector<std::uint64_t> made_room_;
   std::vector<OwnedSegment> segments_;
   std::vector<ThemeVertex> ground_ends_;                ///< of edges that keep the ground about features
   std::vector<ChangedGround> changed_;                  ///< by theme: of this ground

@@ -29,6 +29,7 @@ LineLayer::LineLayer(const std::string& path, const ImportOptions& options)
   info_.path = path;
   info_.kind = name_of(kind_);
   info_.theme = options.theme;
+  info_.makes_room = is_terrain(kind_) && !options.stay;
   info_.source_crs = heights_.crs;
 }
 
