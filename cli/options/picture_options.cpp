@@ -48,8 +48,15 @@ void PictureOptions::validate() {
 
 viewshed::MapImage PictureOptions::draw(const Store& store, const Tin& tin, const Detail& detail,
                                         Progress& progress) const {
-  if (!perspective_) return viewshed::draw_oblique(tin, oblique_);
+  std::vector<ThemeKind> kinds;
+  for (const ThemeInfo& theme : store.metadata().themes) kinds.push_back(theme.kind);
+  if (!perspective_) {
+    viewshed::ObliqueOptions options = oblique_;
+    options.kinds = std::move(kinds);
+    return viewshed::draw_oblique(tin, options);
+  }
   viewshed::PerspectiveOptions options = *perspective_;
+  options.kinds = std::move(kinds);
   const auto ground =
       heights_at(store, {{options.eye.x, options.eye.y}}, detail, ThemeChoice::none(), progress).front();
   if (!ground) throw InputError(fmt::format("--eye '{}': there is no ground below it", eye_text_));

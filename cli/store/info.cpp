@@ -31,6 +31,11 @@ Document heights_document(const std::optional<HeightAxis>& heights) {
           {"direction", heights->down ? "down" : "up"}};
 }
 
+/// Whether lines with heights stay where finer ground takes the place of others.
+bool stays(const SourceInfo& source) {
+  return !source.theme.empty() && is_terrain(theme_kind(source.kind)) && !source.makes_room;
+}
+
 Document sources_document(const StoreMetadata& metadata, const StatedHeights& heights) {
   Document sources = Document::array();
   for (const SourceInfo& source : metadata.sources) {
@@ -89,7 +94,10 @@ std::string info_text(const Store& store, const StatedHeights& heights) {
                                 : source.spacing > 0  ? fmt::format("every {:.4g} m", source.spacing)
                                                       : "by need";
     text += fmt::format("  {}  {}{}  {:>13} vertices, {}  {}\n", source.imported, source.kind,
-                        source.replaces ? " (replacing)" : "", grouped(source.vertices), spacing, source.path);
+                        source.replaces ? " (replacing)"
+                        : stays(source) ? " (staying)"
+                                        : "",
+                        grouped(source.vertices), spacing, source.path);
     if (const auto axis = heights.of(source)) text += fmt::format("{:22}  {}\n", "", described(*axis));
     if (!source.note.empty()) text += fmt::format("{:22}  {}\n", "", source.note);
   }

@@ -46,6 +46,19 @@ TEST(ObliqueView, HidesWhatIsBehindAWall) {
             colours(viewshed::draw_oblique(tin, {0, 20, 400})).size());
 }
 
+TEST(ObliqueView, HasAColourForEachKindOfTheme) {
+  Tin tin = test::lattice_tin(5, 5, 10, [](auto, auto) { return 5.0; });
+  tin.standing.assign(tin.vertices.size(), 2);
+  const auto drawn = [&](ThemeKind kind) {
+    return pixel(viewshed::draw_oblique(tin, {.elevation = 90, .pixels = 400, .kinds = {ThemeKind::Water, kind}}), 0.5,
+                 0.5);
+  };
+  const auto houses = drawn(ThemeKind::Buildings), woods = drawn(ThemeKind::Vegetation);
+  EXPECT_GT(houses[0], houses[1]);
+  EXPECT_GT(woods[1], woods[0]);
+  EXPECT_EQ(drawn(ThemeKind::Terraces), houses);
+}
+
 TEST(ObliqueView, DrawsEdgesWhereTrianglesMeet) {
   // Triangles of 200 x 200 m: the middles of the squares' sides lie on edges, a quarter of a square away none is near.
   const Tin plain = test::lattice_tin(3, 2, 200, [](auto, auto) { return 5.0; });

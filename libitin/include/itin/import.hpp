@@ -92,8 +92,8 @@ struct ImportReport {
   std::uint64_t filtered = 0;       ///< points and features left out by class or where
   std::uint64_t duplicates = 0;     ///< positions that were there already
   std::uint64_t replaced = 0;       ///< coarser points that made room now
-  std::uint64_t made_room = 0;      ///< pieces of lines, of all imports so far, that made room for ground that replaces
-                                    ///< others, wholly or in part; not counted where features are imported
+  std::uint64_t made_room = 0;      ///< pieces of lines, of all imports so far, that make room for ground that replaces
+                                    ///< others, wholly or in part; counted where such lines or ground are imported
   std::uint64_t isolated = 0;       ///< points left out now because no ground could be triangulated about them
   std::uint64_t features = 0;       ///< line features read, or features that stand now
   std::uint64_t refused = 0;        ///< features that could not stand, of all imports so far; warnings say why

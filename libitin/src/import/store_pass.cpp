@@ -248,6 +248,13 @@ void StorePass::set_aside(const PyramidReport& pyramid, const ThemeLines& lines,
                           ground_ != nullptr ? before.crossings : lines.lines.crossings});
 }
 
+/// Whether terrain that replaces or lines that make room are added.
+bool StorePass::changes_made_room() const {
+  const auto& [plan, footprints] = additions_;
+  return std::any_of(plan.sources.begin(), plan.sources.end(), [&](const auto& s) { return replaces(*s, options_); }) ||
+         std::any_of(plan.lines.begin(), plan.lines.end(), [](const auto& layer) { return layer->info().makes_room; });
+}
+
 /// Whoever imports lines learns that they are not in the surface.
 void StorePass::count_made_room() {
   const std::vector<std::uint64_t>& made_room = collection_.made_room();
@@ -267,7 +274,7 @@ void StorePass::count_made_room() {
 }
 
 void StorePass::count(const PyramidReport& pyramid, const ThemeLines& lines) {
-  if (!additions_.empty() && additions_.footprints.empty()) count_made_room();
+  if (changes_made_room()) count_made_room();
   if (ground_ != nullptr) report_.crossings = std::max(report_.crossings, lines.lines.crossings);
   report_.flat_before = pyramid.flat_before;
   report_.flat_after = pyramid.flat_after;

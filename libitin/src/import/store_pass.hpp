@@ -70,6 +70,7 @@ class StorePass {
   PyramidReport build(const ThemeLines& lines, const std::vector<double>& tolerances, StoreWriter& writer,
                       Progress& progress);
   void set_aside(const PyramidReport& pyramid, const ThemeLines& lines, StoreWriter& writer) const;
+  bool changes_made_room() const;
   void count_made_room();
   void count(const PyramidReport& pyramid, const ThemeLines& lines);
   void commit(const PyramidReport& pyramid, const ThemeLines& lines, StoreWriter& writer);

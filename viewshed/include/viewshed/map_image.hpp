@@ -45,12 +45,13 @@ MapImage draw_map(const Tin& tin, const Result& result, const MapOptions& option
 /// Over what compute_with_surface() kept; heights of it that have not been read are.
 MapImage draw_map(Surface& surface, const Result& result, Progress& progress, const MapOptions& options = {});
 
-/// Parallel projection, shaded, what stands on the surface in a colour for each theme.
+/// Parallel projection, shaded, what stands on the surface in a colour for each kind of theme.
 struct ObliqueOptions {
-  double azimuth = 340;   ///< degrees clockwise from grid north: where the viewer looks
-  double elevation = 40;  ///< degrees, above 0 up to 90: how high above the horizon the viewer is
-  int pixels = 1600;      ///< of the picture's longer side, 200 to 16000
-  bool edges = false;     ///< those of all triangles, over the shading
+  double azimuth = 340;               ///< degrees clockwise from grid north: where the viewer looks
+  double elevation = 40;              ///< degrees, above 0 up to 90: how high above the horizon the viewer is
+  int pixels = 1600;                  ///< of the picture's longer side, 200 to 16000
+  bool edges = false;                 ///< those of all triangles, over the shading
+  std::vector<ThemeKind> kinds = {};  ///< of the store's themes, the first one's first; without them all tops are grey
 };
 
 /// Hidden parts are hidden exactly, up to a pixel. O(n) time for n triangles and O(pixels^2) memory, on one thread.
@@ -65,7 +66,8 @@ struct PerspectiveOptions {
   double field = 60;   ///< degrees across the picture, 1 to 150
   int pixels = 1600;   ///< of the picture's width, 200 to 16000; its height is nine sixteenths of that
   Earth earth = {};
-  bool edges = false;  ///< those of all triangles, over the shading
+  bool edges = false;                 ///< those of all triangles, over the shading
+  std::vector<ThemeKind> kinds = {};  ///< as ObliqueOptions::kinds
 };
 
 /// Cost and errors are those of draw_oblique(). What is nearer than 0.1 m is not drawn.

@@ -39,7 +39,7 @@ class ParallelView {
       return std::max(1, static_cast<int>(std::ceil(metres * pixels_per_metre)));
     };
     SurfacePicture picture(side(right_ - left_ + 2 * margin), side(high_ - low_ + 2 * margin), kPaper);
-    const SurfaceColours colours(tin_, options_.azimuth);
+    const SurfaceColours colours(tin_, options_.azimuth, options_.kinds);
     const double scale = SurfacePicture::kSamples * pixels_per_metre;
     for (const Triangle& t : tin_.triangles) {
       std::array<SurfacePicture::Corner, 3> corners;

@@ -32,7 +32,7 @@ class PerspectiveView {
 
   MapImage draw() const {
     SurfacePicture picture(options_.pixels, static_cast<int>(std::lround(options_.pixels * kHeightOfWidth)), kSky);
-    const SurfaceColours colours(tin_, options_.azimuth);
+    const SurfaceColours colours(tin_, options_.azimuth, options_.kinds);
     std::vector<Point3> seen;
     for (std::uint32_t v = 0; v < tin_.vertices.size(); ++v) seen.push_back(project(tin_.point(v)));
     for (const Triangle& t : tin_.triangles) {

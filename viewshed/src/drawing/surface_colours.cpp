@@ -14,12 +14,27 @@ constexpr double kAmbient = 0.42;
 constexpr double kWall = 0.3;
 
 constexpr Colour kGround{206, 207, 186}, kWalls{238, 228, 208};
-constexpr std::array<Colour, 6> kThemes{
-    {{190, 92, 66}, {104, 144, 84}, {146, 146, 150}, {96, 128, 176}, {184, 152, 82}, {150, 98, 158}}};
+constexpr Colour kOther{146, 146, 150};
+
+/// Of tops.
+Colour colour_of(ThemeKind kind) {
+  switch (kind) {
+    case ThemeKind::Buildings:
+    case ThemeKind::Terraces:
+      return {190, 92, 66};
+    case ThemeKind::Vegetation:
+      return {104, 144, 84};
+    case ThemeKind::Surface:
+      return {184, 152, 82};
+    default:
+      return kOther;
+  }
+}
 
 }  // namespace
 
-SurfaceColours::SurfaceColours(const Tin& tin, double azimuth) : tin_(tin) {
+SurfaceColours::SurfaceColours(const Tin& tin, double azimuth, const std::vector<ThemeKind>& kinds) : tin_(tin) {
+  for (const ThemeKind kind : kinds) of_themes_.push_back(colour_of(kind));
   const double light = (azimuth - kLeft) * kDegree, height = kHigh * kDegree;
   light_ = {-std::sin(light) * std::cos(height), -std::cos(light) * std::cos(height), std::sin(height)};
 }
@@ -31,7 +46,10 @@ Colour SurfaceColours::of(const Triangle& t) const {
   const double length = std::hypot(nx, ny, nz);
   const double lit = length > 0 ? std::max(0.0, (nx * light_[0] + ny * light_[1] + nz * light_[2]) / length) : 1;
   const std::uint16_t theme = tin_.theme(t);
-  const Colour& plain = theme == 0 ? kGround : nz < kWall * length ? kWalls : kThemes[(theme - 1U) % kThemes.size()];
+  const Colour& plain = theme == 0                   ? kGround
+                        : nz < kWall * length        ? kWalls
+                        : theme <= of_themes_.size() ? of_themes_[theme - std::size_t{1}]
+                                                     : kOther;
   const double shade = kAmbient + (1 - kAmbient) * std::min(1.0, lit * 1.25);
   const auto shaded = [&](std::uint8_t value) { return static_cast<std::uint8_t>(std::lround(value * shade)); };
   return {shaded(plain.red), shaded(plain.green), shaded(plain.blue)};

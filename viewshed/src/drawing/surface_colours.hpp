@@ -3,7 +3,9 @@
 
 #include <array>
 #include <numbers>
+#include <vector>
 
+#include <itin/theme.hpp>
 #include <itin/tin.hpp>
 
 #include "drawing/canvas.hpp"
@@ -14,15 +16,17 @@ inline constexpr double kDegree = std::numbers::pi / 180;  ///< radians
 
 class SurfaceColours {
  public:
-  /// The light comes over the left shoulder of one who looks to `azimuth`, degrees. `tin` must outlive it.
-  SurfaceColours(const Tin& tin, double azimuth);
+  /// The light comes over the left shoulder of one who looks to `azimuth`, degrees. `kinds` are those of the themes,
+  /// the first one's first. `tin` must outlive it.
+  SurfaceColours(const Tin& tin, double azimuth, const std::vector<ThemeKind>& kinds);
 
-  /// Ground has one colour, and so have walls; each theme has its own.
+  /// Ground has one colour, and so have walls; each kind of theme has its own.
   Colour of(const Triangle& t) const;
 
  private:
   const Tin& tin_;
   std::array<double, 3> light_;
+  std::vector<Colour> of_themes_;  ///< by number, from 1
 };
 
 }  // namespace itin::viewshed

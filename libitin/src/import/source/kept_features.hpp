@@ -13,9 +13,9 @@
 namespace itin {
 
 struct FeatureQuery {
-  std::string id_field;                                ///< default: what the source itself calls the feature
-  std::string name_field;                              ///< default: features have no names
-  std::optional<std::vector<std::string>> attributes;  ///< default: all that a store can keep
+  std::string id_field = {};                                ///< default: what the source itself calls the feature
+  std::string name_field = {};                              ///< default: features have no names
+  std::optional<std::vector<std::string>> attributes = {};  ///< default: all that a store can keep
 
   /// Whether anything is to be kept.
   bool any() const { return !attributes || !attributes->empty() || !id_field.empty() || !name_field.empty(); }
