@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
 #include <utility>
 
 #include <itin/raster.hpp>
@@ -11,8 +12,22 @@
 
 namespace itin::viewshed {
 
-Window window_about(const std::vector<SitePosition>& positions, const std::vector<std::size_t>& options,
-                    double radius) {
+std::vector<std::size_t> all_options(const SiteSurvey& survey) {
+  std::vector<std::size_t> all(survey.positions.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  return all;
+}
+
+Box reach_of(const SiteSurvey& survey) {
+  Box box;
+  for (const SitePosition& place : survey.positions) box.extend(disc_box(place.position, survey.radius));
+  return box;
+}
+
+Window window_about(const SiteSurvey& survey, const std::vector<std::size_t>& options) {
+  const std::vector<SitePosition>& positions = survey.positions;
+  const double radius = survey.radius;
+  if (options.size() == 1) return Window::disc(positions[options.front()].position, radius);
   Box box;
   for (const std::size_t option : options) box.extend(disc_box(positions[option].position, radius));
   const RasterGrid cells = RasterGrid::aligned(box, radius / 4);

@@ -1,4 +1,4 @@
-// The ground that several sites may see.
+// The ground that sites may see.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +9,14 @@
 
 namespace itin::viewshed {
 
-/// Few rectangles that hold the discs about some of the sites: a window of hundreds of discs takes long to classify.
-Window window_about(const std::vector<SitePosition>& positions, const std::vector<std::size_t>& options, double radius);
+/// The numbers of all sites.
+std::vector<std::size_t> all_options(const SiteSurvey& survey);
+
+/// About all sites as far as they serve.
+Box reach_of(const SiteSurvey& survey);
+
+/// The disc about a site, and about several few rectangles that hold their discs: a window of hundreds of discs takes
+/// long to classify.
+Window window_about(const SiteSurvey& survey, const std::vector<std::size_t>& options);
 
 }  // namespace itin::viewshed

@@ -1,0 +1,141 @@
+#include "siting/coverage/group_surfaces.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <itin/call_progress.hpp>
+#include <itin/triangulate.hpp>
+
+#include "progress/stopwatch.hpp"
+#include "request/request.hpp"
+#include "siting/coverage/site_window.hpp"
+
+namespace itin::viewshed {
+
+namespace {
+
+/// Points of the full surface about each site.
+constexpr double kSiteNearPoints = 128;
+/// The share of the time, about, that reading one surface takes of reading two and judging.
+constexpr double kReading = 0.2;
+
+}  // namespace
+
+GroupSurfaces::GroupSurfaces(const Store& store, const SiteSurvey& survey, const Looks& looks, Statistics& statistics)
+    : store_(store), survey_(survey), looks_(looks), statistics_(statistics) {
+  if (survey_.targets.on_surface && looks_.themed())
+    raise_ = store.greatest_feature_height(survey_.themes, reach_of(survey_));
+}
+
+bool GroupSurfaces::read_whole_lattice(Progress& progress) {
+  if (looks_.themed() || survey_.fresnel || !survey_.targets.grid || looks_.casts_rays()) return false;
+  Stopwatch watch;
+  const std::uint64_t memory = looks_.memory();
+  whole_lattice_ = retrieve_lattice(store_, window_about(survey_, all_options(survey_)), Detail::tolerance(0),
+                                    ThemeChoice::none(), LatticeReader::Heights::kAll,
+                                    (memory - std::min(memory, looks_.sets() / 2)) / kBytesPerPost, progress);
+  statistics_.retrieval_seconds += watch.lap();
+  return whole_lattice_.has_value();
+}
+
+std::unique_ptr<GroupSurvey> GroupSurfaces::survey_of(const std::vector<std::size_t>& group, const Look& look,
+                                                      Progress& progress) {
+  if (look.binned) return binned(progress);
+  return looks_.judges_cells_exactly(look.level) ? exact_cells(group, look.themed, progress)
+                                                 : enveloped(group, look, progress);
+}
+
+const GroupSurvey& GroupSurfaces::whole(const Look& look, Progress& progress) {
+  std::unique_ptr<GroupSurvey>& whole = whole_[look.themed ? 1 : 0];
+  if (!whole) whole = survey_of(all_options(survey_), look, progress);
+  return *whole;
+}
+
+void GroupSurfaces::release() {
+  whole_lattice_.reset();
+  whole_ = {};
+}
+
+Request GroupSurfaces::request_of(std::span<const std::size_t> options, bool themed) const {
+  Request request = viewshed::request_of(survey_, options);
+  if (!themed) request.target_height += raise_;
+  return request;
+}
+
+/// About all sites, whatever the group.
+std::unique_ptr<GroupSurvey> GroupSurfaces::binned(Progress& progress) {
+  Stopwatch watch;
+  auto survey = survey_by_bins(store_, survey_, looks_.memory(), statistics_, progress);
+  statistics_.retrieval_seconds += watch.lap();
+  return survey;
+}
+
+std::unique_ptr<GroupSurvey> GroupSurfaces::exact_cells(const std::vector<std::size_t>& group, bool themed,
+                                                        Progress& progress) {
+  Stopwatch watch;
+  CallProgress call(progress);
+  const Window window = window_about(survey_, group);
+  const Detail full = Detail::tolerance(0);
+  // Zones are cut by triangles one by one.
+  const std::uint64_t most_posts = survey_.fresnel || looks_.casts_rays() ? 0 : kAnyLattice;
+  Surface surface = whole_lattice_
+                        ? std::move(*std::exchange(whole_lattice_, std::nullopt))
+                        : retrieve_surface(store_, window, full, themed ? survey_.themes : ThemeChoice::none(),
+                                           most_posts, call.step(kReading));
+  count(surface.statistics(), surface.triangle_count());
+  std::optional<Tin> bare_ground;
+  if (themed && !survey_.targets.on_surface) {
+    bare_ground = triangulate(store_, window, full, call.step(kReading), ThemeChoice::none());
+    count(bare_ground->statistics, bare_ground->triangles.size());
+  }
+  statistics_.retrieval_seconds += watch.lap();
+  std::vector<Point2> eyes_of_rays;
+  if (looks_.casts_rays())
+    for (const std::size_t option : group) eyes_of_rays.push_back(survey_.positions[option].position);
+  auto survey = survey_cells_exactly(survey_, std::move(surface), std::move(bare_ground), eyes_of_rays);
+  statistics_.scene_seconds += watch.lap();
+  return survey;
+}
+
+std::unique_ptr<GroupSurvey> GroupSurfaces::enveloped(const std::vector<std::size_t>& group, const Look& look,
+                                                      Progress& progress) {
+  Stopwatch watch;
+  const Request request = request_of(group, look.themed);
+  EnvelopeRequest read = what_to_read(group, look.level);
+  if (look.themed) {
+    read.themes = survey_.themes;
+    if (!survey_.targets.on_surface) read.bare_ground = read.window;
+  }
+  Envelope envelope = envelop(store_, read, progress);
+  count(envelope.lower.statistics, envelope.lower.triangles.size());
+  statistics_.retrieval_seconds += watch.lap();
+  const auto survey = survey_.targets.grid ? survey_cells : survey_points;
+  auto result = survey(survey_, request, std::move(envelope), looks_.judges_zones(look.level));
+  statistics_.scene_seconds += watch.lap();
+  return result;
+}
+
+/// Less about each site than a single viewshed reads: they are many.
+EnvelopeRequest GroupSurfaces::what_to_read(const std::vector<std::size_t>& group, int level) const {
+  EnvelopeRequest read;
+  read.level = level;
+  read.window = window_about(survey_, group);
+  for (const std::size_t option : group) {
+    const Point2 position = survey_.positions[option].position;
+    read.observers.push_back(position);
+    if (level == 0) continue;
+    const double points = static_cast<double>(store_.points_about(0, disc_box(position, survey_.radius)));
+    const double share = std::sqrt(kSiteNearPoints / std::max(points, kSiteNearPoints));
+    read.discs.push_back({position, survey_.radius * share, 0});
+    if (level > 1) read.discs.push_back({position, 2 * survey_.radius * share, 1});
+  }
+  return read;
+}
+
+void GroupSurfaces::count(const RetrievalStatistics& retrieval, std::size_t triangles) {
+  statistics_.retrieval += retrieval;
+  statistics_.triangles += triangles;
+}
+
+}  // namespace itin::viewshed

@@ -1,0 +1,71 @@
+// How sites are looked at under a memory: in stages, from coarse to exact, and at each stage which of them together.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <itin/store.hpp>
+#include <viewshed/site_coverage.hpp>
+
+namespace itin::viewshed {
+
+/// What a stage judges over: the bare terrain of a level, or the full surface with the themes; or bins of this.
+struct Look {
+  int level = 0;
+  bool themed = false;
+  bool binned = false;
+};
+
+class Looks {
+ public:
+  /// Both must outlive it. Throws InputError where what is known of the sites takes too much of the memory.
+  Looks(const Store& store, const SiteSurvey& survey);
+
+  /// Whether raised features count.
+  bool themed() const { return themed_; }
+  bool casts_rays() const { return survey_.engine == Engine::kRays; }
+  /// Cells are judged over the full surface at its own level; everything else over envelopes.
+  bool judges_cells_exactly(int level) const { return level == 0 && survey_.targets.grid; }
+  /// Over coarse surfaces zones take as long as over the full one, which is looked at next, if the memory holds it.
+  bool judges_zones(int level) const { return survey_.fresnel && (level == 0 || !whole_fits_); }
+
+  /// Bytes for surfaces; what is left is for the rest of the program.
+  std::uint64_t memory() const { return (survey_.memory_bytes - sets_) / 4 * 3; }
+  /// Bytes of what is known of all sites.
+  std::uint64_t sets() const { return sets_; }
+  /// Whether the memory holds the full surface about all sites as triangles.
+  bool whole_fits_as_triangles() const;
+
+  /// Chooses the stages. `whole_fits`: the memory holds the full surface about all sites, in whatever form.
+  void choose(bool whole_fits);
+  bool whole_fits() const { return whole_fits_; }
+  int last_stage() const { return static_cast<int>(stages_.size()) - 1; }
+  const Look& at(int stage) const { return stages_[static_cast<std::size_t>(stage)]; }
+  /// In words: "tolerance 4 m", "exact", ...
+  std::string name(int stage) const;
+
+  /// Neighbours together, as many as the memory holds.
+  std::vector<std::vector<std::size_t>> groups(std::vector<std::size_t> options, const Look& look) const;
+
+ private:
+  using Options = std::span<std::size_t>;
+
+  bool fits(std::uint64_t points, std::size_t options, int level) const;
+  std::uint64_t points_of(Options options, int level) const;
+  std::pair<Options, Options> halves_across(Options options) const;
+
+  const Store& store_;
+  const SiteSurvey& survey_;
+  const bool themed_;
+  const std::uint64_t sets_;
+  const Box reach_;             ///< of all sites
+  const std::uint64_t points_;  ///< of the full surface there
+  bool whole_fits_ = false;
+  std::vector<Look> stages_;
+};
+
+}  // namespace itin::viewshed
