@@ -20,7 +20,7 @@ namespace itin {
 class PolygonSides {
  public:
   explicit PolygonSides(const GridPolygon& polygon);
-  /// Of the area that closed lines bound, by the even-odd rule.
+  /// The sides of the area that closed lines bound, by the even-odd rule.
   explicit PolygonSides(std::vector<GridEdge> edges);
 
   /// As side_of().

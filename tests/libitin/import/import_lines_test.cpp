@@ -94,8 +94,9 @@ class ImportLines : public testing::Test {
   std::string path(const std::string& name) const { return directory_.file(name); }
 
   ImportReport lines(ThemeKind kind, const std::string& file, const std::string& theme = "",
-                     const std::string& store = "s.itin") const {
+                     const std::string& store = "s.itin", bool stay = false) const {
     ImportOptions options;
+    options.stay = stay;
     options.sources = {path(file)};
     options.kind = kind;
     options.theme = theme;
@@ -262,11 +263,11 @@ TEST_F(ImportLines, VerticesOnPostsLeaveNoHole) {
       EXPECT_NE(std::find(tin.vertices.begin(), tin.vertices.end(), ridge), tin.vertices.end())
           << when << ": height " << ridge.z;
   };
-  lines(ThemeKind::Breaklines, "ridge.geojson", "ridge");
+  lines(ThemeKind::Breaklines, "ridge.geojson", "ridge", "s.itin", true);
   expect_whole("with a ridge");
-  lines(ThemeKind::Breaklines, "cliff.geojson", "cliff");
+  lines(ThemeKind::Breaklines, "cliff.geojson", "cliff", "s.itin", true);
   expect_whole("written again");
-  // Finer ground, on the same posts and between them, takes the place of all posts but not of the lines.
+  // Finer ground, on the same posts and between them, takes the place of all posts but not of lines that stay.
   test::write_raster(path("fine.tif"), {300012.5, 199987.5, 25, 119, 119, 27700}, [&](int, int) { return 100.0; });
   ImportOptions options;
   options.sources = {path("fine.tif")};

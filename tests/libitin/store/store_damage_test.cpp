@@ -11,6 +11,7 @@
 
 #include "libitin/store/random_points.hpp"
 #include "store/point_index.hpp"
+#include "store/store_format.hpp"
 #include "support/forged_rows.hpp"
 #include "support/seed.hpp"
 
@@ -132,8 +133,9 @@ TEST_F(StoreDamage, WrongKindsOfFile) {
 }
 
 TEST_F(StoreDamage, NewerFormat) {
-  execute("PRAGMA user_version=7");
-  expect_message<StoreFormatError>("store format 7");
+  const std::string newer = std::to_string(format::kVersion + 1);
+  execute("PRAGMA user_version=" + newer);
+  expect_message<StoreFormatError>("store format " + newer);
 }
 
 TEST_F(StoreDamage, ForeignContentsUnderOurApplicationId) {

@@ -16,7 +16,7 @@ constexpr double kWall = 0.3;
 constexpr Colour kGround{206, 207, 186}, kWalls{238, 228, 208};
 constexpr Colour kOther{146, 146, 150};
 
-/// Of tops.
+/// The colour of tops.
 Colour colour_of(ThemeKind kind) {
   switch (kind) {
     case ThemeKind::Buildings:

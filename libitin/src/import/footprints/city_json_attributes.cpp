@@ -66,8 +66,12 @@ void CityJsonAttributes::finish(const Json& objects) {
   if (query_.attributes) {
     for (const std::string& name : *query_.attributes) fields_.push_back({name, type_of(name)});
   } else {
-    for (const auto& [name, type] : types_)
-      if (type) fields_.push_back({name, *type});
+    for (const auto& [name, type] : types_) {
+      if (type)
+        fields_.push_back({name, *type});
+      else
+        left_out_.push_back(name);
+    }
   }
   require_few_fields(fields_.size(), path_);
 }
@@ -104,6 +108,14 @@ AttributeValue CityJsonAttributes::value(const std::string& key, const Attribute
       return query_.attributes ? texts_.required(as_text(*found), key, field.name)
                                : texts_.if_short(as_text(*found), key, field.name);
   }
+}
+
+std::vector<std::string> CityJsonAttributes::warnings() const {
+  std::vector<std::string> lines = texts_.warnings();
+  if (!left_out_.empty())
+    lines.push_back(
+        fmt::format("{}: attributes that hold lists or objects are not kept: {}", path_, fmt::join(left_out_, ", ")));
+  return lines;
 }
 
 FeatureRecord CityJsonAttributes::record(const std::string& key) {

@@ -33,8 +33,8 @@ class CityJsonAttributes {
   /// What is kept of the object with this key, which is its id unless another was asked for. Truth values are 0 and 1.
   /// Throws InputError, naming object and attribute, for a text that is too long in an attribute that was asked for.
   FeatureRecord record(const std::string& key);
-  /// What was not kept of the records so far, though all was asked for. One line each.
-  std::vector<std::string> warnings() const { return texts_.warnings(); }
+  /// What was not kept, though all was asked for. One line each.
+  std::vector<std::string> warnings() const;
 
  private:
   /// Throws as finish().
@@ -49,6 +49,7 @@ class CityJsonAttributes {
   std::map<std::string, std::optional<AttributeType>> types_;  ///< no type where any value is a list or an object
   const nlohmann::json* objects_ = nullptr;
   std::vector<AttributeField> fields_;
+  std::vector<std::string> left_out_;  ///< names
 };
 
 }  // namespace itin

@@ -59,6 +59,9 @@ void FeatureFields::add(OGRLayer& layer, int index) {
                                  name, OGRFieldDefn::GetFieldTypeName(field.GetType())));
   if (query_.attributes && again) throw InputError(fmt::format("{}: `attributes`: '{}' comes twice", path_, name));
   if (again) warnings_.push_back(fmt::format("{}: has two fields '{}'; the first is kept", path_, name));
+  if (!type)
+    warnings_.push_back(fmt::format("{}: field '{}' is not kept: it holds {}", path_, name,
+                                    OGRFieldDefn::GetFieldTypeName(field.GetType())));
   if (again || !type) return;
   fields_.push_back({name, *type});
   indices_.push_back(index);

@@ -23,7 +23,7 @@ namespace {
 /// Options; fewer of them make less of what they share.
 constexpr std::size_t kJudgedTogether = 32;
 /// The share of the time, about, that reading a surface takes before it is judged from all sites.
-constexpr double kReading = 0.2;
+constexpr double kReadingFirst = 0.2;
 
 }  // namespace
 
@@ -138,8 +138,8 @@ class SiteCoverage::Impl {
     const Look& look = looks_.at(stage);
     std::unique_ptr<GroupSurvey> own;
     if (look.binned || look.level > 0 || !looks_.whole_fits())
-      own = surfaces_.survey_of(group, look, call.step(kReading));
-    const GroupSurvey& survey = own ? *own : surfaces_.whole(look, call.step(kReading));
+      own = surfaces_.survey_of(group, look, call.step(kReadingFirst));
+    const GroupSurvey& survey = own ? *own : surfaces_.whole(look, call.step(kReadingFirst));
     // Few at a time: a run that is killed goes on from what has been settled.
     for (std::size_t first = 0; first < options.size(); first += kJudgedTogether) {
       const auto begin = options.begin() + static_cast<std::ptrdiff_t>(first);
