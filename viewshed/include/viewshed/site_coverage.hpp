@@ -115,7 +115,7 @@ class SiteCoverage final : public Coverage {
   /// In words: "tolerance 4 m", "exact", ...
   std::string stage_name(int stage) const;
   /// Puts back what an earlier run had found. Precondition: it is of the same survey.
-  void restore(std::size_t option, int stage, CoverageBounds bounds);
+  void restore(std::size_t option, int stage, const CoverageBounds& bounds);
   /// Is told of every option looked at again, after each look.
   std::function<void(std::size_t option, int stage, const CoverageBounds& bounds)> on_refined;
 

@@ -207,7 +207,7 @@ const CoverageBounds& SiteCoverage::first_bounds(std::size_t option) const {
 std::string SiteCoverage::stage_name(int stage) const {
   return impl_->looks().name(stage);
 }
-void SiteCoverage::restore(std::size_t option, int stage, CoverageBounds bounds) {
+void SiteCoverage::restore(std::size_t option, int stage, const CoverageBounds& bounds) {
   impl_->restore(option, stage, bounds);
 }
 const Statistics& SiteCoverage::statistics() const {
