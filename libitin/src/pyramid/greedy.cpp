@@ -63,14 +63,18 @@ class Insertions {
   explicit Insertions(std::span<const double> tolerances)
       : tolerances_(tolerances), level_(tolerances.size() - 1), waiting_(tolerances.size()) {}
 
+  /// Whether any level asks for what is so far off.
+  bool asks_for(double error) const { return tolerances_.size() > 1 && error > tolerances_[1]; }
+
   /// What no level asks for is forgotten.
   void push(const Insertion& insertion) {
+    if (!asks_for(insertion.error)) return;
     const auto above = std::lower_bound(tolerances_.begin(), tolerances_.end(), insertion.error) - tolerances_.begin();
-    const std::size_t coarsest = static_cast<std::size_t>(std::max<std::ptrdiff_t>(above, 1)) - 1;
+    const std::size_t coarsest = static_cast<std::size_t>(above) - 1;
     if (coarsest >= level_) {
       queue_.push_back(insertion);
       std::push_heap(queue_.begin(), queue_.end());
-    } else if (coarsest > 0) {
+    } else {
       waiting_[coarsest].push_back(insertion);
     }
   }
@@ -212,7 +216,10 @@ class GreedyInsertion {
     do {
       face->info().version += 1;
       face->info().first = kNone;
-      if (!triangulation_.is_infinite(face)) star_.push_back({face, face->index(v)});
+      if (triangulation_.is_infinite(face)) continue;
+      const int i = face->index(v);
+      star_.push_back(
+          {face, face->vertex(Triangulation::ccw(i))->point(), face->vertex(Triangulation::cw(i))->point()});
     } while (++face != end);
     const TraitsPoint centre = v->point();
     std::size_t at = 0;
@@ -231,13 +238,11 @@ class GreedyInsertion {
 
   struct StarFace {
     Face face;
-    int centre;
+    TraitsPoint right, left;  ///< as seen from the star's centre
   };
 
   static bool in_wedge(const StarFace& s, const TraitsPoint& centre, const TraitsPoint& p) {
-    const TraitsPoint& right = s.face->vertex(Triangulation::ccw(s.centre))->point();
-    const TraitsPoint& left = s.face->vertex(Triangulation::cw(s.centre))->point();
-    return orientation(centre, right, p) >= 0 && orientation(centre, left, p) <= 0;
+    return orientation(centre, s.right, p) >= 0 && orientation(centre, s.left, p) <= 0;
   }
 
   void propose_worst_point(Face f) {
@@ -280,7 +285,7 @@ class GreedyInsertion {
       const double fine = pp.z + ap / (ap - aq) * (static_cast<double>(pq.z) - pp.z);
       const double coarse = pa.z + pqa / (pqa - pqb) * (static_cast<double>(pb.z) - pa.z);
       const double error = std::abs(fine - coarse);
-      if (error <= worst) return;
+      if (error <= worst || !insertions_.asks_for(error + kCrossingError)) return;
       const bool nearer_p = std::abs(ap) <= std::abs(aq);
       const std::uint32_t found =
           first_free({nearer_p ? p : q, nearer_p ? q : p, opposite(before, p, q), opposite(behind, p, q)});

@@ -13,7 +13,9 @@ class VertexWalk {
  public:
   /// The mesh must cover every segment that is walked.
   explicit VertexWalk(const RegionMesh& region)
-      : region_(region), mesh_(region.mesh), some_triangle_(region.vertices.size(), kNoTriangle) {
+      : mesh_(region.mesh), some_triangle_(region.vertices.size(), kNoTriangle) {
+    positions_.reserve(region.vertices.size());
+    for (const SelectedVertex& v : region.vertices) positions_.push_back(v.position());
     for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
       for (const std::uint32_t v : mesh_.triangles[t]) some_triangle_[v] = t;
     }
@@ -27,12 +29,10 @@ class VertexWalk {
   }
 
  private:
-  Position position(std::uint32_t vertex) const { return region_.vertices[vertex].position(); }
-
   /// Walks from vertex u towards v up to the first vertex on the segment.
   template <class OnEdge>
   std::uint32_t next_vertex(std::uint32_t u, std::uint32_t v, const OnEdge& on_edge) const {
-    const Position from = position(u), to = position(v);
+    const Position from = positions_[u], to = positions_[v];
     const Start start = leave(u, from, to);
     if (start.vertex != kNoTriangle) return start.vertex;
     std::uint32_t t = start.triangle;
@@ -44,7 +44,7 @@ class VertexWalk {
       if (n == kNoTriangle) throw Error("a walk left the mesh");
       const auto& corners = mesh_.triangles[n];
       const int i = corners[0] != right && corners[0] != left ? 0 : corners[1] != right && corners[1] != left ? 1 : 2;
-      const int side = orientation(from, to, position(corners[i]));
+      const int side = orientation(from, to, positions_[corners[i]]);
       if (side == 0) return corners[i];
       // Corner i lies left or right of the way; the edge on its other side is crossed next.
       edge = side > 0 ? (corners[(i + 1) % 3] == right ? (i + 2) % 3 : (i + 1) % 3)
@@ -59,21 +59,31 @@ class VertexWalk {
     int edge;
   };
 
+  /// Turns about u counterclockwise, and then clockwise from where a border stopped that. The edge between a triangle
+  /// and the one before has been looked at already.
   Start leave(std::uint32_t u, Position from, Position to) const {
-    for (const int turn : {1, 2}) {  // counterclockwise, and clockwise from where a border stopped that
+    const auto side = [&](std::uint32_t v) { return orientation(from, to, positions_[v]); };
+    for (const int turn : {1, 2}) {
       std::uint32_t t = some_triangle_[u];
+      int known = side(mesh_.triangles[t][(corner_at(t, u) + turn) % 3]);
       do {
-        const auto& v = mesh_.triangles[t];
-        const int i = v[0] == u ? 0 : v[1] == u ? 1 : 2, next = (i + 1) % 3, previous = (i + 2) % 3;
-        const int after_right = orientation(from, position(v[next]), to),
-                  before_left = orientation(from, to, position(v[previous]));
-        if (after_right == 0 && ahead(from, position(v[next]), to)) return {v[next], t, 0};
-        if (before_left == 0 && ahead(from, position(v[previous]), to)) return {v[previous], t, 0};
-        if (after_right > 0 && before_left > 0) return {kNoTriangle, t, i};
+        const int i = corner_at(t, u);
+        const std::uint32_t next = mesh_.triangles[t][(i + 1) % 3], previous = mesh_.triangles[t][(i + 2) % 3];
+        const int found = side(turn == 1 ? previous : next);
+        const int of_next = turn == 1 ? known : found, of_previous = turn == 1 ? found : known;
+        if (of_next == 0 && ahead(from, positions_[next], to)) return {next, t, 0};
+        if (of_previous == 0 && ahead(from, positions_[previous], to)) return {previous, t, 0};
+        if (of_next < 0 && of_previous > 0) return {kNoTriangle, t, i};
+        known = found;
         t = mesh_.neighbours[t][(i + turn) % 3];
       } while (t != kNoTriangle && t != some_triangle_[u]);
     }
     throw Error("a walk left the mesh");
+  }
+
+  int corner_at(std::uint32_t t, std::uint32_t u) const {
+    const auto& v = mesh_.triangles[t];
+    return v[0] == u ? 0 : v[1] == u ? 1 : 2;
   }
 
   static bool ahead(Position from, Position p, Position to) {
@@ -82,8 +92,8 @@ class VertexWalk {
            0;
   }
 
-  const RegionMesh& region_;
   const PlaneMesh& mesh_;
+  std::vector<Position> positions_;  ///< of the vertices, close together
   std::vector<std::uint32_t> some_triangle_;
 };
 
