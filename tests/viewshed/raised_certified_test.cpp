@@ -23,18 +23,19 @@ namespace {
 
 constexpr int kTownSide = 40;
 constexpr double kTownStep = 25;
+constexpr std::uint64_t kLittleMemory = 160000;                          ///< less than the town takes
 constexpr Point2 kTownCorner{300000, 200000}, kEye{300437.3, 199487.1};  // nothing stands on the eye
 
 /// Fractal hills with houses turned every way, and a wood.
 class RaisedCertified : public testing::Test {
  protected:
-  void make(double void_radius = 0) {
-    const std::uint32_t seed = test::seed();
-    const std::vector<double> z = test::fractal_heights(65, 60, 0.5, seed);
-    test::write_raster(directory_.file("t.tif"), {kTownCorner.x, kTownCorner.y, kTownStep, kTownSide, kTownSide, 27700},
+  void make(double void_radius = 0, int side = kTownSide, std::uint32_t seed = test::seed()) {
+    const int posts = side < 65 ? 65 : 257;
+    const std::vector<double> z = test::fractal_heights(posts, 60, 0.5, seed);
+    test::write_raster(directory_.file("t.tif"), {kTownCorner.x, kTownCorner.y, kTownStep, side, side, 27700},
                        [&](int c, int r) {
                          if (std::hypot(c - 30, r - 30) < void_radius) return std::nan("");
-                         return z[static_cast<std::size_t>(r) * 65 + static_cast<std::size_t>(c)];
+                         return z[static_cast<std::size_t>(r * posts + c)];
                        });
     ImportOptions options;
     options.sources = {directory_.file("t.tif")};
@@ -93,7 +94,7 @@ class RaisedCertified : public testing::Test {
     NoProgress progress;
     const RasterGrid cells = compute(*store_, r, progress).grid;
     const std::vector<Verdict> truth = test::brute_force(surface_, ground_, r, cells);
-    for (const std::uint64_t memory : {std::uint64_t{1} << 30, std::uint64_t{160000}}) {
+    for (const std::uint64_t memory : {std::uint64_t{1} << 30, kLittleMemory}) {
       const Result result = test::compute_at_full_detail(*store_, r, {.memory_bytes = memory}, progress).result;
       ASSERT_EQ(result.visible.size(), truth.size());
       std::uint64_t different = 0;
@@ -128,6 +129,23 @@ TEST_F(RaisedCertified, PreciseIsTheWalkOverEveryTriangle) {
 TEST_F(RaisedCertified, PreciseAcrossVoids) {
   make(6);
   expect_exact(request(30, 2, false, false));
+}
+
+/// Angles need all ground under every line; ground that cannot change what is visible is not read for it.
+TEST_F(RaisedCertified, PreciseReadsNoGroundThatDecidesNothing) {
+  constexpr std::uint32_t kEyeAmongHills = 7;  // from a top much more is open
+  make(0, 256, kEyeAmongHills);
+  NoProgress progress;
+  Request r = request(3, 2, false, false);
+  const auto over = [&](Mode mode, std::uint64_t memory) {
+    r.mode = mode;
+    return test::compute_at_full_detail(*store_, r, {.memory_bytes = memory}, progress).result;
+  };
+  constexpr std::uint64_t kFewMegabytes = 6 << 20;
+  const Result result = over(Mode::kVisible, kFewMegabytes);
+  EXPECT_LT(result.statistics.retrieval.points_read,
+            over(Mode::kAngle, kFewMegabytes).statistics.retrieval.points_read * 3 / 4);
+  EXPECT_EQ(result.visible, over(Mode::kVisible, 1 << 30).visible);
 }
 
 TEST_F(RaisedCertified, EveryCellIsCertain) {

@@ -76,11 +76,10 @@ class TinSegments {
   }
 
  private:
-  /// Certificates know nothing of what stands on the ground, nor of coarser surfaces, and cells that a coarse level
-  /// decides have no exact height of ground.
+  /// Certificates know nothing of coarser surfaces, and cells that a coarse level decides have no exact height of
+  /// ground.
   bool whole_lines() const {
-    return features_ || !full_ || needs_triangles(request_) || request_.mode == Mode::kHeight ||
-           request_.mode == Mode::kAngle;
+    return !full_ || needs_triangles(request_) || request_.mode == Mode::kHeight || request_.mode == Mode::kAngle;
   }
 
   std::uint64_t budget() const { return memory_ / bytes_per_point(request_); }
@@ -114,7 +113,9 @@ class TinSegments {
   }
 
   void retrieve_coarse() {
-    Envelope envelope = envelop(store_, certified_request(store_, request_, coarse_level()), progress_);
+    EnvelopeRequest wanted = certified_request(store_, request_, coarse_level());
+    if (features_ && !whole_lines()) wanted.enclosed = request_.themes;
+    Envelope envelope = envelop(store_, wanted, progress_);
     Result& result = computed_.result;
     result.statistics.retrieval += envelope.lower.statistics;
     result.statistics.triangles += envelope.lower.triangles.size();

@@ -15,6 +15,7 @@
 
 #include "progress/stage.hpp"
 #include "scene/rays/drift.hpp"
+#include "window/feature_bounds.hpp"
 
 namespace itin::viewshed {
 
@@ -130,12 +131,15 @@ std::vector<WantedPiece> wanted_pieces(const EnvelopeRequest& request) {
 
 /// All at once, for each of them alone hardly keeps the threads at work.
 std::vector<Piece> retrieve_pieces(const Store& store, const std::vector<WantedPiece>& wanted,
-                                   const ThemeChoice& themes, Progress& progress) {
+                                   const EnvelopeRequest& request, Progress& progress) {
   std::vector<Piece> pieces(wanted.size());
   for_each_step(wanted.size(), "triangulating", progress, [&](std::size_t i) {
     SilentProgress silent(progress);
-    pieces[i].tin = triangulate(store, wanted[i].window, detail_of(store.metadata(), wanted[i].level), silent, themes);
+    pieces[i].tin =
+        triangulate(store, wanted[i].window, detail_of(store.metadata(), wanted[i].level), silent, request.themes);
     pieces[i].bounds = vertex_bounds(store, wanted[i].level, pieces[i].tin);
+    if (request.enclosed.includes_raised(store.metadata().themes))
+      enclose_features(store, request.enclosed, pieces[i].tin, pieces[i].bounds);
   });
   return pieces;
 }
@@ -200,7 +204,7 @@ class Builder {
 Envelope envelop(const Store& store, const EnvelopeRequest& request, Progress& progress) {
   CallProgress call(progress);
   const std::vector<WantedPiece> wanted = wanted_pieces(request);
-  std::vector<Piece> pieces = retrieve_pieces(store, wanted, request.themes, call.step(request.bare_ground ? 0.5 : 1));
+  std::vector<Piece> pieces = retrieve_pieces(store, wanted, request, call.step(request.bare_ground ? 0.5 : 1));
   Builder builder;
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     if (i > 0) builder.clear(wanted[i].discs);

@@ -35,7 +35,7 @@ double radius_with(const Store& store, int level, Point2 centre, double points);
 /// For request.detail.
 EnvelopeRequest certified_request(const Store& store, const Request& request);
 
-/// Takes another level than request.detail's. No features stand there.
+/// Takes another level than request.detail's. No features stand there, nor are any enclosed.
 EnvelopeRequest certified_request(const Store& store, const Request& request, int level);
 
 }  // namespace itin::viewshed

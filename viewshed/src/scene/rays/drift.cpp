@@ -9,23 +9,17 @@
 
 namespace itin::viewshed {
 
-namespace {
-
-/// Grid units up a grid unit along.
-double slope_of(const Tin& tin, const Triangle& t) {
-  const GridPoint &a = tin.vertices[t[0]], &b = tin.vertices[t[1]], &c = tin.vertices[t[2]];
+double slope_of(const GridPoint& a, const GridPoint& b, const GridPoint& c) {
   const double ux = double{1} * b.x - a.x, uy = double{1} * b.y - a.y, uz = double{1} * b.z - a.z;
   const double vx = double{1} * c.x - a.x, vy = double{1} * c.y - a.y, vz = double{1} * c.z - a.z;
   const double area = ux * vy - uy * vx;
   return std::hypot(uy * vz - uz * vy, uz * vx - ux * vz) / area;
 }
 
-}  // namespace
-
 void raise_against_drift(const std::vector<Point2>& eyes, Tin& tin) {
   std::vector<float> slope(tin.vertices.size());
   for (const Triangle& t : tin.triangles) {
-    const auto s = static_cast<float>(slope_of(tin, t));
+    const auto s = static_cast<float>(slope_of(tin.vertices[t[0]], tin.vertices[t[1]], tin.vertices[t[2]]));
     for (const std::uint32_t v : t) slope[v] = std::max(slope[v], s);
   }
   const Box box = tin.bounds();

@@ -7,6 +7,9 @@
 
 namespace itin::viewshed {
 
+/// Grid units up a grid unit along, at the steepest.
+double slope_of(const GridPoint& a, const GridPoint& b, const GridPoint& c);
+
 /// Raises the surface by what it may rise within delta(l) of a place (scene.hpp) for lines from these eyes, metres: a
 /// ray that clears it clears the surface as it was, though it runs beside its line. Twice, for the slopes of triangles
 /// next to a vertex's own.
