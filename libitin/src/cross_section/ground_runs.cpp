@@ -70,9 +70,9 @@ class Collection {
     const SectionLine::Wide side_a = line_.side(a), side_b = line_.side(b);
     if ((side_a > 0 && side_b > 0) || (side_a < 0 && side_b < 0)) return;
     touches_ |= side_a == 0 || side_b == 0;
-    const bool left_a = counts_as_left(line_, on_line_, a), left_b = counts_as_left(line_, on_line_, b);
+    const bool left_a = counts_as_left(side_a, on_line_), left_b = counts_as_left(side_b, on_line_);
     if (left_a == left_b) return;
-    const SectionCrossing crossing = line_.crossing({a.x, a.y, 0}, {b.x, b.y, 0});
+    const SectionCrossing crossing = line_.crossing({a.x, a.y, 0}, side_a, {b.x, b.y, 0}, side_b);
     if (crossing.place != SectionCrossing::Place::kWithin) return;
     // Ground is to the left of ab, and what lies ahead to the left of left -> right.
     crossed_.push_back(left_a ? Crossed{{a, b}, true} : Crossed{{b, a}, false});

@@ -18,10 +18,8 @@ namespace itin {
 
 enum class OnLine { kLeft, kRight };
 
-/// Whether a vertex counts as left of the line.
-template <class P>
-bool counts_as_left(const SectionLine& line, OnLine on_line, const P& p) {
-  const SectionLine::Wide side = line.side(p);
+/// Whether a vertex that is on this side of the line (SectionLine::side()) counts as left of it.
+inline bool counts_as_left(SectionLine::Wide side, OnLine on_line) {
   return side > 0 || (side == 0 && on_line == OnLine::kLeft);
 }
 

@@ -77,16 +77,19 @@ SectionCrossing SectionLine::crossing(const GridPoint& p) const {
 }
 
 SectionCrossing SectionLine::crossing(const GridPoint& p, const GridPoint& q) const {
+  return crossing(p, side(p), q, side(q));
+}
+
+SectionCrossing SectionLine::crossing(const GridPoint& p, Wide side_p, const GridPoint& q, Wide side_q) const {
   using Place = SectionCrossing::Place;
   // One order for both triangles beside the edge.
-  if (q < p) return crossing(q, p);
-  const Wide sp = side(p), sq = side(q);
-  if (sp == 0) return crossing(p);
-  if (sq == 0) return crossing(q);
-  const double s = static_cast<double>(sp) / static_cast<double>(sp - sq);
+  if (q < p) return crossing(q, side_q, p, side_p);
+  if (side_p == 0) return crossing(p);
+  if (side_q == 0) return crossing(q);
   const std::int64_t qx = subgrid(q.x) - subgrid(p.x), qy = subgrid(q.y) - subgrid(p.y);
-  const std::int64_t px = ax_ - subgrid(p.x), py = ay_ - subgrid(p.y);
-  Wide before = cross(qx, qy, px, py), all = before - cross(qx, qy, px + dx_, py + dy_);
+  // On which side of the edge the start is; at the end that differs by as much as the sides of q and p of the line do.
+  Wide before = cross(qx, qy, ax_ - subgrid(p.x), ay_ - subgrid(p.y)), all = side_q - side_p;
+  const double s = static_cast<double>(side_p) / static_cast<double>(-all);
   if (all < 0) before = -before, all = -all;
   const Place place = before < 0                            ? Place::kBefore
                       : before > (is_point_ ? Wide{} : all) ? Place::kBeyond

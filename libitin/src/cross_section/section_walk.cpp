@@ -50,6 +50,14 @@ struct Stretch {
   }
 };
 
+/// An edge that the line crosses, and on which sides of the line its ends are.
+struct SidedEdge : CrossedEdge {
+  SidedEdge(const CrossedEdge& edge, const SectionLine& line)
+      : CrossedEdge(edge), left_side(line.side(edge.left)), right_side(line.side(edge.right)) {}
+
+  SectionLine::Wide left_side, right_side;
+};
+
 class SectionWalk {
  public:
   SectionWalk(const PointIndex& index, const SectionLine& line, TriangleFinder& triangles, OnLine on_line)
@@ -69,7 +77,7 @@ class SectionWalk {
   }
 
  private:
-  bool left(const GridPoint& p) const { return counts_as_left(line_, on_line_, p); }
+  bool left(const GridPoint& p) const { return counts_as_left(line_.side(p), on_line_); }
 
   /// The edge by which the line, prolonged backwards, enters the triangle about its start: the first one, where several
   /// triangles have the start in common. Nothing where there is no ground.
@@ -102,8 +110,9 @@ class SectionWalk {
     return entry;
   }
 
-  Stretch walk(CrossedEdge edge, const std::optional<OutlineCrossing>& exit) {
+  Stretch walk(const CrossedEdge& entry, const std::optional<OutlineCrossing>& exit) {
     Stretch stretch;
+    SidedEdge edge(entry, line_);
     Met in = met(edge);
     std::uint16_t behind = 0;
     if (in.place == Place::kWithin) stretch.add(in);
@@ -119,7 +128,12 @@ class SectionWalk {
         break;
       }
       behind = theme;
-      (left(c) ? edge.left : edge.right) = c;
+      const SectionLine::Wide side = line_.side(c);
+      if (counts_as_left(side, on_line_)) {
+        edge.left = c, edge.left_side = side;
+      } else {
+        edge.right = c, edge.right_side = side;
+      }
       const Met out = met(edge);
       add_piece(in, out, theme, stretch);
       in = out;
@@ -132,11 +146,10 @@ class SectionWalk {
     return c.place == Place::kBeyond || (c.place == Place::kWithin && c.t == (line_.is_point() ? 0 : 1));
   }
 
-  Met met(const CrossedEdge& edge) const {
-    Met result{line_.crossing(edge.left, edge.right)};
-    for (const SectionVertex* v : {&edge.left, &edge.right}) {
-      if (line_.side(*v) == 0) result.theme = v->theme, result.at_vertex = true;
-    }
+  Met met(const SidedEdge& edge) const {
+    Met result{line_.crossing(edge.left, edge.left_side, edge.right, edge.right_side)};
+    if (edge.left_side == 0) result.theme = edge.left.theme, result.at_vertex = true;
+    if (edge.right_side == 0) result.theme = edge.right.theme, result.at_vertex = true;
     return result;
   }
 
@@ -236,7 +249,7 @@ class NeighboursOnSegment {
     const GridBox box{std::min(segment_.left.x, segment_.right.x), std::min(segment_.left.y, segment_.right.y),
                       std::max(segment_.left.x, segment_.right.x), std::max(segment_.left.y, segment_.right.y)};
     if (!box.contains(p.x, p.y) || orientation(segment_.left, segment_.right, p) != 0) return;
-    const bool on_left = counts_as_left(line_, on_line_, p);
+    const bool on_left = counts_as_left(line_.side(p), on_line_);
     std::optional<SectionVertex>& nearest = on_left ? left_ : right_;
     const auto distance = [this](const SectionVertex& q) {
       const SectionLine::Wide side = line_.side(q);

@@ -14,7 +14,9 @@
 #include <itin/store.hpp>
 #include <itin/triangulate.hpp>
 
+#include "geometry/cell.hpp"
 #include "pyramid/replacing_ground.hpp"
+#include "pyramid/sorted_points.hpp"
 #include "support/raster_file.hpp"
 #include "support/seed.hpp"
 #include "support/temporary_directory.hpp"
