@@ -26,6 +26,7 @@ constexpr std::array kNames{
     Names{"crs", "--crs"},
     Names{"eaves_field", "--eaves-field"},
     Names{"elevations", "--absolute-heights"},
+    Names{"foundation", "--foundation"},
     Names{"from", "--from"},
     Names{"height", "--height"},
     Names{"height_field", "--height-field"},

@@ -63,6 +63,10 @@ class ImportVerb final : public Verb {
                    "footprint; terrain-following is as mean; CityJSON's own floors count unless this is given. Walls "
                    "reach down to the terrain, and where it rises above a roof, the roof follows it")
         ->type_name("RULE");
+    app.add_option("--foundation", foundation_,
+                   "Buildings: walls, down to the terrain (default), or flat: the outline lies at the base, and the "
+                   "ground slopes to it from the terrain's next vertices, cut away where it is higher")
+        ->type_name("KIND");
     app.add_option("--roof", roof_, "Buildings: flat (default), gabled, hipped or skeleton")->type_name("KIND");
     app.add_option("--thickness", thickness_, "Of walls and hedges that are given as lines (default: 0.3)")
         ->type_name("METRES");
@@ -180,6 +184,7 @@ class ImportVerb final : public Verb {
     given("eaves_field", options_.eaves_field);
     given("base_field", options_.base_field);
     given("base", base_);
+    given("foundation", foundation_);
     given("roof", roof_);
     if (options_.thickness) parameters["thickness_m"] = *options_.thickness;
     if (options_.wall_offset) parameters["wall_offset_m"] = *options_.wall_offset;
@@ -233,6 +238,8 @@ class ImportVerb final : public Verb {
     if (!roof_.empty()) options_.roof = roof_kind(roof_);
     parse_choice("--base", base_.empty() ? "minimum" : base_, {"minimum", "mean", "maximum", "terrain-following"});
     if (!base_.empty()) options_.base = base_rule(base_);
+    parse_choice("--foundation", foundation_.empty() ? "walls" : foundation_, {"walls", "flat"});
+    if (!foundation_.empty()) options_.foundation = foundation_ == "flat" ? Foundation::flat : Foundation::walls;
   }
 
   std::vector<double> growing_levels() const {
@@ -333,7 +340,8 @@ class ImportVerb final : public Verb {
   std::string kind_ = "terrain";
   bool no_repair_ = false;
   std::string classes_, band_, sea_level_, max_gap_, levels_, resolution_, memory_;
-  std::string height_, base_, roof_, thickness_, wall_offset_, height_step_, height_threshold_, height_rounding_;
+  std::string height_, base_, foundation_, roof_, thickness_, wall_offset_, height_step_, height_threshold_,
+      height_rounding_;
   std::vector<std::string> attributes_;
   ImportOptions options_;
 };

@@ -24,6 +24,10 @@
 
 namespace itin {
 
+/// Where the outline of a building lies: on the terrain, down to which its walls reach, or level at its base, for
+/// which the ground about it is cut away or filled up.
+enum class Foundation { walls, flat };
+
 struct ImportOptions {
   std::vector<std::string> sources;  ///< anything GDAL opens as a raster or a point layer, .las, .csv, .xyz, .txt
 
@@ -43,12 +47,14 @@ struct ImportOptions {
   std::optional<int> band;  ///< of rasters: the one that holds heights, from 1; default: their only one
 
   // For raised features only: CityJSON, and buildings, vegetation and walls for which one of the first three is given.
-  std::string height_field;         ///< of the highest point above the base
-  std::string eaves_field;          ///< of the eaves above the base
-  std::optional<double> height;     ///< metres; of features that have none in the fields
-  std::string base_field;           ///< elevation of the base
-  std::optional<BaseRule> base;     ///< of buildings without base_field; default: minimum, or the floors of CityJSON
-  std::optional<RoofKind> roof;     ///< default: flat
+  std::string height_field;      ///< of the highest point above the base
+  std::string eaves_field;       ///< of the eaves above the base
+  std::optional<double> height;  ///< metres; of features that have none in the fields
+  std::string base_field;        ///< elevation of the base
+  std::optional<BaseRule> base;  ///< of buildings without base_field; default: minimum, or the floors of CityJSON
+  std::optional<RoofKind> roof;  ///< default: flat
+  /// Of buildings; default: walls down to the terrain.
+  std::optional<Foundation> foundation;
   std::optional<double> thickness;  ///< metres; of what stands on lines; default: 0.3
   /// Metres, from two grid steps to 10: how far within its outline a feature's walls reach their full height. One for
   /// all features of a theme; default: that of the theme, and of a new one 0.05 or two grid steps.
@@ -133,7 +139,8 @@ ImportReport import_terrain(const std::string& store_path, const ImportOptions& 
 /// Buildings, vegetation and walls with heights stand on the ground (stands()): queries that choose their theme see
 /// roofs and tops, in place of what lies under them. They need ground all under them, others are refused, with a
 /// warning. At full detail they only raise the surface: outside of footprints it stays what it is, within it is nowhere
-/// lower, but for rounding to the grid. The store keeps their footprints, and stands them up again whenever its terrain
+/// lower, but for rounding to the grid. Buildings on flat foundations bend the ground about them as well, within its
+/// triangles that an outline crosses. The store keeps their footprints, and stands them up again whenever its terrain
 /// changes.
 ///
 /// Rasters stand as well: of heights above the ground (canopies, buildings), or of a surface, whose heights above the

@@ -118,7 +118,7 @@ class GroupBuilder {
   }
 
   std::optional<double> foot_height(const PreparedFeature& feature, Position p) const {
-    if (!terrain_) return feature.heights.base;
+    if (!terrain_ || feature.flat_foundation) return feature.heights.base;
     const auto z = terrain_->height_at(p);
     return z ? std::optional(*z / terrain_->grid().resolution) : std::nullopt;
   }
@@ -243,6 +243,7 @@ class GroupBuilder {
       ArrangedPatch& patch = arrangement_.patches[i];
       const PreparedFeature& f = feature_of(i);
       covered.push_back({f.number, f.drapes() ? std::optional(f.above_terrain) : std::nullopt,
+                         f.flat_foundation ? std::optional(whole(f.heights.base)) : std::nullopt,
                          std::move(patch.footprint), std::move(patch.top)});
     }
     OverlaidLines laid = lay_over(*terrain_, std::move(mesh_.segments), covered, progress_);

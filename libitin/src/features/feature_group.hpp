@@ -18,9 +18,10 @@ struct PreparedFeature {
   std::uint32_t number = 0;  ///< of the feature in the call
   FeatureKind kind = FeatureKind::building;
   RoofKind roof = RoofKind::flat;
-  bool measured = false;     ///< each patch is a plane piece of roof; else there is one patch
-  RoofHeights heights;       ///< of a building
-  double above_terrain = 0;  ///< of what drapes
+  bool measured = false;         ///< each patch is a plane piece of roof; else there is one patch
+  RoofHeights heights;           ///< of a building
+  bool flat_foundation = false;  ///< its outline lies at its base
+  double above_terrain = 0;      ///< of what drapes
   std::vector<Patch> patches;
 
   bool drapes() const { return kind != FeatureKind::building; }

@@ -26,6 +26,7 @@ class Preparing {
     out_.feature.number = number;
     out_.feature.kind = source.kind;
     out_.feature.roof = source.roof;
+    out_.feature.flat_foundation = source.kind == FeatureKind::building && source.flat_foundation;
     out_.feature.measured = source.kind == FeatureKind::building && !source.surfaces.empty();
   }
 

@@ -19,6 +19,7 @@
 #include "features/cell_features.hpp"
 #include "features/feature_mesh.hpp"
 #include "features/footprint_arrangement.hpp"
+#include "features/foundation_reaches.hpp"
 #include "features/ground_coverage.hpp"
 #include "features/mask_index.hpp"
 #include "features/terrain_heights.hpp"
@@ -233,7 +234,7 @@ class Standing {
       if (!left_out.contains(r.feature)) report(numbers[r.feature], r.text.substr(features[r.feature].name.size() + 2));
     theme_.built += mesh.built;
     theme_.refused += mesh.refused;
-    add(mesh, terrain, numbers);
+    add(mesh, terrain, numbers, features);
   }
 
   void report(std::uint32_t footprint, const std::string& finding) {
@@ -266,7 +267,8 @@ class Standing {
     return beyond;
   }
 
-  void add(const FeatureMesh& mesh, const TerrainHeights& terrain, const Numbers& numbers) {
+  void add(const FeatureMesh& mesh, const TerrainHeights& terrain, const Numbers& numbers,
+           const std::vector<FootprintFeature>& features) {
     theme_.ground.append(mesh.ground);
     std::vector<GridPolygon> masks;
     for (const FeatureMask& mask : mesh.masks) masks.push_back(mask.polygon);
@@ -304,10 +306,12 @@ class Standing {
       const std::int32_t ground = low ? static_cast<std::int32_t>(std::floor(*low / grid_.resolution)) : 0;
       heights[m] = std::max(beside[mesh.masks[m].feature], top[mesh.masks[m].feature] - ground);
     });
+    const FoundationReaches foundations(mesh, terrain, features);
     for (std::size_t m = 0; m < mesh.masks.size(); ++m) {
       const auto found = parts_.find(levels[mesh.masks[m].feature]);
       if (found == parts_.end()) continue;
-      found->second.reaches.push_back({box_about(mesh.masks[m].polygon), heights[m]});
+      const FeatureReach cut = foundations.of(m);
+      found->second.reaches.push_back({cut.box, std::max(heights[m], cut.height), cut.depth});
       found->second.masks.push_back(mesh.masks[m].polygon);
     }
   }

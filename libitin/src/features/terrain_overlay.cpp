@@ -97,6 +97,7 @@ class Overlaying {
       footprints_.add(covered[i].footprint, i);
       tops_.add(covered[i].top, i);
       if (covered[i].above) above_[covered[i].feature] = *covered[i].above;
+      if (covered[i].base) bases_[covered[i].feature] = *covered[i].base;
     }
     footprints_.finish();
     tops_.finish();
@@ -121,7 +122,7 @@ class Overlaying {
       stop_if_asked();
       if (s.kind == SegmentClass::foot) continue;
       const auto top = top_of(s);
-      if (top && !covered_[*top].above) of_top[*top].push_back(s);
+      if (top && !covered_[*top].above && !covered_[*top].base) of_top[*top].push_back(s);
     }
     for (std::uint32_t i = 0; i < covered_.size(); ++i) {
       if (of_top[i].empty()) continue;
@@ -190,8 +191,9 @@ class Overlaying {
     return static_cast<std::int32_t>(std::llround(*metres / terrain_.grid().resolution + above));
   }
 
+  /// What stands on a flat foundation stays where it is, though the ground was higher.
   void lift(GridPoint& p, std::int32_t ground, std::uint32_t feature) {
-    if (p.z >= ground) return;
+    if (p.z >= ground || bases_.contains(feature)) return;
     std::int32_t& depth = pierced_[feature];
     depth = std::max(depth, ground - p.z);
     p.z = ground;
@@ -229,6 +231,7 @@ class Overlaying {
 
   void classify() {
     is_foot_.resize(lines_.vertices.size());
+    base_.resize(lines_.vertices.size());
     on_line_.resize(lines_.vertices.size());
     top_.resize(lines_.vertices.size());
     const PlanarEdge* last = nullptr;
@@ -242,7 +245,7 @@ class Overlaying {
         kept_.push_back({e, kind, feature});
         for (const std::uint32_t v : {e.from, e.to}) {
           on_line_[v] = feature;
-          if (kind == SegmentClass::foot) is_foot_[v] = true;
+          if (kind == SegmentClass::foot) add_foot(v, feature);
         }
         continue;
       }
@@ -251,11 +254,20 @@ class Overlaying {
         top_[e.from] = top_[e.to] = under;
         kept_.push_back({e, SegmentClass::roof, covered_[*under].feature});
       } else if (const auto over = footprints_.at_middle(position(e.from), position(e.to))) {
-        kept_.push_back({e, SegmentClass::wall, covered_[*over].feature});
+        // The ground under a flat foundation is cut away, or buried.
+        if (!covered_[*over].base) kept_.push_back({e, SegmentClass::wall, covered_[*over].feature});
       } else {
         ground_.push_back(e);
       }
     }
+  }
+
+  void add_foot(std::uint32_t v, std::uint32_t feature) {
+    is_foot_[v] = true;
+    const auto base = bases_.find(feature);
+    if (base == bases_.end()) return;
+    std::optional<std::int32_t>& least = base_[v];
+    least = least ? std::min(*least, base->second) : base->second;
   }
 
   /// Gives every vertex its height.
@@ -265,7 +277,9 @@ class Overlaying {
       GridPoint& p = lines_.vertices[v];
       const auto ground = ground_at(p);
       if (!ground) continue;
-      if (is_foot_[v] || (!on_line_[v] && !top_[v])) {
+      if (is_foot_[v] && base_[v]) {
+        p.z = *base_[v];
+      } else if (is_foot_[v] || (!on_line_[v] && !top_[v])) {
         p.z = *ground;
       } else if (const auto drapes = on_line_[v] ? above_.find(*on_line_[v]) : above_.end(); drapes != above_.end()) {
         p.z = *ground_at(p, drapes->second);
@@ -327,6 +341,7 @@ class Overlaying {
   const Progress& progress_;
   Ownership footprints_, tops_;
   std::map<std::uint32_t, double> above_;                          ///< of features that drape
+  std::map<std::uint32_t, std::int32_t> bases_;                    ///< of features on flat foundations
   std::map<std::uint32_t, std::unique_ptr<TopSurface>> surfaces_;  ///< of tops that the terrain may pierce
   std::vector<PlacedSegment> segments_;
   std::vector<std::pair<SegmentClass, std::uint32_t>> owners_;
@@ -335,6 +350,7 @@ class Overlaying {
   std::vector<PlanarEdge> ground_;
   std::vector<GridEdge> border_, inner_;               ///< as in ChangedGround
   std::vector<bool> is_foot_;                          ///< by vertex
+  std::vector<std::optional<std::int32_t>> base_;      ///< by vertex on a foot: the least of those of flat foundations
   std::vector<std::optional<std::uint32_t>> on_line_;  ///< by vertex: the feature
   std::vector<std::optional<std::uint32_t>> top_;      ///< by vertex of the terrain alone: a pierced top over it
   std::map<std::uint32_t, std::int32_t> pierced_;

@@ -1,11 +1,15 @@
-// Features laid over the terrain's own edges, so that they only raise it: outside of footprints the surface with
-// features is the bare terrain, inside it is nowhere lower.
+// Features laid over the terrain's own edges, so that they only raise it, but for flat foundations: outside of
+// footprints the surface with features is the bare terrain, inside it is nowhere lower.
 //
 // All edges of every terrain triangle that a foot or an eaves line crosses become lines, cut at what they cross.
 // Between feet and eaves they belong to the wall; outside they lie on the ground and keep the triangulation there what
 // it was. So each piece of the surface outside of tops lies in one terrain triangle, and its corners are no lower than
 // that: nor is the piece. A top that the terrain pierces takes all of the terrain's edges up, each vertex as high as
 // the higher of roof and terrain, which is no lower than either in between.
+//
+// The feet of a flat foundation lie at its base instead, and stay lines on the ground: a piece of the ground beside
+// them lies in one terrain triangle as well, and differs from it by no more than its corners do. Under such a footprint
+// no edge of the terrain is kept, and nothing pierces its top.
 //
 // Positions are rounded to the grid, so heights are what is said here within a grid step, or one times the slope.
 #pragma once
@@ -22,8 +26,9 @@ namespace itin {
 
 /// A footprint with its top, of which lines have been made already.
 struct CoveredGround {
-  std::uint32_t feature = 0;    ///< its number
-  std::optional<double> above;  ///< its top follows the terrain already, so many grid units above it
+  std::uint32_t feature = 0;         ///< its number
+  std::optional<double> above;       ///< its top follows the terrain already, so many grid units above it
+  std::optional<std::int32_t> base;  ///< of a flat foundation: its feet lie at this height, grid units
   GridPolygons footprint, top;
 };
 

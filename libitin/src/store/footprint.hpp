@@ -51,6 +51,7 @@ struct FootprintFeature {
   FeatureKind kind = FeatureKind::building;
   std::vector<PlanRing> rings;
   BaseRule base_rule = BaseRule::minimum;
+  bool flat_foundation = false;  ///< of a building: its outline lies at its base, not on the terrain
   std::optional<double> base;    ///< elevation; default: from the terrain. Only buildings have one: all else drapes
   std::optional<double> height;  ///< of the highest point above the base (above the terrain, where it drapes)
   std::optional<double> eaves;   ///< of the eaves above the base; default: from height and pitch

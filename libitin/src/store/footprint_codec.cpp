@@ -16,6 +16,7 @@ constexpr auto kLastKind = static_cast<std::uint64_t>(FeatureKind::cells);
 constexpr auto kLastRoof = static_cast<std::uint64_t>(RoofKind::skeleton);
 constexpr auto kLastBase = static_cast<std::uint64_t>(BaseRule::terrain_following);
 constexpr auto kLastRounding = static_cast<std::uint64_t>(HeightRounding::down);
+constexpr std::uint64_t kFlatFoundation = kLastBase + 1;  ///< added to the base rule
 constexpr std::uint64_t kMostCells = 0x7fffffff;
 
 class Writer : public ContentWriter {
@@ -57,7 +58,7 @@ void write(Writer& out, const FootprintFeature& f) {
   out.text(f.name);
   out.whole(static_cast<std::uint64_t>(f.kind));
   out.whole(static_cast<std::uint64_t>(f.roof));
-  out.whole(static_cast<std::uint64_t>(f.base_rule));
+  out.whole(static_cast<std::uint64_t>(f.base_rule) + (f.flat_foundation ? kFlatFoundation : 0));
   out.optional(f.base);
   out.optional(f.height);
   out.optional(f.eaves);
@@ -118,7 +119,9 @@ StoredFootprint read(Reader& in) {
   f.name = in.text();
   f.kind = static_cast<FeatureKind>(in.whole(kLastKind));
   f.roof = static_cast<RoofKind>(in.whole(kLastRoof));
-  f.base_rule = static_cast<BaseRule>(in.whole(kLastBase));
+  const std::uint64_t base = in.whole(kFlatFoundation + kLastBase);
+  f.flat_foundation = base >= kFlatFoundation;
+  f.base_rule = static_cast<BaseRule>(base % kFlatFoundation);
   f.base = in.optional();
   f.height = in.optional();
   f.eaves = in.optional();

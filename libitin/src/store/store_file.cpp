@@ -216,6 +216,14 @@ std::int32_t StoreFile::greatest_height(std::uint16_t part, const GridBox& box) 
   return greatest;
 }
 
+std::vector<Certificate::Cell> StoreFile::cuts(std::uint16_t part, const GridBox& box) const {
+  std::vector<Certificate::Cell> cells;
+  for_each_leaf(format::vertex_tree(part), box, [&](const Leaf& leaf) {
+    if (leaf.lo < 0) cells.push_back({leaf.cell.code, leaf.cell.end(), {leaf.lo, 0}});
+  });
+  return cells;
+}
+
 namespace {
 
 /// Whether the box has all that a chunk may hold, which lies within `bounds`.

@@ -51,6 +51,8 @@ class StoreFile final : public PointIndex {
   /// The greatest height of the part's features about the box above the full surface, grid units; 0 where there are
   /// none.
   std::int32_t greatest_height(std::uint16_t part, const GridBox& box) const;
+  /// The cells about the box where the part's features are lower than the full surface, along the curve.
+  std::vector<Certificate::Cell> cuts(std::uint16_t part, const GridBox& box) const;
   std::optional<CertifiedError> certified_error(int level, const Box& box) const;
   std::uint64_t points_about(int level, const Box& box) const;
   Certificate certificate(int level, const Box& box) const;

@@ -11,8 +11,10 @@
 namespace itin::format {
 
 inline constexpr std::uint32_t kApplicationId = 0x4954494e;  // "ITIN"
-/// The newest: for stores with lines that make room for ground that replaces others.
-inline constexpr std::uint32_t kVersion = 7;
+/// The newest: for stores with buildings on flat foundations.
+inline constexpr std::uint32_t kVersion = 8;
+/// For others with lines that make room for ground that replaces others.
+inline constexpr std::uint32_t kVersionWithRoom = 7;
 /// For others that keep ids, names or attributes of features.
 inline constexpr std::uint32_t kVersionWithFeatures = 6;
 /// For others with a theme of terraces, or rasters of heights that stand.

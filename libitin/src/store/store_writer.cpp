@@ -36,6 +36,7 @@ void raise(std::vector<Leaf>& leaves, const FeatureReach& reach) {
                                        [](std::uint64_t c, const Leaf& l) { return c < l.cell.end(); });
     if (leaf == leaves.end()) return;
     leaf->hi = std::max(leaf->hi, reach.height);
+    leaf->lo = std::min(leaf->lo, -reach.depth);
     code = range.next(leaf->cell.end());
   }
 }
@@ -197,9 +198,9 @@ void StoreWriter::Impl::add_part_vertices(std::uint16_t part, std::span<const Gr
   for (const FeatureReach& reach : reaches) raise(leaves, reach);
   std::size_t first = 0;
   for (const Leaf& leaf : leaves) {
-    if (leaf.points > 0 || leaf.hi > 0) {
+    if (leaf.points > 0 || leaf.hi > 0 || leaf.lo < 0) {
       add_points(encode_leaf(format::vertex_tree(part), leaf.cell, points.subspan(first, leaf.points),
-                             sources.subspan(first, leaf.points), 0, leaf.hi));
+                             sources.subspan(first, leaf.points), leaf.lo, leaf.hi));
     }
     first += leaf.points;
   }
@@ -211,6 +212,8 @@ std::uint32_t StoreWriter::Impl::add_footprints(std::uint16_t theme, std::span<c
     const auto some = footprints.first(std::min(footprints.size(), kFootprintsInBlock));
     if (std::any_of(some.begin(), some.end(), [](const StoredFootprint& f) { return f.feature.cells.has_value(); }))
       require_version(format::kVersionWithTerraces);
+    if (std::any_of(some.begin(), some.end(), [](const StoredFootprint& f) { return f.feature.flat_foundation; }))
+      require_version(format::kVersion);
     insert(*insert_block_, BlobKind::Block, format::footprint_key(theme, blocks), encode_footprints(some));
     footprints = footprints.subspan(some.size());
   }
@@ -280,7 +283,8 @@ void StoreWriter::Impl::commit(std::vector<SourceInfo> sources, std::vector<Them
   const auto any_source = [&](bool SourceInfo::*does) {
     return std::any_of(metadata_.sources.begin(), metadata_.sources.end(), [&](const auto& s) { return s.*does; });
   };
-  if (any_source(&SourceInfo::makes_room) && any_source(&SourceInfo::replaces)) require_version(format::kVersion);
+  if (any_source(&SourceInfo::makes_room) && any_source(&SourceInfo::replaces))
+    require_version(format::kVersionWithRoom);
   for (const std::uint16_t theme : with_features_)
     metadata_.themes.at(theme - std::size_t{1}).segments_have_features = true;
   metadata_.parts = std::move(parts);

@@ -32,10 +32,11 @@
 
 namespace itin {
 
-/// How far a feature reaches above the full surface under it, grid units.
+/// How far a feature reaches above the full surface under it, and how far it cuts below, grid units; neither is
+/// negative.
 struct FeatureReach {
   GridBox box;
-  std::int32_t height = 0;
+  std::int32_t height = 0, depth = 0;
 };
 
 class StoreWriter {

@@ -7,6 +7,7 @@
 
 #include "store/store_format.hpp"
 #include "verify/leaf_cover.hpp"
+#include "verify/merged_leaves.hpp"
 #include "verify/tiling.hpp"
 
 namespace itin {
@@ -18,16 +19,25 @@ constexpr double kHeightRounding = 2;
 /// A tile's.
 constexpr double kVertices = 4096, kPoints = 1 << 15;
 
+int tree_of(const Store& store, std::size_t part) {
+  return format::vertex_tree(static_cast<int>(store.metadata().themes.size() + part + 1));
+}
+
 }  // namespace
 
 PartHeights::PartHeights(const Store& store, std::size_t part)
     : store_(store),
       file_(file_of(store)),
       theme_(store.metadata().themes[store.metadata().parts[part].theme - std::size_t{1}]),
-      tree_(format::vertex_tree(static_cast<int>(store.metadata().themes.size() + part + 1))),
+      tree_(tree_of(store, part)),
       ground_(selection_of(store.metadata(), Detail::tolerance(0), ThemeChoice::none())),
       selection_(selection_of(store.metadata(), Detail::tolerance(0), ThemeChoice::parse(theme_.name))),
-      standing_(store, selection_) {}
+      standing_(store, selection_),
+      founded_(static_cast<std::uint32_t>(store.metadata().format_version) >= format::kVersion) {
+  const std::vector<ThemePart>& parts = store.metadata().parts;
+  for (std::size_t other = 0; other < parts.size(); ++other)
+    if (other != part && parts[other].theme == parts[part].theme) other_trees_.push_back(tree_of(store, other));
+}
 
 double PartHeights::vertices_in(const Cell& cell) const {
   std::vector<Leaf> leaves;
@@ -72,12 +82,25 @@ std::vector<std::uint32_t> PartHeights::features_of(const RegionMesh& mesh, cons
   for (std::uint32_t t = 0; t < mesh.mesh.triangles.size(); ++t) {
     const auto& corners = mesh.mesh.triangles[t];
     if (std::any_of(corners.begin(), corners.end(), [&](std::uint32_t v) {
-          return mesh.vertices[v].theme != 0 &&
+          return (founded_ || mesh.vertices[v].theme != 0) &&
                  std::binary_search(codes.begin(), codes.end(), code_of(mesh.vertices[v]));
         }))
       features.push_back(t);
   }
   return features;
+}
+
+/// Ground that foundations bend may hang from several parts, and is as low as the deepest of them.
+std::vector<Leaf> PartHeights::leaves_about(const GridBox& box) const {
+  std::vector<Leaf> leaves;
+  file_.leaves_of(tree_, box, leaves);
+  if (!founded_) return leaves;
+  for (const int other : other_trees_) {
+    std::vector<Leaf> of_other;
+    file_.leaves_of(other, box, of_other);
+    leaves = merged_leaves(leaves, of_other);
+  }
+  return leaves;
 }
 
 std::vector<FalseCell> PartHeights::higher_in(const Cell& tile) const {
@@ -88,9 +111,7 @@ std::vector<FalseCell> PartHeights::higher_in(const Cell& tile) const {
   for (const std::uint32_t t : features) box.extend(box_of(raised, t));
   const RegionMesh bare = triangulate_region(file_, ground_, box);
   const HeightDifference difference(bare);
-  std::vector<Leaf> leaves;
-  file_.leaves_of(tree_, box, leaves);
-  const LeafCover cover(std::move(leaves));
+  const LeafCover cover(leaves_about(box));
   std::vector<Extremes> of_leaves(cover.leaves().size());
   Extremes beside;  // all leaves
   for (const std::uint32_t t : features) {
@@ -101,14 +122,23 @@ std::vector<FalseCell> PartHeights::higher_in(const Cell& tile) const {
   }
   std::vector<FalseCell> found;
   for (std::size_t i = 0; i < of_leaves.size(); ++i)
-    if (of_leaves[i].hi > cover.leaves()[i].hi + kHeightRounding)
+    if (of_leaves[i].hi > cover.leaves()[i].hi + kHeightRounding || too_deep(of_leaves[i], cover.leaves()[i].lo))
       found.push_back({tree_, cover.leaves()[i], of_leaves[i]});
-  if (beside.hi > kHeightRounding) found.push_back({tree_, std::nullopt, beside});
+  if (beside.hi > kHeightRounding || too_deep(beside, 0)) found.push_back({tree_, std::nullopt, beside});
   return found;
+}
+
+bool PartHeights::too_deep(const Extremes& differs, std::int32_t lowest) const {
+  return founded_ && differs.lo < lowest - kHeightRounding;
 }
 
 Damage PartHeights::higher(const FalseCell& cell) const {
   const Grid& grid = file_.metadata().grid;
+  const std::int32_t lowest = cell.leaf ? cell.leaf->lo : 0;
+  if (too_deep(cell.differs, lowest))
+    return {cell.leaf ? format::place("directory", cell.leaf->key) : fmt::format("tree {}", tree_),
+            fmt::format("theme '{}' cuts {:.2f} m into the ground, where the index says at most {:.2f} m", theme_.name,
+                        -cell.differs.lo * grid.resolution, -lowest * grid.resolution)};
   const Point2 at = in_metres(grid, cell.differs.highest);
   return {
       cell.leaf ? format::place("directory", cell.leaf->key) : fmt::format("tree {}", tree_),

@@ -1,4 +1,4 @@
-// Whether a part's features rise no higher above the ground than its cells say.
+// Whether a part's features rise no higher above the ground, and cut no deeper into it, than its cells say.
 #pragma once
 
 #include <vector>
@@ -24,6 +24,8 @@ class PartHeights {
   Damage higher(const FalseCell& cell) const;
 
  private:
+  bool too_deep(const Extremes& differs, std::int32_t lowest) const;
+  std::vector<Leaf> leaves_about(const GridBox& box) const;
   double vertices_in(const Cell& cell) const;
   std::vector<std::uint64_t> codes_in(const GridBox& box) const;
   std::vector<std::uint32_t> features_of(const RegionMesh& mesh, const GridBox& box) const;
@@ -34,6 +36,8 @@ class PartHeights {
   int tree_;
   Selection ground_, selection_;
   RaisedIndex standing_;
+  bool founded_;                  ///< some foundations may bend the ground about them, and cut into it
+  std::vector<int> other_trees_;  ///< of the theme's other parts
 };
 
 }  // namespace itin

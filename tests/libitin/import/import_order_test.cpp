@@ -131,6 +131,7 @@ class ImportOrder : public testing::Test {
     options.kind = kind;
     options.theme = theme;
     if (standing) options.height_field = "h";
+    if (standing && kind == ThemeKind::Buildings && chance(2)) options.foundation = Foundation::flat;
     options.stay = is_terrain(kind) && chance(3);
     return {theme + (options.stay ? " staying" : ""), options};
   }

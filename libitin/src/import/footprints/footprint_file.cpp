@@ -166,8 +166,10 @@ std::vector<FootprintFile> read_footprint_files(const ImportOptions& options, co
     const std::string& path = options.sources[i];
     FootprintFile& file = files.emplace_back(read_file(path, kinds[i], options, store, progress));
     if (file.footprints.features.empty()) throw FileError(path, why_empty(file.footprints.warnings));
-    for (FootprintFeature& feature : file.footprints.features)
+    for (FootprintFeature& feature : file.footprints.features) {
       feature.base_rule = options.base.value_or(BaseRule::minimum);
+      feature.flat_foundation = options.foundation == Foundation::flat;
+    }
     file.info.path = path;
     file.info.kind = name_of(*options.kind);
     file.info.theme = options.theme;

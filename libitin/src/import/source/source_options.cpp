@@ -65,6 +65,7 @@ constexpr std::array kOptions{
            kFootprints | kCityModels | kCells},
     Option{"`base_field`", [](const ImportOptions& o) { return !o.base_field.empty(); }, kBuildings},
     Option{"`base`", [](const ImportOptions& o) { return o.base.has_value(); }, kBuildings | kCityModels},
+    Option{"`foundation`", [](const ImportOptions& o) { return o.foundation.has_value(); }, kBuildings | kCityModels},
     Option{"`height_step`", [](const ImportOptions& o) { return o.height_step.has_value(); }, kCells},
     Option{"`height_threshold`", [](const ImportOptions& o) { return o.height_threshold.has_value(); }, kCells},
     Option{"`height_rounding`", [](const ImportOptions& o) { return o.height_rounding.has_value(); }, kCells},

@@ -1,0 +1,72 @@
+#include "features/foundation_reaches.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "geometry/cell.hpp"
+
+namespace itin {
+
+namespace {
+
+/// Grid steps: feet that were rounded, or joined with other lines, may reach into the triangles beside theirs.
+constexpr std::int32_t kFootReach = 3;
+/// Grid steps of height, against rounding.
+constexpr std::int32_t kHeightMargin = 2;
+
+GridBox about(const GridBox& box) {
+  return {box.xmin - 1, box.ymin - 1, box.xmax + 1, box.ymax + 1};
+}
+
+GridBox box_of(const TerrainHeights& terrain, std::uint32_t triangle) {
+  GridBox box;
+  for (const std::uint32_t v : terrain.triangle(triangle)) box.extend(terrain.vertex(v).x, terrain.vertex(v).y);
+  return box;
+}
+
+}  // namespace
+
+std::optional<std::int32_t> FoundationReaches::height_of_vertex(Position p) const {
+  const std::uint64_t code = morton(p.x, p.y);
+  const auto at = std::lower_bound(mesh_.vertices.begin(), mesh_.vertices.end(), code,
+                                   [](const GridPoint& v, std::uint64_t c) { return morton(v.x, v.y) < c; });
+  if (at == mesh_.vertices.end() || at->x != p.x || at->y != p.y) return std::nullopt;
+  return at->z;
+}
+
+FeatureReach FoundationReaches::of(std::size_t mask) const {
+  const GridPolygon& polygon = mesh_.masks[mask].polygon;
+  FeatureReach reach{bounds_of({polygon}), 0, 0};
+  const double resolution = terrain_.grid().resolution;
+  double lowest = std::numeric_limits<double>::infinity(), highest_above = 0, deepest = 0;
+  for_each_ring(polygon, [&](const GridRing& ring) {
+    for (const Position& p : ring) {
+      const auto z = height_of_vertex(p);
+      const auto ground = terrain_.height_at(p);
+      if (!z || !ground) continue;
+      lowest = std::min(lowest, 1.0 * *z);
+      highest_above = std::max(highest_above, *z - *ground / resolution);
+      deepest = std::max(deepest, *ground / resolution - *z);
+    }
+  });
+  const FootprintFeature& feature = features_[mesh_.masks[mask].feature];
+  const bool founded = feature.kind == FeatureKind::building && feature.flat_foundation;
+  // A neighbour's foundation may have lowered a corner that both share.
+  if (!founded && deepest <= kHeightMargin) return reach;
+  for_each_edge(polygon, [&](Position a, Position b) {
+    for (const std::uint32_t t : terrain_.triangles_along(a, b, kFootReach)) {
+      const GridBox box = box_of(terrain_, t);
+      reach.box.extend(box.xmin, box.ymin);
+      reach.box.extend(box.xmax, box.ymax);
+    }
+  });
+  reach.box = about(reach.box);
+  const auto high = terrain_.base_height({polygon}, BaseRule::maximum);
+  const double within = high ? *high / resolution - lowest : 0;
+  reach.depth = std::max(0, static_cast<std::int32_t>(std::ceil(std::max(deepest, within)))) + kHeightMargin;
+  reach.height = std::max(0, static_cast<std::int32_t>(std::ceil(highest_above))) + kHeightMargin;
+  return reach;
+}
+
+}  // namespace itin

@@ -1,0 +1,39 @@
+// How far flat foundations bend the ground about them, and how deep they cut into it.
+//
+//   const FoundationReaches foundations(mesh, terrain, features);
+//   const FeatureReach reach = foundations.of(m);   // of mesh.masks[m]
+//
+// The ground bends within the terrain's triangles that a foot crosses. There, the surface less the terrain is linear
+// between feet and the terrain's vertices, so no part of it lies deeper than the feet do. Within the outline the
+// terrain may be higher than at the feet.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "features/feature_mesh.hpp"
+#include "store/store_writer.hpp"
+
+namespace itin {
+
+/// Refers to all that it is made of.
+class FoundationReaches {
+ public:
+  FoundationReaches(const FeatureMesh& mesh, const TerrainHeights& terrain,
+                    const std::vector<FootprintFeature>& features)
+      : mesh_(mesh), terrain_(terrain), features_(features) {}
+
+  /// The box of the mask alone, with no height, for what leaves the ground about it as it is.
+  FeatureReach of(std::size_t mask) const;
+
+ private:
+  std::optional<std::int32_t> height_of_vertex(Position p) const;
+
+  const FeatureMesh& mesh_;
+  const TerrainHeights& terrain_;
+  const std::vector<FootprintFeature>& features_;
+};
+
+}  // namespace itin
