@@ -14,7 +14,8 @@
 // Exact means every triangle of the full surface in double precision, as compute(). Themes that stand on the ground
 // count from the first look on: where the memory holds the surface with them, it is exact at once; else bounds come
 // from how low and how high that surface is within squares. With a `tolerance` the bare terrain of that level comes
-// first: features only raise it, so that what it hides for a target on the ground needs no further look.
+// first: features only raise it, so that what it hides for a target on the ground needs no further look. (Where flat
+// foundations cut into it, the surface with its features comes first all the same.)
 //
 // With a FresnelCriterion the zone is judged over the same surfaces, after the line (over coarse ones only where the
 // memory does not hold the full one): what the lower one cuts is not served, what clears the upper one is. In the end

@@ -7,6 +7,7 @@
 
 #include <itin/call_progress.hpp>
 #include <itin/certificate.hpp>
+#include <itin/feature_cuts.hpp>
 #include <itin/level_choice.hpp>
 #include <itin/parallel.hpp>
 #include <itin/raster.hpp>
@@ -35,14 +36,25 @@ GridBox box_of(const Tin& tin, const Triangle& t) {
   return box;
 }
 
+/// Grid units, not positive.
+std::int32_t deepest_in(const std::vector<Certificate>& cuts, const GridBox& box) {
+  std::int32_t deepest = 0;
+  for (const Certificate& cut : cuts)
+    if (const auto bounds = cut.over(box)) deepest = std::min(deepest, bounds->lo);
+  return deepest;
+}
+
 /// Each vertex gets the bounds over all its triangles.
-std::vector<HeightBounds> vertex_bounds(const Store& store, int level, const Tin& tin) {
+std::vector<HeightBounds> vertex_bounds(const Store& store, int level, const Tin& tin, const ThemeChoice& cut_by) {
   std::vector<HeightBounds> result(tin.vertices.size());
-  if (level == 0) return result;
-  const Certificate certificate = store.certificate(level, tin.bounds());
+  const std::vector<Certificate> cuts = feature_cuts(store, cut_by, tin.bounds());
+  if (level == 0 && cuts.empty()) return result;
+  const Certificate certificate = level > 0 ? store.certificate(level, tin.bounds()) : Certificate({});
   std::vector<HeightBounds> of_triangle(tin.triangles.size());
   for_each_chunk(of_triangle.size(), [&](std::size_t t) {
-    if (const auto bounds = certificate.over(box_of(tin, tin.triangles[t]))) of_triangle[t] = *bounds;
+    const GridBox box = box_of(tin, tin.triangles[t]);
+    if (const auto bounds = certificate.over(box)) of_triangle[t] = *bounds;
+    of_triangle[t].lo += deepest_in(cuts, box);
   });
   constexpr auto kMax = std::numeric_limits<std::int32_t>::max(), kMin = std::numeric_limits<std::int32_t>::min();
   std::fill(result.begin(), result.end(), HeightBounds{kMax, kMin});
@@ -137,7 +149,7 @@ std::vector<Piece> retrieve_pieces(const Store& store, const std::vector<WantedP
     SilentProgress silent(progress);
     pieces[i].tin =
         triangulate(store, wanted[i].window, detail_of(store.metadata(), wanted[i].level), silent, request.themes);
-    pieces[i].bounds = vertex_bounds(store, wanted[i].level, pieces[i].tin);
+    pieces[i].bounds = vertex_bounds(store, wanted[i].level, pieces[i].tin, request.cut_by);
     if (request.enclosed.includes_raised(store.metadata().themes))
       enclose_features(store, request.enclosed, pieces[i].tin, pieces[i].bounds);
   });
@@ -212,7 +224,7 @@ Envelope envelop(const Store& store, const EnvelopeRequest& request, Progress& p
     if (i == 0) builder.mark_outline();
   }
   Envelope envelope = std::move(builder).finish(request.observers);
-  envelope.exact = request.level == 0;
+  envelope.exact = request.level == 0 && feature_cuts(store, request.cut_by, envelope.lower.bounds()).empty();
   if (request.bare_ground) {
     envelope.bare_ground = triangulate(store, *request.bare_ground, Detail::tolerance(0), call.step(1));
     envelope.lower.statistics += envelope.bare_ground->statistics;

@@ -35,6 +35,7 @@ struct EnvelopeRequest {
   std::vector<FineDisc> discs;    ///< in any order
   std::vector<Point2> observers;  ///< rays start here: `upper` is raised for what single precision does sideways
   ThemeChoice themes = ThemeChoice::none();          ///< what stands on the ground; at level 0 alone, without discs
+  ThemeChoice cut_by = ThemeChoice::none();          ///< not read, but `lower` is as low as their foundations cut
   ThemeChoice enclosed = ThemeChoice::none();        ///< features that both surfaces hold between them, at any level
   std::optional<Window> bare_ground = std::nullopt;  ///< where the ground without it is wanted too
 };

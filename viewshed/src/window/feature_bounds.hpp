@@ -4,9 +4,9 @@
 //   std::vector<HeightBounds> bounds = ...;            // of the vertices of a level, for the bare ground
 //   enclose_features(store, themes, tin, bounds);      // for the surface with these features
 //
-// This is the one place that says so. Features only raise the surface, except beside their outlines: their vertices are
-// rounded to the grid, so that there the ground is as low, or as high, as the bare one is a few steps away. Whatever
-// cuts deeper must lower `lo` here.
+// Features only raise the surface, except beside their outlines: their vertices are rounded to the grid, so that there
+// the ground is as low, or as high, as the bare one is a few steps away. Flat foundations cut deeper: the bounds that
+// are given must count that already (EnvelopeRequest::cut_by).
 #pragma once
 
 #include <vector>
@@ -19,7 +19,8 @@
 namespace itin::viewshed {
 
 /// Every vertex gets the greatest height of features in the index cells that its triangles meet. `bounds` holds those
-/// of the bare ground, one for each vertex. Cost: one look-up of the store's directory per triangle and theme.
+/// of the bare ground as foundations cut it, one for each vertex. Cost: one look-up of the store's directory per
+/// triangle and theme.
 void enclose_features(const Store& store, const ThemeChoice& themes, const Tin& tin, std::vector<HeightBounds>& bounds);
 
 }  // namespace itin::viewshed

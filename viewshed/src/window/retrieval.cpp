@@ -66,6 +66,7 @@ EnvelopeRequest certified_request(const Store& store, const Request& request, in
   EnvelopeRequest result;
   result.window = window_of(request);
   result.level = level;
+  result.cut_by = request.themes;
   const Box box = box_of_window(store, request);
   const double points = std::min({kNearPoints, kAllNearPoints / static_cast<double>(request.observers.size()),
                                   kNearShare * static_cast<double>(store.points_about(0, box))});

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <itin/error.hpp>
+#include <itin/feature_cuts.hpp>
 #include <itin/level_choice.hpp>
 
 #include "plan/partition.hpp"
@@ -42,7 +43,8 @@ Looks::Looks(const Store& store, const SiteSurvey& survey)
       themed_(survey.themes.includes_raised(store.metadata().themes)),
       sets_(required_sets(survey)),
       reach_(reach_of(survey)),
-      points_(store.points_about(0, reach_)) {}
+      points_(store.points_about(0, reach_)),
+      cut_(!feature_cuts(store, survey.themes, reach_).empty()) {}
 
 bool Looks::whole_fits_as_triangles() const {
   return fits(points_ * (themed_ ? kThemedPoints : 1), survey_.positions.size(), 0);
@@ -51,7 +53,8 @@ bool Looks::whole_fits_as_triangles() const {
 void Looks::choose(bool whole_fits) {
   whole_fits_ = whole_fits;
   stages_.clear();
-  if (themed_ && !survey_.tolerance) {
+  // Foundations cut into the ground: what the bare one hides may be seen.
+  if (themed_ && (!survey_.tolerance || cut_)) {
     // Over a surface in memory, a site is judged exactly in the time that its bounds would take.
     if (!whole_fits_) stages_.push_back({.themed = true, .binned = true});
     stages_.push_back({.themed = true});

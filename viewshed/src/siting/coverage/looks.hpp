@@ -64,6 +64,7 @@ class Looks {
   const std::uint64_t sets_;
   const Box reach_;             ///< of all sites
   const std::uint64_t points_;  ///< of the full surface there
+  const bool cut_;              ///< features are lower than it somewhere there
   bool whole_fits_ = false;
   std::vector<Look> stages_;
 };
