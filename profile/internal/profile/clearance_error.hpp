@@ -12,9 +12,9 @@ class Store;
 namespace itin::profile {
 
 /// Metres, of a line between two places with both ends standing on the surface asked for: as much as the certified
-/// error about it is wide, and the features that are left out at this detail. 0 at full detail. (Where the ground
-/// between a feature and the next coarse vertices slopes otherwise than without the feature, the certificate does not
-/// say how much.) Throws CorruptStore.
+/// error about it is wide, the features that are left out at this detail, and how deep flat foundations cut into the
+/// ground. 0 at full detail. (Where the ground between a feature and the next coarse vertices slopes otherwise than
+/// without the feature, the certificate does not say how much.) Throws CorruptStore.
 double clearance_error(const Store& store, const Detail& detail, const ThemeChoice& themes, Point2 from, Point2 to);
 
 }  // namespace itin::profile

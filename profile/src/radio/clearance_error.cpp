@@ -1,10 +1,24 @@
 #include <algorithm>
 
+#include <itin/feature_cuts.hpp>
 #include <itin/level_choice.hpp>
 #include <itin/store.hpp>
 #include <profile/clearance_error.hpp>
 
 namespace itin::profile {
+
+namespace {
+
+/// Metres.
+double deepest_cut(const Store& store, const ThemeChoice& themes, const Box& box) {
+  const Grid& grid = store.metadata().grid;
+  std::int32_t deepest = 0;
+  for (const Certificate& cut : feature_cuts(store, themes, box))
+    if (const auto bounds = cut.over(grid.enclosing(box))) deepest = std::min(deepest, bounds->lo);
+  return -deepest * grid.resolution;
+}
+
+}  // namespace
 
 double clearance_error(const Store& store, const Detail& detail, const ThemeChoice& themes, Point2 from, Point2 to) {
   const int finest = level_within(store.metadata(), detail.finest());
@@ -19,7 +33,9 @@ double clearance_error(const Store& store, const Detail& detail, const ThemeChoi
     if (!error) continue;
     widest.lo = std::min(widest.lo, error->lo), widest.hi = std::max(widest.hi, error->hi);
   }
-  return widest.hi - widest.lo + store.greatest_height_left_out(themes, finest, box);
+  // What is there cuts otherwise into coarse ground.
+  const double cut = coarsest > 0 ? deepest_cut(store, themes, box) : 0;
+  return widest.hi - widest.lo + store.greatest_height_left_out(themes, finest, box) + cut;
 }
 
 }  // namespace itin::profile
