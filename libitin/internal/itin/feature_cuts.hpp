@@ -1,9 +1,10 @@
 // How deep buildings on flat foundations cut into the ground, cell by cell.
 //
-//   for (const Certificate& cut : feature_cuts(store, themes, box))
-//     if (auto bounds = cut.over(triangle_box)) ...   // the surface with features is no lower than T_0 + bounds->lo
+//   const std::vector<Certificate> cuts = feature_cuts(store, themes, box);
+//   use(deepest_cut(cuts, triangle_box));   // there the surface with features is no lower than T_0 less so much
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include <itin/certificate.hpp>
@@ -15,5 +16,8 @@ namespace itin {
 /// One for each part of the chosen themes that cuts into the ground anywhere in the cells that meet the box; empty
 /// where features only raise the surface. Throws CorruptStore.
 std::vector<Certificate> feature_cuts(const Store& store, const ThemeChoice& themes, const Box& box);
+
+/// Grid units, not negative: of the cells that meet the box.
+std::int32_t deepest_cut(const std::vector<Certificate>& cuts, const GridBox& box);
 
 }  // namespace itin

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "features/mask_index.hpp"
 #include "geometry/cell.hpp"
 
 namespace itin {
@@ -37,7 +38,8 @@ std::optional<std::int32_t> FoundationReaches::height_of_vertex(Position p) cons
 
 FeatureReach FoundationReaches::of(std::size_t mask) const {
   const GridPolygon& polygon = mesh_.masks[mask].polygon;
-  FeatureReach reach{bounds_of({polygon}), 0, 0};
+  FeatureReach reach{box_about(polygon), 0, 0};
+  if (!any_) return reach;
   const double resolution = terrain_.grid().resolution;
   double lowest = std::numeric_limits<double>::infinity(), highest_above = 0, deepest = 0;
   for_each_ring(polygon, [&](const GridRing& ring) {
@@ -50,10 +52,8 @@ FeatureReach FoundationReaches::of(std::size_t mask) const {
       deepest = std::max(deepest, *ground / resolution - *z);
     }
   });
-  const FootprintFeature& feature = features_[mesh_.masks[mask].feature];
-  const bool founded = feature.kind == FeatureKind::building && feature.flat_foundation;
   // A neighbour's foundation may have lowered a corner that both share.
-  if (!founded && deepest <= kHeightMargin) return reach;
+  if (!founded(features_[mesh_.masks[mask].feature]) && deepest <= kHeightMargin) return reach;
   for_each_edge(polygon, [&](Position a, Position b) {
     for (const std::uint32_t t : terrain_.triangles_along(a, b, kFootReach)) {
       const GridBox box = box_of(terrain_, t);

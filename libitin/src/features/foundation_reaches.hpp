@@ -8,6 +8,7 @@
 // terrain may be higher than at the feet.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -23,17 +24,24 @@ class FoundationReaches {
  public:
   FoundationReaches(const FeatureMesh& mesh, const TerrainHeights& terrain,
                     const std::vector<FootprintFeature>& features)
-      : mesh_(mesh), terrain_(terrain), features_(features) {}
+      : mesh_(mesh),
+        terrain_(terrain),
+        features_(features),
+        any_(std::any_of(features.begin(), features.end(), founded)) {}
 
   /// The box of the mask alone, with no height, for what leaves the ground about it as it is.
   FeatureReach of(std::size_t mask) const;
 
  private:
+  static bool founded(const FootprintFeature& feature) {
+    return feature.kind == FeatureKind::building && feature.flat_foundation;
+  }
   std::optional<std::int32_t> height_of_vertex(Position p) const;
 
   const FeatureMesh& mesh_;
   const TerrainHeights& terrain_;
   const std::vector<FootprintFeature>& features_;
+  bool any_;  ///< of the features has a flat foundation
 };
 
 }  // namespace itin

@@ -1,12 +1,16 @@
+#include <algorithm>
+
 #include <itin/feature_cuts.hpp>
 
 #include "store/store_file.hpp"
+#include "store/store_format.hpp"
 
 namespace itin {
 
 std::vector<Certificate> feature_cuts(const Store& store, const ThemeChoice& themes, const Box& box) {
   const StoreMetadata& metadata = store.metadata();
   std::vector<Certificate> cuts;
+  if (static_cast<std::uint32_t>(metadata.format_version) < format::kVersionWithFoundations) return cuts;
   for (std::size_t p = 0; p < metadata.parts.size(); ++p) {
     if (!themes.includes(metadata.themes[metadata.parts[p].theme - std::size_t{1}])) continue;
     const auto number = static_cast<std::uint16_t>(metadata.themes.size() + p + 1);
@@ -14,6 +18,13 @@ std::vector<Certificate> feature_cuts(const Store& store, const ThemeChoice& the
     if (!cells.empty()) cuts.emplace_back(std::move(cells));
   }
   return cuts;
+}
+
+std::int32_t deepest_cut(const std::vector<Certificate>& cuts, const GridBox& box) {
+  std::int32_t deepest = 0;
+  for (const Certificate& cut : cuts)
+    if (const auto bounds = cut.over(box)) deepest = std::max(deepest, -bounds->lo);
+  return deepest;
 }
 
 }  // namespace itin

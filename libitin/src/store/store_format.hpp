@@ -11,8 +11,9 @@
 namespace itin::format {
 
 inline constexpr std::uint32_t kApplicationId = 0x4954494e;  // "ITIN"
-/// The newest: for stores with buildings on flat foundations.
-inline constexpr std::uint32_t kVersion = 8;
+/// For stores with buildings on flat foundations: no others know how deep features cut.
+inline constexpr std::uint32_t kVersionWithFoundations = 8;
+inline constexpr std::uint32_t kVersion = kVersionWithFoundations;  ///< the newest
 /// For others with lines that make room for ground that replaces others.
 inline constexpr std::uint32_t kVersionWithRoom = 7;
 /// For others that keep ids, names or attributes of features.

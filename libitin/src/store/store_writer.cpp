@@ -213,7 +213,7 @@ std::uint32_t StoreWriter::Impl::add_footprints(std::uint16_t theme, std::span<c
     if (std::any_of(some.begin(), some.end(), [](const StoredFootprint& f) { return f.feature.cells.has_value(); }))
       require_version(format::kVersionWithTerraces);
     if (std::any_of(some.begin(), some.end(), [](const StoredFootprint& f) { return f.feature.flat_foundation; }))
-      require_version(format::kVersion);
+      require_version(format::kVersionWithFoundations);
     insert(*insert_block_, BlobKind::Block, format::footprint_key(theme, blocks), encode_footprints(some));
     footprints = footprints.subspan(some.size());
   }

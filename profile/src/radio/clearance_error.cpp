@@ -7,19 +7,6 @@
 
 namespace itin::profile {
 
-namespace {
-
-/// Metres.
-double deepest_cut(const Store& store, const ThemeChoice& themes, const Box& box) {
-  const Grid& grid = store.metadata().grid;
-  std::int32_t deepest = 0;
-  for (const Certificate& cut : feature_cuts(store, themes, box))
-    if (const auto bounds = cut.over(grid.enclosing(box))) deepest = std::min(deepest, bounds->lo);
-  return -deepest * grid.resolution;
-}
-
-}  // namespace
-
 double clearance_error(const Store& store, const Detail& detail, const ThemeChoice& themes, Point2 from, Point2 to) {
   const int finest = level_within(store.metadata(), detail.finest());
   const int coarsest = level_within(store.metadata(), detail.coarsest());
@@ -34,8 +21,9 @@ double clearance_error(const Store& store, const Detail& detail, const ThemeChoi
     widest.lo = std::min(widest.lo, error->lo), widest.hi = std::max(widest.hi, error->hi);
   }
   // What is there cuts otherwise into coarse ground.
-  const double cut = coarsest > 0 ? deepest_cut(store, themes, box) : 0;
-  return widest.hi - widest.lo + store.greatest_height_left_out(themes, finest, box) + cut;
+  const Grid& grid = store.metadata().grid;
+  const std::int32_t cut = coarsest > 0 ? deepest_cut(feature_cuts(store, themes, box), grid.enclosing(box)) : 0;
+  return widest.hi - widest.lo + store.greatest_height_left_out(themes, finest, box) + cut * grid.resolution;
 }
 
 }  // namespace itin::profile

@@ -117,14 +117,6 @@ class FlatFoundation : public testing::TestWithParam<BaseRule> {
     return (high - low) / grid.resolution;
   }
 
-  /// Grid steps below the bare ground, at most.
-  static std::int32_t depth_at(const std::vector<Certificate>& cuts, const GridPoint& p) {
-    std::int32_t lowest = 0;
-    for (const Certificate& cut : cuts)
-      if (const auto bounds = cut.over({p.x, p.y, p.x, p.y})) lowest = std::min(lowest, bounds->lo);
-    return lowest;
-  }
-
   /// Some place of a triangle of the surface.
   GridPoint place_in(const Tin& tin, const Triangle& t) {
     const double u = in(0, 1), v = in(0, 1) * (1 - u), w = 1 - u - v;
@@ -223,7 +215,7 @@ TEST_P(FlatFoundation, NothingIsLowerThanTheIndexSays) {
       if (!low || !high) continue;
       const double below = (*high - *low) / store.metadata().grid.resolution;
       lowered += below < -5 ? 1 : 0;
-      EXPECT_GE(below, depth_at(cuts, p) - 2) << themes << ' ' << p.x << ' ' << p.y;
+      EXPECT_GE(below, -deepest_cut(cuts, {p.x, p.y, p.x, p.y}) - 2) << themes << ' ' << p.x << ' ' << p.y;
     }
     if (!cuts.empty() && GetParam() != BaseRule::maximum) {
       EXPECT_GT(lowered, 0);

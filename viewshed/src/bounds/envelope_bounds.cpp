@@ -5,6 +5,7 @@
 
 #include <itin/parallel.hpp>
 
+#include "bounds/feature_margin.hpp"
 #include "bounds/triangle_in_bins.hpp"
 #include "bounds/triangle_slope.hpp"
 #include "line/cell_tiles.hpp"
@@ -18,10 +19,6 @@ RasterGrid bin_grid(const Box& box, double bin) {
   if (box.empty()) return {{0, 0}, bin, bin, 1, 1};
   return bins_over({box.xmin, box.ymax}, box.width(), box.height(), bin);
 }
-
-/// Grid units. Features bend the ground about them, at positions rounded to the grid: there it is no lower and no
-/// higher than the bare one is so near, but for a rounded height.
-constexpr double kStepsBeside = 2, kStepsUp = 1;
 
 }  // namespace
 

@@ -36,14 +36,6 @@ GridBox box_of(const Tin& tin, const Triangle& t) {
   return box;
 }
 
-/// Grid units, not positive.
-std::int32_t deepest_in(const std::vector<Certificate>& cuts, const GridBox& box) {
-  std::int32_t deepest = 0;
-  for (const Certificate& cut : cuts)
-    if (const auto bounds = cut.over(box)) deepest = std::min(deepest, bounds->lo);
-  return deepest;
-}
-
 /// Each vertex gets the bounds over all its triangles.
 std::vector<HeightBounds> vertex_bounds(const Store& store, int level, const Tin& tin, const ThemeChoice& cut_by) {
   std::vector<HeightBounds> result(tin.vertices.size());
@@ -54,7 +46,7 @@ std::vector<HeightBounds> vertex_bounds(const Store& store, int level, const Tin
   for_each_chunk(of_triangle.size(), [&](std::size_t t) {
     const GridBox box = box_of(tin, tin.triangles[t]);
     if (const auto bounds = certificate.over(box)) of_triangle[t] = *bounds;
-    of_triangle[t].lo += deepest_in(cuts, box);
+    of_triangle[t].lo -= deepest_cut(cuts, box);
   });
   constexpr auto kMax = std::numeric_limits<std::int32_t>::max(), kMin = std::numeric_limits<std::int32_t>::min();
   std::fill(result.begin(), result.end(), HeightBounds{kMax, kMin});

@@ -6,14 +6,12 @@
 
 #include <itin/parallel.hpp>
 
+#include "bounds/feature_margin.hpp"
 #include "scene/rays/drift.hpp"
 
 namespace itin::viewshed {
 
 namespace {
-
-/// Grid units: how far features bend the ground about them, and a rounded height.
-constexpr double kStepsBeside = 2, kStepsUp = 1;
 
 struct Feature {
   std::int32_t height = 0;  ///< the greatest, grid units; 0 where none stands
