@@ -6,6 +6,7 @@
 #include <itin/error.hpp>
 #include <itin/store.hpp>
 
+#include "cross_section/lattice_cells.hpp"
 #include "cross_section/nearby_apex.hpp"
 #include "cross_section/retrieval.hpp"
 #include "cross_section/section_walk.hpp"
@@ -26,10 +27,15 @@ Point2 heading_of(const SectionLine& line) {
 class RetrievedTriangles final : public TriangleFinder {
  public:
   RetrievedTriangles(const PointIndex& index, const Selection& selection, const SectionLine& line)
-      : index_(index), selection_(selection), apex_(index, selection, heading_of(line)) {}
+      : index_(index),
+        selection_(selection),
+        cells_(index, selection, heading_of(line)),
+        apex_(index, selection, heading_of(line)) {}
 
   SectionVertex beyond(const CrossedEdge& edge) override {
-    const auto found = apex_.apex({edge.left.x, edge.left.y}, {edge.right.x, edge.right.y});
+    const Position left{edge.left.x, edge.left.y}, right{edge.right.x, edge.right.y};
+    if (const auto post = cells_.beyond(left, right)) return {*post, 0};
+    const auto found = apex_.apex(left, right);
     if (!found) throw Error("the ground ends without an outline; run itin check on the store");
     return *found;
   }
@@ -38,6 +44,9 @@ class RetrievedTriangles final : public TriangleFinder {
     if (box == box_) return around_;
     box_ = box;
     around_.clear();
+    for (const auto& [a, b, c] : cells_.around(box))
+      around_.push_back({SectionVertex{a, 0}, SectionVertex{b, 0}, SectionVertex{c, 0}});
+    if (!around_.empty()) return around_;
     const RegionMesh region = triangulate_region(index_, selection_, box);
     const auto vertex = [&](std::uint32_t v) {
       return SectionVertex{region.vertices[v].point, region.vertices[v].theme};
@@ -54,6 +63,7 @@ class RetrievedTriangles final : public TriangleFinder {
  private:
   const PointIndex& index_;
   const Selection& selection_;
+  LatticeCells cells_;
   NearbyApex apex_;
   GridBox box_;
   std::vector<std::array<SectionVertex, 3>> around_;
