@@ -26,7 +26,7 @@ Point2 heading_of(const SectionLine& line) {
 /// Smith's retrieval: one triangle after another.
 class RetrievedTriangles final : public TriangleFinder {
  public:
-  RetrievedTriangles(const PointIndex& index, const Selection& selection, const SectionLine& line)
+  RetrievedTriangles(const ReadOnce& index, const Selection& selection, const SectionLine& line)
       : index_(index),
         selection_(selection),
         cells_(index, selection, heading_of(line)),
@@ -61,7 +61,7 @@ class RetrievedTriangles final : public TriangleFinder {
   }
 
  private:
-  const PointIndex& index_;
+  const ReadOnce& index_;
   const Selection& selection_;
   LatticeCells cells_;
   NearbyApex apex_;

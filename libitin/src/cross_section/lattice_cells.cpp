@@ -54,7 +54,7 @@ std::pair<std::int64_t, std::int64_t> cells_meeting(std::int64_t low, std::int64
 
 }  // namespace
 
-LatticeCells::LatticeCells(const PointIndex& index, const Selection& selection, Point2 heading)
+LatticeCells::LatticeCells(const ReadOnce& index, const Selection& selection, Point2 heading)
     : index_(index), selection_(selection), heading_(heading) {}
 
 std::optional<GridPoint> LatticeCells::beyond(Position a, Position b) {

@@ -19,6 +19,7 @@
 
 #include "geometry/predicates.hpp"
 #include "store/point_index.hpp"
+#include "triangulate/read_once.hpp"
 #include "triangulate/selection.hpp"
 
 namespace itin {
@@ -26,9 +27,8 @@ namespace itin {
 /// Serves one thread and one line. Does not know everything: what it says nothing of has to be searched for.
 class LatticeCells {
  public:
-  /// Edges will come one after another in about the direction `heading`. Blocks are asked for again for every sheet, so
-  /// the index should keep them.
-  LatticeCells(const PointIndex& index, const Selection& selection, Point2 heading);
+  /// Edges will come one after another in about the direction `heading`.
+  LatticeCells(const ReadOnce& index, const Selection& selection, Point2 heading);
 
   /// The third vertex of the triangle to the left of ab, where it is half a cell.
   std::optional<GridPoint> beyond(Position a, Position b);
@@ -52,7 +52,7 @@ class LatticeCells {
   std::size_t post(std::int64_t x, std::int64_t y) const;
   GridPoint point(std::int64_t x, std::int64_t y) const;
 
-  const PointIndex& index_;
+  const ReadOnce& index_;
   const Selection& selection_;
   Point2 heading_;
 

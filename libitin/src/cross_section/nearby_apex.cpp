@@ -22,8 +22,8 @@ constexpr double kMostGrowth = 64;
 
 }  // namespace
 
-NearbyApex::NearbyApex(const PointIndex& index, const Selection& selection, Point2 heading)
-    : index_(index), selection_(selection), heading_(heading), fallback_(index, selection), blocks_(index) {}
+NearbyApex::NearbyApex(const ReadOnce& index, const Selection& selection, Point2 heading)
+    : index_(index), selection_(selection), heading_(heading), fallback_(index, selection) {}
 
 void NearbyApex::move_to(Position a, Position b, double lambda) {
   const double mx = (static_cast<double>(a.x) + b.x) / 2, my = (static_cast<double>(a.y) + b.y) / 2;
@@ -49,7 +49,7 @@ void NearbyApex::move_to(Position a, Position b, double lambda) {
     const GridBox box = leaf.cell.box();
     if (leaf.level < selection_.finest_in(box)) continue;
     // A block that was read before costs nothing.
-    if (blocks_.has_read(leaf)) {
+    if (index_.has_read(leaf)) {
       load(leaf);
     } else {
       unread_.push_back({leaf, box});
@@ -63,7 +63,7 @@ std::size_t NearbyApex::bin(std::int32_t x, std::int32_t y) const {
 }
 
 void NearbyApex::load(const Leaf& leaf) {
-  const auto block = blocks_.read(leaf);
+  const auto block = index_.block(leaf);
   for (std::size_t k = 0; k < block->points.size(); ++k) {
     const GridPoint& p = block->points[k];
     if (!box_.contains(p.x, p.y)) continue;

@@ -17,6 +17,7 @@
 #include "cross_section/section_walk.hpp"
 #include "store/point_index.hpp"
 #include "triangulate/apex.hpp"
+#include "triangulate/read_once.hpp"
 #include "triangulate/selection.hpp"
 
 namespace itin {
@@ -27,7 +28,7 @@ struct ApexFrame;
 class NearbyApex {
  public:
   /// Edges will come one after another in about the direction `heading`.
-  NearbyApex(const PointIndex& index, const Selection& selection, Point2 heading);
+  NearbyApex(const ReadOnce& index, const Selection& selection, Point2 heading);
 
   /// As ApexSearch::apex.
   std::optional<SectionVertex> apex(Position a, Position b);
@@ -52,11 +53,10 @@ class NearbyApex {
   void load(const Leaf& leaf);
   std::size_t bin(std::int32_t x, std::int32_t y) const;
 
-  const PointIndex& index_;
+  const ReadOnce& index_;
   const Selection& selection_;
   Point2 heading_;
   ApexSearch fallback_;
-  BlockReader blocks_;
 
   GridBox box_;                                            ///< the neighbourhood
   double half_side_ = 0;                                   ///< of the last one, grid units

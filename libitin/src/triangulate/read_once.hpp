@@ -20,6 +20,7 @@ class ReadOnce final : public PointIndex {
   std::shared_ptr<const Block> block(const Leaf& leaf) const override { return blocks_.read(leaf); }
   void segments(const GridBox& box, std::vector<Segment>& out) const override { base_.segments(box, out); }
 
+  bool has_read(const Leaf& leaf) const { return blocks_.has_read(leaf); }
   const RetrievalStatistics& statistics() const { return blocks_.statistics(); }
 
  private:

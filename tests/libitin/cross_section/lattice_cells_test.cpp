@@ -117,12 +117,13 @@ TEST_P(LatticeCellsOf, TellTheTriangleBeyondAnEdgeOrNothing) {
   std::size_t told = 0, asked = 0;
   for_each_store(
       [&](const PointIndex& index, const Selection& selection, const WholeStore& whole, std::mt19937& random) {
+        const ReadOnce blocks(index);
         std::optional<LatticeCells> cells;
         for (const auto& [a, b, c] : whole.triangles) {
           // As for lines: many edges near each other, then others.
           if (!cells || random() % 50 == 0) {
             const double angle = static_cast<double>(random());
-            cells.emplace(index, selection, Point2{std::cos(angle), std::sin(angle)});
+            cells.emplace(blocks, selection, Point2{std::cos(angle), std::sin(angle)});
           }
           for (const auto& [p, q] : {std::pair{a, b}, {b, c}, {c, a}, {b, a}, {c, b}, {a, c}}) {
             const auto expected = whole.beyond.find({plan_place(p), plan_place(q)});
@@ -152,7 +153,7 @@ TEST_P(LatticeCellsOf, AreAllThatMeetsABoxOrNone) {
       if (i % 4 == 0) low = whole.triangles[random() % whole.triangles.size()][0];
       const GridBox box{low.x, low.y, low.x + static_cast<int>(random() % 2), low.y + static_cast<int>(random() % 2)};
       std::set<std::array<GridPoint, 3>> found;
-      for (const auto& t : LatticeCells(index, selection, {0, 1}).around(box)) found.insert(turned(t));
+      for (const auto& t : LatticeCells(ReadOnce(index), selection, {0, 1}).around(box)) found.insert(turned(t));
       ++asked;
       if (found.empty()) continue;
       ++told;
