@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
+#include <regex>
 #include <sstream>
 #include <stdexcept>
 #include <sys/wait.h>
@@ -30,6 +31,13 @@ fs::path fresh_directory() {
   return pattern;
 }
 
+/// Progress is shown once a command has taken seconds, which is the machine's affair.
+std::string without_progress(const std::string& text) {
+  static const std::regex line("^(?!itin: )[^\\n]* \\d+ %(, [^\\n]* left)?\\n",
+                               std::regex::ECMAScript | std::regex::multiline);
+  return std::regex_replace(text, line, "");
+}
+
 }  // namespace
 
 Shell::Shell(const std::string& program) : directory_(fresh_directory()), beside_(fresh_directory()) {
@@ -52,7 +60,7 @@ Outcome Shell::run(const std::string& command) const {
                   script.string(), (beside_ / "out").string(), (beside_ / "err").string());
   const int status = std::system(line.c_str());
   return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), contents(beside_ / "out"),
-          contents(beside_ / "err")};
+          without_progress(contents(beside_ / "err"))};
 }
 
 std::string Shell::read(const std::string& file) const {

@@ -10,7 +10,7 @@ namespace itin::test {
 struct Outcome {
   int status = 0;
   std::string out;
-  std::string err;
+  std::string err;  ///< without lines of progress
 };
 
 class Shell {
