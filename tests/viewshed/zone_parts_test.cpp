@@ -1,7 +1,6 @@
 // Zones of visibility computed in parts, against the same all at once.
 #include "turbines/zone_parts.hpp"
 
-#include <bit>
 #include <cmath>
 #include <random>
 
@@ -13,6 +12,7 @@
 
 #include "support/houses.hpp"
 #include "support/raster_file.hpp"
+#include "support/same_zone.hpp"
 #include "support/seed.hpp"
 #include "support/temporary_directory.hpp"
 #include "support/terrain_tin.hpp"
@@ -68,33 +68,15 @@ class ZoneParts : public testing::Test {
     return survey_turbines(Store(path()), request_, progress_);
   }
 
-  static void expect_same(const std::vector<float>& a, const std::vector<float>& b) {
-    ASSERT_EQ(a.size(), b.size());
-    for (std::size_t i = 0; i < a.size(); ++i)
-      ASSERT_EQ(std::bit_cast<std::uint32_t>(a[i]), std::bit_cast<std::uint32_t>(b[i])) << "cell " << i;
-  }
-
-  static void expect_same(const Visibility& a, const Visibility& b) {
-    EXPECT_EQ(a.hub_count, b.hub_count);
-    EXPECT_EQ(a.tip_count, b.tip_count);
-    EXPECT_EQ(a.turbines, b.turbines);
-    EXPECT_EQ(a.height_sums_m, b.height_sums_m);
-    for (const auto field :
-         {&Visibility::visible_height_m, &Visibility::vertical_angle_deg, &Visibility::vertical_angle_sum_deg,
-          &Visibility::horizontal_angle_deg, &Visibility::horizontal_from_deg, &Visibility::horizontal_occupied_deg,
-          &Visibility::share, &Visibility::nearest_m})
-      expect_same(a.*field, b.*field);
-  }
-
   static void expect_same(const Zone& a, const Zone& b) {
     EXPECT_EQ(a.statistics.lines, b.statistics.lines);
-    expect_same(a.bare, b.bare);
+    test::expect_same(a.bare, b.bare);
     ASSERT_EQ(a.screened.has_value(), b.screened.has_value());
-    if (a.screened) expect_same(*a.screened, *b.screened);
+    if (a.screened) test::expect_same(*a.screened, *b.screened);
     ASSERT_EQ(a.radar.has_value(), b.radar.has_value());
     if (a.radar) {
       EXPECT_EQ(a.radar->ground_m, b.radar->ground_m);
-      expect_same(a.radar->height_m, b.radar->height_m);
+      test::expect_same(a.radar->height_m, b.radar->height_m);
       EXPECT_EQ(a.radar->turbine_m, b.radar->turbine_m);
     }
     EXPECT_EQ(a.warnings, b.warnings);

@@ -38,19 +38,6 @@ std::vector<PartsOfTile> tiles_in_reach(const Eye& eye, const RasterGrid& grid, 
 
 }  // namespace
 
-std::vector<double> rises_of_targets(const Store& store, const Request& request, const RasterGrid& grid,
-                                     const RasterGrid& tiles) {
-  std::vector<double> rises;
-  if (!request.targets_on_surface || !has_raised_features(store, request)) return rises;
-  const double resolution = store.metadata().grid.resolution;
-  for (std::size_t i = 0; i < tiles.cell_count(); ++i) {
-    const Box box = box_of(grid, tile_at(grid, tiles, i));
-    // A grid unit more, against rounding.
-    rises.push_back(store.greatest_feature_height(request.themes, box) / resolution + 1);
-  }
-  return rises;
-}
-
 ViewshedWithSurface certify_by_blocks(const Store& store, const Request& request, Progress& progress) {
   ViewshedWithSurface computed;
   Result& result = computed.result;
@@ -69,7 +56,7 @@ ViewshedWithSurface certify_by_blocks(const Store& store, const Request& request
 
   result.grid = cells_of(request, extent_of(store));
   const RasterGrid tiles = grid_of_tiles(result.grid);
-  const std::vector<double> rises = rises_of_targets(store, request, result.grid, tiles);
+  const TargetRises rises(store, request, result.grid);
   BoundedEnvelope bounded(std::move(envelope), tiles, rises);
   result.statistics.scene_seconds = watch.lap();
 

@@ -1,8 +1,6 @@
 // Certified viewsheds at a level that is read as a whole.
 #pragma once
 
-#include <vector>
-
 #include <itin/progress.hpp>
 #include <itin/store.hpp>
 #include <viewshed/viewshed.hpp>
@@ -13,10 +11,5 @@ namespace itin::viewshed {
 /// what lies near each observer; all else is undecided. Features hide nothing but near the observer. Also returns the
 /// coarse surface. Throws as compute_certified() does.
 ViewshedWithSurface certify_by_blocks(const Store& store, const Request& request, Progress& progress);
-
-/// For each tile of the cells, by how much targets may stand above the bare surface there, grid units; empty where none
-/// does.
-std::vector<double> rises_of_targets(const Store& store, const Request& request, const RasterGrid& grid,
-                                     const RasterGrid& tiles);
 
 }  // namespace itin::viewshed

@@ -9,7 +9,6 @@
 #include <itin/silent_progress.hpp>
 #include <viewshed/surface.hpp>
 
-#include "certify/certified_blocks.hpp"
 #include "certify/certified_cells.hpp"
 #include "certify/exact_nearby.hpp"
 #include "judge/block_judge.hpp"
@@ -45,7 +44,7 @@ class CertifiedSectors {
         std::make_shared<Surface>(Surface{coverage_of(store_, window_of(request_), progress_), nullptr, {}});
     result.grid = cells_of(request_, extent_of(store_));
     tiles_ = grid_of_tiles(result.grid);
-    rises_ = rises_of_targets(store_, request_, result.grid, tiles_);
+    rises_ = TargetRises(store_, request_, result.grid);
     const std::size_t cells = result.grid.cell_count();
     Stage stage("cells judged", eyes.size() * cells, progress_);
     cells_.emplace(result.grid, tiles_, stage);
@@ -111,7 +110,7 @@ class CertifiedSectors {
   Stopwatch watch_;
   ViewshedWithSurface computed_;
   RasterGrid tiles_;
-  std::vector<double> rises_;  ///< of targets, in each tile
+  TargetRises rises_;
   std::optional<ExactNearby> nearby_;
   std::optional<CertifiedCells> cells_;
 };

@@ -18,8 +18,7 @@ class BlockJudge::BlockWork final : public TileJudge::Work {
         number_(tile),
         tile_(tile_at(judge.grid_, judge.tiles_, tile)),
         centres_(judge.surface_.bounds().units(), judge.grid_, tile_),
-        all_{0, static_cast<std::size_t>(tile_.rows), 0, static_cast<std::size_t>(tile_.columns)},
-        rise_(judge.surface_.rise(tile)),
+        all_(all_of(tile_)),
         covered_(judge.surface_.bounds().covers(box_of(all_))) {}
 
   std::uint64_t judge(std::size_t, TileValues<Verdict>& values) override {
@@ -41,40 +40,27 @@ class BlockJudge::BlockWork final : public TileJudge::Work {
   }
 
  private:
-  /// Cells of the tile, from the first ones to before the last.
-  struct Block {
-    std::size_t row, row_end, column, column_end;
-  };
   /// The least and the greatest height of the surface at cell centres, grid units; kNoSurface where none is.
   struct Heights {
     TileValues<double> low, high;
   };
 
-  /// About the centres, in bins.
-  BinBox box_of(const Block& block) const {
-    const BinBounds& bins = judge_.surface_.bounds();
-    return {bins.column_at(centres_.x[block.column]), bins.row_at(centres_.y[block.row]),
-            bins.column_at(centres_.x[block.column_end - 1]), bins.row_at(centres_.y[block.row_end - 1])};
-  }
+  BinBox box_of(const CellBlock& block) const { return box_about(block, centres_, judge_.surface_.bounds()); }
 
   /// Hides the block where that is certain, else what it can of its quarters, down to about a bin.
-  void hide(const Block& block, const TileValues<Verdict>& asked, TileValues<Verdict>& values) const {
+  void hide(const CellBlock& block, const TileValues<Verdict>& asked, TileValues<Verdict>& values) const {
     const BinBox box = box_of(block);
     const double metres = judge_.surface_.bounds().units().resolution;
-    const double highest = judge_.surface_.bounds().highest(box) + rise_;
+    const double highest = judge_.surface_.bounds().highest(box) + judge_.surface_.rises().over(tile_, block);
     if (highest == -std::numeric_limits<double>::infinity()) return;
     if (judge_.horizon_.hides(box, judge_.eye_.target(highest * metres) / metres)) {
-      for (std::size_t row = block.row; row < block.row_end; ++row)
-        for (std::size_t cell = row * Tile::kSide + block.column; cell < row * Tile::kSide + block.column_end; ++cell)
-          values[cell] = asked[cell] == Verdict::kUndecided ? Verdict::kHidden : asked[cell];
+      for_each_cell(block, [&](std::size_t cell) {
+        values[cell] = asked[cell] == Verdict::kUndecided ? Verdict::kHidden : asked[cell];
+      });
       return;
     }
-    const std::size_t rows = block.row_end - block.row, columns = block.column_end - block.column;
     if (std::max(box.east - box.west, box.south - box.north) <= kSmallest) return;
-    const std::size_t row = block.row + (rows + 1) / 2, column = block.column + (columns + 1) / 2;
-    for (const auto& [first_row, row_end] : {std::pair(block.row, row), std::pair(row, block.row_end)})
-      for (const auto& [first, end] : {std::pair(block.column, column), std::pair(column, block.column_end)})
-        if (first_row < row_end && first < end) hide({first_row, row_end, first, end}, asked, values);
+    for_each_quarter(block, [&](const CellBlock& quarter) { hide(quarter, asked, values); });
   }
 
   /// Whether every cell has ground and is in view, and none has a rule of its own.
@@ -124,7 +110,10 @@ class BlockJudge::BlockWork final : public TileJudge::Work {
       const auto triangles = judge_.surface_.triangles().triangles(number_);
       scan_convert(judge_.surface_.envelope().lower, triangles, tile_, centres_, heights_->low);
       scan_convert_highest(judge_.surface_.envelope().upper, triangles, tile_, centres_, heights_->high);
-      for (double& height : heights_->high) height += rise_;
+      for_each_cell(all_, [&](std::size_t cell) {
+        const std::size_t row = cell / Tile::kSide, column = cell % Tile::kSide;
+        heights_->high[cell] += judge_.surface_.rises().over(tile_, {row, row + 1, column, column + 1});
+      });
     }
     return *heights_;
   }
@@ -135,8 +124,7 @@ class BlockJudge::BlockWork final : public TileJudge::Work {
   std::size_t number_;
   Tile tile_;
   TileCentres centres_;
-  Block all_;
-  double rise_;   ///< of targets above the surface, grid units
+  CellBlock all_;
   bool covered_;  ///< there is ground at every cell
   std::unique_ptr<Heights> heights_;
   TileValues<double> low_, high_;

@@ -13,7 +13,7 @@ constexpr double kBinsPerTriangle = 64, kMostBins = 1 << 21;
 
 }  // namespace
 
-BoundedEnvelope::BoundedEnvelope(Envelope envelope, const RasterGrid& tiles, const std::vector<double>& rises)
+BoundedEnvelope::BoundedEnvelope(Envelope envelope, const RasterGrid& tiles, const TargetRises& rises)
     : envelope_(std::move(envelope)), triangles_(envelope_.lower, tiles), rises_(rises) {}
 
 void BoundedEnvelope::bound(const Box& box) {

@@ -3,21 +3,21 @@
 #pragma once
 
 #include <memory>
-#include <vector>
 
 #include <itin/raster.hpp>
 
 #include "bounds/envelope_bounds.hpp"
 #include "bounds/triangle_bins.hpp"
+#include "judge/target_rises.hpp"
 #include "window/envelope.hpp"
 
 namespace itin::viewshed {
 
 class BoundedEnvelope {
  public:
-  /// `tiles` are those of the cells. `rises` tells by how much targets may stand above the bare surface in each, grid
-  /// units; where it is empty, none does. Both must outlive it. Bounds nothing yet.
-  BoundedEnvelope(Envelope envelope, const RasterGrid& tiles, const std::vector<double>& rises);
+  /// `tiles` are those of the cells; targets on these rise above the bare surface. Both must outlive it. Bounds nothing
+  /// yet.
+  BoundedEnvelope(Envelope envelope, const RasterGrid& tiles, const TargetRises& rises);
 
   /// Bounds the ground within a box, metres, and no other: about 16 bytes and 30 ns per bin, of which there are two
   /// million at most. Costs nothing where that box has been bounded before.
@@ -28,12 +28,12 @@ class BoundedEnvelope {
   const TriangleBins& triangles() const { return triangles_; }
   /// Precondition: bound() has been called.
   const EnvelopeBounds& bounds() const { return *bounds_; }
-  double rise(std::size_t tile) const { return rises_.empty() ? 0 : rises_[tile]; }
+  const TargetRises& rises() const { return rises_; }
 
  private:
   Envelope envelope_;
   TriangleBins triangles_;
-  const std::vector<double>& rises_;
+  const TargetRises& rises_;
   std::unique_ptr<const EnvelopeBounds> bounds_;
   Box box_;
 };

@@ -12,13 +12,12 @@ namespace itin::viewshed {
 
 namespace {
 
-constexpr double kPointsOfTile = 512;
 constexpr double kMostTilesASide = 160;
 
-RasterGrid tiles_over(const Store& store, int level, const Box& box) {
+RasterGrid tiles_over(const Store& store, int level, const Box& box, double points_of_tile) {
   const double points = static_cast<double>(store.points_about(level, box));
   const double side = std::max({box.width(), box.height(), store.metadata().grid.resolution});
-  const double tiles = std::clamp(std::sqrt(points / kPointsOfTile), 1.0, kMostTilesASide);
+  const double tiles = std::clamp(std::sqrt(points / points_of_tile), 1.0, kMostTilesASide);
   const double size = side * 1.0001 / tiles;
   return {{box.xmin, box.ymax},
           size,
@@ -38,11 +37,17 @@ TileSet& TileSet::operator|=(const TileSet& other) {
   return *this;
 }
 
-GroundTiles::GroundTiles(const Store& store, int level, const Box& box)
-    : grid_(tiles_over(store, level, box)), margin_(1 + store.metadata().grid.resolution), points_(grid_.cell_count()) {
+GroundTiles::GroundTiles(const Store& store, int level, const Box& box, double points_of_tile)
+    : grid_(tiles_over(store, level, box, points_of_tile)),
+      margin_(1 + store.metadata().grid.resolution),
+      points_(grid_.cell_count()) {
   parallel_for(points_.size(), [&](std::size_t tile) {
-    points_[tile] = static_cast<std::uint32_t>(store.points_about(level, box_of_cell(grid_, place_of(grid_, tile))));
+    points_[tile] = static_cast<std::uint32_t>(store.points_about(level, this->box(tile)));
   });
+}
+
+Box GroundTiles::box(std::size_t tile) const {
+  return box_of_cell(grid_, place_of(grid_, tile));
 }
 
 std::uint64_t GroundTiles::points(const TileSet& tiles) const {

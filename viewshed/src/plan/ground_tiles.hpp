@@ -31,10 +31,11 @@ class TileSet {
 
 class GroundTiles {
  public:
-  /// Over the box, each with about as many points of the level's surface.
-  GroundTiles(const Store& store, int level, const Box& box);
+  /// Over the box, each with about so many points of the level's surface, or more where there would be too many tiles.
+  GroundTiles(const Store& store, int level, const Box& box, double points_of_tile = 512);
 
   std::size_t count() const { return grid_.cell_count(); }
+  Box box(std::size_t tile) const;
   /// Points of that surface, about.
   std::uint64_t points(std::size_t tile) const { return points_[tile]; }
   std::uint64_t points(const TileSet& tiles) const;

@@ -17,6 +17,7 @@
 #include "request/void_shadow.hpp"
 #include "scene/full_surface.hpp"
 #include "scene/sweep/radial_sweep.hpp"
+#include "turbines/open_lines.hpp"
 #include "turbines/radar_survey.hpp"
 #include "turbines/zone_parts.hpp"
 #include "turbines/zone_request.hpp"
@@ -63,23 +64,31 @@ class ZoneWork {
     if (const auto& radar = zone.request.radar) radar_.emplace(units, ground(radar->position), zone);
   }
 
-  /// `screen` is null where the part has no turbines to look for, or nothing screens them.
-  void survey(const FullSurface& ground, const FullSurface* screen, const ZonePart& part, Stage& stage) {
+  /// What stands on the ground, and hides.
+  struct Screen {
+    const FullSurface& surface;
+    bool open_alone = false;  ///< it may lie beneath lines alone that are marked as open (open_lines.hpp)
+  };
+
+  /// There is no screen where the part has no turbines to look for, or nothing screens them.
+  void survey(const FullSurface& ground, const std::optional<Screen>& screen, const ZonePart& part, Stage& stage) {
     Stopwatch watch;
     if (!part.tiles.empty()) {
       const ZoneSurvey survey(ground, zone_);
-      observe(survey, ground, part, zone_.bare, stage);
-      if (screen != nullptr) observe(survey, *screen, part, *zone_.screened, stage);
+      observe(survey, {ground}, ground, part, zone_.bare, stage);
+      // The edges of a window of open lines are no voids, and features never reach beyond the ground.
+      if (screen) observe(survey, *screen, screen->open_alone ? ground : screen->surface, part, *zone_.screened, stage);
     }
     if (radar_) radar_->run(ground, part, stage);
     zone_.statistics.lines_seconds += watch.lap();
   }
 
  private:
-  void observe(const ZoneSurvey& survey, const FullSurface& surface, const ZonePart& part, Visibility& visibility,
-               Stage& stage) {
-    const std::vector<VoidShadow> behind_voids = shadows(surface, zone_.request);
-    zone_.statistics.lines += survey.run({surface.sweep(), behind_voids}, part.tiles, visibility, stage);
+  void observe(const ZoneSurvey& survey, const Screen& screen, const FullSurface& with_voids, const ZonePart& part,
+               Visibility& visibility, Stage& stage) {
+    const std::vector<VoidShadow> behind_voids = shadows(with_voids, zone_.request);
+    zone_.statistics.lines +=
+        survey.run({screen.surface.sweep(), behind_voids, screen.open_alone}, part.tiles, visibility, stage);
   }
 
   Zone& zone_;
@@ -88,6 +97,62 @@ class ZoneWork {
 
 /// The share of the time, about, that reading takes.
 constexpr double kReading = 0.3;
+
+/// Reads the surfaces under the parts of a zone, one after another.
+class PartReader {
+ public:
+  /// `whole` shows the progress of reading where there is but one part; else null.
+  PartReader(const Store& store, Zone& zone, CallProgress* whole, Progress& progress)
+      : store_(store), zone_(zone), tiles_(grid_of_tiles(zone.grid)), whole_(whole), quiet_(progress) {}
+
+  std::unique_ptr<OwnedSurface> ground(const ZonePart& part) { return read(part.window, ThemeChoice::none()); }
+
+  std::unique_ptr<OwnedSurface> take(Surface surface) {
+    ZoneStatistics& statistics = zone_.statistics;
+    statistics.retrieval_seconds += watch_.lap();
+    statistics.retrieval += surface.statistics();
+    statistics.triangles += surface.triangle_count();
+    auto owned =
+        std::make_unique<OwnedSurface>(std::move(surface), std::nullopt, zone_.request.earth, zone_.grid, tiles_);
+    statistics.scene_seconds += watch_.lap();
+    return owned;
+  }
+
+  struct Screen {
+    std::unique_ptr<OwnedSurface> surface;
+    bool open_alone = false;
+
+    /// What that means to the lines over a part; nothing where no features were asked for.
+    std::optional<ZoneWork::Screen> over(const FullSurface& ground) const {
+      if (surface) return ZoneWork::Screen{surface->full, open_alone};
+      return open_alone ? std::optional(ZoneWork::Screen{ground, true}) : std::nullopt;
+    }
+  };
+  /// With its features, all of it, or where it may rise into lines that are left open: marks these.
+  Screen screen(const ZonePart& part, const FullSurface& ground) {
+    const ThemeChoice& themes = *zone_.request.themes;
+    if (!may_tell_open_lines(store_, zone_.request)) return {read(part.window, themes), false};
+    const OpenLines open(store_, zone_, part.window, quiet_);
+    zone_.statistics.retrieval += open.retrieval();
+    const auto window = open.mark(ground, part.tiles, *zone_.screened);
+    return {window ? read(*window, themes) : nullptr, true};
+  }
+
+  void forget_time() { watch_.lap(); }
+
+ private:
+  std::unique_ptr<OwnedSurface> read(const Window& window, const ThemeChoice& themes) {
+    Progress& reading = whole_ != nullptr ? whole_->step(kReading) : quiet_;
+    return take(retrieve_surface(store_, window, zone_.request.detail, themes, kAnyLattice, reading));
+  }
+
+  const Store& store_;
+  Zone& zone_;
+  RasterGrid tiles_;
+  CallProgress* whole_;
+  SilentProgress quiet_;
+  Stopwatch watch_;
+};
 
 /// The ground of the whole zone, where that is a lattice and the memory holds it.
 std::optional<Surface> lattice_under(const Store& store, const Zone& zone, Progress& progress) {
@@ -115,13 +180,12 @@ Zone survey_turbines(const Tin& ground, const Tin* screened, const ZoneRequest& 
   }
   const ZonePart whole = whole_zone(zone);
   Stage stage("sight lines", steps_of({whole}, screen.has_value()), progress);
-  work.survey(bare, screen ? &*screen : nullptr, whole, stage);
+  work.survey(bare, screen ? std::optional(ZoneWork::Screen{*screen}) : std::nullopt, whole, stage);
   return zone;
 }
 
 Zone survey_turbines(const Store& store, const ZoneRequest& request, Progress& progress) {
   validate(request);
-  Stopwatch watch;
   const auto height = [&](Point2 p) { return height_at(store, p, ThemeChoice::none(), progress, request.detail); };
   const Tin outline = coverage_of(store, window_of(request), progress);
   Zone zone = lay_out(request, outline.bounds(), height);
@@ -133,27 +197,14 @@ Zone survey_turbines(const Store& store, const ZoneRequest& request, Progress& p
   CallProgress call(progress);
   auto lattice = screens ? std::nullopt : lattice_under(store, zone, call.step(kReading));
   const std::vector<ZonePart> parts = lattice ? std::vector{whole_zone(zone)} : zone_parts(store, zone, screens);
-  const RasterGrid tiles = grid_of_tiles(zone.grid);
-  const auto owned = [&](Surface surface) {
-    zone.statistics.retrieval_seconds += watch.lap();
-    zone.statistics.retrieval += surface.statistics();
-    zone.statistics.triangles += surface.triangle_count();
-    return std::make_unique<OwnedSurface>(std::move(surface), std::nullopt, request.earth, zone.grid, tiles);
-  };
-  SilentProgress quiet(progress);
-  const bool at_once = parts.size() == 1;
+  PartReader reader(store, zone, parts.size() == 1 ? &call : nullptr, progress);
   std::optional<Stage> stage;
   for (const ZonePart& part : parts) {
-    const auto retrieve = [&](const ThemeChoice& themes) {
-      Progress& reading = at_once ? call.step(kReading) : quiet;
-      return retrieve_surface(store, part.window, request.detail, themes, kAnyLattice, reading);
-    };
-    const auto ground = owned(lattice ? std::move(*lattice) : retrieve(ThemeChoice::none()));
-    const auto screen = screens && !part.tiles.empty() ? owned(retrieve(*request.themes)) : nullptr;
-    zone.statistics.scene_seconds += watch.lap();
+    const auto ground = lattice ? reader.take(std::move(*lattice)) : reader.ground(part);
+    const auto screen = screens && !part.tiles.empty() ? reader.screen(part, ground->full) : PartReader::Screen{};
     if (!stage) stage.emplace("sight lines", steps_of(parts, screens), call.step(1));
-    work.survey(ground->full, screen ? &screen->full : nullptr, part, *stage);
-    watch.lap();
+    work.survey(ground->full, screen.over(ground->full), part, *stage);
+    reader.forget_time();
   }
   if (request.themes && !screens) {
     zone.screened = zone.bare;

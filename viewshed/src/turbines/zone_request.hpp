@@ -18,6 +18,12 @@ void validate(const ZoneRequest& request);
 Zone lay_out(const ZoneRequest& request, const Box& coverage,
              const std::function<std::optional<double>(Point2)>& ground);
 
+/// How far the centre of a cell lies from a turbine in plan, metres squared; whether that is within its radius.
+double squared_distance(const Turbine& turbine, const RasterGrid& grid, RasterGrid::Cell cell);
+inline bool in_reach(const Turbine& turbine, const RasterGrid& grid, RasterGrid::Cell cell) {
+  return squared_distance(turbine, grid, cell) <= turbine.radius * turbine.radius;
+}
+
 /// Whether any turbine's hub is known: otherwise nothing is said of hubs.
 bool knows_hubs(const Zone& zone);
 

@@ -12,6 +12,8 @@
 #include <itin/parallel.hpp>
 #include <itin/same_place.hpp>
 
+#include "turbines/zone_request.hpp"
+
 namespace itin::viewshed {
 
 /// Holds what is known of a tile's cells so far.
@@ -21,15 +23,18 @@ struct ZoneSurvey::TileWork {
     hubs.fill(kCountOutside), tips.fill(kCountOutside);
     height.fill(0), angle.fill(0), angle_sum.fill(0);
     nearest.fill(std::numeric_limits<double>::infinity());
+    open.fill(true);
     for (auto& word : seen) word.fill(0);
   }
   const std::unique_ptr<FullSurface::TileWork> place;  ///< its targets are eyes, seen of the turbine at hand
   const Tile& tile;
   const TileCentres& centres;
   const TileValues<double>& ground;  ///< grid units
+  TileValues<double> eyes;           ///< elevations, grid units
   TileValues<std::uint16_t> hubs, tips;
   TileValues<double> height, angle, angle_sum, nearest;
   std::vector<TileValues<std::uint32_t>> seen;
+  TileValues<bool> open;     ///< lines to the turbine at hand
   std::vector<double> sums;  ///< by turbine
   std::uint64_t lines = 0;
 };
@@ -92,12 +97,26 @@ std::uint64_t ZoneSurvey::decide(std::size_t tile, const Screen& screen, const V
   if (near.empty()) return 0;
   const auto work = std::make_unique<TileWork>(ground_, tile, zone_.words);
   const double eye_height = zone_.request.observer_height / ground_.units().resolution;
-  for (std::size_t i = 0; i < work->ground.size(); ++i) work->place->targets[i] = work->ground[i] + eye_height;
+  for (std::size_t i = 0; i < work->ground.size(); ++i) work->eyes[i] = work->ground[i] + eye_height;
+  work->place->targets = work->eyes;
   if (!zone_.request.weights.empty()) work->sums.resize(axes_.size());
-  for (const std::size_t k : near) observe(k, screen, *views[k], *work);
+  for (const std::size_t k : near) {
+    if (screen.open_alone) take_open_lines(k, result, *work);
+    observe(k, screen, *views[k], *work);
+  }
   store(*work, result);
   sums = std::move(work->sums);
   return work->lines;
+}
+
+/// Other eyes are taken out.
+void ZoneSurvey::take_open_lines(std::size_t turbine, const Visibility& open, TileWork& work) const {
+  const TurbineBit bit = turbine_bit(zone_.request.turbines[turbine].number);
+  const std::uint32_t* const bits = open.turbines.data() + bit.grid * zone_.grid.cell_count();
+  for_each_cell(work.tile, [&](std::size_t cell, RasterGrid::Cell place) {
+    work.open[cell] = (bits[zone_.grid.index(place)] & bit.mask) != 0;
+    work.place->targets[cell] = work.open[cell] ? work.eyes[cell] : std::numeric_limits<double>::quiet_NaN();
+  });
 }
 
 /// Whether a cell's centre may lie within the radius.
@@ -110,11 +129,10 @@ void ZoneSurvey::observe(std::size_t turbine, const Screen& screen, const Radial
   const Axis& axis = axes_[turbine];
   screen.sweep.run(view, {work.tile, work.centres, work.place->targets}, work.place->scratch, work.place->seen);
   for_each_cell(work.tile, [&](std::size_t cell, RasterGrid::Cell place) {
-    const double dx = zone_.grid.centre_x(place.column) - axis.position.x,
-                 dy = zone_.grid.centre_y(place.row) - axis.position.y, squared = dx * dx + dy * dy;
+    const double squared = squared_distance(zone_.request.turbines[turbine], zone_.grid, place);
     if (squared > axis.radius_squared || std::isnan(work.ground[cell])) return;
     if (work.tips[cell] == kCountOutside) work.tips[cell] = work.hubs[cell] = 0;
-    const double least = work.place->seen[cell];
+    const double least = work.open[cell] ? work.place->seen[cell] : std::numeric_limits<double>::quiet_NaN();
     const bool beneath = std::isinf(least);  // at the turbine's own place
     work.lines += beneath ? 0 : 1;
     if (std::isnan(least)) return;

@@ -26,6 +26,7 @@ class ZoneSurvey {
   struct Screen {
     const RadialSweep& sweep;
     const std::vector<VoidShadow>& shadows;
+    bool open_alone = false;  ///< lines whose bits the result's `turbines` does not have yet are known to be hidden
   };
   /// Enters what is seen from the cells of these tiles, each a step. Returns how many lines that took.
   std::uint64_t run(const Screen& screen, std::span<const std::size_t> tiles, Visibility& result, Stage& stage) const;
@@ -49,6 +50,7 @@ class ZoneSurvey {
   void add_sums(const std::vector<std::vector<double>>& of_tiles, Visibility& result) const;
   bool in_reach(const Axis& axis, const Tile& tile) const;
   void observe(std::size_t turbine, const Screen& screen, const RadialSweep::View& view, TileWork& work) const;
+  void take_open_lines(std::size_t turbine, const Visibility& open, TileWork& work) const;
   void record(std::size_t turbine, std::size_t cell, double distance, double least, TileWork& work) const;
   void store(const TileWork& work, Visibility& result) const;
   void store_horizon(const TileWork& work, std::size_t from_cell, std::size_t to_cell, Point2 eye, Visibility& result,
