@@ -26,11 +26,11 @@
 #include "support/full_detail.hpp"
 #include "support/raster_file.hpp"
 #include "support/seed.hpp"
-#include "support/slow_greedy.hpp"
 #include "support/temporary_directory.hpp"
 #include "support/terrain_tin.hpp"
 #include "support/told_progress.hpp"
 #include "support/vector_file.hpp"
+#include "viewshed/siting/proven_choice.hpp"
 #include "viewshed/siting/survey_points.hpp"
 
 namespace itin::viewshed {
@@ -40,56 +40,6 @@ constexpr Point2 kTownCorner{300000, 200000};
 constexpr double kTownPosts = 10, kTownWidth = 390;
 /// Holds what is known of the sites, but not the surface.
 constexpr std::uint64_t kLittleMemory = 1000000;
-
-DemandSet seen_in(const RasterGrid& grid, const std::vector<Verdict>& values) {
-  DemandSet set;
-  for (std::size_t block = 0; block < element_count(grid) / 64; ++block) {
-    std::uint64_t members = 0;
-    for (std::size_t bit = 0; bit < 64; ++bit) {
-      const RasterGrid::Cell cell = cell_of(grid, 64 * block + bit);
-      if (cell.column < grid.columns() && cell.row < grid.rows() && values[grid.index(cell)] == Verdict::kVisible)
-        members |= std::uint64_t{1} << bit;
-    }
-    set.add(static_cast<std::uint32_t>(block), members);
-  }
-  return set;
-}
-
-void expect_bounds_hold(const CoverageBounds& bounds, const DemandSet& truth) {
-  EXPECT_TRUE(is_subset(bounds.certain, truth));
-  EXPECT_TRUE(is_subset(truth, bounds.possible));
-  EXPECT_TRUE(!bounds.exact || (bounds.certain == truth && bounds.possible == truth));
-}
-
-/// The choice on a survey's bounds. Returns how many sites were judged again.
-std::size_t expect_choice(const Store& store, const SiteSurvey& survey, const std::vector<DemandSet>& truth,
-                          std::size_t count) {
-  NoProgress progress;
-  SiteCoverage coverage(store, survey, progress);
-  EXPECT_EQ(coverage.last_stage(), 1);
-  EXPECT_EQ(coverage.stage_name(0), "bounds, with themes");
-  EXPECT_EQ(coverage.stage_name(1), "exact, with themes");
-  coverage.explore();
-  for (std::size_t i = 0; i < truth.size(); ++i) {
-    EXPECT_FALSE(coverage.bounds(i).exact);
-    expect_bounds_hold(coverage.bounds(i), truth[i]);
-  }
-  const Demand demand(element_count(*survey.targets.grid));
-  std::vector<SiteOption> options;
-  for (std::size_t i = 0; i < truth.size(); ++i) options.push_back({i, 1});
-  ChoiceGoal goal{.count = count};
-  goal.swaps = false;
-  const Choice choice = choose(demand, options, coverage, goal, progress);
-  std::vector<std::size_t> chosen;
-  for (const ChosenSite& site : choice.chosen) chosen.push_back(site.option);
-  EXPECT_EQ(chosen, test::greedy_by_brute_force(truth, demand, count));
-  std::size_t again = 0;
-  for (std::size_t i = 0; i < truth.size(); ++i) {
-    expect_bounds_hold(coverage.bounds(i), truth[i]);
-    again += coverage.stage(i) > 0;
-  }
-  return again;
-}
 
 class SitesAmongHouses : public testing::Test {
  protected:
@@ -167,7 +117,7 @@ class SitesAmongHouses : public testing::Test {
       request.observers_on_surface = on_roofs;
       request.targets_on_surface = survey.targets.on_surface;
       const RasterGrid& grid = *survey.targets.grid;
-      truth.push_back(seen_in(grid, test::brute_force(surface_, ground_, request, grid)));
+      truth.push_back(test::seen_in(grid, test::brute_force(surface_, ground_, request, grid)));
     }
     return truth;
   }
@@ -257,10 +207,10 @@ TEST_F(SitesAmongHouses, TheChoiceByBoundsIsThatOfBruteForce) {
   for (const bool on_surface : {false, true}) {
     SiteSurvey survey = survey_of(12, on_surface, on_surface);
     const std::vector<DemandSet> truth = truth_of(survey, on_surface);
-    const std::size_t again = expect_choice(*store_, survey, truth, 3);
+    const std::size_t again = test::expect_choice(*store_, survey, truth, 3);
     EXPECT_LT(again, truth.size());
     survey.engine = Engine::kRays;
-    EXPECT_EQ(expect_choice(*store_, survey, truth, 3), again);
+    EXPECT_EQ(test::expect_choice(*store_, survey, truth, 3), again);
   }
 }
 
@@ -276,7 +226,7 @@ TEST_F(SitesAmongHouses, PointsAreBoundedAsCellsAre) {
       CoverageBounds bounds = coverage.bounds(i);
       for (DemandSet* const set : {&bounds.certain, &bounds.possible})
         *set = test::without_padding(*survey.targets.grid, *set);
-      expect_bounds_hold(bounds, truth[i]);
+      test::expect_bounds_hold(bounds, truth[i]);
       possible += bounds.possible.size(), served += truth[i].size();
     }
     EXPECT_LT(possible, 3 * served);
@@ -297,7 +247,7 @@ TEST_F(SitesAmongHouses, MissingGroundAndZonesLeaveBoundsRight) {
       const CoverageBounds first = coverage.bounds(i);
       coverage.refine({&i, 1});
       EXPECT_TRUE(coverage.bounds(i).exact);
-      expect_bounds_hold(first, coverage.bounds(i).certain);
+      test::expect_bounds_hold(first, coverage.bounds(i).certain);
     }
   };
   survey.nodata = NoData::kBlock;
@@ -335,7 +285,7 @@ TEST_F(SitesAmongHouses, ASurfaceInMemoryIsJudgedExactlyAtOnce) {
   EXPECT_EQ(coverage.stage_name(0), "exact, with themes");
   for (std::size_t i = 0; i < truth.size(); ++i) {
     EXPECT_TRUE(coverage.bounds(i).exact);
-    expect_bounds_hold(coverage.bounds(i), truth[i]);
+    test::expect_bounds_hold(coverage.bounds(i), truth[i]);
   }
 }
 
@@ -405,9 +355,10 @@ TEST(DelftSiting, TheChoiceByBoundsIsThatOfBruteForce) {
   request.nodata = NoData::kClear;
   for (const SitePosition& place : survey.positions) {
     request.observers = {{place.name, place.position, place.height}};
-    truth.push_back(seen_in(*request.grid, test::compute_at_full_detail(store, request, {}, progress).result.visible));
+    truth.push_back(
+        test::seen_in(*request.grid, test::compute_at_full_detail(store, request, {}, progress).result.visible));
   }
-  EXPECT_LE(expect_choice(store, survey, truth, 4), truth.size() / 2);
+  EXPECT_LE(test::expect_choice(store, survey, truth, 4), truth.size() / 2);
 }
 
 }  // namespace

@@ -127,7 +127,8 @@ struct Zone {
 /// does not depend on the number of threads. Throws InputError (nothing to see, unusable numbers), Cancelled.
 Zone survey_turbines(const Tin& ground, const Tin* screened, const ZoneRequest& request, Progress& progress);
 
-/// On the surface of a store: one retrieval within the turbines' radii, or one per part. Throws also what triangulate()
+/// On the surface of a store: one retrieval within the turbines' radii, or one per part; at full detail features are
+/// read only where they may rise into a line to a turbine that the ground leaves open. Throws also what triangulate()
 /// throws, and InputError where memory_bytes is not enough for some part, saying about how much is.
 Zone survey_turbines(const Store& store, const ZoneRequest& request, Progress& progress);
 

@@ -27,7 +27,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr std::uint64_t kCoarseShare = 2;
 /// Bins follow the slopes of a level; more of them take long.
 constexpr double kBinsPerTriangle = 64, kMostBins = 1 << 21;
-/// Of the bare ground, beneath one roof.
+/// Points of the bare ground beneath one roof.
 constexpr double kPointsPerTile = 8;
 
 Envelope enclosing(const Store& store, const ThemeChoice& themes, const Window& window, Progress& progress) {
@@ -67,8 +67,7 @@ class OpenLines::TileWork {
  private:
   static constexpr std::size_t kTogether = 8, kSmallest = 1;
 
-  /// What of the block is not hidden for certain: marks the cells, and the ground that their lines need, in boxes of
-  /// cells.
+  /// Marks the cells of the block that are not hidden for certain, and box by box the ground that their lines need.
   void open(const CellBlock& block, TileSet& needed) {
     if (hidden(block)) return;
     if (block.side() > kTogether)
@@ -79,7 +78,7 @@ class OpenLines::TileWork {
     if (bundle.from_z < kInfinity) lines_.pyramid_->search(bundle, [&](std::uint32_t roof) { needed.add(roof / 2); });
   }
 
-  /// Likewise, and adds their lines.
+  /// Marks cells likewise, and adds their lines to the bundle.
   void mark(const CellBlock& block, LineBundle& bundle) {
     if (block.side() > kSmallest) {
       for_each_quarter(block, [&](const CellBlock& quarter) {

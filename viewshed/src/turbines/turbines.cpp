@@ -132,15 +132,20 @@ class PartReader {
   Screen screen(const ZonePart& part, const FullSurface& ground) {
     const ThemeChoice& themes = *zone_.request.themes;
     if (!may_tell_open_lines(store_, zone_.request)) return {read(part.window, themes), false};
-    const OpenLines open(store_, zone_, part.window, quiet_);
-    zone_.statistics.retrieval += open.retrieval();
-    const auto window = open.mark(ground, part.tiles, *zone_.screened);
+    const std::optional<Window> window = open_lines(part, ground);
     return {window ? read(*window, themes) : nullptr, true};
   }
 
   void forget_time() { watch_.lap(); }
 
  private:
+  /// Marks them. Returns the ground that they need.
+  std::optional<Window> open_lines(const ZonePart& part, const FullSurface& ground) {
+    const OpenLines open(store_, zone_, part.window, quiet_);
+    zone_.statistics.retrieval += open.retrieval();
+    return open.mark(ground, part.tiles, *zone_.screened);
+  }
+
   std::unique_ptr<OwnedSurface> read(const Window& window, const ThemeChoice& themes) {
     Progress& reading = whole_ != nullptr ? whole_->step(kReading) : quiet_;
     return take(retrieve_surface(store_, window, zone_.request.detail, themes, kAnyLattice, reading));
