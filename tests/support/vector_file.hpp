@@ -1,8 +1,10 @@
 // GeoJSON files of lines and polygons for tests, in EPSG:27700.
 #pragma once
 
+#include <cmath>
 #include <fstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -22,6 +24,16 @@ inline LineFeature box(double x0, double y0, double x1, double y1, double height
   return {.vertices = {{x0, y0, 0}, {x1, y0, 0}, {x1, y1, 0}, {x0, y1, 0}, {x0, y0, 0}},
           .polygon = true,
           .properties = fmt::format(R"({{"h":{}}})", height)};
+}
+
+/// A box about a place, turned by an angle, radians.
+inline LineFeature turned_box(Point2 centre, double width, double depth, double turn, double height) {
+  LineFeature f{.vertices = {}, .polygon = true, .properties = fmt::format(R"({{"h":{:.2f}}})", height)};
+  const double w = width / 2, d = depth / 2;
+  for (const auto& [u, v] : {std::pair{-w, -d}, {w, -d}, {w, d}, {-w, d}, {-w, -d}})
+    f.vertices.push_back(
+        {centre.x + u * std::cos(turn) - v * std::sin(turn), centre.y + u * std::sin(turn) + v * std::cos(turn), 0});
+  return f;
 }
 
 /// Writes 3D coordinates, or 2D ones where `flat`.

@@ -90,14 +90,8 @@ class RaisedCertified : public testing::Test {
     double x = kEye.x, y = kEye.y;
     while (std::hypot(x - kEye.x, y - kEye.y) < most)
       x = kTownCorner.x + place(random), y = kTownCorner.y - place(random);
-    const double w = size(random) / 2, d = size(random) / 2, turn = place(random);
-    test::LineFeature f;
-    f.polygon = true;
-    for (const auto& [u, v] : {std::pair{-w, -d}, {w, -d}, {w, d}, {-w, d}, {-w, -d}})
-      f.vertices.push_back(
-          {x + u * std::cos(turn) - v * std::sin(turn), y + u * std::sin(turn) + v * std::cos(turn), 0});
-    f.properties = fmt::format("{{\"h\":{:.2f}}}", height(random));
-    return f;
+    const double width = size(random), depth = size(random), turn = place(random);
+    return test::turned_box({x, y}, width, depth, turn, height(random));
   }
 
   void add(const std::vector<test::LineFeature>& features, ThemeKind kind, const std::string& name,

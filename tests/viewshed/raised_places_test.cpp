@@ -58,32 +58,28 @@ class RaisedPlace : public testing::Test {
 
   void import_features(const std::string& source, ThemeKind kind, const std::string& theme,
                        const std::string& height_field, const std::string& crs = "",
-                       std::optional<Foundation> foundation = std::nullopt) {
+                       std::optional<BaseRule> flat_base = std::nullopt) {
     ImportOptions options;
     options.sources = {source};
     options.kind = kind;
     options.theme = theme;
     options.height_field = height_field;
     options.crs = crs;
-    options.foundation = foundation;
+    options.base = flat_base;
+    if (flat_base) options.foundation = Foundation::flat;
     import_lines(file("s.itin"), options, progress_);
   }
 
   void add(const Features& features, ThemeKind kind, const std::string& theme,
-           std::optional<Foundation> foundation = std::nullopt) {
+           std::optional<BaseRule> flat_base = std::nullopt) {
     test::write_lines(file(theme + ".geojson"), features, true);
-    import_features(file(theme + ".geojson"), kind, theme, "h", "", foundation);
+    import_features(file(theme + ".geojson"), kind, theme, "h", "", flat_base);
   }
 
   /// Turned anyhow.
   test::LineFeature box(double width, double depth, double height) {
     const Point2 p{kTownCorner.x + in(80, kTownSide - 80), kTownCorner.y - in(80, kTownSide - 80)};
-    const double w = width / 2, d = depth / 2, turn = in(0, 6);
-    test::LineFeature f{.vertices = {}, .polygon = true, .properties = fmt::format("{{\"h\":{:.2f}}}", height)};
-    for (const auto& [u, v] : {std::pair{-w, -d}, {w, -d}, {w, d}, {-w, d}, {-w, -d}})
-      f.vertices.push_back(
-          {p.x + u * std::cos(turn) - v * std::sin(turn), p.y + u * std::sin(turn) + v * std::cos(turn), 0});
-    return f;
+    return test::turned_box(p, width, depth, in(0, 6), height);
   }
   Features boxes(int count, std::array<double, 2> size, std::array<double, 2> height) {
     Features result;
@@ -109,7 +105,8 @@ class RaisedPlace : public testing::Test {
       Features houses = boxes(8, {10, 30}, {0.4, 6});
       houses.push_back(
           test::box(kTownCorner.x + 400, kTownCorner.y - 500, kTownCorner.x + 500, kTownCorner.y - 400, 0.5));
-      add(houses, ThemeKind::Buildings, "cut", Foundation::flat);
+      add(houses, ThemeKind::Buildings, "cut", BaseRule::minimum);
+      add(boxes(8, {10, 30}, {0.4, 6}), ThemeKind::Buildings, "filled_up", BaseRule::maximum);
       turbines_.push_back({kTownCorner.x + 450, kTownCorner.y - 520});
     }
     open();

@@ -73,12 +73,7 @@ class SitesAmongHouses : public testing::Test {
   /// Turned anyhow.
   test::LineFeature box(double width, double depth, double height) {
     const Point2 p{kTownCorner.x + uniform(40, kTownWidth - 40), kTownCorner.y - uniform(40, kTownWidth - 40)};
-    const double w = width / 2, d = depth / 2, turn = uniform(0, 6);
-    test::LineFeature f{.vertices = {}, .polygon = true, .properties = fmt::format("{{\"h\":{:.2f}}}", height)};
-    for (const auto& [u, v] : {std::pair{-w, -d}, {w, -d}, {w, d}, {-w, d}, {-w, -d}})
-      f.vertices.push_back(
-          {p.x + u * std::cos(turn) - v * std::sin(turn), p.y + u * std::sin(turn) + v * std::cos(turn), 0});
-    return f;
+    return test::turned_box(p, width, depth, uniform(0, 6), height);
   }
 
   void add(const std::vector<test::LineFeature>& features, ThemeKind kind, const std::string& name) {

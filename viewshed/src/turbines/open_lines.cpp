@@ -9,11 +9,11 @@
 #include <itin/grazing.hpp>
 #include <itin/grid_units.hpp>
 #include <itin/level_choice.hpp>
-#include <itin/parallel.hpp>
 #include <viewshed/surface.hpp>
 
 #include "bounds/cell_blocks.hpp"
 #include "line/cell_tiles.hpp"
+#include "progress/stage.hpp"
 #include "request/request.hpp"
 #include "turbines/zone_request.hpp"
 #include "window/envelope.hpp"
@@ -188,10 +188,10 @@ void OpenLines::roof_tiles() {
   pyramid_.emplace(roofs_);
 }
 
-std::optional<Window> OpenLines::mark(const FullSurface& ground, std::span<const std::size_t> tiles,
-                                      Visibility& open) const {
+std::optional<Window> OpenLines::mark(const FullSurface& ground, std::span<const std::size_t> tiles, Visibility& open,
+                                      Progress& progress) const {
   std::vector<TileSet> needed(tiles.size());
-  parallel_for(tiles.size(), [&](std::size_t i) {
+  for_each_step(tiles.size(), "open lines", progress, [&](std::size_t i) {
     needed[i] = TileSet(tiles_->count());
     std::make_unique<TileWork>(*this, ground, tiles[i], open)->run(needed[i]);
   });

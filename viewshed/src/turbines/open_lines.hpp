@@ -2,7 +2,7 @@
 // other ground with its features has to be read.
 //
 //   OpenLines open(store, zone, part.window, progress);
-//   const Window window = open.mark(ground, part.tiles, *zone.screened);
+//   const std::optional<Window> window = open.mark(ground, part.tiles, *zone.screened, progress);
 //
 // Two coarse surfaces enclose the one with features (window/envelope.hpp). Cells from which the lower one hides a
 // turbine's tip, block by block, do not see it whatever stands there; over ground where the upper one lies below all
@@ -37,8 +37,9 @@ class OpenLines {
   OpenLines(const Store& store, const Zone& zone, const Window& window, Progress& progress);
 
   /// Sets the bits of `open.turbines` of all lines that are left from the cells of these tiles. Returns where they may
-  /// be hidden; nothing where none is left. Eyes stand on `ground`, whose grid is the zone's.
-  std::optional<Window> mark(const FullSurface& ground, std::span<const std::size_t> tiles, Visibility& open) const;
+  /// be hidden; nothing where none is left. Eyes stand on `ground`, whose grid is the zone's. Throws Cancelled.
+  std::optional<Window> mark(const FullSurface& ground, std::span<const std::size_t> tiles, Visibility& open,
+                             Progress& progress) const;
 
   const RetrievalStatistics& retrieval() const { return retrieval_; }
 

@@ -143,7 +143,7 @@ class PartReader {
   std::optional<Window> open_lines(const ZonePart& part, const FullSurface& ground) {
     const OpenLines open(store_, zone_, part.window, quiet_);
     zone_.statistics.retrieval += open.retrieval();
-    return open.mark(ground, part.tiles, *zone_.screened);
+    return open.mark(ground, part.tiles, *zone_.screened, quiet_);
   }
 
   std::unique_ptr<OwnedSurface> read(const Window& window, const ThemeChoice& themes) {
