@@ -8,6 +8,7 @@
 
 #include <viewshed/site_coverage.hpp>
 
+#include "support/full_detail.hpp"
 #include "support/slow_greedy.hpp"
 
 namespace itin::test {
@@ -26,6 +27,23 @@ inline DemandSet seen_in(const RasterGrid& grid, const std::vector<Verdict>& val
     set.add(static_cast<std::uint32_t>(block), members);
   }
   return set;
+}
+
+/// What each site serves, by a viewshed over the whole surface from the ground.
+inline std::vector<DemandSet> exact_coverage(const Store& store, const SiteSurvey& survey) {
+  Request request;
+  request.target_height = survey.targets.height;
+  request.radius = survey.radius;
+  request.grid = survey.targets.grid;
+  request.themes = survey.themes;
+  request.nodata = NoData::kClear;
+  NoProgress progress;
+  std::vector<DemandSet> truth;
+  for (const SitePosition& place : survey.positions) {
+    request.observers = {{place.name, place.position, place.height}};
+    truth.push_back(seen_in(*request.grid, compute_at_full_detail(store, request, {}, progress).result.visible));
+  }
+  return truth;
 }
 
 inline void expect_bounds_hold(const CoverageBounds& bounds, const DemandSet& truth) {

@@ -23,7 +23,6 @@
 #include "line/rounded_outwards.hpp"
 #include "support/brute_force_viewshed.hpp"
 #include "support/exact_line_of_sight.hpp"
-#include "support/full_detail.hpp"
 #include "support/raster_file.hpp"
 #include "support/seed.hpp"
 #include "support/temporary_directory.hpp"
@@ -341,18 +340,7 @@ TEST(DelftSiting, TheChoiceByBoundsIsThatOfBruteForce) {
   survey.targets.height = 1.5;
   survey.targets.grid = grid_of_reach(store, survey.positions, survey.radius, 4);
   survey.memory_bytes = 20000000;
-  std::vector<DemandSet> truth;
-  Request request;
-  request.target_height = survey.targets.height;
-  request.radius = survey.radius;
-  request.grid = survey.targets.grid;
-  request.themes = ThemeChoice::all();
-  request.nodata = NoData::kClear;
-  for (const SitePosition& place : survey.positions) {
-    request.observers = {{place.name, place.position, place.height}};
-    truth.push_back(
-        test::seen_in(*request.grid, test::compute_at_full_detail(store, request, {}, progress).result.visible));
-  }
+  const std::vector<DemandSet> truth = test::exact_coverage(store, survey);
   EXPECT_LE(test::expect_choice(store, survey, truth, 4), truth.size() / 2);
 }
 
