@@ -10,7 +10,8 @@ void DetailOptions::declare(CLI::App& app) {
   app.add_option("--tolerance", tolerance_text_,
                  "Vertical tolerance of the surface; 0: every stored point (default: 0)")
       ->type_name("METRES");
-  app.add_option("--rings", rings_text_, "Tolerances that grow with the distance, nearest ring first")
+  app.add_option("--rings", rings_text_,
+                 "Tolerances that grow with the distance, nearest ring first; features are thinned with the terrain")
       ->type_name("RADIUS:TOLERANCE,...");
 }
 

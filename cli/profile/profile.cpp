@@ -72,7 +72,10 @@ class ProfileVerb final : public Verb {
                             "Vertical tolerance of the surface; 0: every stored point (default: 0); may be given again "
                             "for several profiles side by side")
                  ->type_name("METRES"));
-    app.add_option("--rings", rings_text_, "Tolerances that grow with the distance from --from, nearest ring first")
+    app.add_option(
+           "--rings", rings_text_,
+           "Tolerances that grow with the distance from --from, nearest ring first; features are thinned with the "
+           "terrain")
         ->type_name("RADIUS:TOLERANCE,...");
     repeated(writes(
         app.add_option(

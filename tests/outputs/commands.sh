@@ -25,6 +25,7 @@ itin tin garth.itin --disc 310375,183525,900 --themes lanes --topology vertex -o
 itin tin garth.itin --wedge 311000,184500,30,40,2000 --topology triangle -o wedge.json
 itin tin garth.itin --corridor 308600,182500,311000,185000,200 --topology edge -o corridor.json
 itin tin town.itin --all --themes all -o town.glb --image town.png
+itin tin town.itin --all --rings 80:0,160:16,400:32 -o town-rings.ply
 itin tin contours.itin --all -o contours.geojson
 itin tin contours.itin --all --lines contours --tolerance 8 -o contour-lines.gpkg
 itin tin points.itin --all --tolerance 1 -o points.ply

@@ -110,6 +110,42 @@ TEST_F(StoreLines, OverACoarseSurfaceAreCertainOrUndecided) {
   EXPECT_GT(certain, 20);
 }
 
+/// Masts that the inner ring has and the outer one leaves out.
+TEST_F(StoreLines, OverRingsThatLeaveFeaturesOutAreCertainOrUndecided) {
+  std::vector<test::LineFeature> masts;
+  for (int i = 0; i < 60; ++i) {
+    const Point2 p = anywhere();
+    masts.push_back(test::box(p.x, p.y, p.x + 5, p.y + 5, 25));
+  }
+  test::write_lines(directory_.file("m.geojson"), masts, true);
+  store_.reset();
+  NoProgress progress;
+  ImportOptions options;
+  options.sources = {directory_.file("m.geojson")};
+  options.kind = ThemeKind::Buildings;
+  options.theme = "masts";
+  options.height_field = "h";
+  import_lines(directory_.file("s.itin"), options, progress);
+  store_.emplace(directory_.file("s.itin"));
+  int higher = 0;
+  for (int i = 0; i < 200; ++i) {
+    StoreLine line{anywhere(), anywhere()};
+    line.themes = ThemeChoice::all();
+    const LosQuery asked = query(6, 40);
+    const LosReport exact = analyse(*store_, line, asked);
+    line.detail = Detail::rings(line.from, {{40, 0}, {80, 16}});
+    const LosReport thinned = analyse(*store_, line, asked);
+    EXPECT_GE(*exact.clearance_m, *thinned.clearance_m - thinned.query.clearance_error_m);
+    EXPECT_LE(*exact.clearance_m, *thinned.clearance_m + thinned.query.clearance_error_m);
+    // As much is left out somewhere as with the outer ring's tolerance everywhere.
+    line.detail = Detail::tolerance(16);
+    EXPECT_EQ(thinned.query.clearance_error_m, analyse(*store_, line, asked).query.clearance_error_m);
+    higher += *thinned.clearance_m > *exact.clearance_m + 10 ? 1 : 0;
+    EXPECT_TRUE(thinned.verdict == SightVerdict::kUndecided || thinned.verdict == exact.verdict);
+  }
+  EXPECT_GT(higher, 10);  // masts stand in the way that the outer ring does not have
+}
+
 TEST_F(StoreLines, TakeElevations) {
   StoreLine line{{300100, 199900}, {300400, 199600}};
   const LosReport heights = analyse(*store_, line, query(5, 9));

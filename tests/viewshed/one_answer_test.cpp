@@ -271,6 +271,19 @@ TEST_F(InATown, WithFeaturesAtATolerance) {
   }
 }
 
+/// Rings that leave most houses out, seen over what they have.
+TEST_F(InATown, InRingsThatThinFeatures) {
+  request_.observers.front().height = 15;
+  for (const bool target : {false, true}) {
+    for (const double radius : {20.0, 80.0, 200.0}) {
+      request_.targets_on_surface = target;
+      request_.detail = Detail::rings(request_.observers.front().position,
+                                      {{radius, 0}, {1.5 * radius, 8}, {2 * radius, 16}, {4 * radius, 32}});
+      expect_plain_agrees(*store_, request_, 400);
+    }
+  }
+}
+
 TEST_F(InATown, PreciseAgreesEntirelyWithFeatures) {
   NoProgress progress;
   request_.observers.front().height = 15;

@@ -97,6 +97,9 @@ struct ThemeInfo {
 struct ThemePart {
   std::uint16_t theme = 0;  ///< its number, from 1
   int coarsest = 0;         ///< it is there at this level and finer ones
+  /// Whether rings leave out those of its features, block by block, about which they ask for coarser levels alone;
+  /// elsewhere all are there where any ring has them.
+  bool has_clusters = false;
   friend bool operator==(const ThemePart&, const ThemePart&) = default;
 };
 

@@ -33,10 +33,6 @@ GridBox square(std::int64_t x, std::int64_t y, std::int64_t side, std::int64_t m
   return {narrow(x - margin), narrow(y - margin), narrow(x + side + margin), narrow(y + side + margin)};
 }
 
-GridBox extent(const Segment& s) {
-  return {std::min(s.ax, s.bx), std::min(s.ay, s.by), std::max(s.ax, s.bx), std::max(s.ay, s.by)};
-}
-
 /// Half the diagonal is 0.71 sides, of which 0.5 lie within the square; and points lie on the grid.
 std::int64_t circle_margin(std::int64_t spacing) {
   return spacing / 4;
@@ -146,7 +142,7 @@ bool LatticeCells::lay(const Corner& cell, std::int64_t spacing) {
   }
   index_.segments(box_, edges_);
   for (const Segment& s : edges_)
-    if (selection_.selects(s)) segments_.push_back(extent(s));
+    if (selection_.selects(s)) segments_.push_back(extent_of(s));
   return true;
 }
 

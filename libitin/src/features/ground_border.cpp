@@ -29,7 +29,7 @@ class GroundBorder::Contacts {
   struct Contact {
     std::uint32_t theme;
     GridEdge edge;                         ///< directed, as the theme has it
-    std::vector<std::uint32_t> same, cut;  ///< owners of this very edge, and of others that have a part in common
+    std::vector<std::uint32_t> same, cut;  ///< lines along this very edge, and others that have a part in common
   };
 
   Contacts(const std::vector<OfTheme>& themes, const PlanarLines& lines) : lines_(lines) {
@@ -41,6 +41,13 @@ class GroundBorder::Contacts {
   }
 
   const std::vector<Contact>& all() const { return contacts_; }
+  std::uint32_t owner(std::uint32_t line) const { return lines_.edges[line].owner; }
+  std::set<LineOwner> owners_met(const Contact& contact, std::size_t themes) const {
+    std::set<LineOwner> met;
+    for (const std::vector<std::uint32_t>* const lines : {&contact.same, &contact.cut})
+      for (const std::uint32_t line : *lines) add_owners(line, themes, met);
+    return met;
+  }
 
  private:
   void meet() {
@@ -65,10 +72,20 @@ class GroundBorder::Contacts {
       if (line >= of_lines || edge < of_lines) continue;
       const bool same = edges[line] == edges[edge];
       for (std::size_t b = first_border[edge - of_lines]; b < first_border[edge - of_lines + 1]; ++b) {
-        std::vector<std::uint32_t>& owners = same ? contacts_[b].same : contacts_[b].cut;
-        for (std::size_t i = first_line[line]; i < first_line[line + 1]; ++i) owners.push_back(lines_.edges[i].owner);
+        std::vector<std::uint32_t>& met = same ? contacts_[b].same : contacts_[b].cut;
+        for (std::size_t i = first_line[line]; i < first_line[line + 1]; ++i)
+          met.push_back(static_cast<std::uint32_t>(i));
       }
     }
+  }
+
+  void add_owners(std::uint32_t line, std::size_t themes, std::set<LineOwner>& owners) const {
+    const std::uint32_t own = owner(line);
+    auto feature = std::lower_bound(lines_.features.begin(), lines_.features.end(), EdgeFeature{line, 0});
+    const bool clustered = own >= themes && feature != lines_.features.end() && feature->edge == line;
+    if (!clustered) owners.insert({own});
+    for (; clustered && feature != lines_.features.end() && feature->edge == line; ++feature)
+      owners.insert({own, feature->feature});
   }
 
   GridEdge edge_of(const PlanarEdge& e) const {
@@ -116,7 +133,7 @@ GroundBorder::Fit GroundBorder::fit(const PlanarLines& lines, const Owners& owne
 std::vector<OwnedSegment> GroundBorder::widen(const Contacts& contacts, const Owners& owners, const Apex& apex) {
   std::vector<OwnedSegment> kept;
   for (const Contacts::Contact& contact : contacts.all()) {
-    const auto own = [&](std::uint32_t owner) { return owners.theme[owner] == contact.theme; };
+    const auto own = [&](std::uint32_t line) { return owners.theme[contacts.owner(line)] == contact.theme; };
     OfTheme& of_theme = themes_[contact.theme];
     if (std::none_of(contact.cut.begin(), contact.cut.end(), own) || !of_theme.border.contains(contact.edge)) continue;
     const auto& [from, to] = contact.edge;
@@ -134,13 +151,12 @@ std::vector<OwnedSegment> GroundBorder::widen(const Contacts& contacts, const Ow
   return kept;
 }
 
-std::vector<PlacedBorder> GroundBorder::place(const Contacts& contacts, const Owners& owners) {
+std::vector<PlacedBorder> GroundBorder::place(const Contacts& contacts, const Owners& owners) const {
   std::vector<PlacedBorder> placed;
   for (const Contacts::Contact& contact : contacts.all()) {
-    std::set<std::uint32_t> met(contact.same.begin(), contact.same.end());
-    met.insert(contact.cut.begin(), contact.cut.end());
-    const bool needless = std::any_of(met.begin(), met.end(), [&](std::uint32_t owner) {
-      return owners.theme[owner] == contact.theme || owners.terrain[owners.theme[owner]];
+    const std::set<LineOwner> met = contacts.owners_met(contact, themes_.size());
+    const bool needless = std::any_of(met.begin(), met.end(), [&](const LineOwner& line) {
+      return owners.theme[line.owner] == contact.theme || owners.terrain[owners.theme[line.owner]];
     });
     if (!needless) placed.push_back({{contact.theme, undirected(contact.edge)}, {met.begin(), met.end()}});
   }

@@ -38,16 +38,23 @@ struct BorderEdge {
   friend auto operator<=>(const BorderEdge&, const BorderEdge&) = default;
 };
 
+/// Whose line something is: of an owner, and of which of its clusters where the owner stands on the ground.
+struct LineOwner {
+  std::uint32_t owner = 0;
+  std::uint32_t cluster = kNoFeature;
+  friend auto operator<=>(const LineOwner&, const LineOwner&) = default;
+};
+
 struct PlacedBorder {
   BorderEdge border;
-  std::vector<std::uint32_t> makes_way_for;  ///< owners, ascending
+  std::vector<LineOwner> makes_way_for;  ///< ascending
 };
 
 class GroundBorder {
  public:
   /// Who the owners of lines are.
   struct Owners {
-    std::vector<std::uint32_t> theme;  ///< by owner
+    std::vector<std::uint32_t> theme;  ///< by owner; those after the themes stand on the ground
     std::vector<bool> terrain;         ///< by theme: whether it is part of the full surface
   };
   /// The full surface's third vertex left of an edge of it; nothing at the end of the ground.
@@ -72,7 +79,7 @@ class GroundBorder {
   class Contacts;
   OwnedSegment keep(std::uint32_t theme, const GridEdge& edge);
   std::vector<OwnedSegment> widen(const Contacts& contacts, const Owners& owners, const Apex& apex);
-  static std::vector<PlacedBorder> place(const Contacts& contacts, const Owners& owners);
+  std::vector<PlacedBorder> place(const Contacts& contacts, const Owners& owners) const;
 
   std::vector<OfTheme> themes_;
 };

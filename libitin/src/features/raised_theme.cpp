@@ -63,9 +63,9 @@ GridBox widened(const GridBox& box, std::int32_t by) {
 }
 
 /// Sets of features, by union-find.
-class Blocks {
+class Clusters {
  public:
-  explicit Blocks(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0U); }
+  explicit Clusters(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0U); }
   std::uint32_t of(std::uint32_t i) {
     while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
     return i;
@@ -274,16 +274,17 @@ class Standing {
     for (const FeatureMask& mask : mesh.masks) masks.push_back(mask.polygon);
     const MaskIndex index(masks);
     const std::vector<PartyWall> walls = party_walls(mesh, index, terrain);
-    const std::vector<int> levels = levels_of(mesh, walls, numbers.size());
+    const std::vector<Kept> kept = kept_of(mesh, walls, numbers.size());
     std::vector<std::int32_t> top(numbers.size(), std::numeric_limits<std::int32_t>::min());
     std::vector<int> level_of_vertex(mesh.vertices.size(), -1);
     for (const FeatureSegment& s : mesh.segments) {
       stop_if_asked();
       const GridPoint &a = mesh.vertices[s.from], &b = mesh.vertices[s.to];
       top[s.feature] = std::max({top[s.feature], a.z, b.z});
-      RaisedPart& part = part_of(levels[s.feature], footprints_[numbers[s.feature]].source);
-      part.segments.push_back({a, b, s.kind == SegmentClass::foot});
-      level_of_vertex[s.from] = level_of_vertex[s.to] = levels[s.feature];
+      const auto [level, cluster] = kept[s.feature];
+      RaisedPart& part = part_of(level, footprints_[numbers[s.feature]].source);
+      part.segments.push_back({a, b, s.kind == SegmentClass::foot, cluster});
+      level_of_vertex[s.from] = level_of_vertex[s.to] = level;
     }
     for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
       stop_if_asked();
@@ -294,7 +295,7 @@ class Standing {
         if (!mask) continue;
         const std::uint32_t feature = mesh.masks[*mask].feature;
         top[feature] = std::max(top[feature], p.z);
-        level_of_vertex[v] = levels[feature];
+        level_of_vertex[v] = kept[feature].level;
       }
       parts_.at(level_of_vertex[v]).vertices.push_back(p);
     }
@@ -308,11 +309,13 @@ class Standing {
     });
     const FoundationReaches foundations(mesh, terrain, features);
     for (std::size_t m = 0; m < mesh.masks.size(); ++m) {
-      const auto found = parts_.find(levels[mesh.masks[m].feature]);
+      const auto [level, cluster] = kept[mesh.masks[m].feature];
+      const auto found = parts_.find(level);
       if (found == parts_.end()) continue;
       const FeatureReach cut = foundations.of(m);
       found->second.reaches.push_back({cut.box, std::max(heights[m], cut.height), cut.depth});
       found->second.masks.push_back(mesh.masks[m].polygon);
+      found->second.mask_clusters.push_back(cluster);
     }
   }
 
@@ -323,31 +326,42 @@ class Standing {
     return at->second;
   }
 
-  /// The coarsest level of each feature.
-  std::vector<int> levels_of(const FeatureMesh& mesh, const std::vector<PartyWall>& walls, std::size_t count) const {
-    Blocks blocks(count);
-    for (const PartyWall& wall : walls) blocks.join(wall.higher, wall.lower);
+  /// The coarsest level of a feature, and its cluster there.
+  struct Kept {
+    int level = 0;
+    std::uint32_t cluster = kNoCluster;
+  };
+
+  std::vector<Kept> kept_of(const FeatureMesh& mesh, const std::vector<PartyWall>& walls, std::size_t count) {
+    Clusters clusters(count);
+    for (const PartyWall& wall : walls) clusters.join(wall.higher, wall.lower);
     std::vector<std::uint32_t> first(mesh.vertices.size(), static_cast<std::uint32_t>(count));
     for (const FeatureSegment& s : mesh.segments) {
       for (const std::uint32_t v : {s.from, s.to}) {
         if (first[v] == count) first[v] = s.feature;
-        blocks.join(first[v], s.feature);
+        clusters.join(first[v], s.feature);
       }
     }
     std::vector<GridBox> boxes(count);
     for (const FeatureSegment& s : mesh.segments) {
-      GridBox& box = boxes[blocks.of(s.feature)];
+      GridBox& box = boxes[clusters.of(s.feature)];
       for (const std::uint32_t v : {s.from, s.to}) box.extend(mesh.vertices[v].x, mesh.vertices[v].y);
     }
-    std::vector<int> levels(count, 0);
+    std::vector<Kept> kept(count);
     for (std::uint32_t f = 0; f < count; ++f) {
-      const GridBox& box = boxes[blocks.of(f)];
-      if (box.empty()) continue;
-      const std::int32_t side = std::max(box.xmax - box.xmin, box.ymax - box.ymin);
-      for (int k = 0; k < static_cast<int>(lateral_.size()) && lateral_[static_cast<std::size_t>(k)] <= side; ++k)
-        levels[f] = k;
+      const std::uint32_t own = clusters.of(f);  // the number of its first feature
+      kept[f] = own == f ? kept_about(boxes[own]) : kept[own];
     }
-    return levels;
+    return kept;
+  }
+
+  Kept kept_about(const GridBox& box) {
+    Kept kept;
+    const std::int32_t side = box.empty() ? -1 : std::max(box.xmax - box.xmin, box.ymax - box.ymin);
+    const int levels = static_cast<int>(lateral_.size());
+    for (int k = 0; k < levels && lateral_[static_cast<std::size_t>(k)] <= side; ++k) kept.level = k;
+    if (kept.level + 1 < levels) kept.cluster = clusters_[kept.level]++;
+    return kept;
   }
 
   const Store& ground_;
@@ -360,6 +374,7 @@ class Standing {
   FeatureOptions options_;
   std::vector<double> lateral_;
   std::map<int, RaisedPart> parts_;
+  std::map<int, std::uint32_t> clusters_;  ///< of each part so far
   RaisedFeatureTheme theme_;
 };
 

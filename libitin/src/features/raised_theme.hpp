@@ -1,8 +1,8 @@
 // Standing features on a store's ground: from footprints to what a store keeps of them, part by part.
 //
-// A block of touching features is kept or dropped as a whole, so that no query sees half of it: they are kept as long
-// as the longer side of the box about them all is at least the lateral tolerance. A part holds those that are kept up
-// to the same level.
+// A cluster of touching features is kept or dropped as a whole, so that no query sees half of it: it is kept as long
+// as the longer side of the box about it is at least the lateral tolerance. A part holds the clusters that are kept up
+// to the same level. They have numbers where coarser levels drop them.
 #pragma once
 
 #include <cstdint>
@@ -15,6 +15,7 @@
 
 #include "features/ground_border.hpp"
 #include "features/plan_overlay.hpp"
+#include "store/clusters.hpp"
 #include "store/footprint_codec.hpp"
 #include "store/store_writer.hpp"
 
@@ -23,6 +24,7 @@ namespace itin {
 struct RaisedSegment {
   GridPoint a, b;
   bool outline = false;  ///< between a feature and the ground
+  std::uint32_t cluster = kNoCluster;
 };
 
 struct RaisedPart {
@@ -31,6 +33,7 @@ struct RaisedPart {
   std::vector<RaisedSegment> segments;
   std::vector<GridPoint> vertices;  ///< in Morton order: the ends of segments, and others
   std::vector<GridPolygon> masks;   ///< where others make way
+  std::vector<std::uint32_t> mask_clusters;
   std::vector<FeatureReach> reaches;
 };
 

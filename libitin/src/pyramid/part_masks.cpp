@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <span>
+#include <utility>
 
 #include <itin/parallel.hpp>
 
@@ -21,11 +22,14 @@ bool among(const Codes& ascending, std::uint64_t code) {
 /// One part on its way to the store.
 class PartMask {
  public:
-  explicit PartMask(const PlacedPart& part) : part_(part), index_(part.masks) {
+  /// `clusters`: what of them the part's lines tell.
+  PartMask(const PlacedPart& part, PartClusters clusters)
+      : part_(part), index_(part.masks), clusters_(std::move(clusters)) {
     for (const PartVertex& v : part.vertices) own_.push_back(code_of(v.point));
   }
 
   int rank() const { return part_.rank; }
+  bool has_clusters() const { return !part_.mask_clusters.empty() && part_.mask_clusters.front() != kNoCluster; }
   bool covers(std::uint64_t code) const {
     return index_.at({morton_x(code), morton_y(code)}).has_value() && !among(own_, code);
   }
@@ -34,6 +38,26 @@ class PartMask {
   void finish() {
     std::sort(masked_.begin(), masked_.end());
     masked_.erase(std::unique(masked_.begin(), masked_.end()), masked_.end());
+    if (has_clusters()) find_places();
+  }
+  /// Puts a segment that makes way for the part among those of clusters.
+  void add_masked_for(const Segment& entry, std::uint32_t cluster) {
+    if (has_clusters()) clusters_.of_segments.push_back({entry, cluster});
+  }
+  /// `ground`: it keeps the ground.
+  void add_masked(const Segment& entry, bool ground) {
+    if (!has_clusters()) return;
+    for (const std::uint64_t end : {morton(entry.ax, entry.ay), morton(entry.bx, entry.by)})
+      if (among(masked_, end)) add_masked_for(entry, cluster_about(end));
+    if (ground) return;
+    const auto about = index_.about_middle({entry.ax, entry.ay}, {entry.bx, entry.by});
+    if (about) add_masked_for(entry, part_.mask_clusters[*about]);
+  }
+  PartClusters take_clusters() && {
+    std::vector<SegmentFeature>& segments = clusters_.of_segments;
+    std::sort(segments.begin(), segments.end());
+    segments.erase(std::unique(segments.begin(), segments.end()), segments.end());
+    return std::move(clusters_);
   }
   /// Lines end at feet, so a segment lies inside or outside as a whole.
   bool covers(const Segment& s) const { return hides_end(s) || index_.middle_inside({s.ax, s.ay}, {s.bx, s.by}); }
@@ -61,14 +85,60 @@ class PartMask {
       points.push_back(point);
       sources.push_back(source);
     }
-    writer.add_part_vertices(number, points, sources, part_.reaches);
+    writer.add_part_vertices(number, points, sources, part_.reaches, clusters_);
   }
 
  private:
+  using Place = std::pair<std::uint64_t, std::uint32_t>;  // code, cluster
+
+  /// That of the mask which has the position.
+  std::uint32_t cluster_about(std::uint64_t code) const {
+    return part_.mask_clusters[index_.at({morton_x(code), morton_y(code)}).value()];
+  }
+
+  /// The clusters of all vertices and masked positions, and the boxes about these.
+  void find_places() {
+    std::vector<Place>& places = clusters_.of_places;
+    std::sort(places.begin(), places.end());
+    places.erase(std::unique(places.begin(), places.end()), places.end());
+    const auto known = [&, of_lines = places.size()](std::uint64_t code) {
+      const auto last = places.begin() + static_cast<std::ptrdiff_t>(of_lines);
+      const auto at = std::lower_bound(places.begin(), last, Place{code, 0});
+      return at != last && at->first == code;
+    };
+    std::vector<Place> others;
+    for (const std::uint64_t code : own_)
+      if (!known(code)) others.emplace_back(code, cluster_about(code));
+    for (const std::uint64_t code : masked_) others.emplace_back(code, cluster_about(code));
+    places.insert(places.end(), others.begin(), others.end());
+    std::sort(places.begin(), places.end());
+    for (const auto& [code, cluster] : places) {
+      if (clusters_.boxes.size() <= cluster) clusters_.boxes.resize(cluster + std::size_t{1});
+      clusters_.boxes[cluster].extend(morton_x(code), morton_y(code));
+    }
+    for (GridBox& box : clusters_.boxes)
+      if (!box.empty()) box = box_about_cluster(box);
+  }
+
   const PlacedPart& part_;
   MaskIndex index_;
   Codes own_, masked_;
+  PartClusters clusters_;
 };
+
+/// By part: what of its clusters its lines are of.
+std::vector<PartClusters> clusters_of_lines(const ThemeLines& lines) {
+  std::vector<PartClusters> clusters(lines.parts.size());
+  for (const auto& [edge, cluster] : lines.lines.features) {
+    const PlanarEdge& e = lines.lines.edges[edge];
+    if (!lines.is_raised(e)) continue;
+    PartClusters& of_part = clusters[e.owner - lines.themes()];
+    for (const std::uint32_t v : {e.from, e.to})
+      of_part.of_places.emplace_back(code_of(lines.lines.vertices[v]), cluster);
+    of_part.of_segments.push_back({raised_segment(e, lines), cluster});
+  }
+  return clusters;
+}
 
 void mask_terrain(std::vector<PartMask>& parts, const WorkingIndex& index, const std::vector<CurveRange>& tiles,
                   Progress& progress) {
@@ -100,13 +170,15 @@ std::vector<GridPoint> points_of(const PlacedPart& part) {
 
 }  // namespace
 
-std::vector<Segment> write_parts(const ThemeLines& lines, const WorkingIndex& index,
-                                 const std::vector<CurveRange>& tiles, const std::vector<GridPoint>& draped,
-                                 const std::vector<Segment>& segments, StoreWriter& writer, Progress& progress) {
-  std::vector<Segment> masked;
-  if (lines.parts.empty()) return masked;
+WrittenParts write_parts(const ThemeLines& lines, const WorkingIndex& index, const std::vector<CurveRange>& tiles,
+                         const std::vector<GridPoint>& draped, const std::vector<Segment>& segments,
+                         StoreWriter& writer, Progress& progress) {
+  WrittenParts written;
+  std::vector<Segment>& masked = written.masked;
+  if (lines.parts.empty()) return written;
+  std::vector<PartClusters> clusters = clusters_of_lines(lines);
   std::vector<PartMask> parts;
-  for (const PlacedPart& part : lines.parts) parts.emplace_back(part);
+  for (std::size_t i = 0; i < lines.parts.size(); ++i) parts.emplace_back(lines.parts[i], std::move(clusters[i]));
   mask_terrain(parts, index, tiles, progress);
   for (std::size_t i = 0; i < parts.size(); ++i) {
     mask_vertices(parts[i], draped);
@@ -121,17 +193,23 @@ std::vector<Segment> write_parts(const ThemeLines& lines, const WorkingIndex& in
       const bool ground = s.theme <= lines.themes() && lines.standing[s.theme - std::size_t{1}];
       if (ground ? !parts[i].hides_end(s) : !parts[i].covers(s)) continue;
       masked.push_back({s.ax, s.ay, s.bx, s.by, number, format::kMaskedSegment, format::kMaskedSegment, s.theme});
+      parts[i].add_masked(masked.back(), ground);
     }
   }
   for (const PlacedBorder& placed : lines.borders) {
     const Segment s = segment_of(placed.border);
-    for (const std::uint32_t owner : placed.makes_way_for)
+    for (const auto& [owner, cluster] : placed.makes_way_for) {
       masked.push_back({s.ax, s.ay, s.bx, s.by, static_cast<std::uint16_t>(owner + 1), format::kMaskedSegment,
                         format::kMaskedSegment, s.theme});
+      if (owner >= lines.themes()) parts[owner - lines.themes()].add_masked_for(masked.back(), cluster);
+    }
   }
   std::sort(masked.begin(), masked.end());
   masked.erase(std::unique(masked.begin(), masked.end()), masked.end());
-  return masked;
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    if (parts[i].has_clusters())
+      written.clusters[static_cast<std::uint16_t>(lines.themes() + i + 1)] = std::move(parts[i]).take_clusters();
+  return written;
 }
 
 }  // namespace itin

@@ -1,6 +1,8 @@
 // The vertices and lines that make way for the standing features above them.
 #pragma once
 
+#include <cstdint>
+#include <map>
 #include <vector>
 
 #include "pyramid/theme_lines.hpp"
@@ -9,11 +11,15 @@
 
 namespace itin {
 
+struct WrittenParts {
+  std::vector<Segment> masked;                     ///< what makes way, as FORMAT.md has it in the parts' edge trees
+  std::map<std::uint16_t, PartClusters> clusters;  ///< by number of part
+};
+
 /// Writes the vertices of all parts, with the positions where vertices of the terrain, of lines on the ground
-/// (`draped`) and of parts of greater rank make way for them. Returns those of all given segments that
-/// make way, as FORMAT.md has them in the parts' edge trees.
-std::vector<Segment> write_parts(const ThemeLines& lines, const WorkingIndex& index,
-                                 const std::vector<CurveRange>& tiles, const std::vector<GridPoint>& draped,
-                                 const std::vector<Segment>& segments, StoreWriter& writer, Progress& progress);
+/// (`draped`) and of parts of greater rank make way for them. Of all given segments returns those that make way.
+WrittenParts write_parts(const ThemeLines& lines, const WorkingIndex& index, const std::vector<CurveRange>& tiles,
+                         const std::vector<GridPoint>& draped, const std::vector<Segment>& segments,
+                         StoreWriter& writer, Progress& progress);
 
 }  // namespace itin

@@ -304,13 +304,13 @@ class PyramidBuild {
     std::vector<Segment> segments = index_->all_segments();
     for (const std::vector<Segment>* const more : {&placed_.features, &placed_.standing, &placed_.ground})
       append(segments, *more);
-    const std::vector<Segment> masked = write_parts(lines_, *index_, tiles_, draped, segments, writer_, progress_);
+    const WrittenParts parts = write_parts(lines_, *index_, tiles_, draped, segments, writer_, progress_);
     for (std::size_t p = 0; p < lines_.parts.size(); ++p) {
       report_.line_vertices[lines_.themes() + p] = lines_.parts[p].vertices.size();
       report_.vertices_of_source[lines_.parts[p].source] += lines_.parts[p].vertices.size();
     }
-    append(segments, masked);
-    writer_.add_segments(segments, segment_features());
+    append(segments, parts.masked);
+    writer_.add_segments(segments, segment_features(), parts.clusters);
   }
 
   /// Those of lines on the ground are whole at all levels.

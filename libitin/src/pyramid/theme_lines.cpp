@@ -129,13 +129,15 @@ std::vector<std::uint32_t> ThemeLines::terrain_vertices() const {
   return vertices;
 }
 
+Segment raised_segment(const PlanarEdge& edge, const ThemeLines& lines) {
+  const GridPoint &a = lines.lines.vertices[edge.from], &b = lines.lines.vertices[edge.to];
+  return {a.x, a.y, b.x, b.y, static_cast<std::uint16_t>(edge.owner + 1)};
+}
+
 std::vector<Segment> raised_segments(const ThemeLines& lines) {
   std::vector<Segment> segments;
-  for (const PlanarEdge& e : lines.lines.edges) {
-    if (!lines.is_raised(e)) continue;
-    const GridPoint &a = lines.lines.vertices[e.from], &b = lines.lines.vertices[e.to];
-    segments.push_back({a.x, a.y, b.x, b.y, static_cast<std::uint16_t>(e.owner + 1)});
-  }
+  for (const PlanarEdge& e : lines.lines.edges)
+    if (lines.is_raised(e)) segments.push_back(raised_segment(e, lines));
   return segments;
 }
 

@@ -24,6 +24,7 @@ struct PlacedPart {
   std::uint16_t source = 0;
   std::vector<PartVertex> vertices;  ///< with its own heights, in Morton order
   std::vector<GridPolygon> masks;
+  std::vector<std::uint32_t> mask_clusters;  ///< kNoCluster for all where no level leaves the part out
   std::vector<FeatureReach> reaches;
 };
 
@@ -73,6 +74,8 @@ struct PlacedLines {
   std::uint64_t left_out = 0;               ///< segments beyond the ground, or that leave it
 };
 
+/// An edge of a part as a segment.
+Segment raised_segment(const PlanarEdge& edge, const ThemeLines& lines);
 /// The segments of the parts of standing themes, which lie on the ground already.
 std::vector<Segment> raised_segments(const ThemeLines& lines);
 Segment segment_of(const BorderEdge& border);

@@ -6,6 +6,7 @@
 #include <itin/error.hpp>
 #include <itin/store.hpp>
 
+#include "store/cluster_check.hpp"
 #include "store/set_aside.hpp"
 #include "store/store_file.hpp"
 #include "store/store_format.hpp"
@@ -33,6 +34,7 @@ class Inspection {
     compare_keys(BlobKind::Directory, chunk_keys_);
     compare_keys(BlobKind::Block, block_keys_);
     compare_totals();
+    if (damage_.empty()) damage_ = false_clusters(file_, progress_);
     progress_.report("checking", 1);
     return std::move(damage_);
   }
@@ -95,11 +97,14 @@ class Inspection {
       foreign |= !mask && (of_part ? source & ~format::kOnOutline : source) >= sources;
     }
     vertices_[static_cast<std::size_t>(leaf.level)] += vertices;
+    if (file_.has_clusters(format::theme_of(leaf.level))) file_.read_clusters(leaf, extents_of(block.points));
     if (foreign) damage_.push_back({format::place("block", leaf.key), kForeignSource});
   }
 
   void inspect_edges(const Leaf& leaf) {
-    for (const Segment& s : file_.read_edges(leaf)) {
+    const std::vector<Segment> edges = file_.read_edges(leaf);
+    if (file_.has_clusters(format::theme_of(leaf.level))) file_.read_clusters(leaf, extents_of(edges));
+    for (const Segment& s : edges) {
       // A segment is listed in every leaf it meets: it counts where it starts, as part of the full surface.
       if (s.finest == 0 && leaf.cell.contains(morton(s.ax, s.ay))) segments_[s.theme] += 1;
     }

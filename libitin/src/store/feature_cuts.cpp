@@ -3,14 +3,13 @@
 #include <itin/feature_cuts.hpp>
 
 #include "store/store_file.hpp"
-#include "store/store_format.hpp"
 
 namespace itin {
 
 std::vector<Certificate> feature_cuts(const Store& store, const ThemeChoice& themes, const Box& box) {
   const StoreMetadata& metadata = store.metadata();
   std::vector<Certificate> cuts;
-  if (static_cast<std::uint32_t>(metadata.format_version) < format::kVersionWithFoundations) return cuts;
+  if (!metadata.has_foundations) return cuts;
   for (std::size_t p = 0; p < metadata.parts.size(); ++p) {
     if (!themes.includes(metadata.themes[metadata.parts[p].theme - std::size_t{1}])) continue;
     const auto number = static_cast<std::uint16_t>(metadata.themes.size() + p + 1);

@@ -8,6 +8,7 @@
 #include "store/bit_stream.hpp"
 #include "store/byte_stream.hpp"
 #include "store/edge_quadtree.hpp"
+#include "store/rice_parameter.hpp"
 
 namespace itin {
 
@@ -62,20 +63,6 @@ bool ascending(const std::vector<Segment>& segments) {
   });
 }
 
-std::uint64_t bits_of(const std::vector<std::uint64_t>& values, int k) {
-  std::uint64_t bits = 0;
-  for (const std::uint64_t v : values) bits += (v >> k) + 1 + static_cast<std::uint64_t>(k);
-  return bits;
-}
-
-int best_parameter(const std::vector<std::uint64_t>& values) {
-  int best = 0;
-  for (int k = 1; k <= kMaxRiceParameter; ++k) {
-    if (bits_of(values, k) < bits_of(values, best)) best = k;
-  }
-  return best;
-}
-
 /// Everything that is written as a Rice code, field by field, in the order of writing.
 class LinePlan {
  public:
@@ -99,7 +86,7 @@ class LinePlan {
       // A segment of the finest level stands for itself.
       if (s.finest > 0) values_[kReach].push_back(static_cast<std::uint64_t>(s.reach));
     }
-    for (std::size_t f = 0; f < kFields; ++f) parameters_[f] = best_parameter(values_[f]);
+    for (std::size_t f = 0; f < kFields; ++f) parameters_[f] = best_rice_parameter(values_[f]);
   }
 
   int parameter(Field f) const { return parameters_[f]; }

@@ -129,8 +129,10 @@ StoreMetadata read_document(const json& j) {
   // Version 2 had no themes that stand.
   if (j.contains("parts")) {
     for (const json& part : j.at("parts"))
-      metadata.parts.push_back({part.at("theme").get<std::uint16_t>(), part.at("coarsest").get<int>()});
+      metadata.parts.push_back(
+          {part.at("theme").get<std::uint16_t>(), part.at("coarsest").get<int>(), part.value("clusters", false)});
   }
+  metadata.has_foundations = j.value("foundations", false);
   metadata.vertices = j.at("vertices").get<std::uint64_t>();
   return metadata;
 }
@@ -154,8 +156,11 @@ std::string metadata_to_json(const StoreMetadata& metadata) {
   j["themes"] = ordered_json::array();
   for (const ThemeInfo& theme : metadata.themes) j["themes"].push_back(theme_to_json(theme));
   j["parts"] = ordered_json::array();
-  for (const ThemePart& part : metadata.parts)
+  for (const ThemePart& part : metadata.parts) {
     j["parts"].push_back({{"theme", part.theme}, {"coarsest", part.coarsest}});
+    if (part.has_clusters) j["parts"].back()["clusters"] = true;
+  }
+  if (metadata.has_foundations) j["foundations"] = true;
   j["vertices"] = metadata.vertices;
   // File names may hold bytes that are no UTF-8.
   return j.dump(-1, ' ', false, ordered_json::error_handler_t::replace);

@@ -4,6 +4,7 @@
 // serves both.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -70,6 +71,10 @@ struct Segment {
   std::int32_t reach = 0;  ///< finer segments that it stands for lie within its box, widened by this on all sides
   friend auto operator<=>(const Segment&, const Segment&) = default;
 };
+
+inline GridBox extent_of(const Segment& s) {
+  return {std::min(s.ax, s.bx), std::min(s.ay, s.by), std::max(s.ax, s.bx), std::max(s.ay, s.by)};
+}
 
 /// Safe for concurrent use.
 class PointIndex {

@@ -110,19 +110,4 @@ std::vector<SegmentFeature> decode_segment_features(std::span<const Segment> seg
   return features;
 }
 
-std::vector<std::uint8_t> joined(const EdgeBlock& block) {
-  std::vector<std::uint8_t> bytes;
-  put_varint(bytes, block.features.size());
-  bytes.insert(bytes.end(), block.features.begin(), block.features.end());
-  bytes.insert(bytes.end(), block.lines.begin(), block.lines.end());
-  return bytes;
-}
-
-EdgeBlock split_edge_block(std::span<const std::uint8_t> bytes) {
-  ByteReader in(bytes);
-  const std::uint64_t size = in.varint();
-  if (size > in.rest().size()) throw DecodeError("features of segments end too late");
-  return {in.rest().first(size), in.rest().subspan(size)};
-}
-
 }  // namespace itin

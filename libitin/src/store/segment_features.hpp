@@ -28,13 +28,4 @@ std::vector<std::uint8_t> encode_segment_features(std::span<const Segment> segme
 std::vector<SegmentFeature> decode_segment_features(std::span<const Segment> segments,
                                                     std::span<const std::uint8_t> bytes);
 
-/// An edge block of a theme whose segments know their features.
-struct EdgeBlock {
-  std::span<const std::uint8_t> features;  ///< encode_segment_features()
-  std::span<const std::uint8_t> lines;     ///< encode_lines()
-};
-std::vector<std::uint8_t> joined(const EdgeBlock& block);
-/// Throws DecodeError.
-EdgeBlock split_edge_block(std::span<const std::uint8_t> bytes);
-
 }  // namespace itin

@@ -6,6 +6,7 @@
 #include <itin/error.hpp>
 
 #include "store/block_codec.hpp"
+#include "store/block_preface.hpp"
 #include "store/byte_stream.hpp"
 #include "store/edge_quadtree.hpp"
 #include "store/line_codec.hpp"
@@ -38,6 +39,8 @@ std::size_t bytes_of(const Block& block) {
 StoreFile::StoreFile(const std::string& path, const StoreOptions& options) : rows_(path), cache_(options.cache_bytes) {
   metadata_ = read_metadata(rows_);
   metadata_.format_version = rows_.version();
+  // That version says it by itself.
+  metadata_.has_foundations |= rows_.version() == static_cast<int>(format::kVersionWithFoundations);
   chunks_ = decoded(rows_, BlobKind::Directory, format::kChunkListKey,
                     [](const auto& bytes) { return decode_chunk_list(bytes); });
 }
@@ -49,7 +52,7 @@ DirectoryChunk StoreFile::read_chunk(int tree, const ChunkEntry& entry) const {
 
 Block StoreFile::read_block(const Leaf& leaf, BlockOrder order) const {
   return decoded(rows_, BlobKind::Block, leaf.key, [&](const auto& bytes) {
-    Block block = decode_block(leaf.cell, bytes, order);
+    Block block = decode_block(leaf.cell, items_of(leaf.key, bytes), order);
     const auto [low, high] = std::minmax_element(block.points.begin(), block.points.end(),
                                                  [](const GridPoint& a, const GridPoint& b) { return a.z < b.z; });
     if (block.points.size() != leaf.points || low->z != leaf.zmin || high->z != leaf.zmax) {
@@ -64,21 +67,38 @@ bool StoreFile::has_segment_features(std::uint16_t theme) const {
          metadata_.themes[theme - std::size_t{1}].segments_have_features;
 }
 
+bool StoreFile::has_clusters(std::uint16_t theme) const {
+  const std::size_t themes = metadata_.themes.size();
+  return theme > themes && theme <= themes + metadata_.parts.size() && metadata_.parts[theme - themes - 1].has_clusters;
+}
+
+/// A leaf's block without its preface.
+std::span<const std::uint8_t> StoreFile::items_of(std::uint64_t key, std::span<const std::uint8_t> bytes) const {
+  const int tree = format::tree_of(key);
+  const std::uint16_t theme = format::theme_of(tree);
+  const bool prefaced = has_clusters(theme) || (format::is_edge_tree(tree) && has_segment_features(theme));
+  return prefaced ? split(bytes).items : bytes;
+}
+
 std::vector<Segment> StoreFile::read_edges(const Leaf& leaf) const {
   return decoded(rows_, BlobKind::Block, leaf.key, [&](std::span<const std::uint8_t> bytes) {
     const std::uint16_t theme = format::theme_of(leaf.level);
     if (theme == kCoverage) return decode_outline(leaf.cell, leaf.points, bytes);
-    return decode_lines(leaf.cell, theme, leaf.points,
-                        has_segment_features(theme) ? split_edge_block(bytes).lines : bytes);
+    return decode_lines(leaf.cell, theme, leaf.points, items_of(leaf.key, bytes));
   });
 }
 
 std::vector<SegmentFeature> StoreFile::read_segment_features(const Leaf& leaf) const {
   return decoded(rows_, BlobKind::Block, leaf.key, [&](std::span<const std::uint8_t> bytes) {
-    const EdgeBlock block = split_edge_block(bytes);
-    return decode_segment_features(decode_lines(leaf.cell, format::theme_of(leaf.level), leaf.points, block.lines),
-                                   block.features);
+    const PrefacedBlock block = split(bytes);
+    return decode_segment_features(decode_lines(leaf.cell, format::theme_of(leaf.level), leaf.points, block.items),
+                                   block.preface);
   });
+}
+
+LeafClusters StoreFile::read_clusters(const Leaf& leaf, std::span<const GridBox> extents) const {
+  return decoded(rows_, BlobKind::Block, leaf.key,
+                 [&](const auto& bytes) { return decode_clusters(leaf.cell, extents, split(bytes).preface); });
 }
 
 void StoreFile::segment_features(std::uint16_t theme, const GridBox& box, std::vector<SegmentFeature>& out) const {
@@ -161,7 +181,7 @@ std::shared_ptr<const Block> StoreFile::block_once(const Leaf& leaf) const {
 
 std::shared_ptr<const Block> StoreFile::plan_once(const Leaf& leaf) const {
   return decoded(rows_, BlobKind::Block, leaf.key, [&](const auto& bytes) {
-    auto block = std::make_shared<const Block>(decode_plan(leaf.cell, bytes));
+    auto block = std::make_shared<const Block>(decode_plan(leaf.cell, items_of(leaf.key, bytes)));
     if (block->points.size() != leaf.points) throw DecodeError("does not agree with its directory");
     return block;
   });
@@ -169,7 +189,7 @@ std::shared_ptr<const Block> StoreFile::plan_once(const Leaf& leaf) const {
 
 std::optional<BlockLattice> StoreFile::lattice_of(const Leaf& leaf) const {
   return decoded(rows_, BlobKind::Block, leaf.key, [&](const auto& bytes) {
-    const BlockLattice lattice = decode_lattice(leaf.cell, bytes);
+    const BlockLattice lattice = decode_lattice(leaf.cell, items_of(leaf.key, bytes));
     if (lattice.points != leaf.points) throw DecodeError("does not agree with its directory");
     return lattice;
   });
@@ -177,10 +197,10 @@ std::optional<BlockLattice> StoreFile::lattice_of(const Leaf& leaf) const {
 
 void StoreFile::segments(const GridBox& box, std::vector<Segment>& out) const {
   for (auto tree = chunks_.lower_bound(format::kFirstEdgeTree); tree != chunks_.end(); ++tree)
-    segments(tree->first, box, out);
+    segments_of(tree->first, box, out);
 }
 
-void StoreFile::segments(int tree, const GridBox& box, std::vector<Segment>& out) const {
+void StoreFile::segments_of(int tree, const GridBox& box, std::vector<Segment>& out) const {
   for_each_leaf(tree, box, [&](const Leaf& leaf) {
     const std::uint64_t key = cache_key(BlobKind::Block, leaf.key);
     auto edges = std::static_pointer_cast<const std::vector<Segment>>(cache_.find(key));
@@ -188,10 +208,8 @@ void StoreFile::segments(int tree, const GridBox& box, std::vector<Segment>& out
       edges = std::make_shared<const std::vector<Segment>>(read_edges(leaf));
       cache_.insert(key, edges, sizeof(*edges) + edges->size() * sizeof(Segment));
     }
-    for (const Segment& s : *edges) {
-      const GridBox extent{std::min(s.ax, s.bx), std::min(s.ay, s.by), std::max(s.ax, s.bx), std::max(s.ay, s.by)};
-      if (extent.meets(box)) out.push_back(s);
-    }
+    for (const Segment& s : *edges)
+      if (extent_of(s).meets(box)) out.push_back(s);
   });
 }
 

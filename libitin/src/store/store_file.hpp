@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,7 @@
 #include "geometry/morton_range.hpp"
 #include "store/block_cache.hpp"
 #include "store/block_codec.hpp"
+#include "store/clusters.hpp"
 #include "store/directory.hpp"
 #include "store/feature_table.hpp"
 #include "store/footprint_codec.hpp"
@@ -36,6 +38,8 @@ class StoreFile final : public PointIndex {
 
   /// Appends every leaf of one tree that meets the box, empty ones too, along the curve.
   void leaves_of(int tree, const GridBox& box, std::vector<Leaf>& out) const;
+  /// As segments(), of one tree.
+  void segments_of(int tree, const GridBox& box, std::vector<Segment>& out) const;
 
   /// Calls visit(leaf) for every leaf of one tree, empty ones too.
   template <typename Visit>
@@ -66,6 +70,10 @@ class StoreFile final : public PointIndex {
   Block read_block(const Leaf& leaf, BlockOrder order = BlockOrder::kMorton) const;
   std::vector<Segment> read_edges(const Leaf& leaf) const;
   std::vector<SegmentFeature> read_segment_features(const Leaf& leaf) const;
+  /// The clusters of a leaf of a part that has them; `extents` of its items.
+  LeafClusters read_clusters(const Leaf& leaf, std::span<const GridBox> extents) const;
+  /// Whether the theme or part of this number has clusters.
+  bool has_clusters(std::uint16_t theme) const;
 
  private:
   static constexpr auto kSkipNone = [](const ChunkEntry&) { return false; };
@@ -75,7 +83,7 @@ class StoreFile final : public PointIndex {
   void for_each_leaf(int tree, const GridBox& box, const Visit& visit, const Skip& skip = kSkipNone) const;
   bool has_segment_features(std::uint16_t theme) const;
   std::shared_ptr<const DirectoryChunk> chunk(int tree, const ChunkEntry& entry) const;
-  void segments(int tree, const GridBox& box, std::vector<Segment>& out) const;
+  std::span<const std::uint8_t> items_of(std::uint64_t key, std::span<const std::uint8_t> bytes) const;
 
   StoreRows rows_;
   StoreMetadata metadata_;

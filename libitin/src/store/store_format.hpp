@@ -11,9 +11,11 @@
 namespace itin::format {
 
 inline constexpr std::uint32_t kApplicationId = 0x4954494e;  // "ITIN"
-/// For stores with buildings on flat foundations: no others know how deep features cut.
+/// For stores with features that some levels leave out: they know their clusters.
+inline constexpr std::uint32_t kVersionWithClusters = 9;
+inline constexpr std::uint32_t kVersion = kVersionWithClusters;  ///< the newest
+/// For others with buildings on flat foundations: no older ones know how deep features cut.
 inline constexpr std::uint32_t kVersionWithFoundations = 8;
-inline constexpr std::uint32_t kVersion = kVersionWithFoundations;  ///< the newest
 /// For others with lines that make room for ground that replaces others.
 inline constexpr std::uint32_t kVersionWithRoom = 7;
 /// For others that keep ids, names or attributes of features.

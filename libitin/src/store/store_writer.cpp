@@ -12,6 +12,7 @@
 #include "base/stoppable.hpp"
 #include "geometry/morton_range.hpp"
 #include "store/block_codec.hpp"
+#include "store/block_preface.hpp"
 #include "store/database.hpp"
 #include "store/directory.hpp"
 #include "store/edge_quadtree.hpp"
@@ -52,8 +53,9 @@ class StoreWriter::Impl {
   void add_theme_vertices(std::uint16_t theme, std::span<const GridPoint> points,
                           std::span<const std::uint16_t> sources);
   void add_part_vertices(std::uint16_t part, std::span<const GridPoint> points, std::span<const std::uint16_t> sources,
-                         std::span<const FeatureReach> reaches);
-  void add_segments(const std::vector<Segment>& segments, std::span<const SegmentFeature> features);
+                         std::span<const FeatureReach> reaches, const PartClusters& clusters);
+  void add_segments(const std::vector<Segment>& segments, std::span<const SegmentFeature> features,
+                    const std::map<std::uint16_t, PartClusters>& clusters);
   std::uint32_t add_footprints(std::uint16_t theme, std::span<const StoredFootprint> footprints);
   std::uint32_t add_features(std::uint16_t theme, std::span<const FeatureRecord> records);
   void set_aside(const Cell& cell, std::span<const GridPoint> points, std::span<const std::uint16_t> sources);
@@ -63,7 +65,8 @@ class StoreWriter::Impl {
 
  private:
   void add_points(const EncodedLeaf& encoded);
-  void add_edges(std::uint16_t theme, std::vector<Segment> segments, std::span<const SegmentFeature> features);
+  void add_edges(std::uint16_t theme, std::vector<Segment> segments, std::span<const SegmentFeature> features,
+                 const PartClusters& clusters);
   void require_version(std::uint32_t version);
   void add_leaf(const Leaf& leaf, std::span<const std::uint8_t> block);
   void flush_chunk();
@@ -80,6 +83,7 @@ class StoreWriter::Impl {
   SetAsideList set_aside_;
   std::uint32_t version_ = format::kPlainVersion;
   std::set<std::uint16_t> with_features_;  ///< themes whose segments know their features
+  std::set<std::uint16_t> with_clusters_;  ///< parts
   Leaf last_;                              ///< added; only its tree and cell matter
   bool has_last_ = false;
 };
@@ -174,17 +178,22 @@ void StoreWriter::Impl::add_theme_vertices(std::uint16_t theme, std::span<const 
   cutter.finish();
 }
 
-void StoreWriter::Impl::add_segments(const std::vector<Segment>& segments, std::span<const SegmentFeature> features) {
+void StoreWriter::Impl::add_segments(const std::vector<Segment>& segments, std::span<const SegmentFeature> features,
+                                     const std::map<std::uint16_t, PartClusters>& clusters) {
   std::map<std::uint16_t, std::vector<Segment>> by_theme;
   for (const Segment& s : segments) by_theme[s.theme].push_back(s);
   for (const SegmentFeature& f : features) with_features_.insert(f.segment.theme);
   if (!with_features_.empty()) require_version(format::kVersionWithFeatures);
-  for (auto& [theme, of_theme] : by_theme) add_edges(theme, std::move(of_theme), features);
+  for (auto& [theme, of_theme] : by_theme) {
+    const auto of_part = clusters.find(theme);
+    add_edges(theme, std::move(of_theme), features, of_part == clusters.end() ? PartClusters() : of_part->second);
+  }
 }
 
 void StoreWriter::Impl::add_part_vertices(std::uint16_t part, std::span<const GridPoint> points,
-                                          std::span<const std::uint16_t> sources,
-                                          std::span<const FeatureReach> reaches) {
+                                          std::span<const std::uint16_t> sources, std::span<const FeatureReach> reaches,
+                                          const PartClusters& clusters) {
+  if (!clusters.empty()) require_version(format::kVersionWithClusters), with_clusters_.insert(part);
   if (part == kCoverage || part > format::kMaxThemes || points.size() != sources.size()) {
     throw std::invalid_argument("not a part of a theme");
   }
@@ -199,8 +208,12 @@ void StoreWriter::Impl::add_part_vertices(std::uint16_t part, std::span<const Gr
   std::size_t first = 0;
   for (const Leaf& leaf : leaves) {
     if (leaf.points > 0 || leaf.hi > 0 || leaf.lo < 0) {
-      add_points(encode_leaf(format::vertex_tree(part), leaf.cell, points.subspan(first, leaf.points),
-                             sources.subspan(first, leaf.points), leaf.lo, leaf.hi));
+      const auto own = points.subspan(first, leaf.points);
+      EncodedLeaf encoded =
+          encode_leaf(format::vertex_tree(part), leaf.cell, own, sources.subspan(first, leaf.points), leaf.lo, leaf.hi);
+      if (!clusters.empty() && leaf.points > 0)
+        encoded.block = joined({encode_clusters(leaf.cell, extents_of(own), clusters.of(own)), encoded.block});
+      add_points(encoded);
     }
     first += leaf.points;
   }
@@ -213,7 +226,7 @@ std::uint32_t StoreWriter::Impl::add_footprints(std::uint16_t theme, std::span<c
     if (std::any_of(some.begin(), some.end(), [](const StoredFootprint& f) { return f.feature.cells.has_value(); }))
       require_version(format::kVersionWithTerraces);
     if (std::any_of(some.begin(), some.end(), [](const StoredFootprint& f) { return f.feature.flat_foundation; }))
-      require_version(format::kVersionWithFoundations);
+      require_version(format::kVersionWithFoundations), metadata_.has_foundations = true;
     insert(*insert_block_, BlobKind::Block, format::footprint_key(theme, blocks), encode_footprints(some));
     footprints = footprints.subspan(some.size());
   }
@@ -254,12 +267,14 @@ void StoreWriter::Impl::set_aside(std::uint16_t theme, const SetAsideLines& line
 }
 
 void StoreWriter::Impl::add_edges(std::uint16_t theme, std::vector<Segment> segments,
-                                  std::span<const SegmentFeature> features) {
+                                  std::span<const SegmentFeature> features, const PartClusters& clusters) {
   if (theme > format::kMaxThemes) throw std::invalid_argument("too many themes");
   const auto bytes_of = [&](const Cell& cell, const std::vector<Segment>& in_cell) {
     if (theme == kCoverage) return encode_outline(cell, in_cell);
     std::vector<std::uint8_t> lines = encode_lines(cell, in_cell);
-    return with_features_.contains(theme) ? joined({encode_segment_features(in_cell, features), lines}) : lines;
+    if (with_features_.contains(theme)) return joined({encode_segment_features(in_cell, features), lines});
+    if (clusters.empty()) return lines;
+    return joined({encode_clusters(cell, extents_of(in_cell), clusters.of(in_cell)), lines});
   };
   for_each_edge_leaf(std::move(segments), [&](const Cell& cell, const std::vector<Segment>& in_cell) {
     stop_if_asked();
@@ -288,6 +303,8 @@ void StoreWriter::Impl::commit(std::vector<SourceInfo> sources, std::vector<Them
   for (const std::uint16_t theme : with_features_)
     metadata_.themes.at(theme - std::size_t{1}).segments_have_features = true;
   metadata_.parts = std::move(parts);
+  for (const std::uint16_t part : with_clusters_)
+    metadata_.parts.at(part - metadata_.themes.size() - 1).has_clusters = true;
   if (metadata_.vertices > 0)
     metadata_.scale = grid_scale_if_known(metadata_.crs_wkt, metadata_.grid.box(metadata_.bounds));
   const std::string text = metadata_to_json(metadata_);
@@ -322,16 +339,18 @@ void StoreWriter::add_leaf(int level, const Cell& cell, std::span<const GridPoin
 void StoreWriter::add_leaf(const EncodedLeaf& leaf) {
   impl_->add_point_leaf(leaf);
 }
-void StoreWriter::add_segments(const std::vector<Segment>& segments, std::span<const SegmentFeature> features) {
-  impl_->add_segments(segments, features);
+void StoreWriter::add_segments(const std::vector<Segment>& segments, std::span<const SegmentFeature> features,
+                               const std::map<std::uint16_t, PartClusters>& clusters) {
+  impl_->add_segments(segments, features, clusters);
 }
 void StoreWriter::add_theme_vertices(std::uint16_t theme, std::span<const GridPoint> points,
                                      std::span<const std::uint16_t> sources) {
   impl_->add_theme_vertices(theme, points, sources);
 }
 void StoreWriter::add_part_vertices(std::uint16_t part, std::span<const GridPoint> points,
-                                    std::span<const std::uint16_t> sources, std::span<const FeatureReach> reaches) {
-  impl_->add_part_vertices(part, points, sources, reaches);
+                                    std::span<const std::uint16_t> sources, std::span<const FeatureReach> reaches,
+                                    const PartClusters& clusters) {
+  impl_->add_part_vertices(part, points, sources, reaches, clusters);
 }
 void StoreWriter::add_footprints(std::vector<ThemeInfo>& themes,
                                  const std::vector<std::vector<StoredFootprint>>& footprints) {

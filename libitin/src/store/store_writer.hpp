@@ -15,6 +15,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <span>
 #include <string>
@@ -22,6 +23,7 @@
 
 #include <itin/store.hpp>
 
+#include "store/clusters.hpp"
 #include "store/encoded_leaf.hpp"
 #include "store/feature_table.hpp"
 #include "store/footprint_codec.hpp"
@@ -63,12 +65,14 @@ class StoreWriter {
                           std::span<const std::uint16_t> sources);
   /// The vertices of a part of a standing theme; parts are numbered after the themes. Points with format::kMask as
   /// their source are no vertices. Each cell takes the greatest of the reaches that it meets; cells without points are
-  /// written too where it is above 0.
+  /// written too where it is above 0. `clusters` has every point, or is empty.
   void add_part_vertices(std::uint16_t part, std::span<const GridPoint> points, std::span<const std::uint16_t> sources,
-                         std::span<const FeatureReach> reaches);
+                         std::span<const FeatureReach> reaches, const PartClusters& clusters = {});
   /// The coverage outline and the lines of all themes, all at once, in any order; kept in one edge quadtree per theme.
-  /// `features`: which features they are of; ascending.
-  void add_segments(const std::vector<Segment>& segments, std::span<const SegmentFeature> features = {});
+  /// `features`: which features they are of; ascending. `clusters` of parts, by number; each has every segment of the
+  /// part, or is empty.
+  void add_segments(const std::vector<Segment>& segments, std::span<const SegmentFeature> features = {},
+                    const std::map<std::uint16_t, PartClusters>& clusters = {});
   /// Points of the ground that are not in it as they came; cell by cell, in Morton order.
   void set_aside(const Cell& cell, std::span<const GridPoint> points, std::span<const std::uint16_t> sources);
   /// Lines of a theme that are not in the surface as they came.

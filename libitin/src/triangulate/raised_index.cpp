@@ -14,7 +14,7 @@ constexpr std::size_t kCacheBytes = std::size_t{64} << 20;
 }  // namespace
 
 RaisedIndex::RaisedIndex(const Store& store, const Selection& selection)
-    : base_(store.points()), themes_(store.metadata().themes.size()), cache_(kCacheBytes) {
+    : base_(store.points()), chosen_(store, selection), themes_(store.metadata().themes.size()), cache_(kCacheBytes) {
   const StoreMetadata& metadata = store.metadata();
   const auto last = static_cast<int>(themes_);
   ranks_.assign(themes_ + 1, last);
@@ -40,7 +40,7 @@ std::vector<std::uint64_t> RaisedIndex::masks(const GridBox& box, int below) con
   for (const Leaf& leaf : leaves) {
     if (!is_part(leaf.theme) || rank(leaf.theme) == kNotThere || rank(leaf.theme) >= below) continue;
     // We hold the block, for the cache may let it go.
-    const std::shared_ptr<const Block> block = base_.block(leaf);
+    const std::shared_ptr<const Block> block = chosen_.block(leaf);
     for (const GridPoint& p : block->points)
       if (box.contains(p.x, p.y)) codes.push_back(morton(p.x, p.y));
   }
@@ -51,7 +51,7 @@ std::vector<std::uint64_t> RaisedIndex::masks(const GridBox& box, int below) con
 std::shared_ptr<const Block> RaisedIndex::block(const Leaf& leaf) const {
   if (!any_) return base_.block(leaf);
   if (auto cached = cache_.find(leaf.key)) return std::static_pointer_cast<const Block>(std::move(cached));
-  std::shared_ptr<const Block> whole = base_.block(leaf);
+  std::shared_ptr<const Block> whole = chosen_.block(leaf);
   const std::vector<std::uint64_t> masked = masks(leaf.cell.box(), rank(leaf.theme));
   if (masked.empty() && !is_part(leaf.theme)) return whole;
   auto rest = std::make_shared<Block>();
@@ -75,16 +75,17 @@ std::shared_ptr<const Block> RaisedIndex::block(const Leaf& leaf) const {
 void RaisedIndex::segments(const GridBox& box, std::vector<Segment>& out) const {
   if (!any_) return base_.segments(box, out);
   std::vector<Segment> found;
-  base_.segments(box, found);
+  for (std::size_t number = 0; number < ranks_.size(); ++number)
+    if (ranks_[number] != kNotThere) chosen_.segments(static_cast<std::uint16_t>(number), box, found);
   using Name = std::tuple<std::int32_t, std::int32_t, std::int32_t, std::int32_t, std::int32_t>;
   const auto name = [](const Segment& s, std::int32_t theme) { return Name{s.ax, s.ay, s.bx, s.by, theme}; };
   std::vector<Name> masked;
   for (const Segment& s : found) {
-    if (s.finest == format::kMaskedSegment && rank(s.theme) != kNotThere) masked.push_back(name(s, s.reach));
+    if (s.finest == format::kMaskedSegment) masked.push_back(name(s, s.reach));
   }
   std::sort(masked.begin(), masked.end());
   for (const Segment& s : found) {
-    if (s.finest == format::kMaskedSegment || rank(s.theme) == kNotThere) continue;
+    if (s.finest == format::kMaskedSegment) continue;
     if (!std::binary_search(masked.begin(), masked.end(), name(s, s.theme))) out.push_back(s);
   }
 }

@@ -14,6 +14,7 @@
 
 #include "store/block_cache.hpp"
 #include "store/point_index.hpp"
+#include "triangulate/chosen_clusters.hpp"
 #include "triangulate/selection.hpp"
 
 namespace itin {
@@ -47,6 +48,7 @@ class RaisedIndex final : public PointIndex {
   std::vector<std::uint64_t> masks(const GridBox& box, int below) const;
 
   const PointIndex& base_;
+  ChosenClusters chosen_;
   std::size_t themes_;
   std::vector<int> ranks_;  ///< by number of theme or part
   std::vector<std::uint16_t> themes_of_parts_;

@@ -75,7 +75,8 @@ Selection selection_of(const StoreMetadata& metadata, const Detail& detail, cons
   }
   for (std::size_t p = 0; p < metadata.parts.size(); ++p) {
     const ThemePart& part = metadata.parts[p];
-    // The finest tolerance of all decides: what is there must not depend on where one looks.
+    // The finest level of all decides, for what is there must not depend on where one looks. Of parts that have
+    // clusters, ChosenClusters then leaves out those that rings do not ask for.
     if (!selection.includes(part.theme) || part.coarsest < selection.finest())
       selection.leave_out(static_cast<std::uint16_t>(metadata.themes.size() + p + 1));
   }

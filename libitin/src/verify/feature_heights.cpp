@@ -33,7 +33,7 @@ PartHeights::PartHeights(const Store& store, std::size_t part)
       ground_(selection_of(store.metadata(), Detail::tolerance(0), ThemeChoice::none())),
       selection_(selection_of(store.metadata(), Detail::tolerance(0), ThemeChoice::parse(theme_.name))),
       standing_(store, selection_),
-      founded_(static_cast<std::uint32_t>(store.metadata().format_version) >= format::kVersionWithFoundations) {
+      founded_(store.metadata().has_foundations) {
   const std::vector<ThemePart>& parts = store.metadata().parts;
   for (std::size_t other = 0; other < parts.size(); ++other)
     if (other != part && parts[other].theme == parts[part].theme) other_trees_.push_back(tree_of(store, other));

@@ -8,7 +8,6 @@
 namespace itin::profile {
 
 double clearance_error(const Store& store, const Detail& detail, const ThemeChoice& themes, Point2 from, Point2 to) {
-  const int finest = level_within(store.metadata(), detail.finest());
   const int coarsest = level_within(store.metadata(), detail.coarsest());
   Box box;
   box.extend(from);
@@ -23,7 +22,7 @@ double clearance_error(const Store& store, const Detail& detail, const ThemeChoi
   // What is there cuts otherwise into coarse ground.
   const Grid& grid = store.metadata().grid;
   const std::int32_t cut = coarsest > 0 ? deepest_cut(feature_cuts(store, themes, box), grid.enclosing(box)) : 0;
-  return widest.hi - widest.lo + store.greatest_height_left_out(themes, finest, box) + cut * grid.resolution;
+  return widest.hi - widest.lo + store.greatest_height_left_out(themes, coarsest, box) + cut * grid.resolution;
 }
 
 }  // namespace itin::profile

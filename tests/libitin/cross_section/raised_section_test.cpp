@@ -120,7 +120,8 @@ TEST_F(RaisedSections, EqualTheWindowsTrianglesCutByTheLine) {
   const Grid& grid = store.metadata().grid;
   std::map<std::uint16_t, int> met;
   const std::vector<Detail> details{Detail::tolerance(0), Detail::tolerance(2), Detail::tolerance(32),
-                                    Detail::rings({300290, 199700}, {{60, 0}, {150, 2}, {1000, 32}})};
+                                    Detail::rings({300290, 199700}, {{60, 0}, {150, 2}, {1000, 32}}),
+                                    Detail::rings({300410, 199590}, {{40, 0}, {80, 8}, {120, 32}})};
   for (const ThemeChoice& choice :
        {ThemeChoice::all(), ThemeChoice::parse("houses"), ThemeChoice::parse("woods,walls"), ThemeChoice::none()}) {
     for (std::size_t d = 0; d < details.size(); ++d) {

@@ -22,7 +22,9 @@
 
 #include "features/terrain_heights.hpp"
 #include "libitin/features/surface_comparison.hpp"
+#include "store/clusters.hpp"
 #include "store/point_index.hpp"
+#include "store/store_file.hpp"
 #include "store/store_format.hpp"
 #include "support/corner_triangles.hpp"
 #include "support/raster_file.hpp"
@@ -42,6 +44,26 @@ using test::smallest_first;
 using test::TriangleCorners;
 using test::triangles_of;
 
+/// The level of the first ring that meets the box. Centre and radii are rounded to the grid.
+int finest_asked_for(const StoreMetadata& metadata, const GridBox& box, const Detail& detail) {
+  const Grid& grid = metadata.grid;
+  const auto units = [&](double metres) { return std::llround(metres / grid.resolution); };
+  double tolerance = detail.coarsest();
+  if (detail.rings().size() > 1) {
+    const std::int64_t x = units(detail.centre().x - grid.origin.x), y = units(detail.centre().y - grid.origin.y);
+    const std::int64_t dx = std::max<std::int64_t>({box.xmin - x, 0, x - box.xmax}),
+                       dy = std::max<std::int64_t>({box.ymin - y, 0, y - box.ymax});
+    for (std::size_t i = detail.rings().size() - 1; i-- > 0;) {
+      const std::int64_t radius = units(detail.rings()[i].radius);
+      if (dx * dx + dy * dy <= radius * radius) tolerance = detail.rings()[i].tolerance;
+    }
+  }
+  int level = 0;
+  for (std::size_t k = 1; k < metadata.levels.size(); ++k)
+    if (metadata.levels[k].tolerance <= tolerance) level = static_cast<int>(k);
+  return level;
+}
+
 /// The global triangulation of what FORMAT.md says is there, ground or not: read leaf by leaf, without the code under
 /// test.
 std::set<TriangleCorners> global(const Store& store, const Detail& detail, const ThemeChoice& choice) {
@@ -60,6 +82,17 @@ std::set<TriangleCorners> global(const Store& store, const Detail& detail, const
     if (!choice.includes(theme_of(number))) return false;
     return number <= themes || metadata.parts[number - themes - 1].coarsest >= selection.finest();
   };
+  // By item of a leaf: whether it is of a cluster that is there.
+  const auto items_there = [&](std::uint16_t number, const Leaf& leaf, const std::vector<GridBox>& extents) {
+    const bool clustered = number > themes && metadata.parts[number - themes - 1].has_clusters;
+    std::vector<bool> found(extents.size(), there(number) && !clustered);
+    if (!there(number) || !clustered) return found;
+    const LeafClusters clusters = file_of(store).read_clusters(leaf, extents);
+    for (const auto& [item, cluster] : clusters.items)
+      if (finest_asked_for(metadata, clusters.boxes[cluster], detail) <= metadata.parts[number - themes - 1].coarsest)
+        found[item] = true;
+    return found;
+  };
   const auto gives_way = [&](std::uint16_t number, std::uint16_t part) {
     if (number <= themes) return true;
     const ThemeInfo &a = theme_of(part), &b = theme_of(number);
@@ -70,14 +103,19 @@ std::set<TriangleCorners> global(const Store& store, const Detail& detail, const
   std::map<Position, std::set<std::uint16_t>> masks;
   for (const Leaf& leaf : leaves) {
     if (leaf.theme <= themes || !there(leaf.theme)) continue;
-    for (const GridPoint& p : store.points().block(leaf)->points) masks[{p.x, p.y}].insert(leaf.theme);
+    const auto block = store.points().block(leaf);
+    const std::vector<bool> present = items_there(leaf.theme, leaf, extents_of(block->points));
+    for (std::size_t k = 0; k < block->points.size(); ++k)
+      if (present[k]) masks[{block->points[k].x, block->points[k].y}].insert(leaf.theme);
   }
   std::map<Position, GridPoint> points;
   for (const Leaf& leaf : leaves) {
     if (!there(leaf.theme)) continue;
     const auto block = store.points().block(leaf);
+    const std::vector<bool> present = items_there(leaf.theme, leaf, extents_of(block->points));
     for (std::size_t k = 0; k < block->points.size(); ++k) {
       const GridPoint& p = block->points[k];
+      if (!present[k]) continue;
       if (leaf.theme > themes && block->sources[k] == format::kMask) continue;
       if (leaf.theme == 0 && !selection.selects(leaf.level, p.x, p.y)) continue;
       const auto mask = masks.find({p.x, p.y});
@@ -90,10 +128,20 @@ std::set<TriangleCorners> global(const Store& store, const Detail& detail, const
     }
   }
   std::vector<Segment> segments;
-  store.points().segments(store.points().bounds(), segments);
+  for (std::size_t number = 0; number <= themes + metadata.parts.size(); ++number) {
+    const auto theme = static_cast<std::uint16_t>(number);
+    std::vector<Leaf> edges;
+    file_of(store).leaves_of(format::edge_tree(theme), store.points().bounds(), edges);
+    for (const Leaf& leaf : edges) {
+      const std::vector<Segment> own = file_of(store).read_edges(leaf);
+      const std::vector<bool> present = items_there(theme, leaf, extents_of(own));
+      for (std::size_t i = 0; i < own.size(); ++i)
+        if (present[i]) segments.push_back(own[i]);
+    }
+  }
   std::set<std::array<std::int32_t, 5>> gone;
   for (const Segment& s : segments)
-    if (s.finest == 255 && there(s.theme)) gone.insert({s.ax, s.ay, s.bx, s.by, s.reach});
+    if (s.finest == 255) gone.insert({s.ax, s.ay, s.bx, s.by, s.reach});
   std::vector<Position> positions;
   std::vector<GridPoint> corners;
   std::map<Position, std::uint32_t> number;
@@ -106,7 +154,7 @@ std::set<TriangleCorners> global(const Store& store, const Detail& detail, const
   delaunay.insert(positions);
   std::vector<Delaunay::Constraint> constraints;
   for (const Segment& s : std::set<Segment>(segments.begin(), segments.end())) {
-    if (s.finest == 255 || !there(s.theme) || !selection.selects(s)) continue;
+    if (s.finest == 255 || !selection.selects(s)) continue;
     if (gone.contains({s.ax, s.ay, s.bx, s.by, s.theme})) continue;
     const auto a = number.find({s.ax, s.ay}), b = number.find({s.bx, s.by});
     if (a == number.end() || b == number.end()) {
@@ -183,6 +231,12 @@ void expect_windows_of_the_whole(const Store& store, std::mt19937& random, const
   const Point2 centre{(bounds.xmin + bounds.xmax) / 2, (bounds.ymin + bounds.ymax) / 2};
   std::vector<Detail> details{Detail::tolerance(0), Detail::tolerance(2), Detail::tolerance(32)};
   details.push_back(Detail::rings(centre, {{bounds.width() / 8, 0}, {bounds.width() / 4, 2}, {bounds.width(), 32}}));
+  for (int i = 0; i < 3; ++i) {
+    const auto share = [&] { return static_cast<double>(random() % 1000) / 1000; };
+    const Point2 eye{bounds.xmin + bounds.width() * share(), bounds.ymin + bounds.height() * share()};
+    const double radius = 5 + bounds.width() * share() / 3;
+    details.push_back(Detail::rings(eye, {{radius, 0}, {radius * 1.5, 4}, {radius * 2, 16}, {radius * 4, 64}}));
+  }
   for (const ThemeChoice& choice : choices) {
     for (std::size_t k = 0; k < details.size(); ++k) {
       SCOPED_TRACE("detail " + std::to_string(k));

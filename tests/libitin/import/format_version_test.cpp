@@ -1,4 +1,5 @@
 // A store has the lowest format that can hold what is in it, so that older programs read what they can.
+#include <optional>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -32,6 +33,7 @@ class FormatVersion : public testing::Test {
     rows.theme = "rows";
     if (standing) rows.height_field = "h";
     if (!attributes) rows.attributes.emplace();
+    rows.foundation = foundation_;
     import_lines(path, rows, progress);
     // Nothing is lost when it is written again.
     const int version = Store(path).metadata().format_version;
@@ -42,6 +44,7 @@ class FormatVersion : public testing::Test {
 
   const test::TemporaryDirectory directory_;
   int stores_ = 0;
+  std::optional<Foundation> foundation_;
 };
 
 TEST_F(FormatVersion, IsTheLowestThatHoldsTheStore) {
@@ -52,6 +55,24 @@ TEST_F(FormatVersion, IsTheLowestThatHoldsTheStore) {
   EXPECT_EQ(of(ThemeKind::Roads, false, true), 6);
   EXPECT_EQ(of(ThemeKind::Buildings, true, true), 6);
   EXPECT_EQ(of(ThemeKind::Terraces, true, true), 6);
+}
+
+/// A shed, which coarse levels leave out, on a foundation or not; and a hall, which none does.
+TEST_F(FormatVersion, ThatOthersTookTellsOfFoundationsToo) {
+  struct Case {
+    double side;
+    Foundation foundation;
+    int version;
+  };
+  for (const Case& c : {Case{3, Foundation::flat, 9}, Case{3, Foundation::walls, 9}, Case{40, Foundation::flat, 8},
+                        Case{40, Foundation::walls, 4}}) {
+    test::write_lines(directory_.file("rows.geojson"), {test::box(300100, 199800, 300100 + c.side, 199820, 7)});
+    foundation_ = c.foundation;
+    EXPECT_EQ(of(ThemeKind::Buildings, true, false), c.version);
+    const Store store(directory_.file(std::to_string(stores_) + ".itin"));
+    EXPECT_EQ(store.metadata().has_foundations, c.foundation == Foundation::flat);
+    EXPECT_EQ(store.metadata().parts.front().has_clusters, c.version == 9);
+  }
 }
 
 }  // namespace

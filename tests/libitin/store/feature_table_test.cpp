@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "store/block_preface.hpp"
 #include "store/byte_stream.hpp"
 #include "store/segment_features.hpp"
 #include "store/zstd_frame.hpp"
@@ -80,9 +81,9 @@ TEST(SegmentFeatures, BlocksGiveBackTheFeaturesOfTheirSegmentsAlone) {
     EXPECT_EQ(decode_segment_features(segments, bytes), expected);
     EXPECT_THROW(decode_segment_features(std::span(segments).first(39), bytes), DecodeError);
     const std::vector<std::uint8_t> lines{1, 2, 3}, block = joined({bytes, lines});
-    EXPECT_TRUE(std::ranges::equal(split_edge_block(block).features, bytes));
-    EXPECT_TRUE(std::ranges::equal(split_edge_block(block).lines, lines));
-    EXPECT_THROW(split_edge_block(std::span(block).first(bytes.size())), DecodeError);
+    EXPECT_TRUE(std::ranges::equal(split(block).preface, bytes));
+    EXPECT_TRUE(std::ranges::equal(split(block).items, lines));
+    EXPECT_THROW(split(std::span(block).first(bytes.size())), DecodeError);
   }
 }
 

@@ -308,12 +308,13 @@ void LineCollection::place_parts(ThemeLines& result) {
     const auto owner = static_cast<std::uint32_t>(themes_.size() + result.parts.size());
     if (owner >= format::kMaxThemes)
       throw InputError(fmt::format("a store holds at most {} themes and parts of themes", format::kMaxThemes));
-    for (const RaisedSegment& s : own.part.segments) segments_.push_back({s.a, s.b, owner});
+    for (const RaisedSegment& s : own.part.segments) segments_.push_back({s.a, s.b, owner, s.cluster});
     PlacedPart& placed = result.parts.emplace_back();
     placed.part = {static_cast<std::uint16_t>(own.theme + 1), own.part.coarsest};
     placed.rank = static_cast<int>(std::find(by_rank.begin(), by_rank.end(), own.theme) - by_rank.begin());
     placed.source = own.part.source;
     placed.masks = std::move(own.part.masks);
+    placed.mask_clusters = own.part.mask_clusters;
     placed.reaches = std::move(own.part.reaches);
     first_source_.push_back(own.part.source);
   }
@@ -329,12 +330,15 @@ std::uint16_t LineCollection::source_of(const GridPoint& p, std::uint32_t owner)
 void LineCollection::keep_or_raise(const OwnedSegment& ground_line, const std::vector<MaskIndex>& masks) {
   const Position a{ground_line.a.x, ground_line.a.y}, b{ground_line.b.x, ground_line.b.y};
   for (std::size_t p = 0; p < parts_.size(); ++p) {
-    if (parts_[p].theme != ground_line.owner || !masks[p].middle_inside(a, b)) continue;
+    if (parts_[p].theme != ground_line.owner) continue;
+    const std::optional<std::uint32_t> mask = masks[p].about_middle(a, b);
+    if (!mask) continue;
     RaisedPart& part = parts_[p].part;
     const GridPoint *top_a = vertex_at(part, a), *top_b = vertex_at(part, b);
     if (top_a == nullptr || top_b == nullptr) continue;
-    part.segments.push_back({*top_a, *top_b, false});
-    segments_.push_back({*top_a, *top_b, static_cast<std::uint32_t>(themes_.size() + p)});
+    const std::uint32_t cluster = part.mask_clusters[*mask];
+    part.segments.push_back({*top_a, *top_b, false, cluster});
+    segments_.push_back({*top_a, *top_b, static_cast<std::uint32_t>(themes_.size() + p), cluster});
     return;
   }
   keep(ground_line);

@@ -1,0 +1,45 @@
+// What a store's leaves hold of those clusters that a query has.
+//
+//   const ChosenClusters chosen(store, selection);
+//   chosen.block(leaf);                       // as the store's, without points of other clusters
+//   chosen.segments(theme, box, segments);    // likewise
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include <itin/store.hpp>
+
+#include "store/block_cache.hpp"
+#include "store/clusters.hpp"
+#include "store/store_file.hpp"
+#include "triangulate/selection.hpp"
+
+namespace itin {
+
+/// Safe for concurrent use. Refers to the store, which must outlive it.
+class ChosenClusters {
+ public:
+  ChosenClusters(const Store& store, const Selection& selection);
+
+  /// With the positions where others make way.
+  std::shared_ptr<const Block> block(const Leaf& leaf) const;
+  /// Appends the segments of a theme or part that meet the box, the entries of what makes way for it with them, and
+  /// perhaps others nearby; the same may come twice.
+  void segments(std::uint16_t theme, const GridBox& box, std::vector<Segment>& out) const;
+
+ private:
+  static constexpr int kWhole = -1;
+  /// The coarsest level of a part of which the query may have some clusters without others; kWhole for all else.
+  int coarsest(std::uint16_t theme) const { return coarsest_[theme]; }
+  std::vector<bool> there(const LeafClusters& clusters, std::size_t items, int coarsest) const;
+  std::shared_ptr<const std::vector<Segment>> segments_of(const Leaf& leaf, int coarsest) const;
+
+  const StoreFile& file_;
+  Selection selection_;
+  std::vector<int> coarsest_;  ///< by number of theme or part
+  mutable BlockCache cache_;
+};
+
+}  // namespace itin
