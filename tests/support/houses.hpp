@@ -1,4 +1,4 @@
-// Houses that stand in a store.
+// Features that stand in a store.
 //
 //   test::import_houses(path("s.itin"), path("h.geojson"), {test::box(300100, 199700, 300140, 199730, 9)});
 #pragma once
@@ -13,16 +13,22 @@
 
 namespace itin::test {
 
-/// Writes the outlines to the file and imports them as the theme `houses`, each as high as its field h says.
-inline void import_houses(const std::string& store, const std::string& file, const std::vector<LineFeature>& houses) {
-  write_lines(file, houses, true);
-  ImportOptions options;
+/// Writes the outlines to the file and imports them as a theme, each as high as its field h says.
+inline ImportReport import_raised(const std::string& store, const std::string& file, ThemeKind kind,
+                                  const std::string& theme, const std::vector<LineFeature>& features,
+                                  ImportOptions options = {}) {
+  write_lines(file, features, true);
   options.sources = {file};
-  options.kind = ThemeKind::Buildings;
-  options.theme = "houses";
+  options.kind = kind;
+  options.theme = theme;
   options.height_field = "h";
   NoProgress progress;
-  import_lines(store, options, progress);
+  return import_lines(store, options, progress);
+}
+
+/// Likewise, as the theme `houses`.
+inline void import_houses(const std::string& store, const std::string& file, const std::vector<LineFeature>& houses) {
+  import_raised(store, file, ThemeKind::Buildings, "houses", houses);
 }
 
 }  // namespace itin::test

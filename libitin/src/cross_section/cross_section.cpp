@@ -26,11 +26,8 @@ Point2 heading_of(const SectionLine& line) {
 /// Smith's retrieval: one triangle after another.
 class RetrievedTriangles final : public TriangleFinder {
  public:
-  RetrievedTriangles(const ReadOnce& index, const Selection& selection, const SectionLine& line)
-      : index_(index),
-        selection_(selection),
-        cells_(index, selection, heading_of(line)),
-        apex_(index, selection, heading_of(line)) {}
+  RetrievedTriangles(const ReadOnce& index, const Selection& selection, Point2 heading)
+      : index_(index), selection_(selection), cells_(index, selection, heading), apex_(index, selection, heading) {}
 
   SectionVertex beyond(const CrossedEdge& edge) override {
     const Position left{edge.left.x, edge.left.y}, right{edge.right.x, edge.right.y};
@@ -73,7 +70,7 @@ class RetrievedTriangles final : public TriangleFinder {
 
 CrossSection retrieve_section(const PointIndex& index, const Selection& selection, const SectionLine& line) {
   const ReadOnce blocks(index);
-  RetrievedTriangles triangles(blocks, selection, line);
+  RetrievedTriangles triangles(blocks, selection, heading_of(line));
   CrossSection section = walk_section(blocks, line, triangles);
   section.statistics = blocks.statistics();
   return section;

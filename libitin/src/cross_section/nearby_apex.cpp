@@ -103,9 +103,8 @@ std::optional<SectionVertex> NearbyApex::search(const ApexFrame& frame, double l
   Candidate candidate{std::nullopt, lambda};
   // No others come between the edge and what is in the circle.
   near_.clear();
-  std::copy_if(segments_.begin(), segments_.end(), std::back_inserter(near_), [&](const Segment& s) {
-    return cap.meets({std::min(s.ax, s.bx), std::min(s.ay, s.by), std::max(s.ax, s.bx), std::max(s.ay, s.by)});
-  });
+  std::copy_if(segments_.begin(), segments_.end(), std::back_inserter(near_),
+               [&](const Segment& s) { return cap.meets(extent_of(s)); });
   search_bins(frame, cap, candidate);
   reached_.clear();
   for (const auto& [leaf, box] : unread_) {

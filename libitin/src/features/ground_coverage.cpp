@@ -28,8 +28,7 @@ std::vector<Segment> outline_near(const Store& ground, const GridBox& box) {
 bool lies_on_ground(const GridPolygon& polygon, const std::vector<Segment>& outline, const TerrainHeights& terrain) {
   const GridBox box = box_about(polygon);
   for (const Segment& s : outline) {
-    const GridBox of_segment{std::min(s.ax, s.bx), std::min(s.ay, s.by), std::max(s.ax, s.bx), std::max(s.ay, s.by)};
-    if (!of_segment.meets(box)) continue;
+    if (!extent_of(s).meets(box)) continue;
     bool meets = side_of(polygon, {s.ax, s.ay}) != Side::outside;
     for_each_edge(polygon, [&](Position a, Position b) { meets = meets || touch(s, a, b); });
     if (meets) return false;

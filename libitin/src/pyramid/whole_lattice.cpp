@@ -91,8 +91,7 @@ bool WholeLattice::is_crossed(const PointIndex& index, const GridBox& near, cons
   index.segments(near, segments);
   const GridBox own = bounds();
   return std::any_of(segments.begin(), segments.end(), [&](const Segment& s) {
-    const GridBox box{std::min(s.ax, s.bx), std::min(s.ay, s.by), std::max(s.ax, s.bx), std::max(s.ay, s.by)};
-    if (!box.meets(own)) return false;
+    if (!extent_of(s).meets(own)) return false;
     const bool at_side =
         s.ax == s.bx ? s.ax == all.xmin || s.ax == all.xmax : s.ay == s.by && (s.ay == all.ymin || s.ay == all.ymax);
     return s.theme != kCoverage || !at_side;

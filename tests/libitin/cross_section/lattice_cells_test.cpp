@@ -79,9 +79,7 @@ void add_line(WorkingIndex& index, std::vector<test::LevelPoint>& points, std::m
     const std::int32_t s = std::abs(next.x - a.x);
     const GridBox about{a.x - s, a.y - s, a.x + 3 * s, a.y + 2 * s};
     if (s == 0 || !there(a.x + s, a.y) || !there(a.x + 2 * s, a.y + s)) continue;
-    const auto near = [&](const Segment& e) {
-      return about.meets({std::min(e.ax, e.bx), std::min(e.ay, e.by), std::max(e.ax, e.bx), std::max(e.ay, e.by)});
-    };
+    const auto near = [&](const Segment& e) { return about.meets(extent_of(e)); };
     if (std::any_of(segments.begin(), segments.end(), near)) continue;
     segments.push_back({a.x, a.y, a.x + 2 * s, a.y + s, 1});
     index.promote(morton(a.x, a.y), 2);

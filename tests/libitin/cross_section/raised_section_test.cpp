@@ -16,6 +16,7 @@
 #include <itin/store.hpp>
 #include <itin/triangulate.hpp>
 
+#include "support/houses.hpp"
 #include "support/raster_file.hpp"
 #include "support/section_text.hpp"
 #include "support/seed.hpp"
@@ -42,14 +43,7 @@ class RaisedSections : public testing::Test {
     import_terrain(path("s.itin"), options, progress);
   }
   void raise(ThemeKind kind, const std::string& theme, const std::vector<LineFeature>& features) {
-    test::write_lines(path(theme + ".geojson"), features, true);
-    ImportOptions options;
-    options.sources = {path(theme + ".geojson")};
-    options.kind = kind;
-    options.theme = theme;
-    options.height_field = "h";
-    NoProgress progress;
-    import_lines(path("s.itin"), options, progress);
+    test::import_raised(path("s.itin"), path(theme + ".geojson"), kind, theme, features);
   }
   std::string path(const std::string& name) const { return directory_.file(name); }
 

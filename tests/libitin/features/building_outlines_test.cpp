@@ -7,6 +7,7 @@
 #include <itin/building_outlines.hpp>
 #include <itin/import.hpp>
 
+#include "support/houses.hpp"
 #include "support/raster_file.hpp"
 #include "support/seed.hpp"
 #include "support/temporary_directory.hpp"
@@ -24,7 +25,8 @@ class BuildingOutlines : public testing::Test {
     import_terrain(store_, terrain, progress_);
     const auto metres = [&](int most) { return static_cast<double>(random_() % static_cast<unsigned>(most)); };
     for (int i = 0; i < 300; ++i) {
-      const double x = 300050 + 34 * (i % 20) + metres(5), y = 199250 + 46 * (i / 20) + metres(5);
+      const int column = i % 20, row = i / 20;
+      const double x = 300050 + 34 * column + metres(5), y = 199250 + 46 * row + metres(5);
       footprints_.push_back({x, y, x + 1 + metres(26), y + 1 + metres(36)});
     }
     import("houses", ThemeKind::Buildings, footprints_);
@@ -34,11 +36,7 @@ class BuildingOutlines : public testing::Test {
   void import(const std::string& theme, ThemeKind kind, const std::vector<Box>& boxes) {
     std::vector<test::LineFeature> features;
     for (const Box& b : boxes) features.push_back(test::box(b.xmin, b.ymin, b.xmax, b.ymax, 8));
-    test::write_lines(directory_.file(theme + ".geojson"), features, true);
-    ImportOptions options;
-    options.sources = {directory_.file(theme + ".geojson")};
-    options.kind = kind, options.theme = theme, options.height_field = "h";
-    import_lines(store_, options, progress_);
+    test::import_raised(store_, directory_.file(theme + ".geojson"), kind, theme, features);
   }
 
   std::vector<Box> boxes_of(const ThemeChoice& themes, const Box& box, const OutlineDetail& detail) {

@@ -12,6 +12,7 @@
 #include <itin/triangulate.hpp>
 
 #include "libitin/features/surface_comparison.hpp"
+#include "support/houses.hpp"
 #include "support/raster_file.hpp"
 #include "support/seed.hpp"
 #include "support/sound_store.hpp"
@@ -38,14 +39,8 @@ class OnlyRaised : public testing::Test {
   }
 
   ImportReport raise(ThemeKind kind, const std::string& theme, const std::vector<LineFeature>& features,
-                     ImportOptions options = {}) const {
-    test::write_lines(path(theme + ".geojson"), features, true);
-    options.sources = {path(theme + ".geojson")};
-    options.kind = kind;
-    options.theme = theme;
-    options.height_field = "h";
-    NoProgress progress;
-    return import_lines(path("s.itin"), options, progress);
+                     const ImportOptions& options = {}) const {
+    return test::import_raised(path("s.itin"), path(theme + ".geojson"), kind, theme, features, options);
   }
 
   LineFeature polygon(Point2 centre, double least, double greatest, int corners, double height) {

@@ -17,6 +17,7 @@
 
 #include "features/terrain_heights.hpp"
 #include "support/corner_triangles.hpp"
+#include "support/houses.hpp"
 #include "support/raster_file.hpp"
 #include "support/seed.hpp"
 #include "support/sound_store.hpp"
@@ -56,14 +57,7 @@ class RingFeatures : public testing::Test {
     std::vector<LineFeature> features;
     for (const auto& [plan, height] : houses)
       features.push_back(box(plan.xmin, plan.ymin, plan.xmax, plan.ymax, height));
-    test::write_lines(path(theme + ".geojson"), features, true);
-    ImportOptions options;
-    options.sources = {path(theme + ".geojson")};
-    options.kind = kind;
-    options.theme = theme;
-    options.height_field = "h";
-    NoProgress progress;
-    import_lines(path(store), options, progress);
+    test::import_raised(path(store), path(theme + ".geojson"), kind, theme, features);
   }
 
   /// Whole metres, so that many touch.

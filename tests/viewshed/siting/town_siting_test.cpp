@@ -23,6 +23,7 @@
 #include "line/rounded_outwards.hpp"
 #include "support/brute_force_viewshed.hpp"
 #include "support/exact_line_of_sight.hpp"
+#include "support/houses.hpp"
 #include "support/raster_file.hpp"
 #include "support/seed.hpp"
 #include "support/temporary_directory.hpp"
@@ -76,13 +77,7 @@ class SitesAmongHouses : public testing::Test {
   }
 
   void add(const std::vector<test::LineFeature>& features, ThemeKind kind, const std::string& name) {
-    test::write_lines(file(name + ".geojson"), features, true);
-    ImportOptions options;
-    options.sources = {file(name + ".geojson")};
-    options.kind = kind;
-    options.theme = name;
-    options.height_field = "h";
-    import_lines(file("s.itin"), options, progress_);
+    test::import_raised(file("s.itin"), file(name + ".geojson"), kind, name, features);
   }
 
   SiteSurvey survey_of(std::size_t count, bool on_roofs, bool targets_on_surface) {
