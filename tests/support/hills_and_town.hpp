@@ -76,6 +76,15 @@ class HillsAndTown {
     return request;
   }
 
+  /// In this mode. A loss takes all triangles under a line, so that every other observer must do.
+  static viewshed::Request in_mode(viewshed::Mode mode, viewshed::Request request) {
+    request.mode = mode;
+    if (mode != viewshed::Mode::kLoss) return request;
+    for (std::size_t i = 0; i < request.observers.size(); ++i)
+      request.observers.erase(request.observers.begin() + static_cast<std::ptrdiff_t>(i));
+    return request;
+  }
+
  private:
   static void add_radio(viewshed::Request& request) {
     request.radio.frequency_ghz = 2.5;

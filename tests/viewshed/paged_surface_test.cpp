@@ -217,8 +217,7 @@ TEST_F(PagedSurfaces, DecideSegmentsOfAPlan) {
   PagedSurface tight(store, Detail::tolerance(0), ThemeChoice::none(), triangles_of(8000));
   for (const Mode mode : test::kEveryMode) {
     SCOPED_TRACE(static_cast<int>(mode));
-    Request request = test::HillsAndTown::over_hills();
-    request.mode = mode;
+    const Request request = test::HillsAndTown::in_mode(mode, test::HillsAndTown::over_hills());
     const Result whole = compute(store, request, progress_);
     const Plan plan(store, request, {}, 4096);
     EXPECT_GT(plan.segments().size(), 10U);

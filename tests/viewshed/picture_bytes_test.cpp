@@ -42,14 +42,15 @@ TEST(PictureBytes, KeepEverySampleOfAPngWithAlpha) {
 }
 
 TEST(PictureBytes, KeepGreysOfAJpegNearlyInAFewBytes) {
-  constexpr int kSide = 300;
+  constexpr int kPictureSide = 300;
   std::vector<std::uint8_t> samples;
-  for (int i = 0; i < kSide * kSide; ++i)
-    samples.push_back(static_cast<std::uint8_t>(180 + 50 * std::sin(i % kSide / 9.0) * std::cos(i / kSide / 14.0)));
-  const std::string bytes = picture_bytes({samples, kSide, kSide, 1}, "b.jpeg", 80);
+  for (int i = 0; i < kPictureSide * kPictureSide; ++i)
+    samples.push_back(
+        static_cast<std::uint8_t>(180 + 50 * std::sin(i % kPictureSide / 9.0) * std::cos(i / kPictureSide / 14.0)));
+  const std::string bytes = picture_bytes({samples, kPictureSide, kPictureSide, 1}, "b.jpeg", 80);
   EXPECT_LT(bytes.size(), samples.size() / 8);
-  EXPECT_LT(bytes.size(), picture_bytes({samples, kSide, kSide, 1}, "b.jpeg").size());
-  const std::vector<std::uint8_t> read = read_back(bytes, "b.jpeg", kSide, kSide, 1);
+  EXPECT_LT(bytes.size(), picture_bytes({samples, kPictureSide, kPictureSide, 1}, "b.jpeg").size());
+  const std::vector<std::uint8_t> read = read_back(bytes, "b.jpeg", kPictureSide, kPictureSide, 1);
   for (std::size_t i = 0; i < samples.size(); ++i) ASSERT_NEAR(read[i], samples[i], 12) << i;
 }
 

@@ -72,9 +72,7 @@ TEST_F(Plans, MakeTheWholeInEveryMode) {
   const Store store(hills_path());
   for (const Mode mode : test::kEveryMode) {
     SCOPED_TRACE(static_cast<int>(mode));
-    Request request = over_hills();
-    request.mode = mode;
-    expect_whole(store, request, {.memory_bytes = 6000000}, 20000);
+    expect_whole(store, test::HillsAndTown::in_mode(mode, over_hills()), {.memory_bytes = 6000000}, 20000);
   }
   EXPECT_GT(visible_, 1000U);
   EXPECT_GT(hidden_, 1000U);
@@ -107,9 +105,7 @@ TEST_F(Plans, MakeTheWholeInATown) {
   const Store store(town_path());
   for (const Mode mode : test::kEveryMode) {
     SCOPED_TRACE(static_cast<int>(mode));
-    Request request = over_town();
-    request.mode = mode;
-    expect_whole(store, request, {}, 8000);
+    expect_whole(store, test::HillsAndTown::in_mode(mode, over_town()), {}, 8000);
   }
 }
 

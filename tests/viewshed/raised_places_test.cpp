@@ -38,8 +38,8 @@ namespace {
 
 using Features = std::vector<test::LineFeature>;
 
-constexpr double kTownSide = 900;
-constexpr Point2 kTownCorner{300000, 200000};
+constexpr double kPlaceSide = 900;
+constexpr Point2 kPlaceCorner{300000, 200000};
 
 class RaisedPlace : public testing::Test {
  protected:
@@ -78,7 +78,7 @@ class RaisedPlace : public testing::Test {
 
   /// Turned anyhow.
   test::LineFeature box(double width, double depth, double height) {
-    const Point2 p{kTownCorner.x + in(80, kTownSide - 80), kTownCorner.y - in(80, kTownSide - 80)};
+    const Point2 p{kPlaceCorner.x + in(80, kPlaceSide - 80), kPlaceCorner.y - in(80, kPlaceSide - 80)};
     return test::turned_box(p, width, depth, in(0, 6), height);
   }
   Features boxes(int count, std::array<double, 2> size, std::array<double, 2> height) {
@@ -91,9 +91,9 @@ class RaisedPlace : public testing::Test {
   /// A low house on a flat foundation cuts through a ridge, and a turbine stands behind.
   void make_town(bool with_cuts) {
     const std::vector<double> z = test::fractal_heights(65, with_cuts ? 5 : 60, 0.5, test::seed());
-    test::write_raster(file("t.tif"), {kTownCorner.x, kTownCorner.y, kTownSide / 60, 61, 61, 27700}, [&](int c, int r) {
-      return z[static_cast<std::size_t>(r * 65 + c)] + (with_cuts && r == 30 ? 25 : 0);
-    });
+    test::write_raster(
+        file("t.tif"), {kPlaceCorner.x, kPlaceCorner.y, kPlaceSide / 60, 61, 61, 27700},
+        [&](int c, int r) { return z[static_cast<std::size_t>(r * 65 + c)] + (with_cuts && r == 30 ? 25 : 0); });
     import_ground({file("t.tif")});
     add(boxes(40, {8, 25}, {3, 15}), ThemeKind::Buildings, "houses");
     add(boxes(3, {60, 120}, {8, 18}), ThemeKind::Vegetation, "woods");
@@ -104,10 +104,10 @@ class RaisedPlace : public testing::Test {
     if (with_cuts) {
       Features houses = boxes(8, {10, 30}, {0.4, 6});
       houses.push_back(
-          test::box(kTownCorner.x + 400, kTownCorner.y - 500, kTownCorner.x + 500, kTownCorner.y - 400, 0.5));
+          test::box(kPlaceCorner.x + 400, kPlaceCorner.y - 500, kPlaceCorner.x + 500, kPlaceCorner.y - 400, 0.5));
       add(houses, ThemeKind::Buildings, "cut", BaseRule::minimum);
       add(boxes(8, {10, 30}, {0.4, 6}), ThemeKind::Buildings, "filled_up", BaseRule::maximum);
-      turbines_.push_back({kTownCorner.x + 450, kTownCorner.y - 520});
+      turbines_.push_back({kPlaceCorner.x + 450, kPlaceCorner.y - 520});
     }
     open();
   }
@@ -306,19 +306,19 @@ TEST_F(RaisedPlace, FingleWoods) {
 
 /// A town behind a ridge, which no one sees a turbine from.
 TEST_F(RaisedPlace, GroundThatTheRidgeHidesIsReadWithoutItsFeatures) {
-  test::write_raster(file("t.tif"), {kTownCorner.x, kTownCorner.y, kTownSide / 60, 61, 61, 27700},
+  test::write_raster(file("t.tif"), {kPlaceCorner.x, kPlaceCorner.y, kPlaceSide / 60, 61, 61, 27700},
                      [&](int c, int r) { return (c == 20 ? 100.0 : 0.0) + in(0, 2) + 0 * r; });
   import_ground({file("t.tif")});
   Features houses;
   for (int i = 0; i < 30; ++i)
     for (int k = 0; k < 30; ++k)
-      houses.push_back(test::box(kTownCorner.x + 350 + 15 * i, kTownCorner.y - 50 - 25 * k,
-                                 kTownCorner.x + 360 + 15 * i, kTownCorner.y - 40 - 25 * k, 4));
+      houses.push_back(test::box(kPlaceCorner.x + 350 + 15 * i, kPlaceCorner.y - 50 - 25 * k,
+                                 kPlaceCorner.x + 360 + 15 * i, kPlaceCorner.y - 40 - 25 * k, 4));
   add(houses, ThemeKind::Buildings, "houses");
   open();
   ZoneRequest request;
   Turbine t;
-  t.position = {kTownCorner.x + 150, kTownCorner.y - 450}, t.tip_height = 40, t.radius = 1000;
+  t.position = {kPlaceCorner.x + 150, kPlaceCorner.y - 450}, t.tip_height = 40, t.radius = 1000;
   request.turbines = {t};
   request.grid = RasterGrid::aligned(area_, 5);
   request.themes = ThemeChoice::all();

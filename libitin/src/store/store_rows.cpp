@@ -14,7 +14,7 @@ namespace itin {
 namespace {
 
 constexpr std::size_t kHeaderBytes = 100;
-using Header = std::array<unsigned char, kHeaderBytes>;
+using FileHeader = std::array<unsigned char, kHeaderBytes>;
 
 struct stat file_status(const std::string& path) {
   struct stat status = {};
@@ -22,7 +22,7 @@ struct stat file_status(const std::string& path) {
   return status;
 }
 
-std::uint32_t big_endian(const Header& header, std::size_t offset) {
+std::uint32_t big_endian(const FileHeader& header, std::size_t offset) {
   return std::uint32_t{header[offset]} << 24 | std::uint32_t{header[offset + 1]} << 16 |
          std::uint32_t{header[offset + 2]} << 8 | header[offset + 3];
 }
@@ -32,7 +32,7 @@ std::uint32_t big_endian(const Header& header, std::size_t offset) {
 int checked_version(const std::string& path, std::uint64_t file_bytes) {
   std::ifstream file(path, std::ios::binary);
   if (!file) throw FileError(path, std::string("cannot be read: ") + std::strerror(errno));
-  Header header{};
+  FileHeader header{};
   file.read(reinterpret_cast<char*>(header.data()), kHeaderBytes);
   constexpr std::string_view magic("SQLite format 3\0", 16);
   const auto read = static_cast<std::size_t>(file.gcount());

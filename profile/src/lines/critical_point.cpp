@@ -9,7 +9,7 @@ namespace itin::profile {
 namespace {
 
 /// The theme of the feature at a distance; 0: none.
-std::uint16_t theme_at(const Profile& profile, double distance_m) {
+std::uint16_t feature_theme_at(const Profile& profile, double distance_m) {
   const auto& points = profile.points;
   const auto before = [](const ProfilePoint& p, double d) { return p.distance_m < d; };
   const auto at = std::lower_bound(points.begin(), points.end(), distance_m, before);
@@ -31,7 +31,7 @@ CriticalPoint critical_point(const Profile& profile, const Antennas& antennas, c
   p.distance_m = d;
   p.x = a.x + (b.x - a.x) * t, p.y = a.y + (b.y - a.y) * t;
   p.ground_m = antennas.from_m * (1 - t) + antennas.to_m * t - bulge - zone->clearance_m;
-  p.theme = theme_at(profile, d);
+  p.theme = feature_theme_at(profile, d);
   return {p, zone->clearance_m};
 }
 

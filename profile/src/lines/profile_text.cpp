@@ -22,7 +22,7 @@ std::vector<double> distances_of(const Profile& surface, const Profile& ground) 
 }
 
 /// The theme of the highest point at a distance or, between points, of what stands there.
-std::uint16_t theme_at(const Profile& surface, double distance_m) {
+std::uint16_t highest_theme_at(const Profile& surface, double distance_m) {
   const auto& points = surface.points;
   const auto after = std::upper_bound(points.begin(), points.end(), distance_m,
                                       [](double d, const ProfilePoint& p) { return d < p.distance_m; });
@@ -50,7 +50,7 @@ std::string profile_text(const Profile& surface, const Profile& ground, const st
     const double height = std::max(0.0, top - foot);
     const bool stands = height >= kNothing;
     fmt::format_to(std::back_inserter(text), "{}\t{:.2f}\t{:.2f}\t{}\n", distance, foot, stands ? height : 0,
-                   stands ? kind_letter(theme_at(surface, d), kinds) : 'N');
+                   stands ? kind_letter(highest_theme_at(surface, d), kinds) : 'N');
   }
   return text;
 }

@@ -133,10 +133,10 @@ Box ground_in_location_map(const MapSheet& map) {
 }
 
 std::string draw_viewpoint_sheet(const Wireline& view, const ViewpointSheet& sheet, const std::string& path) {
-  constexpr double k = kPointsPerMillimetre, kWidth = 420, kHeight = 297, kMargin = 10, kStrip = 63;
-  Drawing drawing = pdf(path, kWidth, kHeight);
+  constexpr double k = kPointsPerMillimetre, kSheetWidth = 420, kSheetHeight = 297, kSheetMargin = 10, kStrip = 63;
+  Drawing drawing = pdf(path, kSheetWidth, kSheetHeight);
   drawing.rectangle({0, 0, drawing.width(), drawing.height()}, kPaper);
-  const double left = kMargin * k, width = 230 * k;
+  const double left = kSheetMargin * k, width = 230 * k;
   drawing.text({left, 16 * k}, drawing.fitted(sheet.wireline.title, width, {.size = 16, .colour = kInk, .bold = true}),
                {.size = 16, .colour = kInk, .bold = true});
   double y = 26 * k;
@@ -156,10 +156,10 @@ std::string draw_viewpoint_sheet(const Wireline& view, const ViewpointSheet& she
   MapFrame(drawing, paper, ground_in_location_map(sheet.map)).draw(sheet.map);
   drawing.text({paper.frame.xmin, paper.frame.ymax + 22},
                fmt::format("Location, 1:{:.0f} at A3; grid north is up", sheet.map.scale), name_of_fact);
-  const double image = kWidth - 2 * kMargin, principal = image / (std::numbers::pi / 2);
+  const double image = kSheetWidth - 2 * kSheetMargin, principal = image / (std::numbers::pi / 2);
   draw_strip(drawing, view,
-             {StripProjection::kCylindrical, box_mm(kMargin, 214, image, kStrip), principal, sheet.wireline.centre_deg,
-              kCylinderField});
+             {StripProjection::kCylindrical, box_mm(kSheetMargin, 214, image, kStrip), principal,
+              sheet.wireline.centre_deg, kCylinderField});
   drawing.text(
       {left, (214 + kStrip + 9) * k},
       fmt::format("Wireline, cylindrical, 90°, principal distance {:.0f} mm at A3: for orientation; the sheets "

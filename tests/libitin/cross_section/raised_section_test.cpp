@@ -18,6 +18,7 @@
 
 #include "support/houses.hpp"
 #include "support/raster_file.hpp"
+#include "support/rolling_ground.hpp"
 #include "support/section_text.hpp"
 #include "support/seed.hpp"
 #include "support/slow_section.hpp"
@@ -82,16 +83,12 @@ struct Whole {
   std::set<std::pair<double, double>> outside;  ///< those others
 };
 
-double rolling(int c, int r) {
-  return 100 + 8 * std::sin(c * 0.3) + 6 * std::cos(r * 0.23) + 0.3 * ((c * 7 + r * 13) % 5);
-}
-
 TEST_F(RaisedSections, EqualTheWindowsTrianglesCutByTheLine) {
   std::mt19937 random(test::seed());
   const auto in = [&](double low, double high) {
     return low + (high - low) * static_cast<double>(random() % 100000) / 100000;
   };
-  ground(rolling);
+  ground(test::rolling);
   std::vector<LineFeature> houses, woods, walls;
   for (int i = 0; i < 25; ++i) {  // they touch and overlap
     const double x = 300000 + std::round(in(2, 54)) * 10, y = 199400 + std::round(in(4, 54)) * 10;

@@ -13,6 +13,7 @@
 #include "features/hot_pixel.hpp"
 #include "features/planarity.hpp"
 #include "libitin/features/feature_fixture.hpp"
+#include "support/impatient.hpp"
 #include "support/seed.hpp"
 
 namespace itin {
@@ -174,29 +175,16 @@ TEST(FeatureMesh, ALineThatCrossesItselfTooOftenIsNoWall) {
   EXPECT_THROW(band_about(in_metres(random_ring(random, 50000, 2000)), 0.3, kFeatureGrid), OverlayError);
 }
 
-/// Cancelled after some looks at it.
-class Impatient final : public Progress {
- public:
-  explicit Impatient(int looks) : looks_(looks) {}
-  void report(std::string_view, double) override {}
-  bool cancelled() const override { return ++asked_ > looks_; }
-  int asked() const { return asked_; }
-
- private:
-  int looks_;
-  mutable std::atomic<int> asked_ = 0;
-};
-
 TEST(FeatureMesh, IsCancelledInTheMidstOfOneFeature) {
   std::mt19937 random(test::seed());
   const std::vector<FootprintFeature> knot{house("knot", {in_metres(random_ring(random, 50000, 250))}, 0, 5)};
   FeatureOptions options;
   options.grid = kFeatureGrid;
-  Impatient patient(1 << 30);
+  test::Impatient patient(1 << 30);
   build_feature_mesh(knot, options, nullptr, patient);
   EXPECT_GT(patient.asked(), 100) << "few looks within one feature";
   for (int looks = 0; looks < patient.asked(); looks += 1 + patient.asked() / 20) {
-    Impatient impatient(looks);
+    test::Impatient impatient(looks);
     EXPECT_THROW(build_feature_mesh(knot, options, nullptr, impatient), Cancelled) << looks;
   }
 }
@@ -215,7 +203,7 @@ TEST(FeatureMesh, AsksOftenWithinOneLargeFeature) {
   options.grid = kFeatureGrid;
   const Tin tin = test::fractal_tin(65, 50, 20, 0.5, static_cast<std::uint32_t>(random()));
   const TerrainHeights terrain(tin);
-  Impatient patient(1 << 30);
+  test::Impatient patient(1 << 30);
   build_feature_mesh(std::vector{house("star", {in_metres(star)}, 0, 50)}, options, &terrain, patient);
   EXPECT_GT(patient.asked(), 20 * kCorners);
 }

@@ -28,6 +28,7 @@
 #include "store/store_format.hpp"
 #include "support/corner_triangles.hpp"
 #include "support/raster_file.hpp"
+#include "support/rolling_ground.hpp"
 #include "support/seed.hpp"
 #include "support/sound_store.hpp"
 #include "support/temporary_directory.hpp"
@@ -266,16 +267,12 @@ void expect_windows_of_the_whole(const Store& store, std::mt19937& random, const
   }
 }
 
-double rolling(int c, int r) {
-  return 100 + 8 * std::sin(c * 0.3) + 6 * std::cos(r * 0.23) + 0.3 * ((c * 7 + r * 13) % 5);
-}
-
 TEST_F(RaisedFeatures, WindowEqualsWholeWithAllThatStands) {
   std::mt19937 random(test::seed());
   const auto in = [&](double low, double high) {
     return low + (high - low) * static_cast<double>(random() % 100000) / 100000;
   };
-  ground(10, rolling);
+  ground(10, test::rolling);
   std::vector<LineFeature> houses, woods, rows, walls, roads, ridges;
   for (int i = 0; i < 25; ++i) {  // they touch, overlap and leave the data
     const double x = 300000 + std::round(in(-5, 58)) * 10, y = 199400 + std::round(in(-5, 58)) * 10;
@@ -396,7 +393,7 @@ TEST_F(RaisedFeatures, ABlockOfHousesIsDroppedAsAWhole) {
 }
 
 TEST_F(RaisedFeatures, WoodsFollowTheTerrainAndGiveWayToHouses) {
-  ground(10, rolling);
+  ground(10, test::rolling);
   raise(ThemeKind::Vegetation, "woods", {box(300103, 199603, 300297, 199797, 15)});
   raise(ThemeKind::Buildings, "houses", {box(300181, 199681, 300199, 199699, 8)});
   const Tin bare = whole(ThemeChoice::none()), all = whole(ThemeChoice::all()),
@@ -408,7 +405,7 @@ TEST_F(RaisedFeatures, WoodsFollowTheTerrainAndGiveWayToHouses) {
 }
 
 TEST_F(RaisedFeatures, TerracesFollowTheTerrainWhereHousesAreLevel) {
-  ground(10, rolling);
+  ground(10, test::rolling);
   const Tin bare = whole(ThemeChoice::none());
   const std::vector<LineFeature> rows{box(300103, 199603, 300297, 199615, 30)};
   EXPECT_EQ(raise(ThemeKind::Terraces, "rows", rows).features, 1u);
@@ -474,7 +471,7 @@ TEST_F(RaisedFeatures, WhatALeftOutHouseCoveredOverAVoidIsNotBuiltEither) {
 
 /// In every cell, what stands is at most as much above the ground as the store says.
 TEST_F(RaisedFeatures, NothingRisesAboveTheGreatestHeight) {
-  ground(10, rolling);
+  ground(10, test::rolling);
   std::vector<LineFeature> houses, woods;
   for (int i = 0; i < 12; ++i)
     houses.push_back(box(300020 + 41 * i, 199450 + 31 * i, 300040 + 43 * i, 199465 + 32 * i, 4 + i));

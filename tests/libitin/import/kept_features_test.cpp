@@ -21,7 +21,7 @@ using testing::IsEmpty;
 using testing::ThrowsMessage;
 
 const AttributeValue kNone;
-AttributeValue text(const std::string& value) {
+AttributeValue text_value(const std::string& value) {
   return value;
 }
 AttributeValue whole(std::int64_t value) {
@@ -82,7 +82,8 @@ TEST_F(KeptFeatures, AreAllThatALayerSays) {
   ASSERT_EQ(source.records.size(), 2U);
   EXPECT_EQ(source.records[0].id, "B 7");
   EXPECT_EQ(source.records[0].name, "1887/06/21");
-  EXPECT_THAT(source.records[0].values, ElementsAre(text("B 7"), AttributeValue(3.5), whole(2), text("1887/06/21")));
+  EXPECT_THAT(source.records[0].values,
+              ElementsAre(text_value("B 7"), AttributeValue(3.5), whole(2), text_value("1887/06/21")));
   EXPECT_EQ(source.records[1].id, "");
   EXPECT_THAT(source.records[1].values, ElementsAre(kNone, AttributeValue(4.0), kNone, kNone));
   EXPECT_EQ(source.features[0].name, "1887/06/21");
@@ -114,7 +115,7 @@ TEST_F(KeptFeatures, AreThoseAskedFor) {
 TEST_F(KeptFeatures, AreNoTextsBeyondTheLimit) {
   const std::string just = std::string(kLongestText, 'x');
   EXPECT_THAT(read({R"("note":")" + just + '"'}, {.attributes = {{"note"}}}).records[0].values,
-              ElementsAre(text(just)));
+              ElementsAre(text_value(just)));
   const std::vector<std::string> two{R"("note":")" + long_ + R"(","n":1)", R"("note":")" + long_ + R"(","n":2)"};
   const auto refuses = [&](const FeatureQuery& kept) {
     EXPECT_THAT([&] { read(two, kept); },
@@ -136,7 +137,7 @@ TEST_F(KeptFeatures, AreTheFirstOfTwoFieldsOfOneName) {
                            "WKT,use,use\n\"POLYGON((100000 400000,100009 400000,100009 400009,100000 400000))\",a,b\n");
   const FootprintSource source = read_layer({});
   ASSERT_EQ(source.fields.size(), 2U);
-  EXPECT_EQ(source.records[0].values[1], text("a"));
+  EXPECT_EQ(source.records[0].values[1], text_value("a"));
   EXPECT_THAT(source.warnings, ElementsAre(HasSubstr("f.csv: has two fields 'use'; the first is kept")));
 }
 
@@ -163,7 +164,7 @@ TEST_F(KeptFeatures, OfPartsOfABuildingAreItsOwn) {
   ASSERT_EQ(source.records.size(), 1U);
   EXPECT_EQ(source.records[0].id, "barn");
   EXPECT_THAT(source.records[0].values, ElementsAre(AttributeValue(81.5), AttributeValue(18446744073709551615.0),
-                                                    whole(2), whole(1), text("byre"), whole(1790)));
+                                                    whole(2), whole(1), text_value("byre"), whole(1790)));
   const FootprintSource named =
       read_city(attributes, {.id_field = "year", .name_field = "use", .attributes = {{"floors"}}});
   EXPECT_EQ(named.records[0], (FeatureRecord{"1790", "byre", {std::int64_t{2}}}));
@@ -172,7 +173,7 @@ TEST_F(KeptFeatures, OfPartsOfABuildingAreItsOwn) {
   EXPECT_THAT(source.warnings, Contains(not_kept));
   EXPECT_THAT(named.warnings, Not(Contains(not_kept)));
   // One building has a text where the other has a number.
-  EXPECT_THAT(read_city(R"({"floors":"ground"})", {}).records[0].values, ElementsAre(text("2")));
+  EXPECT_THAT(read_city(R"({"floors":"ground"})", {}).records[0].values, ElementsAre(text_value("2")));
 }
 
 TEST_F(KeptFeatures, OfBuildingsAreRefusedAsThoseOfLayers) {
@@ -199,8 +200,8 @@ TEST_F(KeptFeatures, OfSeveralSourcesShareTheFieldsOfATheme) {
   EXPECT_THAT(places, ElementsAre(3, 1, 2));
   EXPECT_EQ(theme, (std::vector<AttributeField>{
                        {"a", Type::whole}, {"b", Type::number}, {"c", Type::text}, {"d", Type::text}}));
-  EXPECT_EQ(arranged({"1", "n", {text("x"), whole(2), kNone}}, places),
-            (FeatureRecord{"1", "n", {kNone, whole(2), kNone, text("x")}}));
+  EXPECT_EQ(arranged({"1", "n", {text_value("x"), whole(2), kNone}}, places),
+            (FeatureRecord{"1", "n", {kNone, whole(2), kNone, text_value("x")}}));
   std::vector<AttributeField> many(kMostAttributes, {"z", Type::text});
   EXPECT_THAT(
       [&] {

@@ -16,19 +16,19 @@
 namespace itin {
 namespace {
 
-constexpr int kLevels = 3;
+constexpr int kLatticeLevels = 3;
 const std::vector<double> kTolerances{0, 1, 2};
 
 Selection level(int k) {
   return {Detail::tolerance(kTolerances[static_cast<std::size_t>(k)]), kTolerances, Grid{}};
 }
 
-using Heights = std::function<std::int32_t(std::int32_t, std::int32_t)>;
+using HeightAt = std::function<std::int32_t(std::int32_t, std::int32_t)>;
 
 /// Posts with levels, and what makes them other than whole.
 struct Lattice {
   std::int32_t columns = 60, rows = 50, west = -12345, south = 777, step_x = 10, step_y = 10;
-  Heights height;
+  HeightAt height;
   std::function<int(std::int32_t, std::int32_t)> level;
   std::vector<RawPoint> more;
 
@@ -46,7 +46,7 @@ struct Lattice {
 class Given {
  public:
   explicit Given(const Lattice& lattice, const std::function<bool(std::int32_t, std::int32_t)>& is_void = {})
-      : points_(sorted(lattice, is_void)), index_(points_, kLevels, kLeafCapacity) {
+      : points_(sorted(lattice, is_void)), index_(points_, kLatticeLevels, kLeafCapacity) {
     for (const CurveRange& range : index_.ranges()) index_.write(range, index_.read(range));
     index_.set_segments(lattice.outline());
   }
@@ -62,7 +62,7 @@ class Given {
       for (std::int32_t c = 0; c < lattice.columns; ++c) {
         if (is_void && is_void(c, r)) continue;
         const Position p = lattice.post(c, r);
-        const int k = lattice.is_corner(c, r) ? kLevels - 1 : lattice.level(c, r);
+        const int k = lattice.is_corner(c, r) ? kLatticeLevels - 1 : lattice.level(c, r);
         sorter.add({morton(p.x, p.y), lattice.height(c, r), 0, static_cast<std::uint16_t>(k)});
       }
     }
@@ -102,7 +102,7 @@ class LatticeDifferences : public testing::Test {
       ASSERT_EQ(posts->bounds(), own);
       LatticeDifference difference(std::move(*posts));
       const FineEdges edges(fine);
-      for (int k = 1; k < kLevels; ++k) {
+      for (int k = 1; k < kLatticeLevels; ++k) {
         const RegionMesh coarse = triangulate_region(given.index(), level(k), own);
         ASSERT_TRUE(difference.compare(coarse));
         const auto by_triangle = over_triangles(fine, edges, itin::difference(fine, edges, coarse, 0));

@@ -9,24 +9,12 @@
 #include <itin/triangulate.hpp>
 
 #include "libitin/store/random_points.hpp"
+#include "support/impatient.hpp"
 #include "support/seed.hpp"
 #include "support/temporary_directory.hpp"
 
 namespace itin {
 namespace {
-
-/// Stops after so many looks at it.
-class Impatient final : public Progress {
- public:
-  explicit Impatient(int looks) : looks_(looks) {}
-  void report(std::string_view, double) override {}
-  bool cancelled() const override { return ++asked_ > looks_; }
-  int asked() const { return asked_; }
-
- private:
-  int looks_;
-  mutable std::atomic<int> asked_ = 0;
-};
 
 class HostileStore : public testing::Test {
  protected:
@@ -63,11 +51,11 @@ TEST_F(HostileStore, CanBeLeftInTheMidstOfATile) {
   const auto triangulated = [&](Progress& progress) {
     return triangulate(store, Window::all(), Detail::tolerance(0), progress);
   };
-  Impatient patient(1 << 30);
+  test::Impatient patient(1 << 30);
   triangulated(patient);
   EXPECT_GT(patient.asked(), 50);
   for (int looks = 0; looks < patient.asked(); looks += 1 + patient.asked() / 20) {
-    Impatient impatient(looks);
+    test::Impatient impatient(looks);
     EXPECT_THROW(triangulated(impatient), Cancelled) << looks;
   }
 }

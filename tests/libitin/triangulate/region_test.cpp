@@ -20,6 +20,8 @@ namespace {
 using test::LevelPoint;
 using test::Pattern;
 
+constexpr int kLevels = 4;
+
 using IndexCorners = std::array<std::int32_t, 3>;
 using TriangleKey = std::array<IndexCorners, 3>;
 
@@ -177,7 +179,6 @@ class RegionCoverage : public testing::TestWithParam<Pattern> {};
 
 void expect_windows_equal_the_whole_across_voids(Pattern pattern, unsigned seed) {
   std::mt19937 random(seed + static_cast<unsigned>(pattern));
-  constexpr int kLevels = 4;
   for (int run = 0; run < 8; ++run) {
     std::vector<GridPoint> points = test::make_points(pattern, 200 + static_cast<int>(random() % 1000), random);
     const GridBox box = box_of(points);
@@ -317,8 +318,6 @@ std::vector<OwnedSegment> streets(std::vector<GridPoint>& points, int count, std
   }
   return segments;
 }
-
-constexpr int kLevels = 4;
 
 /// At every level, with and without the second theme, in random windows.
 void expect_windows_equal_whole(const std::vector<GridPoint>& points, const std::vector<OwnedSegment>& crossing,

@@ -19,6 +19,7 @@
 #include <itin/verify.hpp>
 
 #include "support/forged_directory.hpp"
+#include "support/impatient.hpp"
 #include "support/overlay_samples.hpp"
 #include "support/raster_file.hpp"
 #include "support/seed.hpp"
@@ -225,15 +226,9 @@ TEST_F(Verify, ASampleIsPartOfTheWhole) {
   EXPECT_EQ(some.tiles_verified, 3u);
 }
 
-class Impatient final : public Progress {
- public:
-  void report(std::string_view, double) override {}
-  bool cancelled() const override { return true; }
-};
-
 TEST_F(Verify, CanBeCancelled) {
   add_terrain(50, 40, 40, terrain_);
-  Impatient progress;
+  test::Impatient progress(0);
   EXPECT_THROW(verify(Store(store_), {}, progress), Cancelled);
 }
 

@@ -22,8 +22,8 @@
 namespace itin::viewshed {
 namespace {
 
-constexpr Point2 kNorthWest{300000, 200000};
-constexpr double kStep = 50;
+constexpr Point2 kHillsCorner{300000, 200000};
+constexpr double kHillsStep = 50;
 
 class FresnelSites : public ::testing::Test {
  protected:
@@ -31,7 +31,8 @@ class FresnelSites : public ::testing::Test {
 
   template <class HeightAt>
   void make_store(int side, const HeightAt& height) {
-    test::write_raster(directory_.file("t.tif"), {kNorthWest.x, kNorthWest.y, kStep, side, side, 27700}, height);
+    test::write_raster(directory_.file("t.tif"), {kHillsCorner.x, kHillsCorner.y, kHillsStep, side, side, 27700},
+                       height);
     ImportOptions options;
     options.sources = {directory_.file("t.tif")};
     import_terrain(path(), options, progress_);
@@ -47,7 +48,8 @@ class FresnelSites : public ::testing::Test {
   void add_houses(int count) {
     std::vector<test::LineFeature> houses;
     for (int i = 0; i < count; ++i) {
-      const double x = kNorthWest.x + draw(200, side_ * kStep - 200), y = kNorthWest.y - draw(200, side_ * kStep - 200);
+      const double x = kHillsCorner.x + draw(200, side_ * kHillsStep - 200),
+                   y = kHillsCorner.y - draw(200, side_ * kHillsStep - 200);
       houses.push_back(test::box(x, y, x + draw(10, 60), y + draw(10, 60), draw(4, 25)));
     }
     test::import_houses(path(), directory_.file("houses.geojson"), houses);
@@ -58,7 +60,7 @@ class FresnelSites : public ::testing::Test {
     store_.emplace(path());
     std::vector<Point2> positions;
     for (std::size_t i = 0; i < 2 * count; ++i)
-      positions.push_back({kNorthWest.x + draw(0, side_ * kStep), kNorthWest.y - draw(0, side_ * kStep)});
+      positions.push_back({kHillsCorner.x + draw(0, side_ * kHillsStep), kHillsCorner.y - draw(0, side_ * kHillsStep)});
     const auto ground = ground_under(*store_, positions, ThemeChoice::none(), progress_);
     for (std::size_t i = 0; i < positions.size() && survey_.positions.size() < count; ++i)
       if (ground[i])
@@ -230,8 +232,8 @@ TEST_F(FresnelSites, TheZoneChangesTheChoice) {
   // A plain with a hill at its edge: a low mast in the middle sees all of it, along the ground; the hill but half.
   make_store(60, [](int c, int r) { return std::max(0.0, 120 - 30 * std::hypot(c - 1, r - 30)); });
   store_.emplace(path());
-  const std::vector<Point2> positions{{kNorthWest.x + 1500, kNorthWest.y - 1500},
-                                      {kNorthWest.x + 75, kNorthWest.y - 1525}};
+  const std::vector<Point2> positions{{kHillsCorner.x + 1500, kHillsCorner.y - 1500},
+                                      {kHillsCorner.x + 75, kHillsCorner.y - 1525}};
   const auto ground = ground_under(*store_, positions, ThemeChoice::none(), progress_);
   survey_.positions = {{"plain", positions[0], 8, *ground[0]}, {"hill", positions[1], 8, *ground[1]}};
   survey_.radius = 1300;

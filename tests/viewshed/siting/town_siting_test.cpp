@@ -36,17 +36,17 @@
 namespace itin::viewshed {
 namespace {
 
-constexpr Point2 kTownCorner{300000, 200000};
+constexpr Point2 kHousesCorner{300000, 200000};
 constexpr double kTownPosts = 10, kTownWidth = 390;
 /// Holds what is known of the sites, but not the surface.
-constexpr std::uint64_t kLittleMemory = 1000000;
+constexpr std::uint64_t kMemoryOfSites = 1000000;
 
 class SitesAmongHouses : public testing::Test {
  protected:
   void SetUp() override {
     random_.seed(test::seed());
     const std::vector<double> z = test::fractal_heights(65, 15, 0.5, test::seed());
-    test::write_raster(file("t.tif"), {kTownCorner.x, kTownCorner.y, kTownPosts, 40, 40, 27700}, [&](int c, int r) {
+    test::write_raster(file("t.tif"), {kHousesCorner.x, kHousesCorner.y, kTownPosts, 40, 40, 27700}, [&](int c, int r) {
       if (std::hypot(c - 33, r - 7) < 2.5) return std::nan("");
       return z[static_cast<std::size_t>(r) * 65 + static_cast<std::size_t>(c)];
     });
@@ -67,12 +67,12 @@ class SitesAmongHouses : public testing::Test {
   std::string file(const std::string& name) const { return directory_.file(name); }
   double uniform(double least, double most) { return std::uniform_real_distribution<double>(least, most)(random_); }
   Point2 anywhere() {
-    return {kTownCorner.x + uniform(20, kTownWidth - 20), kTownCorner.y - uniform(20, kTownWidth - 20)};
+    return {kHousesCorner.x + uniform(20, kTownWidth - 20), kHousesCorner.y - uniform(20, kTownWidth - 20)};
   }
 
   /// Turned anyhow.
   test::LineFeature box(double width, double depth, double height) {
-    const Point2 p{kTownCorner.x + uniform(40, kTownWidth - 40), kTownCorner.y - uniform(40, kTownWidth - 40)};
+    const Point2 p{kHousesCorner.x + uniform(40, kTownWidth - 40), kHousesCorner.y - uniform(40, kTownWidth - 40)};
     return test::turned_box(p, width, depth, uniform(0, 6), height);
   }
 
@@ -94,7 +94,7 @@ class SitesAmongHouses : public testing::Test {
     survey.targets.height = 1.5;
     survey.targets.on_surface = targets_on_surface;
     survey.targets.grid = grid_of_reach(*store_, survey.positions, survey.radius, 8);
-    survey.memory_bytes = kLittleMemory;
+    survey.memory_bytes = kMemoryOfSites;
     return survey;
   }
 
@@ -279,8 +279,8 @@ TEST_F(SitesAmongHouses, ASurfaceInMemoryIsJudgedExactlyAtOnce) {
 }
 
 TEST_F(SitesAmongHouses, RoofsAreProposedWhereTheyAreHighEnough) {
-  const Window area = Window::box(
-      {kTownCorner.x + 20, kTownCorner.y - kTownWidth + 20, kTownCorner.x + kTownWidth - 20, kTownCorner.y - 20});
+  const Window area = Window::box({kHousesCorner.x + 20, kHousesCorner.y - kTownWidth + 20,
+                                   kHousesCorner.x + kTownWidth - 20, kHousesCorner.y - 20});
   ProposalRequest request{.spacing = 60, .radius = 130, .mast_height = 3, .target_height = 1.5, .earth = {}};
   request.themes = ThemeChoice::all();
   for (const bool on_surface : {false, true}) {

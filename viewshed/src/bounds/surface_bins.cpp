@@ -15,7 +15,7 @@ namespace itin::viewshed {
 namespace {
 
 /// Grid units, above all rounding of heights and above a grazing.
-constexpr double kMargin = 0.01;
+constexpr double kRoundingMargin = 0.01;
 /// Metres: what rises by less within a bin is no thing that stands there.
 constexpr double kThing = 0.5;
 
@@ -34,7 +34,7 @@ void for_each_bin_under(const Tin& tin, std::uint32_t triangle, const RasterGrid
     const double y = (bins.centre_y(row) - units.origin.y) / units.resolution;
     for (std::int64_t column = std::max(first, within.west); column <= std::min(last, within.east); ++column) {
       const double middle = slope.middle((bins.centre_x(column) - units.origin.x) / units.resolution, y);
-      visit(RasterGrid::Cell{column, row}, slope.low(middle) - kMargin, slope.high(middle) + kMargin);
+      visit(RasterGrid::Cell{column, row}, slope.low(middle) - kRoundingMargin, slope.high(middle) + kRoundingMargin);
     }
   }
 }

@@ -14,7 +14,7 @@ namespace itin::viewshed {
 namespace {
 
 /// This share of the picture's longer side is left free around the surface.
-constexpr double kMargin = 0.02;
+constexpr double kFrame = 0.02;
 constexpr Colour kPaper{255, 255, 255};
 
 /// Parallel rays: metres in the picture's plane, and away from the viewer.
@@ -33,7 +33,7 @@ class ParallelView {
   }
 
   MapImage draw() {
-    const double longer = std::max({right_ - left_, high_ - low_, tin_.grid.resolution}), margin = kMargin * longer;
+    const double longer = std::max({right_ - left_, high_ - low_, tin_.grid.resolution}), margin = kFrame * longer;
     const double pixels_per_metre = options_.pixels / (longer + 2 * margin);
     const auto side = [&](double metres) {
       return std::max(1, static_cast<int>(std::ceil(metres * pixels_per_metre)));

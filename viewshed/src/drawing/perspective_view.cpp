@@ -11,7 +11,7 @@ namespace itin::viewshed {
 
 namespace {
 
-constexpr Colour kSky{214, 228, 240};
+constexpr Colour kSkyColour{214, 228, 240};
 /// What is nearer to the eye than this is not drawn, metres.
 constexpr double kNearest = 0.1;
 constexpr double kHeightOfWidth = 9.0 / 16;
@@ -31,7 +31,8 @@ class PerspectiveView {
   }
 
   MapImage draw() const {
-    SurfacePicture picture(options_.pixels, static_cast<int>(std::lround(options_.pixels * kHeightOfWidth)), kSky);
+    SurfacePicture picture(options_.pixels, static_cast<int>(std::lround(options_.pixels * kHeightOfWidth)),
+                           kSkyColour);
     const SurfaceColours colours(tin_, options_.azimuth, options_.kinds);
     std::vector<Point3> seen;
     for (std::uint32_t v = 0; v < tin_.vertices.size(); ++v) seen.push_back(project(tin_.point(v)));

@@ -20,13 +20,13 @@ struct Regression {
 /// Others that those before them determine are passed over.
 Regression regress(std::size_t count, const Covariances& among, const std::array<double, kMostGiven>& with,
                    double variance) {
-  constexpr double kNothing = 1e-9;
+  constexpr double kTiniest = 1e-9;
   Covariances root{};  // Cholesky's
   std::array<double, kMostGiven> part{};
   for (std::size_t i = 0; i < count; ++i) {
     double pivot = among[i][i];
     for (std::size_t k = 0; k < i; ++k) pivot -= root[i][k] * root[i][k];
-    if (pivot <= kNothing) continue;
+    if (pivot <= kTiniest) continue;
     root[i][i] = std::sqrt(pivot);
     for (std::size_t j = i + 1; j < count; ++j) {
       double rest = among[j][i];

@@ -96,7 +96,7 @@ class ZoneWork {
 };
 
 /// The share of the time, about, that reading takes.
-constexpr double kReading = 0.3;
+constexpr double kReadingZone = 0.3;
 
 /// Reads the surfaces under the parts of a zone, one after another.
 class PartReader {
@@ -147,7 +147,7 @@ class PartReader {
   }
 
   std::unique_ptr<OwnedSurface> read(const Window& window, const ThemeChoice& themes) {
-    Progress& reading = whole_ != nullptr ? whole_->step(kReading) : quiet_;
+    Progress& reading = whole_ != nullptr ? whole_->step(kReadingZone) : quiet_;
     return take(retrieve_surface(store_, window, zone_.request.detail, themes, kAnyLattice, reading));
   }
 
@@ -200,7 +200,7 @@ Zone survey_turbines(const Store& store, const ZoneRequest& request, Progress& p
   if (screens) zone.screened = zone.bare;
 
   CallProgress call(progress);
-  auto lattice = screens ? std::nullopt : lattice_under(store, zone, call.step(kReading));
+  auto lattice = screens ? std::nullopt : lattice_under(store, zone, call.step(kReadingZone));
   const std::vector<ZonePart> parts = lattice ? std::vector{whole_zone(zone)} : zone_parts(store, zone, screens);
   PartReader reader(store, zone, parts.size() == 1 ? &call : nullptr, progress);
   std::optional<Stage> stage;

@@ -15,7 +15,7 @@ namespace {
 using Json = nlohmann::json;
 
 /// Solids, shells, surfaces, rings, indices: deeper is no CityJSON, and must not fill the stack.
-constexpr int kDeepest = 5;
+constexpr int kDeepestArray = 5;
 
 /// Fit for one line of a message.
 std::string shown(const Json& value) {
@@ -29,7 +29,7 @@ template <class Check>
 void for_each_value(const Json& nested, const Check& check, int depth = 0) {
   if (nested.is_null()) return;
   if (!nested.is_array()) return check(nested);
-  if (depth == kDeepest) throw BadCityJson(fmt::format("arrays are nested more than {} deep", kDeepest));
+  if (depth == kDeepestArray) throw BadCityJson(fmt::format("arrays are nested more than {} deep", kDeepestArray));
   for (const Json& item : nested) for_each_value(item, check, depth + 1);
 }
 
@@ -37,7 +37,7 @@ void for_each_value(const Json& nested, const Check& check, int depth = 0) {
 void check_texture_rings(const Json& nested, const CityJsonCounts& counts, int depth = 0) {
   if (nested.is_null()) return;
   const auto& items = items_of(nested, "values of a texture");
-  if (depth == kDeepest) throw BadCityJson(fmt::format("arrays are nested more than {} deep", kDeepest));
+  if (depth == kDeepestArray) throw BadCityJson(fmt::format("arrays are nested more than {} deep", kDeepestArray));
   if (!items.empty() && items.front().is_number()) {
     index_of(items.front(), counts.textures, "textures");
     for (std::size_t i = 1; i < items.size(); ++i) index_of(items[i], counts.texture_vertices, "texture vertices");

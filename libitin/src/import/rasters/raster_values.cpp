@@ -16,9 +16,9 @@ namespace itin {
 namespace {
 
 /// One row after the other.
-class RowReader {
+class RasterRows {
  public:
-  RowReader(GDALDataset& dataset, GDALRasterBand& band, const std::string& path)
+  RasterRows(GDALDataset& dataset, GDALRasterBand& band, const std::string& path)
       : band_(band), path_(path), mask_(alpha_band(dataset)) {
     int has_nodata = 0;
     nodata_ = band.GetNoDataValue(&has_nodata);
@@ -62,7 +62,7 @@ RasterValues read_raster_values(const std::string& path, const std::string& crs_
   const QuietGdal quiet;
   const GDALDatasetUniquePtr dataset = open_raster_file(path);
   const BandQuery weights{std::nullopt, "weights", "give a raster of one, as gdal_translate -b makes it"};
-  RowReader reader(*dataset, value_band(*dataset, path, weights), path);
+  RasterRows reader(*dataset, value_band(*dataset, path, weights), path);
   result.values.resize(result.grid.cell_count());
   const auto columns = static_cast<std::size_t>(result.grid.columns());
   for (int row = 0; row < result.grid.rows(); ++row)

@@ -20,7 +20,7 @@ constexpr std::uint64_t kNominalMemory = std::uint64_t{1} << 22;  // in small wi
 constexpr std::uint64_t kVast = std::uint64_t{1} << 36;           // posts: looking for those that are there is worth it
 constexpr std::uint64_t kPostsOfStore = std::uint64_t{1} << 40;   // its tree has no more leaves
 constexpr std::uint64_t kBlockShare = 4;                          // of the memory, for the block at hand
-constexpr int kDeepest = 8;                                       // virtual rasters of virtual rasters
+constexpr int kMostNested = 8;                                    // virtual rasters of virtual rasters
 
 /// The memory that GDAL takes to read a single post.
 std::uint64_t block_bytes(GDALDataset& dataset, GDALRasterBand& band) {
@@ -38,7 +38,7 @@ bool is_virtual(GDALDataset& dataset) {
 
 /// `path` of the dataset. A file that cannot be opened is reported when it is read.
 void require_small_blocks(GDALDataset& dataset, const std::string& path, std::uint64_t memory_bytes, int depth) {
-  if (is_virtual(dataset) && depth < kDeepest) {
+  if (is_virtual(dataset) && depth < kMostNested) {
     const CPLStringList files(dataset.GetFileList());
     for (int i = 0; i < files.size(); ++i) {
       if (path == files[i]) continue;

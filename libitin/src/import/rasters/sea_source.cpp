@@ -37,7 +37,7 @@ struct PostLattice {
 };
 
 /// Places of a lattice, in squares of 64 by 64 that have some.
-class Places {
+class SeaPlaces {
  public:
   void add(std::int64_t column, std::int64_t row) {
     const std::uint64_t at = key(column, row);
@@ -84,7 +84,7 @@ class SeaFill::Lattices {
     if (!step || points.empty()) return;
     const auto phase = [&](std::int32_t v) { return v - floor_divide(std::int64_t{v}, *step) * *step; };
     const PostLattice lattice{*step, phase(points.front().x), phase(points.front().y)};
-    Places& places = seen_[lattice];
+    SeaPlaces& places = seen_[lattice];
     for (const GridPoint& p : points)
       if (phase(p.x) == lattice.x && phase(p.y) == lattice.y)
         places.add((p.x - lattice.x) / *step, (p.y - lattice.y) / *step);
@@ -136,7 +136,7 @@ class SeaFill::Lattices {
   Box box_;
   Grid grid_;
   double coarsest_ = 0;
-  std::map<PostLattice, Places> seen_;
+  std::map<PostLattice, SeaPlaces> seen_;
 };
 
 namespace {

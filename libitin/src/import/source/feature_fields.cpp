@@ -31,7 +31,7 @@ std::optional<AttributeType> attribute_type(OGRFieldType type) {
   }
 }
 
-std::string name_of(const OGRFeature& feature) {
+std::string number_of(const OGRFeature& feature) {
   return fmt::format("feature {}", feature.GetFID());
 }
 
@@ -80,15 +80,15 @@ AttributeValue FeatureFields::value(const OGRFeature& feature, std::size_t field
     case AttributeType::whole:
       return std::int64_t{feature.GetFieldAsInteger64(index)};
     default:
-      return query_.attributes ? texts_.required(text(feature, index), name_of(feature), fields_[field].name)
-                               : texts_.if_short(text(feature, index), name_of(feature), fields_[field].name);
+      return query_.attributes ? texts_.required(text(feature, index), number_of(feature), fields_[field].name)
+                               : texts_.if_short(text(feature, index), number_of(feature), fields_[field].name);
   }
 }
 
 FeatureRecord FeatureFields::record(const OGRFeature& feature) {
   FeatureRecord record;
   const auto required = [&](int index, const std::string& field) {
-    return texts_.required(text(feature, index), name_of(feature), field);
+    return texts_.required(text(feature, index), number_of(feature), field);
   };
   record.id = id_ >= 0 ? required(id_, query_.id_field) : fmt::format("{}", feature.GetFID());
   if (name_ >= 0) record.name = required(name_, query_.name_field);

@@ -18,9 +18,9 @@ int index_of(OGRLayer& layer, const std::string& name) {
   return whole >= 0 ? whole : layer.GetLayerDefn()->GetFieldIndex(name.substr(0, kOfShapefile).c_str());
 }
 
-class RowReader {
+class TableRows {
  public:
-  RowReader(GDALDataset& file, OGRLayer& layer, const SiteQuery& query, const std::vector<std::string>& fields,
+  TableRows(GDALDataset& file, OGRLayer& layer, const SiteQuery& query, const std::vector<std::string>& fields,
             const std::string& to_crs)
       : places_(file, layer, query, to_crs) {
     for (const std::string& name : fields) fields_.push_back(index_of(layer, name));
@@ -53,7 +53,7 @@ std::vector<SiteRow> read_site_rows(const SiteQuery& query, const std::vector<st
   const GDALDatasetUniquePtr dataset = open_place_file(query.path, ColumnTypes::kTexts);
   OGRLayer& layer = choose_layer(*dataset, query.path, query.layer);
   select_features(layer, query.path, query.where);
-  const RowReader reader(*dataset, layer, query, fields, to_crs);
+  const TableRows reader(*dataset, layer, query, fields, to_crs);
   std::vector<SiteRow> rows;
   while (const OGRFeatureUniquePtr feature = next_feature(layer, query.path)) rows.push_back(reader.read(*feature));
   return rows;

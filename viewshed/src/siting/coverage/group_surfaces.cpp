@@ -18,7 +18,7 @@ namespace {
 /// Points of the full surface about each site.
 constexpr double kSiteNearPoints = 128;
 /// The share of the time, about, that reading one surface takes of reading two and judging.
-constexpr double kReading = 0.2;
+constexpr double kReadingGroup = 0.2;
 
 }  // namespace
 
@@ -82,11 +82,11 @@ std::unique_ptr<GroupSurvey> GroupSurfaces::exact_cells(const std::vector<std::s
   Surface surface = whole_lattice_
                         ? std::move(*std::exchange(whole_lattice_, std::nullopt))
                         : retrieve_surface(store_, window, full, themed ? survey_.themes : ThemeChoice::none(),
-                                           most_posts, call.step(kReading));
+                                           most_posts, call.step(kReadingGroup));
   count(surface.statistics(), surface.triangle_count());
   std::optional<Tin> bare_ground;
   if (themed && !survey_.targets.on_surface) {
-    bare_ground = triangulate(store_, window, full, call.step(kReading), ThemeChoice::none());
+    bare_ground = triangulate(store_, window, full, call.step(kReadingGroup), ThemeChoice::none());
     count(bare_ground->statistics, bare_ground->triangles.size());
   }
   statistics_.retrieval_seconds += watch.lap();
