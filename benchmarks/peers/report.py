@@ -1,0 +1,81 @@
+"""The results of a run as Markdown: tables by question, and what changed."""
+from results import times_run
+
+HEADINGS = {"viewshed": "Viewsheds", "10,000 links": "10,000 links of 10 km", "section": "Sections",
+            "zone": "Zone of visibility", "sites": "Sites", "import": "Import"}
+COLUMNS = ["time", "processor", "memory", "of the peer's time", "per second", "IoU", "decided", "bytes per vertex"]
+
+
+def table(header, rows):
+    """A table without the columns that are empty in all rows."""
+    kept = [i for i in range(len(header)) if i == 0 or any(row[i] for row in rows)]
+    lines = [[header[i] for i in kept], ["---"] * len(kept), *([row[i] for i in kept] for row in rows)]
+    return "".join("| " + " | ".join(line) + " |\n" for line in lines)
+
+
+def peer_seconds(rows, row):
+    """The time of the peer that the row is compared with; None where there is none."""
+    for other in rows:
+        if (other["group"], other["question"], other["who"]) == (row["group"], row["question"], row["peer"]):
+            return other["seconds"]
+    return None
+
+
+def seconds(value):
+    return f"{value:.2f} s" if value < 100 else f"{value:.0f} s"
+
+
+def rate(row):
+    if "amount" not in row:
+        return ""
+    digits = f"{row['amount'] / row['seconds']:.2g}"
+    return f"{float(digits):,.0f} {row['unit']}"
+
+
+def cells(row, peer):
+    """The row under COLUMNS."""
+    return [seconds(row["seconds"]), seconds(row["processor"]), f"{row['megabytes']:.0f} MB",
+            f"{row['seconds'] / peer:.2f}" if peer and row["who"] != row["peer"] else "", rate(row),
+            f"{row['iou']:.4f}" if "iou" in row else "", f"{row['decided']:g} %" if "decided" in row else "",
+            f"{row['bytes_per_vertex']:.2f}" if "bytes_per_vertex" in row else ""]
+
+
+def group_table(rows):
+    """The table of one group. Each question is named in its first row."""
+    lines, named = [], None
+    for row in rows:
+        question = row["question"] if row["question"] != named else ""
+        named = row["question"]
+        lines.append([question, row["who"], *cells(row, peer_seconds(rows, row))])
+    return table(["question", "answered by", *COLUMNS], lines)
+
+
+def settings(results):
+    text = (f"Commit {results['commit']}, {results['when'][:16].replace('T', ' ')}, {results['machine']}; "
+            f"{times_run(results)} (r.viewshed and the explicit TIN once); program {results['program']}.")
+    busy = results["load"] > 0.3
+    return text + (f" The machine was busy: its load was {results['load']} when the run began." if busy else "")
+
+
+def changes_table(found, new, rows):
+    parts = []
+    if found:
+        header = ["", "question", "answered by", "what", "before", "now", "now / before", "before: run of"]
+        parts.append(table(header, [change.table_row() for change in found]))
+    elif len(new) < len(rows):
+        parts.append("Nothing changed by more than 3 % in time or memory, and no IoU at all.\n")
+    if new:
+        parts.append(f"{len(new)} of {len(rows)} rows were not measured before.\n")
+    return "\n".join(parts)
+
+
+def report(results, found, new):
+    parts = ["# Comparison with peers\n", settings(results) + "\n"]
+    for group, heading in HEADINGS.items():
+        rows = [row for row in results["rows"] if row["group"] == group]
+        if rows:
+            parts += [f"## {heading}\n", group_table(rows)]
+    if results["left_out"]:
+        parts += ["## Left out\n", "".join(f"- {line}\n" for line in results["left_out"])]
+    parts += ["## Changes\n", changes_table(found, new, results["rows"])]
+    return "\n".join(parts)
