@@ -12,8 +12,8 @@ namespace {
 using profile::Colour;
 using profile::Drawing;
 
-/// A few series have colours that are told apart with every kind of colour blindness (Okabe and Ito). More have an order,
-/// which shades of blue show.
+/// A few series have colours that are told apart with every kind of colour blindness (Okabe and Ito). More have an
+/// order, which shades of blue show.
 Colour colour_of(std::size_t series, std::size_t count) {
   constexpr std::array<Colour, 4> kColours{
       {{0.00, 0.62, 0.45, 1}, {0.00, 0.45, 0.70, 1}, {0.55, 0.55, 0.55, 1}, {0.84, 0.37, 0.00, 1}}};

@@ -1,3 +1,5 @@
+#include "chart/bar_chart.hpp"
+
 #include <string>
 #include <vector>
 
@@ -6,7 +8,6 @@
 
 #include <itin/error.hpp>
 
-#include "chart/bar_chart.hpp"
 #include "chart/bar_chart_layout.hpp"
 
 namespace itin::bars {

@@ -1,7 +1,7 @@
 """What changed since rows were measured last: more than 3 % of time or memory, or any of what is not a matter of chance."""
 from typing import NamedTuple
 
-from results import key
+from results import is_busy, key, run_name
 
 BY_CHANCE = {"seconds": "time, s", "megabytes": "memory, MB"}
 CERTAIN = {"iou": "IoU", "decided": "decided, %", "bytes_per_vertex": "bytes per vertex", "amount": "amount"}
@@ -29,7 +29,7 @@ def shown(value):
 def last_rows(runs):
     """Each row as the last of the runs has it, by key, with the name of that run. A run of a few questions does not hide
     the others of the run before it."""
-    return {key(row): (row, f"{run['when'][:16].replace('T', ' ')} {run['commit']}") for run in runs for row in run["rows"]}
+    return {key(row): (row, run_name(run) + (" (busy)" if is_busy(run) else "")) for run in runs for row in run["rows"]}
 
 
 def changed(before, now):

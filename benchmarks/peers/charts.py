@@ -6,7 +6,7 @@
 import json
 import subprocess
 
-from results import key, times_run
+from results import key, run_name, times_run
 
 MOST_RUNS = 8
 # The rows whose history is drawn.
@@ -62,7 +62,7 @@ def over_runs(runs):
             groups.append({"name": f"{question}: {who}", "bars": [bar(i, value / having[0][1], value) for i, value in having]})
     return {"title": "Time over the runs", "note": runs[-1]["machine"], "line": 1,
             "axis": "time by the clock, in multiples of the first run's",
-            "series": [f"{run['when'][:16].replace('T', ' ')} {run['commit']}" for run in runs], "groups": groups}
+            "series": [run_name(run) for run in runs], "groups": groups}
 
 
 def chosen(runs):

@@ -1,5 +1,5 @@
 """The results of a run as Markdown: tables by question, and what changed."""
-from results import times_run
+from results import is_busy, times_run
 
 HEADINGS = {"viewshed": "Viewsheds", "10,000 links": "10,000 links of 10 km", "section": "Sections",
             "zone": "Zone of visibility", "sites": "Sites", "import": "Import"}
@@ -53,8 +53,7 @@ def group_table(rows):
 def settings(results):
     text = (f"Commit {results['commit']}, {results['when'][:16].replace('T', ' ')}, {results['machine']}; "
             f"{times_run(results)} (r.viewshed and the explicit TIN once); program {results['program']}.")
-    busy = results["load"] > 0.3
-    return text + (f" The machine was busy: its load was {results['load']} when the run began." if busy else "")
+    return text + (f" The machine was busy: its load was {results['load']} when the run began." if is_busy(results) else "")
 
 
 def changes_table(found, new, rows):

@@ -18,7 +18,10 @@ import subprocess
 def commit_of(root):
     """The commit that is checked out, with a + where sources differ from it."""
     def git(*arguments):
-        return subprocess.run(["git", "-C", root, *arguments], capture_output=True, text=True).stdout.strip()
+        try:
+            return subprocess.run(["git", "-C", root, *arguments], capture_output=True, text=True).stdout.strip()
+        except OSError:
+            return ""
 
     return (git("rev-parse", "--short=8", "HEAD") or "unknown") + ("+" if git("status", "--porcelain", "-uno") else "")
 
@@ -60,3 +63,12 @@ def key(row):
 
 def times_run(results):
     return f"medians of {results['runs']} in turns" if results["runs"] > 1 else "one run each"
+
+
+def run_name(results):
+    return f"{results['when'][:16].replace('T', ' ')} {results['commit']}"
+
+
+def is_busy(results):
+    """Whether other programs ran when it began."""
+    return results["load"] > 0.3
