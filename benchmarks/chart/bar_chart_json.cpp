@@ -32,8 +32,8 @@ BarChart bar_chart_from(const json& document) {
     if (document.contains("line")) chart.line = document.at("line").get<double>();
     chart.series = document.at("series").get<std::vector<std::string>>();
     for (const json& group : document.at("groups")) {
-      BarGroup& added = chart.groups.emplace_back(group.at("name").get<std::string>());
-      for (const json& bar : group.at("bars")) added.bars.push_back(bar_from(bar, chart.series.size()));
+      chart.groups.push_back({group.at("name").get<std::string>(), {}});
+      for (const json& bar : group.at("bars")) chart.groups.back().bars.push_back(bar_from(bar, chart.series.size()));
     }
     return chart;
   } catch (const json::exception& error) {

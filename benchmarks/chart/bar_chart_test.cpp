@@ -1,6 +1,8 @@
 #include "chart/bar_chart.hpp"
 
+#include <algorithm>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -18,16 +20,17 @@ BarChart chart_of(std::size_t series, std::size_t groups) {
   BarChart chart{"Viewsheds beside gdal_viewshed", "of one run", "time, s", 1.0, {}, {}};
   for (std::size_t i = 0; i < series; ++i) chart.series.push_back("series with a long name, " + std::to_string(i));
   for (std::size_t g = 0; g < groups; ++g) {
-    BarGroup& group = chart.groups.emplace_back("terrain " + std::string(20 * g, 'm'));
+    BarGroup group{"terrain " + std::string(20 * g, 'm'), {}};
     for (std::size_t i = 0; i < series; ++i) {
       const double value = 0.3 * static_cast<double>(g * i);
       group.bars.push_back({i, value, std::to_string(value) + " (12.34 s)"});
     }
+    chart.groups.push_back(std::move(group));
   }
   return chart;
 }
 
-/// What the letters cover, a little less than the line's height.
+/// The letters' extent, a little less than the line's height.
 Box box_of(const PlacedText& text) {
   const profile::Drawing measure(profile::Drawing::Format::kSvg, 1, 1);
   const double width = measure.text_width(text.text, text.lettering);
@@ -71,6 +74,18 @@ TEST(BarChart, HasBarsAsLongAsTheirValues) {
     }
   }
   EXPECT_EQ(at, layout.bars.size());
+}
+
+TEST(BarChart, KeepsWhatBarsSayWhole) {
+  const BarChart chart = chart_of(3, 9);
+  const BarChartLayout layout = lay_out(chart);
+  for (const BarGroup& group : chart.groups) {
+    for (const Bar& bar : group.bars) {
+      EXPECT_TRUE(std::any_of(layout.texts.begin(), layout.texts.end(), [&](const PlacedText& text) {
+        return text.text == bar.text;
+      })) << bar.text;
+    }
+  }
 }
 
 TEST(BarChart, CutsNamesThatAreTooLong) {

@@ -1,4 +1,5 @@
-"""What changed since rows were measured last: more than 3 % of time or memory, or any of what is not a matter of chance."""
+"""Finds how rows changed since they were measured last: by more than 3 % in time or memory, or at all in what is not a matter
+of chance."""
 from typing import NamedTuple
 
 from results import is_busy, key, run_name

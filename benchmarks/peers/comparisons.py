@@ -1,4 +1,4 @@
-"""What benchmarks/peers/all compares: questions by name, each with those who answer it.
+"""The comparisons of benchmarks/peers/all: questions by name, each with those who answer it.
 
     for name, make in comparisons(program, grass=True):
         question = make()       # makes terrain, stores and tables; raises LeftOut where these cannot be made

@@ -23,7 +23,7 @@ class Cost(NamedTuple):
 
 
 def run_once(commands):
-    """What the commands cost, run one after the other.
+    """The cost of the commands, run one after the other.
 
     A process counts at least what this one occupies, for the kernel counts from before the program is loaded. So nothing
     large is imported here, and its output is not kept where nobody reads it.

@@ -1,4 +1,4 @@
-"""What stands in the way of many workers: where a run loses time beyond an equal share for each."""
+"""Tells what stands in the way of many workers: where a run loses time beyond an equal share for each."""
 import collections
 import statistics
 

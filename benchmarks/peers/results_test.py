@@ -1,4 +1,4 @@
-"""What changed between runs, tables and charts, of results made up here."""
+"""Changes between runs, tables and charts, of results made up here."""
 import pathlib
 import tempfile
 import unittest

@@ -55,7 +55,7 @@ class Schedule:
                 if not item.tasks:
                     continue
                 running.unfinished = len(item.tasks)
-                # What is deeper comes first, as the workers of oneTBB do it.
+                # Deeper tasks come first, as with the workers of oneTBB.
                 self.ready.extendleft(Running(task, running) for task in reversed(item.tasks))
                 return
             self.idle -= 1

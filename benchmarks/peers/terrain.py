@@ -60,7 +60,7 @@ def make_rainier(path):
             "Float32", DATA / "srtm90-alpine/mt_rainier_90m.tif", path)
 
 
-# What each raster is made of, and how.
+# The sources of each raster, and how it is made of them.
 MADE = {
     "fractal": ([], lambda path: quietly(PEERS / "fractal.py", path)),
     "fractal-8192": ([], lambda path: quietly(PEERS / "fractal.py", path, "8192")),
@@ -102,7 +102,7 @@ def cut(place):
 
 
 def sources_of(store_name):
-    """What the store of this name is imported from; None where that is absent."""
+    """The files that the store of this name is imported from; None where they are absent."""
     if store_name == "lidar-all":
         return LIDAR_TILES if all(tile.exists() for tile in LIDAR_TILES) else None
     if store_name == "town":

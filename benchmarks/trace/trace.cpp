@@ -67,7 +67,7 @@ class Trace {
     const double now = seconds_of(CLOCK_THREAD_CPUTIME_ID);
     return current_->stretches.emplace_back(Stretch{now - std::exchange(since_, now), nullptr});
   }
-  /// What runs from now on belongs to another task; the time since the last lap to none.
+  /// Work from now on belongs to another task; the time since the last lap to none.
   void enter(Task& task, int deeper) {
     current_ = &task;
     depth_ = depth_ + deeper;
