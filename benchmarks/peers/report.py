@@ -70,10 +70,9 @@ def changes_table(found, new, rows):
 
 def report(results, found, new):
     parts = ["# Comparison with peers\n", settings(results) + "\n"]
-    for group, heading in HEADINGS.items():
-        rows = [row for row in results["rows"] if row["group"] == group]
-        if rows:
-            parts += [f"## {heading}\n", group_table(rows)]
+    for group in dict.fromkeys(row["group"] for row in results["rows"]):
+        parts += [f"## {HEADINGS.get(group, group)}\n",
+                  group_table([row for row in results["rows"] if row["group"] == group])]
     if results["left_out"]:
         parts += ["## Left out\n", "".join(f"- {line}\n" for line in results["left_out"])]
     parts += ["## Changes\n", changes_table(found, new, results["rows"])]
