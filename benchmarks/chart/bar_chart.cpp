@@ -42,11 +42,8 @@ std::string draw(const BarChart& chart, Drawing::Format format) {
     const double x = layout.axis.at(*chart.line);
     drawing.polyline(std::array{Point2{x, frame.ymin}, Point2{x, frame.ymax}}, {profile::kInk, 0.75, {3, 2}});
   }
-  for (const PlacedText& text : layout.texts) {
-    profile::Lettering lettering = text.lettering;
-    lettering.rim = 4;
-    drawing.text(text.anchor, text.text, lettering);
-  }
+  for (const Box& box : layout.clearings) drawing.rectangle(box, profile::kPaper);
+  for (const PlacedText& text : layout.texts) drawing.text(text.anchor, text.text, text.lettering);
   return drawing.finish();
 }
 

@@ -83,6 +83,7 @@ class Page {
       for (const Bar& bar : group.bars) {
         const double end = layout_.axis.at(bar.value);
         layout_.bars.push_back({{layout_.frame.xmin, y, end, y + kBar}, bar.series});
+        layout_.clearings.push_back({end, y, end + kGap + measure_.text_width(bar.text, text_), y + kBar});
         add({end + kGap / 2, y + kBar - 2}, bar.text, text_, kWidth - kMargin - end);
         y += kBarPitch;
       }

@@ -26,6 +26,7 @@ struct BarChartLayout {
   profile::Axis axis;
   std::vector<double> ticks;
   std::vector<PlacedBar> bars, swatches;  ///< swatches are the legend's
+  std::vector<Box> clearings;             ///< kept free of lines, for the texts at the bars' ends
   std::vector<PlacedText> texts;
 };
 

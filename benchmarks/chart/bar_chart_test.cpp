@@ -88,6 +88,17 @@ TEST(BarChart, KeepsWhatBarsSayWhole) {
   }
 }
 
+TEST(BarChart, ClearsNoBar) {
+  const BarChartLayout layout = lay_out(chart_of(3, 9));
+  ASSERT_EQ(layout.clearings.size(), layout.bars.size());
+  for (const Box& cleared : layout.clearings) {
+    for (const PlacedBar& bar : layout.bars) {
+      const bool beside = cleared.ymin >= bar.box.ymax || bar.box.ymin >= cleared.ymax;
+      EXPECT_TRUE(beside || cleared.xmin >= bar.box.xmax);
+    }
+  }
+}
+
 TEST(BarChart, CutsNamesThatAreTooLong) {
   BarChart chart = chart_of(2, 1);
   chart.groups[0].name = chart.title = chart.axis = std::string(400, 'w');

@@ -2,7 +2,7 @@
 of chance."""
 from typing import NamedTuple
 
-from results import is_busy, key, run_name
+from results import key, run_name
 
 BY_CHANCE = {"seconds": "time, s", "megabytes": "memory, MB"}
 CERTAIN = {"iou": "IoU", "decided": "decided, %", "bytes_per_vertex": "bytes per vertex", "amount": "amount"}
@@ -30,7 +30,7 @@ def shown(value):
 def last_rows(runs):
     """Each row as the last of the runs has it, by key, with the name of that run. A run of a few questions does not hide
     the others of the run before it."""
-    return {key(row): (row, run_name(run) + (" (busy)" if is_busy(run) else "")) for run in runs for row in run["rows"]}
+    return {key(row): (row, run_name(run)) for run in runs for row in run["rows"]}
 
 
 def changed(before, now):

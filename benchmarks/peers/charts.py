@@ -33,7 +33,7 @@ def viewsheds(results, names, base):
 
 
 def of_run(results):
-    return f"{results['when'][:10]}, commit {results['commit']}, {results['machine']}, {times_run(results)}"
+    return f"{run_name(results)}, {results['machine']}, {times_run(results)}"
 
 
 def beside_the_peer(results):
@@ -52,7 +52,8 @@ def by_tolerance(results):
 
 def over_runs(runs):
     """The runs on the machine of the last one, in multiples of the oldest that has the row."""
-    runs = [run for run in runs if run["machine"] == runs[-1]["machine"]][-MOST_RUNS:]
+    runs = [run for run in runs if run["machine"] == runs[-1]["machine"] and any(key(row) in HISTORY for row in run["rows"])]
+    runs = runs[-MOST_RUNS:]
     seconds = [{key(row): row["seconds"] for row in run["rows"]} for run in runs]
     groups = []
     for wanted in HISTORY:
@@ -60,7 +61,7 @@ def over_runs(runs):
         if len(having) > 1:
             _, question, who = wanted
             groups.append({"name": f"{question}: {who}", "bars": [bar(i, value / having[0][1], value) for i, value in having]})
-    return {"title": "Time over the runs", "note": runs[-1]["machine"], "line": 1,
+    return {"title": "Time over the runs", "note": runs[-1]["machine"] if runs else "", "line": 1,
             "axis": "time by the clock, in multiples of the first run's",
             "series": [run_name(run) for run in runs], "groups": groups}
 

@@ -1,9 +1,9 @@
 """The results of a run as Markdown: tables by question, and what changed."""
-from results import is_busy, times_run
+from results import is_busy, key, times_run
 
 HEADINGS = {"viewshed": "Viewsheds", "10,000 links": "10,000 links of 10 km", "section": "Sections",
             "zone": "Zone of visibility", "sites": "Sites", "import": "Import"}
-COLUMNS = ["time", "processor", "memory", "of the peer's time", "per second", "IoU", "decided", "bytes per vertex"]
+COLUMNS = ["time", "processor", "memory", "of the peer's time", "of its processor time", "per second", "IoU", "decided", "bytes per vertex"]
 
 
 def table(header, rows):
@@ -13,12 +13,10 @@ def table(header, rows):
     return "".join("| " + " | ".join(line) + " |\n" for line in lines)
 
 
-def peer_seconds(rows, row):
-    """The time of the peer that the row is compared with; None where there is none."""
-    for other in rows:
-        if (other["group"], other["question"], other["who"]) == (row["group"], row["question"], row["peer"]):
-            return other["seconds"]
-    return None
+def peer_of(rows, row):
+    """The row of the peer that a row is compared with; None where there is none."""
+    peer = next((other for other in rows if key(other) == (row["group"], row["question"], row["peer"])), None)
+    return None if peer is row else peer
 
 
 def seconds(value):
@@ -35,7 +33,8 @@ def rate(row):
 def cells(row, peer):
     """The row under COLUMNS."""
     return [seconds(row["seconds"]), seconds(row["processor"]), f"{row['megabytes']:.0f} MB",
-            f"{row['seconds'] / peer:.2f}" if peer and row["who"] != row["peer"] else "", rate(row),
+            f"{row['seconds'] / peer['seconds']:.2f}" if peer else "",
+            f"{row['processor'] / max(peer['processor'], 1e-3):.2f}" if peer else "", rate(row),
             f"{row['iou']:.4f}" if "iou" in row else "", f"{row['decided']:g} %" if "decided" in row else "",
             f"{row['bytes_per_vertex']:.2f}" if "bytes_per_vertex" in row else ""]
 
@@ -46,7 +45,7 @@ def group_table(rows):
     for row in rows:
         question = row["question"] if row["question"] != named else ""
         named = row["question"]
-        lines.append([question, row["who"], *cells(row, peer_seconds(rows, row))])
+        lines.append([question, row["who"], *cells(row, peer_of(rows, row))])
     return table(["question", "answered by", *COLUMNS], lines)
 
 

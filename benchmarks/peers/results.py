@@ -65,10 +65,10 @@ def times_run(results):
     return f"medians of {results['runs']} in turns" if results["runs"] > 1 else "one run each"
 
 
-def run_name(results):
-    return f"{results['when'][:16].replace('T', ' ')} {results['commit']}"
-
-
 def is_busy(results):
     """Whether other programs ran when it began."""
     return results["load"] > 0.3
+
+
+def run_name(results):
+    return f"{results['when'][:16].replace('T', ' ')} {results['commit']}" + (" (busy)" if is_busy(results) else "")

@@ -58,8 +58,8 @@ class Reports(unittest.TestCase):
         now = run_of(2, row("exact", 1.5, iou=1.0), row("gdal_viewshed", 0.5, iou=0.9886), load=3)
         now["left_out"].append("r.viewshed: grass is not installed")
         text = report(now, *changes([run_of(1, row("exact", 1))], now["rows"]))
-        for line in ("| fractal | exact | 1.50 s | 1.50 s | 100 MB | 3.00 | 1.0000 |",
-                     "|  | gdal_viewshed | 0.50 s | 0.50 s | 100 MB |  | 0.9886 |",
+        for line in ("| fractal | exact | 1.50 s | 1.50 s | 100 MB | 3.00 | 3.00 | 1.0000 |",
+                     "|  | gdal_viewshed | 0.50 s | 0.50 s | 100 MB |  |  | 0.9886 |",
                      "- r.viewshed: grass is not installed",
                      "| viewshed | fractal | exact | time, s | 1 | 1.5 | 1.50 | 2026-11-01 12:00 c1 |",
                      "1 of 2 rows were not measured before."):
@@ -84,6 +84,11 @@ class Charts(unittest.TestCase):
         chart = charts.over_runs(runs)
         self.assertEqual([bar["value"] for bar in chart["groups"][0]["bars"]], [1, 0.5])
         self.assertEqual(chart["series"], ["2026-11-01 12:00 c1", "2026-11-03 12:00 c3"])
+
+    def test_history_leaves_out_runs_of_other_questions(self):
+        runs = [run_of(1, row("exact", 2)), run_of(2, row("tolerance 2 m", 1)), run_of(3, row("exact", 1), load=4)]
+        self.assertEqual(charts.over_runs(runs)["series"], ["2026-11-01 12:00 c1", "2026-11-03 12:00 c3 (busy)"])
+        self.assertEqual(charts.over_runs(runs[1:2])["groups"], [])
 
     def test_what_has_nothing_to_show_is_not_drawn(self):
         self.assertEqual(charts.chosen([run_of(1, row("exact", 1))]), [])
