@@ -4,8 +4,8 @@
      "left_out": ["Rainier: ..."],
      "rows": [{"group": "viewshed", "question": "fractal", "who": "exact", "peer": "gdal_viewshed", "seconds": 0.97, ...}]}
 
-A row has `seconds`, `processor`, `megabytes`, `spread` and `runs`, and where they are known `iou`, `decided` (per cent),
-`amount`, `unit` and `bytes_per_vertex`.
+A row has `seconds`, `processor`, `megabytes`, `spread` and `runs`, and where they are known `iou` and `differing` (of the
+verdicts that the exact answer has, too), `decided` (per cent), `amount`, `unit` and `bytes_per_vertex`.
 """
 import datetime
 import json
