@@ -5,7 +5,11 @@
 #include <ctime>
 #include <exception>
 #include <fstream>
+#include <memory>
+#include <stdexcept>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -60,12 +64,17 @@ class Trace {
   Trace& operator=(const Trace&) = delete;
 
   Task& current() { return *current_; }
-  int depth() const { return depth_; }
 
   /// Ends the stretch that runs: its time goes to the current task.
-  Stretch& lap() {
+  void lap() {
     const double now = seconds_of(CLOCK_THREAD_CPUTIME_ID);
-    return current_->stretches.emplace_back(Stretch{now - std::exchange(since_, now), nullptr});
+    current_->stretches.push_back({now - std::exchange(since_, now), nullptr});
+  }
+  /// Ends it with a loop.
+  Loop& begin_loop() {
+    lap();
+    current_->stretches.back().loop = std::make_unique<Loop>();
+    return *current_->stretches.back().loop;
   }
   /// Work from now on belongs to another task; the time since the last lap to none.
   void enter(Task& task, int deeper) {
@@ -93,8 +102,8 @@ Trace trace;
 
 }  // namespace
 
-TracedLoop::TracedLoop(std::size_t count)
-    : around_(trace.current()), loop_(*(trace.lap().loop = std::make_unique<Loop>(Loop{call_stack(), {}}))) {
+TracedLoop::TracedLoop(std::size_t count) : around_(trace.current()), loop_(trace.begin_loop()) {
+  loop_.at = call_stack();  // after the lap, for it takes its time
   loop_.tasks.reserve(count);
   trace.enter(around_, 1);
 }

@@ -15,7 +15,6 @@
 
 #include <cstddef>
 #include <functional>
-#include <memory>
 
 namespace itin::trace {
 
