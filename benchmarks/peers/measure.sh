@@ -1,4 +1,5 @@
-# Sourced by the scripts beside it: runs commands under GNU time and remembers what they cost.
+# Sourced by the scripts beside it: runs single commands under GNU time and remembers what they cost. measure.py runs
+# commands in turns.
 
 # measure NAME COMMAND...: sets seconds[NAME] (wall), processor[NAME] (seconds of all processors) and megabytes[NAME]
 # (peak resident memory), and prints them.
@@ -40,23 +41,3 @@ readonly data=${ITIN_DATA_DIR:-$root/../shared/data}
 readonly work=${ITIN_BENCHMARK_DIR:-$root/build/peers}
 mkdir -p "$work"
 [ -x "$itin" ] || { echo "$0: build first: cmake --preset release && cmake --build --preset release" >&2; exit 1; }
-
-# fractal.tif and wales.tif in $work, made once.
-make_terrain() {
-  if [ ! -f "$work/fractal.tif" ]; then
-    "$root/benchmarks/peers/fractal.py" "$work/fractal.part.tif"
-    mv "$work/fractal.part.tif" "$work/fractal.tif"
-  fi
-  local tiles=$data/os-terrain50-wales/tiles
-  if [ ! -f "$work/wales.tif" ] && [ -d "$tiles" ]; then
-    local zip name
-    for zip in "$tiles"/*.zip; do
-      name=$(basename "$zip" .zip)
-      echo "/vsizip/$zip/${name^^}.asc"
-    done >"$work/wales.txt"
-    # The open sea has no tiles. Tiles on the coast have their sea at about height 0.
-    gdalbuildvrt -q -a_srs EPSG:27700 -vrtnodata -9999 -input_file_list "$work/wales.txt" "$work/wales.vrt" 2>/dev/null
-    gdal_translate -q -co TILED=YES -co COMPRESS=DEFLATE -co PREDICTOR=3 "$work/wales.vrt" "$work/wales.part.tif"
-    mv "$work/wales.part.tif" "$work/wales.tif"
-  fi
-}

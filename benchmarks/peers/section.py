@@ -2,7 +2,7 @@
 """What users do without itin: profiles sampled from a raster, and a line cut with a whole explicit TIN.
 
 section.py links RASTER.tif SIDE COUNT LENGTH OUT.csv   links of LENGTH m within a square of SIDE m on high ground
-section.py raster RASTER.tif LINKS.csv                  each link's profile and clearance by GDAL and NumPy, one core
+section.py raster RASTER.tif LINKS.csv OUT.csv          each link's verdict by GDAL and NumPy, one core
 section.py tin TIN.ply LINKS.csv                        reads a binary PLY whole, cuts it with the first link
 """
 import csv
@@ -58,35 +58,37 @@ def write_links(raster, side, count, length, out):
                 made += 1
 
 
-def sample_raster(raster, links):
-    """For each link the least clearance over the effective Earth: bilinear, one sample per cell, the raster in memory."""
+def heights_around(raster, links):
+    """The heights of the rectangle that holds the links, where its first one lies, and how far apart they are."""
     from osgeo import gdal
 
     gdal.UseExceptions()
-    start = time.perf_counter()
     dataset = gdal.Open(raster)
     x0, step, _, y0, _, down = dataset.GetGeoTransform()
-    heights = dataset.ReadAsArray().astype(np.float64)
-    opened = time.perf_counter()
-    worked = time.process_time()
-    visible = 0
-    for x1, y1, h1, x2, y2, h2 in links:
-        length = np.hypot(x2 - x1, y2 - y1)
-        t = np.linspace(0, 1, int(length / step) + 2)
-        column, row = (x1 + t * (x2 - x1) - x0) / step - 0.5, (y1 + t * (y2 - y1) - y0) / down - 0.5
-        i, j = row.astype(int), column.astype(int)
-        v, u = row - i, column - j
-        z = (heights[i, j] * (1 - u) + heights[i, j + 1] * u) * (1 - v) + (
-            heights[i + 1, j] * (1 - u) + heights[i + 1, j + 1] * u
-        ) * v
-        ray = (z[0] + h1) * (1 - t) + (z[-1] + h2) * t
-        clearance = ray - z - length**2 * t * (1 - t) * (1 - 0.13) / (2 * 6371000)
-        visible += clearance[clearance.argmin()] >= 0
-    worked = time.process_time() - worked
-    print(
-        f"raster read in {opened - start:.2f} s; {len(links) / (time.perf_counter() - opened):.0f} links a second, "
-        f"{len(links) / worked:.0f} a second of processor time, {visible} visible"
-    )
+    columns, rows = (links[:, [0, 3]] - x0) / step, (links[:, [1, 4]] - y0) / down
+    left, top = max(int(columns.min()) - 2, 0), max(int(rows.min()) - 2, 0)
+    right, bottom = min(int(columns.max()) + 3, dataset.RasterXSize), min(int(rows.max()) + 3, dataset.RasterYSize)
+    heights = dataset.ReadAsArray(left, top, right - left, bottom - top).astype(np.float64)
+    return heights, x0 + left * step, y0 + top * down, step, down
+
+
+def sample_raster(raster, links, out):
+    """Whether each link is clear over the effective Earth: bilinear, one sample for each cell, the heights in memory."""
+    heights, x0, y0, step, down = heights_around(raster, links)
+    with open(out, "w") as file:
+        file.write("id,verdict\n")
+        for i, (x1, y1, h1, x2, y2, h2) in enumerate(links):
+            length = np.hypot(x2 - x1, y2 - y1)
+            t = np.linspace(0, 1, int(length / step) + 2)
+            column, row = (x1 + t * (x2 - x1) - x0) / step - 0.5, (y1 + t * (y2 - y1) - y0) / down - 0.5
+            i0, j0 = row.astype(int), column.astype(int)
+            v, u = row - i0, column - j0
+            z = (heights[i0, j0] * (1 - u) + heights[i0, j0 + 1] * u) * (1 - v) + (
+                heights[i0 + 1, j0] * (1 - u) + heights[i0 + 1, j0 + 1] * u
+            ) * v
+            ray = (z[0] + h1) * (1 - t) + (z[-1] + h2) * t
+            clearance = ray - z - length**2 * t * (1 - t) * (1 - 0.13) / (2 * 6371000)
+            file.write(f"{i},{'visible' if clearance.min() >= 0 else 'hidden'}\n")
 
 
 def cut_tin(path, link):
@@ -124,6 +126,6 @@ if __name__ == "__main__":
     if what == "links":
         write_links(sys.argv[2], float(sys.argv[3]), int(sys.argv[4]), float(sys.argv[5]), sys.argv[6])
     elif what == "raster":
-        sample_raster(sys.argv[2], read_links(sys.argv[3]))
+        sample_raster(sys.argv[2], read_links(sys.argv[3]), sys.argv[4])
     else:
         cut_tin(sys.argv[2], read_links(sys.argv[3])[0])

@@ -1,17 +1,15 @@
 #!/usr/bin/env bash
-# Ten sites out of 500 candidates in the valleys of South Wales (OS Terrain 50, 10 km radius, 50 m cells). Compares the
-# time of itin site with that of 500 precise viewsheds, and its choice with one made by brute force on these viewsheds.
-#   benchmarks/peers/site.sh            all 500 precise viewsheds, and the comparison of the choices
-#   benchmarks/peers/site.sh 50         only 50 precise viewsheds, and no comparison of the choices
-# The aim: at most a tenth of the time of the viewsheds, and the sites of brute force.
+# Ten sites out of 500 candidates in the valleys of South Wales (OS Terrain 50, 10 km radius, 50 m cells): whether the
+# choice of itin site is that of brute force on 500 precise viewsheds, and whether a choice by Fresnel zones is the one
+# that looks at every candidate exactly from the first. `benchmarks/peers/all --only sites` compares the times.
+#   benchmarks/peers/site.sh
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/measure.sh"
 require_tools python3
 
-readonly timed=${1:-500} out=$work/site
+readonly out=$work/site/choices
 readonly looks=(--radius 10000 --cell 50 --target-height 2)
-make_terrain
-[ -f "$work/wales.tif" ] || { echo "$0: needs OS Terrain 50 of Wales in $data" >&2; exit 1; }
+"$root/benchmarks/peers/terrain.py" wales
 if [ ! -f "$work/wales.itin" ]; then measure "itin import" "$itin" import --quiet "$work/wales.itin" "$work/wales.tif"; fi
 rm -rf "$out"
 mkdir -p "$out/precise"
@@ -43,10 +41,6 @@ precise() {  # precise NAME X Y ...
 export -f precise
 export itin work out
 # shellcheck disable=SC2046
-measure "$timed precise viewsheds" bash -c 'looks=(--radius 10000 --cell 50 --target-height 2); precise "$@"' _ \
-  $(awk -F, -v n="$timed" 'NR > 1 && NR <= n + 1 { print $1, $2, $3 }' "$out/candidates.csv")
-awk -v a="${seconds[itin site, 10 of 500]}" -v b="${seconds[$timed precise viewsheds]}" -v n="$timed" \
-  'BEGIN { printf "  itin site takes %.3f of the time of 500 precise viewsheds\n", a / (b * 500 / n) }'
-if [ "$timed" -ge 500 ]; then
-  "$root/benchmarks/peers/site_choice.py" compare "$out/candidates.csv" "$out/precise" "$out/choice/sites.csv"
-fi
+measure "500 precise viewsheds" bash -c 'looks=(--radius 10000 --cell 50 --target-height 2); precise "$@"' _ \
+  $(awk -F, 'NR > 1 { print $1, $2, $3 }' "$out/candidates.csv")
+"$root/benchmarks/peers/site_choice.py" compare "$out/candidates.csv" "$out/precise" "$out/choice/sites.csv"

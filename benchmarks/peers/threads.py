@@ -1,85 +1,78 @@
 #!/usr/bin/python3
-"""Runs the questions of benchmarks/README.md with one thread and with two.
+"""Runs the questions of benchmarks/README.md with one thread and with two, and tells what many would give.
 
     benchmarks/peers/threads.py PROGRAM [--runs N] [--only WORD] [--least SECONDS]
 
-Both run in turns, N times each (default 3), on the same store. Prints the medians by the clock and how many times faster
-two threads are, first of the whole command, then of each stage that its progress names and that takes SECONDS (default
-0.5) or more with one thread. The last column is what 32 threads would make of it by Amdahl's law: what two threads leave
-undivided stays undivided. Stages are timed as they are shown, ten times a second. questions.py says what it needs.
+One thread and two run in turns, N times each (default 3), on the same store. Prints the medians by the clock and how many
+times faster two threads are; first of the whole command, then of each stage that its progress names and that takes SECONDS
+(default 0.5) or more with one thread.
+
+Where itin_traced is beside the program (ITIN_BUILD_BENCHMARKS), the command is traced, too, and its tasks are scheduled on
+2 to 32 workers (schedule.py says what that leaves out). The ratio of 2 shows how far to trust the others. Last comes what
+stands in the way of 32: where most time is lost.
 """
 import argparse
-import os
-import pty
-import re
+import pathlib
 import statistics
-import subprocess
-import sys
-import time
 
+import obstacles
 import questions
+from measure import Failed
+from schedule import makespan, work
+from stages import timed
+from terrain import WORK
+from trace import trace
 
-STAGE = re.compile(r"(.*\D) +\d+ %")
-
-
-def stage_in(line):
-    """The stage that a line of progress names, without the file that it is about; None in other lines."""
-    found = STAGE.fullmatch(re.sub(r"\x1b\[K|, .* left$", "", line).strip())
-    return found and re.sub(r" \S*[/.]\S*$", "", found[1].strip())
-
-
-def run(command):
-    """Seconds by the clock of the whole command under "" and of its stages by their names."""
-    questions.clear_results()
-    terminal, side = pty.openpty()
-    began = stage_began = time.monotonic()
-    process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=side)
-    os.close(side)
-    seconds, stage, text = {}, None, ""
-    while True:
-        try:
-            text += os.read(terminal, 65536).decode(errors="replace")
-        except OSError:  # the program has closed its end
-            break
-        *lines, text = re.split(r"[\r\n]", text)
-        for named in filter(None, map(stage_in, lines + [text])):
-            now = time.monotonic()
-            if named != stage:
-                if stage:
-                    seconds[stage] = seconds.get(stage, 0) + now - stage_began
-                stage, stage_began = named, now
-    os.close(terminal)
-    if process.wait() != 0:
-        sys.exit(f"{' '.join(map(str, command))}\nfailed: {text.strip()}")
-    now = time.monotonic()
-    if stage:
-        seconds[stage] = seconds.get(stage, 0) + now - stage_began
-    seconds[""] = now - began
-    return seconds
+WORKERS = (2, 4, 8, 16, 32)
 
 
-def print_row(name, one, two):
-    undivided = min(max(2 * two - one, 0), one)
-    many = undivided + (one - undivided) / 32
-    print(f"{name:40} {one:8.2f} {two:8.2f} s {one / max(two, 0.001):5.2f}   {one / max(many, 0.001):5.1f}", flush=True)
+def measure(command, runs):
+    """The medians of one thread and of two, by stage."""
+    found = ([], [])
+    for _ in range(runs):
+        for threads in (1, 2):
+            questions.clear_results()
+            found[threads - 1].append(timed([*command, "--threads", str(threads)]))
+    stages = found[0][0]
+    return [{stage: statistics.median(run.get(stage, 0) for run in of) for stage in stages} for of in found]
+
+
+def print_measured(name, one, two, least):
+    print(f"{name:40} {one['']:8.2f} {two['']:8.2f} s {one[''] / two['']:6.2f}", flush=True)
+    for stage in one:
+        if stage and one[stage] >= least:
+            print(f"  {stage:38} {one[stage]:8.2f} {two[stage]:8.2f} s {one[stage] / max(two[stage], 1e-3):6.2f}")
+
+
+def print_scheduled(traced):
+    alone = work(traced.root) + traced.others
+    ratios = [alone / (makespan(traced.root, workers) + traced.others / workers) for workers in WORKERS]
+    print(f"  {'scheduled on ' + ', '.join(map(str, WORKERS)):38} {alone:8.2f} s          " +
+          " ".join(f"{ratio:6.2f}" for ratio in ratios))
+    print("    " + obstacles.line("one thread alone", obstacles.of_one_thread(traced.serial)))
+    print("    " + obstacles.line(f"loops too short for {WORKERS[-1]}", obstacles.of_loops(traced.root, WORKERS[-1])))
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("program")
+    parser.add_argument("program", type=pathlib.Path)
     parser.add_argument("--runs", type=int, default=3)
     parser.add_argument("--only", default="", help="rows whose name has this word")
     parser.add_argument("--least", type=float, default=0.5, help="the shortest stage that is printed")
     asked = parser.parse_args()
-    print(f"{'':40} {'one':>8} {'two':>8}   {'ratio':>5}   {'of 32':>5}")
-    for name, (command,) in questions.commands(asked.only, (asked.program, questions.WORK)):
-        runs = [[run([*command, "--threads", str(threads)]) for threads in (1, 2)] for _ in range(asked.runs)]
-        one, two = ({stage: statistics.median(r[which].get(stage, 0) for r in runs) for stage in runs[0][0]}
-                    for which in (0, 1))
-        print_row(name, one[""], two[""])
-        for stage in one:
-            if stage and one[stage] >= asked.least:
-                print_row("  " + stage, one[stage], two[stage])
+    program = asked.program.resolve()
+    traced = program.parent / "itin_traced"
+    if not traced.exists():
+        print(f"nothing is scheduled: {traced} is not built (ITIN_BUILD_BENCHMARKS)")
+    print(f"{'':40} {'one':>8} {'two':>8}    ratio")
+    for name, (command,) in questions.commands(asked.only, (program, WORK)):
+        try:
+            print_measured(name, *measure(command, asked.runs), asked.least)
+            if traced.exists():
+                questions.clear_results()
+                print_scheduled(trace(traced, command))
+        except Failed as failed:
+            raise SystemExit(str(failed)) from failed
 
 
 main()

@@ -1,0 +1,85 @@
+"""Charts of results: what is drawn is chosen here, itin_chart (benchmarks/chart) draws it with the program's own drawing.
+
+    {"title": "...", "note": "...", "axis": "what the bars measure", "line": 1.0, "series": ["exact", ...],
+     "groups": [{"name": "fractal", "bars": [{"series": 0, "value": 0.97, "text": "0.97 s"}]}]}
+"""
+import json
+import subprocess
+
+from results import key, run_name, times_run
+
+MOST_RUNS = 8
+# The rows whose history is drawn.
+HISTORY = [("viewshed", "fractal", "certified at 32 m"), ("viewshed", "fractal", "exact"),
+           ("viewshed", "fractal", "gdal_viewshed"), ("viewshed", "all of Wales", "certified at 32 m"),
+           ("viewshed", "all of Wales", "exact"), ("viewshed", "lidar with trees", "exact"),
+           ("10,000 links", "within 30 km", "los"), ("10,000 links", "over all of Wales", "los"),
+           ("zone", "75 turbines, 40 km", "ztv"), ("sites", "10 of 500, 10 km", "site"), ("import", "fractal", "import")]
+
+
+def bar(series, value, seconds):
+    return {"series": series, "value": round(value, 4), "text": f"{value:.2f} ({seconds:.2f} s)"}
+
+
+def viewsheds(results, names, base):
+    """A group for each viewshed that has the base: the seconds of each name in multiples of the base's."""
+    groups = {}
+    for row in results["rows"]:
+        if row["group"] == "viewshed":
+            groups.setdefault(row["question"], {})[row["who"]] = row["seconds"]
+    return [{"name": question,
+             "bars": [bar(i, who[name] / who[base], who[name]) for i, name in enumerate(names) if name in who]}
+            for question, who in groups.items() if base in who and len(who) > 1]
+
+
+def of_run(results):
+    return f"{run_name(results)}, {results['machine']}, {times_run(results)}"
+
+
+def beside_the_peer(results):
+    names = ["certified at 32 m", "exact", "gdal_viewshed"]
+    return {"title": "Viewsheds beside gdal_viewshed", "note": of_run(results), "line": 1,
+            "axis": "time by the clock, in multiples of gdal_viewshed's", "series": names,
+            "groups": viewsheds(results, names, "gdal_viewshed")}
+
+
+def by_tolerance(results):
+    names = ["exact", *dict.fromkeys(row["who"] for row in results["rows"] if row["who"].startswith("tolerance"))]
+    return {"title": "Plain viewsheds by tolerance", "note": of_run(results), "line": 1,
+            "axis": "time by the clock, in multiples of the exact viewshed's", "series": names,
+            "groups": viewsheds(results, names, "exact") if len(names) > 1 else []}
+
+
+def over_runs(runs):
+    """The runs on the machine of the last one, in multiples of the oldest that has the row."""
+    runs = [run for run in runs if run["machine"] == runs[-1]["machine"] and any(key(row) in HISTORY for row in run["rows"])]
+    runs = runs[-MOST_RUNS:]
+    seconds = [{key(row): row["seconds"] for row in run["rows"]} for run in runs]
+    groups = []
+    for wanted in HISTORY:
+        having = [(i, of[wanted]) for i, of in enumerate(seconds) if wanted in of]
+        if len(having) > 1:
+            _, question, who = wanted
+            groups.append({"name": f"{question}: {who}", "bars": [bar(i, value / having[0][1], value) for i, value in having]})
+    return {"title": "Time over the runs", "note": runs[-1]["machine"] if runs else "", "line": 1,
+            "axis": "time by the clock, in multiples of the first run's",
+            "series": [run_name(run) for run in runs], "groups": groups}
+
+
+def chosen(runs):
+    """(name, description) of the charts that have something to show of the last of the runs."""
+    described = {"peers": beside_the_peer(runs[-1]), "tolerances": by_tolerance(runs[-1]), "history": over_runs(runs)}
+    return [(name, chart) for name, chart in described.items() if chart["groups"]]
+
+
+def draw(runs, results_path, program):
+    """Draws the charts beside the last run's results. Returns lines that say where they are, or why there are none."""
+    drawer = program.parent / "itin_chart"
+    if not drawer.exists():
+        return [f"no charts: {drawer} is not built (ITIN_BUILD_BENCHMARKS)"]
+    lines = []
+    for name, chart in chosen(runs):
+        path = results_path.with_name(f"{results_path.stem}-{name}.png")
+        subprocess.run([drawer, path], input=json.dumps(chart), text=True, check=True)
+        lines.append(str(path))
+    return lines
