@@ -93,7 +93,7 @@ std::vector<std::uint64_t> gaps_of(const Cell& cell, const Lattice& lattice, std
   return gaps;
 }
 
-std::uint64_t rice_bits(std::span<const std::uint64_t> values, int k) {
+std::uint64_t block_bits(std::span<const std::uint64_t> values, int k) {
   std::uint64_t bits = 0;
   for (const std::uint64_t v : values) {
     bits += (v >> k) < kRiceEscape ? (v >> k) + 1 + static_cast<unsigned>(k)
@@ -102,12 +102,12 @@ std::uint64_t rice_bits(std::span<const std::uint64_t> values, int k) {
   return bits;
 }
 
-int best_rice_parameter(std::span<const std::uint64_t> values) {
+int best_block_parameter(std::span<const std::uint64_t> values) {
   const std::uint64_t sum = std::accumulate(values.begin(), values.end(), std::uint64_t{0});
   const int guess = std::bit_width(sum / values.size());
   int best = std::max(0, guess - 6);
   for (int k = best + 1; k <= std::min(guess + 1, kMaxRiceParameter); ++k) {
-    if (rice_bits(values, k) < rice_bits(values, best)) best = k;
+    if (block_bits(values, k) < block_bits(values, best)) best = k;
   }
   return std::min(best, kMaxRiceParameter);
 }
@@ -278,7 +278,7 @@ std::vector<std::uint8_t> encode_block(const Cell& cell, std::span<const GridPoi
     residuals.push_back(zigzag(heights[i] - prediction));
     return heights[i];
   });
-  const int gap_rice = best_rice_parameter(gaps), first_rice = mean_parameter(residuals);
+  const int gap_rice = best_block_parameter(gaps), first_rice = mean_parameter(residuals);
 
   std::vector<std::uint8_t> out;
   put_header(out, points.size(), lattice, step_z);

@@ -242,13 +242,17 @@ class TinSegments {
   /// The ground under all lines in view to each tile's open cells.
   std::vector<TileSet> under_lines(const Eye& eye, std::uint32_t observer) const {
     constexpr double kAnyHeight = 1e9;
-    std::vector<TileSet> needed(tiles_.cell_count());
+    std::vector<Box> targets(tiles_.cell_count());
     for_each_view(eye, observer, [&](std::size_t tile, const CellView& view) {
       const bool in_view = eye.view.contains(view.dx, view.dy, -kAnyHeight, kAnyHeight) != false;
-      if (!in_view || !observations_[tile]->open(view)) return;
-      TileSet& tiles = needed[tile];
-      if (tiles.empty()) tiles = TileSet(ground_->count());
-      ground_->add_line(eye.position, {eye.position.x + view.dx, eye.position.y + view.dy}, tiles);
+      if (in_view && observations_[tile]->open(view))
+        targets[tile].extend(Point2{eye.position.x + view.dx, eye.position.y + view.dy});
+    });
+    std::vector<TileSet> needed(tiles_.cell_count());
+    parallel_for(needed.size(), [&](std::size_t tile) {
+      if (targets[tile].empty()) return;
+      needed[tile] = TileSet(ground_->count());
+      ground_->add_lines(eye.position, targets[tile], needed[tile]);
     });
     return needed;
   }

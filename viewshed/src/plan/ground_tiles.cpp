@@ -1,7 +1,9 @@
 #include "plan/ground_tiles.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 
 #include <itin/parallel.hpp>
 
@@ -56,7 +58,9 @@ std::uint64_t GroundTiles::points(const TileSet& tiles) const {
   return sum;
 }
 
-void GroundTiles::add_line(Point2 from, Point2 to, TileSet& tiles) const {
+/// Calls visit(column, first row, last row) for the tiles of each column about the line.
+template <class Visit>
+void GroundTiles::for_each_column(Point2 from, Point2 to, const Visit& visit) const {
   const double margin = margin_ / grid_.cell_width();
   double c0 = grid_.column_at(from.x), r0 = grid_.row_at(from.y), c1 = grid_.column_at(to.x), r1 = grid_.row_at(to.y);
   if (c1 < c0) std::swap(c0, c1), std::swap(r0, r1);
@@ -70,10 +74,37 @@ void GroundTiles::add_line(Point2 from, Point2 to, TileSet& tiles) const {
     const double west = std::clamp(static_cast<double>(column) - margin, c0, c1);
     const double east = std::clamp(static_cast<double>(column + 1) + margin, c0, c1);
     const double a = c1 > c0 ? r0 + slope * (west - c0) : r0, b = c1 > c0 ? r0 + slope * (east - c0) : r1;
-    for (std::int64_t row = clamp(std::min(a, b) - margin, grid_.rows());
-         row <= clamp(std::max(a, b) + margin, grid_.rows()); ++row)
-      tiles.add(grid_.index({column, row}));
+    visit(column, clamp(std::min(a, b) - margin, grid_.rows()), clamp(std::max(a, b) + margin, grid_.rows()));
   }
+}
+
+void GroundTiles::add_line(Point2 from, Point2 to, TileSet& tiles) const {
+  for_each_column(from, to, [&](std::int64_t column, std::int64_t first, std::int64_t last) {
+    for (std::int64_t row = first; row <= last; ++row) tiles.add(grid_.index({column, row}));
+  });
+}
+
+void GroundTiles::add_lines(Point2 from, const Box& to, TileSet& tiles) const {
+  // The lines fill a convex area; in each column its tiles lie between those of its edges.
+  struct Rows {
+    std::int64_t first = std::numeric_limits<std::int64_t>::max(), last = -1;
+  };
+  std::vector<Rows> rows(static_cast<std::size_t>(grid_.columns()));
+  const auto add_edge = [&](Point2 a, Point2 b) {
+    for_each_column(a, b, [&](std::int64_t column, std::int64_t first, std::int64_t last) {
+      Rows& r = rows[static_cast<std::size_t>(column)];
+      r = {std::min(r.first, first), std::max(r.last, last)};
+    });
+  };
+  const std::array<Point2, 4> corners{{{to.xmin, to.ymin}, {to.xmax, to.ymin}, {to.xmax, to.ymax}, {to.xmin, to.ymax}}};
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    add_edge(from, corners[i]);
+    add_edge(corners[i], corners[(i + 1) % corners.size()]);
+  }
+  for (std::int64_t column = 0; column < grid_.columns(); ++column)
+    for (std::int64_t row = rows[static_cast<std::size_t>(column)].first;
+         row <= rows[static_cast<std::size_t>(column)].last; ++row)
+      tiles.add(grid_.index({column, row}));
 }
 
 Window GroundTiles::window(const TileSet& tiles) const {

@@ -41,10 +41,15 @@ class GroundTiles {
   std::uint64_t points(const TileSet& tiles) const;
   /// Every tile that the line between two positions meets, or passes within a metre and the grid's resolution.
   void add_line(Point2 from, Point2 to, TileSet& tiles) const;
+  /// What add_line() adds for lines from a position to every place of a box, and perhaps tiles between these lines.
+  void add_lines(Point2 from, const Box& to, TileSet& tiles) const;
   /// Their union.
   Window window(const TileSet& tiles) const;
 
  private:
+  template <class Visit>
+  void for_each_column(Point2 from, Point2 to, const Visit& visit) const;
+
   RasterGrid grid_;
   double margin_;
   std::vector<std::uint32_t> points_;
