@@ -168,10 +168,10 @@ TEST_F(PagedSurfaces, ServeSeveralThreads) {
     PagedSurface pages(store, Detail::tolerance(0), ThemeChoice::none(), {.memory_bytes = memory});
     std::vector<std::vector<Result>> found(4);
     std::vector<std::thread> threads;
-    for (std::size_t t = 0; t < found.size(); ++t)
-      threads.emplace_back([&, t] {
+    for (std::vector<Result>& results : found)
+      threads.emplace_back([&] {
         NoProgress progress;
-        for (const Request& request : requests) found[t].push_back(pages.compute(request, progress));
+        for (const Request& request : requests) results.push_back(pages.compute(request, progress));
       });
     for (std::thread& thread : threads) thread.join();
     for (const std::vector<Result>& results : found)

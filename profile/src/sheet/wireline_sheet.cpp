@@ -60,7 +60,7 @@ void draw_caption(Drawing& drawing, const Wireline& view, const WirelineSheet& s
     }
   };
   add(how);
-  for (const auto& [name, value] : sheet.facts) add(name + ": " + value);
+  for (const auto& [name, value] : sheet.facts) add(fmt::format("{}: {}", name, value));
 }
 
 std::string seen_from(double principal_mm, const char* projection, double field) {

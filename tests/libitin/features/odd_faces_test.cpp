@@ -80,7 +80,7 @@ TEST(Planarity, CountsWhereEdgesMeet) {
   for (int run = 0; run < 100; ++run) {
     const GridRing ring = random_ring(random, 6 << (random() % 24), 3 + random() % 60);
     std::vector<GridEdge> edges;
-    for_each_edge({ring, {}}, [&](Position a, Position b) { edges.push_back(std::minmax(a, b)); });
+    for_each_edge({ring, {}}, [&](Position a, Position b) { edges.emplace_back(std::minmax(a, b)); });
     std::sort(edges.begin(), edges.end());
     edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
     std::erase_if(edges, [](const GridEdge& e) { return e.first == e.second; });

@@ -9,6 +9,7 @@
 #include <random>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -54,7 +55,7 @@ class Verify : public testing::Test {
   void add_terrain(double step, int columns, int rows, const std::function<double(int, int)>& height,
                    ImportOptions options = {}) {
     test::write_raster(path("t.tif"), {300000, 200000, step, columns, rows, 27700}, height);
-    add("t.tif", std::nullopt, options);
+    add("t.tif", std::nullopt, std::move(options));
   }
   void add_houses(const std::vector<test::LineFeature>& houses) {
     test::write_lines(path("houses.geojson"), houses, true);
@@ -85,7 +86,7 @@ TEST_F(Verify, FindsBoundsThatAreTooTightByOneStep) {
   add_terrain(50, 46, 44, with_void);
   expect_sound();
   const Store store(store_);
-  const StoreMetadata metadata = store.metadata();
+  const StoreMetadata& metadata = store.metadata();
   const Grid& grid = metadata.grid;
   const Tin fine = triangulate(store, Window::all(), Detail::tolerance(0), progress_);
   std::size_t found_in_all = 0;
