@@ -31,7 +31,7 @@ class ExactLineOfSight {
   }
 
   /// Height of the surface, if there is any; `margin` metres beyond a triangle's edges still count as inside.
-  std::optional<double> height(Point2 p, double margin = 1e-9) const {
+  std::optional<double> height(Point2 p, double margin = kMargin) const {
     for (const Patch& t : patches_) {
       bool inside = true;
       for (std::size_t i = 0; i < 3; ++i) inside = inside && t.depth(i, p.x, p.y) >= -margin;
@@ -49,7 +49,7 @@ class ExactLineOfSight {
       // The part [low, high] of the line over the closed triangle.
       long double low = 0, high = 1;
       for (std::size_t i = 0; i < 3 && low <= high; ++i) {
-        const long double start = t.depth(i, from.x, from.y), end = t.depth(i, to.x, to.y);
+        const long double start = t.depth(i, from.x, from.y) + kMargin, end = t.depth(i, to.x, to.y) + kMargin;
         if (start < 0 && end < 0) high = -1;
         if (start < 0 && end >= 0) low = std::max(low, start / (start - end));
         if (start >= 0 && end < 0) high = std::min(high, start / (start - end));
@@ -70,6 +70,10 @@ class ExactLineOfSight {
   }
 
  private:
+  /// Metres beyond a triangle's edges that still count as inside: where the ground ends, no triangle is beside it to
+  /// hold what rounding has outside.
+  static constexpr double kMargin = 1e-9;
+
   struct Patch {
     std::array<long double, 3> x, y, z;
 

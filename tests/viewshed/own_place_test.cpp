@@ -200,7 +200,9 @@ std::string described(const Request& request, Point2 centre) {
 
 TEST_F(WhereverTheObserverStands, AllModesAgree) {
   int own = 0, visible = 0, hidden = 0;
-  for (int trial = 0; trial < 120 && !HasFailure(); ++trial) {
+  const auto met_enough = [&] { return own > 20 && visible > 500 && hidden > 500; };
+  // A few of a hundred seeds have hills in view that hide little.
+  for (int trial = 0; (trial < 120 || !met_enough()) && trial < 1000 && !HasFailure(); ++trial) {
     const Tin tin = terrain();
     const Request request = look(tin);
     const Asking asking(tin, request);
@@ -226,9 +228,32 @@ TEST_F(WhereverTheObserverStands, AllModesAgree) {
       }
     }
   }
-  EXPECT_GT(own, 20);
-  EXPECT_GT(visible, 500);
-  EXPECT_GT(hidden, 500);
+  EXPECT_TRUE(HasFailure() || met_enough()) << own << " own, " << visible << " visible, " << hidden << " hidden";
+}
+
+/// A ridge across the line hides what is behind it, though the ground lies on one side of the line only.
+TEST(AlongTheEdgeOfTheGround, TheGroundBlocksTheLine) {
+  for (std::int32_t edge = 1; edge < 16; ++edge) {
+    for (const bool north : {false, true}) {
+      const Tin tin = test::lattice_tin(17, 17, 50, [&](std::int32_t c, std::int32_t r) {
+        return (north ? r < edge : r > edge) ? NAN : c == 2 ? 9.0 : 0.0;
+      });
+      const double y = test::kCorner.y + edge * 50;
+      Request request;
+      request.observers = {{"o", {test::kCorner.x + 200, y}, 2}};
+      request.target_height = 2;
+      request.grid.emplace(Point2{test::kCorner.x - 25, y + 25}, 50, 50, 5, 1);
+      const test::ExactLineOfSight exact(tin, request.earth);
+      for (int column = 0; column < 4; ++column) {
+        const double x = test::kCorner.x + column * 50;
+        SCOPED_TRACE(testing::Message() << "edge " << edge << ", north " << north << ", to " << x << ' ' << y);
+        const double ground = exact.height({x, y}).value();
+        EXPECT_EQ(exact.clearance({test::kCorner.x + 200, y, 2}, {x, y, ground + 2}) < 0, column < 2);
+        EXPECT_EQ(run(tin, request).visible[static_cast<std::size_t>(column)],
+                  column < 2 ? Verdict::kHidden : Verdict::kVisible);
+      }
+    }
+  }
 }
 
 /// An observer two metres up on a plane looks at its own cell.

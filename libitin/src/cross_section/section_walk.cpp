@@ -12,21 +12,17 @@ namespace {
 
 using Place = SectionCrossing::Place;
 
-/// A crossing, and the theme of the feature that it lies within: at a vertex that one's, and on an edge, once the
-/// triangles on both sides are known, theirs.
+/// A crossing, and the theme of the feature that it lies within. That follows from the vertex or the edge that is
+/// crossed, and not from the triangles beside it: of these the walk knows one, where the line runs along an edge.
 struct Met : SectionCrossing {
   std::uint16_t theme = 0;
   bool at_vertex = false;
 };
 
-/// The theme of a triangle from those of two of its corners. Where both are features', they differ in a party wall
-/// only.
+/// The theme of an edge from those of its ends, or of a triangle from those of two of its corners. An outline's edges
+/// have none, for their ends have none. Where both are features', they differ in a party wall only.
 std::uint16_t either(std::uint16_t a, std::uint16_t b) {
   return a == 0 || b == 0 ? std::max(a, b) : std::min(a, b);
-}
-/// The theme of an edge from those of the triangles beside it: a foot is not within the feature.
-std::uint16_t both(std::uint16_t a, std::uint16_t b) {
-  return std::min(a, b);
 }
 
 /// Breakpoints over ground without gap, in order.
@@ -114,20 +110,10 @@ class SectionWalk {
     Stretch stretch;
     SidedEdge edge(entry, line_);
     Met in = met(edge);
-    std::uint16_t behind = 0;
     if (in.place == Place::kWithin) stretch.add(in);
-    while (!(exit && lies_on(edge, *exit))) {
-      const bool ends = at_end(in);
-      // Whether the end is within a feature takes the triangle beyond it.
-      if (ends && (behind == 0 || in.at_vertex || in.place != Place::kWithin)) break;
+    while (!at_end(in) && !(exit && lies_on(edge, *exit))) {
       const SectionVertex c = triangles_.beyond(edge);
       const std::uint16_t theme = either(either(edge.left.theme, edge.right.theme), c.theme);
-      if (!in.at_vertex) in.theme = both(behind, theme);
-      if (ends) {
-        stretch.add(in);
-        break;
-      }
-      behind = theme;
       const SectionLine::Wide side = line_.side(c);
       if (counts_as_left(side, on_line_)) {
         edge.left = c, edge.left_side = side;
@@ -148,6 +134,7 @@ class SectionWalk {
 
   Met met(const SidedEdge& edge) const {
     Met result{line_.crossing(edge.left, edge.left_side, edge.right, edge.right_side)};
+    result.theme = either(edge.left.theme, edge.right.theme);
     if (edge.left_side == 0) result.theme = edge.left.theme, result.at_vertex = true;
     if (edge.right_side == 0) result.theme = edge.right.theme, result.at_vertex = true;
     return result;

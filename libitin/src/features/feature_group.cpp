@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "features/eaves_abreast.hpp"
 #include "features/entangled.hpp"
 #include "features/planar.hpp"
 #include "features/planarity.hpp"
@@ -165,23 +166,29 @@ class GroupBuilder {
 
   void add_tops(const std::vector<Patch>& patches) {
     for (std::size_t i = 0; i < patches.size(); ++i) {
+      const std::uint32_t f = feature_of_[i];
+      std::vector<RoofLine> lines;
       for (const GridPolygon& plan : arrangement_.patches[i].top) {
-        const std::uint32_t f = feature_of_[i];
-        std::vector<RoofLine> lines;
         if (features_[f].drapes()) {
           if (!drape(plan, features_[f].above_terrain, *terrain_, lines, mesh_.loose, progress_))
             objections_[f] = "left out: reaches beyond the terrain";
         } else if (features_[f].measured) {
-          lines = plane_roof(plan, patches[i].top);
+          add(plane_roof(plan, patches[i].top), lines);
         } else {
-          lines = roof(f, plan);
-        }
-        for (const RoofLine& line : lines) {
-          mesh_.segments.push_back(
-              {line.a, line.b, features_[f].number, line.eaves ? SegmentClass::eaves : SegmentClass::roof});
+          add(roof(f, plan), lines);
         }
       }
+      split_abreast(lines, std::move(arrangement_.patches[i].leaps), offset_);
+      across_.push_back(ways_across(lines, std::move(arrangement_.patches[i].joints), offset_));
+      for (const RoofLine& line : lines) {
+        mesh_.segments.push_back(
+            {line.a, line.b, features_[f].number, line.eaves ? SegmentClass::eaves : SegmentClass::roof});
+      }
     }
+  }
+
+  static void add(const std::vector<RoofLine>& some, std::vector<RoofLine>& lines) {
+    lines.insert(lines.end(), some.begin(), some.end());
   }
 
   static std::vector<RoofLine> plane_roof(const GridPolygon& plan, const Plane& plane) {
@@ -244,7 +251,7 @@ class GroupBuilder {
       const PreparedFeature& f = feature_of(i);
       covered.push_back({f.number, f.drapes() ? std::optional(f.above_terrain) : std::nullopt,
                          f.flat_foundation ? std::optional(whole(f.heights.base)) : std::nullopt,
-                         std::move(patch.footprint), std::move(patch.top)});
+                         std::move(patch.footprint), std::move(patch.top), std::move(across_[i])});
     }
     OverlaidLines laid = lay_over(*terrain_, std::move(mesh_.segments), covered, progress_);
     mesh_.segments = std::move(laid.segments);
@@ -264,6 +271,7 @@ class GroupBuilder {
   std::vector<std::uint32_t> feature_of_;  ///< by patch
   Arrangement arrangement_;
   std::map<GridEdge, std::vector<Position>> between_;  ///< of feet on the terrain, by edge
+  std::vector<std::vector<WayAcross>> across_;         ///< by patch
   std::map<std::uint32_t, std::string> objections_;
   std::set<std::uint32_t> flat_;
   GroupMesh mesh_;

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numeric>
+#include <optional>
 #include <set>
 
 #include "base/stoppable.hpp"
@@ -16,6 +18,9 @@ namespace itin {
 namespace {
 
 constexpr std::uint32_t kNobody = 0xffffffff;
+
+/// In offsets: how far from the end of a border a corner of the top beside it may be, where they meet at an angle.
+constexpr double kCornerReach = 3;
 
 std::vector<GridEdge> noded_outlines(const std::vector<Patch>& patches, const Progress* progress) {
   std::vector<OwnedSegment> segments;
@@ -75,6 +80,8 @@ class Arranging {
         result_.patches[i].failure = error.what();
       }
     }
+    for (const ArrangedPatch& patch : result_.patches) corners_.push_back(corners_of(patch.top));
+    for (std::uint32_t i = 0; i < patches_.size(); ++i) find_joints(i);
     return std::move(result_);
   }
 
@@ -138,12 +145,69 @@ class Arranging {
     return common_part(own, eroded(united(ground), offset_));
   }
 
+  /// The patch to the right of a patch's edge.
+  std::uint32_t beyond(Position a, Position b) const {
+    const auto other = left_of_.find({b, a});
+    return other == left_of_.end() ? kNobody : other->second;
+  }
+
+  /// Ascending.
+  static std::vector<Position> corners_of(const GridPolygons& top) {
+    std::vector<Position> corners;
+    for (const GridPolygon& polygon : top)
+      for_each_ring(polygon, [&](const GridRing& ring) { corners.insert(corners.end(), ring.begin(), ring.end()); });
+    std::sort(corners.begin(), corners.end());
+    return corners;
+  }
+
+  /// The corner of a top that is nearest to a place on its outline, as far as one is nearby.
+  std::optional<Position> corner_at(Position place, std::uint32_t patch) const {
+    const auto reach = static_cast<std::int32_t>(kCornerReach * offset_) + 1;
+    const std::vector<Position>& corners = corners_[patch];
+    std::optional<Position> best;
+    std::int64_t least = std::int64_t{reach} * reach;
+    const Position first{place.x - reach, std::numeric_limits<std::int32_t>::min()};
+    for (auto at = std::lower_bound(corners.begin(), corners.end(), first);
+         at != corners.end() && at->x <= place.x + reach; ++at) {
+      const std::int64_t x = std::int64_t{at->x} - place.x, y = std::int64_t{at->y} - place.y;
+      if (x * x + y * y < least) least = x * x + y * y, best = *at;
+    }
+    return best;
+  }
+
+  void find_joints(std::uint32_t i) {
+    ArrangedPatch& patch = result_.patches[i];
+    // Beside lower neighbours the walls are theirs. There the top reaches to its outline, and bends where they begin.
+    const auto rises = [&](std::uint32_t n) { return n == kNobody || !lower(n, i); };
+    const auto add_joint = [&](Position p, std::uint32_t n) {
+      if (!rises(n)) return;
+      const std::optional<Position> end = n == kNobody ? p : corner_at(p, n);
+      if (end) patch.joints.push_back(*end);
+    };
+    for (const GridPolygon& polygon : patch.footprint) {
+      for_each_ring(polygon, [&](const GridRing& ring) {
+        std::uint32_t before = beyond(ring.back(), ring.front());
+        for (std::size_t k = 0; k < ring.size(); ++k) {
+          stop_if_asked();
+          const std::uint32_t after = beyond(ring[k], ring[(k + 1) % ring.size()]);
+          if (before != after) {
+            if (rises(before) && rises(after)) patch.leaps.push_back(ring[k]);
+            add_joint(ring[k], before);
+            add_joint(ring[k], after);
+          }
+          before = after;
+        }
+      });
+    }
+  }
+
   const std::vector<Patch>& patches_;
   const double offset_;
   const Progress* progress_;
   std::vector<MaskIndex> plans_;  ///< by patch
   std::map<GridEdge, std::uint32_t> left_of_;
   std::vector<std::set<std::uint32_t>> neighbours_;
+  std::vector<std::vector<Position>> corners_;  ///< of tops, by patch
   Arrangement result_;
 };
 

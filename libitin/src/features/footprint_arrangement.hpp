@@ -38,6 +38,10 @@ struct ArrangedPatch {
   GridPolygons footprint;  ///< disjoint from all others; what it lost to higher ones, or to the grid, is gone
   GridPolygons top;        ///< empty where nothing is as wide as twice the offset
   std::string failure;     ///< why there is no top though there may be room
+  /// Where the outline's neighbour changes, and neither is lower: abreast of these the eaves must have vertices.
+  std::vector<Position> leaps;
+  /// Where its walls end for another's to begin: places on the outline, and corners of higher tops on it.
+  std::vector<Position> joints;
 };
 
 struct Arrangement {

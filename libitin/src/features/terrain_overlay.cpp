@@ -9,6 +9,7 @@
 #include "base/stoppable.hpp"
 #include "features/mask_index.hpp"
 #include "features/planar.hpp"
+#include "triangulate/apex.hpp"
 #include "triangulate/delaunay.hpp"
 
 namespace itin {
@@ -220,12 +221,27 @@ class Overlaying {
     }
     std::vector<OwnedSegment> result;
     for (const PlacedSegment& s : segments_) result.push_back({s.a, s.b, owners.at({s.kind, s.feature})});
-    for (const auto& [v, w] : edges)
-      result.push_back({terrain_.vertex(v), terrain_.vertex(w), static_cast<std::uint32_t>(owners_.size())});
+    for (const CoveredGround& ground : covered_)
+      for (const auto& [a, b] : ground.across)
+        if (meets_terrain_edge(a, {b.x, b.y})) result.push_back({{a.x, a.y, b.z}, b, owner_of_ways()});
+    for (const auto& [v, w] : edges) result.push_back({terrain_.vertex(v), terrain_.vertex(w), owner_of_ways() + 1});
     return result;
   }
 
-  bool of_terrain(const PlanarEdge& e) const { return e.owner == owners_.size(); }
+  bool meets_terrain_edge(Position a, Position b) const {
+    const Segment way{a.x, a.y, b.x, b.y};
+    for (const std::uint32_t t : terrain_.triangles_along(a, b)) {
+      const Triangle& v = terrain_.triangle(t);
+      for (int i = 0; i < 3; ++i) {
+        const auto [p, q] = ends_of({v[i], v[(i + 1) % 3]});
+        if (crosses(way, p, q)) return true;
+      }
+    }
+    return false;
+  }
+
+  /// The terrain has the next number.
+  std::uint32_t owner_of_ways() const { return static_cast<std::uint32_t>(owners_.size()); }
 
   Position position(std::uint32_t v) const { return {lines_.vertices[v].x, lines_.vertices[v].y}; }
 
@@ -233,6 +249,7 @@ class Overlaying {
     is_foot_.resize(lines_.vertices.size());
     base_.resize(lines_.vertices.size());
     on_line_.resize(lines_.vertices.size());
+    on_way_.resize(lines_.vertices.size());
     top_.resize(lines_.vertices.size());
     const PlanarEdge* last = nullptr;
     for (const PlanarEdge& e : lines_.edges) {
@@ -240,7 +257,8 @@ class Overlaying {
       // Ascending: the first owner has what several share.
       if (last && last->from == e.from && last->to == e.to) continue;
       last = &e;
-      if (!of_terrain(e)) {
+      if (e.owner == owner_of_ways()) on_way_[e.from] = on_way_[e.to] = true;
+      if (e.owner < owner_of_ways()) {
         const auto& [kind, feature] = owners_[e.owner];
         kept_.push_back({e, kind, feature});
         for (const std::uint32_t v : {e.from, e.to}) {
@@ -279,6 +297,8 @@ class Overlaying {
       if (!ground) continue;
       if (is_foot_[v] && base_[v]) {
         p.z = *base_[v];
+      } else if (on_way_[v] && !is_foot_[v] && !on_line_[v]) {
+        p.z = std::max(p.z, *ground);
       } else if (is_foot_[v] || (!on_line_[v] && !top_[v])) {
         p.z = *ground;
       } else if (const auto drapes = on_line_[v] ? above_.find(*on_line_[v]) : above_.end(); drapes != above_.end()) {
@@ -352,6 +372,7 @@ class Overlaying {
   std::vector<bool> is_foot_;                          ///< by vertex
   std::vector<std::optional<std::int32_t>> base_;      ///< by vertex on a foot: the least of those of flat foundations
   std::vector<std::optional<std::uint32_t>> on_line_;  ///< by vertex: the feature
+  std::vector<bool> on_way_;                           ///< by vertex: whether a way across a wall leads there
   std::vector<std::optional<std::uint32_t>> top_;      ///< by vertex of the terrain alone: a pierced top over it
   std::map<std::uint32_t, std::int32_t> pierced_;
 };

@@ -11,6 +11,10 @@
 // them lies in one terrain triangle as well, and differs from it by no more than its corners do. Under such a footprint
 // no edge of the terrain is kept, and nothing pierces its top.
 //
+// An edge of the terrain may run along a wall from one feature's eaves to another's. It is cut where the one's wall
+// ends and the other's begins, at the height of the eaves there: else it would rise to the other's over all of its
+// length.
+//
 // Positions are rounded to the grid, so heights are what is said here within a grid step, or one times the slope.
 #pragma once
 
@@ -19,6 +23,7 @@
 #include <optional>
 #include <vector>
 
+#include "features/eaves_abreast.hpp"
 #include "features/feature_group.hpp"
 #include "features/ground_border.hpp"
 
@@ -30,6 +35,7 @@ struct CoveredGround {
   std::optional<double> above;       ///< its top follows the terrain already, so many grid units above it
   std::optional<std::int32_t> base;  ///< of a flat foundation: its feet lie at this height, grid units
   GridPolygons footprint, top;
+  std::vector<WayAcross> across;  ///< where edges of the terrain are cut that run along its walls into others'
 };
 
 struct OverlaidLines {

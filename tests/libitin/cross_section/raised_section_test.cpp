@@ -56,31 +56,22 @@ struct Whole {
   Whole(const Store& store, const Detail& detail, const ThemeChoice& choice) {
     NoProgress progress;
     const Tin tin = triangulate(store, Window::all(), detail, progress, choice);
-    for (const Triangle& t : tin.triangles) {
-      triangles.push_back({tin.vertices[t[0]], tin.vertices[t[1]], tin.vertices[t[2]]});
-      themes.push_back(tin.theme(t));
-    }
+    const auto theme = [&](std::uint32_t v) { return tin.standing.empty() ? std::uint16_t{0} : tin.standing[v]; };
+    const auto corner = [&](std::uint32_t v) { return test::ThemedPoint{tin.vertices[v], theme(v)}; };
+    for (const auto& [a, b, c] : tin.triangles) triangles.push_back({corner(a), corner(b), corner(c)});
     for (std::uint32_t v = 0; v < tin.vertices.size(); ++v) {
       const Point3 p = tin.point(v);
-      const bool within = !tin.standing.empty() && tin.standing[v] != 0;
-      (within ? inner : other).push_back({p.x, p.y});
-      if (!within) outside.emplace(p.x, p.y);
+      (theme(v) != 0 ? inner : other).push_back({p.x, p.y});
     }
   }
   CrossSection along(const Grid& grid, Point2 a, Point2 b) const {
     const SectionLine line(grid, a, b);
-    CrossSection section = test::slow_section(line, triangles, themes);
-    // A vertex on an outline is not within the feature, even if others stand all about it.
-    for (Breakpoint& p : section.breakpoints) {
-      if (outside.contains({p.position.x, p.position.y})) p.theme = 0;
-    }
+    const CrossSection section = test::slow_section(line, triangles);
     return line.is_mirrored() ? mirrored(section) : section;
   }
 
-  std::vector<std::array<GridPoint, 3>> triangles;
-  std::vector<std::uint16_t> themes;
-  std::vector<Point2> inner, other;             ///< vertices of features off their outlines, and the others
-  std::set<std::pair<double, double>> outside;  ///< those others
+  std::vector<test::ThemedTriangle> triangles;
+  std::vector<Point2> inner, other;  ///< vertices of features off their outlines, and the others
 };
 
 TEST_F(RaisedSections, EqualTheWindowsTrianglesCutByTheLine) {
@@ -168,6 +159,28 @@ TEST_F(RaisedSections, AHouseHasItsFootAndItsEavesAtEitherWall) {
   ASSERT_GE(at_eaves.size(), 2u);
   EXPECT_NEAR(at_eaves.front(), 7.05, 1e-9);
   EXPECT_NEAR(at_eaves.back(), 46.95, 1e-9);
+}
+
+// A place on their border is on both outlines, whichever way a line comes there.
+TEST_F(RaisedSections, ABorderOfAHouseAndAWoodIsWithinNeither) {
+  ground(flat);
+  raise(ThemeKind::Vegetation, "woods", {box(300142, 199702, 300182, 199732, 12)});
+  raise(ThemeKind::Buildings, "houses", {box(300102, 199702, 300142, 199732, 9)});
+  const Store store(path("s.itin"));
+  const auto themes_at = [&](Point2 place, Point2 from, Point2 to) {
+    std::vector<int> themes;
+    for (const Breakpoint& p : cross_section(store, from, to, Detail::tolerance(0), ThemeChoice::all()).breakpoints)
+      if (std::hypot(p.position.x - place.x, p.position.y - place.y) < 1e-6) themes.push_back(p.theme);
+    return themes;
+  };
+  const Point2 place{300142, 199715.31};
+  const std::vector<int> neither{0};
+  EXPECT_EQ(themes_at(place, {300120, place.y}, {300160, place.y}), neither) << "across the border";
+  EXPECT_EQ(themes_at(place, {300120, place.y}, place), neither) << "to it";
+  EXPECT_EQ(themes_at(place, place, {300160, place.y}), neither) << "from it";
+  EXPECT_EQ(themes_at(place, {place.x, 199712}, place), neither) << "along it";
+  EXPECT_EQ(themes_at(place, place, {place.x, 199718}), neither) << "along it, onwards";
+  EXPECT_EQ(themes_at(place, place, place), neither) << "at it";
 }
 
 TEST_F(RaisedSections, FeaturesAreKnownByPlace) {

@@ -15,8 +15,8 @@
 namespace itin {
 namespace {
 
-using test::box_ring, test::expect_masked, test::expect_planar, test::heights, test::house, test::kFeatureGrid,
-    test::mask_area, test::meshed, test::reported;
+using test::box_ring, test::expect_masked, test::expect_planar, test::house, test::kFeatureGrid, test::mask_area,
+    test::meshed, test::reported;
 
 /// The surface that a mesh makes by itself: the height above a position, by constrained triangulation of all lines.
 class Surface {
@@ -116,6 +116,20 @@ TEST(FeatureMesh, PutsThePartyWallIntoTheLowerHouse) {
   // The order of the houses does not matter.
   const FeatureMesh turned = meshed({row[1], row[0]});
   EXPECT_EQ(mesh.vertices, turned.vertices);
+}
+
+// The low house's north side is free for four metres, and then the high house stands at it.
+TEST(FeatureMesh, NoStripOfAWallRisesTowardsAHigherNeighbour) {
+  for (const RoofKind roof : {RoofKind::flat, RoofKind::gabled, RoofKind::hipped, RoofKind::skeleton}) {
+    const FeatureMesh mesh =
+        meshed({house("low", {box_ring(0, 0, 10, 10)}, 0, 4, roof), house("high", {box_ring(4, 10, 10, 20)}, 0, 8)});
+    expect_planar(mesh);
+    expect_masked(mesh);
+    const Surface surface(mesh);
+    for (double x = 0.1; x < 3.96; x += 0.05)
+      for (double y = 9.94; y < 10; y += 0.01) ASSERT_LE(surface.at(x, y), 4 + 1e-9) << x << ' ' << y;
+    for (double x = 4.1; x < 9.9; x += 0.05) ASSERT_NEAR(surface.at(x, 10), 8, 1e-9) << x;
+  }
 }
 
 TEST(FeatureMesh, LeavesNoGrooveBetweenEquals) {
