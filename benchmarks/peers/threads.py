@@ -27,21 +27,21 @@ WORKERS = (2, 4, 8, 16, 32)
 
 
 def measure(command, runs):
-    """The medians of one thread and of two, by stage."""
+    """The medians of one thread and of two, by stage: of those that every run has shown."""
     found = ([], [])
     for _ in range(runs):
         for threads in (1, 2):
             questions.clear_results()
             found[threads - 1].append(timed([*command, "--threads", str(threads)]))
-    stages = found[0][0]
-    return [{stage: statistics.median(run.get(stage, 0) for run in of) for stage in stages} for of in found]
+    stages = [stage for stage in found[0][0] if all(stage in run for of in found for run in of)]
+    return [{stage: statistics.median(run[stage] for run in of) for stage in stages} for of in found]
 
 
 def print_measured(name, one, two, least):
     print(f"{name:40} {one['']:8.2f} {two['']:8.2f} s {one[''] / two['']:6.2f}", flush=True)
     for stage in one:
         if stage and one[stage] >= least:
-            print(f"  {stage:38} {one[stage]:8.2f} {two[stage]:8.2f} s {one[stage] / max(two[stage], 1e-3):6.2f}")
+            print(f"  {stage:38} {one[stage]:8.2f} {two[stage]:8.2f} s {one[stage] / two[stage]:6.2f}")
 
 
 def print_scheduled(traced):
