@@ -10,6 +10,7 @@
 #include <itin/import.hpp>
 #include <viewshed/viewshed.hpp>
 
+#include "support/alexandria.hpp"
 #include "support/raster_file.hpp"
 #include "support/temporary_directory.hpp"
 #include "support/terrain_tin.hpp"
@@ -24,8 +25,10 @@ inline constexpr viewshed::Mode kEveryMode[] = {
 class HillsAndTown {
  public:
   std::string file(const std::string& name) const { return directory_.file(name); }
-  std::string hills() const { return imported("hills.itin", import_hills); }
-  std::string town() const { return imported("town.itin", import_town); }
+  std::string hills() const {
+    return imported("hills.itin", [this](const std::string& store) { import_hills(file("hills.tif"), store); });
+  }
+  std::string town() const { return imported("town.itin", import_alexandria); }
 
   /// Observers of all kinds; one looks past the data's edge, and one sees its own neighbourhood alone.
   static viewshed::Request over_hills() {
@@ -65,15 +68,14 @@ class HillsAndTown {
 
  private:
   /// Each store is imported when it is first asked for.
-  std::string imported(const std::string& name, void (*import)(const TemporaryDirectory&, const std::string&)) const {
-    const std::string path = file(name);
-    if (!std::filesystem::exists(path)) import(directory_, path);
+  std::string imported(const std::string& name, const auto& import) const {
+    std::string path = file(name);
+    if (!std::filesystem::exists(path)) import(path);
     return path;
   }
   /// 4 km by 4 km.
-  static void import_hills(const TemporaryDirectory& directory, const std::string& store) {
+  static void import_hills(const std::string& raster, const std::string& store) {
     const std::vector<double> z = fractal_heights(257, 200, 0.55, 11);
-    const std::string raster = directory.file("hills.tif");
     write_raster(raster, {300000, 204000, 20, 200, 200, 27700}, [&](int c, int r) {
       if (std::hypot(c - 60, r - 120) < 12) return std::nan("");
       return z[static_cast<std::size_t>(r) * 257 + static_cast<std::size_t>(c)];
@@ -82,18 +84,6 @@ class HillsAndTown {
     ImportOptions options;
     options.sources = {raster};
     import_terrain(store, options, progress);
-  }
-  static void import_town(const TemporaryDirectory&, const std::string& store) {
-    const std::string data = std::string(ITIN_SOURCE_DIR) + "/scripts/demo-data/";
-    NoProgress progress;
-    ImportOptions terrain;
-    terrain.sources = {data + "alexandria-dtm.tif"};
-    import_terrain(store, terrain, progress);
-    ImportOptions buildings;
-    buildings.sources = {data + "alexandria-buildings.geojson"};
-    buildings.kind = ThemeKind::Buildings;
-    buildings.height_field = "HEIGHT";
-    import_lines(store, buildings, progress);
   }
   static void add_radio(viewshed::Request& request) {
     request.radio.frequency_ghz = 2.5;

@@ -13,6 +13,7 @@
 #include <viewshed/viewshed.hpp>
 
 #include "bounds/surface_heights.hpp"
+#include "support/alexandria.hpp"
 #include "support/delaunay_tin.hpp"
 #include "support/full_detail.hpp"
 #include "support/same_result.hpp"
@@ -153,15 +154,7 @@ TEST_F(Engines, AgreeWithinStepsOfTheEye) {
 class EnginesInTown : public Engines {
  protected:
   EnginesInTown() {
-    const std::string data = std::string(ITIN_SOURCE_DIR) + "/scripts/demo-data/";
-    ImportOptions terrain;
-    terrain.sources = {data + "alexandria-dtm.tif"};
-    import_terrain(path(), terrain, progress_);
-    ImportOptions buildings;
-    buildings.sources = {data + "alexandria-buildings.geojson"};
-    buildings.kind = ThemeKind::Buildings;
-    buildings.height_field = "HEIGHT";
-    import_lines(path(), buildings, progress_);
+    test::import_alexandria(path());
     request_.observers = {{"street", {321800, 4297750}, 2}, {"roof", {321692.34, 4297619.88}, 25}};
     request_.cell_size = 4;
   }

@@ -11,6 +11,7 @@
 #include <viewshed/site_proposal.hpp>
 #include <viewshed/viewshed.hpp>
 
+#include "support/alexandria.hpp"
 #include "support/full_detail.hpp"
 #include "support/raster_file.hpp"
 #include "support/seed.hpp"
@@ -170,7 +171,7 @@ TEST_F(Sites, TooLittleMemoryForWhatIsKnownOfThemIsRefused) {
   make_survey(8);
   survey_.memory_bytes = bytes_of_coverage(survey_);
   try {
-    SiteCoverage(*store_, survey_, progress_);
+    const SiteCoverage coverage(*store_, survey_, progress_);
     FAIL();
   } catch (const InputError& error) {
     EXPECT_NE(std::string(error.what()).find("`memory_bytes`"), std::string::npos) << error.what();
@@ -288,16 +289,8 @@ TEST(LiesIn, PolygonsWithHoles) {
 TEST(SitesInTown, FeaturesOnlyHide) {
   const test::TemporaryDirectory directory;
   NoProgress progress;
-  const std::string path = directory.file("town.itin"), data = std::string(ITIN_SOURCE_DIR) + "/scripts/demo-data/";
-  ImportOptions terrain;
-  terrain.sources = {data + "alexandria-dtm.tif"};
-  import_terrain(path, terrain, progress);
-  ImportOptions buildings;
-  buildings.sources = {data + "alexandria-buildings.geojson"};
-  buildings.kind = ThemeKind::Buildings;
-  buildings.theme = "buildings";
-  buildings.height_field = "HEIGHT";
-  import_lines(path, buildings, progress);
+  const std::string path = directory.file("town.itin");
+  test::import_alexandria(path);
   const Store store(path);
   SiteSurvey survey;
   const std::vector<Point2> positions{{321800, 4297750}, {321700, 4297700}};
