@@ -2,7 +2,7 @@
 //
 //   # a comment
 //   case missing store                  starts a case; each runs in a directory of its own
-//   needs store                         makes hill.itin from hill.asc before (and only if) asked for
+//   needs store                         there is hill.itin, made from hill.asc, which is always there
 //   run itin info none.itin             through sh, with `itin` in the path; several run lines follow one another
 //   status 1                            of the last run; 0 where nothing is said
 //   stdout REGEX, stderr REGEX          searched for in the last run's output; no-stdout, no-stderr: empty

@@ -1,5 +1,6 @@
 // Runs the cases of tests/cli/cases; their form is described in command_case.hpp.
 #include <algorithm>
+#include <memory>
 #include <regex>
 
 #include <gtest/gtest.h>
@@ -12,7 +13,25 @@ namespace itin::test {
 
 namespace {
 
-class CommandLine : public ::testing::TestWithParam<CommandCase> {};
+class CommandLine : public ::testing::TestWithParam<CommandCase> {
+ protected:
+  static void SetUpTestSuite() {
+    hill = std::make_unique<Shell>();
+    write_hill(hill->directory() / "hill.asc");
+    const Outcome made = hill->run("itin import --quiet hill.itin hill.asc");
+    ASSERT_EQ(made.status, 0) << made.err;
+  }
+  static void TearDownTestSuite() { hill.reset(); }
+
+  static void copy_from_hill(const char* file, const Shell& shell) {
+    std::filesystem::copy_file(hill->directory() / file, shell.directory() / file);
+  }
+
+ private:
+  static std::unique_ptr<Shell> hill;  ///< hill.asc with its store, made once for all cases
+};
+
+std::unique_ptr<Shell> CommandLine::hill;
 
 bool found(const std::string& pattern, const std::string& text) {
   return std::regex_search(text, std::regex(pattern, std::regex::ECMAScript | std::regex::multiline));
@@ -42,11 +61,6 @@ std::string complaint(const Expectation& expected, const Outcome& outcome, const
   return exists ? value + " exists" : "";
 }
 
-void make_store(const Shell& shell) {
-  const Outcome made = shell.run("itin import --quiet hill.itin hill.asc");
-  ASSERT_EQ(made.status, 0) << made.err;
-}
-
 /// A sanitizer's own memory lies beyond every limit.
 bool limits_memory(const CommandCase& test) {
   return std::any_of(test.runs.begin(), test.runs.end(), [](const std::string& run) {
@@ -65,8 +79,8 @@ TEST_P(CommandLine, Case) {
   if (kSanitized && limits_memory(test)) GTEST_SKIP() << "a sanitizer takes no limited memory";
   SCOPED_TRACE(test.file + ":" + std::to_string(test.line) + ": " + test.name);
   const Shell shell;
-  write_hill(shell.directory() / "hill.asc");
-  if (test.needs_store) make_store(shell);
+  for (const char* file : {"hill.asc", "hill.prj"}) copy_from_hill(file, shell);
+  if (test.needs_store) copy_from_hill("hill.itin", shell);
 
   Outcome outcome;
   for (const std::string& command : test.runs) outcome = shell.run(command);

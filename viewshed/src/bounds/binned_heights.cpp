@@ -16,7 +16,7 @@ namespace itin::viewshed {
 
 namespace {
 
-constexpr std::size_t kBinsPerChunk = 4096;
+constexpr std::size_t kTrianglesPerChunk = 4096;
 
 /// A bin for every two triangles; or, for cells that are far smaller, a bin for so many of them, as long as triangles
 /// have no more bins than that, and all together no more than take but a moment.
@@ -41,47 +41,6 @@ struct Square {
   double half = 0;
 };
 
-/// A triangle's heights about a square's middle.
-class Facet {
- public:
-  Facet(const std::array<GridPoint, 3>& corners, const Square& square) : half_(square.half) {
-    std::transform(corners.begin(), corners.end(), corners_.begin(), [&](const GridPoint& v) {
-      return Point3{v.x - square.x, v.y - square.y, static_cast<double>(v.z)};
-    });
-    const auto& [a, b, c] = corners_;
-    const double bx = b.x - a.x, by = b.y - a.y, bz = b.z - a.z, cx = c.x - a.x, cy = c.y - a.y, cz = c.z - a.z;
-    doubled_area_ = bx * cy - by * cx;
-    rise_x_ = bz * cy - by * cz, rise_y_ = bx * cz - bz * cx;
-  }
-
-  double doubled_area() const { return doubled_area_; }
-  /// The slopes times the doubled area.
-  double rise_x() const { return rise_x_; }
-  double rise_y() const { return rise_y_; }
-
-  /// Lowest and highest above a plane through the middle, over the square at most; low > high where the triangle only
-  /// nearly meets it.
-  std::pair<double, double> range_above(double plane_x, double plane_y) const {
-    double low = std::numeric_limits<double>::infinity(), high = -low;
-    for (const Point3& p : corners_) {
-      const double above = p.z - plane_x * p.x - plane_y * p.y;
-      low = std::min(low, above), high = std::max(high, above);
-    }
-    if (doubled_area_ == 0) return {low, high};
-    const Point3& a = corners_[0];
-    const double x = rise_x_ / doubled_area_ - plane_x, y = rise_y_ / doubled_area_ - plane_y;
-    // The last term covers the rounding of what stands before it.
-    const double spread =
-        (std::abs(x) + std::abs(y)) * half_ + 1e-12 * (std::abs(x * a.x) + std::abs(y * a.y) + std::abs(high - low));
-    const double middle = a.z - plane_x * a.x - plane_y * a.y - (x * a.x + y * a.y);
-    return {std::max(low, middle - spread), std::min(high, middle + spread)};
-  }
-
- private:
-  std::array<Point3, 3> corners_;
-  double half_, doubled_area_, rise_x_, rise_y_;
-};
-
 /// The cells of a lattice as bins.
 RasterGrid bin_grid(const LatticeTin& lattice) {
   const Point2 corner = lattice.grid.position(lattice.west, lattice.north);
@@ -94,6 +53,48 @@ double greatest_magnitude_of(std::int32_t z, double greatest) {
 }
 
 }  // namespace
+
+/// A triangle's heights about a square's middle.
+class BinnedHeights::Facet {
+ public:
+  Facet(const std::array<GridPoint, 3>& corners, const Square& square) : half_(square.half) {
+    std::transform(corners.begin(), corners.end(), corners_.begin(), [&](const GridPoint& v) {
+      return Point3{v.x - square.x, v.y - square.y, static_cast<double>(v.z)};
+    });
+    const auto& [a, b, c] = corners_;
+    const double bx = b.x - a.x, by = b.y - a.y, bz = b.z - a.z, cx = c.x - a.x, cy = c.y - a.y, cz = c.z - a.z;
+    doubled_area_ = bx * cy - by * cx;
+    rise_x_ = bz * cy - by * cz, rise_y_ = bx * cz - bz * cx;
+    if (doubled_area_ != 0) slope_x_ = rise_x_ / doubled_area_, slope_y_ = rise_y_ / doubled_area_;
+  }
+
+  double doubled_area() const { return doubled_area_; }
+  /// The slopes times the doubled area.
+  double rise_x() const { return rise_x_; }
+  double rise_y() const { return rise_y_; }
+
+  struct Range {
+    double low, high;  ///< low > high where the triangle only nearly meets the square
+  };
+  /// Lowest and highest above a plane through the middle, over the square at most.
+  Range range_above(double plane_x, double plane_y) const {
+    const auto above = [&](const Point3& p) { return p.z - plane_x * p.x - plane_y * p.y; };
+    const double a = above(corners_[0]), b = above(corners_[1]), c = above(corners_[2]);
+    const double low = std::min(std::min(a, b), c), high = std::max(std::max(a, b), c);
+    if (doubled_area_ == 0) return {low, high};
+    const double x = slope_x_ - plane_x, y = slope_y_ - plane_y;
+    const double to_east = x * corners_[0].x, to_north = y * corners_[0].y;
+    // The last term covers the rounding of what stands before it.
+    const double spread =
+        (std::abs(x) + std::abs(y)) * half_ + 1e-12 * (std::abs(to_east) + std::abs(to_north) + std::abs(high - low));
+    const double middle = a - (to_east + to_north);
+    return {std::max(low, middle - spread), std::min(high, middle + spread)};
+  }
+
+ private:
+  std::array<Point3, 3> corners_;
+  double half_, doubled_area_, rise_x_, rise_y_, slope_x_ = 0, slope_y_ = 0;
+};
 
 BinnedHeights::BinnedHeights(const Tin& tin, double cell_area) : BinnedHeights(tin, lattice_of(tin), cell_area) {}
 
@@ -166,29 +167,39 @@ void BinnedHeights::bound_tile(std::uint32_t tile) {
 
 void BinnedHeights::bound_tin() {
   const Tin& tin = *tin_;
-  listed_.emplace(Listed{TriangleBins(tin, grid_), {}, {}});
-  listed_->upper_planes.resize(grid_.cell_count(), {-kFloatInfinity, 0, 0});
-  for (std::uint32_t t = 0; t < tin.triangles.size(); ++t) {
-    const auto [a, b, c] = tin.corners(t);
-    listed_->tops.push_back(std::max({a.z, b.z, c.z}));
-  }
-  for (const GridPoint& v : tin.vertices) greatest_magnitude_ = greatest_magnitude_of(v.z, greatest_magnitude_);
-  std::vector<Range> ranges(grid_.cell_count());
-  parallel_for(static_cast<std::size_t>(rows()), [&](std::size_t r) {
-    for (std::int64_t c = 0; c < columns(); ++c) {
-      const RasterGrid::Cell bin{c, static_cast<std::int64_t>(r)};
-      ranges[grid_.index(bin)] = bound_bin(bin);
-    }
-  });
+  // First, while the bins take no memory yet.
   const std::vector<BoundaryEdge> boundary = boundary_edges(tin);
   rim_ = rim_of(tin, boundary);
-  forget_depth_at_boundary(boundary, ranges);
+  std::vector<bool> at_boundary(tin.triangles.size());
+  for (const BoundaryEdge& edge : boundary) at_boundary[edge.triangle] = true;
+  for (const GridPoint& v : tin.vertices) greatest_magnitude_ = greatest_magnitude_of(v.z, greatest_magnitude_);
+  listed_.emplace(Listed{TriangleBins(tin, grid_), {}, {}});
+  listed_->tops.resize(tin.triangles.size());
+  parallel_for(tin.triangles.size() / kTrianglesPerChunk + 1, [&](std::size_t chunk) {
+    const std::size_t end = std::min((chunk + 1) * kTrianglesPerChunk, tin.triangles.size());
+    for (std::size_t t = chunk * kTrianglesPerChunk; t < end; ++t) {
+      const auto [a, b, c] = tin.corners(static_cast<std::uint32_t>(t));
+      listed_->tops[t] = std::max({a.z, b.z, c.z});
+    }
+  });
+  listed_->upper_planes.resize(grid_.cell_count(), {-kFloatInfinity, 0, 0});
+  std::vector<Range> ranges(grid_.cell_count());
+  parallel_for(static_cast<std::size_t>(rows()), [&](std::size_t r) {
+    std::vector<Facet> facets;
+    for (std::int64_t c = 0; c < columns(); ++c) {
+      const RasterGrid::Cell bin{c, static_cast<std::int64_t>(r)};
+      ranges[grid_.index(bin)] = bound_bin(bin, at_boundary, facets);
+    }
+  });
   const auto range_of = [&](std::int64_t column, std::int64_t row) { return ranges[grid_.index({column, row})]; };
   const auto same = [](float z) { return z; };
   parallel_for(runs_.tile_count(), [&](std::size_t tile) { runs_.bound<float>(tile, range_of, same, same); });
 }
 
-BinnedHeights::Range BinnedHeights::bound_bin(RasterGrid::Cell bin) {
+/// A bin that a triangle meets and no boundary crosses is covered throughout; elsewhere nothing is known of how low the
+/// ground is. `facets` is working memory.
+BinnedHeights::Range BinnedHeights::bound_bin(RasterGrid::Cell bin, const std::vector<bool>& at_boundary,
+                                              std::vector<Facet>& facets) {
   const std::size_t number = grid_.index(bin);
   const auto listed = listed_->bins.triangles(number);
   if (listed.empty()) return {-kFloatInfinity, -kFloatInfinity};
@@ -196,36 +207,23 @@ BinnedHeights::Range BinnedHeights::bound_bin(RasterGrid::Cell bin) {
   const Square square{(middle.x - units_.origin.x) / units_.resolution,
                       (middle.y - units_.origin.y) / units_.resolution, bin_size() * (0.5 + 2 * kSlack)};
   double low = kFloatInfinity, high = -kFloatInfinity, area = 0, rise_x = 0, rise_y = 0;
+  bool covered = true;
+  facets.clear();
   for (const std::uint32_t t : listed) {
-    const Facet facet(tin_->corners(t), square);
-    const auto [lowest, highest] = facet.range_above(0, 0);
-    low = std::min(low, lowest), high = std::max(high, highest);
+    const Facet& facet = facets.emplace_back(tin_->corners(t), square);
+    const Facet::Range range = facet.range_above(0, 0);
+    low = std::min(low, range.low), high = std::max(high, range.high);
     area += facet.doubled_area(), rise_x += facet.rise_x(), rise_y += facet.rise_y();
+    covered = covered && !at_boundary[t];
   }
   // Sloping as the triangles do on average; rows count southwards.
   const auto per_column = static_cast<float>(area > 0 ? rise_x / area * bin_size() : 0),
              per_row = static_cast<float>(area > 0 ? -rise_y / area * bin_size() : 0);
   const double slope_x = per_column / bin_size(), slope_y = -per_row / bin_size();
   double above = -kFloatInfinity;
-  for (const std::uint32_t t : listed)
-    above = std::max(above, Facet(tin_->corners(t), square).range_above(slope_x, slope_y).second);
+  for (const Facet& facet : facets) above = std::max(above, facet.range_above(slope_x, slope_y).high);
   listed_->upper_planes[number] = {rounded_up(above), per_column, per_row};
-  return {rounded_down(low), rounded_up(high)};
-}
-
-/// A bin that a triangle meets and no boundary crosses is covered throughout; elsewhere nothing is known of how low the
-/// ground is.
-void BinnedHeights::forget_depth_at_boundary(const std::vector<BoundaryEdge>& boundary,
-                                             std::vector<Range>& ranges) const {
-  std::vector<bool> at_boundary(tin_->triangles.size());
-  for (const BoundaryEdge& edge : boundary) at_boundary[edge.triangle] = true;
-  parallel_for(ranges.size() / kBinsPerChunk + 1, [&](std::size_t chunk) {
-    for (std::size_t bin = chunk * kBinsPerChunk; bin < std::min((chunk + 1) * kBinsPerChunk, ranges.size()); ++bin) {
-      const auto listed = listed_->bins.triangles(bin);
-      if (std::any_of(listed.begin(), listed.end(), [&](std::uint32_t t) { return at_boundary[t]; }))
-        ranges[bin].low = -kFloatInfinity;
-    }
-  });
+  return {covered ? rounded_down(low) : -kFloatInfinity, rounded_up(high)};
 }
 
 std::optional<double> BinnedHeights::height_at(Point2 units) const {

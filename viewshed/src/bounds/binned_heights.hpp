@@ -97,8 +97,9 @@ class BinnedHeights : public BinBounds {
   std::optional<double> height_amid_square(double column, double row, Point2 units) const;
   bool unread_at(RasterGrid::Cell bin, Point2 units) const;
   void bound_tin();
-  Range bound_bin(RasterGrid::Cell bin);
-  void forget_depth_at_boundary(const std::vector<BoundaryEdge>& boundary, std::vector<Range>& ranges) const;
+  class Facet;
+  Range bound_bin(RasterGrid::Cell bin, const std::vector<bool>& at_boundary, std::vector<Facet>& facets);
+
   const Tin* tin_ = nullptr;
   std::optional<LatticeTin> own_;        ///< made of the Tin
   const LatticeTin* lattice_ = nullptr;  ///< else it is the Tin

@@ -52,7 +52,7 @@ void EnvelopeBounds::bound(const Tin& lower, const Tin& upper) {
 }
 
 void EnvelopeBounds::bound_triangle(const Tin& lower, const Tin& upper, std::uint32_t triangle, const Bins& within) {
-  const TriangleInBins in_bins(lower, lower.triangles[triangle], grid_, slack());
+  const TriangleInBins in_bins(VerticesInBins(lower, grid_), lower.triangles[triangle], slack());
   const double half = bin_size() / 2 + kStepsBeside;
   const TriangleSlope low(lower, triangle, half), high(upper, triangle, half);
   for (std::int64_t row = std::max(in_bins.box().north, within.north);
@@ -71,8 +71,9 @@ void EnvelopeBounds::bound_triangle(const Tin& lower, const Tin& upper, std::uin
 /// A bin that a triangle meets and the outline does not is covered throughout; elsewhere nothing is known of how low
 /// the ground is. What has been rounded to the nearest float before is rounded outwards now.
 void EnvelopeBounds::settle(const Tin& tin, const std::vector<BoundaryEdge>& outline) {
+  const VerticesInBins vertices(tin, grid_);
   for (const BoundaryEdge& edge : outline) {
-    const TriangleInBins in_bins(tin, {edge.from, edge.to, edge.to}, grid_, slack());
+    const TriangleInBins in_bins(vertices, {edge.from, edge.to, edge.to}, slack());
     for (std::int64_t row = in_bins.box().north; row <= in_bins.box().south; ++row) {
       const auto [first, last] = in_bins.columns_in(row);
       for (std::int64_t column = first; column <= last; ++column) low_[grid_.index({column, row})] = -kFloatInfinity;

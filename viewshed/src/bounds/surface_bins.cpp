@@ -25,7 +25,7 @@ constexpr SurfaceBins::Range kBounded{kFloatInfinity, -kFloatInfinity};
 template <class Visit>
 void for_each_bin_under(const Tin& tin, std::uint32_t triangle, const RasterGrid& bins, const BinRange& within,
                         const Visit& visit) {
-  const TriangleInBins in_bins(tin, tin.triangles[triangle], bins);
+  const TriangleInBins in_bins(VerticesInBins(tin, bins), tin.triangles[triangle]);
   const Grid& units = tin.grid;
   const TriangleSlope slope(tin, triangle, bins.cell_width() / units.resolution / 2);
   for (std::int64_t row = std::max(in_bins.box().north, within.north);
@@ -89,8 +89,9 @@ void SurfaceBins::bound(const Tin& surface, std::span<const std::uint32_t> trian
 /// the ground is.
 void SurfaceBins::forget_depth_along(const std::vector<BoundaryEdge>& outline, const Tin& surface,
                                      const CellRectangle& bins) {
+  const VerticesInBins vertices(surface, grid_);
   for (const BoundaryEdge& edge : outline) {
-    const TriangleInBins in_bins(surface, {edge.from, edge.to, edge.to}, grid_);
+    const TriangleInBins in_bins(vertices, {edge.from, edge.to, edge.to});
     const std::int64_t end = std::min(in_bins.box().south + 1, bins.row + bins.rows);
     for (std::int64_t row = std::max(in_bins.box().north, bins.row); row < end; ++row) {
       const auto [first, last] = in_bins.columns_in(row);

@@ -26,8 +26,9 @@ RasterGrid location_grid(const Tin& tin) {
 
 TriangleBins::TriangleBins(const Tin& tin, const RasterGrid& grid) {
   const std::size_t count = tin.triangles.size(), bins = grid.cell_count();
+  const VerticesInBins vertices(tin, grid);
   const auto for_each_bin = [&](std::size_t t, const auto& visit) {
-    const TriangleInBins triangle(tin, tin.triangles[t], grid);
+    const TriangleInBins triangle(vertices, tin.triangles[t]);
     const BinRange& box = triangle.box();
     for (std::int64_t row = box.north; row <= box.south; ++row) {
       auto [west, east] = std::pair{box.west, box.east};

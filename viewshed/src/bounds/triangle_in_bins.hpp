@@ -1,6 +1,7 @@
 // The squares of a grid that a triangle meets, or nearly meets.
 //
-//   const TriangleInBins triangle(tin, tin.triangles[t], grid);
+//   const VerticesInBins vertices(tin, grid);
+//   const TriangleInBins triangle(vertices, tin.triangles[t]);
 //   for (std::int64_t row = triangle.box().north; row <= triangle.box().south; ++row) {
 //     const auto [west, east] = triangle.columns_in(row);
 //     ...
@@ -9,7 +10,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <utility>
@@ -23,23 +23,42 @@ struct BinRange {
   std::int64_t west, east, north, south;  ///< inclusive; empty when west > east or north > south
 };
 
+/// Where a surface's vertices lie in a grid, which must both outlive it: columns and rows from the grid's north-west
+/// corner, give or take some 1e-9.
+class VerticesInBins {
+ public:
+  VerticesInBins(const Tin& tin, const RasterGrid& grid)
+      : tin_(tin),
+        columns_(grid.columns()),
+        rows_(grid.rows()),
+        west_(grid.column_at(tin.grid.origin.x)),
+        north_(grid.row_at(tin.grid.origin.y)),
+        columns_per_unit_(tin.grid.resolution / grid.cell_width()),
+        rows_per_unit_(tin.grid.resolution / grid.cell_height()) {}
+
+  Point2 operator[](std::uint32_t vertex) const {
+    const GridPoint& v = tin_.vertices[vertex];
+    return {west_ + v.x * columns_per_unit_, north_ - v.y * rows_per_unit_};
+  }
+  std::int64_t columns() const { return columns_; }
+  std::int64_t rows() const { return rows_; }
+
+ private:
+  const Tin& tin_;
+  std::int64_t columns_, rows_;
+  double west_, north_, columns_per_unit_, rows_per_unit_;
+};
+
 class TriangleInBins {
  public:
   /// Nearly: `slack` bins away, by default no more than rounding.
-  TriangleInBins(const Tin& tin, const Triangle& t, const RasterGrid& grid, double slack = 1e-6)
-      : columns_(grid.columns()), slack_(slack) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Point3 p = tin.point(t[i]);
-      corners_[i] = {grid.column_at(p.x), grid.row_at(p.y)};
-    }
-    const auto [north, south] =
-        std::minmax_element(corners_.begin(), corners_.end(), [](Point2 a, Point2 b) { return a.y < b.y; });
-    const auto [west, east] =
-        std::minmax_element(corners_.begin(), corners_.end(), [](Point2 a, Point2 b) { return a.x < b.x; });
-    box_ = {bin(west->x - slack_, columns_), bin(east->x + slack_, columns_), bin(north->y - slack_, grid.rows()),
-            bin(south->y + slack_, grid.rows())};
-    box_.west = std::max<std::int64_t>(0, box_.west), box_.east = std::min(box_.east, columns_ - 1);
-    box_.north = std::max<std::int64_t>(0, box_.north), box_.south = std::min(box_.south, grid.rows() - 1);
+  TriangleInBins(const VerticesInBins& vertices, const Triangle& t, double slack = 1e-6)
+      : corners_{vertices[t[0]], vertices[t[1]], vertices[t[2]]}, columns_(vertices.columns()), slack_(slack) {
+    const auto& [a, b, c] = corners_;
+    box_ = {std::max<std::int64_t>(0, bin(std::min({a.x, b.x, c.x}) - slack_, columns_)),
+            std::min(bin(std::max({a.x, b.x, c.x}) + slack_, columns_), columns_ - 1),
+            std::max<std::int64_t>(0, bin(std::min({a.y, b.y, c.y}) - slack_, vertices.rows())),
+            std::min(bin(std::max({a.y, b.y, c.y}) + slack_, vertices.rows()), vertices.rows() - 1)};
   }
 
   const BinRange& box() const { return box_; }
@@ -61,8 +80,11 @@ class TriangleInBins {
   }
 
  private:
+  /// Rounds down, without a call of std::floor().
   static std::int64_t bin(double v, std::int64_t count) {
-    return static_cast<std::int64_t>(std::clamp(std::floor(v), -1.0, static_cast<double>(count)));
+    const double clamped = std::clamp(v, -1.0, static_cast<double>(count));
+    const auto whole = static_cast<std::int64_t>(clamped);
+    return whole - (clamped < static_cast<double>(whole) ? 1 : 0);
   }
 
   std::array<Point2, 3> corners_;
