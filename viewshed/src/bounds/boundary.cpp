@@ -3,14 +3,55 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
+#include <span>
 
-#include <itin/topology.hpp>
+#include <itin/parallel.hpp>
 
 #include "line/hulls.hpp"
 
 namespace itin::viewshed {
 
 namespace {
+
+constexpr std::size_t kVerticesPerChunk = 1 << 12;
+
+/// The side of each triangle opposite its least corner, by the side's lesser end: the triangles with one at a vertex.
+/// Sides at the least corner need no list, since triangles come in the order of that corner.
+class OppositeSides {
+ public:
+  explicit OppositeSides(const Tin& tin) : first_(tin.vertices.size() + 1), triangles_(tin.triangles.size()) {
+    const auto lesser_end = [](const Triangle& t) { return std::min(t[1], t[2]); };
+    for (const Triangle& t : tin.triangles) ++first_[lesser_end(t)];
+    std::partial_sum(first_.begin(), first_.end(), first_.begin());
+    for (std::size_t t = tin.triangles.size(); t-- > 0;)
+      triangles_[--first_[lesser_end(tin.triangles[t])]] = static_cast<std::uint32_t>(t);
+  }
+
+  std::span<const std::uint32_t> from(std::uint32_t vertex) const {
+    return std::span(triangles_).subspan(first_[vertex], first_[vertex + 1] - first_[vertex]);
+  }
+
+ private:
+  std::vector<std::uint32_t> first_;  ///< of vertex v: [first_[v], first_[v + 1])
+  std::vector<std::uint32_t> triangles_;
+};
+
+/// A side of a triangle from a vertex.
+struct Side {
+  std::uint32_t other_end;
+  std::size_t half_edge;  ///< 3 t + i: from corner i of triangle t
+};
+
+/// Adds those of a vertex's sides that no other triangle has. Orders `sides`.
+void add_unpaired(std::vector<Side>& sides, std::vector<std::size_t>& unpaired) {
+  std::ranges::sort(sides, {}, &Side::other_end);
+  for (std::size_t i = 0; i < sides.size(); ++i) {
+    const bool paired = i + 1 < sides.size() && sides[i].other_end == sides[i + 1].other_end;
+    if (!paired) unpaired.push_back(sides[i].half_edge);
+    if (paired) ++i;
+  }
+}
 
 double distance_to_segment(Point2 p, Point2 a, Point2 b) {
   const double dx = b.x - a.x, dy = b.y - a.y;
@@ -31,13 +72,36 @@ bool meets_segment(const std::vector<Point2>& hull, Point2 a, Point2 b) {
 }  // namespace
 
 std::vector<BoundaryEdge> boundary_edges(const Tin& tin) {
-  std::vector<BoundaryEdge> edges;
-  const auto adjacent = adjacent_triangles(tin);
-  for (std::size_t t = 0; t < adjacent.size(); ++t) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      if (adjacent[t][i] == kNoNeighbour)
-        edges.push_back({tin.triangles[t][i], tin.triangles[t][(i + 1) % 3], static_cast<std::uint32_t>(t)});
+  const OppositeSides opposite(tin);
+  std::vector<std::vector<std::size_t>> alone((tin.vertices.size() + kVerticesPerChunk - 1) / kVerticesPerChunk);
+  parallel_for(alone.size(), [&](std::size_t chunk) {
+    const auto begin = static_cast<std::uint32_t>(chunk * kVerticesPerChunk);
+    const auto end = static_cast<std::uint32_t>(std::min(tin.vertices.size(), (chunk + 1) * kVerticesPerChunk));
+    auto t = static_cast<std::size_t>(
+        std::ranges::lower_bound(tin.triangles, begin, {}, [](const Triangle& of) { return of[0]; }) -
+        tin.triangles.begin());
+    std::vector<Side> sides;
+    for (std::uint32_t vertex = begin; vertex < end; ++vertex) {
+      sides.clear();
+      for (; t < tin.triangles.size() && tin.triangles[t][0] == vertex; ++t) {
+        sides.push_back({tin.triangles[t][1], 3 * t});
+        sides.push_back({tin.triangles[t][2], 3 * t + 2});
+      }
+      for (const std::uint32_t of : opposite.from(vertex)) {
+        const auto& [least, b, c] = tin.triangles[of];
+        sides.push_back({std::max(b, c), std::size_t{3} * of + 1});
+      }
+      add_unpaired(sides, alone[chunk]);
     }
+  });
+  std::vector<std::size_t> half_edges;
+  for (const auto& of_chunk : alone) half_edges.insert(half_edges.end(), of_chunk.begin(), of_chunk.end());
+  std::sort(half_edges.begin(), half_edges.end());
+  std::vector<BoundaryEdge> edges;
+  edges.reserve(half_edges.size());
+  for (const std::size_t h : half_edges) {
+    const Triangle& t = tin.triangles[h / 3];
+    edges.push_back({t[h % 3], t[(h + 1) % 3], static_cast<std::uint32_t>(h / 3)});
   }
   return edges;
 }
