@@ -5,15 +5,11 @@
 #include <cmath>
 #include <numeric>
 
+#include <itin/box_of.hpp>
+
+#include "geometry/predicates.hpp"
+
 namespace itin {
-
-namespace {
-
-bool same_place(const GridPoint& a, const GridPoint& b) {
-  return a.x == b.x && a.y == b.y;
-}
-
-}  // namespace
 
 SectionTile::SectionTile(const GridBox& square, const RegionMesh& region) : square_(square) {
   const auto count = static_cast<std::uint32_t>(region.mesh.triangles.size());
@@ -59,9 +55,7 @@ std::uint32_t SectionTile::row(std::int32_t y) const {
 }
 
 GridBox SectionTile::box_of(std::uint32_t triangle) const {
-  GridBox box;
-  for (std::size_t i = 0; i < 3; ++i) box.extend(corner(triangle, i).x, corner(triangle, i).y);
-  return box;
+  return itin::box_of(std::array{corner(triangle, 0), corner(triangle, 1), corner(triangle, 2)});
 }
 
 template <typename Visit>
@@ -79,7 +73,7 @@ std::span<const std::uint32_t> SectionTile::in_bin(std::size_t bin) const {
 SectionTile::Stop SectionTile::ahead(const CrossedEdge& edge, Position place) const {
   for (const std::uint32_t t : in_bin(std::size_t{row(place.y)} * columns_ + column(place.x))) {
     for (std::uint32_t i = 0; i < 3; ++i) {
-      if (same_place(corner(t, i), edge.left) && same_place(corner(t, (i + 1) % 3), edge.right))
+      if (same_position(corner(t, i), edge.left) && same_position(corner(t, (i + 1) % 3), edge.right))
         return {t, (i + 2) % 3};
     }
   }

@@ -65,10 +65,6 @@ std::vector<Way> ways(const std::vector<RoofLine>& lines, std::vector<Position> 
   return result;
 }
 
-bool same_place(const GridPoint& a, const GridPoint& b) {
-  return a.x == b.x && a.y == b.y;
-}
-
 }  // namespace
 
 std::vector<WayAcross> ways_across(const std::vector<RoofLine>& lines, std::vector<Position> places, double offset) {
@@ -86,7 +82,7 @@ void split_abreast(std::vector<RoofLine>& lines, std::vector<Position> places, d
     // What is left of a line stays in its place.
     RoofLine& rest = lines[way.end.line];
     const GridPoint& vertex = way.end.at;
-    if (same_place(rest.a, vertex) || same_place(rest.b, vertex)) continue;
+    if (same_position(rest.a, vertex) || same_position(rest.b, vertex)) continue;
     const RoofLine before{rest.a, vertex, true};
     rest.a = vertex;
     lines.push_back(before);

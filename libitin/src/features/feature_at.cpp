@@ -70,7 +70,7 @@ double distance_to(const FootprintFeature& feature, Point2 place) {
   return distance;
 }
 
-Box box_of(const FootprintFeature& feature) {
+Box extent_of(const FootprintFeature& feature) {
   Box box;
   for (const PlanRing& ring : feature.rings)
     for (const Point2& p : ring) box.extend(p);
@@ -110,7 +110,7 @@ std::vector<std::optional<FeatureAt>> features_at(const Store& store, std::uint1
   const std::uint32_t blocks = store.metadata().themes[theme - std::size_t{1}].footprint_blocks;
   for (std::uint32_t block = 0; block < blocks; ++block) {
     for (const StoredFootprint& footprint : stored_footprints(store, theme, block)) {
-      const Box box = box_of(footprint.feature);
+      const Box box = extent_of(footprint.feature);
       auto i = std::lower_bound(order.begin(), order.end(), box.xmin - kNear,
                                 [&](std::size_t place, double x) { return places[place].x < x; });
       for (; i != order.end() && places[*i].x <= box.xmax + kNear; ++i) {

@@ -20,12 +20,6 @@ GridBox about(const GridBox& box) {
   return {box.xmin - 1, box.ymin - 1, box.xmax + 1, box.ymax + 1};
 }
 
-GridBox box_of(const TerrainHeights& terrain, std::uint32_t triangle) {
-  GridBox box;
-  for (const std::uint32_t v : terrain.triangle(triangle)) box.extend(terrain.vertex(v).x, terrain.vertex(v).y);
-  return box;
-}
-
 }  // namespace
 
 std::optional<std::int32_t> FoundationReaches::height_of_vertex(Position p) const {
@@ -56,9 +50,8 @@ FeatureReach FoundationReaches::of(std::size_t mask) const {
   if (!founded(features_[mesh_.masks[mask].feature]) && deepest <= kHeightMargin) return reach;
   for_each_edge(polygon, [&](Position a, Position b) {
     for (const std::uint32_t t : terrain_.triangles_along(a, b, kFootReach)) {
-      const GridBox box = box_of(terrain_, t);
-      reach.box.extend(box.xmin, box.ymin);
-      reach.box.extend(box.xmax, box.ymax);
+      const GridBox box = terrain_.box_of_triangle(t);
+      reach.box.extend(box);
     }
   });
   reach.box = about(reach.box);

@@ -5,6 +5,8 @@
 #include <map>
 #include <unordered_map>
 
+#include <itin/box_of.hpp>
+
 #include "features/hot_pixel.hpp"
 #include "geometry/morton_range.hpp"
 #include "triangulate/apex.hpp"
@@ -13,14 +15,8 @@ namespace itin {
 
 namespace {
 
-Position position_of(std::uint64_t code) {
-  return {morton_x(code), morton_y(code)};
-}
-
-GridBox box_of(const std::vector<Position>& vertices, std::size_t from, std::size_t to) {
-  GridBox box;
-  for (std::size_t i = from; i <= to; ++i) box.extend(vertices[i].x, vertices[i].y);
-  return box;
+GridBox box_of_piece(std::span<const Position> vertices, std::size_t from, std::size_t to) {
+  return box_of(vertices.subspan(from, to - from + 1));
 }
 
 /// Whether p lies in the closed polygon of the chain's piece and its shortcut, which is simple.
@@ -215,7 +211,7 @@ bool LineHierarchy::may_replace(const Chain& chain, std::size_t from, std::size_
   std::vector<std::uint64_t> own;
   for (std::size_t i = from; i <= to; ++i) own.push_back(code_of(v[i]));
   std::sort(own.begin(), own.end());
-  const GridBox box = box_of(v, from, to);
+  const GridBox box = box_of_piece(v, from, to);
   const MortonRange range(box);
   for (auto at = obstacles_.begin();;) {
     const std::optional<std::uint64_t> code = range.next(at == obstacles_.end() ? ~std::uint64_t{0} >> 4 : *at);
@@ -245,7 +241,7 @@ void LineHierarchy::for_each_edge(const Chain& chain, const Visit& visit) const 
     for (std::size_t to = 1; to < chain.vertices.size(); ++to) {
       if (chain.levels[to] < k) continue;
       const bool same = k > 0 && below.at(from).to == to;
-      Edge edge{to, box_of({chain.vertices[from], chain.vertices[to]}, 0, 1)};
+      Edge edge{to, box_of(std::array{chain.vertices[from], chain.vertices[to]})};
       if (same) {
         edge = below.at(from);
       } else {
@@ -257,7 +253,7 @@ void LineHierarchy::for_each_edge(const Chain& chain, const Visit& visit) const 
               edge.extent);
       }
       // Widened alike on all sides, so that what it stands for stays within when it is read again.
-      const GridBox plain = box_of({chain.vertices[from], chain.vertices[to]}, 0, 1);
+      const GridBox plain = box_of(std::array{chain.vertices[from], chain.vertices[to]});
       const std::int32_t reach = std::max({plain.xmin - edge.extent.xmin, edge.extent.xmax - plain.xmax,
                                            plain.ymin - edge.extent.ymin, edge.extent.ymax - plain.ymax});
       edge.extent = {plain.xmin - reach, plain.ymin - reach, plain.xmax + reach, plain.ymax + reach};
@@ -319,11 +315,11 @@ std::vector<LineHierarchy::VertexLevel> LineHierarchy::levels() const {
 bool LineHierarchy::restore(const GridBox& box, int level) {
   bool any = false;
   for (Chain& chain : chains_) {
-    if (!box_of(chain.vertices, 0, chain.vertices.size() - 1).meets(box)) continue;
+    if (!box_of(chain.vertices).meets(box)) continue;
     std::size_t from = 0;
     for (std::size_t to = 1; to < chain.vertices.size(); ++to) {
       if (chain.levels[to] < level) continue;
-      if (to > from + 1 && box_of(chain.vertices, from, to).meets(box)) {
+      if (to > from + 1 && box_of_piece(chain.vertices, from, to).meets(box)) {
         for (std::size_t i = from + 1; i < to; ++i) chain.levels[i] = static_cast<std::uint8_t>(level);
         any = true;
       }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <itin/box_of.hpp>
+
 namespace itin {
 
 namespace {
@@ -12,9 +14,7 @@ constexpr std::int64_t kOffset = std::int64_t{1} << 30;
 }  // namespace
 
 GridBox box_about(const GridPolygon& polygon) {
-  GridBox box;
-  for (const Position& p : polygon.outline) box.extend(p.x, p.y);
-  return box;
+  return box_of(polygon.outline);
 }
 
 MaskIndex::MaskIndex(std::span<const GridPolygon> polygons) {

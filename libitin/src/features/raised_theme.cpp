@@ -38,7 +38,7 @@ constexpr std::uint64_t kBytesPerPoint = 400;
 /// The most points of ground that are triangulated at once, for several groups of features.
 constexpr std::uint64_t kMostPoints = 500'000;
 
-GridBox box_of(const FootprintFeature& feature, const Grid& grid) {
+GridBox box_on_grid(const FootprintFeature& feature, const Grid& grid) {
   GridBox box;
   const auto extend = [&](double x, double y) {
     if (!std::isfinite(x) || !std::isfinite(y) || !grid.covers({x, y})) return;
@@ -154,7 +154,7 @@ class Standing {
   std::map<std::pair<std::int64_t, std::int64_t>, Groups> cut_into_pieces() const {
     std::vector<GridBox> boxes;
     for (const StoredFootprint& f : footprints_) {
-      const GridBox box = box_of(f.feature, grid_);
+      const GridBox box = box_on_grid(f.feature, grid_);
       boxes.push_back(box.empty() ? GridBox{0, 0, 0, 0} : widened(box, 2));
     }
     const double side = kPiece / grid_.resolution;

@@ -6,18 +6,14 @@
 #include <limits>
 #include <utility>
 
+#include <itin/box_of.hpp>
+
 #include "base/stoppable.hpp"
 #include "features/mask_index.hpp"
 
 namespace itin {
 
 namespace {
-
-GridBox box_of(const GridPoint& a, const GridPoint& b, const GridPoint& c) {
-  GridBox box;
-  for (const GridPoint* p : {&a, &b, &c}) box.extend(p->x, p->y);
-  return box;
-}
 
 /// The height at (x, y) of the plane through a triangle, grid units.
 double plane_height(const GridPoint& a, const GridPoint& b, const GridPoint& c, double x, double y) {
@@ -74,13 +70,11 @@ struct TerrainHeights::Extremes {
 
 GridBox bounds_of(const GridPolygons& polygons) {
   GridBox box;
-  for (const GridPolygon& polygon : polygons)
-    for (const Position& p : polygon.outline) box.extend(p.x, p.y);
+  for (const GridPolygon& polygon : polygons) box.extend(box_of(polygon.outline));
   return box;
 }
 
-TerrainHeights::TerrainHeights(const Tin& tin) : tin_(&tin) {
-  for (const GridPoint& v : tin.vertices) bounds_.extend(v.x, v.y);
+TerrainHeights::TerrainHeights(const Tin& tin) : tin_(&tin), bounds_(box_of(tin.vertices)) {
   if (tin.triangles.empty() || bounds_.empty()) return;
   const double width = double{1} * bounds_.xmax - bounds_.xmin, height = double{1} * bounds_.ymax - bounds_.ymin;
   const double side = std::sqrt(2 * width * height / static_cast<double>(tin.triangles.size()));
@@ -102,8 +96,7 @@ GridBox TerrainHeights::bucket_range(const GridBox& box) const {
 
 void TerrainHeights::fill_buckets() {
   const auto for_each_bucket = [&](std::uint32_t t, const auto& visit) {
-    const Triangle& v = tin_->triangles[t];
-    const GridBox range = bucket_range(box_of(vertex(v[0]), vertex(v[1]), vertex(v[2])));
+    const GridBox range = bucket_range(box_of_triangle(t));
     for (std::int32_t r = range.ymin; r <= range.ymax; ++r)
       for (std::int32_t c = range.xmin; c <= range.xmax; ++c) visit(static_cast<std::size_t>(r) * columns_ + c);
   };
@@ -124,8 +117,7 @@ std::vector<std::uint32_t> TerrainHeights::triangles_near(const GridBox& box) co
     for (std::int32_t c = range.xmin; c <= range.xmax; ++c) {
       const std::size_t i = static_cast<std::size_t>(r) * columns_ + c;
       for (std::uint32_t k = first_[i]; k < first_[i + 1]; ++k) {
-        const Triangle& v = tin_->triangles[triangles_[k]];
-        const GridBox own = box_of(vertex(v[0]), vertex(v[1]), vertex(v[2]));
+        const GridBox own = box_of_triangle(triangles_[k]);
         if (!box.meets(own)) continue;
         // A triangle counts in the first of the buckets that list it.
         const GridBox all = bucket_range(own);
@@ -295,8 +287,7 @@ class TerrainHeights::FootprintIntegral {
     if (clipped.empty()) return;
     std::vector<std::uint32_t> met;
     for (const std::uint32_t t : triangles) {
-      const Triangle& v = terrain_.triangle(t);
-      if (box_of(terrain_.vertex(v[0]), terrain_.vertex(v[1]), terrain_.vertex(v[2])).meets(part)) met.push_back(t);
+      if (terrain_.box_of_triangle(t).meets(part)) met.push_back(t);
     }
     add(part, clipped, met);
   }

@@ -12,6 +12,7 @@
 #include <optional>
 #include <vector>
 
+#include <itin/box_of.hpp>
 #include <itin/tin.hpp>
 
 #include "features/plan_overlay.hpp"
@@ -38,6 +39,7 @@ class TerrainHeights {
   std::vector<std::uint32_t> triangles_along(Position a, Position b, std::int32_t reach = 0) const;
   const Triangle& triangle(std::uint32_t t) const { return tin_->triangles[t]; }
   const GridPoint& vertex(std::uint32_t v) const { return tin_->vertices[v]; }
+  GridBox box_of_triangle(std::uint32_t t) const { return box_of(tin_->corners(t)); }
 
   /// Extremes and mean over the part of the footprint that lies on the triangulation, nothing if there is none. Least
   /// and greatest are those at vertices inside, at the outline's vertices and where it crosses edges; the mean is the

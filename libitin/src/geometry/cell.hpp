@@ -62,6 +62,9 @@ constexpr std::int32_t morton_x(std::uint64_t code) {
 constexpr std::int32_t morton_y(std::uint64_t code) {
   return static_cast<std::int32_t>(detail_morton::gather(code >> 1)) - kGridHalfSide;
 }
+constexpr Position position_of(std::uint64_t code) {
+  return {morton_x(code), morton_y(code)};
+}
 
 struct Cell {
   std::uint64_t code = 0;

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <atomic>
 
+#include <itin/box_of.hpp>
 #include <itin/lattice_tin.hpp>
 #include <itin/parallel.hpp>
 
@@ -14,12 +15,6 @@ namespace {
 constexpr std::size_t kChunk = 1 << 14;
 /// At least one in so many cells of a lattice must have ground.
 constexpr std::int64_t kEmptiest = 4;
-
-GridBox box_of(const Tin& tin, const Triangle& t) {
-  GridBox box;
-  for (const std::uint32_t v : t) box.extend(tin.vertices[v].x, tin.vertices[v].y);
-  return box;
-}
 
 /// The half of the box that the triangle is; 0 where it is none.
 std::uint8_t half_of(const Tin& tin, const Triangle& t, const GridBox& box) {
@@ -157,9 +152,8 @@ namespace {
 /// A lattice over all of the Tin's vertices, without cells; nothing where its first triangle is none of a lattice, or
 /// most of the lattice would be empty.
 std::optional<LatticeTin> lattice_about(const Tin& tin) {
-  const GridBox first = box_of(tin, tin.triangles[0]);
-  GridBox all;
-  for (const GridPoint& v : tin.vertices) all.extend(v.x, v.y);
+  const GridBox first = box_of(tin.corners(0));
+  const GridBox all = box_of(tin.vertices);
   const std::int64_t spacing = std::int64_t{first.xmax} - first.xmin;
   if (spacing != std::int64_t{first.ymax} - first.ymin) return std::nullopt;
   const std::int64_t west = all.xmin - spacing, north = all.ymax + spacing;
@@ -181,7 +175,7 @@ std::optional<LatticeTin> lattice_about(const Tin& tin) {
 
 /// From any thread. Returns false where the triangle is not half a cell.
 bool add(const Tin& tin, const Triangle& triangle, LatticeTin& lattice) {
-  const GridBox box = box_of(tin, triangle);
+  const GridBox box = box_of(triangle, [&](std::uint32_t v) { return tin.vertices[v]; });
   const std::int64_t spacing = lattice.spacing;
   const std::int64_t east = std::int64_t{box.xmin} - lattice.west, south = std::int64_t{lattice.north} - box.ymax,
                      column = east / spacing, row = south / spacing;

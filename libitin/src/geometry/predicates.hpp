@@ -40,6 +40,12 @@ struct Position {
   friend auto operator<=>(const Position&, const Position&) = default;
 };
 
+/// Whether two positions on the grid are one.
+template <GridPosition A, GridPosition B>
+constexpr bool same_position(const A& a, const B& b) {
+  return a.x == b.x && a.y == b.y;
+}
+
 /// Twice the signed area of abc; > 0 when counterclockwise.
 template <GridPosition A, GridPosition B, GridPosition C>
 constexpr std::int64_t doubled_area(const A& a, const B& b, const C& c) {

@@ -1,3 +1,4 @@
+#include <itin/box_of.hpp>
 #include <itin/tin.hpp>
 
 #include "geometry/cell.hpp"
@@ -17,9 +18,7 @@ std::uint16_t Tin::theme(const Triangle& t) const {
 }
 
 Box Tin::bounds() const {
-  GridBox box;
-  for (const GridPoint& v : vertices) box.extend(v.x, v.y);
-  return grid.box(box);
+  return grid.box(box_of(vertices));
 }
 
 }  // namespace itin

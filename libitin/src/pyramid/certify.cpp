@@ -8,6 +8,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include <itin/box_of.hpp>
 #include <itin/call_progress.hpp>
 #include <itin/detail.hpp>
 #include <itin/error.hpp>
@@ -80,12 +81,6 @@ Selection levels_from(int k, const std::vector<std::int32_t>& tolerances) {
   return Selection(Detail::tolerance(metres[static_cast<std::size_t>(k)]), metres, Grid{});
 }
 
-GridBox box_of(const RegionMesh& mesh) {
-  GridBox box;
-  for (const SelectedVertex& v : mesh.vertices) box.extend(v.point.x, v.point.y);
-  return box;
-}
-
 /// A task of verification: those leaves of the cell that lie in the box, for these levels.
 struct Task {
   CurveRange cell;
@@ -123,8 +118,9 @@ class CellVerification {
     const std::int32_t tolerance = tolerances_[static_cast<std::size_t>(k)];
     while (true) {
       const RaisedIndex raised(points_, raised_);
-      const RegionMesh coarse = triangulate_region(raised, levels_from(k, tolerances_),
-                                                   lattice_ ? lattice_->posts().bounds() : box_of(fine_));
+      const RegionMesh coarse =
+          triangulate_region(raised, levels_from(k, tolerances_),
+                             lattice_ ? lattice_->posts().bounds() : box_of(fine_.vertices, &SelectedVertex::point));
       // What fails is mended by triangles.
       if (lattice_ && lattice_->compare(coarse) && (!mend || lattice_->whole().size() <= tolerance)) {
         forget_left(k);
@@ -339,11 +335,12 @@ struct Raise {
 /// A raised vertex changes the surface within its star, for every level it newly belongs to.
 void mark_star(const WorkingIndex& index, const std::vector<std::int32_t>& tolerances, const Raise& raise,
                Disturbed& disturbed) {
-  const Position p{morton_x(raise.code), morton_y(raise.code)};
+  const Position p = position_of(raise.code);
   std::vector<std::uint32_t> leaves;
   for (int k = raise.from + 1; k <= raise.to; ++k) {
     leaves.clear();
-    index.leaves_at(box_of(triangulate_region(index, levels_from(k, tolerances), {p.x, p.y, p.x, p.y})), leaves);
+    const RegionMesh about = triangulate_region(index, levels_from(k, tolerances), {p.x, p.y, p.x, p.y});
+    index.leaves_at(box_of(about.vertices, &SelectedVertex::point), leaves);
     for (const std::uint32_t leaf : leaves) {
       const bool known = (raise.by.levels >> k & 1) && raise.by.covers(index.ranges()[leaf].cell);
       if (!known) disturbed.mark(leaf, 1u << k);

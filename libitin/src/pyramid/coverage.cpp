@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include <itin/box_of.hpp>
 #include <itin/detail.hpp>
 
 #include "pyramid/gap_rule.hpp"
@@ -15,12 +16,6 @@ namespace {
 
 /// Mean spacings. A wider fringe leaves less to mend along the tiles' borders, and costs more here.
 constexpr double kFringe = 16;
-
-GridBox box_of(const std::vector<RawPoint>& points) {
-  GridBox box;
-  for (const RawPoint& p : points) box.extend(morton_x(p.code), morton_y(p.code));
-  return box;
-}
 
 Segment segment(const RegionMesh& region, std::uint32_t from, std::uint32_t to) {
   const GridPoint &a = region.vertices[from].point, &b = region.vertices[to].point;
@@ -133,7 +128,7 @@ TileSurvey survey_tile(const WorkingIndex& index, const CurveRange& tile,
     return p.level == kDropped || (ground_points != nullptr && !ground_points->sources().contains(p.source));
   });
   const Selection everything(Detail::tolerance(0), {0.0}, Grid{});
-  const GridBox points = box_of(own);
+  const GridBox points = box_of(own, [](const RawPoint& p) { return position_of(p.code); });
   if (points.empty()) return survey;
   const double margin = fringe(points, tile.count);
   const GridBox box = widened(points, margin);
@@ -152,7 +147,7 @@ TileSurvey survey_surface(const WorkingIndex& index, const CurveRange& tile) {
   TileSurvey survey;
   std::vector<RawPoint> own = index.read(tile);
   std::erase_if(own, [](const RawPoint& p) { return p.level == kDropped; });
-  const GridBox points = box_of(own);
+  const GridBox points = box_of(own, [](const RawPoint& p) { return position_of(p.code); });
   if (points.empty()) return survey;
   const double margin = fringe(points, tile.count);
   const GridBox box = widened(points, margin);

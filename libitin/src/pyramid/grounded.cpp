@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include <itin/box_of.hpp>
 #include <itin/detail.hpp>
 
 #include "pyramid/gap_rule.hpp"
@@ -70,9 +71,7 @@ std::vector<Corners> ground_about(const GridBox& box, const SourceIndex& points,
 
 std::vector<std::uint64_t> grounded(std::span<const std::uint64_t> codes, const SourceIndex& points,
                                     const std::vector<std::array<double, 4>>& gap_bases) {
-  GridBox box;
-  for (const std::uint64_t code : codes) box.extend(morton_x(code), morton_y(code));
-  const std::vector<Corners> ground = ground_about(box, points, gap_bases);
+  const std::vector<Corners> ground = ground_about(box_of(codes, position_of), points, gap_bases);
   std::vector<std::uint64_t> result;
   for_each_inside(
       ground.size(), [&](std::size_t t) { return ground[t]; }, codes,

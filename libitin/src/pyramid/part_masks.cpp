@@ -30,9 +30,7 @@ class PartMask {
 
   int rank() const { return part_.rank; }
   bool has_clusters() const { return !part_.mask_clusters.empty() && part_.mask_clusters.front() != kNoCluster; }
-  bool covers(std::uint64_t code) const {
-    return index_.at({morton_x(code), morton_y(code)}).has_value() && !among(own_, code);
-  }
+  bool covers(std::uint64_t code) const { return index_.at(position_of(code)).has_value() && !among(own_, code); }
   /// In any order, also twice.
   void add(std::span<const std::uint64_t> codes) { masked_.insert(masked_.end(), codes.begin(), codes.end()); }
   void finish() {
@@ -93,7 +91,7 @@ class PartMask {
 
   /// That of the mask which has the position.
   std::uint32_t cluster_about(std::uint64_t code) const {
-    return part_.mask_clusters[index_.at({morton_x(code), morton_y(code)}).value()];
+    return part_.mask_clusters[index_.at(position_of(code)).value()];
   }
 
   /// The clusters of all vertices and masked positions, and the boxes about these.

@@ -18,7 +18,7 @@ template <class Corners, class Visit>
 void for_each_inside(std::size_t count, const Corners& corners, std::span<const std::uint64_t> codes,
                      const Visit& visit) {
   std::vector<Position> points;
-  for (const std::uint64_t code : codes) points.push_back({morton_x(code), morton_y(code)});
+  for (const std::uint64_t code : codes) points.push_back(position_of(code));
   std::sort(points.begin(), points.end());
   for (std::size_t t = 0; t < count; ++t) {
     const std::array<Position, 3> c = corners(t);

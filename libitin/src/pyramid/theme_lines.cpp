@@ -4,6 +4,7 @@
 #include <atomic>
 #include <map>
 
+#include <itin/box_of.hpp>
 #include <itin/detail.hpp>
 #include <itin/error.hpp>
 #include <itin/parallel.hpp>
@@ -28,12 +29,6 @@ using Codes = std::vector<std::uint64_t>;
 std::span<const std::uint64_t> in_cell(const Codes& codes, const Cell& cell) {
   const auto first = std::lower_bound(codes.begin(), codes.end(), cell.code);
   return {first, std::lower_bound(first, codes.end(), cell.end())};
-}
-
-GridBox box_of(std::span<const std::uint64_t> codes) {
-  GridBox box;
-  for (const std::uint64_t code : codes) box.extend(morton_x(code), morton_y(code));
-  return box;
 }
 
 /// Runs of codes, one per tile, put together again in ascending order.
@@ -256,7 +251,7 @@ PlacedLines place_lines(const ThemeLines& lines, const WorkingIndex& index, cons
 std::vector<GridPoint> drape(const std::vector<std::uint64_t>& codes, const WorkingIndex& index,
                              const std::vector<CurveRange>& tiles, Progress& progress) {
   return by_tile<GridPoint>(codes, tiles, "draping lines", progress, [&](std::span<const std::uint64_t> own) {
-    const RegionMesh region = triangulate_region(index, everything(), box_of(own));
+    const RegionMesh region = triangulate_region(index, everything(), box_of(own, position_of));
     std::map<std::uint64_t, GridPoint> draped;
     const auto corners = [&](std::size_t t) {
       const auto& [a, b, c] = region.mesh.triangles[t];

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <vector>
 
+#include <itin/box_of.hpp>
 #include <itin/error.hpp>
 #include <itin/store.hpp>
 
@@ -86,7 +87,7 @@ class Inspection {
 
   void inspect_block(const Leaf& leaf) {
     const Block block = file_.read_block(leaf);
-    for (const GridPoint& p : block.points) bounds_.extend(p.x, p.y);
+    bounds_.extend(box_of(block.points));
     const bool of_part = format::theme_of(leaf.level) > file_.metadata().themes.size();
     const std::size_t sources = file_.metadata().sources.size();
     std::uint64_t vertices = 0;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <itin/box_of.hpp>
+
 #include "store/block_codec.hpp"
 #include "store/store_format.hpp"
 
@@ -15,7 +17,7 @@ EncodedLeaf encode_leaf(int tree, const Cell& cell, std::span<const GridPoint> p
   const auto [low, high] = std::minmax_element(points.begin(), points.end(),
                                                [](const GridPoint& a, const GridPoint& b) { return a.z < b.z; });
   encoded.leaf.zmin = low->z, encoded.leaf.zmax = high->z;
-  for (const GridPoint& p : points) encoded.bounds.extend(p.x, p.y);
+  encoded.bounds = box_of(points);
   encoded.vertices = count - static_cast<std::uint32_t>(std::count(sources.begin(), sources.end(), format::kMask));
   encoded.block = encode_block(cell, points, sources);
   return encoded;

@@ -5,6 +5,8 @@
 #include <numeric>
 #include <tuple>
 
+#include <itin/box_of.hpp>
+
 #include "triangulate/apex_frame.hpp"
 #include "triangulate/sight_fan.hpp"
 
@@ -129,9 +131,7 @@ void ApexSearch::read_segments(const GridBox& part, Search& search) {
 /// Whether a segment hides c from an end of the edge.
 bool ApexSearch::hidden(Position c, Search& search) {
   const Position a = search.frame.a, b = search.frame.b;
-  GridBox between;
-  for (const Position p : {a, b, c}) between.extend(p.x, p.y);
-  read_segments(intersection(between, search.box), search);
+  read_segments(intersection(box_of(std::array{a, b, c}), search.box), search);
   if (segments_.size() < kFewSegments || ++search.asked < kFewQuestions) {
     return std::any_of(segments_.begin(), segments_.end(),
                        [&](const Segment& s) { return crosses(s, a, c) || crosses(s, b, c); });
@@ -234,8 +234,7 @@ std::optional<SelectedVertex> ApexSearch::left_of(Position a, Position b, Segmen
 }
 
 std::optional<SelectedVertex> ApexSearch::inside(Position a, Position b, Position c) {
-  GridBox box;
-  for (const Position p : {a, b, c}) box.extend(p.x, p.y);
+  const GridBox box = box_of(std::array{a, b, c});
   if (known_.contains(box)) return std::nullopt;
   leaves_.clear();
   selected_leaves(index_, selection_, box, leaves_);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <itin/box_of.hpp>
+
 namespace itin {
 
 namespace {
@@ -51,21 +53,12 @@ std::int32_t rounded_coordinate(double v) {
   return static_cast<std::int32_t>(std::lround(v));
 }
 
-GridBox box_of(Position p, Position q) {
-  GridBox box;
-  box.extend(p.x, p.y);
-  box.extend(q.x, q.y);
-  return box;
-}
-
 }  // namespace
 
 /// Whether the part of triangle t within the limit is known ground. If not, that about `near` is what lacks most: over
 /// unknown ground triangles are large, and become small once it is known.
 bool Enclosure::known(std::uint32_t t, const GridBox& limit, const GridBox& near) {
-  GridBox box;
-  for (int i = 0; i < 3; ++i) box.extend(corner(t, i).x, corner(t, i).y);
-  box = intersection(box, limit);
+  const GridBox box = intersection(box_of(std::array{corner(t, 0), corner(t, 1), corner(t, 2)}), limit);
   if (known_.covers(box)) return true;
   for (double margin = 0; known_.covers(unknown_ = intersection(expanded(near, margin), box));
        margin = std::max(2 * margin, known_.cell_side())) {
@@ -96,7 +89,7 @@ bool Enclosure::shut_in(std::uint32_t t, int edge, End end) {
   cones_.clear();
   // The triangles about the eye, from the edge on, as long as they are left of ab.
   for (std::uint32_t u = mesh_.neighbours[t][edge];;) {
-    if (u == kNoTriangle || !known(u, limit, box_of(a, b))) return false;
+    if (u == kNoTriangle || !known(u, limit, box_of(std::array{a, b}))) return false;
     int k = 0;
     while (corner(u, k) != eye) ++k;
     see_through(u, k, corner(u, k + 1), corner(u, k + 2));
@@ -135,7 +128,8 @@ bool Enclosure::follow(Position eye, const ApexFrame& frame, double lambda, cons
       if (!known_beyond_hull(eye, cone, limit)) return false;
       continue;
     }
-    if (cones_.size() > kMostCones || !known(u, limit, box_of(corner(from, edge + 1), corner(from, edge + 2))))
+    if (cones_.size() > kMostCones ||
+        !known(u, limit, box_of(std::array{corner(from, edge + 1), corner(from, edge + 2)})))
       return false;
     int j = 0;
     while (mesh_.neighbours[u][j] != from) ++j;

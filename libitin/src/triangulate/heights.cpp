@@ -51,7 +51,7 @@ std::vector<Place> places_of(const StoreMetadata& metadata, const std::vector<Po
   return places;
 }
 
-Box box_of(std::span<const Place> places) {
+Box extent_of(std::span<const Place> places) {
   Box box;
   for (const Place& place : places) box.extend(place.units);
   return box;
@@ -69,7 +69,7 @@ std::pair<std::span<Place>, std::span<Place>> halves(std::span<Place> places, co
 
 /// Adds the groups of places that share a window. `density`: the store's points per square unit.
 void group(std::span<Place> places, double density, std::vector<std::span<Place>>& groups) {
-  const Box box = box_of(places);
+  const Box box = extent_of(places);
   const auto count = static_cast<double>(places.size());
   const bool near =
       places.size() <= kMostPositions && box.width() * box.height() * density <= kPointsPerPosition * count;
@@ -113,7 +113,7 @@ class HeightsOn {
 
  private:
   void find(std::span<Place> places, std::span<const std::uint32_t> triangles) const {
-    const Box box = box_of(places);
+    const Box box = extent_of(places);
     std::vector<std::uint32_t> near;
     std::copy_if(triangles.begin(), triangles.end(), std::back_inserter(near),
                  [&](std::uint32_t t) { return meets(tin_.corners(t), box); });

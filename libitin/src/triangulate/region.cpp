@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <itin/box_of.hpp>
 #include <itin/error.hpp>
 
 #include "base/stoppable.hpp"
@@ -231,7 +232,7 @@ class RegionTriangulation {
 
   /// Whether triangle t meets tile and window.
   bool in_region(std::uint32_t t) const {
-    const GridBox corners = box_of(t);
+    const GridBox corners = box_of_triangle(t);
     if (!corners.meets(tile_)) return false;
     if (!tile_.contains(corners) && !reaches_tile(t)) return false;
     if (window_ == nullptr) return true;
@@ -239,10 +240,8 @@ class RegionTriangulation {
     return window_->meets(at(0), at(1), at(2));
   }
 
-  GridBox box_of(std::uint32_t t) const {
-    GridBox box;
-    for (const std::uint32_t v : mesh().triangles[t]) box.extend(position(v).x, position(v).y);
-    return box;
+  GridBox box_of_triangle(std::uint32_t t) const {
+    return box_of(mesh().triangles[t], [&](std::uint32_t v) { return position(v); });
   }
 
   /// The separating axis theorem, the boxes known to overlap: is the whole tile right of one edge?
@@ -318,8 +317,8 @@ class RegionTriangulation {
     // A missing vertex is missing for many triangles. Those that are left then are asked the next time.
     if (std::any_of(intruders.begin(), intruders.end(), [&](const SelectedVertex& v) { return disturbs(v, t); }))
       return;
-    if (!box_.contains(box_of(t))) {
-      const std::vector<Segment> crossing = read_.fresh_segments(box_of(t));
+    if (!box_.contains(box_of_triangle(t))) {
+      const std::vector<Segment> crossing = read_.fresh_segments(box_of_triangle(t));
       fresh.insert(fresh.end(), crossing.begin(), crossing.end());
       if (!crossing.empty()) return;
     }

@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include <itin/box_of.hpp>
+
 #include "pyramid/overlay.hpp"
 #include "store/store_format.hpp"
 #include "verify/leaf_cover.hpp"
@@ -18,12 +20,6 @@ namespace {
 /// Grid units: what the slow comparison may be off by.
 constexpr double kErrorRounding = 1e-3;
 
-GridBox box_of(const RegionMesh& mesh) {
-  GridBox box;
-  for (const SelectedVertex& v : mesh.vertices) box.extend(v.point.x, v.point.y);
-  return box;
-}
-
 class TileVerification {
  public:
   TileVerification(const StoreFile& file, const std::vector<Selection>& levels, const Cell& tile)
@@ -33,7 +29,7 @@ class TileVerification {
     if (fine_.mesh.triangles.empty()) return {};
     compare(0, fine_, std::vector<DifferenceRange>(fine_.mesh.triangles.size(), {0, 0}));
     for (std::size_t k = 1; k < levels_.size(); ++k) {
-      const RegionMesh coarse = triangulate_region(file_, levels_[k], box_of(fine_));
+      const RegionMesh coarse = triangulate_region(file_, levels_[k], box_of(fine_.vertices, &SelectedVertex::point));
       const Difference d = difference(fine_, edges_, coarse, std::numeric_limits<std::int32_t>::max());
       compare(static_cast<int>(k), coarse, over_triangles(fine_, edges_, d));
     }
@@ -44,7 +40,7 @@ class TileVerification {
   /// Fast first: a certificate holds where it has room for the whole of the triangles that lie in its cell in part.
   void compare(int level, const RegionMesh& coarse, const std::vector<DifferenceRange>& of_triangles) {
     std::vector<Leaf> leaves;
-    file_.leaves_of(level, box_of(fine_), leaves);
+    file_.leaves_of(level, box_of(fine_.vertices, &SelectedVertex::point), leaves);
     const LeafCover cover(std::move(leaves));
     std::vector<DifferenceRange> of_leaves(cover.leaves().size());
     std::optional<Cell> gap;

@@ -108,7 +108,7 @@ std::vector<FalseCell> PartHeights::higher_in(const Cell& tile) const {
   const std::vector<std::uint32_t> features = features_of(raised, square_of(tile));
   if (features.empty()) return {};
   GridBox box;
-  for (const std::uint32_t t : features) box.extend(box_of(raised, t));
+  for (const std::uint32_t t : features) box.extend(box_of_triangle(raised, t));
   const RegionMesh bare = triangulate_region(file_, ground_, box);
   const HeightDifference difference(bare);
   const LeafCover cover(leaves_about(box));

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include <itin/box_of.hpp>
+
 namespace itin {
 
 namespace {
@@ -79,15 +81,12 @@ void cut(Polygon& polygon, const GridBox& box, Position origin) {
 
 }  // namespace
 
-GridBox box_of(const RegionMesh& mesh, std::uint32_t triangle) {
-  GridBox box;
-  for (const std::uint32_t v : mesh.mesh.triangles[triangle])
-    box.extend(mesh.vertices[v].point.x, mesh.vertices[v].point.y);
-  return box;
+GridBox box_of_triangle(const RegionMesh& mesh, std::uint32_t triangle) {
+  return box_of(mesh.mesh.triangles[triangle], [&](std::uint32_t v) { return mesh.vertices[v].point; });
 }
 
-HeightDifference::HeightDifference(const RegionMesh& low) : low_(low) {
-  for (const SelectedVertex& v : low.vertices) bounds_.extend(v.point.x, v.point.y);
+HeightDifference::HeightDifference(const RegionMesh& low)
+    : low_(low), bounds_(box_of(low.vertices, &SelectedVertex::point)) {
   const auto count = static_cast<std::uint32_t>(low.mesh.triangles.size());
   if (count == 0) return;
   // About as many buckets as triangles.
@@ -97,7 +96,7 @@ HeightDifference::HeightDifference(const RegionMesh& low) : low_(low) {
   columns_ = column(bounds_.xmax) + 1;
   start_.assign(static_cast<std::size_t>(columns_ * (row(bounds_.ymax) + 1)) + 1, 0);
   const auto for_each_bucket = [&](std::uint32_t t, const auto& visit) {
-    const GridBox box = box_of(low_, t);
+    const GridBox box = box_of_triangle(low_, t);
     for (std::int64_t r = row(box.ymin); r <= row(box.ymax); ++r)
       for (std::int64_t c = column(box.xmin); c <= column(box.xmax); ++c)
         visit(static_cast<std::size_t>(r * columns_ + c));
@@ -117,7 +116,7 @@ void HeightDifference::for_each_near(const GridBox& box, const Visit& visit) con
     for (std::int64_t c = column(common.xmin); c <= column(common.xmax); ++c) {
       const auto bucket = static_cast<std::size_t>(r * columns_ + c);
       for (std::uint32_t i = start_[bucket]; i < start_[bucket + 1]; ++i) {
-        const GridBox shared = intersection(common, box_of(low_, list_[i]));
+        const GridBox shared = intersection(common, box_of_triangle(low_, list_[i]));
         // In the first of the buckets that both meet.
         if (!shared.empty() && row(shared.ymin) == r && column(shared.xmin) == c) visit(list_[i]);
       }
@@ -132,7 +131,7 @@ void HeightDifference::add(const RegionMesh& high, std::uint32_t triangle, const
   Polygon within = upper.polygon();
   cut(within, box, origin);
   if (within.count == 0) return;
-  for_each_near(intersection(box, box_of(high, triangle)), [&](std::uint32_t t) {
+  for_each_near(intersection(box, box_of_triangle(high, triangle)), [&](std::uint32_t t) {
     const Facet lower(low_, t, origin);
     Polygon shared = within;
     lower.cut(shared);

@@ -53,6 +53,6 @@ class HeightDifference {
   std::vector<std::uint32_t> start_, list_;  ///< triangles of each bucket
 };
 
-GridBox box_of(const RegionMesh& mesh, std::uint32_t triangle);
+GridBox box_of_triangle(const RegionMesh& mesh, std::uint32_t triangle);
 
 }  // namespace itin

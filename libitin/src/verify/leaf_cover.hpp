@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <vector>
 
+#include <itin/box_of.hpp>
+
 #include "store/point_index.hpp"
 #include "triangulate/region.hpp"
 
@@ -49,9 +51,7 @@ Cell cell_about(const GridBox& box);
 
 template <class OnLeaf, class OnGap>
 void LeafCover::visit(const Corners& triangle, const OnLeaf& on_leaf, const OnGap& on_gap) const {
-  GridBox box;
-  for (const Position p : triangle) box.extend(p.x, p.y);
-  const Cell cell = cell_about(box);
+  const Cell cell = cell_about(box_of(triangle));
   const Number first = first_after(cell.code);
   const bool within =
       first < static_cast<Number>(leaves_.size()) && leaves_[static_cast<std::size_t>(first)].cell.contains(cell);

@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include <itin/box_of.hpp>
 #include <itin/call_progress.hpp>
 #include <itin/certificate.hpp>
 #include <itin/feature_cuts.hpp>
@@ -30,12 +31,6 @@ void for_each_chunk(std::size_t count, const auto& body) {
   });
 }
 
-GridBox box_of(const Tin& tin, const Triangle& t) {
-  GridBox box;
-  for (const std::uint32_t v : t) box.extend(tin.vertices[v].x, tin.vertices[v].y);
-  return box;
-}
-
 /// Each vertex gets the bounds over all its triangles.
 std::vector<HeightBounds> vertex_bounds(const Store& store, int level, const Tin& tin, const ThemeChoice& cut_by) {
   std::vector<HeightBounds> result(tin.vertices.size());
@@ -44,7 +39,7 @@ std::vector<HeightBounds> vertex_bounds(const Store& store, int level, const Tin
   const Certificate certificate = level > 0 ? store.certificate(level, tin.bounds()) : Certificate({});
   std::vector<HeightBounds> of_triangle(tin.triangles.size());
   for_each_chunk(of_triangle.size(), [&](std::size_t t) {
-    const GridBox box = box_of(tin, tin.triangles[t]);
+    const GridBox box = box_of(tin.corners(t));
     if (const auto bounds = certificate.over(box)) of_triangle[t] = *bounds;
     of_triangle[t].lo -= deepest_cut(cuts, box);
   });
