@@ -57,7 +57,7 @@ class HillsAndTown {
     return request;
   }
 
-  /// In this mode. A loss takes all triangles under a line, so that every other observer must do.
+  /// In this mode; for losses, which take all triangles under each line, with half of the observers.
   static viewshed::Request in_mode(viewshed::Mode mode, viewshed::Request request) {
     request.mode = mode;
     if (mode != viewshed::Mode::kLoss) return request;
