@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <random>
 #include <unistd.h>
 
 #include <benchmark/benchmark.h>
@@ -10,6 +11,7 @@
 #include <viewshed/viewshed.hpp>
 
 #include "bounds/binned_heights.hpp"
+#include "bounds/boundary.hpp"
 #include "bounds/surface_heights.hpp"
 #include "bounds/triangle_bins.hpp"
 #include "request/eye.hpp"
@@ -25,6 +27,19 @@ constexpr double kSpacing = 80;      // 41 km across
 
 const Tin& terrain() {
   static const Tin tin = test::fractal_tin(kSide, kSpacing, 900, 0.5, 1);
+  return tin;
+}
+
+/// This terrain with vertices off the lattice, for what lattices are spared.
+const Tin& irregular() {
+  static const Tin tin = [] {
+    Tin moved = terrain();
+    std::mt19937 random(1);
+    const auto most = static_cast<std::int32_t>(0.2 * kSpacing / moved.grid.resolution);
+    std::uniform_int_distribution<std::int32_t> step(-most, most);
+    for (GridPoint& v : moved.vertices) v.x += step(random), v.y += step(random);
+    return moved;
+  }();
   return tin;
 }
 
@@ -44,11 +59,18 @@ void BM_Scene(benchmark::State& state) {
 }
 BENCHMARK(BM_Scene)->Unit(benchmark::kMillisecond)->UseRealTime();
 
-void BM_Bins(benchmark::State& state) {
-  for (auto _ : state) benchmark::DoNotOptimize(BinnedHeights(terrain()).greatest_magnitude());
-  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(terrain().triangles.size()));
+void BM_Bins(benchmark::State& state, const Tin& (*surface)()) {
+  for (auto _ : state) benchmark::DoNotOptimize(BinnedHeights(surface()).greatest_magnitude());
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(surface().triangles.size()));
 }
-BENCHMARK(BM_Bins)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK_CAPTURE(BM_Bins, of_a_lattice, &terrain)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK_CAPTURE(BM_Bins, off_a_lattice, &irregular)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+void BM_Boundary(benchmark::State& state) {
+  for (auto _ : state) benchmark::DoNotOptimize(boundary_edges(irregular()));
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(irregular().triangles.size()));
+}
+BENCHMARK(BM_Boundary)->Unit(benchmark::kMillisecond)->UseRealTime();
 
 /// Does what `--precise` does once the surface is in memory: cells as large as those of the terrain, and finer ones.
 void BM_Sweep(benchmark::State& state) {
