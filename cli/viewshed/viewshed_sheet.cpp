@@ -25,8 +25,8 @@ std::string observers_in_words(const viewshed::Request& request) {
   return fmt::format("{}, {:g} m {}", count, first.height, first.absolute ? "above datum" : "above the ground");
 }
 
-profile::TitleBlock title_block(const Store& store, const viewshed::Result& result,
-                                const std::vector<std::string>& sources) {
+profile::TitleBlock title_of_map(const Store& store, const viewshed::Result& result,
+                                 const std::vector<std::string>& sources) {
   const viewshed::Request& request = result.request;
   profile::TitleBlock block;
   block.title = radio_title(request).value_or(result.certified ? "Certified viewshed" : "Viewshed");
@@ -54,7 +54,7 @@ void write_viewshed_sheet(const Store& store, const viewshed::Result& result, co
                     [&](std::size_t cell) { return result.visible[cell] != viewshed::Verdict::kOutside; },
                     {},
                     result.request.earth,
-                    title_block(store, result, sources)};
+                    title_of_map(store, result, sources)};
   std::vector<profile::SheetMark> observers;
   for (const viewshed::Observer& o : result.request.observers) observers.push_back({o.position, o.name});
   sheet.objects.push_back(mast_objects(std::move(observers), "Observer"));

@@ -120,7 +120,7 @@ std::string table_of(const Route& route, const Zone& zone, bool national) {
   return table;
 }
 
-std::string summary_row(const Route& route, const char* surface, const std::vector<Found>& found, bool hubs) {
+std::string route_row(const Route& route, const char* surface, const std::vector<Found>& found, bool hubs) {
   const Totals t = totals_of(route, found);
   const auto percent = [&](double metres) {
     return fmt::format("{:.1f}", 100 * metres / std::max(1e-9, route.length));
@@ -216,7 +216,7 @@ std::vector<viewshed::ZoneFile> RouteOptions::write(const std::string& folder, c
         add(stem + suffix + ending, what + ": chart of hubs and tips visible",
             profile::draw_route_chart(chart, stem + suffix + ending));
       const bool hubs = std::any_of(found.begin(), found.end(), [](const Found& f) { return f && f->hubs; });
-      summary += summary_row(route, suffix.empty() ? "bare" : "screened", found, hubs);
+      summary += route_row(route, suffix.empty() ? "bare" : "screened", found, hubs);
     };
     draw(route.bare, "", "Bare ground");
     if (features)

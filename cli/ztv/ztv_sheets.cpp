@@ -176,7 +176,7 @@ std::vector<SheetKey> class_keys(const Zone& zone, const ZoneMap& map) {
   return keys;
 }
 
-std::string terrain_in_words(const StoreMetadata& metadata, const Detail& detail) {
+std::string terrain_on_sheet(const StoreMetadata& metadata, const Detail& detail) {
   double spacing = 0;
   for (const SourceInfo& source : metadata.sources)
     if (source.kind == "terrain") spacing = std::max(spacing, source.spacing);
@@ -229,7 +229,7 @@ profile::TitleBlock title_block(const Store& store, const Zone& zone, const Zone
                  {"Earth", zone.request.earth.curvature
                                ? "curvature and refraction are taken into account, " + zone.request.earth.convention()
                                : "flat; curvature and refraction are not taken into account"},
-                 {"Terrain", terrain_in_words(metadata, zone.request.detail)},
+                 {"Terrain", terrain_on_sheet(metadata, zone.request.detail)},
                  {"Coordinates", crs_title(metadata.crs_wkt)}};
   if (!options.basemap().empty()) block.facts.push_back(basemap_fact(options.basemap()));
   block.sources = described(facts.sources, metadata);

@@ -21,7 +21,7 @@ namespace {
 
 enum Field : std::size_t { kHub, kRotor, kTip, kFarm, kName };
 
-std::optional<double> number(const char* name, const std::optional<std::string>& text) {
+std::optional<double> number_in_row(const char* name, const std::optional<std::string>& text) {
   return text ? std::optional(parse_height(name, *text, Range::kPositive)) : std::nullopt;
 }
 
@@ -90,8 +90,9 @@ void TurbineOptions::validate() {
 
 viewshed::Turbine TurbineOptions::turbine_of(const SiteRow& row) const {
   if (!row.position) throw InputError(row.error);
-  TurbineSize size{number("its hub_height", row.values[kHub]), number("its rotor_diameter", row.values[kRotor]),
-                   number("its tip_height", row.values[kTip])};
+  TurbineSize size{number_in_row("its hub_height", row.values[kHub]),
+                   number_in_row("its rotor_diameter", row.values[kRotor]),
+                   number_in_row("its tip_height", row.values[kTip])};
   // Options fill in what the row leaves open, not what two of its own values settle.
   const bool settled = (size.hub && size.rotor) || (size.tip && (size.hub || size.rotor));
   if (!settled) {

@@ -39,7 +39,7 @@ double turned(double degrees) {
   return std::fmod(degrees + 720, 360);
 }
 
-std::string turbines_in_words(const Zone& zone, const Seen& seen) {
+std::string visible_in_words(const Zone& zone, const Seen& seen) {
   std::string text = fmt::format("the blade tips of {} of {}", seen.tips, counted(seen.turbines, "turbine"));
   if (seen.hubs) text += fmt::format(", the hubs of {}", *seen.hubs);
   const std::size_t hubs = known_hubs(zone.request.turbines);
@@ -77,7 +77,7 @@ Facts facts_of(const Viewpoint& v, const ViewedSurface& view, const Zone& zone, 
               {"Bearing to the middle", fmt::format("{:.1f}° from grid north", centre_deg)},
               {"Nearest turbine", fmt::format("{:.2f} km, {}", sights[seen.nearest].distance / 1000,
                                               turbine_in_words(zone.request.turbines[seen.nearest]))},
-              {"Visible", turbines_in_words(zone, seen)},
+              {"Visible", visible_in_words(zone, seen)},
               {"Surface", view.title},
               {"Earth", zone.request.earth.convention()}};
   if (seen.gaps) facts.emplace_back("Terrain data", "some lines of sight cross ground without data");

@@ -110,6 +110,47 @@ TEST(Libraries, NameNoOptionOfTheCommandLine) {
   }
 }
 
+/// What a source declares in an unnamed namespace: functions, classes and constants.
+std::vector<std::string> names_of_its_own(const fs::path& source) {
+  const std::regex declaration(
+      "(?:class|struct|enum class) (\\w+) .*"                                     // a class
+      "|(?:inline )?constexpr [^(]*?\\b(k[A-Z]\\w*)\\b.*"                         // a constant
+      "|(?!template|using|static_assert|return)[A-Za-z][^(=]*[ &*](\\w+)\\(.*");  // a function
+  std::vector<std::string> names;
+  std::ifstream stream(source);
+  bool within = false;
+  std::smatch match;
+  for (std::string line; std::getline(stream, line);) {
+    if (line == "namespace {") within = true;
+    if (line == "}  // namespace") within = false;
+    if (within && std::regex_match(line, match, declaration)) {
+      for (std::size_t i = 1; i < match.size(); ++i)
+        if (match[i].matched) names.push_back(match[i]);
+    }
+  }
+  std::sort(names.begin(), names.end());
+  names.erase(std::unique(names.begin(), names.end()), names.end());
+  return names;
+}
+
+/// Sources are compiled together (itin_compile_together() in CMakeLists.txt): two functions of one name would be
+/// overloads there, of which the compiler chooses without a word.
+TEST(Names, AreGivenOnceAmongSourcesThatAreCompiledTogether) {
+  std::map<fs::path, std::map<std::string, std::vector<fs::path>>> declared;
+  std::size_t count = 0;
+  for (const char* folder : {"libitin/src", "viewshed/src", "profile/src", "cli"}) {
+    for (const fs::path& file : sources_below(kRoot / folder)) {
+      fs::path together = kRoot / folder;
+      if (std::string(folder) == "libitin/src") together /= *fs::relative(file, together).begin();
+      for (const std::string& name : names_of_its_own(file)) declared[together][name].push_back(file), ++count;
+    }
+  }
+  EXPECT_GT(count, 1500u);
+  for (const auto& [together, names] : declared)
+    for (const auto& [name, files] : names)
+      EXPECT_EQ(files.size(), 1u) << name << " of " << files.front() << " is of " << files.back() << ", too";
+}
+
 /// A comment is a sentence: its subject is not to be looked for in the line before.
 TEST(Comments, BeginWithTheirSubject) {
   const std::regex opening("\\s*//[/!]? *(Of|The same|So many|So few|Likewise)\\b.*");

@@ -182,8 +182,8 @@ CPLStringList creation_options(bool floating, int tile_side) {
 }
 
 template <class T>
-void write(const std::string& path, const RasterGrid& grid, std::span<const T> values, GDALDataType type,
-           const RasterDescription& description) {
+void write_cog(const std::string& path, const RasterGrid& grid, std::span<const T> values, GDALDataType type,
+               const RasterDescription& description) {
   PendingFile file(path, description.overwrite);
   GDALAllRegister();
   GDALDriver* const driver = GetGDALDriverManager()->GetDriverByName("COG");
@@ -212,22 +212,22 @@ void write(const std::string& path, const RasterGrid& grid, std::span<const T> v
 
 void write_raster(const std::string& path, const RasterGrid& grid, std::span<const std::uint8_t> values,
                   const RasterDescription& description) {
-  write(path, grid, values, GDT_Byte, description);
+  write_cog(path, grid, values, GDT_Byte, description);
 }
 
 void write_raster(const std::string& path, const RasterGrid& grid, std::span<const std::uint16_t> values,
                   const RasterDescription& description) {
-  write(path, grid, values, GDT_UInt16, description);
+  write_cog(path, grid, values, GDT_UInt16, description);
 }
 
 void write_raster(const std::string& path, const RasterGrid& grid, std::span<const std::uint32_t> values,
                   const RasterDescription& description) {
-  write(path, grid, values, GDT_UInt32, description);
+  write_cog(path, grid, values, GDT_UInt32, description);
 }
 
 void write_raster(const std::string& path, const RasterGrid& grid, std::span<const float> values,
                   const RasterDescription& description) {
-  write(path, grid, values, GDT_Float32, description);
+  write_cog(path, grid, values, GDT_Float32, description);
 }
 
 }  // namespace itin

@@ -119,8 +119,8 @@ void write_layer(const PendingFile& output, const RasterGrid& grid, Regions& reg
 }
 
 template <class T>
-void write(const std::string& path, const RasterGrid& grid, std::span<const T> values, GDALDataType type,
-           const RegionDescription& description) {
+void write_polygons(const std::string& path, const RasterGrid& grid, std::span<const T> values, GDALDataType type,
+                    const RegionDescription& description) {
   const QuietGdal quiet;
   // Equal calls give equal bytes only if the file does not say when it was written.
   const CPLConfigOptionSetter fixed("OGR_CURRENT_DATE", "1970-01-01T00:00:00.000Z", false);
@@ -136,17 +136,17 @@ void write(const std::string& path, const RasterGrid& grid, std::span<const T> v
 
 void write_regions(const std::string& path, const RasterGrid& grid, std::span<const std::uint8_t> values,
                    const RegionDescription& description) {
-  write(path, grid, values, GDT_Byte, description);
+  write_polygons(path, grid, values, GDT_Byte, description);
 }
 
 void write_regions(const std::string& path, const RasterGrid& grid, std::span<const std::uint16_t> values,
                    const RegionDescription& description) {
-  write(path, grid, values, GDT_UInt16, description);
+  write_polygons(path, grid, values, GDT_UInt16, description);
 }
 
 void write_regions(const std::string& path, const RasterGrid& grid, std::span<const std::uint32_t> values,
                    const RegionDescription& description) {
-  write(path, grid, values, GDT_UInt32, description);
+  write_polygons(path, grid, values, GDT_UInt32, description);
 }
 
 }  // namespace itin

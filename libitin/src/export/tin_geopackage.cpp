@@ -108,7 +108,7 @@ void write_triangles(const Tin& tin, const TinExportOptions& options, GeoPackage
 }
 
 /// Without a spatial index, which takes ten times as long to build as the layer itself.
-void write_vertices(const Tin& tin, GeoPackage& package, StepProgress& steps) {
+void add_vertex_layer(const Tin& tin, GeoPackage& package, StepProgress& steps) {
   OGRLayer& layer = package.add_layer("vertices", wkbPoint25D, "NO", {"id"}, {"source"});
   OGRFeature feature(layer.GetLayerDefn());
   for (std::uint32_t v = 0; v < tin.vertices.size(); ++v) {
@@ -121,8 +121,8 @@ void write_vertices(const Tin& tin, GeoPackage& package, StepProgress& steps) {
   }
 }
 
-void write_lines(const Tin& tin, const std::vector<std::string>& theme_names, GeoPackage& package,
-                 StepProgress& steps) {
+void add_line_layer(const Tin& tin, const std::vector<std::string>& theme_names, GeoPackage& package,
+                    StepProgress& steps) {
   OGRLayer& layer = package.add_layer("lines", wkbLineString25D, "NO", {"vertex_a", "vertex_b"}, {});
   package.add_text_field(layer, "theme");
   OGRFeature feature(layer.GetLayerDefn());
@@ -149,8 +149,8 @@ void write_geopackage(const Tin& tin, const PendingFile& output, const TinExport
   GeoPackage package(output, options);
   StepProgress steps(progress, tin.triangles.size() + tin.vertices.size() + tin.lines.size());
   write_triangles(tin, options, package, steps);
-  write_vertices(tin, package, steps);
-  if (!tin.lines.empty()) write_lines(tin, options.theme_names, package, steps);
+  add_vertex_layer(tin, package, steps);
+  if (!tin.lines.empty()) add_line_layer(tin, options.theme_names, package, steps);
   package.close();
 }
 

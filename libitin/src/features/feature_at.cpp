@@ -19,10 +19,10 @@ namespace {
 /// Metres: how far a place may be outside of a footprint that it belongs to.
 constexpr double kNear = 1;
 
-Point2 plan_of(const Point2& p) {
+Point2 in_plan(const Point2& p) {
   return p;
 }
-Point2 plan_of(const Point3& p) {
+Point2 in_plan(const Point3& p) {
   return {p.x, p.y};
 }
 
@@ -41,7 +41,7 @@ class Nearness {
   template <class Ring>
   void consider(const Ring& ring) {
     for (std::size_t i = 0; i < ring.size(); ++i) {
-      const Point2 a = plan_of(ring[i]), b = plan_of(ring[(i + 1) % ring.size()]);
+      const Point2 a = in_plan(ring[i]), b = in_plan(ring[(i + 1) % ring.size()]);
       squared_ = std::min(squared_, squared_distance(place_, a, b));
       if ((a.y > place_.y) != (b.y > place_.y) && place_.x < a.x + (place_.y - a.y) / (b.y - a.y) * (b.x - a.x)) {
         inside_ = !inside_;
@@ -76,7 +76,7 @@ Box extent_of(const FootprintFeature& feature) {
     for (const Point2& p : ring) box.extend(p);
   for (const RoofSurface& surface : feature.surfaces)
     for (const auto& ring : surface.rings)
-      for (const Point3& p : ring) box.extend(plan_of(p));
+      for (const Point3& p : ring) box.extend(in_plan(p));
   return box;
 }
 

@@ -24,7 +24,7 @@ std::int32_t whole(double z) {
   return static_cast<std::int32_t>(std::llround(z));
 }
 
-GridEdge plan_of(const PlacedSegment& s) {
+GridEdge edge_in_plan(const PlacedSegment& s) {
   return {{s.a.x, s.a.y}, {s.b.x, s.b.y}};
 }
 
@@ -210,7 +210,7 @@ class GroupBuilder {
   /// The promise of planarity, kept by construction in all but the narrowest places.
   void settle() {
     std::vector<GridEdge> edges;
-    for (const PlacedSegment& s : mesh_.segments) edges.push_back(plan_of(s));
+    for (const PlacedSegment& s : mesh_.segments) edges.push_back(edge_in_plan(s));
     const auto found = conflicts(edges);
     if (found.empty()) return;
     std::set<std::uint32_t> involved;

@@ -65,7 +65,7 @@ class Assembly {
   std::vector<GridPoint> points_;
 };
 
-GridBox box_about(const PreparedFeature& feature) {
+GridBox box_of_prepared(const PreparedFeature& feature) {
   GridBox box;
   for (const Patch& patch : feature.patches) box.extend(bounds_of(patch.plan));
   return box;
@@ -91,7 +91,7 @@ FeatureMesh build_feature_mesh(std::span<const FootprintFeature> features, const
     prepared[i] = prepare(features[i], static_cast<std::uint32_t>(i), options, terrain);
   });
   std::vector<GridBox> boxes;
-  for (const Preparation& p : prepared) boxes.push_back(p.raised ? box_about(p.feature) : GridBox{});
+  for (const Preparation& p : prepared) boxes.push_back(p.raised ? box_of_prepared(p.feature) : GridBox{});
   const auto groups = groups_of(boxes);
   std::vector<GroupMesh> meshes(groups.size());
   std::atomic<std::size_t> done = 0;

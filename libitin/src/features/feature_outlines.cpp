@@ -34,7 +34,7 @@ std::vector<std::int64_t> features_in(const Tin& tin, std::uint16_t theme, const
 }
 
 /// A ring's corners on the grid, each once; the first does not come again at the end.
-std::vector<GridPoint> corners_of(const PlanRing& ring, const Grid& grid) {
+std::vector<GridPoint> ring_on_grid(const PlanRing& ring, const Grid& grid) {
   std::vector<GridPoint> corners;
   for (const Point2& p : ring) {
     const GridPoint corner = grid.quantise({p.x, p.y, 0});
@@ -47,7 +47,7 @@ std::vector<GridPoint> corners_of(const PlanRing& ring, const Grid& grid) {
 /// A measured roof without a footprint has the outline of its surfaces.
 std::vector<std::vector<GridPoint>> rings_of(const FootprintFeature& feature, const Grid& grid) {
   std::vector<std::vector<GridPoint>> rings;
-  for (const PlanRing& ring : feature.rings) rings.push_back(corners_of(ring, grid));
+  for (const PlanRing& ring : feature.rings) rings.push_back(ring_on_grid(ring, grid));
   if (!rings.empty()) return rings;
   try {
     for (const GridPolygon& polygon : plan_of(feature.surfaces, grid))

@@ -29,11 +29,11 @@ Steps steps_to(const Cell& cell) {
   return {morton_x(cell.code) >> kStepBits, morton_y(cell.code) >> kStepBits};
 }
 
-auto ascending(const GridBox& b) {
+auto ordered_sides(const GridBox& b) {
   return std::tie(b.xmin, b.ymin, b.xmax, b.ymax);
 }
 bool box_before(const GridBox& a, const GridBox& b) {
-  return ascending(a) < ascending(b);
+  return ordered_sides(a) < ordered_sides(b);
 }
 
 /// The least y of all, and the x that the first gap counts from.

@@ -16,7 +16,7 @@ constexpr std::size_t kMostFeatureBytes = kFeaturesInBlock * (kMostAttributes + 
 
 enum ValueType : std::uint8_t { kNoValue, kNumberValue, kWholeValue, kTextValue };
 
-void write(ContentWriter& out, const AttributeValue& value) {
+void write_value(ContentWriter& out, const AttributeValue& value) {
   out.whole(value.index());
   if (const auto* number = std::get_if<double>(&value)) out.number(*number);
   if (const auto* whole = std::get_if<std::int64_t>(&value)) out.word(std::bit_cast<std::uint64_t>(*whole));
@@ -64,7 +64,7 @@ std::vector<std::uint8_t> encode_features(std::span<const FeatureRecord> records
     out.text(record.id);
     out.text(record.name);
     out.whole(record.values.size());
-    for (const AttributeValue& value : record.values) write(out, value);
+    for (const AttributeValue& value : record.values) write_value(out, value);
   }
   return compress(out.bytes());
 }

@@ -78,7 +78,7 @@ void write(Writer& out, const FootprintFeature& f) {
   if (f.cells) write(out, *f.cells);
 }
 
-HeightCells read_cells(Reader& in) {
+HeightCells read_height_cells(Reader& in) {
   HeightCells c;
   for (Point2* p : {&c.corner, &c.across, &c.down}) *p = in.place();
   for (std::int32_t* v : {&c.first_column, &c.first_row, &c.columns, &c.rows, &c.step, &c.threshold})
@@ -133,7 +133,7 @@ StoredFootprint read(Reader& in) {
     }
   }
   for (std::size_t n = in.count(); n > 0; --n) f.surfaces.push_back(read_surface(in));
-  if (f.kind == FeatureKind::cells) f.cells = read_cells(in);
+  if (f.kind == FeatureKind::cells) f.cells = read_height_cells(in);
   return footprint;
 }
 

@@ -57,7 +57,7 @@ LineLattice lattice_of(const std::vector<Vertex>& ends) {
 }
 
 /// Most lines go from left to right, and then need no sign.
-bool ascending(const std::vector<Segment>& segments) {
+bool are_ascending(const std::vector<Segment>& segments) {
   return std::all_of(segments.begin(), segments.end(), [](const Segment& s) {
     return Vertex{s.ax, s.ay} < Vertex{s.bx, s.by};
   });
@@ -189,7 +189,7 @@ class LineReader {
 std::vector<std::uint8_t> encode_lines(const Cell& cell, const std::vector<Segment>& segments) {
   const std::vector<Vertex> ends = ends_of(segments);
   const LineLattice lattice = lattice_of(ends);
-  const bool forwards = ascending(segments);
+  const bool forwards = are_ascending(segments);
   const LinePlan plan(segments, ends, lattice, forwards);
   std::vector<std::uint8_t> out;
   put_varint(out, ends.size());

@@ -36,8 +36,8 @@ Window::Ring cut(const Window::Ring& ring, double Point2::*axis, double sign) {
 
 /// Groups edges by bucket: `visit(edge, add)` calls add(bucket) for each bucket of an edge.
 template <typename Visit>
-void group(std::size_t buckets, std::size_t edges, std::vector<std::uint32_t>& first, std::vector<std::uint32_t>& items,
-           const Visit& visit) {
+void list_by_bucket(std::size_t buckets, std::size_t edges, std::vector<std::uint32_t>& first,
+                    std::vector<std::uint32_t>& items, const Visit& visit) {
   first.assign(buckets + 1, 0);
   for (std::size_t e = 0; e < edges; ++e) visit(e, [&](std::size_t bucket) { ++first[bucket + 1]; });
   for (std::size_t b = 0; b < buckets; ++b) first[b + 1] += first[b];
@@ -194,9 +194,9 @@ void GridWindow::add_ring(std::vector<Position> corners, bool hole) {
 
 void GridWindow::index_edges() {
   choose_cells();
-  group(std::size_t{columns_} * rows_, edges_.size(), cell_first_, cell_edges_,
-        [this](std::size_t e, const auto& add) { visit_cells(edges_[e], add); });
-  group(rows_, edges_.size(), row_first_, row_edges_, [this](std::size_t e, const auto& add) {
+  list_by_bucket(std::size_t{columns_} * rows_, edges_.size(), cell_first_, cell_edges_,
+                 [this](std::size_t e, const auto& add) { visit_cells(edges_[e], add); });
+  list_by_bucket(rows_, edges_.size(), row_first_, row_edges_, [this](std::size_t e, const auto& add) {
     const CellRange range = cells(edges_[e].box());
     for (std::uint32_t row = range.row0; row <= range.row1; ++row) add(row);
   });

@@ -58,7 +58,7 @@ Box extent_of(std::span<const Place> places) {
 }
 
 /// Those to one side and to the other, as many in each, across the longer side of their box.
-std::pair<std::span<Place>, std::span<Place>> halves(std::span<Place> places, const Box& box) {
+std::pair<std::span<Place>, std::span<Place>> divide_places(std::span<Place> places, const Box& box) {
   const std::size_t half = places.size() / 2;
   const bool wide = box.width() > box.height();
   std::nth_element(
@@ -68,7 +68,7 @@ std::pair<std::span<Place>, std::span<Place>> halves(std::span<Place> places, co
 }
 
 /// Adds the groups of places that share a window. `density`: the store's points per square unit.
-void group(std::span<Place> places, double density, std::vector<std::span<Place>>& groups) {
+void add_groups(std::span<Place> places, double density, std::vector<std::span<Place>>& groups) {
   const Box box = extent_of(places);
   const auto count = static_cast<double>(places.size());
   const bool near =
@@ -77,8 +77,8 @@ void group(std::span<Place> places, double density, std::vector<std::span<Place>
     groups.push_back(places);
     return;
   }
-  const auto [one, other] = halves(places, box);
-  group(one, density, groups), group(other, density, groups);
+  const auto [one, other] = divide_places(places, box);
+  add_groups(one, density, groups), add_groups(other, density, groups);
 }
 
 std::vector<std::span<Place>> groups_of(std::span<Place> places, const StoreMetadata& metadata) {
@@ -86,7 +86,7 @@ std::vector<std::span<Place>> groups_of(std::span<Place> places, const StoreMeta
   const double width = std::max(1.0, static_cast<double>(all.xmax) - all.xmin),
                height = std::max(1.0, static_cast<double>(all.ymax) - all.ymin);
   std::vector<std::span<Place>> groups;
-  if (!places.empty()) group(places, static_cast<double>(metadata.vertices) / (width * height), groups);
+  if (!places.empty()) add_groups(places, static_cast<double>(metadata.vertices) / (width * height), groups);
   return groups;
 }
 
@@ -123,7 +123,7 @@ class HeightsOn {
           metres_[place.index] = *height * tin_.grid.resolution;
       return;
     }
-    const auto [one, other] = halves(places, box);
+    const auto [one, other] = divide_places(places, box);
     find(one, near), find(other, near);
   }
 

@@ -50,7 +50,7 @@ LinkResult result_of(const Sections& sections, const LosQuery& query) {
   return result;
 }
 
-void require_ground(const Profile& profile, const Link& link) {
+void require_ground_at_ends(const Profile& profile, const Link& link) {
   if (has_ground_at_ends(profile)) return;
   const bool first = profile.points.empty() || profile.points.front().distance_m > 0;
   const Point2 p = first ? link.from : link.to;
@@ -61,7 +61,7 @@ void require_ground(const Profile& profile, const Link& link) {
 template <class Along>
 LinkResult survey(const Store& store, const LinkQuery& query, const Link& link, const Along& along) {
   Sections sections{along(false), {}};
-  require_ground(sections.surface, link);
+  require_ground_at_ends(sections.surface, link);
   if (query.themes.includes_raised(store.metadata().themes)) sections.ground = along(true);
   LosQuery own = los_query(link, query);
   own.clearance_error_m = clearance_error(store, query.detail, query.themes, link.from, link.to);

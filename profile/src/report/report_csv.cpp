@@ -13,7 +13,7 @@ namespace itin::profile {
 
 namespace {
 
-std::string number(double value, int decimals) {
+std::string digits(double value, int decimals) {
   return std::isfinite(value) ? fmt::format("{:.{}f}", value, decimals) : "";
 }
 
@@ -49,22 +49,22 @@ std::string report_csv(const LosReport& report) {
     const bool visible = slope >= steepest;
     const double gap = gap_behind(report.profile, i);
     steepest = std::max(steepest, slope);
-    csv += number(d, 3) + ",";
+    csv += digits(d, 3) + ",";
     if (to_geographic) {
       const Point2 lon_lat = (*to_geographic)({p.x, p.y});
       csv += fmt::format("{:.3f},{:.3f},{:.8f},{:.8f},", p.x, p.y, lon_lat.x, lon_lat.y);
     } else {
       csv += ",,,,";
     }
-    csv += number(height_at(report.ground, d).value_or(p.ground_m), 3) + "," + number(p.ground_m + p.clutter_m, 3) +
-           "," + number(bulge, 3) + "," + number(ray, 3) + ",";
-    csv += wavelength > 0 ? number(radius, 3) : "";
-    csv += "," + number(clearance, 3) + ",";
+    csv += digits(height_at(report.ground, d).value_or(p.ground_m), 3) + "," + digits(p.ground_m + p.clutter_m, 3) +
+           "," + digits(bulge, 3) + "," + digits(ray, 3) + ",";
+    csv += wavelength > 0 ? digits(radius, 3) : "";
+    csv += "," + digits(clearance, 3) + ",";
     if (radius > 0)
-      csv += number(clearance / radius, 4) + "," + number(-std::sqrt(2.0) * clearance / radius, 4);
+      csv += digits(clearance / radius, 4) + "," + digits(-std::sqrt(2.0) * clearance / radius, 4);
     else
       csv += ",";
-    csv += fmt::format(",{},{},{}\n", visible ? beyond_gaps : '0', cause_of(report, p.theme), number(gap, 3));
+    csv += fmt::format(",{},{},{}\n", visible ? beyond_gaps : '0', cause_of(report, p.theme), digits(gap, 3));
     if (gap > 0) beyond_gaps = seen_beyond(report.query.nodata);
   }
   return csv;

@@ -24,7 +24,7 @@ constexpr const char* kStyle =
     "border-bottom:1px solid #ddd}img{width:100%;height:auto}.note{color:#666;font-size:.9em}"
     ".verdict{font-size:1.1rem;font-weight:600}@media print{body{margin:0;max-width:none}h2{break-after:avoid}}";
 
-constexpr double kChartWidth = 842, kChartHeight = 420;
+constexpr double kDrawingWidth = 842, kDrawingHeight = 420;
 
 std::string image(const char* what, const std::string& svg) {
   return fmt::format("<img alt=\"{}\" src=\"data:image/svg+xml;base64,{}\">\n", what, base64(svg));
@@ -59,11 +59,11 @@ std::string report_html(const LosReport& report) {
       "content=\"width=device-width\">\n<title>{0}</title>\n<style>{1}</style></head>\n<body>\n<h1>{0}</h1>\n"
       "<p class=\"verdict\">{2}</p>\n",
       escaped_markup(report.title), kStyle, escaped_markup(verdict_line(report)));
-  html += image("Sight line over the terrain", sight_svg(report, kChartWidth, kChartHeight));
+  html += image("Sight line over the terrain", sight_svg(report, kDrawingWidth, kDrawingHeight));
   if (const CriterionResult* fade = worst_fade(report)) {
     html += fmt::format("<p>{}</p>\n", escaped_markup(fade_line(*fade)));
     html += image("Sight line over the Earth of the worst fade",
-                  sight_svg(over_earth_of(report, *fade), kChartWidth, kChartHeight));
+                  sight_svg(over_earth_of(report, *fade), kDrawingWidth, kDrawingHeight));
   }
   html += html_table(ends_table(report));
   for (const Table& table : result_tables(report)) html += html_table(table);

@@ -16,7 +16,7 @@ namespace itin::profile {
 namespace {
 
 constexpr Colour kGridInk{0.25, 0.35, 0.55};
-constexpr Colour kNothing{0.93, 0.93, 0.95};  ///< where the map has no layer
+constexpr Colour kNoLayer{0.93, 0.93, 0.95};  ///< where the map has no layer
 
 /// The distance of grid lines: 20 mm apart at least, of those that maps have.
 double grid_step(double points_per_metre) {
@@ -85,7 +85,7 @@ Point2 MapFrame::at(Point2 p) const {
 
 void MapFrame::draw(const MapSheet& sheet) {
   drawing_.clip(paper_.frame);
-  drawing_.rectangle(paper_.frame, kNothing);
+  drawing_.rectangle(paper_.frame, kNoLayer);
   for (const SheetLayer& layer : sheet.layers) std::visit([&](const auto& l) { draw_layer(l); }, layer);
   // Labels above all layers: those of marks, then of lines, so that the former find a place.
   for (const SheetLayer& layer : sheet.layers)

@@ -16,7 +16,7 @@ namespace itin::viewshed {
 
 namespace {
 
-constexpr std::size_t kTrianglesPerChunk = 4096;
+constexpr std::size_t kTopsPerChunk = 4096;
 
 /// A bin for every two triangles; or, for cells that are far smaller, a bin for so many of them, as long as triangles
 /// have no more bins than that, and all together no more than take but a moment.
@@ -26,7 +26,7 @@ double bin_count(double triangles, double cells) {
                   std::min({cells / kCellsPerBin, triangles * kBinsPerTriangle, kMostFineBins}));
 }
 
-RasterGrid bin_grid(const Tin& tin, double cell_area) {
+RasterGrid bins_over_tin(const Tin& tin, double cell_area) {
   const Box box = tin.bounds();
   if (box.empty()) return {{0, 0}, 1, 1, 1, 1};
   const double width = std::max(box.width(), tin.grid.resolution), height = std::max(box.height(), tin.grid.resolution);
@@ -42,7 +42,7 @@ struct Square {
 };
 
 /// The cells of a lattice as bins.
-RasterGrid bin_grid(const LatticeTin& lattice) {
+RasterGrid bins_over_lattice(const LatticeTin& lattice) {
   const Point2 corner = lattice.grid.position(lattice.west, lattice.north);
   const double side = lattice.spacing * lattice.grid.resolution;
   return {corner, side, side, lattice.columns, lattice.rows};
@@ -99,7 +99,7 @@ class BinnedHeights::Facet {
 BinnedHeights::BinnedHeights(const Tin& tin, double cell_area) : BinnedHeights(tin, lattice_of(tin), cell_area) {}
 
 BinnedHeights::BinnedHeights(const Tin& tin, std::optional<LatticeTin> lattice, double cell_area)
-    : BinBounds(tin.grid, lattice ? bin_grid(*lattice) : bin_grid(tin, cell_area)),
+    : BinBounds(tin.grid, lattice ? bins_over_lattice(*lattice) : bins_over_tin(tin, cell_area)),
       tin_(&tin),
       own_(std::move(lattice)),
       lattice_(own_ ? &*own_ : nullptr) {
@@ -107,7 +107,7 @@ BinnedHeights::BinnedHeights(const Tin& tin, std::optional<LatticeTin> lattice, 
 }
 
 BinnedHeights::BinnedHeights(const LatticeTin& lattice)
-    : BinBounds(lattice.grid, bin_grid(lattice)), lattice_(&lattice) {
+    : BinBounds(lattice.grid, bins_over_lattice(lattice)), lattice_(&lattice) {
   bound_lattice();
 }
 
@@ -175,9 +175,9 @@ void BinnedHeights::bound_tin() {
   for (const GridPoint& v : tin.vertices) greatest_magnitude_ = greatest_magnitude_of(v.z, greatest_magnitude_);
   listed_.emplace(Listed{TriangleBins(tin, grid_), {}, {}});
   listed_->tops.resize(tin.triangles.size());
-  parallel_for(tin.triangles.size() / kTrianglesPerChunk + 1, [&](std::size_t chunk) {
-    const std::size_t end = std::min((chunk + 1) * kTrianglesPerChunk, tin.triangles.size());
-    for (std::size_t t = chunk * kTrianglesPerChunk; t < end; ++t) {
+  parallel_for(tin.triangles.size() / kTopsPerChunk + 1, [&](std::size_t chunk) {
+    const std::size_t end = std::min((chunk + 1) * kTopsPerChunk, tin.triangles.size());
+    for (std::size_t t = chunk * kTopsPerChunk; t < end; ++t) {
       const auto [a, b, c] = tin.corners(static_cast<std::uint32_t>(t));
       listed_->tops[t] = std::max({a.z, b.z, c.z});
     }

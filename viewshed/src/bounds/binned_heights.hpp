@@ -10,7 +10,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -22,6 +21,7 @@
 #include "bounds/bin_bounds.hpp"
 #include "bounds/boundary.hpp"
 #include "bounds/triangle_bins.hpp"
+#include "line/infinity.hpp"
 
 namespace itin::viewshed {
 
@@ -30,7 +30,7 @@ class BinnedHeights : public BinBounds {
   /// The surface must outlive it. A bin has about two triangles' worth, at 40 bytes per triangle, or less where cells
   /// of this area, square metres, are far smaller: many lines are decided by what is known of bins. A lattice's bins
   /// are its cells, for a fraction of that.
-  explicit BinnedHeights(const Tin& tin, double cell_area = std::numeric_limits<double>::infinity());
+  explicit BinnedHeights(const Tin& tin, double cell_area = kInfinity);
   explicit BinnedHeights(const LatticeTin& lattice);
   /// After heights of these tiles of the lattice have been read: they count from now on.
   void add(std::span<const std::uint32_t> tiles);
@@ -38,7 +38,7 @@ class BinnedHeights : public BinBounds {
 
   /// A plane that the surface within one bin does not rise above.
   struct UpperPlane {
-    double middle = -std::numeric_limits<double>::infinity();
+    double middle = -kInfinity;
     double per_column = 0, per_row = 0;
     /// At a position as far from the bin's middle, in bins; grid units.
     double at(double east, double south) const { return middle + per_column * east + per_row * south; }

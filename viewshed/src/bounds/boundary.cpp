@@ -14,7 +14,7 @@ namespace itin::viewshed {
 
 namespace {
 
-constexpr std::size_t kVerticesPerChunk = 1 << 12;
+constexpr std::size_t kFansPerChunk = 1 << 12;
 
 /// The side of each triangle opposite its least corner, by the side's lesser end: the triangles with one at a vertex.
 /// Sides at the least corner need no list, since triangles come in the order of that corner.
@@ -73,10 +73,10 @@ bool meets_segment(const std::vector<Point2>& hull, Point2 a, Point2 b) {
 
 std::vector<BoundaryEdge> boundary_edges(const Tin& tin) {
   const OppositeSides opposite(tin);
-  std::vector<std::vector<std::size_t>> alone((tin.vertices.size() + kVerticesPerChunk - 1) / kVerticesPerChunk);
+  std::vector<std::vector<std::size_t>> alone((tin.vertices.size() + kFansPerChunk - 1) / kFansPerChunk);
   parallel_for(alone.size(), [&](std::size_t chunk) {
-    const auto begin = static_cast<std::uint32_t>(chunk * kVerticesPerChunk);
-    const auto end = static_cast<std::uint32_t>(std::min(tin.vertices.size(), (chunk + 1) * kVerticesPerChunk));
+    const auto begin = static_cast<std::uint32_t>(chunk * kFansPerChunk);
+    const auto end = static_cast<std::uint32_t>(std::min(tin.vertices.size(), (chunk + 1) * kFansPerChunk));
     auto t = static_cast<std::size_t>(
         std::ranges::lower_bound(tin.triangles, begin, {}, [](const Triangle& of) { return of[0]; }) -
         tin.triangles.begin());

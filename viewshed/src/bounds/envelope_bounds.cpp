@@ -6,7 +6,6 @@
 #include <itin/parallel.hpp>
 
 #include "bounds/feature_margin.hpp"
-#include "bounds/triangle_in_bins.hpp"
 #include "bounds/triangle_slope.hpp"
 #include "line/cell_tiles.hpp"
 #include "line/rounded_outwards.hpp"
@@ -15,16 +14,23 @@ namespace itin::viewshed {
 
 namespace {
 
-RasterGrid bin_grid(const Box& box, double bin) {
+RasterGrid bins_over_box(const Box& box, double bin) {
   if (box.empty()) return {{0, 0}, bin, bin, 1, 1};
   return bins_over({box.xmin, box.ymax}, box.width(), box.height(), bin);
 }
 
 }  // namespace
 
+double side_of_bins(const Tin& level, const Box& box) {
+  constexpr double kBinsPerTriangle = 64, kMostBins = 1 << 21;
+  const double triangles = static_cast<double>(level.triangles.size()) + 1;
+  const double side = std::sqrt(box.width() * box.height() / std::min(kMostBins, kBinsPerTriangle * triangles));
+  return std::max(side, level.grid.resolution);
+}
+
 EnvelopeBounds::EnvelopeBounds(const Tin& lower, const Tin& upper, const std::vector<BoundaryEdge>& outline,
                                const Box& box, double bin)
-    : BinBounds(lower.grid, bin_grid(box, bin)),
+    : BinBounds(lower.grid, bins_over_box(box, bin)),
       low_(grid_.cell_count(), kFloatInfinity),
       high_(grid_.cell_count(), -kFloatInfinity) {
   for (const Tin* const tin : {&lower, &upper})
@@ -46,12 +52,13 @@ void EnvelopeBounds::bound(const Tin& lower, const Tin& upper) {
   const TriangleBins triangles(lower, tiles);
   parallel_for(tiles.cell_count(), [&](std::size_t i) {
     const Tile tile = tile_at(grid_, tiles, i);
-    const Bins within{tile.column, tile.column + tile.columns - 1, tile.row, tile.row + tile.rows - 1};
+    const BinRange within{tile.column, tile.column + tile.columns - 1, tile.row, tile.row + tile.rows - 1};
     for (const std::uint32_t t : triangles.triangles(i)) bound_triangle(lower, upper, t, within);
   });
 }
 
-void EnvelopeBounds::bound_triangle(const Tin& lower, const Tin& upper, std::uint32_t triangle, const Bins& within) {
+void EnvelopeBounds::bound_triangle(const Tin& lower, const Tin& upper, std::uint32_t triangle,
+                                    const BinRange& within) {
   const TriangleInBins in_bins(VerticesInBins(lower, grid_), lower.triangles[triangle], slack());
   const double half = bin_size() / 2 + kStepsBeside;
   const TriangleSlope low(lower, triangle, half), high(upper, triangle, half);
@@ -98,7 +105,7 @@ void EnvelopeBounds::bound_runs() {
   parallel_for(runs_.tile_count(), [&](std::size_t tile) { runs_.bound<float>(tile, range_of, same, same); });
 }
 
-EnvelopeBounds::Bins EnvelopeBounds::bins_of(const BinBox& box) const {
+BinRange EnvelopeBounds::bins_of(const BinBox& box) const {
   constexpr double kHair = 1e-6;
   const auto bin = [](double v, std::int64_t count) {
     return static_cast<std::int64_t>(std::clamp(std::floor(v), -1.0, static_cast<double>(count)));
@@ -108,7 +115,7 @@ EnvelopeBounds::Bins EnvelopeBounds::bins_of(const BinBox& box) const {
 }
 
 float EnvelopeBounds::highest(const BinBox& box) const {
-  const Bins bins = bins_of(box);
+  const BinRange bins = bins_of(box);
   const auto first = std::max<std::int64_t>(0, bins.west), end = std::min(bins.east + 1, columns());
   float highest = -kFloatInfinity;
   for (auto row = std::max<std::int64_t>(0, bins.north); row <= std::min(bins.south, rows() - 1); ++row) {
@@ -119,7 +126,7 @@ float EnvelopeBounds::highest(const BinBox& box) const {
 }
 
 bool EnvelopeBounds::covers(const BinBox& box) const {
-  const Bins bins = bins_of(box);
+  const BinRange bins = bins_of(box);
   if (bins.west < 0 || bins.north < 0 || bins.east >= columns() || bins.south >= rows()) return false;
   for (auto row = bins.north; row <= bins.south; ++row) {
     const float* const of_row = low_.data() + row * columns();

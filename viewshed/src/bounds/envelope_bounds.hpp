@@ -16,8 +16,13 @@
 #include "bounds/bin_bounds.hpp"
 #include "bounds/boundary.hpp"
 #include "bounds/triangle_bins.hpp"
+#include "bounds/triangle_in_bins.hpp"
 
 namespace itin::viewshed {
+
+/// Metres, of bins within a box that follow the slopes of a level's triangles: many for each of these, but no more in
+/// all than take a moment.
+double side_of_bins(const Tin& level, const Box& box);
 
 class EnvelopeBounds final : public BinBounds {
  public:
@@ -32,13 +37,10 @@ class EnvelopeBounds final : public BinBounds {
   bool covers(const BinBox& box) const;
 
  private:
-  struct Bins {
-    std::int64_t west, east, north, south;  ///< inclusive
-  };
   double slack() const;
-  Bins bins_of(const BinBox& box) const;
+  BinRange bins_of(const BinBox& box) const;
   void bound(const Tin& lower, const Tin& upper);
-  void bound_triangle(const Tin& lower, const Tin& upper, std::uint32_t triangle, const Bins& within);
+  void bound_triangle(const Tin& lower, const Tin& upper, std::uint32_t triangle, const BinRange& within);
   void settle(const Tin& tin, const std::vector<BoundaryEdge>& outline);
   void bound_runs();
 

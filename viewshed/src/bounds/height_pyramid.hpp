@@ -21,6 +21,7 @@
 #include <itin/tin.hpp>
 
 #include "bounds/triangle_bins.hpp"
+#include "line/infinity.hpp"
 #include "line/sight_line.hpp"
 
 namespace itin::viewshed {
@@ -62,7 +63,6 @@ struct LineBundle {
   }
 
  private:
-  static constexpr double kInfinity = std::numeric_limits<double>::infinity();
 };
 
 class HeightPyramid {

@@ -10,12 +10,13 @@
 #include <itin/tin_heights.hpp>
 
 #include "line/cell_tiles.hpp"
+#include "line/infinity.hpp"
 
 namespace itin::viewshed {
 
 inline constexpr double kNoSurface = std::numeric_limits<double>::quiet_NaN();
 /// There is ground, but its height was not read, since no eye sees it.
-inline constexpr double kUnread = -std::numeric_limits<double>::infinity();
+inline constexpr double kUnread = -kInfinity;
 
 /// Heights in grid units at the tile's cell centres, kNoSurface where no triangle lies. Each centre is given its height
 /// by the first of `triangles` that holds it; triangles are closed, so none falls between two.

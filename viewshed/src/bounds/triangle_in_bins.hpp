@@ -11,11 +11,12 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <limits>
 #include <utility>
 
 #include <itin/raster.hpp>
 #include <itin/tin.hpp>
+
+#include "line/infinity.hpp"
 
 namespace itin::viewshed {
 
@@ -68,7 +69,7 @@ class TriangleInBins {
   /// The columns that the triangle meets within a row: inclusive.
   std::pair<std::int64_t, std::int64_t> columns_in(std::int64_t row) const {
     const double top = static_cast<double>(row) - slack_, bottom = static_cast<double>(row + 1) + slack_;
-    double west = std::numeric_limits<double>::infinity(), east = -west;
+    double west = kInfinity, east = -west;
     const auto extend = [&](double x) { west = std::min(west, x), east = std::max(east, x); };
     for (std::size_t i = 0; i < 3; ++i) {
       const Point2 a = corners_[i], b = corners_[(i + 1) % 3];

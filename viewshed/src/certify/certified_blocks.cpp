@@ -22,7 +22,7 @@ namespace itin::viewshed {
 namespace {
 
 /// All that may be in the eye's view.
-Box reach_of(const Eye& eye, const Box& extent) {
+Box box_in_reach(const Eye& eye, const Box& extent) {
   const double reach = eye.view.farthest();
   return std::isfinite(reach) ? intersection(disc_box(eye.position, reach), extent) : extent;
 }
@@ -65,7 +65,7 @@ ViewshedWithSurface certify_by_blocks(const Store& store, const Request& request
   CertifiedCells cells(result.grid, tiles, stage);
   const Surroundings surroundings(store, request, result.grid);
   for (std::size_t i = 0; i < eyes.size(); ++i) {
-    bounded.bound(reach_of(eyes[i], bounded.envelope().lower.bounds()));
+    bounded.bound(box_in_reach(eyes[i], bounded.envelope().lower.bounds()));
     const auto nearby = surroundings.decide(request.observers[i], result.statistics, progress);
     const BlockJudge judge(bounded, request, result.grid, tiles, eyes[i], nearby ? &*nearby : nullptr);
     cells.judge(judge, 1, tiles_in_reach(eyes[i], result.grid, tiles));

@@ -1,6 +1,5 @@
 #include "certify/certified_sectors.hpp"
 
-#include <limits>
 #include <optional>
 #include <span>
 #include <utility>
@@ -13,6 +12,7 @@
 #include "certify/exact_nearby.hpp"
 #include "judge/block_judge.hpp"
 #include "line/hulls.hpp"
+#include "line/infinity.hpp"
 #include "plan/sight_sectors.hpp"
 #include "progress/stage.hpp"
 #include "progress/stopwatch.hpp"
@@ -66,7 +66,7 @@ class CertifiedSectors {
       const SightSectors::Sector sector = sectors.next(
           [&](const std::vector<Point2>& hull) { return area_of(hull) * points_per_square_metre_ <= most_points_; });
       judge(eye, envelop(store_, within(sector.hull, eye, whole_), reading_), box_about(sector.hull), sector.parts);
-      sectors.settle(sector, std::numeric_limits<double>::infinity());
+      sectors.settle(sector, kInfinity);
     }
   }
 

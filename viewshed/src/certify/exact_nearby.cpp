@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include <itin/silent_progress.hpp>
 
+#include "line/infinity.hpp"
 #include "request/request.hpp"
 #include "window/retrieval.hpp"
 
@@ -17,13 +17,8 @@ namespace {
 /// As far as about so many points of the full surface lie, and no more than this share of them.
 constexpr double kPointsNearby = 32000, kShareNearby = 1.0 / 64;
 
-struct Part {
-  RasterGrid::Cell first;
-  std::int64_t columns = 0, rows = 0;
-};
-
 /// The cells that meet a box.
-Part cells_within(const RasterGrid& grid, const Box& box) {
+CellRectangle cells_within(const RasterGrid& grid, const Box& box) {
   const auto at = [](double v, std::int64_t count) {
     return static_cast<std::int64_t>(std::clamp(v, 0.0, static_cast<double>(count)));
   };
@@ -31,7 +26,7 @@ Part cells_within(const RasterGrid& grid, const Box& box) {
                      east = at(std::ceil(grid.column_at(box.xmax)), grid.columns()),
                      north = at(std::floor(grid.row_at(box.ymax)), grid.rows()),
                      south = at(std::ceil(grid.row_at(box.ymin)), grid.rows());
-  return {{west, north}, east - west, south - north};
+  return {west, north, east - west, south - north};
 }
 
 }  // namespace
@@ -45,13 +40,13 @@ Surroundings::Surroundings(const Store& store, const Request& request, const Ras
 
 double Surroundings::reach_of(const Observer& observer) const {
   return std::min(radius_with(store_, 0, observer.position, points_),
-                  radius_of(request_, observer).value_or(std::numeric_limits<double>::infinity()));
+                  radius_of(request_, observer).value_or(kInfinity));
 }
 
 std::optional<ExactNearby> Surroundings::decide(const Observer& observer, Statistics& statistics,
                                                 Progress& progress) const {
   const double reach = reach_of(observer);
-  const Part part = cells_within(grid_, disc_box(observer.position, reach));
+  const CellRectangle part = cells_within(grid_, disc_box(observer.position, reach));
   if (part.columns <= 0 || part.rows <= 0 || reach < std::max(grid_.cell_width(), grid_.cell_height()) ||
       reach <= observer.min_radius.value_or(request_.min_radius))
     return std::nullopt;
@@ -59,12 +54,12 @@ std::optional<ExactNearby> Surroundings::decide(const Observer& observer, Statis
   nearby.observers = {observer};
   nearby.observers.front().radius = reach;
   nearby.detail = Detail::tolerance(0);
-  nearby.grid = grid_.part(part.first, part.columns, part.rows);
+  nearby.grid = grid_.part({part.column, part.row}, part.columns, part.rows);
   nearby.cell_size.reset();
   SilentProgress reading(progress);
   ViewshedWithSurface exact = compute_with_surface(store_, nearby, {}, reading);
   statistics.lines += exact.result.statistics.lines;
-  return ExactNearby{part.first, part.columns, part.rows, std::move(exact.result.visible)};
+  return ExactNearby{{part.column, part.row}, part.columns, part.rows, std::move(exact.result.visible)};
 }
 
 }  // namespace itin::viewshed

@@ -7,6 +7,8 @@
 
 #include <itin/parallel.hpp>
 
+#include "line/infinity.hpp"
+
 namespace itin::viewshed {
 
 namespace {
@@ -36,7 +38,7 @@ double shade(double east, double north) {
 }  // namespace
 
 std::vector<float> hillshade(std::span<const float> heights, const RasterGrid& pixels) {
-  float low = std::numeric_limits<float>::infinity(), high = -low;
+  float low = kFloatInfinity, high = -low;
   for (const float z : heights) {
     if (!std::isnan(z)) low = std::min(low, z), high = std::max(high, z);
   }

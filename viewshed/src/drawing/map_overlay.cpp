@@ -12,6 +12,8 @@
 #include <viewshed/documents.hpp>
 #include <viewshed/viewshed.hpp>
 
+#include "line/infinity.hpp"
+
 namespace itin::viewshed {
 
 namespace {
@@ -38,8 +40,8 @@ double round_step(double v) {
 }
 
 struct Extremes {
-  double least = std::numeric_limits<double>::infinity();
-  double most = -std::numeric_limits<double>::infinity();
+  double least = kInfinity;
+  double most = -kInfinity;
   bool empty() const { return least > most; }
 };
 
@@ -223,7 +225,7 @@ void MapOverlay::scale_heights() {
   };
   add(0, "0");
   for (const double limit : limits) add(limit, fmt::format("{:.10g}", limit));
-  if (!limits.empty()) add(std::numeric_limits<double>::infinity(), fmt::format("> {:.10g}", limits.back()));
+  if (!limits.empty()) add(kInfinity, fmt::format("> {:.10g}", limits.back()));
 }
 
 void MapOverlay::scale_probabilities() {
@@ -238,7 +240,7 @@ void MapOverlay::scale_losses() {
   constexpr std::array<std::pair<int, Colour>, 5> kSteps{
       {{0, kPalette[0]}, {6, kPalette[4]}, {15, kPalette[2]}, {30, kPalette[6]}, {50, kPalette[5]}}};
   for (const auto& [most, colour] : kSteps) add_step(most, {colour, kOpacity}, fmt::format("{}", most));
-  add_step(std::numeric_limits<double>::infinity(), {kPalette[3], kOpacity}, fmt::format("> {}", kSteps.back().first));
+  add_step(kInfinity, {kPalette[3], kOpacity}, fmt::format("> {}", kSteps.back().first));
 }
 
 void MapOverlay::make_keys(const MapOptions& options) {

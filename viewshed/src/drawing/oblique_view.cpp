@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include <itin/error.hpp>
@@ -8,6 +7,7 @@
 
 #include "drawing/surface_colours.hpp"
 #include "drawing/surface_picture.hpp"
+#include "line/infinity.hpp"
 
 namespace itin::viewshed {
 
@@ -68,7 +68,7 @@ class ParallelView {
   Point2 centre_;
   double sin_a_ = 0, cos_a_ = 1, sin_e_ = 0, cos_e_ = 1;
   std::vector<Seen> seen_;
-  double left_ = std::numeric_limits<double>::infinity(), right_ = -left_, low_ = left_, high_ = -left_;
+  double left_ = kInfinity, right_ = -left_, low_ = left_, high_ = -left_;
 };
 
 }  // namespace

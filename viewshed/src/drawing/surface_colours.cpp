@@ -17,7 +17,7 @@ constexpr Colour kGround{206, 207, 186}, kWalls{238, 228, 208};
 constexpr Colour kOther{146, 146, 150};
 
 /// The colour of tops.
-Colour colour_of(ThemeKind kind) {
+Colour colour_of_kind(ThemeKind kind) {
   switch (kind) {
     case ThemeKind::Buildings:
     case ThemeKind::Terraces:
@@ -34,7 +34,7 @@ Colour colour_of(ThemeKind kind) {
 }  // namespace
 
 SurfaceColours::SurfaceColours(const Tin& tin, double azimuth, const std::vector<ThemeKind>& kinds) : tin_(tin) {
-  for (const ThemeKind kind : kinds) of_themes_.push_back(colour_of(kind));
+  for (const ThemeKind kind : kinds) of_themes_.push_back(colour_of_kind(kind));
   const double light = (azimuth - kLeft) * kDegree, height = kHigh * kDegree;
   light_ = {-std::sin(light) * std::cos(height), -std::cos(light) * std::cos(height), std::sin(height)};
 }

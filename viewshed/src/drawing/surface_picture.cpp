@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <itin/error.hpp>
+
+#include "line/infinity.hpp"
 
 namespace itin::viewshed {
 
@@ -33,7 +34,7 @@ std::array<double, 3> weights_within(double distance, const std::array<Corner, 3
 
 /// Where a row crosses a triangle, from one x to another.
 std::pair<double, double> range_in(const std::array<Corner, 3>& s, double y) {
-  double from = std::numeric_limits<double>::infinity(), to = -from;
+  double from = kInfinity, to = -from;
   for (std::size_t i = 0; i < 3; ++i) {
     const Corner &p = s[i], &q = s[(i + 1) % 3];
     if ((p.y < y && q.y < y) || (p.y > y && q.y > y)) continue;
@@ -54,7 +55,7 @@ void require_drawable(const Tin& tin, int pixels) {
 SurfacePicture::SurfacePicture(int width, int height, Colour background)
     : width_(width * kSamples), height_(height * kSamples) {
   colours_.assign(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_), background);
-  depths_.assign(colours_.size(), std::numeric_limits<float>::infinity());
+  depths_.assign(colours_.size(), kFloatInfinity);
 }
 
 void SurfacePicture::fill(const std::array<Corner, 3>& given, Colour colour, bool edges) {

@@ -37,7 +37,7 @@ double clockwise(double degrees) {
 }
 
 /// Metres: the request's radius, or as far as there is data.
-double reach_of(const Request& request, const Box& data) {
+double greatest_reach(const Request& request, const Box& data) {
   const Observer& observer = request.observers.front();
   const Point2 p = observer.position;
   if (const auto radius = radius_of(request, observer)) return *radius;
@@ -172,7 +172,7 @@ Horizon horizon(const Tin& surface, const Tin& ground, const Request& request, c
   Heights below;
   for (const Point2& target : positions_of(options.targets))
     below.push_back(height_on(request.targets_on_surface ? surface : ground, target));
-  Survey survey(request, options, surface.grid, eye, reach_of(request, surface.bounds()), below);
+  Survey survey(request, options, surface.grid, eye, greatest_reach(request, surface.bounds()), below);
   Stage stage("horizon", survey.directions().size(), progress);
   survey.look(surface, survey.directions(), stage);
   return std::move(survey).result();
@@ -186,7 +186,7 @@ Horizon horizon(const Store& store, const Request& request, const HorizonOptions
   const Eye eye = eyes_on_surface(store, request, request.detail, heights, quiet).front();
   const Heights below = heights_at(store, positions_of(options.targets), request.detail,
                                    request.targets_on_surface ? request.themes : ThemeChoice::none(), quiet);
-  Survey survey(request, options, store.metadata().grid, eye, reach_of(request, extent_of(store)), below);
+  Survey survey(request, options, store.metadata().grid, eye, greatest_reach(request, extent_of(store)), below);
   const std::uint64_t most = points_within(compute_options.memory_bytes, store, request);
   const GroundTiles ground(store, level_within(store.metadata(), request.detail.finest()),
                            box_of_window(store, request));

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <itin/error.hpp>
 #include <itin/geodesic.hpp>
 
 #include "bounds/surface_heights.hpp"
+#include "line/infinity.hpp"
 
 namespace itin::viewshed {
 
@@ -57,7 +57,7 @@ std::optional<SkyPoint> Panorama::sky(double azimuth) const {
 
 /// Which one of several triangles that touch the line is found first follows from what else has been read.
 Panorama::Touch Panorama::nearest_touch(const SightLine& line, const std::vector<std::uint32_t>& triangles) const {
-  Touch nearest{std::numeric_limits<double>::infinity(), 0};
+  Touch nearest{kInfinity, 0};
   for (const std::uint32_t triangle : triangles) {
     const auto [a, b, c] = surface_.corners(triangle);
     nearest = std::min(nearest, Touch{line.highest_at(a, b, c), surface_.theme(surface_.triangles[triangle])});

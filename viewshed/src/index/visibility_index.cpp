@@ -28,7 +28,7 @@ namespace {
 
 constexpr float kNoShare = std::numeric_limits<float>::quiet_NaN();
 
-void validate(const IndexRequest& request) {
+void require_valid_index(const IndexRequest& request) {
   const auto require = [](bool holds, const char* what) {
     if (!holds) throw InputError(what);
   };
@@ -171,7 +171,7 @@ class IndexWork {
 }  // namespace
 
 VisibilityIndex visibility_index(const Store& store, const IndexRequest& request, Progress& progress) {
-  validate(request);
+  require_valid_index(request);
   return IndexWork(store, request, progress).run();
 }
 

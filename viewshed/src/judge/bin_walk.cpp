@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <itin/parallel.hpp>
 
+#include "line/infinity.hpp"
 #include "line/rounded_outwards.hpp"
 
 namespace itin::viewshed {
@@ -35,7 +35,7 @@ class Crossing {
   static std::int64_t number_at(double v) { return static_cast<std::int64_t>(std::floor(v)); }
 
   std::int64_t step_, number_;
-  double next_ = std::numeric_limits<double>::infinity(), spacing_ = 0;
+  double next_ = kInfinity, spacing_ = 0;
 };
 
 }  // namespace

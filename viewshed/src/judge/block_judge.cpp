@@ -1,13 +1,13 @@
 #include "judge/block_judge.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 #include <itin/grazing.hpp>
 
 #include "bounds/surface_heights.hpp"
 #include "judge/bounded_target.hpp"
+#include "line/infinity.hpp"
 
 namespace itin::viewshed {
 
@@ -52,7 +52,7 @@ class BlockJudge::BlockWork final : public TileJudge::Work {
     const BinBox box = box_of(block);
     const double metres = judge_.surface_.bounds().units().resolution;
     const double highest = judge_.surface_.bounds().highest(box) + judge_.surface_.rises().over(tile_, block);
-    if (highest == -std::numeric_limits<double>::infinity()) return;
+    if (highest == -kInfinity) return;
     if (judge_.horizon_.hides(box, judge_.eye_.target(highest * metres) / metres)) {
       for_each_cell(block, [&](std::size_t cell) {
         values[cell] = asked[cell] == Verdict::kUndecided ? Verdict::kHidden : asked[cell];
@@ -133,7 +133,6 @@ class BlockJudge::BlockWork final : public TileJudge::Work {
 namespace {
 
 HorizonView horizon_of(const EnvelopeBounds& bounds, const Request& request, const Eye& eye) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   const double resolution = bounds.units().resolution;
   const auto axis = HorizonView::axis_at(bounds, eye.units, eye.view.farthest() / resolution + 1);
   HorizonView view(bounds, axis, request.earth.drop_coefficient() * resolution, kGrazing / resolution);

@@ -10,6 +10,8 @@
 
 #include <itin/grazing.hpp>
 
+#include "line/infinity.hpp"
+
 namespace itin::viewshed {
 
 namespace {
@@ -93,7 +95,7 @@ unsigned ClearZone::cut(const Bounded& surface, const SightLines& lines) const {
   tests.reserve(SightLines::kSize);
   LoweredLines bundle;
   bundle.margin = grazing;
-  bundle.end = std::numeric_limits<double>::infinity();
+  bundle.end = kInfinity;
   for (unsigned rest = lines.active; rest != 0; rest &= rest - 1) {
     const auto i = static_cast<unsigned>(std::countr_zero(rest));
     // From the target: what cuts the zone is most often near it.

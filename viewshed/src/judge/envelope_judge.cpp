@@ -4,7 +4,6 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include <itin/grazing.hpp>
@@ -12,6 +11,7 @@
 
 #include "bounds/surface_heights.hpp"
 #include "judge/bounded_target.hpp"
+#include "line/infinity.hpp"
 
 namespace itin::viewshed {
 
@@ -24,7 +24,7 @@ using BlockValues = std::array<double, kBlocks * kBlocks>;
 
 BlockValues highest_by_block(const TileValues<double>& heights, const Tile& tile) {
   BlockValues highest;
-  highest.fill(-std::numeric_limits<double>::infinity());
+  highest.fill(-kInfinity);
   for_each_cell(tile, [&](std::size_t cell, RasterGrid::Cell) {
     const std::size_t r = cell / Tile::kSide, c = cell % Tile::kSide;
     const std::size_t block = r / kBlockSide * kBlocks + c / kBlockSide;
@@ -117,7 +117,7 @@ class EnvelopeJudge::TileWork final : public TileJudge::Work {
   }
 
   double highest_of(const Block& block) const {
-    double highest = -std::numeric_limits<double>::infinity();
+    double highest = -kInfinity;
     for (std::size_t r = block.row0 / kBlockSide; r <= block.row1 / kBlockSide; ++r)
       for (std::size_t c = block.column0 / kBlockSide; c <= block.column1 / kBlockSide; ++c)
         highest = std::max(highest, highest_[r * kBlocks + c]);

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 #include <viewshed/viewshed.hpp>
 
 #include "bounds/surface_heights.hpp"
+#include "line/infinity.hpp"
 #include "request/request.hpp"
 
 namespace itin::viewshed {
@@ -40,7 +40,7 @@ EnvelopeScene::View EnvelopeScene::view_from(const Eye& eye) const {
 
 double EnvelopeScene::upper_height(const Eye& eye, std::span<const std::uint32_t> triangles) const {
   const Tin& tin = envelope.upper;
-  double highest = -std::numeric_limits<double>::infinity();
+  double highest = -kInfinity;
   const auto apart = [](double v, std::int32_t a, std::int32_t b, std::int32_t c) {
     return (v < a && v < b && v < c) || (v > a && v > b && v > c);
   };

@@ -2,16 +2,15 @@
 #pragma once
 
 #include <cmath>
-#include <limits>
+
+#include "line/infinity.hpp"
 
 namespace itin::viewshed {
-
-inline constexpr float kFloatInfinity = std::numeric_limits<float>::infinity();
 
 /// The greatest float that is no more than `v`; with infinities as they are.
 inline float rounded_down(double v) {
   const auto near = static_cast<float>(v);
-  return near <= v ? near : std::nextafter(near, -std::numeric_limits<float>::infinity());
+  return near <= v ? near : std::nextafter(near, -kFloatInfinity);
 }
 /// The least that is no less.
 inline float rounded_up(double v) {

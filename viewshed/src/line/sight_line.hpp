@@ -16,6 +16,8 @@
 #include <itin/geometry.hpp>
 #include <itin/grazing.hpp>
 
+#include "line/infinity.hpp"
+
 namespace itin::viewshed {
 
 class SightLine {
@@ -114,7 +116,6 @@ class SightLine {
   /// line does not pass over the triangle, +infinity where the end `from` lies beneath it. At that height the triangle
   /// touches the line, to half a grazing, so that rounding cannot make it hide again.
   double clearing_end(const GridPoint& a, const GridPoint& b, const GridPoint& c) const {
-    constexpr double kInfinity = std::numeric_limits<double>::infinity();
     if (beside(a, b, c)) return -kInfinity;
     const Section under = section(a, b, c);
     if (!under.meets_line()) return -kInfinity;

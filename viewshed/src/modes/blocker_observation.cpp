@@ -1,12 +1,13 @@
 #include "modes/blocker_observation.hpp"
 
 #include <algorithm>
-#include <limits>
+
+#include "line/infinity.hpp"
 
 namespace itin::viewshed {
 
 BlockerObservation::BlockerObservation(BlockerTable& table) : table_(table) {
-  squared_.fill(std::numeric_limits<double>::infinity());
+  squared_.fill(kInfinity);
   observer_.fill(0);
   blocker_.fill(kNoBlocker);
 }

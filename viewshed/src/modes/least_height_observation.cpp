@@ -4,12 +4,13 @@
 #include <cmath>
 #include <limits>
 
+#include "line/infinity.hpp"
 #include "request/request.hpp"
 
 namespace itin::viewshed {
 
 LeastHeightObservation::LeastHeightObservation() {
-  least_.fill(std::numeric_limits<double>::infinity());
+  least_.fill(kInfinity);
 }
 
 bool LeastHeightObservation::open(const CellView& view) const {

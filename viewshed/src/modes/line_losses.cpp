@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <itin/grazing.hpp>
 #include <itin/section_line.hpp>
+
+#include "line/infinity.hpp"
 
 namespace itin::viewshed {
 
@@ -74,7 +75,7 @@ LineLosses::Outcome LineLosses::of_line(const Line& line, Scratch& scratch) cons
   const double from_top = scratch.tops_.front().height_m, to_top = scratch.tops_.back().height_m;
   if (ends.from_m < from_top - kGrazing || ends.to_m < to_top - kGrazing) return outcome;
   ends.from_m = std::max(ends.from_m, from_top), ends.to_m = std::max(ends.to_m, to_top);
-  if (bare_) profile(*bare_, std::numeric_limits<double>::infinity(), scratch.ground_);
+  if (bare_) profile(*bare_, kInfinity, scratch.ground_);
   const std::vector<PathPoint>& ground = bare_ ? scratch.ground_ : scratch.tops_;
   outcome.loss = Loss{delta_bullington(scratch.tops_, ground, ends, path_).ld_db,
                       free_space_db(std::hypot(length, ends.to_m - ends.from_m), wavelength_m(path_.frequency_ghz))};

@@ -4,11 +4,13 @@
 #include <limits>
 #include <utility>
 
+#include "line/infinity.hpp"
+
 namespace itin::viewshed {
 
 namespace {
 
-constexpr float kNoLoss = std::numeric_limits<float>::infinity();
+constexpr float kNoLoss = kFloatInfinity;
 
 }  // namespace
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "line/infinity.hpp"
 #include "modes/blocker_observation.hpp"
 #include "modes/least_height_observation.hpp"
 #include "modes/loss_observation.hpp"
@@ -84,7 +85,7 @@ class GreatestAngle final : public Observation {
 class NearestObserver final : public Observation {
  public:
   NearestObserver() {
-    squared_.fill(std::numeric_limits<double>::infinity());
+    squared_.fill(kInfinity);
     numbers_.fill(0);
   }
   bool open(const CellView& view) const override {

@@ -7,6 +7,7 @@
 #include <itin/grid_units.hpp>
 #include <itin/topology.hpp>
 
+#include "line/infinity.hpp"
 #include "line/sight_line.hpp"
 
 namespace itin::viewshed {
@@ -18,8 +19,8 @@ bool lies_left(const SectionLine& line, const GridPoint& p) {
   return line.side(p) >= 0;
 }
 
-void add(const SectionLine& line, const SectionCrossing& in, const SectionCrossing& out,
-         std::vector<SurfacePieces::Piece>& pieces) {
+void add_piece(const SectionLine& line, const SectionCrossing& in, const SectionCrossing& out,
+               std::vector<SurfacePieces::Piece>& pieces) {
   if (const auto piece = line.clip(in, out))
     pieces.push_back({{piece->from.distance, piece->from.position.z}, {piece->to.distance, piece->to.position.z}});
 }
@@ -37,7 +38,7 @@ bool SurfacePieces::walk(const SectionLine& line, std::vector<Piece>& pieces) co
   std::optional<Stop> at = first_stop(line);
   while (at) {
     const SectionCrossing out = line.crossing(corner(at->triangle, at->exit), corner(at->triangle, at->exit + 1));
-    add(line, at->in, out, pieces);
+    add_piece(line, at->in, out, pieces);
     if (out.place == SectionCrossing::Place::kBeyond || out.t >= 1) return true;
     const std::uint32_t next = neighbours_[at->triangle][at->exit];
     if (next == kNoNeighbour) return false;
@@ -77,13 +78,13 @@ void SurfacePieces::search(const SectionLine& line, std::vector<Piece>& pieces) 
   pieces.clear();
   const Point2 from = place_in_units(tin_.grid, line.start()), to = place_in_units(tin_.grid, line.end());
   LineBundle bundle(SightLine({from.x, from.y, 0}, {to.x, to.y, 0}, 0, 0));
-  bundle.margin = std::numeric_limits<double>::infinity();  // however far below
+  bundle.margin = kInfinity;  // however far below
   // Most triangles lie in several bins.
   std::array<std::uint32_t, 256> before;
   before.fill(std::numeric_limits<std::uint32_t>::max());
   pyramid_.search(bundle, [&](std::uint32_t t) {
     if (std::exchange(before[t % before.size()], t) == t) return;
-    if (const auto chord = line.chord(tin_.corners(t))) add(line, chord->from, chord->to, pieces);
+    if (const auto chord = line.chord(tin_.corners(t))) add_piece(line, chord->from, chord->to, pieces);
   });
   std::sort(pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) {
     return std::pair(a.from.distance_m, a.to.distance_m) < std::pair(b.from.distance_m, b.to.distance_m);

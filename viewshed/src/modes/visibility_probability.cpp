@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "line/infinity.hpp"
 #include "line/sight_line.hpp"
 
 namespace itin::viewshed {
@@ -101,7 +102,7 @@ bool VisibilityProbability::cross(const Line& line, Scratch& scratch) const {
                               if (rise > highest) highest = rise, scratch.highest_ = triangle;
                             });
     // Nothing more needs to be looked at.
-    if (highest >= hidden) bundle.margin = -std::numeric_limits<double>::infinity();
+    if (highest >= hidden) bundle.margin = -kInfinity;
   };
   if (const auto last = scratch.highest_) add(*last);
   if (highest < hidden) pyramid_.search(bundle, add);

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <tuple>
 #include <utility>
@@ -10,6 +9,7 @@
 #include <viewshed/surface.hpp>
 
 #include "line/cell_tiles.hpp"
+#include "line/infinity.hpp"
 #include "plan/certified_way.hpp"
 #include "plan/memory.hpp"
 #include "plan/partition.hpp"
@@ -102,7 +102,7 @@ class Division {
 
   void leave_those_that_reach(Segment& segment) const {
     const Box box = grid_.part(segment.north_west, segment.columns, segment.rows).bounds();
-    double nearest = std::numeric_limits<double>::infinity();
+    double nearest = kInfinity;
     std::erase_if(segment.observers, [&](std::uint32_t number) {
       const Observer& observer = request_.observers[number];
       const double squared = squared_distance(observer.position, box);

@@ -14,6 +14,7 @@
 #include <viewshed/viewshed.hpp>
 
 #include "line/cell_tiles.hpp"
+#include "line/infinity.hpp"
 #include "request/field_of_view.hpp"
 
 namespace itin::viewshed {
@@ -28,7 +29,6 @@ struct MapView {
     return view.holds(squared_distance(position, box), greatest_squared_distance(position, box));
   }
   bool holds(Point2 p) const {
-    constexpr double kInfinity = std::numeric_limits<double>::infinity();
     return view.contains(p.x - position.x, p.y - position.y, -kInfinity, kInfinity).value_or(true);
   }
 };

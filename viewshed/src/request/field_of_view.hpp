@@ -2,13 +2,14 @@
 #pragma once
 
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <utility>
 
 #include <itin/geodesic.hpp>
 #include <itin/grazing.hpp>
 #include <viewshed/viewshed.hpp>
+
+#include "line/infinity.hpp"
 
 namespace itin::viewshed {
 
@@ -42,7 +43,6 @@ class FieldOfView {
     if (!elevation_) return std::nullopt;
     const double distance = std::sqrt(squared), drop = drop_ * squared, slack = squared == 0 ? kGrazing : 0;
     const auto height = [&](double degrees) { return std::tan(degrees / kDegreesPerRadian) * distance + drop; };
-    constexpr double kInfinity = std::numeric_limits<double>::infinity();
     return std::pair(elevation_->from <= -90 ? -kInfinity : height(elevation_->from) - slack,
                      elevation_->to >= 90 ? kInfinity : height(elevation_->to) + slack);
   }
@@ -80,7 +80,7 @@ class FieldOfView {
   std::optional<AngleRange> azimuth_;
   std::optional<AngleRange> elevation_;
   double drop_;
-  double farthest_ = std::numeric_limits<double>::infinity();
+  double farthest_ = kInfinity;
   double nearest_ = 0;
 };
 

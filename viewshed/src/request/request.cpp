@@ -11,6 +11,7 @@
 #include <viewshed/surface.hpp>
 
 #include "line/hulls.hpp"
+#include "line/infinity.hpp"
 #include "request/eye.hpp"
 
 namespace itin::viewshed {
@@ -311,7 +312,7 @@ Box box_of_window(const Store& store, const Request& request) {
 
 void find_voids(const Grid& units, const std::vector<RimEdge>& rim, Result& result) {
   for (const Observer& observer : result.request.observers) {
-    const double reach = radius_of(result.request, observer).value_or(std::numeric_limits<double>::infinity());
+    const double reach = radius_of(result.request, observer).value_or(kInfinity);
     result.crosses_voids = result.crosses_voids || surface_resumes(units, rim, observer.position, reach,
                                                                    hull_about(observer.position, result.grid.bounds()));
   }

@@ -4,12 +4,13 @@
 #include <array>
 #include <cmath>
 #include <iterator>
-#include <limits>
 #include <utility>
 
 #include <itin/grazing.hpp>
 #include <itin/grid_units.hpp>
 #include <itin/lattice_tin.hpp>
+
+#include "line/infinity.hpp"
 
 namespace itin::viewshed {
 
@@ -61,7 +62,7 @@ RadialSweep::View FullSurface::view_of_cells(const Eye& eye) const {
   std::copy_if(cells_.begin(), cells_.end(), std::back_inserter(reached),
                [&](const BinBox& box) { return view.reaches(box); });
   view.narrow(reached);
-  view.advance(std::numeric_limits<double>::infinity());
+  view.advance(kInfinity);
   return view;
 }
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstdint>
 #include <functional>
-#include <limits>
 #include <utility>
 #include <vector>
 
@@ -11,6 +10,7 @@
 #include <itin/lattice_reader.hpp>
 #include <itin/parallel.hpp>
 
+#include "line/infinity.hpp"
 #include "request/request.hpp"
 
 namespace itin::viewshed {
@@ -79,7 +79,7 @@ Revealed reveal(const Eye& eye, LatticeReader& reader, FullSurface& surface, std
     most_tiles -= wanted.size();
     read(wanted, reader, surface, progress);
   }
-  constexpr double kAll = std::numeric_limits<double>::infinity();
+  constexpr double kAll = kInfinity;
   view.advance(kAll);
   return {std::move(view), kAll};
 }

@@ -2,7 +2,6 @@
 #include <cmath>
 #include <functional>
 #include <iterator>
-#include <limits>
 
 #include <fmt/format.h>
 
@@ -10,6 +9,7 @@
 #include <viewshed/missing_ground.hpp>
 #include <viewshed/zone_files.hpp>
 
+#include "line/infinity.hpp"
 #include "request/cells_in_view.hpp"
 #include "turbines/value_bands.hpp"
 #include "turbines/zone_request.hpp"
@@ -39,7 +39,7 @@ class Rings {
   double from(std::size_t ring) const { return ring == 0 ? 0 : limits_[ring - 1]; }
   double to(std::size_t ring) const { return limits_[ring]; }
   std::size_t of(Point2 p) const {
-    double nearest = std::numeric_limits<double>::infinity();
+    double nearest = kInfinity;
     for (const Turbine& t : turbines_) {
       const double dx = t.position.x - p.x, dy = t.position.y - p.y;
       nearest = std::min(nearest, dx * dx + dy * dy);

@@ -13,6 +13,7 @@
 
 #include "bounds/cell_blocks.hpp"
 #include "line/cell_tiles.hpp"
+#include "line/infinity.hpp"
 #include "progress/stage.hpp"
 #include "request/request.hpp"
 #include "turbines/zone_request.hpp"
@@ -22,11 +23,8 @@ namespace itin::viewshed {
 
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// The coarse surfaces have so much fewer points than the full one.
-constexpr std::uint64_t kCoarseShare = 2;
-/// Bins follow the slopes of a level; more of them take long.
-constexpr double kBinsPerTriangle = 64, kMostBins = 1 << 21;
+constexpr std::uint64_t kEnclosingShare = 2;
 /// Points of the bare ground beneath one roof.
 constexpr double kPointsPerTile = 8;
 
@@ -34,7 +32,7 @@ Envelope enclosing(const Store& store, const ThemeChoice& themes, const Window& 
   const Box box = intersection(window.bounds(), extent_of(store));
   EnvelopeRequest wanted;
   wanted.window = window;
-  wanted.level = finest_level_of(store, box, store.points_about(0, box) / kCoarseShare, 1);
+  wanted.level = finest_level_of(store, box, store.points_about(0, box) / kEnclosingShare, 1);
   wanted.cut_by = wanted.enclosed = themes;
   return envelop(store, wanted, progress);
 }
@@ -145,10 +143,8 @@ void OpenLines::bound(const Store& store, const Window& window, Progress& progre
   const Envelope envelope = enclosing(store, *zone_.request.themes, window, progress);
   retrieval_ = envelope.lower.statistics;
   const Box box = envelope.lower.bounds();
-  const double triangles = static_cast<double>(envelope.lower.triangles.size()) + 1;
-  const double bin = std::sqrt(box.width() * box.height() / std::min(kMostBins, kBinsPerTriangle * triangles));
   bounds_.emplace(envelope.lower, envelope.upper, envelope.outline, box,
-                  std::max({bin, units_.resolution, zone_.grid.cell_width() / 2}));
+                  std::max(side_of_bins(envelope.lower, box), zone_.grid.cell_width() / 2));
   tiles_.emplace(store, 0, box, kPointsPerTile);
 }
 

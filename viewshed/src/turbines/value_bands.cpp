@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include <fmt/format.h>
 
 #include <itin/markup.hpp>
+
+#include "line/infinity.hpp"
 
 namespace itin::viewshed {
 
@@ -71,7 +72,7 @@ std::vector<ValueBand> limit_bands(const std::vector<double>& limits, const std:
     bands.push_back({to, fmt::format("{:g} - {:g} {}", from, to, unit)});
     from = to;
   }
-  bands.push_back({std::numeric_limits<double>::infinity(), fmt::format("above {:g} {}", from, unit)});
+  bands.push_back({kInfinity, fmt::format("above {:g} {}", from, unit)});
   colour_bands(bands);
   return bands;
 }

@@ -52,8 +52,8 @@ ZoneMap farm_map(const Zone& zone, const Visibility& visibility, std::size_t mos
   return map;
 }
 
-void add(std::vector<ZoneMap>& maps, ZoneMap map, const char* name, const char* title, const char* heading,
-         bool screened) {
+void add_map(std::vector<ZoneMap>& maps, ZoneMap map, const char* name, const char* title, const char* heading,
+             bool screened) {
   map.name = std::string(name) + (screened ? "-screened" : ""), map.title = title, map.heading = heading;
   map.screened = screened;
   map.seen = map.name.starts_with("farms") ? "farms" : map.name.starts_with("hub") ? "hub" : "tip";
@@ -66,15 +66,15 @@ std::vector<ZoneMap> zone_maps(const Zone& zone, std::size_t most_combinations) 
   std::vector<ZoneMap> maps;
   const std::size_t farms = farms_of(zone).size();
   const auto add_all = [&](const Visibility& v, bool screened) {
-    add(maps, count_map(zone, v.tip_count), "tip-count", "Zone of theoretical visibility: blade tips",
-        "Turbines with their blade tip visible", screened);
+    add_map(maps, count_map(zone, v.tip_count), "tip-count", "Zone of theoretical visibility: blade tips",
+            "Turbines with their blade tip visible", screened);
     if (knows_hubs(zone))
-      add(maps, count_map(zone, v.hub_count), "hub-count", "Zone of theoretical visibility: hubs",
-          "Turbines with their hub visible", screened);
+      add_map(maps, count_map(zone, v.hub_count), "hub-count", "Zone of theoretical visibility: hubs",
+              "Turbines with their hub visible", screened);
     if (farms > 1)
-      add(maps, farm_map(zone, v, most_combinations), "farms",
-          "Cumulative zone of theoretical visibility: blade tips by wind farm", "Wind farms with a blade tip visible",
-          screened);
+      add_map(maps, farm_map(zone, v, most_combinations), "farms",
+              "Cumulative zone of theoretical visibility: blade tips by wind farm",
+              "Wind farms with a blade tip visible", screened);
   };
   add_all(zone.bare, false);
   if (zone.screened) add_all(*zone.screened, true);

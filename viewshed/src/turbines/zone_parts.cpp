@@ -38,7 +38,7 @@ Window::Polygon farm_disc(const std::vector<const Turbine*>& farm) {
 }
 
 /// Convex about the radar and all the rest, so that it holds the radar's sight lines.
-Window::Polygon box_about(const std::vector<Window::Polygon>& parts, Point2 radar) {
+Window::Polygon box_with_radar(const std::vector<Window::Polygon>& parts, Point2 radar) {
   Box box = disc_box(radar, 1);
   for (const Window::Polygon& part : parts)
     for (const Point2& p : part.outer) box.extend(p);
@@ -54,7 +54,7 @@ std::vector<Window::Polygon> farm_discs(const ZoneRequest& request) {
 }
 
 Window with_radar(std::vector<Window::Polygon> parts, const ZoneRequest& request) {
-  if (request.radar) parts = {box_about(parts, request.radar->position)};
+  if (request.radar) parts = {box_with_radar(parts, request.radar->position)};
   return Window::polygons(std::move(parts));
 }
 

@@ -26,8 +26,8 @@ void write_bands(const std::string& path, const std::string& layer, const Zone& 
   write_regions(path, zone.grid, std::span<const std::uint8_t>(banded), description);
 }
 
-void write_farms(const std::string& path, const Zone& zone, const std::vector<std::uint32_t>& farms,
-                 const ZoneFileOptions& options) {
+void write_farm_polygons(const std::string& path, const Zone& zone, const std::vector<std::uint32_t>& farms,
+                         const ZoneFileOptions& options) {
   RegionDescription description{options.crs_wkt, "farms", {}, true};
   for (const Combination& c : combinations_present(zone, {&farms}))
     if (c.farms != 0) {
@@ -51,7 +51,7 @@ std::vector<ZoneFile> write_zone_polygons(const std::string& folder, const Zone&
     }
     if (farms < 2) return;
     files.push_back({"farms" + suffix + ".gpkg", "where a combination of farms has tips seen: polygons, m2"});
-    write_farms(folder + "/" + files.back().name, zone, farm_combinations(zone, v), options);
+    write_farm_polygons(folder + "/" + files.back().name, zone, farm_combinations(zone, v), options);
   };
   write_all(zone.bare, "");
   if (zone.screened) write_all(*zone.screened, "-screened");

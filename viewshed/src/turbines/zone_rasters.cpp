@@ -183,7 +183,7 @@ void write_farm_raster(const std::vector<std::uint32_t>& farms, const std::vecto
                description, class_style(style));
 }
 
-void write_farms(const Zone& zone, RasterFolder& folder) {
+void write_farm_rasters(const Zone& zone, RasterFolder& folder) {
   const std::size_t count = farms_of(zone).size();
   if (count < 2) return;
   const std::vector<std::uint32_t> bare = farm_combinations(zone, zone.bare);
@@ -223,7 +223,7 @@ std::vector<ZoneFile> write_zone_rasters(const std::string& folder, const Zone& 
     write_all(*zone.screened, "-screened");
     write_differences(zone, files);
   }
-  write_farms(zone, files);
+  write_farm_rasters(zone, files);
   write_study_area(zone, files);
   return std::move(files).files();
 }

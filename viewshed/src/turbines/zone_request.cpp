@@ -18,7 +18,7 @@ bool is_positive(double v) {
   return std::isfinite(v) && v > 0;
 }
 
-void validate(const Turbine& t) {
+void require_valid_turbine(const Turbine& t) {
   const auto refuse = [&](const std::string& what) {
     throw InputError(fmt::format("turbine {} at {:.10g},{:.10g}: {}", t.number, t.position.x, t.position.y, what));
   };
@@ -79,7 +79,7 @@ void validate(const ZoneRequest& request) {
   if (request.turbines.empty()) throw InputError("no turbine: give at least one");
   if (request.turbines.size() >= kCountOutside) throw InputError("too many turbines: give at most 65534");
   for (const Turbine& t : request.turbines) {
-    validate(t);
+    require_valid_turbine(t);
     if (request.cell_size && *request.cell_size > t.radius)
       throw InputError(fmt::format("cells of {:g} m are larger than turbine {}'s radius of {:g} m", *request.cell_size,
                                    t.number, t.radius));

@@ -12,6 +12,7 @@
 #include <itin/parallel.hpp>
 #include <itin/same_place.hpp>
 
+#include "line/infinity.hpp"
 #include "turbines/zone_request.hpp"
 
 namespace itin::viewshed {
@@ -22,7 +23,7 @@ struct ZoneSurvey::TileWork {
       : place(surface.begin(number)), tile(place->tile), centres(place->centres), ground(place->ground), seen(words) {
     hubs.fill(kCountOutside), tips.fill(kCountOutside);
     height.fill(0), angle.fill(0), angle_sum.fill(0);
-    nearest.fill(std::numeric_limits<double>::infinity());
+    nearest.fill(kInfinity);
     open.fill(true);
     for (auto& word : seen) word.fill(0);
   }
@@ -48,7 +49,7 @@ ZoneSurvey::ZoneSurvey(const FullSurface& ground, const Zone& zone) : ground_(gr
     axis.x = easting_in_units(units, t.position.x), axis.y = northing_in_units(units, t.position.y);
     axis.base = zone.ground_m[k] * per_metre;
     axis.tip = (zone.ground_m[k] + t.tip_height) * per_metre;
-    axis.hub = t.hub_height ? (zone.ground_m[k] + *t.hub_height) * per_metre : -std::numeric_limits<double>::infinity();
+    axis.hub = t.hub_height ? (zone.ground_m[k] + *t.hub_height) * per_metre : -kInfinity;
     axis.position = t.position;
     axis.radius_squared = t.radius * t.radius;
   }

@@ -54,7 +54,7 @@ std::vector<HeightBounds> vertex_bounds(const Store& store, int level, const Tin
   return result;
 }
 
-bool within(const Tin& tin, const Triangle& t, const FineDisc& disc) {
+bool in_disc(const Tin& tin, const Triangle& t, const FineDisc& disc) {
   return std::all_of(t.begin(), t.end(), [&](std::uint32_t v) {
     const Point3 p = tin.point(v);
     return std::hypot(p.x - disc.centre.x, p.y - disc.centre.y) < disc.radius;
@@ -86,7 +86,7 @@ class DiscIndex {
     const auto bin = bins_.cell_at({p.x, p.y});
     if (!bin) return false;
     const std::vector<std::uint32_t>& near = of_bin_[bins_.index(*bin)];
-    return std::any_of(near.begin(), near.end(), [&](std::uint32_t i) { return within(tin, t, discs_[i]); });
+    return std::any_of(near.begin(), near.end(), [&](std::uint32_t i) { return in_disc(tin, t, discs_[i]); });
   }
 
  private:

@@ -18,7 +18,7 @@ struct Feature {
   double bend = 0;          ///< of the ground beside it, grid units
 };
 
-Box box_about(const Tin& tin, const Triangle& t) {
+Box box_near(const Tin& tin, const Triangle& t) {
   Box box;
   for (const std::uint32_t v : t) {
     const Point3 p = tin.point(v);
@@ -48,7 +48,7 @@ std::vector<Feature> features_in(const Store& store, const ThemeChoice& themes, 
   parallel_for((features.size() + kTrianglesPerStep - 1) / kTrianglesPerStep, [&](std::size_t step) {
     for (std::size_t i = step * kTrianglesPerStep; i < std::min(features.size(), (step + 1) * kTrianglesPerStep); ++i) {
       const Triangle& t = tin.triangles[i];
-      const double height = store.greatest_feature_height(themes, box_about(tin, t)) / tin.grid.resolution;
+      const double height = store.greatest_feature_height(themes, box_near(tin, t)) / tin.grid.resolution;
       if (height == 0) continue;
       // Twice, for the slopes of triangles next to a vertex's own.
       features[i] = {static_cast<std::int32_t>(std::ceil(height)),

@@ -14,7 +14,7 @@ namespace itin {
 
 namespace {
 
-constexpr std::size_t kBatch = 16384;
+constexpr std::size_t kPointsPerBatch = 16384;
 
 /// Versions of PDAL differ in where they put the flags of a point: in the class byte, in ClassFlags or in a dimension
 /// of their own. Dimensions that a version lacks are `Unknown`.
@@ -58,12 +58,12 @@ void read_laz(const LasFile& file, const LasFile::Sink& sink) {
     reader.setOptions(options);
     pdal::StreamCallbackFilter callback;
     callback.setInput(reader);
-    pdal::FixedPointTable table(kBatch);
+    pdal::FixedPointTable table(kPointsPerBatch);
     callback.prepare(table);
     const PdalPoint decode(table.layout(), file.header().point_format);
     callback.setCallback([&](pdal::PointRef& point) {
       batch.push_back(decode(point));
-      if (batch.size() == kBatch) hand_on();
+      if (batch.size() == kPointsPerBatch) hand_on();
       return true;
     });
     callback.execute(table);

@@ -98,7 +98,7 @@ std::string in_quotes(std::string_view text) {
   return fmt::format("'{}{}'", shown, text.size() > 60 ? "..." : "");
 }
 
-std::optional<std::size_t> index_of(const std::vector<std::string>& names, std::string_view name) {
+std::optional<std::size_t> column_named(const std::vector<std::string>& names, std::string_view name) {
   const auto found = std::find_if(names.begin(), names.end(), [&](const auto& n) { return same_column_name(n, name); });
   if (found == names.end()) return std::nullopt;
   return static_cast<std::size_t>(found - names.begin());
@@ -197,11 +197,11 @@ void DelimitedText::choose_columns(const std::vector<std::string>& names, const 
 std::size_t DelimitedText::height_column(const std::vector<std::string>& names, const std::string& z_field) const {
   const auto is_position = [&](std::size_t column) { return column == columns_[0] || column == columns_[1]; };
   if (!z_field.empty()) {
-    if (const auto column = index_of(names, z_field)) return *column;
+    if (const auto column = column_named(names, z_field)) return *column;
     throw FileError(path_, fmt::format("has no column '{}'; it has {}", z_field, names));
   }
   for (const std::string_view name : kHeightNames)
-    if (const auto column = index_of(names, name); column && !is_position(*column)) return *column;
+    if (const auto column = column_named(names, name); column && !is_position(*column)) return *column;
   if (names.size() > 2 && !is_position(2)) return 2;
   throw FileError(path_, fmt::format("has no column of heights among {}; name it with `z_field`", names));
 }

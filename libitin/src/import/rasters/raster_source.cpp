@@ -27,9 +27,9 @@ namespace itin {
 
 namespace {
 
-constexpr double kSteadySteps = 1.25;     // steps that vary more than this earn a warning
-constexpr std::size_t kBatch = 1 << 16;   // posts placed at a time
-constexpr std::uint64_t kCacheShare = 8;  // of the memory, for GDAL's cache of blocks
+constexpr double kSteadySteps = 1.25;            // steps that vary more than this earn a warning
+constexpr std::size_t kPostsPerBatch = 1 << 16;  // posts placed at a time
+constexpr std::uint64_t kCacheShare = 8;         // of the memory, for GDAL's cache of blocks
 
 std::vector<std::string> rasters_in_archive(const std::string& archive) {
   std::vector<std::string> found;
@@ -179,7 +179,7 @@ void RasterTerrain::place_window(const RasterWindow& window, const std::vector<d
     const Point2 p =
         lattice_.post(window.column + static_cast<double>(i - row * columns), window.row + static_cast<double>(row));
     batch.x.push_back(p.x), batch.y.push_back(p.y), batch.z.push_back(heights[i]);
-    if (batch.x.size() == kBatch) hand_on(batch, sink);
+    if (batch.x.size() == kPostsPerBatch) hand_on(batch, sink);
   }
 }
 

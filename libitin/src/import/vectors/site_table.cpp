@@ -12,7 +12,7 @@ namespace itin {
 namespace {
 
 /// Shapefiles cut names to ten letters. Negative: not there.
-int index_of(OGRLayer& layer, const std::string& name) {
+int field_named(OGRLayer& layer, const std::string& name) {
   constexpr std::size_t kOfShapefile = 10;
   const int whole = layer.GetLayerDefn()->GetFieldIndex(name.c_str());
   return whole >= 0 ? whole : layer.GetLayerDefn()->GetFieldIndex(name.substr(0, kOfShapefile).c_str());
@@ -23,7 +23,7 @@ class TableRows {
   TableRows(GDALDataset& file, OGRLayer& layer, const SiteQuery& query, const std::vector<std::string>& fields,
             const std::string& to_crs)
       : places_(file, layer, query, to_crs) {
-    for (const std::string& name : fields) fields_.push_back(index_of(layer, name));
+    for (const std::string& name : fields) fields_.push_back(field_named(layer, name));
   }
 
   SiteRow read(const OGRFeature& feature) const {

@@ -23,7 +23,7 @@ int field_index(OGRLayer& layer, const std::string& path, const std::string& nam
 }
 
 /// Nothing for an empty field; not a number for one that holds something else.
-std::optional<double> number_in(const OGRFeature& feature, int field) {
+std::optional<double> number_of_field(const OGRFeature& feature, int field) {
   if (!feature.IsFieldSetAndNotNull(field)) return std::nullopt;
   const OGRFieldType type = feature.GetFieldDefnRef(field)->GetType();
   if (type == OFTInteger || type == OFTInteger64 || type == OFTReal) return feature.GetFieldAsDouble(field);
@@ -35,7 +35,7 @@ std::optional<double> number_in(const OGRFeature& feature, int field) {
 }
 
 double height_of(const OGRFeature& feature, int field, const std::string& place) {
-  const std::optional<double> height = number_in(feature, field);
+  const std::optional<double> height = number_of_field(feature, field);
   if (!height || !std::isfinite(*height))
     throw FileError(place,
                     fmt::format("its height field '{}' holds no number", feature.GetFieldDefnRef(field)->GetNameRef()));
@@ -56,7 +56,7 @@ std::vector<std::optional<double>> numbers_of(const OGRFeature& feature, const s
                                               const std::string& place) {
   std::vector<std::optional<double>> numbers;
   for (const int field : fields) {
-    numbers.push_back(field < 0 ? std::nullopt : number_in(feature, field));
+    numbers.push_back(field < 0 ? std::nullopt : number_of_field(feature, field));
     if (numbers.back() && !std::isfinite(*numbers.back()))
       throw FileError(place,
                       fmt::format("its field '{}' holds no number", feature.GetFieldDefnRef(field)->GetNameRef()));

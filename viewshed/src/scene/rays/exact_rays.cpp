@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <limits>
 
 #include "bounds/surface_heights.hpp"
+#include "line/infinity.hpp"
 #include "scene/rays/drift.hpp"
 
 namespace itin::viewshed {
@@ -72,9 +72,9 @@ double ExactRays::upper_at(double x, double y) const {
   const Grid& grid = upper_tin_.grid;
   const Point2 place{grid.origin.x + x * grid.resolution, grid.origin.y + y * grid.resolution};
   const auto bin = location_.cell_at(place);
-  if (!bin) return -std::numeric_limits<double>::infinity();
+  if (!bin) return -kInfinity;
   const auto height = surface_height(upper_tin_, bins_.triangles(location_.index(*bin)), place);
-  return height.value_or(-std::numeric_limits<double>::infinity());
+  return height.value_or(-kInfinity);
 }
 
 }  // namespace itin::viewshed

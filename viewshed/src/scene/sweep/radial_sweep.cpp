@@ -7,13 +7,13 @@
 
 #include <itin/same_place.hpp>
 
+#include "line/infinity.hpp"
 #include "scene/sweep/sweep_sights.hpp"
 
 namespace itin::viewshed {
 
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kHidden = std::numeric_limits<double>::quiet_NaN();
 
 std::size_t number(std::int64_t i) {

@@ -9,11 +9,11 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <vector>
 
 #include "bounds/bin_bounds.hpp"
+#include "line/infinity.hpp"
 
 namespace itin::viewshed {
 
@@ -24,8 +24,7 @@ class Quadrant {
   enum Side : std::uint8_t { kEast, kWest, kSouth, kNorth };
 
   /// Holds what lies no farther along than `reach`, in bins.
-  Quadrant(const BinBounds& bins, double axis_column, double axis_row, Side side,
-           double reach = std::numeric_limits<double>::infinity());
+  Quadrant(const BinBounds& bins, double axis_column, double axis_row, Side side, double reach = kInfinity);
 
   bool along_columns() const { return along_columns_; }
   double along(double column, double row) const { return ((along_columns_ ? column : row) - major_) * outward_; }
@@ -96,7 +95,7 @@ class Sector {
   /// are certainly hidden, by what lies nearer than the slab.
   struct Hidden {
     std::size_t slab = 0;
-    double below = -std::numeric_limits<double>::infinity();
+    double below = -kInfinity;
   };
   /// Continues `hidden` to the slab `end`. Calls visit(hidden) for every slab before it.
   template <class Visit>
@@ -105,7 +104,7 @@ class Sector {
   /// And of those to the top itself that rise by at least `above` it certainly hides none.
   struct Horizon {
     Hidden hidden;
-    double above = -std::numeric_limits<double>::infinity();
+    double above = -kInfinity;
   };
   Horizon continue_horizon(Horizon horizon, std::size_t end) const;
 
@@ -117,7 +116,7 @@ class Sector {
   /// The highest of a slab between two lines, less the drop; grid units. Ground that is bare counts for nothing.
   float highest(std::size_t slab, std::int64_t first, std::int64_t last) const {
     // Rounding is within the margin.
-    float high = -std::numeric_limits<float>::infinity();
+    float high = -kFloatInfinity;
     for (std::int64_t line = first; line <= last; ++line) high = std::max(high, quadrant_.high(slab, line));
     return static_cast<float>(high - least_drop(slab));
   }
@@ -192,7 +191,7 @@ void Sector::for_each_slab(std::size_t first_slab, std::size_t end, const Visit&
 
 inline void Sector::pass(Hidden& hidden, std::int64_t first, std::int64_t last, bool inside) const {
   const std::size_t k = hidden.slab++;
-  float low = inside ? std::numeric_limits<float>::infinity() : -std::numeric_limits<float>::infinity();
+  float low = inside ? kFloatInfinity : -kFloatInfinity;
   // Each covers two lines.
   const std::int64_t last_pair = std::max(first, last - 1);
   for (std::int64_t line = first + 2; line < last_pair; line += 2) low = std::min(low, quadrant_.low(k, line));

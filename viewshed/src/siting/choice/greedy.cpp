@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <itin/parallel.hpp>
 
+#include "line/infinity.hpp"
 #include "siting/choice/choice_state.hpp"
 #include "siting/choice/conflicts.hpp"
 #include "siting/choice/ways.hpp"
@@ -140,7 +140,7 @@ class Greedy {
   /// The first of the order and those that may come before it.
   void refine(std::span<const Bid> order, std::vector<Bid>& bids) {
     std::vector<std::size_t> batch;
-    double known = -std::numeric_limits<double>::infinity();
+    double known = -kInfinity;
     for (const Bid& b : order.first(std::min(order.size(), 4 * problem_.goal.batch))) {
       if (b.upper < known || batch.size() >= problem_.goal.batch) break;
       if (joins(b)) add_open(ways_.to(b.option), batch);

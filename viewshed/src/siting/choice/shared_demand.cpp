@@ -11,9 +11,9 @@ constexpr std::size_t kMostMembers = std::size_t{1} << 23;
 constexpr std::size_t kNoOption = static_cast<std::size_t>(-1);
 constexpr std::uint32_t kNoClass = 0;
 
-class Division {
+class Classes {
  public:
-  Division(const ChoiceProblem& problem, const std::vector<bool>& open)
+  Classes(const ChoiceProblem& problem, const std::vector<bool>& open)
       : problem_(problem), served_(problem, {}), class_of_(64 * problem.demand.block_count(), kNoClass), parts_(1) {
     for (std::size_t option = 0; option < open.size(); ++option)
       if (open[option]) options_.push_back(option);
@@ -128,7 +128,7 @@ class Division {
 }  // namespace
 
 SharedDemand shared_demand(const ChoiceProblem& problem, const std::vector<bool>& open) {
-  return Division(problem, open).run();
+  return Classes(problem, open).run();
 }
 
 }  // namespace itin::viewshed

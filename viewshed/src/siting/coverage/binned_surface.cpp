@@ -22,7 +22,7 @@ constexpr double kNarrowest = 0.5;  ///< metres
 constexpr std::uint64_t kBytesPerPointRead = 1200;
 
 /// Everything within the radius of a site, as far as there is data.
-Box reach_of(const Store& store, const SiteSurvey& survey) {
+Box box_of_survey(const Store& store, const SiteSurvey& survey) {
   Box box;
   for (const SitePosition& place : survey.positions) box.extend(disc_box(place.position, survey.radius));
   return intersection(box, extent_of(store));
@@ -56,7 +56,7 @@ class SurfaceBinner {
 
  private:
   SurfaceBins bins_within(std::uint64_t bytes) const {
-    const Box box = reach_of(store_, survey_);
+    const Box box = box_of_survey(store_, survey_);
     const double most = std::max(1.0, static_cast<double>(bytes / SurfaceBins::kBytesPerBin));
     const double side = std::max(kNarrowest, std::sqrt(box.width() * box.height() / most));
     return {store_.metadata().grid, box, side, bytes / SurfaceBins::kBytesPerDivided};

@@ -32,7 +32,7 @@ constexpr double kLeastRoofHeight = 3, kLeastRoofArea = 2;
 /// What rises by more above a post, metres, stands on it.
 constexpr double kStandsOnPost = 0.05;
 
-bool within(const Window::Ring& ring, Point2 p) {
+bool in_ring(const Window::Ring& ring, Point2 p) {
   bool inside = false;
   for (std::size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++) {
     const Point2 &a = ring[i], &b = ring[j];
@@ -199,9 +199,9 @@ class Proposer {
 bool lies_in(const Window& window, Point2 position) {
   if (window.is_all()) return true;
   return std::any_of(window.parts().begin(), window.parts().end(), [&](const Window::Polygon& part) {
-    return within(part.outer, position) &&
+    return in_ring(part.outer, position) &&
            std::none_of(part.holes.begin(), part.holes.end(),
-                        [&](const Window::Ring& hole) { return within(hole, position); });
+                        [&](const Window::Ring& hole) { return in_ring(hole, position); });
   });
 }
 
