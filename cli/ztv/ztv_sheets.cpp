@@ -262,7 +262,7 @@ std::vector<viewshed::ZoneFile> write_ztv_sheets(const std::string& folder, cons
       sheet.legend.insert(sheet.legend.end(), base.keys.begin(), base.keys.end());
       sheet.title = title_block(store, zone, map, options, facts);
       for (const std::string& name : sheet_names(map.name, paper)) {
-        write_file(folder + "/" + name, profile::draw_map_sheet(sheet, name), true);
+        write_file(fmt::format("{}/{}", folder, name), profile::draw_map_sheet(sheet, name), true);
         files.push_back({name, fmt::format("map sheet: {}, {} at 1:{:.0f}", sheet.title.title, profile::name_of(paper),
                                            profile::scale_of(sheet))});
       }

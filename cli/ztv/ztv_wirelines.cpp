@@ -21,7 +21,6 @@ namespace itin::cli {
 
 namespace {
 
-using profile::SheetKey;
 using viewshed::Turbine;
 using viewshed::Zone;
 

@@ -57,8 +57,8 @@ class SurfaceBinner {
  private:
   SurfaceBins bins_within(std::uint64_t bytes) const {
     const Box box = box_of_survey(store_, survey_);
-    const double most = std::max(1.0, static_cast<double>(bytes / SurfaceBins::kBytesPerBin));
-    const double side = std::max(kNarrowest, std::sqrt(box.width() * box.height() / most));
+    const std::uint64_t most = std::max<std::uint64_t>(1, bytes / SurfaceBins::kBytesPerBin);
+    const double side = std::max(kNarrowest, std::sqrt(box.width() * box.height() / static_cast<double>(most)));
     return {store_.metadata().grid, box, side, bytes / SurfaceBins::kBytesPerDivided};
   }
 
