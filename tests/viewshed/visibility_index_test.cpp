@@ -237,7 +237,8 @@ TEST_F(VisibilityIndexTest, RaysFindNothingElse) {
   const SampledSurface few(surface, earth, 0), many(surface, earth, std::uint64_t{1} << 40);
   const VisibilitySampler one(few, few, {1500, 0, 4000}, NoData::kClear),
       other(many, many, {1500, 0, 4000}, NoData::kClear);
-  for (const Point2 eye : {Point2{301500, 197900}, {302225, 198725}, {301025, 197025}}) {
+  for (const Point2 eye : {Point2{301500, 197900}, {302225, 198725}, {301225, 197225}}) {
+    ASSERT_TRUE(one.ground(eye) && other.ground(eye));
     std::vector<bool> seen, seen_too;
     one.observe(eye, *one.ground(eye) + 3, 1, [&](Point2, bool s) { seen.push_back(s); });
     other.observe(eye, *other.ground(eye) + 3, 1, [&](Point2, bool s) { seen_too.push_back(s); });
