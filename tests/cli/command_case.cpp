@@ -19,7 +19,8 @@ void add_line(std::vector<CommandCase>& cases, const std::string& file, int numb
   const std::string word = line.substr(0, space);
   const std::string rest = space == std::string::npos ? "" : line.substr(space + 1);
   if (word == "case") {
-    cases.push_back({file, number, rest, false, {}, 0, {}});
+    CommandCase& begun = cases.emplace_back();
+    begun.file = file, begun.line = number, begun.name = rest;
     return;
   }
   if (cases.empty()) throw std::runtime_error(fmt::format("{}:{}: no case has begun", file, number));
@@ -28,6 +29,8 @@ void add_line(std::vector<CommandCase>& cases, const std::string& file, int numb
     current.runs.push_back(rest);
   } else if (word == "needs" && rest == "store") {
     current.needs_store = true;
+  } else if (word == "not" && rest == "sanitized") {
+    current.not_sanitized = true;
   } else if (word == "status") {
     current.status = std::stoi(rest);
   } else if (kExpectations.contains(word)) {

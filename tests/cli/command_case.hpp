@@ -3,6 +3,7 @@
 //   # a comment
 //   case missing store                  starts a case; each runs in a directory of its own
 //   needs store                         there is hill.itin, made from hill.asc, which is always there
+//   not sanitized                       a sanitizer's own memory is beyond a limit, or it holds back a signal
 //   run itin info none.itin             through sh, with `itin` in the path; several run lines follow one another
 //   status 1                            of the last run; 0 where nothing is said
 //   stdout REGEX, stderr REGEX          searched for in the last run's output; no-stdout, no-stderr: empty
@@ -29,6 +30,7 @@ struct CommandCase {
   int line = 0;
   std::string name;
   bool needs_store = false;
+  bool not_sanitized = false;
   std::vector<std::string> runs;
   int status = 0;
   std::vector<Expectation> expectations;
