@@ -46,7 +46,8 @@ class VisibilityIndexTest : public testing::Test {
   void import_houses() const {
     std::vector<test::LineFeature> houses;
     for (int i = 0; i < 40; ++i) {
-      const double x = 300500 + 71 * (i % 8) * 5, y = 199500 - 613 * (i / 8);
+      const int column = i % 8, row = i / 8;
+      const double x = 300500 + 355 * column, y = 199500 - 613 * row;
       houses.push_back(test::box(x, y, x + 30, y + 20, 12));
     }
     test::import_houses(path_, directory_.file("h.geojson"), houses);
