@@ -50,16 +50,17 @@ double EnvelopeBounds::slack() const {
 void EnvelopeBounds::bound(const Tin& lower, const Tin& upper) {
   const RasterGrid tiles = grid_of_tiles(grid_);
   const TriangleBins triangles(lower, tiles);
+  const VerticesInBins vertices(lower, grid_);
   parallel_for(tiles.cell_count(), [&](std::size_t i) {
     const Tile tile = tile_at(grid_, tiles, i);
     const BinRange within{tile.column, tile.column + tile.columns - 1, tile.row, tile.row + tile.rows - 1};
-    for (const std::uint32_t t : triangles.triangles(i)) bound_triangle(lower, upper, t, within);
+    for (const std::uint32_t t : triangles.triangles(i)) bound_triangle(lower, upper, vertices, t, within);
   });
 }
 
-void EnvelopeBounds::bound_triangle(const Tin& lower, const Tin& upper, std::uint32_t triangle,
-                                    const BinRange& within) {
-  const TriangleInBins in_bins(VerticesInBins(lower, grid_), lower.triangles[triangle], slack());
+void EnvelopeBounds::bound_triangle(const Tin& lower, const Tin& upper, const VerticesInBins& vertices,
+                                    std::uint32_t triangle, const BinRange& within) {
+  const TriangleInBins in_bins(vertices, lower.triangles[triangle], slack());
   const double half = bin_size() / 2 + kStepsBeside;
   const TriangleSlope low(lower, triangle, half), high(upper, triangle, half);
   for (std::int64_t row = std::max(in_bins.box().north, within.north);
@@ -107,11 +108,8 @@ void EnvelopeBounds::bound_runs() {
 
 BinRange EnvelopeBounds::bins_of(const BinBox& box) const {
   constexpr double kHair = 1e-6;
-  const auto bin = [](double v, std::int64_t count) {
-    return static_cast<std::int64_t>(std::clamp(std::floor(v), -1.0, static_cast<double>(count)));
-  };
-  return {bin(box.west - kHair, columns()), bin(box.east + kHair, columns()), bin(box.north - kHair, rows()),
-          bin(box.south + kHair, rows())};
+  return {bin_at(box.west - kHair, columns()), bin_at(box.east + kHair, columns()), bin_at(box.north - kHair, rows()),
+          bin_at(box.south + kHair, rows())};
 }
 
 float EnvelopeBounds::highest(const BinBox& box) const {

@@ -40,7 +40,8 @@ class EnvelopeBounds final : public BinBounds {
   double slack() const;
   BinRange bins_of(const BinBox& box) const;
   void bound(const Tin& lower, const Tin& upper);
-  void bound_triangle(const Tin& lower, const Tin& upper, std::uint32_t triangle, const BinRange& within);
+  void bound_triangle(const Tin& lower, const Tin& upper, const VerticesInBins& vertices, std::uint32_t triangle,
+                      const BinRange& within);
   void settle(const Tin& tin, const std::vector<BoundaryEdge>& outline);
   void bound_runs();
 

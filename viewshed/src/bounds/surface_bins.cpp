@@ -23,9 +23,9 @@ constexpr SurfaceBins::Range kBounded{kFloatInfinity, -kFloatInfinity};
 
 /// Calls visit(bin, low, high) for the bins of a grid among those given that a triangle meets.
 template <class Visit>
-void for_each_bin_under(const Tin& tin, std::uint32_t triangle, const RasterGrid& bins, const BinRange& within,
-                        const Visit& visit) {
-  const TriangleInBins in_bins(VerticesInBins(tin, bins), tin.triangles[triangle]);
+void for_each_bin_under(const Tin& tin, const VerticesInBins& vertices, std::uint32_t triangle, const RasterGrid& bins,
+                        const BinRange& within, const Visit& visit) {
+  const TriangleInBins in_bins(vertices, tin.triangles[triangle]);
   const Grid& units = tin.grid;
   const TriangleSlope slope(tin, triangle, bins.cell_width() / units.resolution / 2);
   for (std::int64_t row = std::max(in_bins.box().north, within.north);
@@ -75,8 +75,9 @@ void SurfaceBins::add(const Tin& surface, const CellRectangle& tiles) {
 
 void SurfaceBins::bound(const Tin& surface, std::span<const std::uint32_t> triangles, const Tile& tile) {
   for_each_cell(tile, [&](std::size_t, RasterGrid::Cell bin) { ranges_[grid_.index(bin)] = kBounded; });
+  const VerticesInBins vertices(surface, grid_);
   for (const std::uint32_t t : triangles)
-    for_each_bin_under(surface, t, grid_, bins_of(tile), [&](RasterGrid::Cell bin, double low, double high) {
+    for_each_bin_under(surface, vertices, t, grid_, bins_of(tile), [&](RasterGrid::Cell bin, double low, double high) {
       extend(ranges_[grid_.index(bin)], low, high);
     });
   for_each_cell(tile, [&](std::size_t, RasterGrid::Cell bin) {
@@ -117,12 +118,13 @@ bool SurfaceBins::is_thin(RasterGrid::Cell bin) const {
 void SurfaceBins::divide(const Tin& surface, std::span<const std::uint32_t> triangles, const Tile& tile) {
   const RasterGrid parts(grid_.north_west(), grid_.cell_width() / kParts, grid_.cell_height() / kParts,
                          kParts * columns(), kParts * rows());
+  const VerticesInBins vertices(surface, grid_), vertices_in_parts(surface, parts);
   for (const std::uint32_t t : triangles) {
-    for_each_bin_under(surface, t, grid_, bins_of(tile), [&](RasterGrid::Cell bin, double, double) {
+    for_each_bin_under(surface, vertices, t, grid_, bins_of(tile), [&](RasterGrid::Cell bin, double, double) {
       const std::uint32_t number = divided_[grid_.index(bin)];
       if (number == 0) return;
       const RasterGrid::Cell first{kParts * bin.column, kParts * bin.row};
-      for_each_bin_under(surface, t, parts,
+      for_each_bin_under(surface, vertices_in_parts, t, parts,
                          {first.column, first.column + kParts - 1, first.row, first.row + kParts - 1},
                          [&](RasterGrid::Cell part, double low, double high) {
                            const std::int64_t at = (part.row - first.row) * kParts + part.column - first.column;

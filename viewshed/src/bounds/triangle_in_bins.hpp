@@ -50,16 +50,24 @@ class VerticesInBins {
   double west_, north_, columns_per_unit_, rows_per_unit_;
 };
 
+/// The bin of `count` that a position lies in: -1 before the first, `count` after the last. Rounds down without a call
+/// of std::floor().
+inline std::int64_t bin_at(double v, std::int64_t count) {
+  const double clamped = std::clamp(v, -1.0, static_cast<double>(count));
+  const auto whole = static_cast<std::int64_t>(clamped);
+  return whole - (clamped < static_cast<double>(whole) ? 1 : 0);
+}
+
 class TriangleInBins {
  public:
   /// Nearly: `slack` bins away, by default no more than rounding.
   TriangleInBins(const VerticesInBins& vertices, const Triangle& t, double slack = 1e-6)
       : corners_{vertices[t[0]], vertices[t[1]], vertices[t[2]]}, columns_(vertices.columns()), slack_(slack) {
     const auto& [a, b, c] = corners_;
-    box_ = {std::max<std::int64_t>(0, bin(std::min({a.x, b.x, c.x}) - slack_, columns_)),
-            std::min(bin(std::max({a.x, b.x, c.x}) + slack_, columns_), columns_ - 1),
-            std::max<std::int64_t>(0, bin(std::min({a.y, b.y, c.y}) - slack_, vertices.rows())),
-            std::min(bin(std::max({a.y, b.y, c.y}) + slack_, vertices.rows()), vertices.rows() - 1)};
+    box_ = {std::max<std::int64_t>(0, bin_at(std::min({a.x, b.x, c.x}) - slack_, columns_)),
+            std::min(bin_at(std::max({a.x, b.x, c.x}) + slack_, columns_), columns_ - 1),
+            std::max<std::int64_t>(0, bin_at(std::min({a.y, b.y, c.y}) - slack_, vertices.rows())),
+            std::min(bin_at(std::max({a.y, b.y, c.y}) + slack_, vertices.rows()), vertices.rows() - 1)};
   }
 
   const BinRange& box() const { return box_; }
@@ -77,17 +85,10 @@ class TriangleInBins {
       for (const double y : {top, bottom})
         if ((a.y < y) != (b.y < y)) extend(a.x + (b.x - a.x) * ((y - a.y) / (b.y - a.y)));
     }
-    return {std::max(box_.west, bin(west - slack_, columns_)), std::min(box_.east, bin(east + slack_, columns_))};
+    return {std::max(box_.west, bin_at(west - slack_, columns_)), std::min(box_.east, bin_at(east + slack_, columns_))};
   }
 
  private:
-  /// Rounds down, without a call of std::floor().
-  static std::int64_t bin(double v, std::int64_t count) {
-    const double clamped = std::clamp(v, -1.0, static_cast<double>(count));
-    const auto whole = static_cast<std::int64_t>(clamped);
-    return whole - (clamped < static_cast<double>(whole) ? 1 : 0);
-  }
-
   std::array<Point2, 3> corners_;
   std::int64_t columns_;
   double slack_;
