@@ -7,6 +7,7 @@
 #include <exception>
 #include <memory>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -109,6 +110,14 @@ int thread_count() {
   return limited != nullptr ? std::min(all, limited->max_concurrency()) : all;
 }
 
+Ahead::Ahead(void (*work)()) {
+  if (thread_count() == 1) return;
+  try {
+    thread_ = std::jthread(work);
+  } catch (const std::system_error&) {  // the system allows no more threads
+  }
+}
+
 class ThreadLimit::Impl {
  public:
   explicit Impl(int threads) : arena_(threads), working_(&arena_) {}
@@ -129,6 +138,8 @@ void set_thread_count(int) {}
 int thread_count() {
   return 1;
 }
+
+Ahead::Ahead(void (*)()) {}
 
 class ThreadLimit::Impl {};
 

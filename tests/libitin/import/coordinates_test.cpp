@@ -1,4 +1,10 @@
+#include <gmock/gmock.h>
+
+#include <cpl_conv.h>
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <ogr_spatialref.h>
+#include <ogr_srs_api.h>
 
 #include <itin/coordinates.hpp>
 #include <itin/error.hpp>
@@ -6,6 +12,8 @@
 namespace itin {
 
 namespace {
+
+using ::testing::AnyOf;
 
 // The Ordnance Survey's worked example (A guide to coordinate systems in Great Britain, section C.1): 52° 39' 27.2531"
 // N 1° 43' 4.5177" E in OSGB36 (EPSG:4277) is 651409.903, 313177.270.
@@ -44,6 +52,32 @@ TEST(CrsNames, PreferCodesToText) {
                           R"(PARAMETER["false_northing",0],UNIT["metre",1],AUTHORITY["EPSG","32630"]])";
   EXPECT_EQ(crs_identifier(utm), "EPSG:32630");
   EXPECT_EQ(crs_title(utm), "WGS 84 / UTM zone 30N");
+}
+
+/// As GDAL reads them in both of its dialects; but GDAL leaves out that a CRS is deprecated.
+TEST(CrsNames, AreThoseThatGdalReads) {
+  int count = 0, compared = 0;
+  OSRCRSInfo** const all = OSRGetCRSInfoListFromDatabase("EPSG", nullptr, &count);
+  ASSERT_GT(count, 5000);
+  for (int i = 0; i < count; i += 17) {
+    OGRSpatialReference reference;
+    if (all[i]->eType != OSR_CRS_TYPE_PROJECTED ||
+        reference.SetFromUserInput(fmt::format("EPSG:{}", all[i]->pszCode).c_str()) != OGRERR_NONE)
+      continue;
+    for (const char* format : {"FORMAT=WKT2_2018", "FORMAT=WKT1_GDAL"}) {
+      const char* const options[] = {format, nullptr};
+      char* wkt = nullptr;
+      if (reference.exportToWkt(&wkt, options) != OGRERR_NONE) continue;  // not every method is known to WKT 1
+      const OGRSpatialReference read(wkt);
+      EXPECT_THAT(crs_title(wkt), AnyOf(std::string(read.GetName()), fmt::format("{} (deprecated)", read.GetName())));
+      EXPECT_EQ(crs_identifier(wkt),
+                fmt::format("{}:{}", read.GetAuthorityName(nullptr), read.GetAuthorityCode(nullptr)));
+      CPLFree(wkt);
+      ++compared;
+    }
+  }
+  EXPECT_GT(compared, 400);
+  OSRDestroyCRSInfoList(all);
 }
 
 }  // namespace

@@ -2,13 +2,11 @@
 #include <span>
 
 #include <fmt/format.h>
-#include <ogr_spatialref.h>
 
 #include <itin/coordinates.hpp>
 #include <itin/error.hpp>
 
 #include "gdal/crs.hpp"
-#include "gdal/quiet_gdal.hpp"
 
 namespace itin {
 
@@ -45,21 +43,6 @@ CoordinateTransform::~CoordinateTransform() = default;
 
 Point2 CoordinateTransform::operator()(Point2 p) const {
   return impl_->transform(p);
-}
-
-std::string crs_identifier(const std::string& wkt) {
-  const QuietGdal quiet;
-  const OGRSpatialReference reference(wkt.c_str());
-  const char* authority = reference.GetAuthorityName(nullptr);
-  const char* code = reference.GetAuthorityCode(nullptr);
-  return authority != nullptr && code != nullptr ? fmt::format("{}:{}", authority, code) : wkt;
-}
-
-std::string crs_title(const std::string& wkt) {
-  const QuietGdal quiet;
-  const OGRSpatialReference reference(wkt.c_str());
-  const char* name = reference.GetName();
-  return name != nullptr ? name : "unnamed";
 }
 
 }  // namespace itin

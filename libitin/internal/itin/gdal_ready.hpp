@@ -1,0 +1,10 @@
+// GDAL made ready before it is needed.
+#pragma once
+
+namespace itin {
+
+/// Loads GDAL, where that is not done yet, and registers its drivers, which takes some 40 ms: what Ahead does beside
+/// other work for a call that will write a raster.
+void make_gdal_ready();
+
+}  // namespace itin

@@ -1,0 +1,112 @@
+// GDAL brings some 130 libraries, whose symbols take the dynamic linker 40 ms: several times what a profile takes. A
+// program with this source in it starts without them. Each function of GDAL that libitin calls is defined here as a
+// jump, which leads to a loader at first, and from then on to GDAL's own function. For x86-64 and ELF alone.
+#include <atomic>
+#include <cstdio>
+#include <cstdlib>
+#include <dlfcn.h>
+
+// clang-format off
+#define LATE_CALL(name)                   \
+  asm(".text\n"                           \
+      ".globl " #name "\n"                \
+      ".type " #name ", @function\n"      \
+      #name ":\n"                         \
+      "  jmpq *1f(%rip)\n"                \
+      "2: leaq 1f(%rip), %r11\n"          \
+      "  jmp itin_late_call\n"            \
+      ".size " #name ", . - " #name "\n"  \
+      ".section .rodata\n"                \
+      "3: .asciz \"" #name "\"\n"         \
+      ".data\n"                           \
+      ".balign 8\n"                       \
+      "1: .quad 2b\n"                     \
+      "  .quad 3b\n"                      \
+      ".text\n");
+// clang-format on
+// By the build (late_calls.sh): kGdal, the library's name, and a line LATE_CALL(name) for each function.
+#include "late_gdal.calls"
+
+namespace {
+
+/// What a jump leads to, and whose it is; as LATE_CALL lays it out.
+struct LateCall {
+  void* target;
+  const char* function;
+};
+
+[[noreturn]] void end_without_gdal() {
+  std::fprintf(stderr, "itin: GDAL cannot be loaded: %s\n", dlerror());
+  std::_Exit(EXIT_FAILURE);
+}
+
+void* load_gdal() {
+  void* const gdal = dlopen(kGdal, RTLD_LAZY | RTLD_GLOBAL);
+  if (gdal == nullptr) end_without_gdal();
+  return gdal;
+}
+
+}  // namespace
+
+/// From then on the jump leads to GDAL's function. Threads that come here at once store the same address.
+extern "C" void itin_resolve_late_call(LateCall* call) {
+  static void* const gdal = load_gdal();
+  void* const target = dlsym(gdal, call->function);
+  if (target == nullptr) end_without_gdal();
+  std::atomic_ref(call->target).store(target, std::memory_order_release);
+}
+
+// The loader. A jump comes here with its LateCall in r11, which no call passes anything in. All that a call may pass
+// something in is kept; the stack is aligned as calls want it.
+asm(R"(
+  .text
+  .type itin_late_call, @function
+itin_late_call:
+  .cfi_startproc
+  pushq %rbp
+  .cfi_adjust_cfa_offset 8
+  .cfi_rel_offset rbp, 0
+  movq %rsp, %rbp
+  .cfi_def_cfa_register rbp
+  pushq %rax
+  pushq %rdi
+  pushq %rsi
+  pushq %rdx
+  pushq %rcx
+  pushq %r8
+  pushq %r9
+  pushq %r11
+  subq $128, %rsp
+  movups %xmm0, (%rsp)
+  movups %xmm1, 16(%rsp)
+  movups %xmm2, 32(%rsp)
+  movups %xmm3, 48(%rsp)
+  movups %xmm4, 64(%rsp)
+  movups %xmm5, 80(%rsp)
+  movups %xmm6, 96(%rsp)
+  movups %xmm7, 112(%rsp)
+  movq %r11, %rdi
+  call itin_resolve_late_call
+  movups (%rsp), %xmm0
+  movups 16(%rsp), %xmm1
+  movups 32(%rsp), %xmm2
+  movups 48(%rsp), %xmm3
+  movups 64(%rsp), %xmm4
+  movups 80(%rsp), %xmm5
+  movups 96(%rsp), %xmm6
+  movups 112(%rsp), %xmm7
+  addq $128, %rsp
+  popq %r11
+  popq %r9
+  popq %r8
+  popq %rcx
+  popq %rdx
+  popq %rsi
+  popq %rdi
+  popq %rax
+  popq %rbp
+  .cfi_def_cfa rsp, 8
+  jmpq *(%r11)
+  .cfi_endproc
+  .size itin_late_call, . - itin_late_call
+)");
