@@ -1,63 +1,29 @@
 // What the blocks of a coarse level hide, against the full surface and its exact answer.
 #include "certify/certified_blocks.hpp"
 
-#include <cmath>
-#include <filesystem>
-#include <random>
+#include <utility>
 
 #include <gtest/gtest.h>
 
-#include <itin/import.hpp>
-#include <itin/store.hpp>
+#include <itin/level_choice.hpp>
 #include <itin/triangulate.hpp>
 #include <viewshed/viewshed.hpp>
 
 #include "bounds/binned_heights.hpp"
 #include "bounds/envelope_bounds.hpp"
 #include "support/full_detail.hpp"
-#include "support/raster_file.hpp"
-#include "support/seed.hpp"
-#include "support/temporary_directory.hpp"
-#include "support/terrain_tin.hpp"
+#include "support/hills_with_gap.hpp"
 #include "window/envelope.hpp"
 
 namespace itin::viewshed {
 namespace {
 
-constexpr int kPostsPerSide = 193;
-constexpr double kPostStep = 25, kFirstEast = 300000, kFirstNorth = 200000;
-
-class CertifiedBlocks : public testing::Test {
+class CertifiedBlocks : public test::HillsWithGap {
  protected:
-  void make(double void_radius) {
-    std::filesystem::remove(directory_.file("t.itin"));
-    const std::vector<double> z = test::fractal_heights(257, 300, 0.6, random_());
-    test::write_raster(directory_.file("t.tif"),
-                       {kFirstEast, kFirstNorth, kPostStep, kPostsPerSide, kPostsPerSide, 27700}, [&](int c, int r) {
-                         const bool missing = std::hypot(c - 75, r - 105) < void_radius;
-                         return missing ? NAN : z[static_cast<std::size_t>(r) * 257 + static_cast<std::size_t>(c)];
-                       });
-    ImportOptions options;
-    options.sources = {directory_.file("t.tif")};
-    import_terrain(directory_.file("t.itin"), options, progress_);
-    store_.emplace(directory_.file("t.itin"));
-  }
-
-  Point2 anywhere() {
-    std::uniform_real_distribution<double> share(0.02, 0.98);
-    return {kFirstEast + share(random_) * kPostsPerSide * kPostStep,
-            kFirstNorth - share(random_) * kPostsPerSide * kPostStep};
-  }
-
-  Request request_from(Point2 position) const {
-    Request request;
-    Observer observer;
-    observer.position = position;
-    observer.height = 40;
-    request.observers.push_back(observer);
+  static Request request_from(Point2 position) {
+    Request request = HillsWithGap::request_from(position, 40);
     request.target_height = 10;
     request.cell_size = 31;
-    request.mode = Mode::kVisible;
     return request;
   }
 
@@ -87,11 +53,6 @@ class CertifiedBlocks : public testing::Test {
     return static_cast<double>(cells.visible + cells.hidden) /
            static_cast<double>(std::max<std::uint64_t>(1, exact.cells.visible + exact.cells.hidden));
   }
-
-  std::mt19937 random_{test::seed()};
-  NoProgress progress_;
-  test::TemporaryDirectory directory_;
-  std::optional<Store> store_;
 };
 
 TEST_F(CertifiedBlocks, AreNeverWrong) {
@@ -100,11 +61,7 @@ TEST_F(CertifiedBlocks, AreNeverWrong) {
     double decided = 0;
     for (const NoData rule : {NoData::kClear, NoData::kBlock, NoData::kUnknown}) {
       for (const double tolerance : {2.0, 8.0, 32.0}) {
-        Point2 place = anywhere();
-        while (std::hypot((place.x - kFirstEast) / kPostStep - 75, (kFirstNorth - place.y) / kPostStep - 105) <
-               void_radius + 2)
-          place = anywhere();
-        Request request = request_from(place);
+        Request request = request_from(on_the_hills());
         request.nodata = rule;
         decided += expect_nothing_wrong(request, tolerance) / 9;
       }
@@ -131,10 +88,10 @@ TEST_F(CertifiedBlocks, KeepToFieldsOfView) {
 
 TEST_F(CertifiedBlocks, OfSeveralObserversAgree) {
   make(0);
-  Request request = request_from(anywhere());
+  Request request = request_from(on_the_hills());
   for (const double radius : {600.0, 1500.0, 1e5}) {
     Observer observer = request.observers.front();
-    observer.position = anywhere();
+    observer.position = on_the_hills();
     observer.radius = radius;
     request.observers.push_back(observer);
   }
@@ -156,14 +113,15 @@ TEST_F(CertifiedBlocks, TakeCellsOfAllSizes) {
 /// What the class promises, at random places.
 TEST_F(CertifiedBlocks, EnclosedHeightsAreWithinTheirBounds) {
   make(20);
-  const Tin full = triangulate(*store_, Window::all(), Detail::tolerance(0), progress_);
-  const BinnedHeights heights(full);
-  const Box all = full.bounds();
-  for (const double bin : {7.0, 60.0, 333.0}) {
+  for (const auto& [surface, bin] : {std::pair(0, 7.0), {0, 60.0}, {0, 333.0}, {1, 60.0}, {2, 60.0}, {2, 7.0}}) {
+    const Tin enclosed = triangulate(*store_, Window::all(), detail_of(store_->metadata(), surface), progress_);
+    const BinnedHeights heights(enclosed);
+    const Box all = enclosed.bounds();
     EnvelopeRequest wanted;
     wanted.level = static_cast<int>(store_->metadata().levels.size()) - 2;
+    wanted.surface = surface;
     const Point2 middle = anywhere();
-    wanted.discs = {{middle, 400, 0}, {middle, 900, 2}};
+    wanted.discs = {{middle, 400, surface}, {middle, 900, 2}};
     const Envelope envelope = envelop(*store_, wanted, progress_);
     const Box box{all.xmin - 100, all.ymin + 500, all.xmax - 700, all.ymax + 100};
     const EnvelopeBounds bounds(envelope.lower, envelope.upper, envelope.outline, box, bin);

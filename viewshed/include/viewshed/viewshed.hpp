@@ -249,7 +249,7 @@ struct Surface;
 
 /// A result, and what it was made on, for maps and single observers while the store is open.
 struct ViewshedWithSurface {
-  std::shared_ptr<Surface> surface;  ///< a coarse one where the memory did not hold that of the request
+  std::shared_ptr<Surface> surface;  ///< a coarse one where that of the request was not read as a whole
   std::optional<Tin> ground;         ///< what ends stand on, where that is not the surface
   bool whole = true;                 ///< `surface` is that of the request
   Result result;
@@ -258,9 +258,10 @@ struct ViewshedWithSurface {
 /// On the surface of a store at `request.detail`, of which as much is read at once as the memory holds: all of it; or
 /// of a large raster those heights that an observer may see, sector by sector about each observer; or of another
 /// surface what decides, segment by segment. There a certified pass at a coarse level decides most cells of the full
-/// surface, and the others take the places where their lines come near the ground, and no more; with themes that stand
-/// on the ground, at a tolerance, and in modes that ask more than whether a cell is seen, they take all ground under
-/// the lines. The answer is the same to the last bit, in every mode. Cost, on one core: about a microsecond a point; a
+/// surface, and the others take the places where their lines come near the ground, and no more. At a tolerance the pass
+/// tells which ground is hidden, and the others take what is not; so does one observer on a large surface, also where
+/// the memory holds all of it. With rings, with themes that stand on the ground at a tolerance, and in modes that ask
+/// more than whether a cell is seen, they take all ground under the lines. The answer is the same to the last bit, in every mode. Cost, on one core: about a microsecond a point; a
 /// fifth of that for rasters, and 9 bytes per post. Throws as compute() on a Tin and triangulate() do, and InputError
 /// where the line to a single cell does not fit into the memory.
 ViewshedWithSurface compute_with_surface(const Store& store, const Request& request, const ComputeOptions& options,

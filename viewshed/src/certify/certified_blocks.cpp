@@ -1,6 +1,5 @@
 #include "certify/certified_blocks.hpp"
 
-#include <cmath>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -20,12 +19,6 @@
 namespace itin::viewshed {
 
 namespace {
-
-/// All that may be in the eye's view.
-Box box_in_reach(const Eye& eye, const Box& extent) {
-  const double reach = eye.view.farthest();
-  return std::isfinite(reach) ? intersection(disc_box(eye.position, reach), extent) : extent;
-}
 
 std::vector<PartsOfTile> tiles_in_reach(const Eye& eye, const RasterGrid& grid, const RasterGrid& tiles) {
   std::vector<std::size_t> within;
@@ -65,7 +58,7 @@ ViewshedWithSurface certify_by_blocks(const Store& store, const Request& request
   CertifiedCells cells(result.grid, tiles, stage);
   const Surroundings surroundings(store, request, result.grid);
   for (std::size_t i = 0; i < eyes.size(); ++i) {
-    bounded.bound(box_in_reach(eyes[i], bounded.envelope().lower.bounds()));
+    bounded.bound_for(eyes[i]);
     const auto nearby = surroundings.decide(request.observers[i], result.statistics, progress);
     const BlockJudge judge(bounded, request, result.grid, tiles, eyes[i], nearby ? &*nearby : nullptr);
     cells.judge(judge, 1, tiles_in_reach(eyes[i], result.grid, tiles));

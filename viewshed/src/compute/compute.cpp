@@ -18,6 +18,14 @@ namespace itin::viewshed {
 
 namespace {
 
+/// Of fewer points it takes less time to read all.
+constexpr std::uint64_t kPointsWorthALook = 500000;
+
+/// Whether an irregular surface is large, and little of it may be seen.
+bool may_be_mostly_hidden(const Store& store, const Request& request, std::uint64_t points) {
+  return points >= kPointsWorthALook && request.observers.size() == 1 && reads_what_may_be_seen(store, request);
+}
+
 /// The first rung that the memory allows.
 ViewshedWithSurface climb(const Store& store, const Request& request, const ComputeOptions& options,
                           Progress& progress) {
@@ -27,7 +35,8 @@ ViewshedWithSurface climb(const Store& store, const Request& request, const Comp
   if (lattice && points <= memory / kBytesPerPost)
     if (auto computed = compute_over_lattice(store, request, memory / kBytesPerPost, progress))
       return std::move(*computed);
-  if (points <= memory / bytes_per_point(request)) return compute_over_tin(store, request, progress);
+  if (points <= memory / bytes_per_point(request) && !may_be_mostly_hidden(store, request, points))
+    return compute_over_tin(store, request, progress);
   if (lattice)
     if (auto computed = compute_by_lattice_sectors(store, request, memory / kSectorShare, progress))
       return std::move(*computed);

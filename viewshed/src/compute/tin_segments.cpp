@@ -16,8 +16,10 @@
 #include <viewshed/surface.hpp>
 #include <viewshed/viewshed.hpp>
 
+#include "judge/block_judge.hpp"
 #include "judge/envelope_judge.hpp"
 #include "judge/exact_judge.hpp"
+#include "line/infinity.hpp"
 #include "line/tile_parts.hpp"
 #include "modes/observe.hpp"
 #include "plan/azimuth_order.hpp"
@@ -26,6 +28,7 @@
 #include "plan/partition.hpp"
 #include "progress/stage.hpp"
 #include "progress/stopwatch.hpp"
+#include "request/cells_in_view.hpp"
 #include "request/request.hpp"
 #include "scene/full_surface.hpp"
 #include "window/retrieval.hpp"
@@ -36,8 +39,8 @@ namespace {
 
 /// An envelope has two surfaces and two scenes; and half of the memory is for what is refined meanwhile.
 constexpr std::uint64_t kBytesPerEnvelopePoint = 2400;
-/// The coarse pass reads so much less than the full surface.
-constexpr std::uint64_t kCoarseShare = 12;
+/// The coarse pass reads so much less than the surface.
+constexpr std::uint64_t kCoarseShareOfRays = 12, kCoarseShareOfBlocks = 30;
 /// Its share of the time, about.
 constexpr double kCoarsePass = 0.1;
 
@@ -46,13 +49,30 @@ Point2 along(const Grid& grid, const SightLines& lines, unsigned i, double s) {
           grid.origin.y + (lines.from_y[i] + s * (lines.to_y[i] - lines.from_y[i])) * grid.resolution};
 }
 
+/// What is found out at a coarse level before the surface is read.
+enum class Pass : std::uint8_t {
+  kNone,  ///< nothing: all ground under the lines is read
+  kRays,  ///< of the full surface, cells that are hidden or visible, and where the lines to others come near the ground
+  kBlocks,  ///< of a level's surface, cells and ground that are hidden
+};
+
+Pass pass_over(const Store& store, const Request& request) {
+  // Cells that a coarse level decides have no exact height of ground.
+  if (needs_triangles(request) || request.mode == Mode::kHeight || request.mode == Mode::kAngle) return Pass::kNone;
+  if (level_within(store.metadata(), request.detail.coarsest()) == 0) return Pass::kRays;
+  // Certificates are those of a level, and know nothing of features that a level simplifies.
+  const bool one_level = request.detail.rings().size() == 1;
+  return one_level && !has_raised_features(store, request) ? Pass::kBlocks : Pass::kNone;
+}
+
 class TinSegments {
  public:
   TinSegments(const Store& store, const Request& request, std::uint64_t memory, Progress& progress)
       : store_(store),
         request_(request),
         features_(has_raised_features(store, request)),
-        full_(level_within(store.metadata(), request.detail.coarsest()) == 0),
+        level_(level_within(store.metadata(), request.detail.coarsest())),
+        pass_(pass_over(store, request)),
         box_(box_of_window(store, request)),
         memory_(memory),
         progress_(progress),
@@ -76,17 +96,16 @@ class TinSegments {
   }
 
  private:
-  /// Certificates know nothing of coarser surfaces, and cells that a coarse level decides have no exact height of
-  /// ground.
-  bool whole_lines() const {
-    return !full_ || needs_triangles(request_) || request_.mode == Mode::kHeight || request_.mode == Mode::kAngle;
-  }
-
   std::uint64_t budget() const { return memory_ / bytes_per_point(request_); }
 
+  /// The level whose surface the coarse one encloses.
+  int enclosed_level() const { return pass_ == Pass::kBlocks ? level_ : 0; }
+
   int coarse_level() const {
-    const std::uint64_t most = std::min(memory_ / kBytesPerEnvelopePoint, store_.points_about(0, box_) / kCoarseShare);
-    return finest_level_of(store_, box_, most, 1);
+    const std::uint64_t share = pass_ == Pass::kBlocks ? kCoarseShareOfBlocks : kCoarseShareOfRays;
+    const std::uint64_t most =
+        std::min(memory_ / kBytesPerEnvelopePoint, store_.points_about(enclosed_level(), box_) / share);
+    return finest_level_of(store_, box_, most, std::max(enclosed_level(), 1));
   }
 
   Tin triangulated(const Window& window, const ThemeChoice& themes) {
@@ -113,8 +132,9 @@ class TinSegments {
   }
 
   void retrieve_coarse() {
-    EnvelopeRequest wanted = certified_request(store_, request_, coarse_level());
-    if (features_ && !whole_lines()) wanted.enclosed = request_.themes;
+    EnvelopeRequest wanted = certified_request(store_, request_, coarse_level(), enclosed_level());
+    if (pass_ != Pass::kRays) wanted.observers.clear();  // of rays
+    if (features_ && pass_ == Pass::kRays) wanted.enclosed = request_.themes;
     Envelope envelope = envelop(store_, wanted, progress_);
     Result& result = computed_.result;
     result.statistics.retrieval += envelope.lower.statistics;
@@ -126,15 +146,16 @@ class TinSegments {
     find_voids(envelope.lower.grid, rim_, result);
     ground_.emplace(store_, level_within(store_.metadata(), request_.detail.finest()), envelope.lower.bounds());
     computed_.surface = std::make_shared<Surface>(Surface{envelope.lower, nullptr, {}});
-    if (!whole_lines()) coarse_.emplace(std::move(envelope), request_, tiles_, missing_ground_rule(request_));
+    if (pass_ == Pass::kRays) coarse_.emplace(std::move(envelope), request_, tiles_, missing_ground_rule(request_));
+    if (pass_ == Pass::kBlocks) blocks_.emplace(std::move(envelope), tiles_, no_rises_);
     result.statistics.scene_seconds += watch_.lap();
   }
 
   void observe_from(const Eye& eye, std::uint32_t observer) {
-    if (whole_lines()) {
+    if (pass_ == Pass::kNone) {
       observe_over_lines(eye, observer);
     } else {
-      observe_certified(eye, observer);
+      observe_undecided(eye, observer);
     }
     stage_->advance_to((observer + 1) * computed_.result.grid.cell_count());
   }
@@ -142,7 +163,7 @@ class TinSegments {
   /// All ground under all lines.
   void observe_over_lines(const Eye& eye, std::uint32_t observer) {
     Result& result = computed_.result;
-    const std::vector<TileSet> needed = under_lines(eye, observer);
+    const std::vector<TileSet> needed = under_lines(eye, asked(eye, observer));
     // The edges of a segment's window are no voids, and features never reach beyond the ground.
     const auto shadow = shadow_of(eye, rim_, result);
     for (const auto& [cells, ground] : segments(eye, needed)) {
@@ -160,22 +181,20 @@ class TinSegments {
   /// One observer's verdicts on each tile, on their way.
   using TileVerdicts = std::vector<TileValues<Verdict>>;
 
-  void observe_certified(const Eye& eye, std::uint32_t observer) {
-    TileVerdicts verdicts(tiles_.cell_count());
-    for (TileValues<Verdict>& values : verdicts) values.fill(Verdict::kOutside);
-    for_each_view(eye, observer, [&](std::size_t tile, const CellView& view) {
-      if (observations_[tile]->open(view)) verdicts[tile][view.cell] = Verdict::kUndecided;
-    });
-    const auto [needed, shadow] = coarse_pass(eye, verdicts);
-    // The scene's memory is free for the segments, when no other observer needs it.
-    if (observer + 1 == request_.observers.size()) coarse_.reset();
+  /// The ground that the cells need which a coarse pass leaves.
+  void observe_undecided(const Eye& eye, std::uint32_t observer) {
+    TileVerdicts verdicts = asked(eye, observer);
+    const auto [needed, shadow] = pass_ == Pass::kRays ? pass_by_rays(eye, verdicts) : pass_by_blocks(eye, verdicts);
+    // The memory is free for the segments, when no other observer needs it.
+    if (observer + 1 == request_.observers.size()) coarse_.reset(), blocks_.reset();
     for (const auto& [cells, ground] : segments(eye, needed)) {
       const OwnedSurface segment = refine(cells, ground);
       // The edges of the window are no voids.
       judge_undecided(ExactJudge(segment.full, {eye, segment.full.view_from(eye), shadow}), cells, verdicts);
     }
-    for_each_view(eye, observer, [&](std::size_t tile, const CellView& view) {
-      observations_[tile]->add(view, verdicts[tile][view.cell]);
+    parallel_for(verdicts.size(), [&](std::size_t i) {
+      for_each_view(eye, observer, i,
+                    [&](const CellView& view) { observations_[i]->add(view, verdicts[i][view.cell]); });
     });
   }
 
@@ -194,28 +213,61 @@ class TinSegments {
     computed_.result.statistics.lines += lines;
   }
 
-  /// Calls visit(tile, view) for every cell; the views know no heights.
+  /// Calls visit(view) for every cell of a tile; the views know no heights.
   template <class Visit>
-  void for_each_view(const Eye& eye, std::uint32_t observer, const Visit& visit) const {
+  void for_each_view(const Eye& eye, std::uint32_t observer, std::size_t number, const Visit& visit) const {
     const RasterGrid& grid = computed_.result.grid;
-    parallel_for(observations_.size(), [&](std::size_t i) {
-      const Tile tile = tile_at(grid, tiles_, i);
-      const TileCentres centres(store_.metadata().grid, grid, tile);
-      for_each_cell(tile, [&](std::size_t cell, RasterGrid::Cell place) {
-        const auto [dx, dy] = eye.offset_to(grid.centre(place.column, place.row), centres.at(cell));
-        visit(i, CellView{cell, observer, dx, dy, 0});
-      });
+    const Tile tile = tile_at(grid, tiles_, number);
+    const TileCentres centres(store_.metadata().grid, grid, tile);
+    for_each_offset(eye, grid, tile, centres, [&](std::size_t cell, const Point2& offset) {
+      visit(CellView{cell, observer, offset.x, offset.y, 0});
     });
   }
 
+  /// Verdict::kUndecided for the cells that the eye looks at, else Verdict::kOutside.
+  TileVerdicts asked(const Eye& eye, std::uint32_t observer) const {
+    const RasterGrid& grid = computed_.result.grid;
+    const MapView field{eye.position, eye.view};
+    TileVerdicts verdicts(tiles_.cell_count());
+    parallel_for(verdicts.size(), [&](std::size_t i) {
+      verdicts[i].fill(Verdict::kOutside);
+      const Box centres = box_of_centres(grid, tile_at(grid, tiles_, i));
+      if (!field.reaches(centres)) return;
+      const bool all = field.holds(centres);
+      for_each_view(eye, observer, i, [&](const CellView& view) {
+        const bool in_view = all || eye.view.contains(view.dx, view.dy, -kInfinity, kInfinity) != false;
+        if (in_view && observations_[i]->open(view)) verdicts[i][view.cell] = Verdict::kUndecided;
+      });
+    });
+    return verdicts;
+  }
+
+  std::vector<std::size_t> all_tiles() const {
+    std::vector<std::size_t> all(tiles_.cell_count());
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    return all;
+  }
+
   struct Coarse {
-    std::vector<TileSet> needed;  ///< the ground that each tile's undecided lines need at full detail
+    std::vector<TileSet> needed;  ///< the ground that each tile's undecided lines need
     std::shared_ptr<const VoidShadow> shadow;
   };
 
-  Coarse coarse_pass(const Eye& eye, TileVerdicts& verdicts) {
-    std::vector<std::size_t> all(tiles_.cell_count());
-    std::iota(all.begin(), all.end(), std::size_t{0});
+  /// Of the ground under the lines what may be seen: what is hidden hides nothing beyond it that is not hidden anyway.
+  Coarse pass_by_blocks(const Eye& eye, TileVerdicts& verdicts) {
+    blocks_->bound_for(eye);
+    const BlockJudge judge(*blocks_, request_, computed_.result.grid, tiles_, eye, nullptr);
+    judge_undecided(judge, all_tiles(), verdicts);
+    std::vector<std::uint8_t> may_be_seen(ground_->count());
+    parallel_for(may_be_seen.size(), [&](std::size_t i) { may_be_seen[i] = judge.may_see(ground_->box(i)) ? 1 : 0; });
+    TileSet seen(ground_->count());
+    for (std::size_t i = 0; i < may_be_seen.size(); ++i)
+      if (may_be_seen[i] != 0) seen.add(i);
+    return {under_lines(eye, verdicts, &seen), shadow_of(eye, rim_, computed_.result)};
+  }
+
+  Coarse pass_by_rays(const Eye& eye, TileVerdicts& verdicts) {
+    const std::vector<std::size_t> all = all_tiles();
     std::vector<TileSet> needed(all.size());
     const EnvelopeJudge judge(*coarse_, computed_.result.grid, tiles_, {eye},
                               [&](std::size_t tile, const EnvelopePacket& packet) {
@@ -239,20 +291,21 @@ class TinSegments {
     });
   }
 
-  /// The ground under all lines in view to each tile's open cells.
-  std::vector<TileSet> under_lines(const Eye& eye, std::uint32_t observer) const {
-    constexpr double kAnyHeight = 1e9;
-    std::vector<Box> targets(tiles_.cell_count());
-    for_each_view(eye, observer, [&](std::size_t tile, const CellView& view) {
-      const bool in_view = eye.view.contains(view.dx, view.dy, -kAnyHeight, kAnyHeight) != false;
-      if (in_view && observations_[tile]->open(view))
-        targets[tile].extend(Point2{eye.position.x + view.dx, eye.position.y + view.dy});
-    });
+  /// The ground under the lines to each tile's undecided cells: all of it, or what is of a set or under a cell.
+  std::vector<TileSet> under_lines(const Eye& eye, const TileVerdicts& verdicts, const TileSet* of = nullptr) const {
+    const RasterGrid& grid = computed_.result.grid;
     std::vector<TileSet> needed(tiles_.cell_count());
-    parallel_for(needed.size(), [&](std::size_t tile) {
-      if (targets[tile].empty()) return;
-      needed[tile] = TileSet(ground_->count());
-      ground_->add_lines(eye.position, targets[tile], needed[tile]);
+    parallel_for(needed.size(), [&](std::size_t i) {
+      Box targets;
+      for_each_cell(tile_at(grid, tiles_, i), [&](std::size_t cell, RasterGrid::Cell place) {
+        if (verdicts[i][cell] == Verdict::kUndecided) targets.extend(grid.centre(place.column, place.row));
+      });
+      if (targets.empty()) return;
+      needed[i] = TileSet(ground_->count());
+      ground_->add_lines(eye.position, targets, needed[i]);
+      if (of == nullptr) return;
+      needed[i] &= *of;
+      ground_->add_lines({targets.xmin, targets.ymin}, targets, needed[i]);
     });
     return needed;
   }
@@ -296,7 +349,8 @@ class TinSegments {
   const Store& store_;
   const Request& request_;
   bool features_;  ///< stand on the ground
-  bool full_;      ///< the surface is the full one
+  int level_;      ///< of the surface, or its coarsest
+  Pass pass_;
   Box box_;
   std::uint64_t memory_;  ///< bytes, without the rasters
   CallProgress progress_;
@@ -306,12 +360,18 @@ class TinSegments {
   RasterGrid tiles_;
   std::vector<RimEdge> rim_;  ///< where ground ends
   std::optional<GroundTiles> ground_;
-  std::optional<EnvelopeScene> coarse_;                     ///< unless whole lines are needed
+  std::optional<EnvelopeScene> coarse_;  ///< of Pass::kRays
+  TargetRises no_rises_;
+  std::optional<BoundedEnvelope> blocks_;                   ///< of Pass::kBlocks
   std::optional<Stage> stage_;                              ///< its steps are cells, of all observers
   std::vector<std::unique_ptr<Observation>> observations_;  ///< per tile
 };
 
 }  // namespace
+
+bool reads_what_may_be_seen(const Store& store, const Request& request) {
+  return pass_over(store, request) == Pass::kBlocks;
+}
 
 ViewshedWithSurface compute_in_tin_segments(const Store& store, const Request& request, std::uint64_t memory,
                                             Progress& progress) {

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include <itin/grazing.hpp>
+#include <itin/grid_units.hpp>
 
 #include "bounds/surface_heights.hpp"
 #include "judge/bounded_target.hpp"
@@ -152,6 +153,16 @@ BlockJudge::BlockJudge(const BoundedEnvelope& surface, const Request& request, c
       horizon_(horizon_of(surface.bounds(), request, eye)) {
   if (missing_ground_rule(request) == NoData::kBlock)
     shadow_.emplace(rim_of(surface.envelope().upper, surface.envelope().outline), eye.units);
+}
+
+bool BlockJudge::may_see(const Box& ground) const {
+  const EnvelopeBounds& bounds = surface_.bounds();
+  const Grid& units = bounds.units();
+  const auto column = [&](double x) { return bounds.column_at(easting_in_units(units, x)); };
+  const auto row = [&](double y) { return bounds.row_at(northing_in_units(units, y)); };
+  const BinBox box{column(ground.xmin), row(ground.ymax), column(ground.xmax), row(ground.ymin)};
+  const double highest = bounds.highest(box) * units.resolution;
+  return !horizon_.hides(box, std::max(highest, eye_.target(highest)) / units.resolution);
 }
 
 std::unique_ptr<TileJudge::Work> BlockJudge::begin(std::size_t tile) const {

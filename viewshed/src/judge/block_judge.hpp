@@ -35,6 +35,9 @@ class BlockJudge final : public TileJudge {
   BlockJudge(const BoundedEnvelope& surface, const Request& request, const RasterGrid& grid, const RasterGrid& tiles,
              const Eye& eye, const ExactNearby* nearby);
 
+  /// False where neither the ground in a box, metres, nor any target on it is seen.
+  bool may_see(const Box& ground) const;
+
   std::unique_ptr<Work> begin(std::size_t tile) const override;
   const Eye& eye(std::size_t) const override { return eye_; }
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "request/request.hpp"
+
 namespace itin::viewshed {
 
 BoundedEnvelope::BoundedEnvelope(Envelope envelope, const RasterGrid& tiles, const TargetRises& rises)
@@ -14,6 +16,12 @@ void BoundedEnvelope::bound(const Box& box) {
   bounds_ = std::make_unique<EnvelopeBounds>(envelope_.lower, envelope_.upper, envelope_.outline, box,
                                              side_of_bins(envelope_.lower, box));
   box_ = box;
+}
+
+void BoundedEnvelope::bound_for(const Eye& eye) {
+  const Box ground = envelope_.lower.bounds();
+  const double reach = eye.view.farthest();
+  bound(std::isfinite(reach) ? intersection(disc_box(eye.position, reach), ground) : ground);
 }
 
 }  // namespace itin::viewshed

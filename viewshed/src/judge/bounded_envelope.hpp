@@ -9,6 +9,7 @@
 #include "bounds/envelope_bounds.hpp"
 #include "bounds/triangle_bins.hpp"
 #include "judge/target_rises.hpp"
+#include "request/eye.hpp"
 #include "window/envelope.hpp"
 
 namespace itin::viewshed {
@@ -22,6 +23,8 @@ class BoundedEnvelope {
   /// Bounds the ground within a box, metres, and no other: about 16 bytes and 30 ns per bin, of which there are two
   /// million at most. Costs nothing where that box has been bounded before.
   void bound(const Box& box);
+  /// The ground that may be in an eye's view.
+  void bound_for(const Eye& eye);
 
   const Envelope& envelope() const { return envelope_; }
   /// By tile of the cells.

@@ -19,6 +19,7 @@
 #include "line/verdicts.hpp"
 #include "modes/blocker_table.hpp"
 #include "modes/triangle_studies.hpp"
+#include "request/cells_in_view.hpp"
 #include "request/eye.hpp"
 #include "scene/full_surface.hpp"
 
@@ -120,10 +121,11 @@ template <class Visit>
 void TileView::for_each_cell(const Visit& visit) const {
   const TileValues<double>& ground = cells().ground;
   const double metres = resolution(), elevation = eye().elevation;
-  work.surface().for_each_offset(eye(), cells(), [&](std::size_t cell, const Point2& offset) {
-    if (std::isnan(ground[cell])) return;
-    visit(CellView{cell, observer, offset.x, offset.y, ground[cell] * metres - elevation});
-  });
+  for_each_offset(eye(), work.surface().grid(), cells().tile, cells().centres,
+                  [&](std::size_t cell, const Point2& offset) {
+                    if (std::isnan(ground[cell])) return;
+                    visit(CellView{cell, observer, offset.x, offset.y, ground[cell] * metres - elevation});
+                  });
 }
 
 }  // namespace itin::viewshed

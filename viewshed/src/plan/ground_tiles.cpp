@@ -39,6 +39,11 @@ TileSet& TileSet::operator|=(const TileSet& other) {
   return *this;
 }
 
+TileSet& TileSet::operator&=(const TileSet& other) {
+  for (std::size_t w = 0; w < words_.size(); ++w) words_[w] &= other.words_[w];
+  return *this;
+}
+
 GroundTiles::GroundTiles(const Store& store, int level, const Box& box, double points_of_tile)
     : grid_(tiles_over(store, level, box, points_of_tile)),
       margin_(1 + store.metadata().grid.resolution),

@@ -17,6 +17,7 @@ class TileSet {
   bool contains(std::size_t tile) const { return (words_[tile / 64] >> (tile % 64) & 1) != 0; }
   bool empty() const;
   TileSet& operator|=(const TileSet& other);
+  TileSet& operator&=(const TileSet& other);
   template <class Visit>
   void for_each(const Visit& visit) const {
     for (std::size_t w = 0; w < words_.size(); ++w) {

@@ -15,9 +15,26 @@
 
 #include "line/cell_tiles.hpp"
 #include "line/infinity.hpp"
+#include "request/eye.hpp"
 #include "request/field_of_view.hpp"
 
 namespace itin::viewshed {
+
+/// Calls visit(cell, Eye::offset_to() it) for every cell of a tile.
+template <class Visit>
+void for_each_offset(const Eye& eye, const RasterGrid& grid, const Tile& tile, const TileCentres& centres,
+                     const Visit& visit) {
+  for_each_row(tile, [&](std::size_t cell, RasterGrid::Cell place) {
+    const double dy = grid.centre_y(place.row) - eye.position.y;
+    // Few rows come near the eye.
+    const bool near = same_place(0, centres.at(cell).y - eye.units.y);
+    const std::int64_t end = place.column + tile.columns;
+    for (; place.column < end; ++place.column, ++cell) {
+      const bool own = near && eye.stands_at(centres.at(cell));
+      visit(cell, own ? Point2{} : Point2{grid.centre_x(place.column) - eye.position.x, dy});
+    }
+  });
+}
 
 /// An observer's field of view on the map, at whatever elevation.
 struct MapView {

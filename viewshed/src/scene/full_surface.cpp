@@ -11,6 +11,7 @@
 #include <itin/lattice_tin.hpp>
 
 #include "line/infinity.hpp"
+#include "request/cells_in_view.hpp"
 
 namespace itin::viewshed {
 
@@ -167,7 +168,7 @@ void FullSurface::find_ground(std::span<const Tile> parts, TileWork& work) const
 void FullSurface::raise_targets(const Eye& eye, TileValues<Verdict>& values, TileWork& work) const {
   const double resolution = units().resolution, metre = 1 / resolution, grazing = kGrazing / resolution;
   work.targets.fill(kNoSurface);
-  for_each_offset(eye, work, [&](std::size_t cell, const Point2& offset) {
+  for_each_offset(eye, grid_, work.tile, work.centres, [&](std::size_t cell, const Point2& offset) {
     Verdict& value = values[cell];
     if (value != Verdict::kUndecided) return;
     value = Verdict::kOutside;

@@ -80,10 +80,6 @@ class FullSurface {
   /// Only cells in these parts of the tile are asked about: others may have no ground.
   std::unique_ptr<TileWork> begin(std::size_t tile, std::span<const Tile> parts) const;
 
-  /// Calls visit(cell, Eye::offset_to() it) for every cell.
-  template <class Visit>
-  void for_each_offset(const Eye& eye, const TileWork& work, const Visit& visit) const;
-
   /// Holds what all tiles share of an eye; rays share nothing.
   RadialSweep::View view_from(const Eye& eye) const {
     return rays_ ? sweep_.beginning(axis_of(eye)) : sweep_.view_of(axis_of(eye));
@@ -125,20 +121,6 @@ class FullSurface {
   const std::vector<BinBox> cells_;  ///< of each tile, about their centres
   std::unique_ptr<const ExactRays> rays_;
 };
-
-template <class Visit>
-void FullSurface::for_each_offset(const Eye& eye, const TileWork& work, const Visit& visit) const {
-  for_each_row(work.tile, [&](std::size_t cell, RasterGrid::Cell place) {
-    const double dy = grid_.centre_y(place.row) - eye.position.y;
-    // Few rows come near the eye.
-    const bool near = same_place(0, work.centres.at(cell).y - eye.units.y);
-    const std::int64_t end = place.column + work.tile.columns;
-    for (; place.column < end; ++place.column, ++cell) {
-      const bool own = near && eye.stands_at(work.centres.at(cell));
-      visit(cell, own ? Point2{} : Point2{grid_.centre_x(place.column) - eye.position.x, dy});
-    }
-  });
-}
 
 /// Together with what it is made of.
 struct OwnedSurface {

@@ -31,16 +31,28 @@ void for_each_chunk(std::size_t count, const auto& body) {
   });
 }
 
+/// How far a level's surface lies above the full one at least and at most, grid units.
+HeightBounds above_full(const Store& store, int level) {
+  const StoreMetadata& metadata = store.metadata();
+  const CertifiedError& error = metadata.levels[static_cast<std::size_t>(level)].certified_error;
+  const auto units = [&](double metres) {
+    return static_cast<std::int32_t>(std::ceil(metres / metadata.grid.resolution));
+  };
+  return {-units(error.hi), units(-error.lo)};
+}
+
 /// Each vertex gets the bounds over all its triangles.
-std::vector<HeightBounds> vertex_bounds(const Store& store, int level, const Tin& tin, const ThemeChoice& cut_by) {
+std::vector<HeightBounds> vertex_bounds(const Store& store, int level, int surface, const Tin& tin,
+                                        const ThemeChoice& cut_by) {
   std::vector<HeightBounds> result(tin.vertices.size());
   const std::vector<Certificate> cuts = feature_cuts(store, cut_by, tin.bounds());
-  if (level == 0 && cuts.empty()) return result;
-  const Certificate certificate = level > 0 ? store.certificate(level, tin.bounds()) : Certificate({});
+  if (level == surface && cuts.empty()) return result;
+  const Certificate certificate = level > surface ? store.certificate(level, tin.bounds()) : Certificate({});
+  const HeightBounds wider = level > surface ? above_full(store, surface) : HeightBounds();
   std::vector<HeightBounds> of_triangle(tin.triangles.size());
   for_each_chunk(of_triangle.size(), [&](std::size_t t) {
     const GridBox box = box_of(tin.corners(t));
-    if (const auto bounds = certificate.over(box)) of_triangle[t] = *bounds;
+    if (const auto bounds = certificate.over(box)) of_triangle[t] = {bounds->lo + wider.lo, bounds->hi + wider.hi};
     of_triangle[t].lo -= deepest_cut(cuts, box);
   });
   constexpr auto kMax = std::numeric_limits<std::int32_t>::max(), kMin = std::numeric_limits<std::int32_t>::min();
@@ -136,7 +148,7 @@ std::vector<Piece> retrieve_pieces(const Store& store, const std::vector<WantedP
     SilentProgress silent(progress);
     pieces[i].tin =
         triangulate(store, wanted[i].window, detail_of(store.metadata(), wanted[i].level), silent, request.themes);
-    pieces[i].bounds = vertex_bounds(store, wanted[i].level, pieces[i].tin, request.cut_by);
+    pieces[i].bounds = vertex_bounds(store, wanted[i].level, request.surface, pieces[i].tin, request.cut_by);
     if (request.enclosed.includes_raised(store.metadata().themes))
       enclose_features(store, request.enclosed, pieces[i].tin, pieces[i].bounds);
   });
@@ -211,7 +223,8 @@ Envelope envelop(const Store& store, const EnvelopeRequest& request, Progress& p
     if (i == 0) builder.mark_outline();
   }
   Envelope envelope = std::move(builder).finish(request.observers);
-  envelope.exact = request.level == 0 && feature_cuts(store, request.cut_by, envelope.lower.bounds()).empty();
+  envelope.exact =
+      request.level == request.surface && feature_cuts(store, request.cut_by, envelope.lower.bounds()).empty();
   if (request.bare_ground) {
     envelope.bare_ground = triangulate(store, *request.bare_ground, Detail::tolerance(0), call.step(1));
     envelope.lower.statistics += envelope.bare_ground->statistics;

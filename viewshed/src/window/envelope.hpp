@@ -1,4 +1,5 @@
-// Two surfaces that hold the full surface between them, made of pieces of coarser levels and their certificates.
+// Two surfaces that hold the full surface, or a level's, between them, made of pieces of coarser levels and their
+// certificates.
 //
 //   Envelope envelope = envelop(store, {.window = window, .level = 3, .observers = positions}, progress);
 //
@@ -32,6 +33,7 @@ struct FineDisc {
 struct EnvelopeRequest {
   Window window = Window::all();
   int level = 0;
+  int surface = 0;                ///< the level whose surface they hold between them; no piece is finer
   std::vector<FineDisc> discs;    ///< in any order
   std::vector<Point2> observers;  ///< rays start here: `upper` is raised for what single precision does sideways
   ThemeChoice themes = ThemeChoice::none();          ///< what stands on the ground; at level 0 alone, without discs
@@ -46,7 +48,7 @@ struct Envelope {
   Tin upper;
   std::vector<BoundaryEdge> outline;  ///< the edges of the coverage, of vertices and triangles of either
   std::vector<std::uint32_t> pieces;  ///< the first triangle of each piece but the first
-  bool exact = false;                 ///< of level 0 throughout: `lower` is the full surface
+  bool exact = false;                 ///< of one level throughout: `lower` is the surface
   std::optional<Tin> bare_ground;     ///< the full surface without what stands on it
 };
 

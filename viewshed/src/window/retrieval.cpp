@@ -62,17 +62,18 @@ double radius_with(const Store& store, int level, Point2 centre, double points) 
   return radius;
 }
 
-EnvelopeRequest certified_request(const Store& store, const Request& request, int level) {
+EnvelopeRequest certified_request(const Store& store, const Request& request, int level, int surface) {
   EnvelopeRequest result;
   result.window = window_of(request);
   result.level = level;
+  result.surface = surface;
   result.cut_by = request.themes;
   const Box box = box_of_window(store, request);
   const double points = std::min({kNearPoints, kAllNearPoints / static_cast<double>(request.observers.size()),
                                   kNearShare * static_cast<double>(store.points_about(0, box))});
   for (const Observer& observer : request.observers) {
     result.observers.push_back(observer.position);
-    for (int finer = 0; finer < level; ++finer) {
+    for (int finer = surface; finer < level; ++finer) {
       double radius = radius_with(store, finer, observer.position, points);
       if (const auto reach = radius_of(request, observer)) radius = std::min(radius, *reach);
       result.discs.push_back({observer.position, radius, finer});

@@ -35,7 +35,8 @@ double radius_with(const Store& store, int level, Point2 centre, double points);
 /// For request.detail.
 EnvelopeRequest certified_request(const Store& store, const Request& request);
 
-/// Takes another level than request.detail's. No features stand there, nor are any enclosed.
-EnvelopeRequest certified_request(const Store& store, const Request& request, int level);
+/// Takes this level in place of request.detail's, and encloses the surface of level `surface`. No features stand there,
+/// nor are any enclosed.
+EnvelopeRequest certified_request(const Store& store, const Request& request, int level, int surface = 0);
 
 }  // namespace itin::viewshed
