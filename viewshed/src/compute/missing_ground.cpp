@@ -34,8 +34,8 @@ void leave_out_ground(const Tin& coverage, const RasterGrid& grid, std::vector<s
 std::uint64_t count_without_ground(const Store& store, const Result& result, Progress& progress) {
   if (!bounds_elevations(result.request)) {
     const std::vector<MapView> views = views_of(result.request);
-    const bool looks_at_all = std::any_of(views.begin(), views.end(),
-                                          [&](const MapView& view) { return view.holds(result.grid.bounds()); });
+    const bool looks_at_all =
+        std::any_of(views.begin(), views.end(), [&](const MapView& view) { return view.holds(result.grid.bounds()); });
     return looks_at_all ? result.cells.outside : for_each_outside(result, [](RasterGrid::Cell) {});
   }
   const std::vector<std::uint8_t> cells = cells_without_ground(store, result, progress);

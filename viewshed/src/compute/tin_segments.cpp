@@ -1,9 +1,7 @@
 #include "compute/tin_segments.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <memory>
-#include <numeric>
 #include <optional>
 #include <span>
 #include <utility>
@@ -16,8 +14,7 @@
 #include <viewshed/surface.hpp>
 #include <viewshed/viewshed.hpp>
 
-#include "judge/block_judge.hpp"
-#include "judge/envelope_judge.hpp"
+#include "compute/coarse_pass.hpp"
 #include "judge/exact_judge.hpp"
 #include "line/infinity.hpp"
 #include "line/tile_parts.hpp"
@@ -44,27 +41,6 @@ constexpr std::uint64_t kCoarseShareOfRays = 12, kCoarseShareOfBlocks = 30;
 /// Its share of the time, about.
 constexpr double kCoarsePass = 0.1;
 
-Point2 along(const Grid& grid, const SightLines& lines, unsigned i, double s) {
-  return {grid.origin.x + (lines.from_x[i] + s * (lines.to_x[i] - lines.from_x[i])) * grid.resolution,
-          grid.origin.y + (lines.from_y[i] + s * (lines.to_y[i] - lines.from_y[i])) * grid.resolution};
-}
-
-/// What is found out at a coarse level before the surface is read.
-enum class Pass : std::uint8_t {
-  kNone,  ///< nothing: all ground under the lines is read
-  kRays,  ///< of the full surface, cells that are hidden or visible, and where the lines to others come near the ground
-  kBlocks,  ///< of a level's surface, cells and ground that are hidden
-};
-
-Pass pass_over(const Store& store, const Request& request) {
-  // Cells that a coarse level decides have no exact height of ground.
-  if (needs_triangles(request) || request.mode == Mode::kHeight || request.mode == Mode::kAngle) return Pass::kNone;
-  if (level_within(store.metadata(), request.detail.coarsest()) == 0) return Pass::kRays;
-  // Certificates are those of a level, and know nothing of features that a level simplifies.
-  const bool one_level = request.detail.rings().size() == 1;
-  return one_level && !has_raised_features(store, request) ? Pass::kBlocks : Pass::kNone;
-}
-
 class TinSegments {
  public:
   TinSegments(const Store& store, const Request& request, std::uint64_t memory, Progress& progress)
@@ -72,7 +48,7 @@ class TinSegments {
         request_(request),
         features_(has_raised_features(store, request)),
         level_(level_within(store.metadata(), request.detail.coarsest())),
-        pass_(pass_over(store, request)),
+        way_(coarse_way(store, request)),
         box_(box_of_window(store, request)),
         memory_(memory),
         progress_(progress),
@@ -99,10 +75,10 @@ class TinSegments {
   std::uint64_t budget() const { return memory_ / bytes_per_point(request_); }
 
   /// The level whose surface the coarse one encloses.
-  int enclosed_level() const { return pass_ == Pass::kBlocks ? level_ : 0; }
+  int enclosed_level() const { return way_ == CoarseWay::kBlocks ? level_ : 0; }
 
   int coarse_level() const {
-    const std::uint64_t share = pass_ == Pass::kBlocks ? kCoarseShareOfBlocks : kCoarseShareOfRays;
+    const std::uint64_t share = way_ == CoarseWay::kBlocks ? kCoarseShareOfBlocks : kCoarseShareOfRays;
     const std::uint64_t most =
         std::min(memory_ / kBytesPerEnvelopePoint, store_.points_about(enclosed_level(), box_) / share);
     return finest_level_of(store_, box_, most, std::max(enclosed_level(), 1));
@@ -133,8 +109,8 @@ class TinSegments {
 
   void retrieve_coarse() {
     EnvelopeRequest wanted = certified_request(store_, request_, coarse_level(), enclosed_level());
-    if (pass_ != Pass::kRays) wanted.observers.clear();  // of rays
-    if (features_ && pass_ == Pass::kRays) wanted.enclosed = request_.themes;
+    if (way_ != CoarseWay::kRays) wanted.observers.clear();
+    if (features_ && way_ == CoarseWay::kRays) wanted.enclosed = request_.themes;
     Envelope envelope = envelop(store_, wanted, progress_);
     Result& result = computed_.result;
     result.statistics.retrieval += envelope.lower.statistics;
@@ -146,71 +122,44 @@ class TinSegments {
     find_voids(envelope.lower.grid, rim_, result);
     ground_.emplace(store_, level_within(store_.metadata(), request_.detail.finest()), envelope.lower.bounds());
     computed_.surface = std::make_shared<Surface>(Surface{envelope.lower, nullptr, {}});
-    if (pass_ == Pass::kRays) coarse_.emplace(std::move(envelope), request_, tiles_, missing_ground_rule(request_));
-    if (pass_ == Pass::kBlocks) blocks_.emplace(std::move(envelope), tiles_, no_rises_);
+    pass_ = make_coarse_pass(way_, std::move(envelope), {request_, *ground_, rim_, tiles_, result});
     result.statistics.scene_seconds += watch_.lap();
   }
 
   void observe_from(const Eye& eye, std::uint32_t observer) {
-    if (pass_ == Pass::kNone) {
-      observe_over_lines(eye, observer);
-    } else {
-      observe_undecided(eye, observer);
-    }
-    stage_->advance_to((observer + 1) * computed_.result.grid.cell_count());
-  }
-
-  /// All ground under all lines.
-  void observe_over_lines(const Eye& eye, std::uint32_t observer) {
     Result& result = computed_.result;
-    const std::vector<TileSet> needed = under_lines(eye, asked(eye, observer));
-    // The edges of a segment's window are no voids, and features never reach beyond the ground.
-    const auto shadow = shadow_of(eye, rim_, result);
-    for (const auto& [cells, ground] : segments(eye, needed)) {
+    TileVerdicts verdicts = asked(eye, observer);
+    const CoarsePass::Left left = pass_->look(eye, verdicts, *stage_);
+    result.statistics.lines += left.lines;
+    // The memory is free for the segments, when no other observer needs it.
+    if (observer + 1 == request_.observers.size()) pass_.reset();
+    for (const auto& [cells, ground] : segments(eye, left.needed)) {
       const OwnedSurface segment = refine(cells, ground);
-      std::optional<Tin> bare;
-      if (features_ && needs_bare_lines(request_)) bare = triangulated(ground_->window(ground), ThemeChoice::none());
-      std::optional<TriangleStudies> studies;
-      if (needs_triangles(request_)) studies.emplace(request_, segment.surface.tin, bare ? &*bare : nullptr);
-      const ExactJudge judge(segment.full, {eye, segment.full.view_from(eye), shadow});
-      result.statistics.lines += observe(judge, observer, all_cells(result.grid, tiles_, cells), observations_,
-                                         studies ? &*studies : nullptr, *stage_);
+      // The edges of a segment's window are no voids, and features never reach beyond the ground.
+      const ExactJudge judge(segment.full, {eye, segment.full.view_from(eye), left.shadow});
+      result.statistics.lines += way_ == CoarseWay::kNothing ? study(judge, segment, observer, cells, ground)
+                                                             : judge_undecided(judge, cells, verdicts, *stage_);
     }
+    if (way_ != CoarseWay::kNothing) add(eye, observer, verdicts);
+    stage_->advance_to((observer + 1) * result.grid.cell_count());
   }
 
-  /// One observer's verdicts on each tile, on their way.
-  using TileVerdicts = std::vector<TileValues<Verdict>>;
+  /// Whatever the mode asks of the lines to these tiles. Returns how many lines there were.
+  std::uint64_t study(const ExactJudge& judge, const OwnedSurface& segment, std::uint32_t observer,
+                      const std::vector<std::size_t>& cells, const TileSet& ground) {
+    std::optional<Tin> bare;
+    if (features_ && needs_bare_lines(request_)) bare = triangulated(ground_->window(ground), ThemeChoice::none());
+    std::optional<TriangleStudies> studies;
+    if (needs_triangles(request_)) studies.emplace(request_, segment.surface.tin, bare ? &*bare : nullptr);
+    return observe(judge, observer, all_cells(computed_.result.grid, tiles_, cells), observations_,
+                   studies ? &*studies : nullptr, *stage_);
+  }
 
-  /// The ground that the cells need which a coarse pass leaves.
-  void observe_undecided(const Eye& eye, std::uint32_t observer) {
-    TileVerdicts verdicts = asked(eye, observer);
-    const auto [needed, shadow] = pass_ == Pass::kRays ? pass_by_rays(eye, verdicts) : pass_by_blocks(eye, verdicts);
-    // The memory is free for the segments, when no other observer needs it.
-    if (observer + 1 == request_.observers.size()) coarse_.reset(), blocks_.reset();
-    for (const auto& [cells, ground] : segments(eye, needed)) {
-      const OwnedSurface segment = refine(cells, ground);
-      // The edges of the window are no voids.
-      judge_undecided(ExactJudge(segment.full, {eye, segment.full.view_from(eye), shadow}), cells, verdicts);
-    }
+  void add(const Eye& eye, std::uint32_t observer, const TileVerdicts& verdicts) {
     parallel_for(verdicts.size(), [&](std::size_t i) {
       for_each_view(eye, observer, i,
                     [&](const CellView& view) { observations_[i]->add(view, verdicts[i][view.cell]); });
     });
-  }
-
-  /// Judges what is undecided of these tiles, for the judge's only eye.
-  void judge_undecided(const TileJudge& judge, const std::vector<std::size_t>& tiles, TileVerdicts& verdicts) {
-    const auto undecided = [](const TileValues<Verdict>& values) {
-      return static_cast<std::size_t>(std::count(values.begin(), values.end(), Verdict::kUndecided));
-    };
-    std::atomic<std::uint64_t> lines = 0;
-    stage_->for_each(tiles.size(), [&](std::size_t i) {
-      TileValues<Verdict>& values = verdicts[tiles[i]];
-      const std::size_t before = undecided(values);
-      lines += judge.begin(tiles[i])->judge(0, values);
-      return before - undecided(values);
-    });
-    computed_.result.statistics.lines += lines;
   }
 
   /// Calls visit(view) for every cell of a tile; the views know no heights.
@@ -240,74 +189,6 @@ class TinSegments {
       });
     });
     return verdicts;
-  }
-
-  std::vector<std::size_t> all_tiles() const {
-    std::vector<std::size_t> all(tiles_.cell_count());
-    std::iota(all.begin(), all.end(), std::size_t{0});
-    return all;
-  }
-
-  struct Coarse {
-    std::vector<TileSet> needed;  ///< the ground that each tile's undecided lines need
-    std::shared_ptr<const VoidShadow> shadow;
-  };
-
-  /// Of the ground under the lines what may be seen: what is hidden hides nothing beyond it that is not hidden anyway.
-  Coarse pass_by_blocks(const Eye& eye, TileVerdicts& verdicts) {
-    blocks_->bound_for(eye);
-    const BlockJudge judge(*blocks_, request_, computed_.result.grid, tiles_, eye, nullptr);
-    judge_undecided(judge, all_tiles(), verdicts);
-    std::vector<std::uint8_t> may_be_seen(ground_->count());
-    parallel_for(may_be_seen.size(), [&](std::size_t i) { may_be_seen[i] = judge.may_see(ground_->box(i)) ? 1 : 0; });
-    TileSet seen(ground_->count());
-    for (std::size_t i = 0; i < may_be_seen.size(); ++i)
-      if (may_be_seen[i] != 0) seen.add(i);
-    return {under_lines(eye, verdicts, &seen), shadow_of(eye, rim_, computed_.result)};
-  }
-
-  Coarse pass_by_rays(const Eye& eye, TileVerdicts& verdicts) {
-    const std::vector<std::size_t> all = all_tiles();
-    std::vector<TileSet> needed(all.size());
-    const EnvelopeJudge judge(*coarse_, computed_.result.grid, tiles_, {eye},
-                              [&](std::size_t tile, const EnvelopePacket& packet) {
-                                if (needed[tile].empty()) needed[tile] = TileSet(ground_->count());
-                                add_ground(packet, needed[tile]);
-                              });
-    judge_undecided(judge, all, verdicts);
-    return {std::move(needed), judge.view(0).shadow};
-  }
-
-  /// Under the targets, and where lines come near it.
-  void add_ground(const EnvelopePacket& packet, TileSet& tiles) const {
-    const Grid& units = store_.metadata().grid;
-    UpperScene::Stretches stretches;
-    coarse_->upper.find_stretches(packet.low, packet.starts_under, packet.ends_under, stretches);
-    for_each_line(packet.low.active, [&](unsigned i) {
-      const Point2 target = along(units, packet.low, i, 1);
-      ground_->add_line(target, target, tiles);
-      for (const Stretch& s : stretches[i])
-        ground_->add_line(along(units, packet.low, i, s.from), along(units, packet.low, i, s.to), tiles);
-    });
-  }
-
-  /// The ground under the lines to each tile's undecided cells: all of it, or what is of a set or under a cell.
-  std::vector<TileSet> under_lines(const Eye& eye, const TileVerdicts& verdicts, const TileSet* of = nullptr) const {
-    const RasterGrid& grid = computed_.result.grid;
-    std::vector<TileSet> needed(tiles_.cell_count());
-    parallel_for(needed.size(), [&](std::size_t i) {
-      Box targets;
-      for_each_cell(tile_at(grid, tiles_, i), [&](std::size_t cell, RasterGrid::Cell place) {
-        if (verdicts[i][cell] == Verdict::kUndecided) targets.extend(grid.centre(place.column, place.row));
-      });
-      if (targets.empty()) return;
-      needed[i] = TileSet(ground_->count());
-      ground_->add_lines(eye.position, targets, needed[i]);
-      if (of == nullptr) return;
-      needed[i] &= *of;
-      ground_->add_lines({targets.xmin, targets.ymin}, targets, needed[i]);
-    });
-    return needed;
   }
 
   struct GroundSegment {
@@ -350,7 +231,7 @@ class TinSegments {
   const Request& request_;
   bool features_;  ///< stand on the ground
   int level_;      ///< of the surface, or its coarsest
-  Pass pass_;
+  CoarseWay way_;
   Box box_;
   std::uint64_t memory_;  ///< bytes, without the rasters
   CallProgress progress_;
@@ -360,9 +241,7 @@ class TinSegments {
   RasterGrid tiles_;
   std::vector<RimEdge> rim_;  ///< where ground ends
   std::optional<GroundTiles> ground_;
-  std::optional<EnvelopeScene> coarse_;  ///< of Pass::kRays
-  TargetRises no_rises_;
-  std::optional<BoundedEnvelope> blocks_;                   ///< of Pass::kBlocks
+  std::unique_ptr<CoarsePass> pass_;
   std::optional<Stage> stage_;                              ///< its steps are cells, of all observers
   std::vector<std::unique_ptr<Observation>> observations_;  ///< per tile
 };
@@ -370,7 +249,7 @@ class TinSegments {
 }  // namespace
 
 bool reads_what_may_be_seen(const Store& store, const Request& request) {
-  return pass_over(store, request) == Pass::kBlocks;
+  return coarse_way(store, request) == CoarseWay::kBlocks;
 }
 
 ViewshedWithSurface compute_in_tin_segments(const Store& store, const Request& request, std::uint64_t memory,

@@ -63,6 +63,15 @@ std::uint64_t GroundTiles::points(const TileSet& tiles) const {
   return sum;
 }
 
+TileSet GroundTiles::those(const std::function<bool(const Box&)>& test) const {
+  std::vector<std::uint8_t> holds(count());
+  parallel_for(holds.size(), [&](std::size_t tile) { holds[tile] = test(box(tile)) ? 1 : 0; });
+  TileSet result(count());
+  for (std::size_t tile = 0; tile < holds.size(); ++tile)
+    if (holds[tile] != 0) result.add(tile);
+  return result;
+}
+
 /// Calls visit(column, first row, last row) for the tiles of each column about the line.
 template <class Visit>
 void GroundTiles::for_each_column(Point2 from, Point2 to, const Visit& visit) const {

@@ -1,0 +1,68 @@
+// What is found out at a coarse level before a surface of triangles is read: which of an eye's cells that decides, and
+// which ground the others need.
+//
+//   const auto pass = make_coarse_pass(way, std::move(envelope), {request, ground, rim, tiles, result});
+//   const CoarsePass::Left left = pass->look(eye, verdicts, stage);
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include <itin/store.hpp>
+#include <viewshed/viewshed.hpp>
+
+#include "judge/tile_judge.hpp"
+#include "line/cell_tiles.hpp"
+#include "plan/ground_tiles.hpp"
+#include "progress/stage.hpp"
+#include "request/eye.hpp"
+#include "request/void_shadow.hpp"
+#include "window/envelope.hpp"
+
+namespace itin::viewshed {
+
+/// One eye's verdicts on each tile of the cells, on their way.
+using TileVerdicts = std::vector<TileValues<Verdict>>;
+
+/// Judges what is undecided of these tiles, for the judge's only eye, and advances the stage by the cells that this
+/// decides. Returns how many sight lines it took.
+std::uint64_t judge_undecided(const TileJudge& judge, const std::vector<std::size_t>& tiles, TileVerdicts& verdicts,
+                              Stage& stage);
+
+enum class CoarseWay : std::uint8_t {
+  kNothing,  ///< decides nothing: all ground under the lines is needed
+  kRays,     ///< of the full surface, what is hidden or visible, and where the lines to others come near the ground
+  kBlocks,   ///< of a level's surface, cells that are hidden, and what is not hidden of the ground under the lines
+};
+CoarseWay coarse_way(const Store& store, const Request& request);
+
+class CoarsePass {
+ public:
+  /// What the surface is read by. All must outlive the pass.
+  struct Over {
+    const Request& request;
+    const GroundTiles& ground;
+    const std::vector<RimEdge>& rim;  ///< where ground ends
+    const RasterGrid& tiles;          ///< of the result's cells
+    const Result& result;
+  };
+  struct Left {
+    std::vector<TileSet> needed;  ///< the ground that each tile's undecided lines need; empty: there are none
+    std::shared_ptr<const VoidShadow> shadow;
+    std::uint64_t lines = 0;  ///< that this took
+  };
+
+  CoarsePass() = default;
+  virtual ~CoarsePass() = default;
+  CoarsePass(const CoarsePass&) = delete;
+  CoarsePass& operator=(const CoarsePass&) = delete;
+
+  /// Cells that are Verdict::kUndecided are asked about.
+  virtual Left look(const Eye& eye, TileVerdicts& verdicts, Stage& stage) = 0;
+};
+
+/// `envelope` encloses the full surface or, for kBlocks, the request's.
+std::unique_ptr<CoarsePass> make_coarse_pass(CoarseWay way, Envelope envelope, const CoarsePass::Over& over);
+
+}  // namespace itin::viewshed
