@@ -39,7 +39,7 @@ std::size_t bracket_of_child(std::string_view wkt, std::string_view keyword) {
   return std::string_view::npos;
 }
 
-/// Of the outermost node: "EPSG:27700"; empty where it has none.
+/// What the outermost node says of itself: "EPSG:27700"; empty where it has no code.
 std::string authority_and_code(std::string_view wkt) {
   std::size_t bracket = bracket_of_child(wkt, "ID");                                    // WKT 2
   if (bracket == std::string_view::npos) bracket = bracket_of_child(wkt, "AUTHORITY");  // WKT 1

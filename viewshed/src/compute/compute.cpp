@@ -18,7 +18,7 @@ namespace itin::viewshed {
 
 namespace {
 
-/// Of fewer points it takes less time to read all.
+/// Fewer points are read in less time than it takes to look at what is hidden.
 constexpr std::uint64_t kPointsWorthALook = 500000;
 
 /// Whether an irregular surface is large, and little of it may be seen.
