@@ -112,6 +112,9 @@ int thread_count() {
 
 Ahead::Ahead(void (*work)()) {
   if (thread_count() == 1) return;
+  // oneTBB opens libraries of its own when it is first used. One library is opened at a time, and so it is used now,
+  // lest it wait for one that the work opens.
+  run_on_threads(2, [](std::size_t) {});
   try {
     thread_ = std::jthread(work);
   } catch (const std::system_error&) {  // the system allows no more threads
