@@ -170,6 +170,7 @@ class ViewshedVerb final : public Verb {
     if (!horizon_.paths().empty() && places_.size() > 1)
       throw InputError("--horizon is that of one observer; give one");
     outputs_.prepare(request_);
+    compute_options_.whole_surface = outputs_.draws_map() || !horizon_.paths().empty();
     viewshed::ViewshedWithSurface computed = survey(store, request_, progress);
     const viewshed::MissingGround missing = viewshed::missing_ground(store, computed.result, progress);
     const std::vector<SourceInfo> sources = sources_in(store, computed.result.grid.bounds(), request_.themes);

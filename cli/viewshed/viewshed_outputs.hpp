@@ -44,6 +44,7 @@ class ViewshedOutputs {
   /// In the order of the options, the others last.
   std::vector<std::string> paths() const;
   bool overwrite() const { return policy_.overwrite; }
+  bool draws_map() const { return !image_.empty(); }
 
  private:
   std::vector<std::string> rasters() const;

@@ -242,6 +242,9 @@ struct ComputeOptions {
   // Change the speed, never the answer.
   std::uint64_t memory_bytes = std::uint64_t{1} << 30;
   bool lattices = true;  ///< a raster is swept over its posts alone
+  /// ViewshedWithSurface::surface is wanted as a whole, where the memory holds it, for maps and horizons: else no more
+  /// of a large one is read than may be seen.
+  bool whole_surface = true;
 };
 
 /// The surface over which sight lines were decided. Opaque: draw_map() and compute_on_surface() take it.
@@ -259,11 +262,12 @@ struct ViewshedWithSurface {
 /// of a large raster those heights that an observer may see, sector by sector about each observer; or of another
 /// surface what decides, segment by segment. There a certified pass at a coarse level decides most cells of the full
 /// surface, and the others take the places where their lines come near the ground, and no more. At a tolerance the pass
-/// tells which ground is hidden, and the others take what is not; so does one observer on a large surface, also where
-/// the memory holds all of it. With rings, with themes that stand on the ground at a tolerance, and in modes that ask
-/// more than whether a cell is seen, they take all ground under the lines. The answer is the same to the last bit, in every mode. Cost, on one core: about a microsecond a point; a
-/// fifth of that for rasters, and 9 bytes per post. Throws as compute() on a Tin and triangulate() do, and InputError
-/// where the line to a single cell does not fit into the memory.
+/// tells which ground is hidden, and the others take what is not; so does one observer on a large surface that is not
+/// wanted as a whole. With rings, with themes that stand on the ground at a tolerance, and in modes that ask
+/// more than whether a cell is seen, they take all ground under the lines. The answer is the same to the last bit, in
+/// every mode. Cost, on one core: about a microsecond a point; a fifth of that for rasters, and 9 bytes per post.
+/// Throws as compute() on a Tin and triangulate() do, and InputError where the line to a single cell does not fit into
+/// the memory.
 ViewshedWithSurface compute_with_surface(const Store& store, const Request& request, const ComputeOptions& options,
                                          Progress& progress);
 

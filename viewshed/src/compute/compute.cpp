@@ -35,8 +35,8 @@ ViewshedWithSurface climb(const Store& store, const Request& request, const Comp
   if (lattice && points <= memory / kBytesPerPost)
     if (auto computed = compute_over_lattice(store, request, memory / kBytesPerPost, progress))
       return std::move(*computed);
-  if (points <= memory / bytes_per_point(request) && !may_be_mostly_hidden(store, request, points))
-    return compute_over_tin(store, request, progress);
+  const bool whole = options.whole_surface || !may_be_mostly_hidden(store, request, points);
+  if (whole && points <= memory / bytes_per_point(request)) return compute_over_tin(store, request, progress);
   if (lattice)
     if (auto computed = compute_by_lattice_sectors(store, request, memory / kSectorShare, progress))
       return std::move(*computed);
@@ -56,7 +56,7 @@ ViewshedWithSurface compute_with_surface(const Store& store, const Request& requ
 }
 
 Result compute(const Store& store, const Request& request, Progress& progress) {
-  return compute_with_surface(store, request, {}, progress).result;
+  return compute_with_surface(store, request, {.whole_surface = false}, progress).result;
 }
 
 Request request_for_observer(const Result& result, std::size_t observer) {

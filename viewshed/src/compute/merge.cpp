@@ -18,10 +18,11 @@ namespace itin::viewshed {
 
 Result decide(const Store& store, const Plan& plan, std::size_t segment, Progress& progress) {
   const Request request = plan.request_of(segment);
-  if (plan.certainty() == Certainty::kExact)
-    return compute_with_surface(store, request, plan.options(), progress).result;
+  ComputeOptions options = plan.options();
+  options.whole_surface = false;
+  if (plan.certainty() == Certainty::kExact) return compute_with_surface(store, request, options, progress).result;
   const CertifiedWay way = plan.decides_exactly() ? CertifiedWay::kExactly : certified_way(store, plan.request());
-  return compute_certified(store, request, way, plan.options(), progress).result;
+  return compute_certified(store, request, way, options, progress).result;
 }
 
 /// The whole result in the making.
