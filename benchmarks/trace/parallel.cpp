@@ -25,6 +25,8 @@ void parallel_for(std::size_t count, const std::function<void(std::size_t)>& bod
   for (std::size_t i = 0; i < count; ++i) loop.run(body, i);
 }
 
+Ahead::Ahead(void (*)()) {}
+
 void set_thread_count(int threads) {
   if (threads > 0) divided_for = threads;
 }
