@@ -25,6 +25,8 @@ class HillsWithGap : public testing::Test {
  protected:
   static constexpr int kPostsPerSide = 193;
   static constexpr double kPostStep = 25, kFirstEast = 300000, kFirstNorth = 200000;
+  static constexpr Point2 kBetweenPosts{kFirstEast + 2400.7, kFirstNorth - 2300.3},
+      kOnPost{kFirstEast + 2412.5, kFirstNorth - 2312.5};
 
   /// The gap's radius is in posts; lower ground lies under the sea.
   void make(double gap, double roughness = 0.6, double sea = -1e6) {
@@ -67,6 +69,44 @@ class HillsWithGap : public testing::Test {
     observer.height = height;
     request.observers.push_back(observer);
     return request;
+  }
+
+  /// Adds three observers on the hills, with radii of their own.
+  void add_observers(viewshed::Request& request) {
+    for (const double radius : {600.0, 1500.0, 1e5}) {
+      viewshed::Observer observer = request.observers.front();
+      observer.position = on_the_hills();
+      observer.radius = radius;
+      request.observers.push_back(observer);
+    }
+  }
+
+  /// Calls expect(request) for ever narrower fields of view, then for targets at an elevation; returns the last
+  /// request.
+  template <class Expect>
+  static viewshed::Request in_fields_of_view(viewshed::Request request, const Expect& expect) {
+    request.radius = 1900;
+    request.min_radius = 200;
+    expect(request);
+    request.azimuth = viewshed::AngleRange{300, 100};
+    expect(request);
+    request.elevation = viewshed::AngleRange{-4, 1};
+    expect(request);
+    request.elevation.reset();
+    request.target_absolute = true;
+    request.target_height = 120;
+    expect(request);
+    return request;
+  }
+
+  /// Calls expect(request) for cells from far smaller than the posts' distance to far larger.
+  template <class Expect>
+  static void in_cells_of_all_sizes(viewshed::Request request, const Expect& expect) {
+    for (const double cell : {3.0, 25.0, 400.0, 1700.0}) {
+      request.cell_size = cell;
+      request.radius = cell < 5 ? std::optional(700.0) : std::nullopt;
+      expect(request);
+    }
   }
 
   std::mt19937 random_{seed()};

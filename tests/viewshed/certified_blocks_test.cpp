@@ -72,29 +72,13 @@ TEST_F(CertifiedBlocks, AreNeverWrong) {
 
 TEST_F(CertifiedBlocks, KeepToFieldsOfView) {
   make(0);
-  Request request = request_from({kFirstEast + 2400.7, kFirstNorth - 2300.3});
-  request.radius = 1900;
-  request.min_radius = 200;
-  expect_nothing_wrong(request, 8);
-  request.azimuth = AngleRange{300, 100};
-  expect_nothing_wrong(request, 8);
-  request.elevation = AngleRange{-4, 1};
-  expect_nothing_wrong(request, 8);
-  request.elevation.reset();
-  request.target_absolute = true;
-  request.target_height = 120;
-  expect_nothing_wrong(request, 8);
+  in_fields_of_view(request_from(kBetweenPosts), [&](const Request& request) { expect_nothing_wrong(request, 8); });
 }
 
 TEST_F(CertifiedBlocks, OfSeveralObserversAgree) {
   make(0);
   Request request = request_from(on_the_hills());
-  for (const double radius : {600.0, 1500.0, 1e5}) {
-    Observer observer = request.observers.front();
-    observer.position = on_the_hills();
-    observer.radius = radius;
-    request.observers.push_back(observer);
-  }
+  add_observers(request);
   expect_nothing_wrong(request, 8);
   request.earth = Earth::flat();
   expect_nothing_wrong(request, 8);
@@ -102,12 +86,7 @@ TEST_F(CertifiedBlocks, OfSeveralObserversAgree) {
 
 TEST_F(CertifiedBlocks, TakeCellsOfAllSizes) {
   make(0);
-  Request request = request_from({kFirstEast + 2412.5, kFirstNorth - 2312.5});  // on a post
-  for (const double cell : {3.0, 25.0, 400.0, 1700.0}) {
-    request.cell_size = cell;
-    request.radius = cell < 5 ? std::optional(700.0) : std::nullopt;
-    expect_nothing_wrong(request, 16);
-  }
+  in_cells_of_all_sizes(request_from(kOnPost), [&](const Request& request) { expect_nothing_wrong(request, 16); });
 }
 
 /// What the class promises, at random places.

@@ -54,36 +54,22 @@ TEST_F(SeenGround, GivesTheAnswerOfTheWhole) {
 
 TEST_F(SeenGround, KeepsToFieldsOfViewAndTargets) {
   make(0, 0.7);
-  Request request = request_from({kFirstEast + 2400.7, kFirstNorth - 2300.3}, 10);
+  Request request = request_from(kBetweenPosts, 10);
   request.detail = Detail::tolerance(2);
   request.target_height = 0;
   expect_the_whole_answer(request);
   request.target_height = 60;
   expect_the_whole_answer(request);
-  request.radius = 1900;
-  request.min_radius = 200;
-  expect_the_whole_answer(request);
-  request.azimuth = AngleRange{300, 100};
-  expect_the_whole_answer(request);
-  request.elevation = AngleRange{-4, 1};
-  expect_the_whole_answer(request);
-  request.elevation.reset();
-  request.target_absolute = true;
-  request.target_height = 120;
-  expect_the_whole_answer(request);
+  request = in_fields_of_view(request, [&](const Request& narrower) { expect_the_whole_answer(narrower); });
   request.earth = Earth::flat();
   expect_the_whole_answer(request);
 }
 
 TEST_F(SeenGround, TakesPostsAndCellsOfAllSizes) {
   make(0, 0.7);
-  Request request = request_from({kFirstEast + 2412.5, kFirstNorth - 2312.5}, 5);  // on a post
+  Request request = request_from(kOnPost, 5);
   request.detail = Detail::tolerance(4);
-  for (const double cell : {3.0, 25.0, 400.0, 1700.0}) {
-    request.cell_size = cell;
-    request.radius = cell < 5 ? std::optional(700.0) : std::nullopt;
-    expect_the_whole_answer(request);
-  }
+  in_cells_of_all_sizes(request, [&](const Request& of_size) { expect_the_whole_answer(of_size); });
 }
 
 TEST_F(SeenGround, CountsForSeveralObserversInLittleMemory) {
@@ -92,12 +78,7 @@ TEST_F(SeenGround, CountsForSeveralObserversInLittleMemory) {
     Request request = request_from(on_the_hills(), 20);
     request.mode = mode;
     request.detail = Detail::tolerance(1);
-    for (const double radius : {600.0, 1500.0, 1e5}) {
-      Observer observer = request.observers.front();
-      observer.position = on_the_hills();
-      observer.radius = radius;
-      request.observers.push_back(observer);
-    }
+    add_observers(request);
     expect_the_whole_answer(request, 4000000);
   }
 }

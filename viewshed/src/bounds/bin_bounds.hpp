@@ -10,6 +10,7 @@
 #include <cstdint>
 
 #include <itin/geometry.hpp>
+#include <itin/grid_units.hpp>
 #include <itin/raster.hpp>
 #include <itin/tin.hpp>
 
@@ -42,6 +43,12 @@ class BinGrid {
   /// In bins, of a position in grid units.
   double column_at(double x) const { return grid_.column_at(units_.origin.x + x * units_.resolution); }
   double row_at(double y) const { return grid_.row_at(units_.origin.y + y * units_.resolution); }
+
+  /// In bins, of a box in metres.
+  BinBox in_bins(const Box& metres) const {
+    return {column_at(easting_in_units(units_, metres.xmin)), row_at(northing_in_units(units_, metres.ymax)),
+            column_at(easting_in_units(units_, metres.xmax)), row_at(northing_in_units(units_, metres.ymin))};
+  }
 
   /// At least as far from a position as any of the surface; grid units.
   double farthest_from(double x, double y) const {

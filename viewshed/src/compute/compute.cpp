@@ -55,8 +55,13 @@ ViewshedWithSurface compute_with_surface(const Store& store, const Request& requ
   return computed;
 }
 
+Result compute_result(const Store& store, const Request& request, ComputeOptions options, Progress& progress) {
+  options.whole_surface = false;
+  return compute_with_surface(store, request, options, progress).result;
+}
+
 Result compute(const Store& store, const Request& request, Progress& progress) {
-  return compute_with_surface(store, request, {.whole_surface = false}, progress).result;
+  return compute_result(store, request, {}, progress);
 }
 
 Request request_for_observer(const Result& result, std::size_t observer) {

@@ -10,6 +10,7 @@
 #include <viewshed/plan.hpp>
 
 #include "compute/certified.hpp"
+#include "compute/store_viewshed.hpp"
 #include "line/cell_tiles.hpp"
 #include "modes/blocker_table.hpp"
 #include "modes/observation.hpp"
@@ -18,11 +19,9 @@ namespace itin::viewshed {
 
 Result decide(const Store& store, const Plan& plan, std::size_t segment, Progress& progress) {
   const Request request = plan.request_of(segment);
-  ComputeOptions options = plan.options();
-  options.whole_surface = false;
-  if (plan.certainty() == Certainty::kExact) return compute_with_surface(store, request, options, progress).result;
+  if (plan.certainty() == Certainty::kExact) return compute_result(store, request, plan.options(), progress);
   const CertifiedWay way = plan.decides_exactly() ? CertifiedWay::kExactly : certified_way(store, plan.request());
-  return compute_certified(store, request, way, options, progress).result;
+  return compute_certified(store, request, way, plan.options(), progress).result;
 }
 
 /// The whole result in the making.

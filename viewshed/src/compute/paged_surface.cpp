@@ -5,6 +5,7 @@
 
 #include "compute/held_areas.hpp"
 #include "compute/planned_surface.hpp"
+#include "compute/store_viewshed.hpp"
 #include "request/request.hpp"
 
 namespace itin::viewshed {
@@ -32,7 +33,7 @@ class PagedSurface::Impl {
       if (const auto surface = areas_.get(under_whole, under, triangles, call)) return surface->compute(request, call);
       areas_.drop_all();
     }
-    return compute_with_surface(store_, request, options_, call).result;
+    return compute_result(store_, request, options_, call);
   }
 
  private:

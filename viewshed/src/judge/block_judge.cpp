@@ -4,7 +4,6 @@
 #include <utility>
 
 #include <itin/grazing.hpp>
-#include <itin/grid_units.hpp>
 
 #include "bounds/surface_heights.hpp"
 #include "judge/bounded_target.hpp"
@@ -157,12 +156,9 @@ BlockJudge::BlockJudge(const BoundedEnvelope& surface, const Request& request, c
 
 bool BlockJudge::may_see(const Box& ground) const {
   const EnvelopeBounds& bounds = surface_.bounds();
-  const Grid& units = bounds.units();
-  const auto column = [&](double x) { return bounds.column_at(easting_in_units(units, x)); };
-  const auto row = [&](double y) { return bounds.row_at(northing_in_units(units, y)); };
-  const BinBox box{column(ground.xmin), row(ground.ymax), column(ground.xmax), row(ground.ymin)};
-  const double highest = bounds.highest(box) * units.resolution;
-  return !horizon_.hides(box, std::max(highest, eye_.target(highest)) / units.resolution);
+  const BinBox box = bounds.in_bins(ground);
+  const double metres = bounds.units().resolution, highest = bounds.highest(box) * metres;
+  return !horizon_.hides(box, std::max(highest, eye_.target(highest)) / metres);
 }
 
 std::unique_ptr<TileJudge::Work> BlockJudge::begin(std::size_t tile) const {

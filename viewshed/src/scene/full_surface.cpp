@@ -39,13 +39,9 @@ FullSurface::FullSurface(std::shared_ptr<BinnedHeights> heights, const Tin* surf
 }
 
 std::vector<BinBox> FullSurface::boxes_of_tiles() const {
-  const auto column = [&](double x) { return heights_->column_at(easting_in_units(units(), x)); };
-  const auto row = [&](double y) { return heights_->row_at(northing_in_units(units(), y)); };
   std::vector<BinBox> boxes(tiles_.cell_count());
-  for (std::size_t i = 0; i < boxes.size(); ++i) {
-    const Box centres = box_of_centres(grid_, tile_at(grid_, tiles_, i));
-    boxes[i] = {column(centres.xmin), row(centres.ymax), column(centres.xmax), row(centres.ymin)};
-  }
+  for (std::size_t i = 0; i < boxes.size(); ++i)
+    boxes[i] = heights_->in_bins(box_of_centres(grid_, tile_at(grid_, tiles_, i)));
   return boxes;
 }
 

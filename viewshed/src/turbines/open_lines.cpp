@@ -167,9 +167,7 @@ void OpenLines::roof_tiles() {
   roofs_.grid = units_;
   for (std::size_t tile = 0; tile < tiles_->count(); ++tile) {
     const Box box = tiles_->box(tile);
-    const float highest = bounds_->highest(
-        {bounds_->column_at(easting_in_units(units_, box.xmin)), bounds_->row_at(northing_in_units(units_, box.ymax)),
-         bounds_->column_at(easting_in_units(units_, box.xmax)), bounds_->row_at(northing_in_units(units_, box.ymin))});
+    const float highest = bounds_->highest(bounds_->in_bins(box));
     const GridBox under = units_.enclosing(box);
     const std::int32_t z = std::isinf(highest) ? std::numeric_limits<std::int32_t>::min() / 2
                                                : static_cast<std::int32_t>(std::ceil(highest)) + kAbove;

@@ -17,6 +17,7 @@ double slope_of(const GridPoint& a, const GridPoint& b, const GridPoint& c) {
 }
 
 void raise_against_drift(const std::vector<Point2>& eyes, Tin& tin) {
+  if (eyes.empty()) return;
   std::vector<float> slope(tin.vertices.size());
   for (const Triangle& t : tin.triangles) {
     const auto s = static_cast<float>(slope_of(tin.vertices[t[0]], tin.vertices[t[1]], tin.vertices[t[2]]));
@@ -28,10 +29,8 @@ void raise_against_drift(const std::vector<Point2>& eyes, Tin& tin) {
   const double half = std::max(box.width(), box.height()) / 2 / tin.grid.resolution;
   const auto raise = [&](std::size_t v) {
     const Point3 p = tin.point(static_cast<std::uint32_t>(v));
-    const double farthest =
-        eyes.empty() ? 0
-                     : std::hypot(std::max(std::abs(p.x - box_of_eyes.xmin), std::abs(p.x - box_of_eyes.xmax)),
-                                  std::max(std::abs(p.y - box_of_eyes.ymin), std::abs(p.y - box_of_eyes.ymax)));
+    const double farthest = std::hypot(std::max(std::abs(p.x - box_of_eyes.xmin), std::abs(p.x - box_of_eyes.xmax)),
+                                       std::max(std::abs(p.y - box_of_eyes.ymin), std::abs(p.y - box_of_eyes.ymax)));
     const double drift = rounding_error(half, farthest / tin.grid.resolution + 1);
     tin.vertices[v].z += static_cast<std::int32_t>(std::ceil(2 * drift * static_cast<double>(slope[v])));
   };
