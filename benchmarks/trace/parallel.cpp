@@ -4,6 +4,7 @@
 
 #include <tbb/global_control.h>
 
+#include <itin/beside.hpp>
 #include <itin/error.hpp>
 #include <itin/parallel.hpp>
 
@@ -25,7 +26,9 @@ void parallel_for(std::size_t count, const std::function<void(std::size_t)>& bod
   for (std::size_t i = 0; i < count; ++i) loop.run(body, i);
 }
 
-Ahead::Ahead(void (*)()) {}
+bool has_thread_to_spare() {
+  return false;
+}
 
 void set_thread_count(int threads) {
   if (threads > 0) divided_for = threads;

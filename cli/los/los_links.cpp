@@ -1,10 +1,12 @@
 #include "los/los_links.hpp"
 
 #include <algorithm>
+#include <future>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include <itin/beside.hpp>
 #include <itin/error.hpp>
 #include <profile/documents.hpp>
 #include <profile/link_output.hpp>
@@ -96,8 +98,11 @@ profile::LinkQuery LosLinks::query(const profile::LosQuery& line, const LosStore
 LosLinks::Survey LosLinks::run(const Store& store, const LinkTable& table, const profile::LinkQuery& query,
                                const Page& page, bool overwrite, Progress& progress) const {
   const StoreMetadata& metadata = store.metadata();
+  std::future<profile::LinkCourses> courses =
+      beside([&] { return profile::link_courses(table.links, metadata.crs_wkt); });
   const std::vector<LinkResult> results = profile::survey_links(store, table.links, query, progress);
-  const profile::LinkSurvey written{table, results, query, metadata.crs_wkt, page.title, page.facts};
+  const profile::LinkCourses known = courses.get();
+  const profile::LinkSurvey written{table, results, known, query, metadata.crs_wkt, page.title, page.facts};
   profile::write_links(written, outputs_, overwrite);
   Survey survey;
   for (const LinkResult& r : results) survey.computed.push_back(r.found.has_value());

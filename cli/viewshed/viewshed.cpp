@@ -1,14 +1,15 @@
 // itin viewshed: what observers see.
 
 #include <filesystem>
+#include <future>
 #include <optional>
 
 #include <fmt/format.h>
 
+#include <itin/beside.hpp>
 #include <itin/coordinates.hpp>
 #include <itin/error.hpp>
 #include <itin/gdal_ready.hpp>
-#include <itin/parallel.hpp>
 #include <itin/sources_in.hpp>
 #include <itin/store.hpp>
 #include <viewshed/documents.hpp>
@@ -159,7 +160,7 @@ class ViewshedVerb final : public Verb {
   }
 
   Result execute(Progress& progress) override {
-    const Ahead rasters(make_gdal_ready);
+    const std::future<void> rasters = beside(make_gdal_ready);
     // A budget holds for what is kept of the store as well.
     const std::uint64_t cache = std::min(StoreOptions().cache_bytes, compute_options_.memory_bytes / 4);
     const Store store(store_, {cache});

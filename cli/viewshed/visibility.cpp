@@ -2,15 +2,16 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <future>
 
 #include <fmt/format.h>
 
+#include <itin/beside.hpp>
 #include <itin/coordinates.hpp>
 #include <itin/document.hpp>
 #include <itin/error.hpp>
 #include <itin/gdal_ready.hpp>
 #include <itin/output_file.hpp>
-#include <itin/parallel.hpp>
 #include <itin/sources_in.hpp>
 #include <itin/store.hpp>
 #include <viewshed/qgis_styles.hpp>
@@ -113,7 +114,7 @@ class VisibilityVerb final : public Verb {
   }
 
   Result execute(Progress& progress) override {
-    const Ahead rasters(make_gdal_ready);
+    const std::future<void> rasters = beside(make_gdal_ready);
     policy_.require_writable(output_);
     policy_.claim(style_beside(output_));
     if (!sheet_.file().empty()) policy_.require_writable(sheet_.file());

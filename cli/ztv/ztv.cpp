@@ -2,17 +2,18 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <future>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <itin/beside.hpp>
 #include <itin/coordinates.hpp>
 #include <itin/csv_cell.hpp>
 #include <itin/document.hpp>
 #include <itin/error.hpp>
 #include <itin/gdal_ready.hpp>
 #include <itin/output_file.hpp>
-#include <itin/parallel.hpp>
 #include <itin/sources_in.hpp>
 #include <itin/store.hpp>
 #include <viewshed/missing_ground.hpp>
@@ -141,7 +142,7 @@ class ZtvVerb final : public Verb {
   }
 
   cli::Result execute(Progress& progress) override {
-    const Ahead rasters(make_gdal_ready);
+    const std::future<void> rasters = beside(make_gdal_ready);
     OutputFolder::require_writable(output_, policy_);
     radius_.load();
     // A budget holds for what is kept of the store as well.

@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include <itin/beside.hpp>
 #include <itin/parallel.hpp>
 
 #include "base/stoppable.hpp"
@@ -48,6 +49,33 @@ TEST(ParallelFor, CanBeStoppedOnAllItsThreads) {
   EXPECT_EQ(ran, 0);
   parallel_for(100, work);
   EXPECT_EQ(ran, 100);
+}
+
+TEST(Beside, GivesWhatTheWorkGives) {
+  std::future<int> sum = beside([] { return 40 + 2; });
+  std::future<void> fails = beside([] { throw std::runtime_error("37"); });
+  EXPECT_EQ(sum.get(), 42);
+  EXPECT_THROW(fails.get(), std::runtime_error);
+}
+
+TEST(Beside, WaitsForWorkThatNobodyAsksAbout) {
+  if (!has_thread_to_spare()) GTEST_SKIP() << "threads: there is one";
+  std::atomic<bool> done = false;
+  {
+    const std::future<void> work = beside([&] { done = true; });
+  }
+  EXPECT_TRUE(done);
+}
+
+TEST(Beside, DoesTheWorkOnTheOnlyThreadWhenItIsAskedFor) {
+  set_thread_count(1);
+  std::thread::id thread;
+  const auto work = [&] { thread = std::this_thread::get_id(); };
+  { const std::future<void> dropped = beside(work); }
+  EXPECT_EQ(thread, std::thread::id());
+  beside(work).get();
+  EXPECT_EQ(thread, std::this_thread::get_id());
+  set_thread_count(0);
 }
 
 TEST(ParallelFor, StaysOnItsThreadWhereItIsTheOnlyOne) {

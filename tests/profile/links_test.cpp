@@ -6,11 +6,13 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <itin/coordinates.hpp>
 #include <itin/cross_section.hpp>
 #include <itin/error.hpp>
 #include <itin/import.hpp>
 #include <itin/store.hpp>
 #include <profile/clearance_error.hpp>
+#include <profile/link_courses.hpp>
 #include <profile/links.hpp>
 
 #include "lines/link_sharing.hpp"
@@ -144,6 +146,21 @@ TEST_F(Links, AtAHeightBelowTheGroundAreErrors) {
   const std::vector<LinkResult> results = survey_links(*store_, one, {}, progress);
   EXPECT_FALSE(results[0].found);
   EXPECT_NE(results[0].message, "");
+}
+
+TEST(LinkCourses, AreGeodesicsBetweenPlacesOnTheEarth) {
+  const Point2 eryri{261000, 354000}, bannau{301200, 221500};
+  const std::vector<Link> links = {
+      {"a", eryri, 2, bannau, 2}, {"b", eryri, 2, {1e9, 1e9}, 2}, {"c", bannau, 2, eryri, 2}};
+  const LinkCourses courses = link_courses(links, "EPSG:27700");
+  ASSERT_EQ(courses.size(), links.size());
+  const CoordinateTransform to_geographic("EPSG:27700", "EPSG:4326");
+  const Geodesic expected = geodesic(to_geographic(eryri), to_geographic(bannau));
+  EXPECT_EQ(courses[0]->geodesic.distance_m, expected.distance_m);
+  EXPECT_EQ(courses[0]->geodesic.azimuth_deg, expected.azimuth_deg);
+  EXPECT_FALSE(courses[1]);
+  EXPECT_EQ(courses[2]->from, courses[0]->to);
+  EXPECT_NEAR(courses[2]->geodesic.azimuth_deg, expected.back_azimuth_deg, 1e-6);
 }
 
 LinkTable table_of(const std::string& text) {

@@ -3,8 +3,8 @@
 
 namespace itin {
 
-/// Loads GDAL, where that is not done yet, and registers its drivers, which takes some 40 ms: what Ahead does beside
-/// other work for a call that will write a raster.
+/// Loads GDAL, where that is not done yet, and registers its drivers, which takes some 40 ms: what a call that will
+/// write a raster does beside() its other work.
 void make_gdal_ready();
 
 }  // namespace itin

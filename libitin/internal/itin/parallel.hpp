@@ -4,7 +4,6 @@
 
 #include <cstddef>
 #include <functional>
-#include <thread>
 
 #include <itin/progress.hpp>
 
@@ -13,15 +12,5 @@ namespace itin {
 /// Runs body(i) for i in [0, count), in any order and on any thread. The iterations must not depend on each other.
 /// The first exception thrown by a body is rethrown here after the running bodies have ended.
 void parallel_for(std::size_t count, const std::function<void(std::size_t)>& body);
-
-/// Does work beside what follows, where a thread is to spare, else not at all: for what is done anyway once it is
-/// needed, such as loading a library. Its end is waited for in the destructor. The work must not throw.
-class Ahead {
- public:
-  explicit Ahead(void (*work)());
-
- private:
-  std::jthread thread_;
-};
 
 }  // namespace itin

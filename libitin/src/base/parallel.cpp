@@ -1,3 +1,4 @@
+#include <itin/beside.hpp>
 #include <itin/error.hpp>
 #include <itin/parallel.hpp>
 
@@ -7,7 +8,6 @@
 #include <exception>
 #include <memory>
 #include <mutex>
-#include <system_error>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -110,15 +110,12 @@ int thread_count() {
   return limited != nullptr ? std::min(all, limited->max_concurrency()) : all;
 }
 
-Ahead::Ahead(void (*work)()) {
-  if (thread_count() == 1) return;
+bool has_thread_to_spare() {
+  if (thread_count() == 1) return false;
   // oneTBB opens libraries of its own when it is first used. One library is opened at a time, and so it is used now,
-  // lest it wait for one that the work opens.
+  // lest it wait for one that the work beside it opens.
   run_on_threads(2, [](std::size_t) {});
-  try {
-    thread_ = std::jthread(work);
-  } catch (const std::system_error&) {  // the system allows no more threads
-  }
+  return true;
 }
 
 class ThreadLimit::Impl {
@@ -142,7 +139,9 @@ int thread_count() {
   return 1;
 }
 
-Ahead::Ahead(void (*)()) {}
+bool has_thread_to_spare() {
+  return false;
+}
 
 class ThreadLimit::Impl {};
 

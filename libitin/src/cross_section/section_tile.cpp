@@ -13,6 +13,7 @@ namespace itin {
 
 SectionTile::SectionTile(const GridBox& square, const RegionMesh& region) : square_(square) {
   const auto count = static_cast<std::uint32_t>(region.mesh.triangles.size());
+  vertices_.reserve(region.vertices.size());
   for (const SelectedVertex& v : region.vertices) vertices_.push_back({v.point, v.theme});
   std::vector<std::uint32_t> order(count), place(count);
   std::iota(order.begin(), order.end(), 0u);
@@ -22,14 +23,15 @@ SectionTile::SectionTile(const GridBox& square, const RegionMesh& region) : squa
   std::sort(order.begin(), order.end(),
             [&](std::uint32_t a, std::uint32_t b) { return least_corner(a) < least_corner(b); });
   for (std::uint32_t i = 0; i < count; ++i) place[order[i]] = i;
+  faces_.reserve(count);
   for (const std::uint32_t t : order) {
     Face face{region.mesh.triangles[t], region.mesh.neighbours[t]};
     for (std::uint32_t& n : face.neighbours) n = n == kNoTriangle ? kNoTriangle : place[n];
     faces_.push_back(face);
   }
-  // Bins of about one triangle.
+  // Bins of about sixteen triangles: a line enters a tile once, and then goes on by neighbours.
   const double side = static_cast<double>(square.xmax) - square.xmin;
-  bin_shift_ = std::bit_width(static_cast<std::uint32_t>(side / std::sqrt(count + 1.0)));
+  bin_shift_ = std::bit_width(static_cast<std::uint32_t>(4 * side / std::sqrt(count + 1.0)));
   columns_ = column(square.xmax) + 1, rows_ = row(square.ymax) + 1;
   first_.assign(std::size_t{columns_} * rows_ + 1, 0);
   for (std::uint32_t t = 0; t < count; ++t) for_each_bin(box_of(t), [&](std::size_t bin) { ++first_[bin + 1]; });

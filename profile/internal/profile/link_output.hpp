@@ -1,6 +1,6 @@
 // The table of many links, as files.
 //
-//   const LinkSurvey survey{table, results, query, store.metadata().crs_wkt, "Backhaul", {}};
+//   const LinkSurvey survey{table, results, courses, query, store.metadata().crs_wkt, "Backhaul", {}};
 //   write_links(survey, {"links.csv", "links.gpkg", "links.kml", "links.pdf"}, false);
 #pragma once
 
@@ -8,14 +8,16 @@
 #include <utility>
 #include <vector>
 
+#include <profile/link_courses.hpp>
 #include <profile/links.hpp>
 
 namespace itin::profile {
 
-/// Refers to what it was made of. One result per link of the table.
+/// Refers to what it was made of. One result and one course per link of the table.
 struct LinkSurvey {
   const LinkTable& table;
   const std::vector<LinkResult>& results;
+  const LinkCourses& courses;
   const LinkQuery& query;
   std::string crs_wkt;
   std::string title;

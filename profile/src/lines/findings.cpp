@@ -10,6 +10,7 @@
 
 #include "lines/critical_point.hpp"
 #include "lines/line_clearance.hpp"
+#include "lines/obstructions.hpp"
 #include "lines/sight_verdict.hpp"
 
 namespace itin::profile {
@@ -131,17 +132,24 @@ LineFindings findings(const Sight& sight, const LosQuery& query) {
     found.clearance_m = clearance.critical->clearance_m;
     found.lowest = clearance.line->critical;
     found.least_clearance_m = least;
-    found.obstructions = std::move(clearance.line->obstructions);
   }
   if (query.radio) found.fresnel = clearance.zone;
   for (const Criterion& c : query.criteria) found.criteria.push_back(judge(sight, query, c));
   return found;
 }
 
+void add_obstructions(const Sight& sight, const LosQuery& query, LineFindings& found) {
+  if (!found.lowest) return;
+  const LineClearance least{*found.least_clearance_m, *found.lowest};
+  found.obstructions = obstructions(sight.profile, sight.antennas, query.earth, least);
+}
+
 void add_required_heights(const Sight& sight, const LosQuery& query, LineFindings& found) {
   if (!sight.profile.has_length()) return;
   const PlannedHeights planned{query.from_height_m, query.to_height_m};
-  for (NamedRequirement& one : requirements_of(query, sight.profile.length_m)) {
+  std::vector<NamedRequirement> requirements = requirements_of(query, sight.profile.length_m);
+  found.required.reserve(requirements.size());
+  for (NamedRequirement& one : requirements) {
     const RequiredHeights heights = required_heights(sight.profile, planned, one.requirement, sight.stands_on);
     found.required.push_back({std::move(one.name), one.k, one.requirement.fraction, heights, {}});
   }

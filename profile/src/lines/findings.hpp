@@ -29,8 +29,10 @@ struct Sight {
   Antennas antennas;
   EndGrounds stands_on;
 };
-/// All but the required heights. O(n) for each criterion.
+/// All but obstructions and required heights. O(n) for each criterion.
 LineFindings findings(const Sight& sight, const LosQuery& query);
+/// O(n).
+void add_obstructions(const Sight& sight, const LosQuery& query, LineFindings& found);
 /// Without curves. O(n) for each of them.
 void add_required_heights(const Sight& sight, const LosQuery& query, LineFindings& found);
 

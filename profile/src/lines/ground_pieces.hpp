@@ -23,4 +23,18 @@ void for_each_piece(const Profile& profile, const Antennas& antennas, double dro
   }
 }
 
+/// Where the ground is at a distance from that of point i to that of the next.
+inline ProfilePoint ground_between(const Profile& profile, std::size_t i, double distance_m) {
+  const ProfilePoint &a = profile.points[i], &b = profile.points[i + 1];
+  if (distance_m == a.distance_m) return a;
+  if (distance_m == b.distance_m) return b;
+  const double s = (distance_m - a.distance_m) / (b.distance_m - a.distance_m);
+  ProfilePoint p = a.ground_m >= b.ground_m ? a : b;
+  p.theme = profile.theme_between(i);
+  p.distance_m = distance_m;
+  p.x = a.x + (b.x - a.x) * s, p.y = a.y + (b.y - a.y) * s;
+  p.ground_m = a.ground_m + (b.ground_m - a.ground_m) * s;
+  return p;
+}
+
 }  // namespace itin::profile

@@ -38,7 +38,6 @@ LinkResult result_of(const Sections& sections, const LosQuery& query) {
   const Antennas antennas{result.stands_on.from_m + query.from_height_m, result.stands_on.to_m + query.to_height_m};
   const Sight sight{sections.surface, antennas, result.stands_on};
   result.found = findings(sight, query);
-  result.found->obstructions = {};
   if (query.radio || !query.criteria.empty()) add_required_heights(sight, query, *result.found);
   const Profile* under = sections.ground.points.empty() ? nullptr : &sections.ground;
   result.losses = losses_over(sections.surface, antennas, query, under);

@@ -54,6 +54,7 @@ void describe_ends(LosReport& report) {
 
 LineFindings all_findings(const Sight& sight, const LosQuery& query) {
   LineFindings found = findings(sight, query);
+  add_obstructions(sight, query, found);
   add_required_heights(sight, query, found);
   return found;
 }

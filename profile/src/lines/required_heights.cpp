@@ -25,8 +25,7 @@ struct Line {
 class Demand {
  public:
   Demand(const Profile& profile, const Requirement& requirement)
-      : profile_(profile),
-        bulge_(requirement.earth.drop_coefficient() * profile.length_m * profile.length_m),
+      : bulge_(requirement.earth.drop_coefficient() * profile.length_m * profile.length_m),
         radius_(requirement.fraction == 0
                     ? 0
                     : requirement.fraction * std::sqrt(requirement.wavelength * profile.length_m)) {
@@ -35,16 +34,20 @@ class Demand {
       const double t = p.distance_m / profile.length_m;
       nodes_.push_back({t, p.ground_m, above_ground(t), above_ground_slope(t)});
     }
+    for (std::size_t i = 0; i + 1 < nodes_.size(); ++i) {
+      Node &from = nodes_[i], &to = nodes_[i + 1];
+      if (to.t > from.t && profile.joined(i)) from.slope_on = (to.ground - from.ground) / (to.t - from.t);
+    }
   }
 
   /// The least factor such that base + factor * weight meets the demand everywhere; infinity where none does, and
   /// minus infinity where every one does.
   double peak(const Line& base, const Line& weight) const {
     double best = -kInfinity;
-    for (std::size_t i = 0; i < nodes_.size(); ++i) {
-      best = std::max(best, ratio_at(i, base, weight));
-      if (i + 1 < nodes_.size() && has_piece(i)) best = std::max(best, ratio_inside(i, base, weight, best));
-    }
+    for (std::size_t i = 0; i < nodes_.size(); ++i) best = std::max(best, ratio_at(i, base, weight));
+    // Most pieces have certainly less than the greatest of all points.
+    for (std::size_t i = 0; i < nodes_.size(); ++i)
+      if (nodes_[i].slope_on) best = std::max(best, ratio_inside(i, base, weight, best));
     return best;
   }
 
@@ -53,14 +56,10 @@ class Demand {
   struct Node {
     double t;
     double ground;
-    double above, above_slope;  ///< of the demand over the ground
+    double above, above_slope;            ///< of the demand over the ground
+    std::optional<double> slope_on = {};  ///< of the ground from here to the next point, where there is any
   };
 
-  /// Whether there is ground between this point and the next.
-  bool has_piece(std::size_t i) const { return nodes_[i + 1].t > nodes_[i].t && profile_.joined(i); }
-  double ground_slope(std::size_t i) const {
-    return (nodes_[i + 1].ground - nodes_[i].ground) / (nodes_[i + 1].t - nodes_[i].t);
-  }
   double above_ground(double t) const { return bulge_ * t * (1 - t) + radius_ * std::sqrt(t * (1 - t)); }
   double above_ground_slope(double t) const {
     const double bulge = bulge_ * (1 - 2 * t);
@@ -81,15 +80,15 @@ class Demand {
   }
   double limit_at_end(std::size_t i, const Line& base, const Line& weight) const {
     const std::size_t first = nodes_[i].t < 0.5 ? i : i - 1;
-    if (first + 1 >= nodes_.size() || !has_piece(first)) return -kInfinity;
-    return (ground_slope(first) + nodes_[i].above_slope - base.slope()) / weight.slope();
+    if (first >= nodes_.size() || !nodes_[first].slope_on) return -kInfinity;
+    return (*nodes_[first].slope_on + nodes_[i].above_slope - base.slope()) / weight.slope();
   }
 
   /// The derivative's numerator falls along the piece: a maximum lies inside only if it changes sign. Not sought where
   /// it is certainly less than `best`.
   double ratio_inside(std::size_t i, const Line& base, const Line& weight, double best) const {
     const Node &from = nodes_[i], &to = nodes_[i + 1];
-    const double slope_of_ground = ground_slope(i);
+    const double slope_of_ground = *from.slope_on;
     const auto missing = [&](double t, double above) {
       return from.ground + slope_of_ground * (t - from.t) + above - base.at(t);
     };
@@ -98,14 +97,14 @@ class Demand {
       if (std::isinf(slope)) return slope > 0;
       return slope * weight.at(t) > missing(t, above) * weight.slope();
     };
-    if (!rising(from.t, from.above, from.above_slope) || rising(to.t, to.above, to.above_slope)) return -kInfinity;
     // Below its tangent at the piece's beginning, as all that is concave.
-    constexpr double kRounding = 1e-6;
+    constexpr double kRatioRounding = 1e-6;
     const double most = missing(from.t, from.above) +
                         std::max(0.0, slope_of_ground + from.above_slope - base.slope()) * (to.t - from.t);
     const double divisor =
         most > 0 ? std::min(weight.at(from.t), weight.at(to.t)) : std::max(weight.at(from.t), weight.at(to.t));
-    if (divisor > 0 && most / divisor < best - kRounding) return -kInfinity;
+    if (divisor > 0 && most / divisor < best - kRatioRounding) return -kInfinity;
+    if (!rising(from.t, from.above, from.above_slope) || rising(to.t, to.above, to.above_slope)) return -kInfinity;
     double low = from.t, high = to.t;
     while (true) {
       const double middle = low + (high - low) / 2;
@@ -115,7 +114,6 @@ class Demand {
     return weight.at(low) > 0 ? missing(low, above_ground(low)) / weight.at(low) : -kInfinity;
   }
 
-  const Profile& profile_;
   double bulge_, radius_;
   std::vector<Node> nodes_;
 };

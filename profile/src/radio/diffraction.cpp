@@ -53,13 +53,14 @@ std::optional<DiffractionEdge> costly_edge(const PathSpan& span, const std::vect
   return edge == nullptr ? std::nullopt : costly(*edge, span.v(*edge));
 }
 
-/// The main edge, the one before it and the one behind it, as far as they cost anything.
-std::vector<DiffractionEdge> deygout_edges(const PathSpan& span, const std::vector<PathEdge>& edges) {
-  const auto main = costly_edge(span, edges);
-  if (!main) return {};
+/// The main edge, which has the largest v, the one before it and the one behind it, as far as they cost anything.
+std::vector<DiffractionEdge> deygout_edges(const PathSpan& span, const std::vector<PathEdge>& edges,
+                                           const PathEdge* main) {
+  const auto of_main = main == nullptr ? std::nullopt : costly(*main, span.v(*main));
+  if (!of_main) return {};
   PathSpan first = span, second = span;
-  first.b = second.a = *largest_v(span, edges);
-  std::vector<DiffractionEdge> found = {*main};
+  first.b = second.a = *main;
+  std::vector<DiffractionEdge> found = {*of_main};
   for (const PathSpan& part : {first, second})
     if (const auto edge = costly_edge(part, edges)) found.push_back(*edge);
   return found;
@@ -73,10 +74,33 @@ double deygout(const PathSpan& span, const std::vector<DiffractionEdge>& found) 
   return of_main + (1 - std::exp(-of_main / 6)) * (others + correction);
 }
 
-/// Elevation angle of something `rise_m` higher at d km over the curved Earth, mrad: P.452-17 equation (152).
-double elevation_mrad(double rise_m, double d, double curvature) {
-  return 1000 * std::atan(rise_m / (1000 * d) - curvature * d / 2);
+/// The slope towards something `rise_m` higher at d km over the curved Earth, and its elevation angle: P.452-17
+/// equation (152).
+double slope_to(double rise_m, double d, double curvature) {
+  return rise_m / (1000 * d) - curvature * d / 2;
 }
+double elevation_mrad(double slope) {
+  return 1000 * std::atan(slope);
+}
+
+/// The steepest of slopes, and where it is. An angle rises with its slope, and is computed for those alone that may
+/// have the largest.
+struct Horizon {
+  double mrad = -std::numeric_limits<double>::infinity();
+  double km = 0;
+
+  /// `wins_ties`: over an equal angle before.
+  void consider(double slope, double at_km, bool wins_ties) {
+    constexpr double kSlopeRounding = 1e-12;
+    if (slope < steepest - kSlopeRounding) return;
+    steepest = std::max(steepest, slope);
+    const double angle = elevation_mrad(slope);
+    if (angle > mrad || (wins_ties && angle == mrad)) mrad = angle, km = at_km;
+  }
+
+ private:
+  double steepest = -std::numeric_limits<double>::infinity();
+};
 
 void require(bool condition, const char* what) {
   if (!condition) throw InputError(what);
@@ -119,7 +143,8 @@ double spherical_earth_loss_db(double distance_km, double from_height_m, double 
 
 double deygout_loss_db(const Profile& profile, const Antennas& antennas, const RadioPath& path) {
   const PathSpan span(path_ends(profile, antennas), path);
-  return deygout(span, deygout_edges(span, edges_of(profile, Ground::kWithClutter)));
+  const std::vector<PathEdge> edges = edges_of(profile, Ground::kWithClutter);
+  return deygout(span, deygout_edges(span, edges, largest_v(span, edges)));
 }
 
 SmoothHeights smooth_heights(const Profile& profile, const Antennas& antennas) {
@@ -131,18 +156,16 @@ Horizons horizons(const Profile& profile, const Antennas& antennas, const RadioP
   const std::vector<PathEdge> edges = edges_of(profile, Ground::kBare);
   const double d = span.length(), ce = span.curvature;
   Horizons result;
-  result.theta_t_mrad = elevation_mrad(antennas.to_m - antennas.from_m, d, ce);
-  result.theta_r_mrad = elevation_mrad(antennas.from_m - antennas.to_m, d, ce);
+  result.theta_t_mrad = elevation_mrad(slope_to(antennas.to_m - antennas.from_m, d, ce));
+  result.theta_r_mrad = elevation_mrad(slope_to(antennas.from_m - antennas.to_m, d, ce));
   if (const PathEdge* edge = largest_v(span, edges)) result.dlt_km = edge->km, result.dlr_km = d - edge->km;
-  double to_r = -std::numeric_limits<double>::infinity();
-  Horizons beyond{true, to_r, to_r, {}, {}};
+  Horizon of_t, of_r;
   for (const PathEdge& e : edges) {
-    const double theta_t = elevation_mrad(e.height_m - antennas.from_m, e.km, ce);
-    if (theta_t > beyond.theta_t_mrad) beyond.theta_t_mrad = theta_t, beyond.dlt_km = e.km;
-    const double theta_r = elevation_mrad(e.height_m - antennas.to_m, d - e.km, ce);
-    if (theta_r >= beyond.theta_r_mrad) beyond.theta_r_mrad = theta_r, beyond.dlr_km = d - e.km;
+    of_t.consider(slope_to(e.height_m - antennas.from_m, e.km, ce), e.km, false);
+    of_r.consider(slope_to(e.height_m - antennas.to_m, d - e.km, ce), d - e.km, true);
   }
-  return beyond.theta_t_mrad > result.theta_t_mrad ? beyond : result;  // equation (150)
+  if (edges.empty() || of_t.mrad <= result.theta_t_mrad) return result;  // equation (150)
+  return {true, of_t.mrad, of_r.mrad, of_t.km, of_r.km};
 }
 
 PathLosses path_losses(const Profile& profile, const Antennas& antennas, const RadioPath& path, const Profile* bare) {
@@ -154,9 +177,10 @@ PathLosses path_losses(const Profile& profile, const Antennas& antennas, const R
   PathLosses losses;
   losses.horizons = horizons(profile, antennas, path);
   losses.free_space_db = free_space_db(std::hypot(profile.length_m, antennas.to_m - antennas.from_m), span.wavelength);
-  if (const PathEdge* edge = largest_v(span, edges)) losses.largest_v = span.v(*edge);
-  if (const auto edge = costly_edge(span, edges)) losses.knife_edge_db = edge->loss_db;
-  losses.deygout = deygout_edges(span, edges);
+  const PathEdge* const main = largest_v(span, edges);
+  if (main != nullptr) losses.largest_v = span.v(*main);
+  losses.deygout = deygout_edges(span, edges, main);
+  if (!losses.deygout.empty()) losses.knife_edge_db = losses.deygout.front().loss_db;
   losses.deygout_db = deygout(span, losses.deygout);
   const DeltaBullington delta =
       delta_bullington(tops, points_of(bare != nullptr ? *bare : profile, Ground::kBare), ends, path);

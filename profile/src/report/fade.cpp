@@ -29,7 +29,9 @@ LosReport over_earth_of(const LosReport& report, const CriterionResult& fade) {
   there.query.earth = with_factor(fade.k, report.query.earth);
   there.query.criteria.clear();
   there.losses.reset(), there.reflection.reset();
-  static_cast<LineFindings&>(there) = findings({there.profile, there.antennas, there.stands_on}, there.query);
+  const Sight sight{there.profile, there.antennas, there.stands_on};
+  static_cast<LineFindings&>(there) = findings(sight, there.query);
+  add_obstructions(sight, there.query, there);
   return there;
 }
 

@@ -5,9 +5,6 @@
 
 #include <fmt/format.h>
 
-#include <itin/coordinates.hpp>
-#include <itin/error.hpp>
-
 #include "lines/azimuth.hpp"
 
 namespace itin::profile {
@@ -22,18 +19,13 @@ Value number(const std::optional<double>& value) {
 }
 
 /// Fills in what needs longitude and latitude.
-void add_directions(LinkRow& row, const LinkQuery& query, const CoordinateTransform& to_geographic) {
-  if (row.found() == nullptr) return;
+void add_directions(LinkRow& row, const std::optional<LinkCourse>& course, const LinkQuery& query) {
+  if (row.found() == nullptr || !course) return;
   const Link& link = *row.link;
   const EndGrounds& ground = row.result->stands_on;
-  try {
-    const Point2 from = to_geographic(link.from), to = to_geographic(link.to);
-    row.geodesic = geodesic(from, to);
-    row.from_declination_deg = declination_on(query.day, from, ground.from_m + link.from_height);
-    row.to_declination_deg = declination_on(query.day, to, ground.to_m + link.to_height);
-  } catch (const InputError&) {
-    return;  // an end is no place on the ground
-  }
+  row.geodesic = course->geodesic;
+  row.from_declination_deg = declination_on(query.day, course->from, ground.from_m + link.from_height);
+  row.to_declination_deg = declination_on(query.day, course->to, ground.to_m + link.to_height);
 }
 
 const char* name_of_path(const Reflection& reflection) {
@@ -257,8 +249,8 @@ std::string verdict_of(const LinkRow& row) {
 }
 
 std::vector<LinkRow> link_rows(const LinkSurvey& survey) {
-  const CoordinateTransform to_geographic(survey.crs_wkt, "EPSG:4326");
   std::vector<LinkRow> rows;
+  rows.reserve(survey.results.size() + survey.table.bad.size());
   auto bad = survey.table.bad.begin();
   for (std::size_t row = 1, i = 0; i < survey.results.size() || bad != survey.table.bad.end(); ++row) {
     if (bad != survey.table.bad.end() && bad->row == row) {
@@ -270,7 +262,7 @@ std::vector<LinkRow> link_rows(const LinkSurvey& survey) {
     const Link& link = survey.table.links[i];
     const LinkResult& result = survey.results[i];
     rows.push_back({link.id, &link, &result, result.message, &link.others, {}});
-    add_directions(rows.back(), survey.query, to_geographic);
+    add_directions(rows.back(), survey.courses[i], survey.query);
     ++i;
   }
   return rows;

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
+#include <iterator>
 
 #include <fmt/format.h>
 
@@ -16,23 +17,28 @@ namespace itin::profile {
 
 namespace {
 
-/// Every digit of a number.
-std::string as_text(const VectorLayer::Value& value) {
-  if (const auto* number = std::get_if<double>(&value)) return fmt::format("{}", *number);
-  if (const auto* whole = std::get_if<std::int64_t>(&value)) return fmt::format("{}", *whole);
-  if (const auto* text = std::get_if<std::string>(&value)) return *text;
-  return {};
+using Value = VectorLayer::Value;
+
+/// Appends every digit of a number.
+void append_value(std::string& text, const Value& value) {
+  if (const auto* number = std::get_if<double>(&value)) fmt::format_to(std::back_inserter(text), "{}", *number);
+  if (const auto* whole = std::get_if<std::int64_t>(&value)) fmt::format_to(std::back_inserter(text), "{}", *whole);
+  if (const auto* words = std::get_if<std::string>(&value)) text += *words;
 }
 
 std::string links_csv(const std::vector<LinkRow>& rows, const std::vector<LinkColumn>& columns) {
   std::string csv;
-  const auto add = [&](std::size_t i, const std::string& cell) { csv += (i == 0 ? "" : ",") + csv_cell(cell); };
-  for (std::size_t i = 0; i < columns.size(); ++i) add(i, columns[i].name);
-  csv += '\n';
-  for (const LinkRow& row : rows) {
-    for (std::size_t i = 0; i < columns.size(); ++i) add(i, as_text(columns[i].value(row)));
+  const auto add_row = [&](const auto& cell_of) {
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      if (i > 0) csv += ',';
+      const Value cell = cell_of(columns[i]);
+      const auto* words = std::get_if<std::string>(&cell);
+      append_value(csv, words != nullptr ? csv_cell(*words) : cell);
+    }
     csv += '\n';
-  }
+  };
+  add_row([](const LinkColumn& column) { return Value(column.name); });
+  for (const LinkRow& row : rows) add_row([&](const LinkColumn& column) { return column.value(row); });
   return csv;
 }
 
@@ -65,7 +71,7 @@ std::string links_kml(const LinkSurvey& survey, const std::vector<LinkRow>& rows
   for (const LinkRow& row : rows) {
     if (row.found() == nullptr) continue;
     Kml::Data data;
-    for (const LinkColumn& column : columns) data.emplace_back(column.name, as_text(column.value(row)));
+    for (const LinkColumn& column : columns) append_value(data.emplace_back(column.name, "").second, column.value(row));
     kml.line(row.id, verdict_of(row), line_of(row), data);
   }
   return kml.finish();

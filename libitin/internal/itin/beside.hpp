@@ -1,0 +1,25 @@
+// Work that is done beside what follows.
+//
+//   std::future<Table> table = beside([&] { return read(path); });
+//   decide();
+//   use(table.get());
+#pragma once
+
+#include <future>
+#include <type_traits>
+#include <utility>
+
+namespace itin {
+
+/// Whether calls may use more than one thread.
+bool has_thread_to_spare();
+
+/// Starts work on a thread of its own. Without a thread to spare the work waits for get(), and is never done where
+/// nobody calls that. What it throws, get() throws. The destructor waits for work that has begun.
+template <class Work>
+std::future<std::invoke_result_t<Work>> beside(Work work) {
+  constexpr auto kEither = std::launch::async | std::launch::deferred;
+  return std::async(has_thread_to_spare() ? kEither : std::launch::deferred, std::move(work));
+}
+
+}  // namespace itin

@@ -1,0 +1,26 @@
+// Where on the Earth the ends of many links are, and the geodesics between them.
+//
+//   std::future<LinkCourses> courses = beside([&] { return link_courses(links, crs_wkt); });
+//   const std::vector<LinkResult> results = survey_links(store, links, query, progress);
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <itin/geodesic.hpp>
+#include <profile/links.hpp>
+
+namespace itin::profile {
+
+struct LinkCourse {
+  Point2 from, to;  ///< longitude and latitude
+  Geodesic geodesic;
+};
+/// One per link, in order; nothing where an end is no place on the Earth.
+using LinkCourses = std::vector<std::optional<LinkCourse>>;
+
+/// The courses of links in a CRS, given as WKT. Throws InputError for a CRS that has no longitude and latitude.
+LinkCourses link_courses(const std::vector<Link>& links, const std::string& crs_wkt);
+
+}  // namespace itin::profile

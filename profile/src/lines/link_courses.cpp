@@ -1,0 +1,28 @@
+#include <itin/coordinates.hpp>
+#include <itin/error.hpp>
+#include <profile/link_courses.hpp>
+
+namespace itin::profile {
+
+namespace {
+
+std::optional<LinkCourse> course_of(const Link& link, const CoordinateTransform& to_geographic) {
+  try {
+    const Point2 from = to_geographic(link.from), to = to_geographic(link.to);
+    return LinkCourse{from, to, geodesic(from, to)};
+  } catch (const InputError&) {
+    return std::nullopt;
+  }
+}
+
+}  // namespace
+
+LinkCourses link_courses(const std::vector<Link>& links, const std::string& crs_wkt) {
+  const CoordinateTransform to_geographic(crs_wkt, "EPSG:4326");
+  LinkCourses courses;
+  courses.reserve(links.size());
+  for (const Link& link : links) courses.push_back(course_of(link, to_geographic));
+  return courses;
+}
+
+}  // namespace itin::profile
