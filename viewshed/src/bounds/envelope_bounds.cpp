@@ -33,9 +33,10 @@ EnvelopeBounds::EnvelopeBounds(const Tin& lower, const Tin& upper, const std::ve
     : BinBounds(lower.grid, bins_over_box(box, bin)),
       low_(grid_.cell_count(), kFloatInfinity),
       high_(grid_.cell_count(), -kFloatInfinity) {
+  std::int32_t lowest = 0, highest = 0;
   for (const Tin* const tin : {&lower, &upper})
-    for (const GridPoint& v : tin->vertices)
-      greatest_magnitude_ = std::max(greatest_magnitude_, std::abs(static_cast<double>(v.z)));
+    for (const GridPoint& v : tin->vertices) lowest = std::min(lowest, v.z), highest = std::max(highest, v.z);
+  greatest_magnitude_ = std::max(-static_cast<double>(lowest), static_cast<double>(highest));
   bound(lower, upper);
   settle(lower, outline);
   bound_runs();

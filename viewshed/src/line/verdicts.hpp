@@ -56,21 +56,25 @@ class Verdicts {
 
  private:
   CellCounts counts(const Tile& tile) const {
-    const auto all = static_cast<std::uint64_t>(tile.rows * tile.columns);
-    const bool whole = all == values_.size();
-    const auto count = [&](Verdict verdict) {
-      if (whole) return static_cast<std::uint64_t>(std::count(values_.begin(), values_.end(), verdict));
-      std::uint64_t found = 0;
-      for_each_cell(tile, [&](std::size_t cell, RasterGrid::Cell) { found += values_[cell] == verdict ? 1 : 0; });
-      return found;
-    };
     CellCounts counts{count(Verdict::kVisible), count(Verdict::kHidden), count(Verdict::kUndecided)};
     counts.zone_cut = count(Verdict::kZoneCut);
-    counts.outside = all - counts.in_view();
+    counts.outside = static_cast<std::uint64_t>(tile.rows * tile.columns) - counts.in_view();
     return counts;
   }
+  std::uint64_t count(Verdict verdict) const {
+    std::uint64_t all = 0;
+    // So few at a time that a byte holds their number: then the compiler compares many at once.
+    constexpr std::size_t kFew = 128;
+    static_assert(Tile::kSide * Tile::kSide % kFew == 0);
+    for (std::size_t first = 0; first < values_.size(); first += kFew) {
+      std::uint8_t few = 0;
+      for (std::size_t i = 0; i < kFew; ++i) few += values_[first + i] == verdict ? 1 : 0;
+      all += few;
+    }
+    return all;
+  }
 
-  TileValues<Verdict> values_;
+  TileValues<Verdict> values_;  ///< kOutside also beyond the cells of a smaller tile
 };
 
 }  // namespace itin::viewshed

@@ -116,8 +116,10 @@ std::uint64_t Observation::observe(const TileView& tile) {
   const FullSurface::TileWork& cells = tile.cells();
   const Eye& eye = tile.eye();
   if (cells.unread) {
+    const MapView view_of_eye{eye.position, eye.view};
+    const bool all = view_of_eye.holds(box_of_centres(tile.work.surface().grid(), cells.tile));
     tile.for_each_cell([&](const CellView& view) {
-      if (eye.view.contains(view.dx, view.dy, view.dz)) verdicts_.add(view.cell, Verdict::kHidden);
+      if (all || eye.view.contains(view.dx, view.dy, view.dz)) verdicts_.add(view.cell, Verdict::kHidden);
     });
     return 0;
   }

@@ -77,12 +77,11 @@ bool in_disc(const Tin& tin, const Triangle& t, const FineDisc& disc) {
 class DiscIndex {
  public:
   explicit DiscIndex(const std::vector<FineDisc>& discs) : discs_(discs) {
-    Box all;
-    for (const FineDisc& disc : discs) all.extend(box_of(disc));
+    for (const FineDisc& disc : discs) all_.extend(box_of(disc));
     const double side = std::ceil(2 * std::sqrt(static_cast<double>(discs.size())));
-    const double size = std::max({all.width(), all.height(), 1.0}) * 1.001 / side;
+    const double size = std::max({all_.width(), all_.height(), 1.0}) * 1.001 / side;
     bins_ =
-        RasterGrid({all.xmin, all.ymax}, size, size, static_cast<std::int64_t>(side), static_cast<std::int64_t>(side));
+        RasterGrid({all_.xmin, all_.ymax}, size, size, static_cast<std::int64_t>(side), static_cast<std::int64_t>(side));
     of_bin_.resize(bins_.cell_count());
     for (std::uint32_t i = 0; i < discs.size(); ++i) {
       const Box box = box_of(discs[i]);
@@ -95,6 +94,7 @@ class DiscIndex {
 
   bool hold(const Tin& tin, const Triangle& t) const {
     const Point3 p = tin.point(t[0]);
+    if (!all_.contains(Point2{p.x, p.y})) return false;  // as most are
     const auto bin = bins_.cell_at({p.x, p.y});
     if (!bin) return false;
     const std::vector<std::uint32_t>& near = of_bin_[bins_.index(*bin)];
@@ -108,6 +108,7 @@ class DiscIndex {
   }
 
   const std::vector<FineDisc>& discs_;
+  Box all_;  ///< about them
   RasterGrid bins_;
   std::vector<std::vector<std::uint32_t>> of_bin_;
 };
@@ -164,12 +165,17 @@ class Builder {
     lower_.grid = piece.grid;
     firsts_.push_back(static_cast<std::uint32_t>(lower_.triangles.size()));
     lower_.statistics += piece.statistics;
-    for (std::size_t v = 0; v < piece.vertices.size(); ++v) {
+    lower_.vertices.resize(first + piece.vertices.size()), upper_.resize(lower_.vertices.size());
+    for_each_chunk(piece.vertices.size(), [&](std::size_t v) {
       const GridPoint& p = piece.vertices[v];
-      lower_.vertices.push_back({p.x, p.y, p.z + bounds[v].lo});
-      upper_.push_back(p.z + bounds[v].hi);
-    }
-    for (const Triangle& t : piece.triangles) lower_.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+      lower_.vertices[first + v] = {p.x, p.y, p.z + bounds[v].lo};
+      upper_[first + v] = p.z + bounds[v].hi;
+    });
+    lower_.triangles.resize(firsts_.back() + piece.triangles.size());
+    for_each_chunk(piece.triangles.size(), [&](std::size_t i) {
+      const Triangle& t = piece.triangles[i];
+      lower_.triangles[firsts_.back() + i] = {t[0] + first, t[1] + first, t[2] + first};
+    });
   }
 
   void mark_outline() { outline_ = boundary_edges(lower_); }
