@@ -7,6 +7,7 @@
 
 #include "cli/command_case.hpp"
 #include "cli/shell.hpp"
+#include "support/sanitized.hpp"
 
 namespace itin::test {
 
@@ -59,12 +60,6 @@ std::string complaint(const Expectation& expected, const Outcome& outcome, const
   if (expected.what == "file") return exists ? "" : value + " does not exist";
   return exists ? value + " exists" : "";
 }
-
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool kSanitized = true;
-#else
-constexpr bool kSanitized = false;
-#endif
 
 TEST_P(CommandLine, Case) {
   const CommandCase& test = GetParam();

@@ -12,6 +12,8 @@
 
 #include <fmt/format.h>
 
+#include "support/sanitized.hpp"
+
 namespace itin::test {
 
 namespace fs = std::filesystem;
@@ -55,9 +57,9 @@ Outcome Shell::run(const std::string& command) const {
   const fs::path script = beside_ / "command";
   std::ofstream(script) << command << "\n";
   const std::string line =
-      fmt::format("cd '{}' && DEMO='{}' PATH='{}':\"$PATH\" timeout 120 sh '{}' >'{}' 2>'{}' </dev/null",
+      fmt::format("cd '{}' && DEMO='{}' PATH='{}':\"$PATH\" timeout {} sh '{}' >'{}' 2>'{}' </dev/null",
                   directory_.string(), ITIN_SOURCE_DIR "/scripts/demo-data", (beside_ / "bin").string(),
-                  script.string(), (beside_ / "out").string(), (beside_ / "err").string());
+                  kSanitized ? 1800 : 120, script.string(), (beside_ / "out").string(), (beside_ / "err").string());
   const int status = std::system(line.c_str());
   return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), contents(beside_ / "out"),
           without_progress(contents(beside_ / "err"))};

@@ -22,7 +22,7 @@ class Shell {
   Shell& operator=(const Shell&) = delete;
 
   const std::filesystem::path& directory() const { return directory_; }
-  /// Ends the command after two minutes, with status 124.
+  /// Ends the command after two minutes, half an hour under a sanitizer, with status 124.
   Outcome run(const std::string& command) const;
   std::string read(const std::string& file) const;
 

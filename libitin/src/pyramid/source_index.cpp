@@ -29,7 +29,7 @@ std::shared_ptr<const Block> SourceIndex::block(const Leaf& leaf) const {
   for (std::size_t i = 0; i < all->points.size(); ++i) {
     if (!sources_.contains(all->sources[i])) continue;
     block->points.push_back(all->points[i]);
-    block->sources.push_back(all->sources[i]);
+    block->sources.add(all->sources[i]);
     block->levels.push_back(all->levels[i]);
   }
   return block;

@@ -132,12 +132,11 @@ std::shared_ptr<const Block> WorkingIndex::block(const Leaf& leaf) const {
   const std::vector<RawPoint> raw = read(ranges_[leaf.key]);
   auto block = std::make_shared<Block>();
   block->points.reserve(raw.size());
-  block->sources.reserve(raw.size());
   block->levels.reserve(raw.size());
   for (const RawPoint& p : raw) {
     if (p.level == kDropped) continue;
     block->points.push_back({morton_x(p.code), morton_y(p.code), p.z});
-    block->sources.push_back(p.source);
+    block->sources.add(p.source);
     block->levels.push_back(static_cast<std::uint8_t>(p.level));
   }
   return block;

@@ -123,15 +123,14 @@ void put_sources(std::vector<std::uint8_t>& out, std::span<const std::uint16_t> 
   }
 }
 
-std::vector<std::uint16_t> read_sources(ByteReader& in, std::size_t count) {
-  std::vector<std::uint16_t> sources;
-  sources.reserve(count);
+PointSources read_sources(ByteReader& in, std::size_t count) {
+  PointSources sources;
   while (sources.size() < count) {
     const std::uint64_t v = in.varint(0, 0x1ffff);
     const std::size_t left = count - sources.size();
     if ((v & 1) && left < 2) throw DecodeError("more sources than points");
     const std::size_t run = (v & 1) ? in.varint(0, left - 2) + 1 : left;
-    sources.insert(sources.end(), run, static_cast<std::uint16_t>(v >> 1));
+    sources.add(static_cast<std::uint16_t>(v >> 1), run);
   }
   return sources;
 }
@@ -322,7 +321,7 @@ struct Plan {
   std::uint64_t step_z;
   std::int64_t first_z;
   int first_rice;
-  std::vector<std::uint16_t> sources;
+  PointSources sources;
   std::vector<std::uint8_t> padded;
   std::vector<Local> positions;
   std::optional<BitReader> heights;  // of `padded`, before the first residual

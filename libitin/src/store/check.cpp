@@ -92,7 +92,8 @@ class Inspection {
     const std::size_t sources = file_.metadata().sources.size();
     std::uint64_t vertices = 0;
     bool foreign = false;
-    for (const std::uint16_t source : block.sources) {
+    for (std::size_t k = 0; k < block.points.size(); ++k) {
+      const std::uint16_t source = block.sources[k];
       const bool mask = of_part && source == format::kMask;
       vertices += mask ? 0 : 1;
       foreign |= !mask && (of_part ? source & ~format::kOnOutline : source) >= sources;
@@ -162,8 +163,10 @@ class Inspection {
     };
     for (std::uint32_t i = 0; i < list.point_blocks; ++i) {
       inspect(0, i, [&]() -> const char* {
-        const std::vector<std::uint16_t> sources = set_aside_points(rows, i).sources;
-        return std::any_of(sources.begin(), sources.end(), is_foreign) ? kForeignSource : nullptr;
+        const PointSources sources = set_aside_points(rows, i).sources;
+        for (std::size_t k = 0; k < sources.size(); ++k)
+          if (is_foreign(sources[k])) return kForeignSource;
+        return nullptr;
       });
     }
     for (std::size_t t = 1; t <= list.line_blocks.size(); ++t) {

@@ -13,6 +13,7 @@
 #include <itin/geometry.hpp>
 
 #include "geometry/cell.hpp"
+#include "store/point_sources.hpp"
 
 namespace itin {
 
@@ -34,14 +35,18 @@ struct Leaf {
 /// A leaf's points, in ascending Morton order.
 struct Block {
   std::vector<GridPoint> points;
-  std::vector<std::uint16_t> sources;  ///< per point
-  std::vector<std::uint8_t> levels;    ///< per point, or empty when all have the leaf's level
-  std::uint16_t standing = 0;          ///< the theme whose features they belong to; 0 for all but standing themes'
-  std::vector<std::uint8_t> outline;   ///< of those per point: whether it lies between a feature and the ground
+  PointSources sources;
+  std::vector<std::uint8_t> levels;   ///< per point, or empty when all have the leaf's level
+  std::uint16_t standing = 0;         ///< the theme whose features they belong to; 0 for all but standing themes'
+  std::vector<std::uint8_t> outline;  ///< of those per point: whether it lies between a feature and the ground
 
   /// The theme within whose features the point lies, off their outlines; 0 for none.
   std::uint16_t theme(std::size_t k) const {
     return static_cast<std::uint16_t>(standing != 0 && outline[k] == 0 ? standing : 0);
+  }
+  /// The memory it takes.
+  std::size_t bytes() const {
+    return sizeof(Block) + points.size() * sizeof(GridPoint) + sources.bytes() + levels.size() + outline.size();
   }
 };
 

@@ -30,10 +30,6 @@ std::uint64_t cache_key(BlobKind kind, std::uint64_t key) {
   return key << 1 | (kind == BlobKind::Directory ? 1 : 0);
 }
 
-std::size_t bytes_of(const Block& block) {
-  return sizeof(Block) + block.points.size() * (sizeof(GridPoint) + sizeof(std::uint16_t));
-}
-
 }  // namespace
 
 StoreFile::StoreFile(const std::string& path, const StoreOptions& options) : rows_(path), cache_(options.cache_bytes) {
@@ -171,7 +167,7 @@ std::shared_ptr<const Block> StoreFile::block(const Leaf& leaf) const {
   const std::uint64_t key = cache_key(BlobKind::Block, leaf.key);
   if (auto cached = cache_.find(key)) return std::static_pointer_cast<const Block>(std::move(cached));
   auto block = std::make_shared<const Block>(read_block(leaf));
-  cache_.insert(key, block, bytes_of(*block));
+  cache_.insert(key, block, block->bytes());
   return block;
 }
 

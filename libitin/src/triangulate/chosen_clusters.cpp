@@ -38,9 +38,9 @@ std::shared_ptr<const Block> ChosenClusters::block(const Leaf& leaf) const {
   for (std::size_t k = 0; k < whole->points.size(); ++k) {
     if (!there[k]) continue;
     rest->points.push_back(whole->points[k]);
-    rest->sources.push_back(whole->sources[k]);
+    rest->sources.add(whole->sources[k]);
   }
-  cache_.insert(leaf.key, rest, sizeof(Block) + rest->points.size() * (sizeof(GridPoint) + sizeof(std::uint16_t)));
+  cache_.insert(leaf.key, rest, rest->bytes());
   return rest;
 }
 

@@ -21,7 +21,7 @@ void expect_round_trip(const Cell& cell, const std::vector<GridPoint>& points,
   const auto bytes = encode_block(cell, points, sources);
   const Block block = decode_block(cell, bytes);
   EXPECT_EQ(block.points, points);
-  EXPECT_EQ(block.sources, sources);
+  EXPECT_EQ(test::each_of(block.sources), sources);
   EXPECT_TRUE(block.levels.empty());
 }
 
@@ -105,7 +105,20 @@ RC_GTEST_PROP(BlockCodec, AnyPointsRoundTrip, ()) {
   const std::vector<std::uint16_t> sources(points.size(), *rc::gen::arbitrary<std::uint16_t>());
   const Block block = decode_block(cell, encode_block(cell, points, sources));
   RC_ASSERT(block.points == points);
-  RC_ASSERT(block.sources == sources);
+  RC_ASSERT(test::each_of(block.sources) == sources);
+}
+
+TEST(PointSources, OfOneSourceTakeNoMemory) {
+  PointSources sources;
+  std::vector<std::uint16_t> expected;
+  for (const auto& [source, points] : {std::pair{std::uint16_t{7}, 1000u}, {std::uint16_t{7}, 1u}}) {
+    sources.add(source, points);
+    expected.insert(expected.end(), points, source);
+  }
+  EXPECT_EQ(test::each_of(sources), expected);
+  EXPECT_EQ(sources.bytes(), 0U);
+  for (const std::uint16_t source : {8, 8, 7}) sources.add(source), expected.push_back(source);
+  EXPECT_EQ(test::each_of(sources), expected);
 }
 
 // Whatever the bytes: an error, or a block that keeps its promises.

@@ -19,6 +19,12 @@ std::vector<GridPoint> in_curve_order(std::vector<GridPoint> points) {
   return points;
 }
 
+std::vector<std::uint16_t> each_of(const PointSources& sources) {
+  std::vector<std::uint16_t> each;
+  for (std::size_t k = 0; k < sources.size(); ++k) each.push_back(sources[k]);
+  return each;
+}
+
 std::vector<GridPoint> scatter(Scatter how, const Cell& cell, std::size_t count, std::mt19937_64& random) {
   const GridBox box = cell.box();
   const auto uniform = [&](std::int64_t low, std::int64_t high) {

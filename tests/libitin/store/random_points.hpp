@@ -17,6 +17,9 @@ namespace itin::test {
 /// Sorted along the Morton curve, one point per position.
 std::vector<GridPoint> in_curve_order(std::vector<GridPoint> points);
 
+/// One by one.
+std::vector<std::uint16_t> each_of(const PointSources& sources);
+
 enum class Scatter { Uniform, Clustered, Lattice, SparseLattice, Line, FlatLattice };
 /// Up to `count` points of `cell` in curve order; lattices have steps that are no powers of two.
 std::vector<GridPoint> scatter(Scatter how, const Cell& cell, std::size_t count, std::mt19937_64& random);

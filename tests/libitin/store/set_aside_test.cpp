@@ -67,7 +67,7 @@ TEST_F(SetAside, IsReadAsItWasWritten) {
   EXPECT_EQ(list.blocks_of(3), 0u);
   EXPECT_EQ(list.counts.crossings, 4u);
   EXPECT_EQ(set_aside_points(file_of(store).rows(), 0).points, std::vector<GridPoint>{point_});
-  EXPECT_EQ(set_aside_points(file_of(store).rows(), 0).sources, std::vector<std::uint16_t>{source_});
+  EXPECT_EQ(test::each_of(set_aside_points(file_of(store).rows(), 0).sources), std::vector<std::uint16_t>{source_});
   SetAsideLines read;
   for (std::uint32_t i = 0; i < 2; ++i) {
     const SetAsideLines some = set_aside_lines(file_of(store).rows(), 2, i);

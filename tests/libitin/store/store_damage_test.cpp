@@ -40,7 +40,7 @@ Contents read_all(const std::string& path) {
   for (const Leaf& leaf : leaves) {
     const auto block = store.points().block(leaf);
     all.points.insert(all.points.end(), block->points.begin(), block->points.end());
-    all.sources.insert(all.sources.end(), block->sources.begin(), block->sources.end());
+    for (std::size_t k = 0; k < block->points.size(); ++k) all.sources.push_back(block->sources[k]);
     all.certificates.emplace_back(leaf.lo, leaf.hi);
   }
   store.points().segments(store.points().bounds(), all.segments);

@@ -50,7 +50,7 @@ class StoreTest : public testing::Test {
       ASSERT_EQ(found[i].hi, leaf.hi);
       const auto block = index.block(found[i]);
       ASSERT_EQ(block->points, leaf.points);
-      ASSERT_EQ(block->sources, leaf.sources);
+      ASSERT_EQ(test::each_of(block->sources), leaf.sources);
       for (const GridPoint& p : leaf.points) ASSERT_TRUE(p.z >= found[i].zmin && p.z <= found[i].zmax);
     }
   }

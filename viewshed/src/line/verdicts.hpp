@@ -63,7 +63,7 @@ class Verdicts {
   }
   std::uint64_t count(Verdict verdict) const {
     std::uint64_t all = 0;
-    // So few at a time that a byte holds their number: then the compiler compares many at once.
+    // A byte holds the number of a few, and the compiler compares as many at once.
     constexpr std::size_t kFew = 128;
     static_assert(Tile::kSide * Tile::kSide % kFew == 0);
     for (std::size_t first = 0; first < values_.size(); first += kFew) {
