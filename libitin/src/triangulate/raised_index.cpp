@@ -62,7 +62,7 @@ std::shared_ptr<const Block> RaisedIndex::block(const Leaf& leaf) const {
     if (std::binary_search(masked.begin(), masked.end(), morton(p.x, p.y))) continue;
     rest->points.push_back(p);
     rest->sources.add(is_part(leaf.theme) ? static_cast<std::uint16_t>(whole->sources[k] & ~format::kOnOutline)
-                                                : whole->sources[k]);
+                                          : whole->sources[k]);
     if (is_part(leaf.theme)) rest->outline.push_back((whole->sources[k] & format::kOnOutline) != 0 ? 1 : 0);
     if (!whole->levels.empty()) rest->levels.push_back(whole->levels[k]);
   }

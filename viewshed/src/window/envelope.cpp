@@ -80,8 +80,8 @@ class DiscIndex {
     for (const FineDisc& disc : discs) all_.extend(box_of(disc));
     const double side = std::ceil(2 * std::sqrt(static_cast<double>(discs.size())));
     const double size = std::max({all_.width(), all_.height(), 1.0}) * 1.001 / side;
-    bins_ =
-        RasterGrid({all_.xmin, all_.ymax}, size, size, static_cast<std::int64_t>(side), static_cast<std::int64_t>(side));
+    bins_ = RasterGrid({all_.xmin, all_.ymax}, size, size, static_cast<std::int64_t>(side),
+                       static_cast<std::int64_t>(side));
     of_bin_.resize(bins_.cell_count());
     for (std::uint32_t i = 0; i < discs.size(); ++i) {
       const Box box = box_of(discs[i]);
