@@ -99,7 +99,7 @@ LosLinks::Survey LosLinks::run(const Store& store, const LinkTable& table, const
                                const Page& page, bool overwrite, Progress& progress) const {
   const StoreMetadata& metadata = store.metadata();
   std::future<profile::LinkCourses> courses =
-      beside([&] { return profile::link_courses(table.links, metadata.crs_wkt); });
+      beside([&] { return profile::link_courses(table.links, metadata.crs_wkt, progress); });
   const std::vector<LinkResult> results = profile::survey_links(store, table.links, query, progress);
   const profile::LinkCourses known = courses.get();
   const profile::LinkSurvey written{table, results, known, query, metadata.crs_wkt, page.title, page.facts};

@@ -152,7 +152,7 @@ TEST(LinkCourses, AreGeodesicsBetweenPlacesOnTheEarth) {
   const Point2 eryri{261000, 354000}, bannau{301200, 221500};
   const std::vector<Link> links = {
       {"a", eryri, 2, bannau, 2}, {"b", eryri, 2, {1e9, 1e9}, 2}, {"c", bannau, 2, eryri, 2}};
-  const LinkCourses courses = link_courses(links, "EPSG:27700");
+  const LinkCourses courses = link_courses(links, "EPSG:27700", NoProgress());
   ASSERT_EQ(courses.size(), links.size());
   const CoordinateTransform to_geographic("EPSG:27700", "EPSG:4326");
   const Geodesic expected = geodesic(to_geographic(eryri), to_geographic(bannau));
@@ -161,6 +161,11 @@ TEST(LinkCourses, AreGeodesicsBetweenPlacesOnTheEarth) {
   EXPECT_FALSE(courses[1]);
   EXPECT_EQ(courses[2]->from, courses[0]->to);
   EXPECT_NEAR(courses[2]->geodesic.azimuth_deg, expected.back_azimuth_deg, 1e-6);
+  struct Stopped final : public Progress {
+    void report(std::string_view, double) override {}
+    bool cancelled() const override { return true; }
+  };
+  EXPECT_THROW(link_courses(links, "EPSG:27700", Stopped()), Cancelled);
 }
 
 LinkTable table_of(const std::string& text) {

@@ -31,7 +31,8 @@ SectionTile::SectionTile(const GridBox& square, const RegionMesh& region) : squa
   }
   // Bins of about sixteen triangles: a line enters a tile once, and then goes on by neighbours.
   const double side = static_cast<double>(square.xmax) - square.xmin;
-  bin_shift_ = std::bit_width(static_cast<std::uint32_t>(4 * side / std::sqrt(count + 1.0)));
+  bin_shift_ =
+      std::min(31, static_cast<int>(std::bit_width(static_cast<std::uint64_t>(4 * side / std::sqrt(count + 1.0)))));
   columns_ = column(square.xmax) + 1, rows_ = row(square.ymax) + 1;
   first_.assign(std::size_t{columns_} * rows_ + 1, 0);
   for (std::uint32_t t = 0; t < count; ++t) for_each_bin(box_of(t), [&](std::size_t bin) { ++first_[bin + 1]; });

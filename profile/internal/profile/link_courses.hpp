@@ -1,6 +1,6 @@
 // Where on the Earth the ends of many links are, and the geodesics between them.
 //
-//   std::future<LinkCourses> courses = beside([&] { return link_courses(links, crs_wkt); });
+//   std::future<LinkCourses> courses = beside([&] { return link_courses(links, crs_wkt, progress); });
 //   const std::vector<LinkResult> results = survey_links(store, links, query, progress);
 #pragma once
 
@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <itin/geodesic.hpp>
+#include <itin/progress.hpp>
 #include <profile/links.hpp>
 
 namespace itin::profile {
@@ -20,7 +21,8 @@ struct LinkCourse {
 /// One per link, in order; nothing where an end is no place on the Earth.
 using LinkCourses = std::vector<std::optional<LinkCourse>>;
 
-/// The courses of links in a CRS, given as WKT. Throws InputError for a CRS that has no longitude and latitude.
-LinkCourses link_courses(const std::vector<Link>& links, const std::string& crs_wkt);
+/// The courses of links in a CRS, given as WKT. Reports nothing. Throws InputError for a CRS that has no longitude and
+/// latitude, Cancelled.
+LinkCourses link_courses(const std::vector<Link>& links, const std::string& crs_wkt, const Progress& progress);
 
 }  // namespace itin::profile

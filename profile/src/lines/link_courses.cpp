@@ -17,11 +17,14 @@ std::optional<LinkCourse> course_of(const Link& link, const CoordinateTransform&
 
 }  // namespace
 
-LinkCourses link_courses(const std::vector<Link>& links, const std::string& crs_wkt) {
+LinkCourses link_courses(const std::vector<Link>& links, const std::string& crs_wkt, const Progress& progress) {
   const CoordinateTransform to_geographic(crs_wkt, "EPSG:4326");
   LinkCourses courses;
   courses.reserve(links.size());
-  for (const Link& link : links) courses.push_back(course_of(link, to_geographic));
+  for (const Link& link : links) {
+    progress.throw_if_cancelled();
+    courses.push_back(course_of(link, to_geographic));
+  }
   return courses;
 }
 
