@@ -16,6 +16,7 @@
 #include <profile/links.hpp>
 
 #include "lines/link_sharing.hpp"
+#include "support/impatient.hpp"
 #include "support/raster_file.hpp"
 #include "support/same_bits.hpp"
 #include "support/temporary_directory.hpp"
@@ -161,11 +162,7 @@ TEST(LinkCourses, AreGeodesicsBetweenPlacesOnTheEarth) {
   EXPECT_FALSE(courses[1]);
   EXPECT_EQ(courses[2]->from, courses[0]->to);
   EXPECT_NEAR(courses[2]->geodesic.azimuth_deg, expected.back_azimuth_deg, 1e-6);
-  struct Stopped final : public Progress {
-    void report(std::string_view, double) override {}
-    bool cancelled() const override { return true; }
-  };
-  EXPECT_THROW(link_courses(links, "EPSG:27700", Stopped()), Cancelled);
+  EXPECT_THROW(link_courses(links, "EPSG:27700", test::Impatient(0)), Cancelled);
 }
 
 LinkTable table_of(const std::string& text) {

@@ -1,6 +1,5 @@
 #include "compute/coarse_pass.hpp"
 
-#include <algorithm>
 #include <atomic>
 #include <numeric>
 #include <utility>
@@ -10,6 +9,7 @@
 
 #include "judge/block_judge.hpp"
 #include "judge/envelope_judge.hpp"
+#include "line/verdicts.hpp"
 #include "request/request.hpp"
 
 namespace itin::viewshed {
@@ -115,13 +115,11 @@ class Rays final : public CoarsePass {
 
 std::uint64_t judge_undecided(const TileJudge& judge, const std::vector<std::size_t>& tiles, TileVerdicts& verdicts,
                               Stage& stage) {
-  const auto undecided = [](const TileValues<Verdict>& values) {
-    return static_cast<std::size_t>(std::count(values.begin(), values.end(), Verdict::kUndecided));
-  };
+  const auto undecided = [](const TileValues<Verdict>& values) { return count_of(values, Verdict::kUndecided); };
   std::atomic<std::uint64_t> lines = 0;
   stage.for_each(tiles.size(), [&](std::size_t i) {
     TileValues<Verdict>& values = verdicts[tiles[i]];
-    const std::size_t before = undecided(values);
+    const std::uint64_t before = undecided(values);
     lines += judge.begin(tiles[i])->judge(0, values);
     return before - undecided(values);
   });

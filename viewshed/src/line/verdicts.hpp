@@ -23,6 +23,21 @@ inline std::span<const std::uint8_t> codes_of(const std::vector<Verdict>& verdic
   return {reinterpret_cast<const std::uint8_t*>(verdicts.data()), verdicts.size()};
 }
 
+/// How many of a tile's values are this verdict, which must not be kOutside: that is what lies beyond the cells of a
+/// smaller tile, too.
+inline std::uint64_t count_of(const TileValues<Verdict>& values, Verdict verdict) {
+  std::uint64_t all = 0;
+  // A byte holds the number of a few, and the compiler compares as many at once.
+  constexpr std::size_t kFew = 128;
+  static_assert(Tile::kSide * Tile::kSide % kFew == 0);
+  for (std::size_t first = 0; first < values.size(); first += kFew) {
+    std::uint8_t few = 0;
+    for (std::size_t i = 0; i < kFew; ++i) few += values[first + i] == verdict ? 1 : 0;
+    all += few;
+  }
+  return all;
+}
+
 /// Every observer's verdict on a cell, made one: the first of visible, undecided, zone cut, hidden and outside that any
 /// of them has. At first nobody looks.
 class Verdicts {
@@ -56,22 +71,11 @@ class Verdicts {
 
  private:
   CellCounts counts(const Tile& tile) const {
+    const auto count = [&](Verdict verdict) { return count_of(values_, verdict); };
     CellCounts counts{count(Verdict::kVisible), count(Verdict::kHidden), count(Verdict::kUndecided)};
     counts.zone_cut = count(Verdict::kZoneCut);
     counts.outside = static_cast<std::uint64_t>(tile.rows * tile.columns) - counts.in_view();
     return counts;
-  }
-  std::uint64_t count(Verdict verdict) const {
-    std::uint64_t all = 0;
-    // A byte holds the number of a few, and the compiler compares as many at once.
-    constexpr std::size_t kFew = 128;
-    static_assert(Tile::kSide * Tile::kSide % kFew == 0);
-    for (std::size_t first = 0; first < values_.size(); first += kFew) {
-      std::uint8_t few = 0;
-      for (std::size_t i = 0; i < kFew; ++i) few += values_[first + i] == verdict ? 1 : 0;
-      all += few;
-    }
-    return all;
   }
 
   TileValues<Verdict> values_;  ///< kOutside also beyond the cells of a smaller tile
