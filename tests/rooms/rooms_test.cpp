@@ -110,6 +110,24 @@ TEST(Libraries, NameNoOptionOfTheCommandLine) {
   }
 }
 
+/// GDAL's drivers may be registered beside other work. Two threads that register them at once destroy GDAL's tables.
+TEST(Libraries, RegisterDriversOfGdalInOnePlace) {
+  const std::regex registration("GDALAllRegister|OGRRegisterAll|GDALRegister_|RegisterOGR");
+  const fs::path place = kRoot / "libitin/src/gdal/quiet_gdal.hpp";
+  int places = 0;
+  for (const char* folder : {"libitin", "viewshed", "profile", "cli"}) {
+    for (const fs::path& file : sources_below(kRoot / folder)) {
+      std::ifstream stream(file);
+      for (std::string line; std::getline(stream, line);) {
+        if (!std::regex_search(line, registration)) continue;
+        EXPECT_EQ(file, place) << line;
+        ++places;
+      }
+    }
+  }
+  EXPECT_EQ(places, 1);
+}
+
 /// What a source declares in an unnamed namespace: functions, classes and constants.
 std::vector<std::string> names_of_its_own(const fs::path& source) {
   const std::regex declaration(

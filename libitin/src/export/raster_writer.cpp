@@ -5,7 +5,6 @@
 #include <tuple>
 
 #include <cpl_conv.h>
-#include <cpl_error.h>
 #include <cpl_string.h>
 #include <fmt/format.h>
 #include <gdal_priv.h>
@@ -15,6 +14,7 @@
 #include <itin/raster.hpp>
 
 #include "export/pending_file.hpp"
+#include "gdal/quiet_gdal.hpp"
 
 namespace itin {
 
@@ -33,7 +33,7 @@ int tile_side(std::size_t bytes_per_cell) {
   return side;
 }
 
-/// Collects GDAL's first failure on this thread in place of printing it, and keeps GDAL from leaving side files.
+/// A QuietGdal that remembers the first failure, even if warnings follow it, and keeps GDAL from leaving side files.
 class GdalCall {
  public:
   GdalCall() {
@@ -49,6 +49,8 @@ class GdalCall {
   const std::string& failure() const { return failure_; }
 
  private:
+  const QuietGdal quiet_;
+
   static void CPL_STDCALL remember(CPLErr error_class, CPLErrorNum, const char* message) {
     auto& self = *static_cast<GdalCall*>(CPLGetErrorHandlerUserData());
     if (error_class >= CE_Failure && self.failure_.empty()) self.failure_ = message;
@@ -185,11 +187,10 @@ template <class T>
 void write_cog(const std::string& path, const RasterGrid& grid, std::span<const T> values, GDALDataType type,
                const RasterDescription& description) {
   PendingFile file(path, description.overwrite);
-  GDALAllRegister();
+  const GdalCall call;
   GDALDriver* const driver = GetGDALDriverManager()->GetDriverByName("COG");
   if (!driver) throw FileError(path, "GDAL here cannot write cloud-optimised GeoTIFFs; install GDAL 3.1 or later");
   {
-    const GdalCall call;
     const GDALDatasetUniquePtr source = wrap(values, grid, type);
     attach_overviews(*source, values, grid, !description.classes.empty(), type);
     describe(*source, grid, description);
