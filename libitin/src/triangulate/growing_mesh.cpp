@@ -26,11 +26,18 @@ void GrowingMesh::start(PlaneMesh mesh) {
   mesh_ = std::move(mesh);
   mesh_.constrained.assign(mesh_.triangles.size(), 0);
   settled_.assign(mesh_.triangles.size(), 0);
+  changed_.clear();
   some_triangle_.assign(vertices_.size(), kNoTriangle);
   for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
     for (const std::uint32_t v : mesh_.triangles[t]) some_triangle_[v] = t;
   }
   last_ = 0;
+}
+
+std::vector<std::uint32_t> GrowingMesh::take_changed() {
+  std::sort(changed_.begin(), changed_.end());
+  changed_.erase(std::unique(changed_.begin(), changed_.end()), changed_.end());
+  return std::exchange(changed_, {});
 }
 
 GrowingMesh::Side GrowingMesh::side(std::uint32_t t, int edge) const {
@@ -169,6 +176,7 @@ void GrowingMesh::replace() {
     mesh_.triangles[t] = filling_[k];
     mesh_.constrained[t] = 0;
     settled_[t] = 0;
+    changed_.push_back(t);
     for (int i = 0; i < 3; ++i) {
       some_triangle_[corner(t, i)] = t;
       half_edges_.push_back({corner(t, i + 1), corner(t, i + 2), t, i});

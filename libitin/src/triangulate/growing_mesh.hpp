@@ -49,6 +49,8 @@ class GrowingMesh {
   /// A mark on a triangle that is gone when the triangle changes.
   bool settled(std::uint32_t triangle) const { return settled_[triangle] != 0; }
   void settle(std::uint32_t triangle) { settled_[triangle] = 1; }
+  /// The triangles that are new or others than before since start() and since this was asked last, ascending.
+  std::vector<std::uint32_t> take_changed();
 
  private:
   using Corners = std::array<std::uint32_t, 3>;
@@ -97,7 +99,8 @@ class GrowingMesh {
   PlaneMesh mesh_;
   std::vector<std::uint32_t> some_triangle_;  ///< by vertex
   std::vector<std::uint8_t> settled_;
-  std::uint32_t last_ = 0;  ///< a triangle near the last change
+  std::vector<std::uint32_t> changed_;  ///< some of them more than once
+  std::uint32_t last_ = 0;              ///< a triangle near the last change
   std::uint32_t turn_ = 0;
   // Buffers for the part that is being replaced, kept for their memory.
   std::vector<std::uint32_t> cavity_, left_, right_;

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <set>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -113,6 +115,7 @@ class RegionTriangulation {
                    [](const SelectedVertex& v) { return v.position(); });
     squares_ = LatticeSquares(positions, segments, bare_beyond_);
     constraints_.clear();
+    outline_changed_ = true;
     grown_.start({});
     insert(segments);
     triangulate_vertices();
@@ -181,6 +184,7 @@ class RegionTriangulation {
     for (const Segment& s : segments) {
       const Constraint c{end_at({s.ax, s.ay}), end_at({s.bx, s.by}), s.theme};
       constraints_.push_back(c);
+      outline_changed_ = outline_changed_ || c.theme == kCoverage;
       if (!mesh().triangles.empty()) grown_.lay(c.from, c.to, c.theme);
     }
   }
@@ -193,32 +197,77 @@ class RegionTriangulation {
     return mesh().constrained[triangle] >> (i + PlaneMesh::kOutline) & 1;
   }
 
+  enum class Ground : std::uint8_t { kUnknown, kYes, kNo };
   /// ground_[t] is right for every triangle that meets the box: no segment crosses the box unseen, so a triangle's part
   /// in the box is ground or not as a whole, and so are neighbours whose common edge meets the box unless it is
   /// part of the outline. A box that no outline meets has a vertex or a line in it, hence is ground.
   void mark_ground() {
-    ground_.assign(mesh().triangles.size(), Ground::kUnknown);
-    std::vector<std::uint32_t> stack;
-    const auto settle = [&](std::uint32_t t, Ground ground) {
-      if (t == kNoTriangle || ground_[t] != Ground::kUnknown) return;
-      ground_[t] = ground;
-      stack.push_back(t);
-    };
+    const std::vector<std::uint32_t> changed = grown_.take_changed();
+    ground_.resize(mesh().triangles.size(), Ground::kUnknown);
+    if (outline_changed_ || !mark_changed(changed)) mark_all();
+  }
+
+  void mark_all() {
+    outline_changed_ = false;
     outline_ = edges_of(Lines::kOutline);
+    ground_.assign(mesh().triangles.size(), Ground::kUnknown);
+    open_.resize(mesh().triangles.size());
+    std::iota(open_.begin(), open_.end(), 0u);
+    std::vector<std::uint32_t> marked;
     for (const SegmentEdge& edge : outline_) {
       if (!meets(position(edge.from), position(edge.to), box_)) continue;
-      settle(edge.left, Ground::kYes);
-      settle(edge.right, Ground::kNo);
+      mark(edge.left, Ground::kYes, marked);
+      mark(edge.right, Ground::kNo, marked);
     }
-    if (stack.empty()) std::fill(ground_.begin(), ground_.end(), Ground::kYes);
-    while (!stack.empty()) {
-      const std::uint32_t t = stack.back();
-      stack.pop_back();
+    all_ground_ = marked.empty();
+    if (all_ground_) std::fill(ground_.begin(), ground_.end(), Ground::kYes);
+    spread(marked);
+  }
+
+  /// Marks these triangles, which have changed since all were marked, by those that have not. False where that does not
+  /// tell: all must be marked then.
+  bool mark_changed(const std::vector<std::uint32_t>& changed) {
+    for (const std::uint32_t t : changed) ground_[t] = Ground::kUnknown;
+    std::vector<std::uint32_t> marked;
+    bool at_outline = false;
+    for (const std::uint32_t t : changed) {
+      if (all_ground_) mark(t, Ground::kYes, marked);
       for (int i = 0; i < 3; ++i) {
-        if (!on_outline(t, i) && meets(corner(t, i + 1), corner(t, i + 2), box_))
-          settle(mesh().neighbours[t][i], ground_[t]);
+        at_outline = at_outline || on_outline(t, i);
+        const std::uint32_t n = mesh().neighbours[t][i];
+        if (n != kNoTriangle && ground_[n] != Ground::kUnknown && same_side(t, i)) mark(t, ground_[n], marked);
       }
     }
+    spread(marked);
+    const auto unknown = [&](std::uint32_t t) {
+      return ground_[t] == Ground::kUnknown && box_of_triangle(t).meets(box_);
+    };
+    if (std::any_of(changed.begin(), changed.end(), unknown)) return false;
+    if (at_outline) outline_ = edges_of(Lines::kOutline);
+    open_.insert(open_.end(), marked.begin(), marked.end());
+    std::sort(open_.begin(), open_.end());
+    open_.erase(std::unique(open_.begin(), open_.end()), open_.end());
+    return true;
+  }
+
+  void mark(std::uint32_t t, Ground ground, std::vector<std::uint32_t>& marked) {
+    if (t == kNoTriangle || ground_[t] != Ground::kUnknown) return;
+    ground_[t] = ground;
+    marked.push_back(t);
+  }
+
+  /// What holds for the marked triangles holds for their neighbours. Appends those that it marks.
+  void spread(std::vector<std::uint32_t>& marked) {
+    for (std::size_t next = 0; next < marked.size(); ++next) {
+      const std::uint32_t t = marked[next];
+      for (int i = 0; i < 3; ++i)
+        if (same_side(t, i)) mark(mesh().neighbours[t][i], ground_[t], marked);
+    }
+  }
+
+  /// Whether what lies beyond edge i is ground as the triangle is, or not as it is not.
+  bool same_side(std::uint32_t t, int i) const {
+    return !on_outline(t, i) && meets(corner(t, i + 1), corner(t, i + 2), box_);
   }
 
   /// The edges of all segments, or of the outline only.
@@ -265,7 +314,7 @@ class RegionTriangulation {
     const bool lines =
         std::any_of(constraints_.begin(), constraints_.end(), [](const Constraint& c) { return c.theme != kCoverage; });
     Enclosure enclosure(mesh(), read_.vertices(), known_, index_.bounds());
-    for (std::uint32_t t = 0; t < mesh().triangles.size(); ++t) {
+    for (const std::uint32_t t : open_) {
       if (ground_[t] != Ground::kYes || grown_.settled(t)) continue;
       if (t < squares_.triangle_count() || circumdisc_in(corner(t, 0), corner(t, 1), corner(t, 2), bare_beyond_) ||
           !in_region(t) || (lines && enclosure.holds(t))) {
@@ -297,11 +346,12 @@ class RegionTriangulation {
   Mending mend() {
     std::vector<SelectedVertex> intruders;
     std::vector<Segment> fresh;
-    for (std::uint32_t t = 0; t < mesh().triangles.size(); ++t) {
-      if (ground_[t] != Ground::kYes) continue;
+    std::erase_if(open_, [&](std::uint32_t t) {
+      if (ground_[t] != Ground::kYes) return true;
       if (!grown_.settled(t)) prove(t, intruders, fresh);
-      seek_beyond_hull(t, intruders);
-    }
+      const bool at_end = seek_beyond_hull(t, intruders);
+      return at_end && grown_.settled(t);
+    });
     for (const SegmentEdge& edge : outline_) {
       if (edge.left == kNoTriangle) seek_left_of(edge.from, edge.to, intruders);
     }
@@ -340,12 +390,15 @@ class RegionTriangulation {
     return in_circle_perturbed(corner(t, 0), corner(t, 1), corner(t, 2), v.position()) > 0;
   }
 
-  void seek_beyond_hull(std::uint32_t t, std::vector<SelectedVertex>& intruders) {
+  /// False where there was something.
+  bool seek_beyond_hull(std::uint32_t t, std::vector<SelectedVertex>& intruders) {
+    const std::size_t before = intruders.size();
     const auto& v = mesh().triangles[t];
     for (int i = 0; i < 3; ++i) {
       if (mesh().neighbours[t][i] == kNoTriangle && !on_outline(t, i))
         seek_left_of(v[(i + 2) % 3], v[(i + 1) % 3], intruders);
     }
+    return intruders.size() == before;
   }
 
   /// Where the region reaches beyond a hull edge, or just to it, and there is ground, the next triangle's vertex is
@@ -373,7 +426,6 @@ class RegionTriangulation {
     return cut_out(mesh(), kept, edges_of(Lines::kAll), read_.vertices(), read_.in_order());
   }
 
-  enum class Ground : std::uint8_t { kUnknown, kYes, kNo };
   struct Constraint {
     std::uint32_t from, to;
     std::uint16_t theme;
@@ -397,6 +449,10 @@ class RegionTriangulation {
   GrowingMesh grown_;       ///< settled: a triangle that needs no more proof
   std::vector<Ground> ground_;
   std::vector<SegmentEdge> outline_;
+  bool outline_changed_ = true;  ///< since all triangles were marked
+  bool all_ground_ = false;      ///< no outline meets the box
+  /// Triangles of the ground that need proof, or have something beyond an edge of the hull; and some more. Ascending.
+  std::vector<std::uint32_t> open_;
   std::set<std::pair<std::uint32_t, std::uint32_t>> hull_;  ///< edges known to have nothing beyond
 };
 

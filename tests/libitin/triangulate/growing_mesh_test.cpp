@@ -119,12 +119,18 @@ TEST(GrowingMesh, TellsWhichTrianglesChanged) {
   GrowingMesh grown(vertices);
   grown.start(delaunay.mesh());
   for (std::uint32_t t = 0; t < grown.mesh().triangles.size(); ++t) grown.settle(t);
+  EXPECT_TRUE(grown.take_changed().empty());
   vertices.push_back({{3, 3, 0}, 0, 0, 0});
   grown.insert(7);
+  const std::vector<std::uint32_t> changed = grown.take_changed();
+  EXPECT_TRUE(std::is_sorted(changed.begin(), changed.end()));
   for (std::uint32_t t = 0; t < grown.mesh().triangles.size(); ++t) {
     const auto& corners = grown.mesh().triangles[t];
-    EXPECT_EQ(grown.settled(t), std::find(corners.begin(), corners.end(), 7U) == corners.end());
+    const bool has_it = std::find(corners.begin(), corners.end(), 7U) != corners.end();
+    EXPECT_EQ(grown.settled(t), !has_it);
+    EXPECT_EQ(std::count(changed.begin(), changed.end(), t), has_it ? 1 : 0);
   }
+  EXPECT_TRUE(grown.take_changed().empty());
 }
 
 TEST(GrowingMesh, RefusesLinesThatCross) {
