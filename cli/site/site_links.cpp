@@ -26,8 +26,8 @@ class LinkJudge {
     const profile::LosQuery query = los_query(link_between(a, b), rules_.query);
     profile::Profile ground;
     if (ground_) ground = profile::from_section(ground_->between(a.position, b.position));
-    profile::Profile line = profile::from_section(surface_.between(a.position, b.position));
-    return rules_.met_by(profile::analyse(std::move(line), query, std::move(ground)));
+    const profile::Profile line = profile::from_section(surface_.between(a.position, b.position));
+    return rules_.met_by(profile::judge(line, query, ground));
   }
 
  private:

@@ -225,6 +225,30 @@ TEST(Analyse, JudgesCriteriaOnTheirOwnEarth) {
   EXPECT_EQ(report.criteria[2].verdict, CriterionVerdict::kFails);
 }
 
+TEST(Judge, FindsWhatAnalyseFinds) {
+  std::mt19937 random(4104);
+  for (int round = 0; round < 200; ++round) {
+    const Profile profile = random_profile(random), ground = even_profile(profile.length_m, {-5, -5});
+    LosQuery q = query(1 + round % 50, 2 + round % 90, Earth{});
+    q.criteria = {{0.8, 0}};
+    q.from_on_surface = round % 2 == 0;
+    if (round % 3 == 0) q.radio = RadioPath{.frequency_ghz = 6, .effective_earth_km = 8494.7};
+    const LosReport report = analyse(profile, q, ground);
+    const LineFindings found = judge(profile, q, ground);
+    EXPECT_EQ(found.verdict, report.verdict);
+    EXPECT_EQ(found.known_verdict, report.known_verdict);
+    EXPECT_EQ(found.clearance_m, report.clearance_m);
+    EXPECT_EQ(found.least_clearance_m, report.least_clearance_m);
+    ASSERT_EQ(found.fresnel.has_value(), round % 3 == 0 && report.fresnel.has_value());
+    if (found.fresnel) {
+      EXPECT_EQ(found.fresnel->fraction, report.fresnel->fraction);
+    }
+    EXPECT_EQ(found.criteria.front().verdict, report.criteria.front().verdict);
+  }
+  LosQuery beneath = query(-1, 2, Earth{});
+  EXPECT_THROW(judge(random_profile(random), beneath), InputError);
+}
+
 TEST(Analyse, JudgesTheWorstFadeByTheLineItself) {
   EXPECT_NEAR(fade_factor(20000), 0.5658, 1e-4);   // 157 / (144 + 133.5)
   EXPECT_NEAR(fade_factor(100000), 0.9198, 1e-4);  // 157 / (144 + 26.7)

@@ -188,6 +188,10 @@ EndGrounds stands_on(const Profile& profile, const Profile& ground, const LosQue
 /// but for logarithmic factors.
 LosReport analyse(Profile profile, const LosQuery& query, Profile ground = {});
 
+/// What analyse() finds of a profile without clutter, but for obstructions and required heights: whether a line is
+/// free, in a small part of the time. Throws likewise.
+LineFindings judge(const Profile& profile, const LosQuery& query, const Profile& ground = {});
+
 /// Judges a line over a store, with what stands on its ground. The surface's certified error about the line is
 /// added to query.clearance_error_m, so that over a coarse surface a verdict is certain or undecided; the report's
 /// query has the sum, and heights above what the ends stand on. Throws InputError also for an elevation below that, for

@@ -62,7 +62,7 @@ CriterionVerdict criterion_verdict(const Sight& sight, const LosQuery& query, co
   return query.nodata == NoData::kBlock ? CriterionVerdict::kFails : CriterionVerdict::kUndecided;
 }
 
-CriterionResult judge(const Sight& sight, const LosQuery& query, const Criterion& criterion) {
+CriterionResult criterion_result(const Sight& sight, const LosQuery& query, const Criterion& criterion) {
   const double k = factor_of(criterion, sight.profile.length_m);
   const Earth earth = with_factor(k, query.earth);
   const Clearance as_is = clearance_over(sight, query, earth);
@@ -121,6 +121,10 @@ std::vector<NamedRequirement> requirements_of(const LosQuery& query, double leng
   return all;
 }
 
+Antennas antennas_on(const EndGrounds& stands_on, const LosQuery& query) {
+  return {stands_on.from_m + query.from_height_m, stands_on.to_m + query.to_height_m};
+}
+
 LineFindings findings(const Sight& sight, const LosQuery& query) {
   LineFindings found;
   Clearance clearance = clearance_over(sight, query, query.earth);
@@ -134,7 +138,7 @@ LineFindings findings(const Sight& sight, const LosQuery& query) {
     found.least_clearance_m = least;
   }
   if (query.radio) found.fresnel = clearance.zone;
-  for (const Criterion& c : query.criteria) found.criteria.push_back(judge(sight, query, c));
+  for (const Criterion& c : query.criteria) found.criteria.push_back(criterion_result(sight, query, c));
   return found;
 }
 

@@ -29,6 +29,8 @@ struct Sight {
   Antennas antennas;
   EndGrounds stands_on;
 };
+/// Elevations of antennas of the query's heights.
+Antennas antennas_on(const EndGrounds& stands_on, const LosQuery& query);
 /// All but obstructions and required heights. O(n) for each criterion.
 LineFindings findings(const Sight& sight, const LosQuery& query);
 /// O(n).

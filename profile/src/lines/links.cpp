@@ -35,7 +35,7 @@ LinkResult result_of(const Sections& sections, const LosQuery& query) {
   result.gap_m = sections.surface.gap_length_m();
   result.radio = query.radio;
   result.stands_on = stands_on(sections.surface, sections.ground, query);
-  const Antennas antennas{result.stands_on.from_m + query.from_height_m, result.stands_on.to_m + query.to_height_m};
+  const Antennas antennas = antennas_on(result.stands_on, query);
   const Sight sight{sections.surface, antennas, result.stands_on};
   result.found = findings(sight, query);
   if (query.radio || !query.criteria.empty()) add_required_heights(sight, query, *result.found);

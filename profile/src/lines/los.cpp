@@ -84,6 +84,12 @@ EndGrounds stands_on(const Profile& profile, const Profile& ground, const LosQue
   return grounds;
 }
 
+LineFindings judge(const Profile& profile, const LosQuery& query, const Profile& ground) {
+  require_valid(profile, query, ground);
+  const EndGrounds ends = stands_on(profile, ground, query);
+  return findings({profile, antennas_on(ends, query), ends}, query);
+}
+
 LosReport analyse(Profile profile, const LosQuery& query, Profile ground) {
   require_valid(profile, query, ground);
   const bool clutter = ground.points.empty() && has_clutter(profile);
@@ -93,7 +99,7 @@ LosReport analyse(Profile profile, const LosQuery& query, Profile ground) {
   report.stands_on = stands_on(profile, ground, query);
   report.profile = std::move(profile);
   report.ground = std::move(ground);
-  report.antennas = {report.stands_on.from_m + query.from_height_m, report.stands_on.to_m + query.to_height_m};
+  report.antennas = antennas_on(report.stands_on, query);
   if (clutter) {
     report.themes = {"terrain", "clutter"};
     report.bare = all_findings({report.ground, report.antennas, report.stands_on}, query);
