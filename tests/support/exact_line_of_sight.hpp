@@ -26,6 +26,7 @@ class ExactLineOfSight {
         patch.y[i] = tin.grid.origin.y + v.y * unit;
         patch.z[i] = v.z * unit;
       }
+      patch.measure_edges();
       patches_.push_back(patch);
     }
   }
@@ -76,12 +77,16 @@ class ExactLineOfSight {
 
   struct Patch {
     std::array<long double, 3> x, y, z;
+    std::array<long double, 3> length;  ///< of edge i, from corner i to the next
 
+    void measure_edges() {
+      for (std::size_t i = 0; i < 3; ++i) length[i] = std::hypot(x[(i + 1) % 3] - x[i], y[(i + 1) % 3] - y[i]);
+    }
     /// Distance to the left of edge i.
     long double depth(std::size_t i, long double px, long double py) const {
       const std::size_t j = (i + 1) % 3;
       const long double ex = x[j] - x[i], ey = y[j] - y[i];
-      return (ex * (py - y[i]) - ey * (px - x[i])) / std::hypot(ex, ey);
+      return (ex * (py - y[i]) - ey * (px - x[i])) / length[i];
     }
     long double height(long double px, long double py) const {
       const long double ux = x[1] - x[0], uy = y[1] - y[0], vx = x[2] - x[0], vy = y[2] - y[0];

@@ -31,10 +31,14 @@ Canvas::Canvas(int width, int height, Colour background)
 }
 
 void Canvas::blend(int x, int y, Colour colour, double opacity) {
-  if (x < 0 || y < 0 || x >= width_ || y >= height_) return;
+  if (opacity == 0 || x < 0 || y < 0 || x >= width_ || y >= height_) return;
   std::uint8_t* const pixel =
       rgb_.data() + 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x));
   const std::array<std::uint8_t, 3> over{colour.red, colour.green, colour.blue};
+  if (opacity == 1) {
+    std::copy(over.begin(), over.end(), pixel);
+    return;
+  }
   for (std::size_t i = 0; i < 3; ++i)
     pixel[i] = static_cast<std::uint8_t>(std::lround(pixel[i] + opacity * (over[i] - pixel[i])));
 }

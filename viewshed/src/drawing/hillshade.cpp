@@ -1,6 +1,7 @@
 #include "drawing/hillshade.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -15,22 +16,26 @@ namespace {
 
 constexpr float kNothing = std::numeric_limits<float>::quiet_NaN();
 
+/// A light by the direction that it comes from, as the sine and cosine of its azimuth.
 struct Light {
-  double azimuth;  ///< degrees
-  double weight;
+  Light(double azimuth_degrees, double of_all)
+      : east(std::sin(azimuth_degrees * std::numbers::pi / 180)),
+        north(std::cos(azimuth_degrees * std::numbers::pi / 180)),
+        weight(of_all) {}
+
+  double east, north, weight;
 };
 
 /// Brightness of a slope with gradient (east, north).
 double shade(double east, double north) {
-  constexpr Light kLights[] = {{315, 0.55}, {270, 0.15}, {0, 0.15}, {225, 0.15}};
+  static const std::array<Light, 4> kLights{Light{315, 0.55}, Light{270, 0.15}, Light{0, 0.15}, Light{225, 0.15}};
   constexpr double kRise = kLevelShade;  // sine of the light's elevation, 40 degrees
-  const double reach = std::sqrt(1 - kRise * kRise);
+  static const double kReach = std::sqrt(1 - kRise * kRise);
   const double steepness = std::sqrt(1 + east * east + north * north);
   double sum = 0;
   for (const Light& light : kLights) {
-    const double azimuth = light.azimuth * std::numbers::pi / 180;
-    const double facing = -east * std::sin(azimuth) - north * std::cos(azimuth);
-    sum += light.weight * std::max(0.0, (kRise + reach * facing) / steepness);
+    const double facing = -east * light.east - north * light.north;
+    sum += light.weight * std::max(0.0, (kRise + kReach * facing) / steepness);
   }
   return sum;
 }

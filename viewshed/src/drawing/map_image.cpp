@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <itin/error.hpp>
+#include <itin/parallel.hpp>
 #include <itin/round_length.hpp>
 #include <viewshed/map_image.hpp>
 #include <viewshed/surface.hpp>
@@ -166,26 +167,22 @@ class MapDrawing {
   }
 
   void draw_ground() {
-    for (int y = 0; y < height_; ++y) {
-      for (int x = 0; x < width_; ++x) {
-        const float shade = shades_[pixels_.index({x, y})];
-        const int px = left_ + x, py = top_ + y;
-        if (lacks_ground(cell_of(x, y))) {
-          draw_void(px, py);
-          continue;
-        }
-        if (std::isnan(shade)) {  // beyond what was looked at, and so what was read
-          canvas_.blend(px, py, kVoid, 1);
-          continue;
-        }
-        const auto grey =
-            static_cast<std::uint8_t>(std::clamp(kLevelGrey + 150.0 * (shade - kLevelShade), 100.0, 250.0));
-        const Shown shown = shown_at(x, y);
-        canvas_.blend(px, py, {grey, grey, grey}, 1);
-        canvas_.blend(px, py, kMapPaper, kOutsideFade * shown.outside);
-        canvas_.blend(px, py, shown.colour(), shown.opacity);
-      }
-    }
+    parallel_for(static_cast<std::size_t>(height_), [&](std::size_t row) {
+      for (int x = 0; x < width_; ++x) draw_ground_at(x, static_cast<int>(row));
+    });
+  }
+
+  void draw_ground_at(int x, int y) {
+    const float shade = shades_[pixels_.index({x, y})];
+    const int px = left_ + x, py = top_ + y;
+    if (lacks_ground(cell_of(x, y))) return draw_void(px, py);
+    // Beyond what was looked at, and so what was read.
+    if (std::isnan(shade)) return canvas_.blend(px, py, kVoid, 1);
+    const auto grey = static_cast<std::uint8_t>(std::clamp(kLevelGrey + 150.0 * (shade - kLevelShade), 100.0, 250.0));
+    const Shown shown = shown_at(x, y);
+    canvas_.blend(px, py, {grey, grey, grey}, 1);
+    canvas_.blend(px, py, kMapPaper, kOutsideFade * shown.outside);
+    canvas_.blend(px, py, shown.colour(), shown.opacity);
   }
 
   /// Striped, unlike all that is known.
