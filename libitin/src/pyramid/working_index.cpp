@@ -101,11 +101,10 @@ void WorkingIndex::visit_those_at(const std::vector<std::uint32_t>& leaves, cons
   for (auto leaf = leaves.begin(); code;) {
     // Invariant: *code is in the box, and no leaf below it is left to visit.
     leaf = std::partition_point(leaf, leaves.end(), [&](std::uint32_t i) { return ranges_[i].cell.end() <= *code; });
+    // Leaves in the box mostly follow each other.
+    while (leaf != leaves.end() && ranges_[*leaf].cell.box().meets(box)) visit(*leaf++);
     if (leaf == leaves.end()) return;
-    const Cell& cell = ranges_[*leaf].cell;
-    const bool meets = cell.contains(*code);
-    if (meets) visit(*leaf++);
-    code = range.next(meets ? cell.end() : cell.code);
+    code = range.next(ranges_[*leaf].cell.code);
   }
 }
 
