@@ -4,6 +4,7 @@
 
 #include <itin/level_choice.hpp>
 #include <itin/output_file.hpp>
+#include <itin/parallel.hpp>
 #include <itin/triangulate.hpp>
 #include <viewshed/map_image.hpp>
 #include <viewshed/result_map.hpp>
@@ -131,12 +132,15 @@ void write_site_maps(const Store& store, const SiteResult& r, const std::string&
                      Progress& progress, std::vector<std::string>& warnings) {
   progress.report("maps", 0);
   const Tin tin = hillshade_surface(store, r.rasters.grid, progress);
-  for (const SiteMap& map : site_maps(r)) {
-    const viewshed::MapImage image = draw_map(tin, map.result, map.options);
-    if (map.result.request.mode == viewshed::Mode::kVisible)
-      warnings.insert(warnings.end(), image.warnings.begin(), image.warnings.end());
-    write_image((std::filesystem::path(directory) / map.name).string() + ".png", image, overwrite);
-  }
+  const std::vector<SiteMap> maps = site_maps(r);
+  std::vector<std::vector<std::string>> said(maps.size());
+  parallel_for(maps.size(), [&](std::size_t i) {
+    const viewshed::MapImage image = draw_map(tin, maps[i].result, maps[i].options);
+    write_image((std::filesystem::path(directory) / maps[i].name).string() + ".png", image, overwrite);
+    said[i] = image.warnings;
+  });
+  // All maps are drawn with the same letters, or without.
+  warnings.insert(warnings.end(), said.front().begin(), said.front().end());
 }
 
 std::vector<std::string> site_figures(const Store& store, const SiteResult& r, Progress& progress) {
