@@ -190,19 +190,17 @@ void write_cog(const std::string& path, const RasterGrid& grid, std::span<const 
   const GdalCall call;
   GDALDriver* const driver = GetGDALDriverManager()->GetDriverByName("COG");
   if (!driver) throw FileError(path, "GDAL here cannot write cloud-optimised GeoTIFFs; install GDAL 3.1 or later");
-  {
-    const GDALDatasetUniquePtr source = wrap(values, grid, type);
-    attach_overviews(*source, values, grid, !description.classes.empty(), type);
-    describe(*source, grid, description);
-    const std::size_t bands = values.size() / grid.cell_count();
-    const CPLStringList options = creation_options(std::is_floating_point_v<T>, tile_side(bands * sizeof(T)));
-    GDALDatasetUniquePtr written(
-        driver->CreateCopy(file.temporary_path().c_str(), source.get(), false, options.List(), nullptr, nullptr));
-    const bool created = written != nullptr;
-    written.reset();  // the last bytes are written on closing
-    if (!created || !call.failure().empty())
-      throw FileError(path, "cannot be written: " + (call.failure().empty() ? "unknown reason" : call.failure()));
-  }
+  const GDALDatasetUniquePtr source = wrap(values, grid, type);
+  attach_overviews(*source, values, grid, !description.classes.empty(), type);
+  describe(*source, grid, description);
+  const std::size_t bands = values.size() / grid.cell_count();
+  const CPLStringList options = creation_options(std::is_floating_point_v<T>, tile_side(bands * sizeof(T)));
+  GDALDatasetUniquePtr written(
+      driver->CreateCopy(file.temporary_path().c_str(), source.get(), false, options.List(), nullptr, nullptr));
+  const bool created = written != nullptr;
+  written.reset();  // the last bytes are written on closing
+  if (!created || !call.failure().empty())
+    throw FileError(path, "cannot be written: " + (call.failure().empty() ? "unknown reason" : call.failure()));
   file.commit();
   // It would describe the raster that was replaced.
   std::error_code ignored;

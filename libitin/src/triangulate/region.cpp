@@ -346,12 +346,13 @@ class RegionTriangulation {
   Mending mend() {
     std::vector<SelectedVertex> intruders;
     std::vector<Segment> fresh;
-    std::erase_if(open_, [&](std::uint32_t t) {
-      if (ground_[t] != Ground::kYes) return true;
+    std::vector<std::uint32_t> still_open;
+    for (const std::uint32_t t : open_) {
+      if (ground_[t] != Ground::kYes) continue;
       if (!grown_.settled(t)) prove(t, intruders, fresh);
-      const bool at_end = seek_beyond_hull(t, intruders);
-      return at_end && grown_.settled(t);
-    });
+      if (seek_beyond_hull(t, intruders) || !grown_.settled(t)) still_open.push_back(t);
+    }
+    open_ = std::move(still_open);
     for (const SegmentEdge& edge : outline_) {
       if (edge.left == kNoTriangle) seek_left_of(edge.from, edge.to, intruders);
     }
@@ -390,7 +391,7 @@ class RegionTriangulation {
     return in_circle_perturbed(corner(t, 0), corner(t, 1), corner(t, 2), v.position()) > 0;
   }
 
-  /// False where there was something.
+  /// Returns whether it found any.
   bool seek_beyond_hull(std::uint32_t t, std::vector<SelectedVertex>& intruders) {
     const std::size_t before = intruders.size();
     const auto& v = mesh().triangles[t];
@@ -398,7 +399,7 @@ class RegionTriangulation {
       if (mesh().neighbours[t][i] == kNoTriangle && !on_outline(t, i))
         seek_left_of(v[(i + 2) % 3], v[(i + 1) % 3], intruders);
     }
-    return intruders.size() == before;
+    return intruders.size() > before;
   }
 
   /// Where the region reaches beyond a hull edge, or just to it, and there is ground, the next triangle's vertex is
