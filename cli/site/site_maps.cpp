@@ -133,14 +133,12 @@ void write_site_maps(const Store& store, const SiteResult& r, const std::string&
   progress.report("maps", 0);
   const Tin tin = hillshade_surface(store, r.rasters.grid, progress);
   const std::vector<SiteMap> maps = site_maps(r);
-  std::vector<std::vector<std::string>> said(maps.size());
   parallel_for(maps.size(), [&](std::size_t i) {
     const viewshed::MapImage image = draw_map(tin, maps[i].result, maps[i].options);
     write_image((std::filesystem::path(directory) / maps[i].name).string() + ".png", image, overwrite);
-    said[i] = image.warnings;
+    // All maps are drawn with the same letters, or without: the first one tells.
+    if (i == 0) warnings.insert(warnings.end(), image.warnings.begin(), image.warnings.end());
   });
-  // All maps are drawn with the same letters, or without.
-  warnings.insert(warnings.end(), said.front().begin(), said.front().end());
 }
 
 std::vector<std::string> site_figures(const Store& store, const SiteResult& r, Progress& progress) {

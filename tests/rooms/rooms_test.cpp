@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <initializer_list>
 #include <map>
 #include <regex>
 #include <stdexcept>
@@ -52,6 +53,17 @@ std::vector<fs::path> sources_below(const fs::path& folder) {
   return result;
 }
 
+/// Calls visit(file, line) for every line of the sources below these folders.
+template <class Visit>
+void for_each_line(std::initializer_list<const char*> folders, const Visit& visit) {
+  for (const char* folder : folders) {
+    for (const fs::path& file : sources_below(kRoot / folder)) {
+      std::ifstream stream(file);
+      for (std::string line; std::getline(stream, line);) visit(file, line);
+    }
+  }
+}
+
 std::string room_of(const fs::path& sources, const fs::path& file) {
   return fs::relative(file, sources).parent_path().generic_string();
 }
@@ -99,15 +111,10 @@ TEST(Libraries, IncludeOnlyThoseBelowThem) {
 /// A message of a library names a field of the request, `to_crs`; cli/program/field_names.cpp makes it an option.
 TEST(Libraries, NameNoOptionOfTheCommandLine) {
   const std::regex option("\"[^\"]*--[a-z][^\"]*\"");
-  for (const char* library : {"libitin", "viewshed", "profile"}) {
-    for (const fs::path& file : sources_below(kRoot / library)) {
-      std::ifstream stream(file);
-      for (std::string line; std::getline(stream, line);) {
-        const std::string code = line.substr(0, line.find("//"));
-        EXPECT_FALSE(std::regex_search(code, option)) << file << ": " << line;
-      }
-    }
-  }
+  for_each_line({"libitin", "viewshed", "profile"}, [&](const fs::path& file, const std::string& line) {
+    const std::string code = line.substr(0, line.find("//"));
+    EXPECT_FALSE(std::regex_search(code, option)) << file << ": " << line;
+  });
 }
 
 /// GDAL's drivers may be registered beside other work. Two threads that register them at once destroy GDAL's tables.
@@ -115,16 +122,11 @@ TEST(Libraries, RegisterDriversOfGdalInOnePlace) {
   const std::regex registration("GDALAllRegister|OGRRegisterAll|GDALRegister_|RegisterOGR");
   const fs::path place = kRoot / "libitin/src/gdal/quiet_gdal.hpp";
   int places = 0;
-  for (const char* folder : {"libitin", "viewshed", "profile", "cli"}) {
-    for (const fs::path& file : sources_below(kRoot / folder)) {
-      std::ifstream stream(file);
-      for (std::string line; std::getline(stream, line);) {
-        if (!std::regex_search(line, registration)) continue;
-        EXPECT_EQ(file, place) << line;
-        ++places;
-      }
-    }
-  }
+  for_each_line({"libitin", "viewshed", "profile", "cli"}, [&](const fs::path& file, const std::string& line) {
+    if (!std::regex_search(line, registration)) return;
+    EXPECT_EQ(file, place) << line;
+    ++places;
+  });
   EXPECT_EQ(places, 1);
 }
 

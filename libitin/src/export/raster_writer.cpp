@@ -49,12 +49,11 @@ class GdalCall {
   const std::string& failure() const { return failure_; }
 
  private:
-  const QuietGdal quiet_;
-
   static void CPL_STDCALL remember(CPLErr error_class, CPLErrorNum, const char* message) {
     auto& self = *static_cast<GdalCall*>(CPLGetErrorHandlerUserData());
     if (error_class >= CE_Failure && self.failure_.empty()) self.failure_ = message;
   }
+  const QuietGdal quiet_;
   std::string failure_;
 };
 
