@@ -20,10 +20,7 @@ inline void survey_outline(TestIndex& index, int levels, double gap) {
   index->drop(std::move(isolated));
   const std::vector<Segment> outline = join_collinear(edges);
   index->set_segments(outline);
-  for (const Segment& s : outline) {
-    index->promote(morton(s.ax, s.ay), levels - 1);
-    index->promote(morton(s.bx, s.by), levels - 1);
-  }
+  for (const Segment& s : outline) index->promote({{morton(s.ax, s.ay), levels - 1}, {morton(s.bx, s.by), levels - 1}});
 }
 
 /// Cuts discs of some gaps' size out of the points.

@@ -312,21 +312,34 @@ std::vector<LineHierarchy::VertexLevel> LineHierarchy::levels() const {
   return result;
 }
 
-bool LineHierarchy::restore(const GridBox& box, int level) {
-  bool any = false;
+std::vector<LineHierarchy::Restored> LineHierarchy::restore(const std::vector<Shortcut>& shortcuts) {
+  const auto named = [&](int level, Position p, Position q) {
+    const auto [a, b] = std::minmax(p, q);
+    return std::binary_search(shortcuts.begin(), shortcuts.end(), Shortcut{level, a, b});
+  };
+  std::vector<Restored> result;
   for (Chain& chain : chains_) {
-    if (!box_of(chain.vertices).meets(box)) continue;
-    std::size_t from = 0;
-    for (std::size_t to = 1; to < chain.vertices.size(); ++to) {
-      if (chain.levels[to] < level) continue;
-      if (to > from + 1 && box_of_piece(chain.vertices, from, to).meets(box)) {
-        for (std::size_t i = from + 1; i < to; ++i) chain.levels[i] = static_cast<std::uint8_t>(level);
-        any = true;
+    const std::vector<Position>& v = chain.vertices;
+    for (int k = 1; k <= coarsest_; ++k) {
+      std::size_t from = 0;
+      bool any = false;
+      for (std::size_t to = 1; to < v.size(); ++to) {
+        if (chain.levels[to] < k) {
+          any = any || named(k, v[to], v[to]);
+          continue;
+        }
+        if (to > from + 1 && (any || named(k, v[from], v[to]))) {
+          const auto first = chain.levels.begin() + static_cast<std::ptrdiff_t>(from) + 1;
+          const auto last = chain.levels.begin() + static_cast<std::ptrdiff_t>(to);
+          result.push_back({box_of_piece(v, from, to), *std::min_element(first, last) + 1, k});
+          std::fill(first, last, static_cast<std::uint8_t>(k));
+        }
+        from = to;
+        any = false;
       }
-      from = to;
     }
   }
-  return any;
+  return result;
 }
 
 }  // namespace itin

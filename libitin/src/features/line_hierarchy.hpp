@@ -54,9 +54,21 @@ class LineHierarchy {
   /// The coarsest level that needs each vertex, ascending by code; without those of `whole` alone.
   std::vector<VertexLevel> levels() const;
 
-  /// Puts everything that a shortcut of level k near `box` stands for back into levels <= k. False where there was
-  /// none.
-  bool restore(const GridBox& box, int level);
+  /// An edge of a line at a level, between these vertices, the lesser first; where they are one, the edge that stands
+  /// for this vertex.
+  struct Shortcut {
+    int level;
+    Position a, b;
+    friend auto operator<=>(const Shortcut&, const Shortcut&) = default;
+  };
+  /// Vertices that are part of their line at the levels from `finest` to `coarsest` as well now, and their box.
+  struct Restored {
+    GridBox box;
+    int finest, coarsest;
+  };
+  /// Puts the vertices that these shortcuts (ascending) stand for back into their levels and all finer ones. What is no
+  /// shortcut at its level is passed over.
+  std::vector<Restored> restore(const std::vector<Shortcut>& shortcuts);
 
  private:
   struct Chain {

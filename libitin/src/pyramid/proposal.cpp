@@ -14,11 +14,6 @@ namespace itin {
 
 namespace {
 
-struct LevelRaise {
-  std::uint64_t code;
-  int level;
-};
-
 struct TileProposal {
   Proposal coverage;
   std::vector<LevelRaise> beyond;  ///< points across the border
@@ -65,12 +60,13 @@ std::vector<std::vector<std::size_t>> waves(const std::vector<CurveRange>& tiles
 
 /// Raises points of tiles that had their turn; the others are still free to choose.
 void raise_settled(WorkingIndex& index, const std::vector<CurveRange>& tiles, const std::vector<std::uint8_t>& settled,
-                   const std::vector<LevelRaise>& raises) {
-  for (const LevelRaise& raise : raises) {
+                   std::vector<LevelRaise> raises) {
+  std::erase_if(raises, [&](const LevelRaise& raise) {
     const auto after = std::upper_bound(tiles.begin(), tiles.end(), raise.code,
                                         [](std::uint64_t code, const CurveRange& t) { return code < t.cell.code; });
-    if (settled[static_cast<std::size_t>(after - tiles.begin()) - 1]) index.promote(raise.code, raise.level);
-  }
+    return !settled[static_cast<std::size_t>(after - tiles.begin()) - 1];
+  });
+  index.promote(std::move(raises));
 }
 
 /// Proposes for all tiles, wave by wave, what `survey(tile)` sees of each.

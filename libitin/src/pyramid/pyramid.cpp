@@ -242,7 +242,9 @@ class PyramidBuild {
   void set_lines() {
     std::vector<Segment> segments = outline_;
     if (hierarchy_) {
-      for (const auto& [code, level] : hierarchy_->levels()) index_->promote(code, level);
+      std::vector<LevelRaise> raises;
+      for (const auto& [code, level] : hierarchy_->levels()) raises.push_back({code, level});
+      index_->promote(std::move(raises));
       append(segments, hierarchy_->segments());
     }
     index_->set_segments(std::move(segments));
@@ -253,21 +255,39 @@ class PyramidBuild {
     if (lines_.empty()) return;
     std::vector<Segment> whole = outline_;
     append(whole, placed_.features);
+    std::vector<LevelRaise> ends;
     for (const Segment& s : whole) {
-      index_->promote(morton(s.ax, s.ay), levels_ - 1);
-      index_->promote(morton(s.bx, s.by), levels_ - 1);
+      ends.push_back({morton(s.ax, s.ay), levels_ - 1});
+      ends.push_back({morton(s.bx, s.by), levels_ - 1});
     }
+    index_->promote(std::move(ends));
     propose_levels_with_lines(*index_, tiles_, units_, progress_);
+    if (hierarchy_) lead_lines_through();
+  }
+
+  /// A line goes through those of its vertices that a level has.
+  void lead_lines_through() {
+    std::vector<LineHierarchy::Shortcut> passed_by;
+    const std::vector<LineHierarchy::VertexLevel> on_lines = hierarchy_->levels();
+    auto vertex = on_lines.begin();
+    for (const CurveRange& leaf : index_->ranges()) {
+      for (const RawPoint& p : index_->read(leaf)) {
+        while (vertex != on_lines.end() && vertex->code < p.code) ++vertex;
+        if (vertex == on_lines.end() || vertex->code != p.code || p.level == kDropped) continue;
+        if (p.level > vertex->level) passed_by.push_back({p.level, position_of(p.code), position_of(p.code)});
+      }
+    }
+    std::sort(passed_by.begin(), passed_by.end());
+    hierarchy_->restore(passed_by);
+    set_lines();
   }
 
   /// 6.
   LeafBounds certify_levels() {
-    const auto restore = [&](const std::vector<FailedPlace>& failed) {
-      bool any = false;
-      for (const FailedPlace& place : failed) any |= hierarchy_ && hierarchy_->restore(place.box, place.level);
-      if (!any) return false;
-      set_lines();
-      return true;
+    const auto restore = [&](const std::vector<LineHierarchy::Shortcut>& shortcuts) {
+      std::vector<LineHierarchy::Restored> restored = hierarchy_->restore(shortcuts);
+      if (!restored.empty()) set_lines();
+      return restored;
     };
     return certify(*index_, whole_units_, restore, progress_);
   }

@@ -225,14 +225,18 @@ std::uint64_t WorkingIndex::drop(std::vector<std::uint64_t> codes) {
   return codes.size();
 }
 
-void WorkingIndex::promote(std::uint64_t code, int level) {
-  const std::uint32_t leaf = leaf_of(code);
-  std::vector<RawPoint> points = read(ranges_[leaf]);
-  const auto at = std::lower_bound(points.begin(), points.end(), code,
-                                   [](const RawPoint& p, std::uint64_t c) { return p.code < c; });
-  if (at == points.end() || at->code != code || at->level == kDropped || at->level >= level) return;
-  at->level = static_cast<std::uint16_t>(level);
-  write(ranges_[leaf], points);
+void WorkingIndex::promote(std::vector<LevelRaise> raises) {
+  std::sort(raises.begin(), raises.end(), [](const LevelRaise& a, const LevelRaise& b) { return a.code < b.code; });
+  for (auto at = raises.begin(); at != raises.end();) {
+    const CurveRange& leaf = ranges_[leaf_of(at->code)];
+    std::vector<RawPoint> points = read(leaf);
+    for (auto p = points.begin(); at != raises.end() && at->code < leaf.cell.end(); ++at) {
+      while (p != points.end() && p->code < at->code) ++p;
+      if (p == points.end() || p->code != at->code || p->level == kDropped) continue;
+      p->level = std::max(p->level, static_cast<std::uint16_t>(at->level));
+    }
+    write(leaf, points);
+  }
 }
 
 void WorkingIndex::leaves_along(Point2 p, Point2 q, std::vector<std::uint32_t>& out) const {

@@ -23,6 +23,12 @@ struct CurveRange {
   std::uint32_t count = 0;
 };
 
+/// A point, by its Morton code, that should have this level or a coarser one.
+struct LevelRaise {
+  std::uint64_t code;
+  int level;
+};
+
 /// Reading is safe from any thread. Levels may be changed, through write(), for disjoint ranges at the same time, but
 /// not while others read those ranges, or levels other than 0 of any.
 class WorkingIndex final : public PointIndex {
@@ -52,8 +58,8 @@ class WorkingIndex final : public PointIndex {
   void write(const CurveRange& range, std::span<const RawPoint> points);
   /// Leaves these points out of the surface, in any order, also twice; returns how many they are. Not thread-safe.
   std::uint64_t drop(std::vector<std::uint64_t> codes);
-  /// Raises one point's level. Not thread-safe.
-  void promote(std::uint64_t code, int level);
+  /// Raises these points' levels, in any order, also twice; there may be no such point. Not thread-safe.
+  void promote(std::vector<LevelRaise> raises);
 
   /// The coverage outline, once known.
   void set_segments(std::vector<Segment> segments);

@@ -1,6 +1,7 @@
-// Whether all that could disturb a triangle has been read: its circumdisc lies in a box of known positions.
+// The circumdisc of a triangle, in which all lies that could disturb it.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -21,16 +22,33 @@ inline GridBox with_all_beyond(GridBox box, const GridBox& bounds) {
   return box;
 }
 
-/// Whether the circumdisc of the counterclockwise abc surely lies in `box`.
-inline bool circumdisc_in(Position a, Position b, Position c, const GridBox& box) {
+/// The circumdisc of the counterclockwise abc, rounded outwards; not finite where abc are as good as collinear.
+struct Circumdisc {
+  double x, y, reach;
+};
+
+inline Circumdisc circumdisc(Position a, Position b, Position c) {
   const double bx = static_cast<double>(b.x) - a.x, by = static_cast<double>(b.y) - a.y;
   const double cx = static_cast<double>(c.x) - a.x, cy = static_cast<double>(c.y) - a.y;
   const double b2 = bx * bx + by * by, c2 = cx * cx + cy * cy, d = 2 * (bx * cy - by * cx);
   const double ux = (cy * b2 - by * c2) / d, uy = (bx * c2 - cx * b2) / d, radius = std::sqrt(ux * ux + uy * uy);
   // The numerators lose at most 2^-50 of |b|^2 |c| + |c|^2 |b|; the area is exact to an ulp.
   const double slack = 1 + 1e-14 * (b2 * std::sqrt(c2) + c2 * std::sqrt(b2)) / std::abs(d) + 1e-14 * radius;
-  const double x = a.x + ux, y = a.y + uy, reach = radius + slack;
+  return {a.x + ux, a.y + uy, radius + slack};
+}
+
+/// Whether the circumdisc of the counterclockwise abc surely lies in `box`.
+inline bool circumdisc_in(Position a, Position b, Position c, const GridBox& box) {
+  const auto [x, y, reach] = circumdisc(a, b, c);
   return x - reach >= box.xmin && x + reach <= box.xmax && y - reach >= box.ymin && y + reach <= box.ymax;
+}
+
+/// Whether it may reach `box`.
+inline bool circumdisc_reaches(Position a, Position b, Position c, const GridBox& box) {
+  const auto [x, y, reach] = circumdisc(a, b, c);
+  const double dx = std::max({box.xmin - x, x - box.xmax, 0.0}), dy = std::max({box.ymin - y, y - box.ymax, 0.0});
+  // What is not finite may.
+  return !(std::hypot(dx, dy) > reach);
 }
 
 }  // namespace itin

@@ -51,8 +51,12 @@ void RegionReader::start(const GridBox& box, const Leaf* leaf, const GridBox& le
       found.end());
   vertices_.clear();
   vertices_.reserve(found.size());
-  for (const auto& [code, vertex] : found) vertices_.push_back(vertex);
-  in_order_ = static_cast<std::uint32_t>(vertices_.size());
+  codes_.clear();
+  codes_.reserve(found.size());
+  for (const auto& [code, vertex] : found) {
+    vertices_.push_back(vertex);
+    codes_.push_back(code);
+  }
   others_.clear();
   bare_.clear();
   segments_.clear();
@@ -99,10 +103,8 @@ RegionReader::Numbered RegionReader::number_of(Position end) {
 
 RegionReader::Numbered RegionReader::number_of(const SelectedVertex& vertex, bool whole) {
   const std::uint64_t code = code_of(vertex);
-  const auto first = vertices_.begin(), last = first + in_order_;
-  const auto at =
-      std::lower_bound(first, last, code, [](const SelectedVertex& v, std::uint64_t c) { return code_of(v) < c; });
-  if (at != last && code_of(*at) == code) return {static_cast<std::uint32_t>(at - first), false};
+  const auto at = std::lower_bound(codes_.begin(), codes_.end(), code);
+  if (at != codes_.end() && *at == code) return {static_cast<std::uint32_t>(at - codes_.begin()), false};
   const auto [other, fresh] = others_.try_emplace(code, static_cast<std::uint32_t>(vertices_.size()));
   const std::uint32_t number = other->second;
   if (fresh) vertices_.push_back(vertex);
@@ -116,7 +118,7 @@ RegionReader::Numbered RegionReader::number_of(const SelectedVertex& vertex, boo
 }
 
 void RegionReader::complete(std::uint32_t vertex, ApexSearch& search) {
-  if (vertex < in_order_ || !bare_.contains(vertex)) return;
+  if (vertex < in_order() || !bare_.contains(vertex)) return;
   const Position p = vertices_[vertex].position();
   const auto found = search.at(p);
   if (!found) {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <set>
 #include <unordered_map>
+#include <unordered_set>
 #include <utility>
 #include <vector>
 
@@ -46,20 +47,26 @@ class RegionReader {
 
   const std::vector<SelectedVertex>& vertices() const { return vertices_; }
   /// The number of vertices in Morton order; those after them came one by one.
-  std::uint32_t in_order() const { return in_order_; }
+  std::uint32_t in_order() const { return static_cast<std::uint32_t>(codes_.size()); }
   const RetrievalStatistics& statistics() const { return statistics_; }
 
  private:
+  struct HashOfEnds {
+    std::size_t operator()(const Segment& s) const {
+      return morton(s.ax, s.ay) * 0x9e3779b97f4a7c15 ^ morton(s.bx, s.by) * 0xc2b2ae3d27d4eb4f;
+    }
+  };
+
   void read_block(const Leaf& leaf, const GridBox& box, std::vector<Coded>& found);
   Numbered number_of(const SelectedVertex& vertex, bool whole);
 
   const PointIndex& index_;
   const Selection& selection_;
   std::vector<SelectedVertex> vertices_;
-  std::uint32_t in_order_ = 0;
+  std::vector<std::uint64_t> codes_;                         ///< Morton codes of those in order
   std::unordered_map<std::uint64_t, std::uint32_t> others_;  ///< by Morton code
   std::set<std::uint32_t> bare_;                             ///< of these, those known by position only
-  std::set<Segment> segments_;
+  std::unordered_set<Segment, HashOfEnds> segments_;         ///< that have been read
   RetrievalStatistics statistics_;
 };
 

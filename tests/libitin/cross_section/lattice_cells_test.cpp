@@ -82,8 +82,7 @@ void add_line(WorkingIndex& index, std::vector<test::LevelPoint>& points, std::m
     const auto near = [&](const Segment& e) { return about.meets(extent_of(e)); };
     if (std::any_of(segments.begin(), segments.end(), near)) continue;
     segments.push_back({a.x, a.y, a.x + 2 * s, a.y + s, 1});
-    index.promote(morton(a.x, a.y), 2);
-    index.promote(morton(a.x + 2 * s, a.y + s), 2);
+    index.promote({{morton(a.x, a.y), 2}, {morton(a.x + 2 * s, a.y + s), 2}});
   }
   index.set_segments(segments);
 }

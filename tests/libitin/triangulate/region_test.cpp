@@ -214,7 +214,7 @@ void expect_windows_equal_the_whole_across_voids(Pattern pattern, unsigned seed)
     for (const Segment& s : outline) {
       for (const std::uint64_t end : {morton(s.ax, s.ay), morton(s.bx, s.by)}) {
         ends.insert(end);
-        index->promote(end, kLevels - 1);
+        index->promote({{end, kLevels - 1}});
       }
     }
     ASSERT_EQ(corners, ends);

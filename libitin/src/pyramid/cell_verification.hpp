@@ -1,0 +1,44 @@
+// Verification of a pyramid's levels in one cell, against law 2, and their mending there.
+#pragma once
+
+#include <cstdint>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "features/line_hierarchy.hpp"
+#include "pyramid/leaf_bounds.hpp"
+#include "pyramid/working_index.hpp"
+#include "triangulate/selection.hpp"
+
+namespace itin {
+
+using RaisedLevels = std::unordered_map<std::uint64_t, int>;  ///< by Morton code
+
+/// Selects level k and coarser.
+Selection levels_from(int k, const std::vector<std::int32_t>& tolerances);
+
+/// A task of verification: those leaves of the cell that lie in the box, for these levels.
+struct Task {
+  CurveRange cell;
+  GridBox box;
+  unsigned levels;
+
+  bool covers(const Cell& leaf) const { return cell.cell.contains(leaf) && box.contains(square_of(leaf)); }
+};
+
+struct CellOutcome {
+  RaisedLevels raised;
+  /// Points of other cells, with levels, that would mend what still fails here. Their cells see the same failure.
+  std::vector<std::pair<std::uint64_t, int>> left_to_others;
+  /// Where no point would.
+  std::vector<LineHierarchy::Shortcut> failing;
+};
+
+/// Replaces the bounds of the task's leaves at its levels. If `mend`, points of the cell are raised until the levels
+/// hold in the box, as far as they can. Shortcuts that are too far off, along themselves, are failing; if `mend`, so
+/// are those about other edges that no point would break up.
+CellOutcome verify_cell(const WorkingIndex& index, const std::vector<std::int32_t>& tolerances, const Task& task,
+                        bool mend, LeafBounds& bounds);
+
+}  // namespace itin
