@@ -1,13 +1,30 @@
-// GDAL brings some 130 libraries, whose symbols take the dynamic linker 40 ms: several times what a profile takes. A
-// program with this source in it starts without them. Each function of GDAL that libitin calls is defined here as a
-// jump, which leads to a loader at first, and from then on to GDAL's own function. For x86-64 and ELF alone.
+// Some libraries are loaded when first called, for most runs need none or not all of them. GDAL brings some 130 more,
+// whose symbols take the dynamic linker 40 ms: several times what a profile takes. Embree casts the rays of few
+// commands, Cairo draws charts; each takes 1 MB and more. A program with this source in it starts without them. Each
+// function of theirs that it calls is defined here as a jump, which leads to a loader at first, and from then on to the
+// library's own function. For x86-64 and ELF alone.
+#include <array>
 #include <atomic>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <dlfcn.h>
 
+// By the build (late_calls.sh): a line LATE_LIBRARY(name) for each library, in order, and a line LATE_CALL(library,
+// name) for each function.
+#define LATE_CALL(library, name)
+#define LATE_LIBRARY(name) name,
+namespace {
+constexpr std::array kLibraries{
+#include "late.calls"
+};
+}  // namespace
+#undef LATE_CALL
+#undef LATE_LIBRARY
+
 // clang-format off
-#define LATE_CALL(name)                   \
+#define LATE_LIBRARY(name)
+#define LATE_CALL(library, name)          \
   asm(".text\n"                           \
       ".globl " #name "\n"                \
       ".type " #name ", @function\n"      \
@@ -22,10 +39,10 @@
       ".balign 8\n"                       \
       "1: .quad 2b\n"                     \
       "  .quad 3b\n"                      \
+      "  .quad " #library "\n"            \
       ".text\n");
 // clang-format on
-// By the build (late_calls.sh): kGdal, the library's name, and a line LATE_CALL(name) for each function.
-#include "late_gdal.calls"
+#include "late.calls"
 
 namespace {
 
@@ -33,26 +50,31 @@ namespace {
 struct LateCall {
   void* target;
   const char* function;
+  std::uint64_t library;
 };
 
-[[noreturn]] void end_without_gdal() {
-  std::fprintf(stderr, "itin: GDAL cannot be loaded: %s\n", dlerror());
+[[noreturn]] void end_without(const char* library) {
+  std::fprintf(stderr, "itin: %s cannot be loaded: %s\n", library, dlerror());
   std::_Exit(EXIT_FAILURE);
 }
 
-void* load_gdal() {
-  void* const gdal = dlopen(kGdal, RTLD_LAZY | RTLD_GLOBAL);
-  if (gdal == nullptr) end_without_gdal();
-  return gdal;
+/// Threads that come here at once are given the same library.
+void* loaded(std::uint64_t library) {
+  static std::array<std::atomic<void*>, kLibraries.size()> all{};
+  void* handle = all[library].load(std::memory_order_acquire);
+  if (handle != nullptr) return handle;
+  handle = dlopen(kLibraries[library], RTLD_LAZY | RTLD_GLOBAL);
+  if (handle == nullptr) end_without(kLibraries[library]);
+  all[library].store(handle, std::memory_order_release);
+  return handle;
 }
 
 }  // namespace
 
-/// From then on the jump leads to GDAL's function. Threads that come here at once store the same address.
+/// From then on the jump leads to the library's function. Threads that come here at once store the same address.
 extern "C" void itin_resolve_late_call(LateCall* call) {
-  static void* const gdal = load_gdal();
-  void* const target = dlsym(gdal, call->function);
-  if (target == nullptr) end_without_gdal();
+  void* const target = dlsym(loaded(call->library), call->function);
+  if (target == nullptr) end_without(kLibraries[call->library]);
   std::atomic_ref(call->target).store(target, std::memory_order_release);
 }
 
