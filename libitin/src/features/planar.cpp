@@ -37,7 +37,14 @@ class SortedPositions {
   /// Calls visit(position) for every position whose pixel the segment may meet.
   template <class Visit>
   void along(Position a, Position b, const Visit& visit) const {
-    descend({a.x, a.y, b.x, b.y}, Cell{}, codes_.begin(), codes_.end(), visit);
+    // Enter the tree at the smallest cell around what is near.
+    const auto inside = [](std::int32_t v) { return std::clamp(v, -kGridHalfSide, kGridHalfSide - 1); };
+    const std::uint64_t low = morton(inside(std::min(a.x, b.x) - 1), inside(std::min(a.y, b.y) - 1));
+    const std::uint64_t high = morton(inside(std::max(a.x, b.x) + 1), inside(std::max(a.y, b.y) + 1));
+    Cell cell{low, 0};
+    while (!cell.contains(high)) cell = cell.parent();
+    const At first = std::lower_bound(codes_.begin(), codes_.end(), cell.code);
+    descend({a.x, a.y, b.x, b.y}, cell, first, std::lower_bound(first, codes_.end(), cell.end()), visit);
   }
 
  private:
