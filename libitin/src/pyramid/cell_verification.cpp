@@ -89,7 +89,7 @@ class CellVerification {
                              lattice_ ? lattice_->posts().bounds() : box_of(fine_.vertices, &SelectedVertex::point));
       // What fails is mended by triangles.
       if (lattice_ && lattice_->compare(coarse) && (!mend || lattice_->whole().size() <= tolerance)) {
-        forget_left(k);
+        forget(k);
         return record(k, *lattice_, bounds);
       }
       make_mesh();
@@ -116,7 +116,7 @@ class CellVerification {
   /// more than the tolerance off. True when there was any. A line's vertex is put back with its line.
   bool raise(int k, bool mend, const RegionMesh& coarse, const Difference& d) {
     bool any = false;
-    forget_left(k);
+    forget(k);
     const auto raise_own = [&](std::uint32_t v) {
       const Position p = fine_.vertices[v].position();
       if (is_vertex_of_line(p)) {
@@ -133,8 +133,10 @@ class CellVerification {
     return any;
   }
 
-  void forget_left(int k) {
+  /// What failed before points were raised.
+  void forget(int k) {
     std::erase_if(left_to_others_, [&](const auto& p) { return p.second == k; });
+    std::erase_if(failing_, [&](const LineHierarchy::Shortcut& s) { return s.level == k; });
   }
 
   static std::vector<std::uint32_t> worst_by_face(const Difference& d, std::int32_t tolerance) {

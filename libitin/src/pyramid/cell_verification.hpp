@@ -36,8 +36,8 @@ struct CellOutcome {
 };
 
 /// Replaces the bounds of the task's leaves at its levels. If `mend`, points of the cell are raised until the levels
-/// hold in the box, as far as they can. Shortcuts that are too far off, along themselves, are failing; if `mend`, so
-/// are those about other edges that no point would break up.
+/// hold in the box, as far as they can. Shortcuts that are too far off are failing, along themselves or at a vertex
+/// that they stand for; if `mend`, so are those about other edges that no point would break up.
 CellOutcome verify_cell(const WorkingIndex& index, const std::vector<std::int32_t>& tolerances, const Task& task,
                         bool mend, LeafBounds& bounds);
 

@@ -20,10 +20,11 @@ using RestoreLines = std::function<std::vector<LineHierarchy::Restored>(const st
 /// leaf. `tolerances` in whole grid units, level 0 first. Leaves without ground keep empty bounds.
 ///
 /// In rounds. The first ones measure everything, against real windows of the whole, and put back what shortcuts stand
-/// for that are too far off along themselves. In the later ones each cell that fails raises its own points until its
-/// part holds while its neighbours stay as they were; where no point would help, shortcuts about the place are put
-/// back, too. Cells near which a neighbour raised something, or lines were put back, are verified again. So the outcome
-/// depends on the points alone, not on threads. Throws Error where a level fails and nothing is left to put back.
+/// for that are too far off, along themselves or at a vertex that they stand for. In the later ones each cell that
+/// fails raises its own points until its part holds while its neighbours stay as they were; where no point would help,
+/// shortcuts about the place are put back, too. Cells near which a neighbour raised something, or lines were put back,
+/// are verified again. So the outcome depends on the points alone, not on threads. Throws Error where a level fails and
+/// nothing is left to put back.
 LeafBounds certify(WorkingIndex& index, const std::vector<std::int32_t>& tolerances, const RestoreLines& restore,
                    Progress& progress);
 
