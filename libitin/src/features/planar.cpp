@@ -1,11 +1,15 @@
 #include "features/planar.hpp"
 
 #include <algorithm>
+#include <array>
 #include <set>
 #include <tuple>
 
+#include <itin/box_of.hpp>
+
 #include "base/stoppable.hpp"
 #include "features/hot_pixel.hpp"
+#include "geometry/cell_about.hpp"
 #include "store/edge_quadtree.hpp"
 #include "triangulate/apex.hpp"
 
@@ -38,11 +42,7 @@ class SortedPositions {
   template <class Visit>
   void along(Position a, Position b, const Visit& visit) const {
     // Enter the tree at the smallest cell around what is near.
-    const auto inside = [](std::int32_t v) { return std::clamp(v, -kGridHalfSide, kGridHalfSide - 1); };
-    const std::uint64_t low = morton(inside(std::min(a.x, b.x) - 1), inside(std::min(a.y, b.y) - 1));
-    const std::uint64_t high = morton(inside(std::max(a.x, b.x) + 1), inside(std::max(a.y, b.y) + 1));
-    Cell cell{low, 0};
-    while (!cell.contains(high)) cell = cell.parent();
+    const Cell cell = cell_about(expanded(box_of(std::array{a, b}), 1));
     const At first = std::lower_bound(codes_.begin(), codes_.end(), cell.code);
     descend({a.x, a.y, b.x, b.y}, cell, first, std::lower_bound(first, codes_.end(), cell.end()), visit);
   }

@@ -110,7 +110,9 @@ class CellVerification {
     return true;
   }
 
-  std::uint64_t code(std::uint32_t v) const { return morton(fine_.vertices[v].point.x, fine_.vertices[v].point.y); }
+  GridBox box_of_triangle(std::uint32_t t) const {
+    return box_of(fine_.mesh.triangles[t], [&](std::uint32_t v) { return fine_.vertices[v].position(); });
+  }
 
   /// Raises, if it is the cell's own, the worst point of each coarse face and what breaks up each coarse edge that is
   /// more than the tolerance off. True when there was any. A line's vertex is put back with its line.
@@ -119,12 +121,13 @@ class CellVerification {
     forget(k);
     const auto raise_own = [&](std::uint32_t v) {
       const Position p = fine_.vertices[v].position();
+      const std::uint64_t code = code_of(p);
       if (is_vertex_of_line(p)) {
         failing_.push_back({k, p, p});
-      } else if (mend && !task_.cell.cell.contains(code(v))) {
-        left_to_others_.emplace_back(code(v), k);
+      } else if (mend && !task_.cell.cell.contains(code)) {
+        left_to_others_.emplace_back(code, k);
       } else if (mend) {
-        raised_[code(v)] = k;
+        raised_[code] = k;
         any = true;
       }
     };
@@ -182,9 +185,7 @@ class CellVerification {
     const FineEdges::Edge& edge = edges_->edges()[c.fine_edge];
     GridBox place;
     for (const std::uint32_t t : {edge.triangle, edge.other}) {
-      if (t == kNoTriangle) continue;
-      for (const std::uint32_t v : fine_.mesh.triangles[t])
-        place.extend(fine_.vertices[v].point.x, fine_.vertices[v].point.y);
+      if (t != kNoTriangle) place.extend(box_of_triangle(t));
     }
     while (true) {
       const std::vector<LineHierarchy::Shortcut> near = shortcuts_in(k, place);
@@ -281,11 +282,8 @@ class CellVerification {
   void find_leaves() {
     std::vector<std::uint32_t> leaves;
     for (std::uint32_t t = 0; t < fine_.mesh.triangles.size(); ++t) {
-      GridBox box;
-      for (const std::uint32_t v : fine_.mesh.triangles[t])
-        box.extend(fine_.vertices[v].point.x, fine_.vertices[v].point.y);
       leaves.clear();
-      index_.leaves_at(box, leaves);
+      index_.leaves_at(box_of_triangle(t), leaves);
       for (const std::uint32_t leaf : leaves) {
         if (task_.covers(index_.ranges()[leaf].cell)) triangles_of_leaves_.emplace_back(t, leaf);
       }

@@ -278,18 +278,19 @@ class PyramidBuild {
       }
     }
     std::sort(passed_by.begin(), passed_by.end());
-    hierarchy_->restore(passed_by);
-    set_lines();
+    restore(passed_by);
+  }
+
+  std::vector<LineHierarchy::Restored> restore(const std::vector<LineHierarchy::Shortcut>& shortcuts) {
+    std::vector<LineHierarchy::Restored> restored = hierarchy_->restore(shortcuts);
+    if (!restored.empty()) set_lines();
+    return restored;
   }
 
   /// 6.
   LeafBounds certify_levels() {
-    const auto restore = [&](const std::vector<LineHierarchy::Shortcut>& shortcuts) {
-      std::vector<LineHierarchy::Restored> restored = hierarchy_->restore(shortcuts);
-      if (!restored.empty()) set_lines();
-      return restored;
-    };
-    return certify(*index_, whole_units_, restore, progress_);
+    return certify(
+        *index_, whole_units_, [&](const auto& shortcuts) { return restore(shortcuts); }, progress_);
   }
 
   /// 7. Points and bounds, level by level.

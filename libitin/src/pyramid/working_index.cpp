@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "geometry/cell_about.hpp"
 #include "geometry/morton_range.hpp"
 #include "store/leaf_cutter.hpp"
 
@@ -65,12 +66,8 @@ void WorkingIndex::visit(Cell cell, std::uint32_t first, std::uint32_t last, con
 
 void WorkingIndex::leaves_at(const GridBox& box, std::vector<std::uint32_t>& out) const {
   if (box.empty()) return;
-  // Enter the tree at the smallest cell around the box.
-  const auto inside = [](std::int32_t v) { return std::clamp(v, -kGridHalfSide, kGridHalfSide - 1); };
-  const std::uint64_t low = morton(inside(box.xmin - 1), inside(box.ymin - 1));
-  const std::uint64_t high = morton(inside(box.xmax), inside(box.ymax));
-  Cell cell{low, 0};
-  while (!cell.contains(high)) cell = cell.parent();
+  // Enter the tree at the smallest cell whose square may hold the box.
+  const Cell cell = cell_about({box.xmin - 1, box.ymin - 1, box.xmax, box.ymax});
   const std::uint32_t first = leaf_of(cell.code);
   if (ranges_[first].cell.contains(cell)) return visit(ranges_[first].cell, first, first + 1, box, out);
   visit(cell, first, leaf_of(cell.end() - 1) + 1, box, out);

@@ -28,10 +28,4 @@ bool shares_area(const Corners& triangle, const GridBox& box) {
   return !keeps_right(a, b, box) && !keeps_right(b, c, box) && !keeps_right(c, a, box);
 }
 
-Cell cell_about(const GridBox& box) {
-  Cell cell{morton(box.xmin, box.ymin), 0};
-  while (!cell.contains(morton(box.xmax, box.ymax))) cell = cell.parent();
-  return cell;
-}
-
 }  // namespace itin

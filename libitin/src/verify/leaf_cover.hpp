@@ -8,6 +8,7 @@
 
 #include <itin/box_of.hpp>
 
+#include "geometry/cell_about.hpp"
 #include "store/point_index.hpp"
 #include "triangulate/region.hpp"
 
@@ -45,9 +46,6 @@ class LeafCover {
 
   std::vector<Leaf> leaves_;
 };
-
-/// The least cell with all positions of a box.
-Cell cell_about(const GridBox& box);
 
 template <class OnLeaf, class OnGap>
 void LeafCover::visit(const Corners& triangle, const OnLeaf& on_leaf, const OnGap& on_gap) const {

@@ -1,0 +1,19 @@
+// Where to enter a quadtree for what lies in a box.
+#pragma once
+
+#include <algorithm>
+
+#include "geometry/cell.hpp"
+
+namespace itin {
+
+/// The least cell with all positions of a box, not empty, that lie in the root.
+inline Cell cell_about(const GridBox& box) {
+  const auto inside = [](std::int32_t v) { return std::clamp(v, -kGridHalfSide, kGridHalfSide - 1); };
+  const std::uint64_t last = morton(inside(box.xmax), inside(box.ymax));
+  Cell cell{morton(inside(box.xmin), inside(box.ymin)), 0};
+  while (!cell.contains(last)) cell = cell.parent();
+  return cell;
+}
+
+}  // namespace itin
