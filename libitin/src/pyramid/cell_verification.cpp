@@ -87,15 +87,13 @@ class CellVerification {
       const RegionMesh coarse =
           triangulate_region(raised, levels_from(k, tolerances_),
                              lattice_ ? lattice_->posts().bounds() : box_of(fine_.vertices, &SelectedVertex::point));
-      // What fails is mended by triangles.
-      if (lattice_ && lattice_->compare(coarse) && (!mend || lattice_->whole().size() <= tolerance)) {
-        forget(k);
+      if (lattice_ && lattice_->compare(coarse, tolerance)) {
+        if (raise(k, mend, coarse, lattice_->failures())) continue;
         return record(k, *lattice_, bounds);
       }
       make_mesh();
       const Difference d = difference(fine_, *edges_, coarse, tolerance);
-      if (raise(k, mend, coarse, d)) continue;
-      note_shortcuts(k, coarse, d, mend);
+      if (raise(k, mend, coarse, d.failures)) continue;
       return record(k, d, bounds);
     }
   }
@@ -114,14 +112,13 @@ class CellVerification {
     return box_of(fine_.mesh.triangles[t], [&](std::uint32_t v) { return fine_.vertices[v].position(); });
   }
 
-  /// Raises, if it is the cell's own, the worst point of each coarse face and what breaks up each coarse edge that is
-  /// more than the tolerance off. True when there was any. A line's vertex is put back with its line.
-  bool raise(int k, bool mend, const RegionMesh& coarse, const Difference& d) {
+  /// If `mend`, raises the worst point of each coarse face and what breaks up each coarse edge that is too far off, as
+  /// far as they are the cell's own. True when there was any. A line's vertex is put back with its line.
+  bool raise(int k, bool mend, const RegionMesh& coarse, const Failures& failures) {
     bool any = false;
     forget(k);
-    const auto raise_own = [&](std::uint32_t v) {
-      const Position p = fine_.vertices[v].position();
-      const std::uint64_t code = code_of(p);
+    const auto raise_own = [&](std::uint64_t code) {
+      const Position p = position_of(code);
       if (is_vertex_of_line(p)) {
         failing_.push_back({k, p, p});
       } else if (mend && !task_.cell.cell.contains(code)) {
@@ -131,9 +128,33 @@ class CellVerification {
         any = true;
       }
     };
-    for (const std::uint32_t v : worst_by_face(d, tolerances_[static_cast<std::size_t>(k)])) raise_own(v);
-    for (const std::uint32_t v : remedies(k, coarse, d)) raise_own(v);
+    for (const std::uint64_t code : failures.worst_of_faces) raise_own(code);
+    failures.for_each_edge([&](std::span<const FailingCrossing> crossings) {
+      // No point breaks up a line.
+      if (shortcut_along(k, coarse, crossings.front())) return;
+      if (const auto code = first_remedy(coarse, crossings)) raise_own(*code);
+    });
+    if (!any) note_shortcuts(k, mend, coarse, failures);
     return any;
+  }
+
+  /// The point that breaks up a coarse edge at the place where it is most off, among those where any point does.
+  static std::optional<std::uint64_t> first_remedy(const RegionMesh& coarse,
+                                                   std::span<const FailingCrossing> crossings) {
+    for (const FailingCrossing& c : crossings) {
+      // There is one that is not in the coarse surface yet, or both full triangles would be coarse ones as well, unless
+      // lines differ.
+      const auto v =
+          std::find_if(c.vertices.begin(), c.vertices.end(), [&](std::uint64_t code) { return !has(coarse, code); });
+      if (v != c.vertices.end()) return *v;
+    }
+    return std::nullopt;
+  }
+
+  static bool has(const RegionMesh& coarse, std::uint64_t code) {
+    const auto before = [](const SelectedVertex& v, std::uint64_t c) { return code_of(v) < c; };
+    const auto at = std::lower_bound(coarse.vertices.begin(), coarse.vertices.end(), code, before);
+    return at != coarse.vertices.end() && code_of(*at) == code;
   }
 
   /// What failed before points were raised.
@@ -142,51 +163,19 @@ class CellVerification {
     std::erase_if(failing_, [&](const LineHierarchy::Shortcut& s) { return s.level == k; });
   }
 
-  static std::vector<std::uint32_t> worst_by_face(const Difference& d, std::int32_t tolerance) {
-    std::unordered_map<std::uint32_t, std::uint32_t> worst;
-    std::vector<std::uint32_t> faces;
-    for (std::uint32_t v = 0; v < d.at_vertex.size(); ++v) {
-      if (d.at_vertex[v].size() <= tolerance) continue;
-      const auto [at, fresh] = worst.try_emplace(d.face[v], v);
-      if (fresh) faces.push_back(d.face[v]);
-      if (d.at_vertex[v].size() > d.at_vertex[at->second].size()) at->second = v;
-    }
-    std::vector<std::uint32_t> result;
-    for (const std::uint32_t face : faces) result.push_back(worst[face]);
-    return result;
-  }
-
-  /// The point that breaks up each coarse edge at the place where it is most off, among those where any point does. No
-  /// point breaks up a line.
-  std::vector<std::uint32_t> remedies(int k, const RegionMesh& coarse, const Difference& d) const {
-    std::vector<std::uint32_t> result;
-    for_each_too_large(d, [&](std::span<const Difference::Crossing> crossings) {
-      if (shortcut_along(k, coarse, crossings.front())) return;
-      for (const Difference::Crossing& c : crossings) {
-        if (const auto v = remedy(c, d)) return result.push_back(*v);
-      }
-    });
-    return result;
-  }
-
-  void note_shortcuts(int k, const RegionMesh& coarse, const Difference& d, bool mend) {
-    for_each_too_large(d, [&](std::span<const Difference::Crossing> crossings) {
+  void note_shortcuts(int k, bool mend, const RegionMesh& coarse, const Failures& failures) {
+    failures.for_each_edge([&](std::span<const FailingCrossing> crossings) {
       if (const auto shortcut = shortcut_along(k, coarse, crossings.front())) {
         failing_.push_back(*shortcut);
-      } else if (mend && std::none_of(crossings.begin(), crossings.end(),
-                                      [&](const Difference::Crossing& c) { return remedy(c, d).has_value(); })) {
+      } else if (mend && !first_remedy(coarse, crossings)) {
         note_shortcuts_about(k, crossings.front());
       }
     });
   }
 
   /// A vertex that a line hid is seen past its shortcut, perhaps from afar.
-  void note_shortcuts_about(int k, const Difference::Crossing& c) {
-    const FineEdges::Edge& edge = edges_->edges()[c.fine_edge];
-    GridBox place;
-    for (const std::uint32_t t : {edge.triangle, edge.other}) {
-      if (t != kNoTriangle) place.extend(box_of_triangle(t));
-    }
+  void note_shortcuts_about(int k, const FailingCrossing& c) {
+    GridBox place = box_of(c.vertices, [](std::uint64_t code) { return position_of(code); });
     while (true) {
       const std::vector<LineHierarchy::Shortcut> near = shortcuts_in(k, place);
       failing_.insert(failing_.end(), near.begin(), near.end());
@@ -196,7 +185,7 @@ class CellVerification {
   }
 
   std::optional<LineHierarchy::Shortcut> shortcut_along(int k, const RegionMesh& coarse,
-                                                        const Difference::Crossing& c) const {
+                                                        const FailingCrossing& c) const {
     const Position p = coarse.vertices[c.coarse_from].position(), q = coarse.vertices[c.coarse_to].position();
     for (const LineHierarchy::Shortcut& s : shortcuts_in(k, box_of(std::array{p, q})))
       if (on_segment(s.a, s.b, p) && on_segment(s.a, s.b, q)) return s;
@@ -222,41 +211,6 @@ class CellVerification {
         result.push_back({k, std::min(a, b), std::max(a, b)});
     }
     return result;
-  }
-
-  /// Calls visit with the crossings that are too large along each coarse edge, the worst one first. Ties go to the
-  /// first place by its ends' codes: cells that leave points to each other agree on them, or none would ever raise any.
-  template <class Visit>
-  void for_each_too_large(const Difference& d, const Visit& visit) const {
-    std::vector<Difference::Crossing> crossings = d.too_large;
-    const auto coarse_edge = [](const Difference::Crossing& c) { return std::pair(c.coarse_from, c.coarse_to); };
-    const auto key = [&](const Difference::Crossing& c) {
-      const FineEdges::Edge& edge = edges_->edges()[c.fine_edge];
-      return std::tuple(coarse_edge(c), -c.size, std::min(edge.u, edge.v), std::max(edge.u, edge.v));
-    };
-    std::sort(crossings.begin(), crossings.end(), [&](const auto& a, const auto& b) { return key(a) < key(b); });
-    for (auto first = crossings.begin(); first != crossings.end();) {
-      const auto last =
-          std::find_if(first, crossings.end(), [&](const auto& c) { return coarse_edge(c) != coarse_edge(*first); });
-      visit(std::span(first, last));
-      first = last;
-    }
-  }
-
-  /// The fine edge's nearer end, or the other one, or a corner opposite: the first that is not in the coarse surface
-  /// yet. There is one, or both fine triangles would be coarse ones as well, unless lines differ.
-  std::optional<std::uint32_t> remedy(const Difference::Crossing& c, const Difference& d) const {
-    const FineEdges::Edge& edge = edges_->edges()[c.fine_edge];
-    for (const std::uint32_t v : {c.nearer_u ? edge.u : edge.v, c.nearer_u ? edge.v : edge.u}) {
-      if (!d.is_coarse_vertex[v]) return v;
-    }
-    for (const std::uint32_t t : {edge.triangle, edge.other}) {
-      if (t == kNoTriangle) continue;
-      for (const std::uint32_t v : fine_.mesh.triangles[t]) {
-        if (!d.is_coarse_vertex[v]) return v;
-      }
-    }
-    return std::nullopt;
   }
 
   template <class Visit>

@@ -22,20 +22,21 @@ constexpr double kExact = 9e15;
 
 LatticeDifference::LatticeDifference(WholeLattice posts) : posts_(std::move(posts)) {}
 
-bool LatticeDifference::compare(const RegionMesh& coarse) {
+bool LatticeDifference::compare(const RegionMesh& coarse, std::int32_t allowed) {
   if (!place(coarse) || !fits(coarse)) return false;
+  allowed_ = allowed;
+  failures_.clear();
   const std::size_t count = posts_.post(0, posts_.rows());
   at_post_.assign(count, kUnknown);
   lower_left_.assign(count, {});
   upper_right_.assign(count, {});
   const PlaneMesh& mesh = coarse.mesh;
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-    const auto& [a, b, c] = mesh.triangles[t];
-    compare_posts(corners_[a], corners_[b], corners_[c]);
+    compare_posts(mesh.triangles[t]);
     for (unsigned i = 0; i < 3; ++i) {
       const std::uint32_t n = mesh.neighbours[t][i];
       if (n == kNoTriangle || t < n)
-        cross_lines(corners_[mesh.triangles[t][(i + 1) % 3]], corners_[mesh.triangles[t][(i + 2) % 3]]);
+        cross_lines(mesh.triangles[t][(i + 1) % 3], mesh.triangles[t][(i + 2) % 3]);
     }
   }
   if (std::find(at_post_.begin(), at_post_.end(), kUnknown) != at_post_.end()) return false;
@@ -74,11 +75,13 @@ bool LatticeDifference::fits(const RegionMesh& coarse) const {
 
 /// Difference times doubled area is a whole number, and so their quotient is exact where it is whole, and lies between
 /// the right whole numbers elsewhere.
-void LatticeDifference::compare_posts(const Corner& a, const Corner& b, const Corner& c) {
+void LatticeDifference::compare_posts(const std::array<std::uint32_t, 3>& face) {
+  const Corner &a = corners_[face[0]], &b = corners_[face[1]], &c = corners_[face[2]];
   const std::int64_t bx = b.column - a.column, by = b.row - a.row, bz = b.z - a.z, cx = c.column - a.column,
                      cy = c.row - a.row, cz = c.z - a.z;
   const std::int64_t area = bx * cy - by * cx, rise_x = bz * cy - cz * by, rise_y = cz * bx - bz * cx;
   const auto divisor = static_cast<double>(area);
+  WorstVertex worst;
   const std::int64_t south = std::max<std::int64_t>(std::min({a.row, b.row, c.row}), 0),
                      north = std::min<std::int64_t>(std::max({a.row, b.row, c.row}), posts_.rows() - 1);
   for (std::int64_t row = south; row <= north; ++row) {
@@ -95,9 +98,13 @@ void LatticeDifference::compare_posts(const Corner& a, const Corner& b, const Co
     std::int64_t plane = (west - a.column) * rise_x + (row - a.row) * rise_y;
     for (std::int64_t column = west; column <= east; ++column, plane += rise_x) {
       const std::int64_t z = height(column, row);
-      at_post_[post(column, row)] = static_cast<double>((z - a.z) * area - plane) / divisor;
+      const double above = static_cast<double>((z - a.z) * area - plane) / divisor;
+      at_post_[post(column, row)] = above;
+      if (std::abs(above) > allowed_ && !is_left_out({column, row}))
+        worst.add(static_cast<std::int32_t>(std::ceil(std::abs(above))), code_of(posts_.position({column, row})));
     }
   }
+  if (worst.found()) failures_.worst_of_faces.push_back(worst.code());
 }
 
 /// Calls edge_at(line, place) for each of the lattice's lines in [least, greatest] that lies strictly between `from`
@@ -119,10 +126,12 @@ void LatticeDifference::cross_family(std::int64_t from, std::int64_t to, std::in
   }
 }
 
-void LatticeDifference::cross_lines(const Corner& a, const Corner& b) {
+void LatticeDifference::cross_lines(std::uint32_t from, std::uint32_t to) {
+  const Corner &a = corners_[from], &b = corners_[to];
   const std::int64_t columns = posts_.columns(), rows = posts_.rows();
   const auto za = static_cast<double>(a.z), zb = static_cast<double>(b.z);
   const auto between = [](double p, double q, double part) { return p + part * (q - p); };
+  const auto fails = [&](double above) { return std::abs(above) + kRounding > allowed_; };
   // Columns: the side to the left of one square and to the right of another.
   cross_family(a.column, b.column, a.row, b.row, 0, columns - 1, za, zb,
                [&](std::int64_t column, std::int64_t row, double part, double z) {
@@ -130,6 +139,9 @@ void LatticeDifference::cross_lines(const Corner& a, const Corner& b) {
                  const double above = between(height(column, row), height(column, row + 1), part) - z;
                  if (column < columns - 1) lower_left_[post(column, row)].add(above);
                  if (column > 0) upper_right_[post(column - 1, row)].add(above);
+                 if (fails(above))
+                   note_failure(from, to,
+                                {{column, row}, {column, row + 1}, {column + 1, row}, {column - 1, row + 1}}, above);
                });
   cross_family(a.row, b.row, a.column, b.column, 0, rows - 1, za, zb,
                [&](std::int64_t row, std::int64_t column, double part, double z) {
@@ -137,6 +149,9 @@ void LatticeDifference::cross_lines(const Corner& a, const Corner& b) {
                  const double above = between(height(column, row), height(column + 1, row), part) - z;
                  if (row < rows - 1) lower_left_[post(column, row)].add(above);
                  if (row > 0) upper_right_[post(column, row - 1)].add(above);
+                 if (fails(above))
+                   note_failure(from, to,
+                                {{column, row}, {column + 1, row}, {column, row + 1}, {column + 1, row - 1}}, above);
                });
   // Diagonals, by the sum of column and row.
   cross_family(a.column + a.row, b.column + b.row, a.column, b.column, 1, columns + rows - 3, za, zb,
@@ -146,7 +161,36 @@ void LatticeDifference::cross_lines(const Corner& a, const Corner& b) {
                  const double above = between(height(column, row + 1), height(column + 1, row), part) - z;
                  lower_left_[post(column, row)].add(above);
                  upper_right_[post(column, row)].add(above);
+                 if (fails(above))
+                   note_failure(from, to,
+                                {{column, row + 1}, {column + 1, row}, {column, row}, {column + 1, row + 1}}, above);
                });
+}
+
+void LatticeDifference::note_failure(std::uint32_t from, std::uint32_t to, const Side& side, double above) {
+  if (is_left_out(side.u) || is_left_out(side.v)) return;  // so is their only triangle
+  std::tie(from, to) = std::minmax({from, to});
+  const Corner &p = corners_[from], &q = corners_[to];
+  const auto code = [&](Place post) { return code_of(posts_.position(post)); };
+  // Where both ends are as near it is the one with the lesser code, as in meshes.
+  const auto distance = [&](Place v) {
+    const std::int64_t area = (q.column - p.column) * (v.row - p.row) - (q.row - p.row) * (v.column - p.column);
+    return std::pair(std::abs(area), code(v));
+  };
+  const auto [nearer, farther] = std::minmax({distance(side.u), distance(side.v)});
+  const bool no_left = is_left_out(side.left), no_right = is_left_out(side.right);
+  const auto [least, greatest] =
+      std::minmax({code(no_left ? side.right : side.left), code(no_right ? side.left : side.right)});
+  failures_.crossings.push_back({from, to, static_cast<std::int32_t>(std::ceil(std::abs(above) + kRounding)),
+                                 {nearer.second, farther.second, least, greatest}});
+}
+
+/// Whether no triangle has this post. A corner of the lattice has one triangle, which may not meet the lattice's box.
+bool LatticeDifference::is_left_out(Place post) const {
+  const std::int64_t columns = posts_.columns(), rows = posts_.rows();
+  return post.column < 0 || post.column >= columns || post.row < 0 || post.row >= rows ||
+         (!posts_.first_triangle_meets() && post.column == 0 && post.row == 0) ||
+         (!posts_.last_triangle_meets() && post.column == columns - 1 && post.row == rows - 1);
 }
 
 void LatticeDifference::leave_out_corners() {

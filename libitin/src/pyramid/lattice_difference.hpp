@@ -2,12 +2,13 @@
 // triangles.
 //
 //   LatticeDifference difference(*WholeLattice::about(index, box));
-//   if (difference.compare(coarse)) difference.over(square)        // T_0 - T_k there
+//   if (difference.compare(coarse, allowed)) difference.over(square)        // T_0 - T_k there
 //
 // The posts within a coarse triangle are gone through row by row, and the lattice's lines that a coarse edge crosses
 // one by one.
 #pragma once
 
+#include <array>
 #include <limits>
 #include <vector>
 
@@ -22,20 +23,25 @@ class LatticeDifference {
 
   const WholeLattice& posts() const { return posts_; }
 
-  /// Measures the difference to this surface, which must cover the lattice. False where that takes triangles: where
-  /// vertices of the coarse surface are no posts, or numbers become too large.
-  bool compare(const RegionMesh& coarse);
+  /// Measures the difference to this surface, which must cover the lattice; what is greater than `allowed` is a failure.
+  /// False where that takes triangles: where vertices of the coarse surface are no posts, or numbers become too large.
+  bool compare(const RegionMesh& coarse, std::int32_t allowed);
 
   /// What difference() and over_triangles() say of those of the triangles about the lattice's box whose own boxes meet
   /// the square, but for rounding in the last places of crossings. After compare().
   DifferenceRange over(const GridBox& square) const;
-  /// Over all these triangles.
-  DifferenceRange whole() const { return over(posts_.bounds()); }
+  /// What difference() says, too, but that a post on a coarse edge counts for both faces there.
+  const Failures& failures() const { return failures_; }
 
  private:
+  using Place = WholeLattice::Place;
   /// A vertex of the coarse surface.
   struct Corner {
     std::int64_t column, row, z;
+  };
+  /// A side of the lattice's triangles: its ends, and the other corners of the triangles at it.
+  struct Side {
+    Place u, v, left, right;
   };
   struct Range {
     double lo = std::numeric_limits<double>::infinity(), hi = -std::numeric_limits<double>::infinity();
@@ -47,11 +53,13 @@ class LatticeDifference {
 
   bool place(const RegionMesh& coarse);
   bool fits(const RegionMesh& coarse) const;
-  void compare_posts(const Corner& a, const Corner& b, const Corner& c);
-  void cross_lines(const Corner& a, const Corner& b);
+  void compare_posts(const std::array<std::uint32_t, 3>& face);
+  void cross_lines(std::uint32_t from, std::uint32_t to);
   template <class EdgeAt>
   void cross_family(std::int64_t from, std::int64_t to, std::int64_t start, std::int64_t end, std::int64_t least,
                     std::int64_t greatest, double from_z, double to_z, const EdgeAt& edge_at);
+  void note_failure(std::uint32_t from, std::uint32_t to, const Side& side, double above);
+  bool is_left_out(Place post) const;
   void leave_out_corners();
 
   std::int32_t height(std::int64_t column, std::int64_t row) const {
@@ -62,6 +70,8 @@ class LatticeDifference {
   }
 
   WholeLattice posts_;
+  std::int32_t allowed_ = 0;
+  Failures failures_;
   std::vector<Corner> corners_;
   std::vector<double> at_post_;  ///< not a number where it does not count
   /// Where coarse edges cross the sides of a square's lower left triangle, and of its upper right one: by the square's

@@ -180,20 +180,21 @@ class DifferenceSweep {
         allowed_(allowed),
         walk_(coarse),
         visited_(fine.vertices.size(), 0) {
-    result_.face.assign(fine.vertices.size(), kNoTriangle);
-    result_.at_vertex.resize(fine.vertices.size());
+    face_.assign(fine.vertices.size(), kNoTriangle);
+    at_vertex_.resize(fine.vertices.size());
+    is_coarse_vertex_.assign(fine.vertices.size(), 0);
     result_.along_edge.resize(edges.edges().size());
-    result_.is_coarse_vertex.assign(fine.vertices.size(), 0);
   }
 
   Difference run() {
     seed_at_coarse_vertices();
-    for (std::uint32_t v = 0; v < result_.face.size(); ++v) {
+    for (std::uint32_t v = 0; v < face_.size(); ++v) {
       // Breadth first from vertex to vertex; what no coarse vertex reaches is located the slow way.
       if (visited_[v]) continue;
-      if (result_.face[v] == kNoTriangle) locate(v);
+      if (face_[v] == kNoTriangle) locate(v);
       spread_from(v);
     }
+    find_worst_of_faces();
     return std::move(result_);
   }
 
@@ -204,18 +205,18 @@ class DifferenceSweep {
       for (const std::uint32_t v : coarse_.mesh.triangles[t]) some_face[v] = t;
     }
     std::uint32_t c = 0;
-    for (std::uint32_t v = 0; v < result_.face.size(); ++v) {
+    for (std::uint32_t v = 0; v < face_.size(); ++v) {
       const std::uint64_t code = code_of(fine_.vertices[v]);
       while (c < coarse_.vertices.size() && code_of(coarse_.vertices[c]) < code) ++c;
       if (c == coarse_.vertices.size() || code_of(coarse_.vertices[c]) != code) continue;
       settle(v, some_face[c]);
-      result_.is_coarse_vertex[v] = 1;
+      is_coarse_vertex_[v] = 1;
     }
   }
 
   void settle(std::uint32_t v, std::uint32_t face) {
-    result_.face[v] = face;
-    result_.at_vertex[v] = above_plane(coarse_, face, fine_.vertices[v].point);
+    face_[v] = face;
+    at_vertex_[v] = above_plane(coarse_, face, fine_.vertices[v].point);
   }
 
   void locate(std::uint32_t v) {
@@ -246,27 +247,54 @@ class DifferenceSweep {
     DifferenceRange& range = result_.along_edge[e];
     if (!range.empty()) return;  // followed from its other end
     const GridPoint &pu = fine_.vertices[u].point, &pv = fine_.vertices[v].point;
-    if (result_.face[v] == result_.face[u]) {  // a triangle is convex: nothing is crossed
-      range.add(result_.at_vertex[u]);
-      range.add(result_.at_vertex[v]);
+    if (face_[v] == face_[u]) {  // a triangle is convex: nothing is crossed
+      range.add(at_vertex_[u]);
+      range.add(at_vertex_[v]);
       return;
     }
     const std::uint32_t end = walk_.walk(
-        Position{pu.x, pu.y}, result_.is_coarse_vertex[u] != 0, result_.face[u], Position{pv.x, pv.y},
+        Position{pu.x, pu.y}, is_coarse_vertex_[u] != 0, face_[u], Position{pv.x, pv.y},
         [&](std::uint32_t p, std::uint32_t q) {
           const GridPoint &pp = coarse_.vertices[p].point, &pq = coarse_.vertices[q].point;
           const DifferenceRange d = above_crossing(pu, pv, pp, pq);
           range.add(d);
-          if (d.size() > allowed_) {
-            // Where both are as near it is the one with the lesser code, in whatever region that is asked.
-            const std::pair at_u(std::abs(doubled_area(pp, pq, pu)), u), at_v(std::abs(doubled_area(pp, pq, pv)), v);
-            result_.too_large.push_back(
-                {std::min(p, q), std::max(p, q), d.size(), e, (edges_.edges()[e].u == u) == (at_u < at_v)});
-          }
+          if (d.size() > allowed_) note(e, std::minmax(p, q), d.size());
         });
-    if (result_.face[v] == kNoTriangle) settle(v, end);
-    range.add(result_.at_vertex[u]);
-    range.add(result_.at_vertex[v]);
+    if (face_[v] == kNoTriangle) settle(v, end);
+    range.add(at_vertex_[u]);
+    range.add(at_vertex_[v]);
+  }
+
+  void note(std::uint32_t e, std::pair<std::uint32_t, std::uint32_t> coarse_edge, std::int32_t size) {
+    const FineEdges::Edge& edge = edges_.edges()[e];
+    const auto& [from, to] = coarse_edge;
+    // Where both ends are as near it is the one with the lesser code, in whatever region that is asked.
+    const auto distance = [&](std::uint32_t v) {
+      const std::int64_t area =
+          doubled_area(coarse_.vertices[from].point, coarse_.vertices[to].point, fine_.vertices[v].point);
+      return std::pair(std::abs(area), v);
+    };
+    const auto code = [&](std::uint32_t v) { return code_of(fine_.vertices[v]); };
+    const auto [nearer, farther] =
+        distance(edge.u) < distance(edge.v) ? std::pair(edge.u, edge.v) : std::pair(edge.v, edge.u);
+    const std::uint64_t corner = code(corner_opposite(edge, edge.triangle)),
+                        other = edge.other == kNoTriangle ? corner : code(corner_opposite(edge, edge.other));
+    result_.failures.crossings.push_back(
+        {from, to, size, {code(nearer), code(farther), std::min(corner, other), std::max(corner, other)}});
+  }
+
+  std::uint32_t corner_opposite(const FineEdges::Edge& edge, std::uint32_t t) const {
+    const auto& corners = fine_.mesh.triangles[t];
+    return *std::find_if(corners.begin(), corners.end(), [&](std::uint32_t v) { return v != edge.u && v != edge.v; });
+  }
+
+  void find_worst_of_faces() {
+    std::vector<WorstVertex> worst(coarse_.mesh.triangles.size());
+    for (std::uint32_t v = 0; v < at_vertex_.size(); ++v) {
+      if (at_vertex_[v].size() > allowed_) worst[face_[v]].add(at_vertex_[v].size(), code_of(fine_.vertices[v]));
+    }
+    for (const WorstVertex& w : worst)
+      if (w.found()) result_.failures.worst_of_faces.push_back(w.code());
   }
 
   const RegionMesh& fine_;
@@ -274,6 +302,9 @@ class DifferenceSweep {
   const RegionMesh& coarse_;
   std::int32_t allowed_;
   CoarseWalk walk_;
+  std::vector<DifferenceRange> at_vertex_;      ///< T0 - Tk at each vertex of the fine mesh
+  std::vector<std::uint32_t> face_;             ///< a coarse triangle that holds each fine vertex
+  std::vector<std::uint8_t> is_coarse_vertex_;  ///< by fine vertex
   std::vector<std::uint8_t> visited_;
   Difference result_;
 };

@@ -10,6 +10,7 @@
 #include <limits>
 #include <vector>
 
+#include "pyramid/failures.hpp"
 #include "triangulate/region.hpp"
 
 namespace itin {
@@ -45,23 +46,12 @@ class FineEdges {
 };
 
 struct Difference {
-  std::vector<DifferenceRange> at_vertex;      ///< T0 - Tk at each vertex of the fine mesh
-  std::vector<std::uint32_t> face;             ///< a coarse triangle that holds each fine vertex
-  std::vector<std::uint8_t> is_coarse_vertex;  ///< per fine vertex
-  std::vector<DifferenceRange> along_edge;     ///< over each fine edge
-
-  /// Where a fine edge crosses a coarse one with a greater difference than allowed.
-  struct Crossing {
-    std::uint32_t coarse_from, coarse_to;  ///< the coarse edge's ends, the lesser first
-    std::int32_t size;
-    std::uint32_t fine_edge;
-    bool nearer_u;  ///< whether the fine edge's end u is the nearer one to the coarse edge
-  };
-  std::vector<Crossing> too_large;
+  std::vector<DifferenceRange> along_edge;  ///< over each fine edge
+  Failures failures;
 };
 
 /// The coarse mesh's vertices must be among the full surface's, and it must cover every vertex of the fine mesh.
-/// Crossings with differences above `allowed` are listed.
+/// A greater difference than `allowed` at a vertex or a crossing is a failure.
 Difference difference(const RegionMesh& fine, const FineEdges& edges, const RegionMesh& coarse, std::int32_t allowed);
 
 /// The difference over each fine triangle.

@@ -129,9 +129,13 @@ void WholeLattice::find_corners(const GridBox& box) {
 }
 
 GridBox WholeLattice::bounds() const {
-  return {static_cast<std::int32_t>(west_), static_cast<std::int32_t>(south_),
-          static_cast<std::int32_t>(west_ + (columns_ - 1) * step_x_),
-          static_cast<std::int32_t>(south_ + (rows_ - 1) * step_y_)};
+  const Position first = position({0, 0}), last = position({columns_ - 1, rows_ - 1});
+  return {first.x, first.y, last.x, last.y};
+}
+
+Position WholeLattice::position(Place place) const {
+  return {static_cast<std::int32_t>(west_ + place.column * step_x_),
+          static_cast<std::int32_t>(south_ + place.row * step_y_)};
 }
 
 std::optional<WholeLattice::Place> WholeLattice::place(Position p) const {

@@ -38,6 +38,7 @@ class WholeLattice {
   struct Place {
     std::int64_t column = 0, row = 0;
   };
+  Position position(Place place) const;
   /// Nothing for a position off the lattice.
   std::optional<Place> place(Position p) const;
   /// The columns, or rows, of squares that meet an interval of eastings, or northings: [first, second), grid units.
