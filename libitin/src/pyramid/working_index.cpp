@@ -11,11 +11,15 @@ namespace itin {
 namespace {
 
 constexpr std::size_t kReadAhead = 1 << 16;
+/// A tenth of all points has a coarse level over smooth ground: those of 20 million points find room.
+constexpr std::uint64_t kCoarseBlockBytes = 32 << 20;
+/// Marks the key of a leaf's points of level 1 and coarser.
+constexpr std::uint64_t kCoarse = std::uint64_t{1} << 32;
 
 }  // namespace
 
 WorkingIndex::WorkingIndex(SortedPoints& points, int level_count, std::uint32_t leaf_capacity)
-    : points_(points), level_count_(level_count) {
+    : points_(points), level_count_(level_count), coarse_blocks_(kCoarseBlockBytes) {
   std::uint64_t first = 0;
   LeafCutter cutter(leaf_capacity, [&](const Cell& cell, std::uint32_t count) {
     ranges_.push_back({cell, first, count});
@@ -119,18 +123,28 @@ void WorkingIndex::leaves(int finest, const GridBox& box, std::vector<Leaf>& out
     if (leaf.points == 0 || !range.cell.box().meets(box)) continue;
     leaf.cell = range.cell;
     leaf.level = level_count_ - 1;
-    leaf.key = i;
+    leaf.key = finest == 0 ? i : i | kCoarse;
     out.push_back(leaf);
   }
 }
 
 std::shared_ptr<const Block> WorkingIndex::block(const Leaf& leaf) const {
-  const std::vector<RawPoint> raw = read(ranges_[leaf.key]);
+  if (leaf.key < kCoarse) return read_block(static_cast<std::uint32_t>(leaf.key), 0);
+  if (auto cached = coarse_blocks_.find(leaf.key)) return std::static_pointer_cast<const Block>(std::move(cached));
+  auto block = read_block(static_cast<std::uint32_t>(leaf.key - kCoarse), 1);
+  coarse_blocks_.insert(leaf.key, block, block->bytes());
+  return block;
+}
+
+/// The leaf's points of level `finest` and coarser.
+std::shared_ptr<const Block> WorkingIndex::read_block(std::uint32_t leaf, int finest) const {
+  const std::vector<RawPoint> raw = read(ranges_[leaf]);
   auto block = std::make_shared<Block>();
-  block->points.reserve(raw.size());
-  block->levels.reserve(raw.size());
+  const std::size_t count = selected(leaf, finest);
+  block->points.reserve(count);
+  block->levels.reserve(count);
   for (const RawPoint& p : raw) {
-    if (p.level == kDropped) continue;
+    if (p.level == kDropped || p.level < finest) continue;
     block->points.push_back({morton_x(p.code), morton_y(p.code), p.z});
     block->sources.add(p.source);
     block->levels.push_back(static_cast<std::uint8_t>(p.level));
@@ -190,6 +204,7 @@ void WorkingIndex::write(const CurveRange& range, std::span<const RawPoint> poin
   for (std::uint32_t leaf = leaf_of(range.cell.code);
        leaf < ranges_.size() && ranges_[leaf].cell.code < range.cell.end(); ++leaf) {
     const CurveRange& r = ranges_[leaf];
+    coarse_blocks_.erase(leaf | kCoarse);
     count_levels(leaf, points.subspan(r.first - range.first, r.count));
   }
 }

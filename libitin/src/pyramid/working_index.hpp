@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "pyramid/sorted_points.hpp"
+#include "store/block_cache.hpp"
 #include "store/point_index.hpp"
 
 namespace itin {
@@ -29,7 +30,8 @@ struct LevelRaise {
   int level;
 };
 
-/// Reading is safe from any thread. Levels may be changed, through write(), for disjoint ranges at the same time, but
+/// A leaf's points of level 1 and coarser are a block of their own, and are kept in memory: coarse surfaces need few
+/// points of each of many leaves. Reading is safe from any thread. Levels may be changed, through write(), for disjoint ranges at the same time, but
 /// not while others read those ranges, or levels other than 0 of any.
 class WorkingIndex final : public PointIndex {
  public:
@@ -66,6 +68,7 @@ class WorkingIndex final : public PointIndex {
   const std::vector<Segment>& all_segments() const { return segments_; }
 
  private:
+  std::shared_ptr<const Block> read_block(std::uint32_t leaf, int finest) const;
   /// Appends the leaves that segment pq meets, and perhaps some beside it or twice.
   void leaves_along(Point2 p, Point2 q, std::vector<std::uint32_t>& out) const;
   std::uint32_t selected(std::uint32_t leaf, int level) const {
@@ -87,6 +90,7 @@ class WorkingIndex final : public PointIndex {
   std::vector<CurveRange> ranges_;
   /// Per range and level: how many of its points have that level or a coarser one.
   std::vector<std::atomic<std::uint32_t>> selected_;
+  mutable BlockCache coarse_blocks_;
   mutable std::vector<std::vector<std::uint32_t>> occupied_;  ///< by level, made when first asked for after a write
   mutable std::atomic<bool> occupied_known_ = false;
   mutable std::mutex occupied_mutex_;

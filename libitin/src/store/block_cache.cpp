@@ -27,6 +27,16 @@ void BlockCache::insert(std::uint64_t key, std::shared_ptr<const void> value, st
   s.bytes += bytes;
 }
 
+void BlockCache::erase(std::uint64_t key) {
+  Shard& s = shard(key);
+  const std::lock_guard lock(s.mutex);
+  const auto found = s.index.find(key);
+  if (found == s.index.end()) return;
+  s.bytes -= found->second->bytes;
+  s.entries.erase(found->second);
+  s.index.erase(found);
+}
+
 std::uint64_t BlockCache::bytes() {
   std::uint64_t sum = 0;
   for (Shard& s : shards_) {

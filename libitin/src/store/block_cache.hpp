@@ -20,6 +20,8 @@ class BlockCache {
   std::shared_ptr<const void> find(std::uint64_t key);
   /// An entry larger than a shard is not kept. Where the key is there already, the first entry stays.
   void insert(std::uint64_t key, std::shared_ptr<const void> value, std::size_t bytes);
+  /// Whether there was such an entry or not.
+  void erase(std::uint64_t key);
   /// Bytes held now, at most the budget.
   std::uint64_t bytes();
 
