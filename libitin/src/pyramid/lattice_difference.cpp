@@ -35,8 +35,7 @@ bool LatticeDifference::compare(const RegionMesh& coarse, std::int32_t allowed) 
     compare_posts(mesh.triangles[t]);
     for (unsigned i = 0; i < 3; ++i) {
       const std::uint32_t n = mesh.neighbours[t][i];
-      if (n == kNoTriangle || t < n)
-        cross_lines(mesh.triangles[t][(i + 1) % 3], mesh.triangles[t][(i + 2) % 3]);
+      if (n == kNoTriangle || t < n) cross_lines(mesh.triangles[t][(i + 1) % 3], mesh.triangles[t][(i + 2) % 3]);
     }
   }
   if (std::find(at_post_.begin(), at_post_.end(), kUnknown) != at_post_.end()) return false;
@@ -133,38 +132,38 @@ void LatticeDifference::cross_lines(std::uint32_t from, std::uint32_t to) {
   const auto between = [](double p, double q, double part) { return p + part * (q - p); };
   const auto fails = [&](double above) { return std::abs(above) + kRounding > allowed_; };
   // Columns: the side to the left of one square and to the right of another.
-  cross_family(a.column, b.column, a.row, b.row, 0, columns - 1, za, zb,
-               [&](std::int64_t column, std::int64_t row, double part, double z) {
-                 if (row < 0 || row >= rows - 1) return;
-                 const double above = between(height(column, row), height(column, row + 1), part) - z;
-                 if (column < columns - 1) lower_left_[post(column, row)].add(above);
-                 if (column > 0) upper_right_[post(column - 1, row)].add(above);
-                 if (fails(above))
-                   note_failure(from, to,
-                                {{column, row}, {column, row + 1}, {column + 1, row}, {column - 1, row + 1}}, above);
-               });
-  cross_family(a.row, b.row, a.column, b.column, 0, rows - 1, za, zb,
-               [&](std::int64_t row, std::int64_t column, double part, double z) {
-                 if (column < 0 || column >= columns - 1) return;
-                 const double above = between(height(column, row), height(column + 1, row), part) - z;
-                 if (row < rows - 1) lower_left_[post(column, row)].add(above);
-                 if (row > 0) upper_right_[post(column, row - 1)].add(above);
-                 if (fails(above))
-                   note_failure(from, to,
-                                {{column, row}, {column + 1, row}, {column, row + 1}, {column + 1, row - 1}}, above);
-               });
+  cross_family(
+      a.column, b.column, a.row, b.row, 0, columns - 1, za, zb,
+      [&](std::int64_t column, std::int64_t row, double part, double z) {
+        if (row < 0 || row >= rows - 1) return;
+        const double above = between(height(column, row), height(column, row + 1), part) - z;
+        if (column < columns - 1) lower_left_[post(column, row)].add(above);
+        if (column > 0) upper_right_[post(column - 1, row)].add(above);
+        if (fails(above))
+          note_failure(from, to, {{column, row}, {column, row + 1}, {column + 1, row}, {column - 1, row + 1}}, above);
+      });
+  cross_family(
+      a.row, b.row, a.column, b.column, 0, rows - 1, za, zb,
+      [&](std::int64_t row, std::int64_t column, double part, double z) {
+        if (column < 0 || column >= columns - 1) return;
+        const double above = between(height(column, row), height(column + 1, row), part) - z;
+        if (row < rows - 1) lower_left_[post(column, row)].add(above);
+        if (row > 0) upper_right_[post(column, row - 1)].add(above);
+        if (fails(above))
+          note_failure(from, to, {{column, row}, {column + 1, row}, {column, row + 1}, {column + 1, row - 1}}, above);
+      });
   // Diagonals, by the sum of column and row.
-  cross_family(a.column + a.row, b.column + b.row, a.column, b.column, 1, columns + rows - 3, za, zb,
-               [&](std::int64_t sum, std::int64_t column, double part, double z) {
-                 const std::int64_t row = sum - column - 1;
-                 if (column < 0 || column >= columns - 1 || row < 0 || row >= rows - 1) return;
-                 const double above = between(height(column, row + 1), height(column + 1, row), part) - z;
-                 lower_left_[post(column, row)].add(above);
-                 upper_right_[post(column, row)].add(above);
-                 if (fails(above))
-                   note_failure(from, to,
-                                {{column, row + 1}, {column + 1, row}, {column, row}, {column + 1, row + 1}}, above);
-               });
+  cross_family(
+      a.column + a.row, b.column + b.row, a.column, b.column, 1, columns + rows - 3, za, zb,
+      [&](std::int64_t sum, std::int64_t column, double part, double z) {
+        const std::int64_t row = sum - column - 1;
+        if (column < 0 || column >= columns - 1 || row < 0 || row >= rows - 1) return;
+        const double above = between(height(column, row + 1), height(column + 1, row), part) - z;
+        lower_left_[post(column, row)].add(above);
+        upper_right_[post(column, row)].add(above);
+        if (fails(above))
+          note_failure(from, to, {{column, row + 1}, {column + 1, row}, {column, row}, {column + 1, row + 1}}, above);
+      });
 }
 
 void LatticeDifference::note_failure(std::uint32_t from, std::uint32_t to, const Side& side, double above) {
@@ -181,7 +180,9 @@ void LatticeDifference::note_failure(std::uint32_t from, std::uint32_t to, const
   const bool no_left = is_left_out(side.left), no_right = is_left_out(side.right);
   const auto [least, greatest] =
       std::minmax({code(no_left ? side.right : side.left), code(no_right ? side.left : side.right)});
-  failures_.crossings.push_back({from, to, static_cast<std::int32_t>(std::ceil(std::abs(above) + kRounding)),
+  failures_.crossings.push_back({from,
+                                 to,
+                                 static_cast<std::int32_t>(std::ceil(std::abs(above) + kRounding)),
                                  {nearer.second, farther.second, least, greatest}});
 }
 

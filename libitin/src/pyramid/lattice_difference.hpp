@@ -23,8 +23,9 @@ class LatticeDifference {
 
   const WholeLattice& posts() const { return posts_; }
 
-  /// Measures the difference to this surface, which must cover the lattice; what is greater than `allowed` is a failure.
-  /// False where that takes triangles: where vertices of the coarse surface are no posts, or numbers become too large.
+  /// Measures the difference to this surface, which must cover the lattice; what is greater than `allowed` is a
+  /// failure. False where that takes triangles: where vertices of the coarse surface are no posts, or numbers become
+  /// too large.
   bool compare(const RegionMesh& coarse, std::int32_t allowed);
 
   /// What difference() and over_triangles() say of those of the triangles about the lattice's box whose own boxes meet

@@ -252,14 +252,14 @@ class DifferenceSweep {
       range.add(at_vertex_[v]);
       return;
     }
-    const std::uint32_t end = walk_.walk(
-        Position{pu.x, pu.y}, is_coarse_vertex_[u] != 0, face_[u], Position{pv.x, pv.y},
-        [&](std::uint32_t p, std::uint32_t q) {
-          const GridPoint &pp = coarse_.vertices[p].point, &pq = coarse_.vertices[q].point;
-          const DifferenceRange d = above_crossing(pu, pv, pp, pq);
-          range.add(d);
-          if (d.size() > allowed_) note(e, std::minmax(p, q), d.size());
-        });
+    const std::uint32_t end = walk_.walk(Position{pu.x, pu.y}, is_coarse_vertex_[u] != 0, face_[u],
+                                         Position{pv.x, pv.y}, [&](std::uint32_t p, std::uint32_t q) {
+                                           const GridPoint &pp = coarse_.vertices[p].point,
+                                                           &pq = coarse_.vertices[q].point;
+                                           const DifferenceRange d = above_crossing(pu, pv, pp, pq);
+                                           range.add(d);
+                                           if (d.size() > allowed_) note(e, std::minmax(p, q), d.size());
+                                         });
     if (face_[v] == kNoTriangle) settle(v, end);
     range.add(at_vertex_[u]);
     range.add(at_vertex_[v]);

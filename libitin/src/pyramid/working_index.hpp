@@ -31,8 +31,8 @@ struct LevelRaise {
 };
 
 /// A leaf's points of level 1 and coarser are a block of their own, and are kept in memory: coarse surfaces need few
-/// points of each of many leaves. Reading is safe from any thread. Levels may be changed, through write(), for disjoint ranges at the same time, but
-/// not while others read those ranges, or levels other than 0 of any.
+/// points of each of many leaves. Reading is safe from any thread. Levels may be changed, through write(), for disjoint
+/// ranges at the same time, but not while others read those ranges, or levels other than 0 of any.
 class WorkingIndex final : public PointIndex {
  public:
   WorkingIndex(SortedPoints& points, int level_count, std::uint32_t leaf_capacity);

@@ -1,8 +1,13 @@
 // What is told of a lattice's posts is what its triangles say.
 #include "pyramid/lattice_difference.hpp"
 
+#include <algorithm>
+#include <array>
 #include <functional>
 #include <random>
+#include <set>
+#include <tuple>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -104,8 +109,13 @@ class LatticeDifferences : public testing::Test {
       const FineEdges edges(fine);
       for (int k = 1; k < kLatticeLevels; ++k) {
         const RegionMesh coarse = triangulate_region(given.index(), level(k), own);
-        ASSERT_TRUE(difference.compare(coarse));
-        const auto by_triangle = over_triangles(fine, edges, itin::difference(fine, edges, coarse, 0));
+        ASSERT_TRUE(difference.compare(coarse, 0));
+        const std::int32_t allowed = draw(0, difference.over(difference.posts().bounds()).size());
+        ASSERT_TRUE(difference.compare(coarse, allowed));
+        const Difference by_edges = itin::difference(fine, edges, coarse, allowed);
+        expect_same_failures(fine, coarse, by_edges.failures, difference.failures(), allowed);
+        failing_ += by_edges.failures.crossings.size();
+        const auto by_triangle = over_triangles(fine, edges, by_edges);
         expect_as_triangles(fine, by_triangle, difference, own);
         for (int s = 0; s < 20; ++s) expect_as_triangles(fine, by_triangle, difference, box_about(lattice));
         ++asked;
@@ -115,8 +125,47 @@ class LatticeDifferences : public testing::Test {
   }
 
   std::mt19937 random_{test::seed()};
+  std::size_t failing_ = 0;  ///< crossings that failed
 
  private:
+  /// Both say so of each crossing. Of vertices on coarse edges triangles may say which face has them as they like.
+  static void expect_same_failures(const RegionMesh& fine, const RegionMesh& coarse, const Failures& of_triangles,
+                                   const Failures& of_posts, std::int32_t allowed) {
+    const auto sorted = [](const Failures& failures) {
+      std::vector<std::tuple<std::uint32_t, std::uint32_t, std::int32_t, std::array<std::uint64_t, 4>>> all;
+      for (const FailingCrossing& c : failures.crossings)
+        all.emplace_back(c.coarse_from, c.coarse_to, c.size, c.vertices);
+      std::sort(all.begin(), all.end());
+      return all;
+    };
+    ASSERT_EQ(sorted(of_triangles), sorted(of_posts));
+    const std::set<std::uint64_t> worst_of_all = worst_of_faces(fine, coarse, allowed);
+    const auto& posts = of_posts.worst_of_faces;
+    ASSERT_EQ(std::set<std::uint64_t>(posts.begin(), posts.end()), worst_of_all);
+    ASSERT_EQ(of_triangles.worst_of_faces.empty(), worst_of_all.empty());
+  }
+
+  /// Of each coarse triangle the fine vertex in it, or on its sides, that is farthest from it, if by more than allowed.
+  static std::set<std::uint64_t> worst_of_faces(const RegionMesh& fine, const RegionMesh& coarse,
+                                                std::int32_t allowed) {
+    std::set<std::uint64_t> result;
+    for (const auto& t : coarse.mesh.triangles) {
+      const GridPoint &a = coarse.vertices[t[0]].point, &b = coarse.vertices[t[1]].point,
+                      &c = coarse.vertices[t[2]].point;
+      std::pair<Int128, std::uint64_t> worst{0, 0};  // size, and the code counted down
+      for (const SelectedVertex& v : fine.vertices) {
+        const Int128 wa = doubled_area(v.point, b, c), wb = doubled_area(a, v.point, c),
+                     wc = doubled_area(a, b, v.point);
+        if (wa < 0 || wb < 0 || wc < 0) continue;
+        const Int128 weight = wa + wb + wc, above = v.point.z * weight - (wa * a.z + wb * b.z + wc * c.z);
+        const Int128 size = ((above < 0 ? -above : above) + weight - 1) / weight;
+        if (size > allowed) worst = std::max(worst, {size, ~code_of(v)});
+      }
+      if (worst.first > 0) result.insert(~worst.second);
+    }
+    return result;
+  }
+
   static void expect_as_triangles(const RegionMesh& fine, const std::vector<DifferenceRange>& by_triangle,
                                   const LatticeDifference& difference, const GridBox& square) {
     DifferenceRange expected;
@@ -142,6 +191,7 @@ TEST_F(LatticeDifferences, AreThoseOfTrianglesOnRoughGround) {
     lattice.level = [&](auto, auto) { return draw(0, 9) < 7 ? 0 : draw(1, 2); };
     expect_as_triangles(lattice);
   }
+  EXPECT_GT(failing_, 0U);
 }
 
 /// Coarse edges run along rows, columns and diagonals, and pass through posts.
@@ -155,6 +205,7 @@ TEST_F(LatticeDifferences, AreThoseOfTrianglesUnderRegularCoarseSurfaces) {
     lattice.level = [&](std::int32_t c, std::int32_t r) { return c % stride == 0 && r % stride == 0 ? c % 2 + 1 : 0; };
     expect_as_triangles(lattice);
   }
+  EXPECT_GT(failing_, 0U);
 }
 
 TEST_F(LatticeDifferences, AreNothingOnPlanesAndFlats) {
@@ -164,8 +215,8 @@ TEST_F(LatticeDifferences, AreNothingOnPlanesAndFlats) {
     lattice.level = [&](auto, auto) { return draw(0, 30) / 29; };
     const Given given(lattice);
     LatticeDifference difference(*WholeLattice::about(given.index(), given.index().bounds()));
-    ASSERT_TRUE(difference.compare(triangulate_region(given.index(), level(1), given.index().bounds())));
-    EXPECT_LE(difference.whole().size(), 1);  // crossings are rounded outwards
+    ASSERT_TRUE(difference.compare(triangulate_region(given.index(), level(1), given.index().bounds()), 0));
+    EXPECT_LE(difference.over(difference.posts().bounds()).size(), 1);  // crossings are rounded outwards
     expect_as_triangles(lattice);
   }
 }
@@ -213,7 +264,7 @@ TEST_F(LatticeDifferences, AreNotToldUnderVerticesOffTheLattice) {
   auto posts = WholeLattice::about(given.index(), {p.x, p.y, p.x + 50, p.y + 50});
   ASSERT_TRUE(posts);
   LatticeDifference difference(std::move(*posts));
-  EXPECT_FALSE(difference.compare(triangulate_region(given.index(), level(2), difference.posts().bounds())));
+  EXPECT_FALSE(difference.compare(triangulate_region(given.index(), level(2), difference.posts().bounds()), 0));
 }
 
 }  // namespace
