@@ -24,7 +24,7 @@ struct FailingCrossing {
 };
 
 struct Failures {
-  /// Of each coarse triangle with vertices that are too far off, the one that is most; ties go to the least code.
+  /// The vertex that is farthest off of each coarse triangle with any that are too far off; ties go to the least code.
   std::vector<std::uint64_t> worst_of_faces;
   std::vector<FailingCrossing> crossings;
 

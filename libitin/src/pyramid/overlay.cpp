@@ -267,12 +267,10 @@ class DifferenceSweep {
 
   void note(std::uint32_t e, std::pair<std::uint32_t, std::uint32_t> coarse_edge, std::int32_t size) {
     const FineEdges::Edge& edge = edges_.edges()[e];
-    const auto& [from, to] = coarse_edge;
+    const GridPoint &from = coarse_.vertices[coarse_edge.first].point, &to = coarse_.vertices[coarse_edge.second].point;
     // Where both ends are as near it is the one with the lesser code, in whatever region that is asked.
     const auto distance = [&](std::uint32_t v) {
-      const std::int64_t area =
-          doubled_area(coarse_.vertices[from].point, coarse_.vertices[to].point, fine_.vertices[v].point);
-      return std::pair(std::abs(area), v);
+      return std::pair(std::abs(doubled_area(from, to, fine_.vertices[v].point)), v);
     };
     const auto code = [&](std::uint32_t v) { return code_of(fine_.vertices[v]); };
     const auto [nearer, farther] =
@@ -280,7 +278,10 @@ class DifferenceSweep {
     const std::uint64_t corner = code(corner_opposite(edge, edge.triangle)),
                         other = edge.other == kNoTriangle ? corner : code(corner_opposite(edge, edge.other));
     result_.failures.crossings.push_back(
-        {from, to, size, {code(nearer), code(farther), std::min(corner, other), std::max(corner, other)}});
+        {coarse_edge.first,
+         coarse_edge.second,
+         size,
+         {code(nearer), code(farther), std::min(corner, other), std::max(corner, other)}});
   }
 
   std::uint32_t corner_opposite(const FineEdges::Edge& edge, std::uint32_t t) const {
