@@ -180,6 +180,7 @@ constexpr double kFirstRound = 0.6;
 
 LeafBounds certify(WorkingIndex& index, const std::vector<std::int32_t>& tolerances, const RestoreLines& restore,
                    Progress& progress) {
+  index.keep_coarse_points();
   const int levels = static_cast<int>(tolerances.size());
   LeafBounds bounds(index.ranges().size(), levels);
   CallProgress call(progress);

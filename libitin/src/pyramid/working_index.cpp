@@ -123,7 +123,7 @@ void WorkingIndex::leaves(int finest, const GridBox& box, std::vector<Leaf>& out
     if (leaf.points == 0 || !range.cell.box().meets(box)) continue;
     leaf.cell = range.cell;
     leaf.level = level_count_ - 1;
-    leaf.key = finest == 0 ? i : i | kCoarse;
+    leaf.key = keeps_coarse_points_ && finest > 0 ? i | kCoarse : i;
     out.push_back(leaf);
   }
 }

@@ -30,9 +30,8 @@ struct LevelRaise {
   int level;
 };
 
-/// A leaf's points of level 1 and coarser are a block of their own, and are kept in memory: coarse surfaces need few
-/// points of each of many leaves. Reading is safe from any thread. Levels may be changed, through write(), for disjoint
-/// ranges at the same time, but not while others read those ranges, or levels other than 0 of any.
+/// Reading is safe from any thread. Levels may be changed, through write(), for disjoint ranges at the same time, but
+/// not while others read those ranges, or levels other than 0 of any.
 class WorkingIndex final : public PointIndex {
  public:
   WorkingIndex(SortedPoints& points, int level_count, std::uint32_t leaf_capacity);
@@ -63,6 +62,10 @@ class WorkingIndex final : public PointIndex {
   /// Raises these points' levels, in any order, also twice; there may be no such point. Not thread-safe.
   void promote(std::vector<LevelRaise> raises);
 
+  /// From now on a leaf's points of level 1 and coarser are a block of their own where coarse levels are read, and are
+  /// kept in memory: coarse surfaces need few points of each of many leaves. Not thread-safe.
+  void keep_coarse_points() { keeps_coarse_points_ = true; }
+
   /// The coverage outline, once known.
   void set_segments(std::vector<Segment> segments);
   const std::vector<Segment>& all_segments() const { return segments_; }
@@ -90,6 +93,7 @@ class WorkingIndex final : public PointIndex {
   std::vector<CurveRange> ranges_;
   /// Per range and level: how many of its points have that level or a coarser one.
   std::vector<std::atomic<std::uint32_t>> selected_;
+  bool keeps_coarse_points_ = false;
   mutable BlockCache coarse_blocks_;
   mutable std::vector<std::vector<std::uint32_t>> occupied_;  ///< by level, made when first asked for after a write
   mutable std::atomic<bool> occupied_known_ = false;

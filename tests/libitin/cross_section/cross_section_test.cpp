@@ -125,8 +125,8 @@ TEST_P(SectionPatterns, EqualEveryTriangleCutByTheLine) {
                                                << ", from " << a.x << " " << a.y << " to " << b.x << " " << b.y;
         const CrossSection back = retrieve_section(*index, selection, SectionLine(grid, b, a));
         ASSERT_EQ(text(mirrored(back)), text(found));
-        // No block is read twice. A leaf's coarse points are a block besides the whole one.
-        ASSERT_LE(found.statistics.points_read, index->selected_points(0) + index->selected_points(1));
+        // No block is read twice.
+        ASSERT_LE(found.statistics.points_read, points.size());
         with_gaps += found.gaps.empty() ? 0 : 1;
         pieces += found.breakpoints.size();
       }
