@@ -38,6 +38,8 @@ class LeastFraction {
   const std::optional<Place>& least() const { return least_; }
 
  private:
+  bool is_greater_along(const ClearancePiece& piece) const;
+
   double unit_;
   std::optional<Place> least_;
 };

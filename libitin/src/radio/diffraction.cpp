@@ -43,7 +43,7 @@ const PathEdge* largest_v(const PathSpan& span, std::span<const PathEdge> edges)
   const PathEdge* best = nullptr;
   double largest = 0;
   for (const PathEdge& e : edges) {
-    if (e.km <= span.a.km || e.km >= span.b.km) continue;
+    if (e.km <= span.a.km || e.km >= span.b.km || (largest > 0 && span.has_less(e, largest))) continue;
     const double v = span.v(e);
     if (best == nullptr || v >= largest) best = &e, largest = v;
   }

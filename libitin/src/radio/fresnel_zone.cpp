@@ -47,9 +47,24 @@ void LeastFraction::consider(double t, double clearance) {
   if (!least_ || fraction < least_->fraction) least_ = Place{fraction, t, clearance};
 }
 
+/// Whether every ratio along the piece is certainly greater than the least one: most pieces' are, and need no root.
+bool LeastFraction::is_greater_along(const ClearancePiece& p) const {
+  if (!least_) return false;
+  constexpr double kRounding = 1e-9;
+  // A parabola sags no farther below its chord.
+  const double sag = std::max(p.square, 0.0) * (p.to - p.from) * (p.to - p.from) / 4;
+  const double uncertain = kRounding * (std::abs(p.constant) + std::abs(p.linear) + std::abs(p.square));
+  const double lowest = std::min(p.at(p.from), p.at(p.to)) - sag - uncertain;
+  const double least = least_->fraction * unit_;  // the clearance of that ratio where sqrt(t (1 - t)) is 1
+  if (lowest >= 0) return least < 0 || lowest * lowest > (1 + kRounding) / 4 * least * least;
+  const double narrowest = std::min(p.from * (1 - p.from), p.to * (1 - p.to));
+  return least < 0 && (1 + kRounding) * lowest * lowest < least * least * narrowest;
+}
+
 /// The ratio is stationary where its numerator's and denominator's logarithmic derivatives agree: with the radius
 /// proportional to sqrt(t (1 - t)) that is at the roots of this cubic.
 void LeastFraction::consider_inside(const ClearancePiece& p) {
+  if (is_greater_along(p)) return;
   const Cubic cubic{-p.square, 1.5 * p.square, p.linear / 2 + p.constant, -p.constant / 2};
   const std::array<double, 2> turns = stationary_points(cubic, p.from);
   const std::array<double, 4> bounds = {p.from, std::clamp(turns[0], p.from, p.to), std::clamp(turns[1], p.from, p.to),

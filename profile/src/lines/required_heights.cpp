@@ -32,7 +32,7 @@ class Demand {
     nodes_.reserve(profile.points.size());
     for (const ProfilePoint& p : profile.points) {
       const double t = p.distance_m / profile.length_m;
-      nodes_.push_back({t, p.ground_m, above_ground(t), above_ground_slope(t)});
+      nodes_.push_back({t, p.ground_m, above_ground(t)});
     }
     for (std::size_t i = 0; i + 1 < nodes_.size(); ++i) {
       Node &from = nodes_[i], &to = nodes_[i + 1];
@@ -44,72 +44,87 @@ class Demand {
   /// minus infinity where every one does.
   double peak(const Line& base, const Line& weight) const {
     double best = -kInfinity;
-    for (std::size_t i = 0; i < nodes_.size(); ++i) best = std::max(best, ratio_at(i, base, weight));
+    for (const Node& n : nodes_)
+      if (!is_less(missing_at(n, base), weight.at(n.t), best)) best = std::max(best, ratio_at(n, base, weight));
     // Most pieces have certainly less than the greatest of all points.
     for (std::size_t i = 0; i < nodes_.size(); ++i)
-      if (nodes_[i].slope_on) best = std::max(best, ratio_inside(i, base, weight, best));
+      if (nodes_[i].slope_on && !is_less_inside(i, base, weight, best))
+        best = std::max(best, ratio_inside(i, base, weight));
     return best;
   }
 
  private:
+  /// What is demanded over the ground.
+  struct Above {
+    double height, slope;
+  };
   /// A point of the profile.
   struct Node {
     double t;
     double ground;
-    double above, above_slope;            ///< of the demand over the ground
+    Above above;
     std::optional<double> slope_on = {};  ///< of the ground from here to the next point, where there is any
   };
 
-  double above_ground(double t) const { return bulge_ * t * (1 - t) + radius_ * std::sqrt(t * (1 - t)); }
-  double above_ground_slope(double t) const {
-    const double bulge = bulge_ * (1 - 2 * t);
+  Above above_ground(double t) const {
+    const Above bulge{bulge_ * t * (1 - t), bulge_ * (1 - 2 * t)};
     if (radius_ == 0) return bulge;
     const double root = std::sqrt(t * (1 - t));
-    if (root == 0) return t < 0.5 ? kInfinity : -kInfinity;
-    return bulge + radius_ * (1 - 2 * t) / (2 * root);
+    if (root == 0) return {bulge.height, t < 0.5 ? kInfinity : -kInfinity};
+    return {bulge.height + radius_ * root, bulge.slope + radius_ * (1 - 2 * t) / (2 * root)};
+  }
+
+  static double missing_at(const Node& n, const Line& base) { return n.ground + n.above.height - base.at(n.t); }
+
+  /// Whether missing / weight is certainly less than `best`, without a division.
+  static bool is_less(double missing, double weight, double best) {
+    constexpr double kRatioRounding = 1e-6;
+    return missing < (best - kRatioRounding) * weight;
   }
 
   /// At an end where the weight is 0 no factor helps: what is missing there makes the demand impossible, and where
   /// ray and ground just meet, the ratio has a limit (L'Hopital), which the piece beside it determines.
-  double ratio_at(std::size_t i, const Line& base, const Line& weight) const {
-    const Node& n = nodes_[i];
-    const double missing = n.ground + n.above - base.at(n.t);
+  double ratio_at(const Node& n, const Line& base, const Line& weight) const {
+    const double missing = missing_at(n, base);
     if (weight.at(n.t) > 0) return missing / weight.at(n.t);
     if (missing != 0) return missing > 0 ? kInfinity : -kInfinity;
-    return limit_at_end(i, base, weight);
+    return limit_at_end(n, base, weight);
   }
-  double limit_at_end(std::size_t i, const Line& base, const Line& weight) const {
-    const std::size_t first = nodes_[i].t < 0.5 ? i : i - 1;
-    if (first >= nodes_.size() || !nodes_[first].slope_on) return -kInfinity;
-    return (*nodes_[first].slope_on + nodes_[i].above_slope - base.slope()) / weight.slope();
+  double limit_at_end(const Node& n, const Line& base, const Line& weight) const {
+    const Node* const first = n.t < 0.5 ? &n : &n - 1;
+    if (first < nodes_.data() || !first->slope_on) return -kInfinity;
+    return (*first->slope_on + n.above.slope - base.slope()) / weight.slope();
   }
 
-  /// The derivative's numerator falls along the piece: a maximum lies inside only if it changes sign. Not sought where
-  /// it is certainly less than `best`.
-  double ratio_inside(std::size_t i, const Line& base, const Line& weight, double best) const {
+  /// Whether every ratio along the piece is certainly less than `best`. What is missing is less than on its tangent at
+  /// the beginning, as it is concave.
+  bool is_less_inside(std::size_t i, const Line& base, const Line& weight, double best) const {
+    const Node &from = nodes_[i], &to = nodes_[i + 1];
+    const double slope = *from.slope_on + from.above.slope - base.slope();
+    const double most = missing_at(from, base) + std::max(0.0, slope) * (to.t - from.t);
+    const double first = weight.at(from.t), last = weight.at(to.t);
+    return is_less(most, most > 0 ? std::min(first, last) : std::max(first, last), best);
+  }
+
+  /// The derivative's numerator falls along the piece: a maximum lies inside only if it changes sign. Minus infinity
+  /// where there is none.
+  double ratio_inside(std::size_t i, const Line& base, const Line& weight) const {
     const Node &from = nodes_[i], &to = nodes_[i + 1];
     const double slope_of_ground = *from.slope_on;
-    const auto missing = [&](double t, double above) {
-      return from.ground + slope_of_ground * (t - from.t) + above - base.at(t);
+    const auto missing = [&](double t, const Above& above) {
+      return from.ground + slope_of_ground * (t - from.t) + above.height - base.at(t);
     };
-    const auto rising = [&](double t, double above, double above_slope) {
-      const double slope = slope_of_ground + above_slope - base.slope();
+    const auto rising = [&](double t, const Above& above) {
+      const double slope = slope_of_ground + above.slope - base.slope();
       if (std::isinf(slope)) return slope > 0;
       return slope * weight.at(t) > missing(t, above) * weight.slope();
     };
-    // Below its tangent at the piece's beginning, as all that is concave.
-    constexpr double kRatioRounding = 1e-6;
-    const double most = missing(from.t, from.above) +
-                        std::max(0.0, slope_of_ground + from.above_slope - base.slope()) * (to.t - from.t);
-    const double divisor =
-        most > 0 ? std::min(weight.at(from.t), weight.at(to.t)) : std::max(weight.at(from.t), weight.at(to.t));
-    if (divisor > 0 && most / divisor < best - kRatioRounding) return -kInfinity;
-    if (!rising(from.t, from.above, from.above_slope) || rising(to.t, to.above, to.above_slope)) return -kInfinity;
+    if (!rising(from.t, from.above) || rising(to.t, to.above)) return -kInfinity;
     double low = from.t, high = to.t;
     while (true) {
       const double middle = low + (high - low) / 2;
       if (middle <= low || middle >= high) break;
-      (rising(middle, above_ground(middle), above_ground_slope(middle)) ? low : high) = middle;
+      (rising(middle, above_ground(middle)) ? low : high) = middle;
     }
     return weight.at(low) > 0 ? missing(low, above_ground(low)) / weight.at(low) : -kInfinity;
   }
