@@ -66,8 +66,8 @@ struct PathSpan {
   bool has_less(const PathEdge& e, double v) const {
     constexpr double kBeyondRounding = 1 - 1e-9;
     const double above = above_line_m(e);
-    return above <= 0 || above * above * (0.002 * length()) <
-                             v * v * kBeyondRounding * (wavelength * (e.km - a.km) * (b.km - e.km));
+    return above <= 0 ||
+           above * above * (0.002 * length()) < v * v * kBeyondRounding * (wavelength * (e.km - a.km) * (b.km - e.km));
   }
 
   double above_line_m(const PathEdge& e) const {

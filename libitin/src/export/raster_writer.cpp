@@ -33,30 +33,6 @@ int tile_side(std::size_t bytes_per_cell) {
   return side;
 }
 
-/// A QuietGdal that remembers the first failure, even if warnings follow it, and keeps GDAL from leaving side files.
-class GdalCall {
- public:
-  GdalCall() {
-    CPLPushErrorHandlerEx(remember, this);
-    CPLSetThreadLocalConfigOption("GDAL_PAM_ENABLED", "NO");
-  }
-  ~GdalCall() {
-    CPLSetThreadLocalConfigOption("GDAL_PAM_ENABLED", nullptr);
-    CPLPopErrorHandler();
-  }
-  GdalCall(const GdalCall&) = delete;
-  GdalCall& operator=(const GdalCall&) = delete;
-  const std::string& failure() const { return failure_; }
-
- private:
-  static void CPL_STDCALL remember(CPLErr error_class, CPLErrorNum, const char* message) {
-    auto& self = *static_cast<GdalCall*>(CPLGetErrorHandlerUserData());
-    if (error_class >= CE_Failure && self.failure_.empty()) self.failure_ = message;
-  }
-  const QuietGdal quiet_;
-  std::string failure_;
-};
-
 template <class T>
 struct Level {
   std::vector<T> values;
@@ -136,7 +112,7 @@ void attach_overviews(GDALDataset& dataset, std::span<const T> values, const Ras
     for (std::size_t i = 0; i < levels.size(); ++i) {
       const int columns = static_cast<int>(levels[i].columns), rows = static_cast<int>(levels[i].rows);
       GDALRasterBand* const overview = dataset.GetRasterBand(band)->GetOverview(static_cast<int>(i));
-      // A failure reaches the caller through GdalCall.
+      // A failure reaches the caller through QuietGdal.
       std::ignore = overview->RasterIO(GF_Write, 0, 0, columns, rows, levels[i].values.data(), columns, rows, type, 0,
                                        0, nullptr);
     }
@@ -186,7 +162,8 @@ template <class T>
 void write_cog(const std::string& path, const RasterGrid& grid, std::span<const T> values, GDALDataType type,
                const RasterDescription& description) {
   PendingFile file(path, description.overwrite);
-  const GdalCall call;
+  const QuietGdal quiet;
+  const CPLConfigOptionSetter no_side_files("GDAL_PAM_ENABLED", "NO", false);
   GDALDriver* const driver = GetGDALDriverManager()->GetDriverByName("COG");
   if (!driver) throw FileError(path, "GDAL here cannot write cloud-optimised GeoTIFFs; install GDAL 3.1 or later");
   const GDALDatasetUniquePtr source = wrap(values, grid, type);
@@ -198,8 +175,8 @@ void write_cog(const std::string& path, const RasterGrid& grid, std::span<const 
       driver->CreateCopy(file.temporary_path().c_str(), source.get(), false, options.List(), nullptr, nullptr));
   const bool created = written != nullptr;
   written.reset();  // the last bytes are written on closing
-  if (!created || !call.failure().empty())
-    throw FileError(path, "cannot be written: " + (call.failure().empty() ? "unknown reason" : call.failure()));
+  if (!created || QuietGdal::failed())
+    throw FileError(path, "cannot be written: " + QuietGdal::message("unknown reason"));
   file.commit();
   // It would describe the raster that was replaced.
   std::error_code ignored;

@@ -3,18 +3,15 @@
 #include <map>
 #include <memory>
 
-#include <cpl_conv.h>
 #include <cpl_string.h>
 #include <gdal_alg.h>
 #include <gdal_priv.h>
-#include <ogrsf_frmts.h>
 
 #include <itin/error.hpp>
 #include <itin/raster_regions.hpp>
 
-#include "export/pending_file.hpp"
+#include "export/geopackage.hpp"
 #include "export/polygon_style.hpp"
-#include "gdal/quiet_gdal.hpp"
 
 namespace itin {
 
@@ -84,46 +81,29 @@ void trace(const std::string& path, const RasterGrid& grid, std::span<const T> v
 
 void write_layer(const PendingFile& output, const RasterGrid& grid, Regions& regions,
                  const RegionDescription& description) {
-  const std::string& path = output.path();
-  OGRSpatialReference crs;
-  const bool known = !description.crs_wkt.empty();
-  require(!known || crs.SetFromUserInput(description.crs_wkt.c_str()) == OGRERR_NONE, path,
-          "the store's CRS is not understood");
-  crs.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
-  GDALDriver* const driver = GetGDALDriverManager()->GetDriverByName("GPKG");
-  require(driver != nullptr, path, "this GDAL has no GeoPackage driver; choose another ending");
-  GDALDatasetUniquePtr dataset(driver->Create(output.temporary_path().c_str(), 0, 0, 0, GDT_Unknown, nullptr));
-  require(dataset != nullptr, path, "cannot be created");
-  OGRLayer* const layer =
-      dataset->CreateLayer(description.layer.c_str(), known ? &crs : nullptr, wkbMultiPolygon, nullptr);
-  require(layer != nullptr, path, "cannot be written");
+  GeoPackage package(output, description.crs_wkt);
+  OGRLayer& layer = package.add_layer(description.layer, wkbMultiPolygon);
   for (const auto& [name, type] :
-       {std::pair{"value", OFTInteger64}, std::pair{"class", OFTString}, std::pair{"area_m2", OFTReal}}) {
-    OGRFieldDefn field(name, type);
-    require(layer->CreateField(&field) == OGRERR_NONE, path, "cannot be written");
-  }
+       {std::pair{"value", OFTInteger64}, std::pair{"class", OFTString}, std::pair{"area_m2", OFTReal}})
+    package.add_field(layer, name, type);
   for (const RegionClass& c : description.classes) {
     Region& region = regions.at(c.value);
     if (region.cells == 0) continue;
-    OGRFeature row(layer->GetLayerDefn());
+    OGRFeature row(layer.GetLayerDefn());
     row.SetField(0, static_cast<GIntBig>(c.value));
     row.SetField(1, c.name.c_str());
     row.SetField(2, static_cast<double>(region.cells) * grid.cell_area());
     row.SetGeometryDirectly(region.shape.release());
-    require(layer->CreateFeature(&row) == OGRERR_NONE, path, "cannot be written");
+    package.add(layer, row);
   }
-  require(add_layer_style(*dataset, description.layer, polygon_style(description.classes)), path, "cannot be written");
-  CPLErrorReset();
-  dataset.reset();
-  require(!QuietGdal::failed(), path, "cannot be written");
+  package.require(add_layer_style(package.dataset(), description.layer, polygon_style(description.classes)));
+  package.close();
 }
 
 template <class T>
 void write_polygons(const std::string& path, const RasterGrid& grid, std::span<const T> values, GDALDataType type,
                     const RegionDescription& description) {
   const QuietGdal quiet;
-  // Equal calls give equal bytes only if the file does not say when it was written.
-  const CPLConfigOptionSetter fixed("OGR_CURRENT_DATE", "1970-01-01T00:00:00.000Z", false);
   PendingFile output(path, description.overwrite);
   Regions regions;
   for (const RegionClass& c : description.classes) regions[c.value];

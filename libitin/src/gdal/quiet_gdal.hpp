@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <mutex>
+#include <optional>
 #include <string>
 
 #include <cpl_error.h>
@@ -16,20 +17,35 @@ class QuietGdal {
   QuietGdal() {
     static std::once_flag registered;
     std::call_once(registered, GDALAllRegister);
-    CPLPushErrorHandler(CPLQuietErrorHandler);
-    CPLErrorReset();
+    CPLPushErrorHandlerEx(remember, this);
   }
   ~QuietGdal() { CPLPopErrorHandler(); }
   QuietGdal(const QuietGdal&) = delete;
   QuietGdal& operator=(const QuietGdal&) = delete;
 
-  static bool failed() { return CPLGetLastErrorType() >= CE_Failure; }
-  /// The last error on one line, or `otherwise`.
+  /// Whether anything failed since this thread's innermost QuietGdal began, even if GDAL went on afterwards.
+  static bool failed() { return innermost().failure_.has_value(); }
+  /// The first failure since then on one line, else what GDAL warned of last, else `otherwise`.
   static std::string message(const std::string& otherwise) {
-    std::string text = CPLGetLastErrorMsg();
+    const QuietGdal& self = innermost();
+    std::string text = self.failure_.value_or(self.warning_);
     std::replace(text.begin(), text.end(), '\n', ' ');
     return text.empty() ? otherwise : text;
   }
+
+ private:
+  static QuietGdal& innermost() { return *static_cast<QuietGdal*>(CPLGetErrorHandlerUserData()); }
+  static void CPL_STDCALL remember(CPLErr error_class, CPLErrorNum, const char* message) {
+    QuietGdal& self = innermost();
+    if (error_class < CE_Failure) {
+      self.warning_ = message;
+    } else if (!self.failure_) {
+      self.failure_ = message;
+    }
+  }
+
+  std::optional<std::string> failure_;
+  std::string warning_;
 };
 
 }  // namespace itin

@@ -74,7 +74,7 @@ namespace {
 std::uint64_t select_features(OGRLayer& layer, const std::string& path, const std::string& where) {
   if (where.empty()) return 0;
   const GIntBig all = layer.GetFeatureCount();
-  CPLErrorReset();
+  const QuietGdal filtering;
   // Databases look at the clause only when they count or read.
   const bool understood = layer.SetAttributeFilter(where.c_str()) == OGRERR_NONE;
   const GIntBig left = layer.GetFeatureCount();
