@@ -39,13 +39,14 @@ void sample(const Profile& profile, const Antennas& antennas, const Earth& earth
   }
 }
 
-/// Either hills, or every fifth time a plain of a few long pieces: there the least clearance is within a piece.
+/// Either hills, or every fifth time a plain of long pieces, few or many: there the least clearance is within a piece.
 Profile random_profile(std::mt19937& random, int round) {
   const bool plain = round % 5 == 4;
-  std::uniform_real_distribution<double> step(plain ? 5000 : 20, plain ? 40000 : 1500), height(0, plain ? 4 : 120);
+  std::uniform_real_distribution<double> step(plain ? 5000 : 20, plain ? 40000 : 1500), height(0, plain ? 0.2 : 120);
+  const int points = !plain ? 12 : round % 2 == 0 ? 4 : 32;
   Profile profile;
   double d = 0;
-  for (int i = 0; i < (plain ? 4 : 12); ++i, d += step(random)) {
+  for (int i = 0; i < points; ++i, d += step(random)) {
     ProfilePoint p;
     p.distance_m = d, p.ground_m = height(random);
     profile.points.push_back(p);

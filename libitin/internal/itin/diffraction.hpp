@@ -61,18 +61,9 @@ struct PathSpan {
   double v_of(double above, double d1, double d2) const {
     return above * std::sqrt(0.002 * length() / (wavelength * d1 * d2));
   }
-  double v(const PathEdge& e) const { return v_of(above_line_m(e), e.km - a.km, b.km - e.km); }
-  /// Whether v(e) is certainly less than `v` > 0, without the square root: most edges' is.
-  bool has_less(const PathEdge& e, double v) const {
-    constexpr double kBeyondRounding = 1 - 1e-9;
-    const double above = above_line_m(e);
-    return above <= 0 ||
-           above * above * (0.002 * length()) < v * v * kBeyondRounding * (wavelength * (e.km - a.km) * (b.km - e.km));
-  }
-
-  double above_line_m(const PathEdge& e) const {
+  double v(const PathEdge& e) const {
     const double d1 = e.km - a.km, d2 = b.km - e.km;
-    return e.height_m + bulge_m(d1, d2) - line_m(d1, d2);
+    return v_of(e.height_m + bulge_m(d1, d2) - line_m(d1, d2), d1, d2);
   }
 };
 

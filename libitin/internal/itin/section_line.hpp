@@ -15,6 +15,7 @@
 #include <utility>
 
 #include <itin/geometry.hpp>
+#include <itin/int128.hpp>
 
 namespace itin {
 
@@ -39,8 +40,6 @@ struct SectionPiece {
 
 class SectionLine {
  public:
-  __extension__ typedef __int128 Wide;
-
   /// Throws InputError for ends that are not finite or more than 2^31 grid units from the origin.
   SectionLine(const Grid& grid, Point2 a, Point2 b);
 
@@ -62,14 +61,14 @@ class SectionLine {
 
   /// Positive to the left, 0 on the line.
   template <class P>
-  Wide side(const P& p) const {
+  Int128 side(const P& p) const {
     return cross(dx_, dy_, subgrid(p.x) - ax_, subgrid(p.y) - ay_);
   }
 
   /// Where the line meets the closed edge pq, whose ends are on different sides, or one of them on the line.
   SectionCrossing crossing(const GridPoint& p, const GridPoint& q) const;
   /// As above; takes less time where side(p) and side(q) are known.
-  SectionCrossing crossing(const GridPoint& p, Wide side_p, const GridPoint& q, Wide side_q) const;
+  SectionCrossing crossing(const GridPoint& p, Int128 side_p, const GridPoint& q, Int128 side_q) const;
   /// A vertex on the line.
   SectionCrossing crossing(const GridPoint& p) const;
 
@@ -93,8 +92,8 @@ class SectionLine {
   static constexpr std::int64_t kSubgrid = std::int64_t{1} << 20;
 
   static std::int64_t subgrid(std::int32_t v) { return v * kSubgrid; }
-  static Wide cross(std::int64_t ax, std::int64_t ay, std::int64_t bx, std::int64_t by) {
-    return static_cast<Wide>(ax) * by - static_cast<Wide>(ay) * bx;
+  static Int128 cross(std::int64_t ax, std::int64_t ay, std::int64_t bx, std::int64_t by) {
+    return static_cast<Int128>(ax) * by - static_cast<Int128>(ay) * bx;
   }
   template <class P>
   static int ahead(const P& left, const P& right, const P& p) {

@@ -67,7 +67,7 @@ class Collection {
 
   void add(const Segment& s) {
     const Position a{s.ax, s.ay}, b{s.bx, s.by};
-    const SectionLine::Wide side_a = line_.side(a), side_b = line_.side(b);
+    const Int128 side_a = line_.side(a), side_b = line_.side(b);
     if ((side_a > 0 && side_b > 0) || (side_a < 0 && side_b < 0)) return;
     touches_ |= side_a == 0 || side_b == 0;
     const bool left_a = counts_as_left(side_a, on_line_), left_b = counts_as_left(side_b, on_line_);

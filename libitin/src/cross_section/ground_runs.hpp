@@ -19,7 +19,7 @@ namespace itin {
 enum class OnLine { kLeft, kRight };
 
 /// Whether a vertex that is on this side of the line (SectionLine::side()) counts as left of it.
-inline bool counts_as_left(SectionLine::Wide side, OnLine on_line) {
+inline bool counts_as_left(Int128 side, OnLine on_line) {
   return side > 0 || (side == 0 && on_line == OnLine::kLeft);
 }
 

@@ -68,19 +68,19 @@ SectionCrossing SectionLine::at(double t, Point3 position, SectionCrossing::Plac
 SectionCrossing SectionLine::crossing(const GridPoint& p) const {
   using Place = SectionCrossing::Place;
   const std::int64_t px = subgrid(p.x) - ax_, py = subgrid(p.y) - ay_;
-  const Wide along = static_cast<Wide>(dx_) * px + static_cast<Wide>(dy_) * py;
-  const Wide whole = static_cast<Wide>(dx_) * dx_ + static_cast<Wide>(dy_) * dy_;
-  const Place place = along < 0                              ? Place::kBefore
-                      : along > (is_point_ ? Wide{} : whole) ? Place::kBeyond
-                                                             : Place::kWithin;
-  return at(static_cast<double>(along) / static_cast<double>(whole), grid_.point(p), place);
+  const Int128 along = static_cast<Int128>(dx_) * px + static_cast<Int128>(dy_) * py;
+  const Int128 whole = static_cast<Int128>(dx_) * dx_ + static_cast<Int128>(dy_) * dy_;
+  const Place place = along < 0                                ? Place::kBefore
+                      : along > (is_point_ ? Int128{} : whole) ? Place::kBeyond
+                                                               : Place::kWithin;
+  return at(to_double(along) / to_double(whole), grid_.point(p), place);
 }
 
 SectionCrossing SectionLine::crossing(const GridPoint& p, const GridPoint& q) const {
   return crossing(p, side(p), q, side(q));
 }
 
-SectionCrossing SectionLine::crossing(const GridPoint& p, Wide side_p, const GridPoint& q, Wide side_q) const {
+SectionCrossing SectionLine::crossing(const GridPoint& p, Int128 side_p, const GridPoint& q, Int128 side_q) const {
   using Place = SectionCrossing::Place;
   // One order for both triangles beside the edge.
   if (q < p) return crossing(q, side_q, p, side_p);
@@ -88,16 +88,16 @@ SectionCrossing SectionLine::crossing(const GridPoint& p, Wide side_p, const Gri
   if (side_q == 0) return crossing(q);
   const std::int64_t qx = subgrid(q.x) - subgrid(p.x), qy = subgrid(q.y) - subgrid(p.y);
   // On which side of the edge the start is; at the end that differs by as much as the sides of q and p of the line do.
-  Wide before = cross(qx, qy, ax_ - subgrid(p.x), ay_ - subgrid(p.y)), all = side_q - side_p;
-  const double s = static_cast<double>(side_p) / static_cast<double>(-all);
+  Int128 before = cross(qx, qy, ax_ - subgrid(p.x), ay_ - subgrid(p.y)), all = side_q - side_p;
+  const double s = to_double(side_p) / to_double(-all);
   if (all < 0) before = -before, all = -all;
-  const Place place = before < 0                            ? Place::kBefore
-                      : before > (is_point_ ? Wide{} : all) ? Place::kBeyond
-                                                            : Place::kWithin;
+  const Place place = before < 0                              ? Place::kBefore
+                      : before > (is_point_ ? Int128{} : all) ? Place::kBeyond
+                                                              : Place::kWithin;
   const auto mean = [s](std::int32_t from, std::int32_t to) { return from + s * (static_cast<double>(to) - from); };
   const Point3 position{grid_.origin.x + mean(p.x, q.x) * grid_.resolution,
                         grid_.origin.y + mean(p.y, q.y) * grid_.resolution, mean(p.z, q.z) * grid_.resolution};
-  return at(static_cast<double>(before) / static_cast<double>(all), position, place);
+  return at(to_double(before) / to_double(all), position, place);
 }
 
 SectionCrossing SectionLine::between(const SectionCrossing& from, const SectionCrossing& to, double t, Point2 p) const {
@@ -108,7 +108,7 @@ SectionCrossing SectionLine::between(const SectionCrossing& from, const SectionC
 }
 
 std::optional<SectionPiece> SectionLine::chord(const std::array<GridPoint, 3>& corners) const {
-  const std::array<Wide, 3> sides{side(corners[0]), side(corners[1]), side(corners[2])};
+  const std::array<Int128, 3> sides{side(corners[0]), side(corners[1]), side(corners[2])};
   std::array<SectionCrossing, 6> crossings;
   std::size_t count = 0;
   for (std::size_t i = 0; i < 3; ++i) {

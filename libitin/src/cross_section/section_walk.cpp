@@ -51,7 +51,7 @@ struct SidedEdge : CrossedEdge {
   SidedEdge(const CrossedEdge& edge, const SectionLine& line)
       : CrossedEdge(edge), left_side(line.side(edge.left)), right_side(line.side(edge.right)) {}
 
-  SectionLine::Wide left_side, right_side;
+  Int128 left_side, right_side;
 };
 
 class SectionWalk {
@@ -114,7 +114,7 @@ class SectionWalk {
     while (!at_end(in) && !(exit && lies_on(edge, *exit))) {
       const SectionVertex c = triangles_.beyond(edge);
       const std::uint16_t theme = either(either(edge.left.theme, edge.right.theme), c.theme);
-      const SectionLine::Wide side = line_.side(c);
+      const Int128 side = line_.side(c);
       if (counts_as_left(side, on_line_)) {
         edge.left = c, edge.left_side = side;
       } else {
@@ -239,7 +239,7 @@ class NeighboursOnSegment {
     const bool on_left = counts_as_left(line_.side(p), on_line_);
     std::optional<SectionVertex>& nearest = on_left ? left_ : right_;
     const auto distance = [this](const SectionVertex& q) {
-      const SectionLine::Wide side = line_.side(q);
+      const Int128 side = line_.side(q);
       return side < 0 ? -side : side;
     };
     if (!nearest || distance(p) < distance(*nearest)) nearest = p;

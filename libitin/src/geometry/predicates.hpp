@@ -13,10 +13,9 @@
 #include <cstdint>
 #include <utility>
 
-namespace itin {
+#include <itin/int128.hpp>
 
-/// 128 bits, which GCC and Clang have on every 64-bit machine.
-__extension__ typedef __int128 Int128;
+namespace itin {
 
 /// Anything with integer members x and y.
 template <class P>

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include <itin/int128.hpp>
+
 namespace itin {
 
 namespace {
-
-__extension__ typedef __int128 Int128;
 
 // Far beyond every grid, yet squares and their sums still fit in 128 bits.
 constexpr double kFarthest = 0x1p60;

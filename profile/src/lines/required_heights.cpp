@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include <profile/fresnel.hpp>
@@ -38,18 +39,25 @@ class Demand {
       Node &from = nodes_[i], &to = nodes_[i + 1];
       if (to.t > from.t && profile.joined(i)) from.slope_on = (to.ground - from.ground) / (to.t - from.t);
     }
+    constexpr std::size_t kNodes = 16;
+    for (std::size_t first = 0; first < nodes_.size(); first += kNodes)
+      stretches_.push_back(stretch(first, std::min(nodes_.size(), first + kNodes)));
   }
 
   /// The least factor such that base + factor * weight meets the demand everywhere; infinity where none does, and
   /// minus infinity where every one does.
   double peak(const Line& base, const Line& weight) const {
     double best = -kInfinity;
-    for (const Node& n : nodes_)
-      if (!is_less(missing_at(n, base), weight.at(n.t), best)) best = std::max(best, ratio_at(n, base, weight));
+    for_each_stretch(base, weight, best, [&](const Stretch& s) {
+      for (const Node& n : std::span(nodes_).subspan(s.first, s.end - s.first))
+        if (!is_less(missing_at(n, base), weight.at(n.t), best)) best = std::max(best, ratio_at(n, base, weight));
+    });
     // Most pieces have certainly less than the greatest of all points.
-    for (std::size_t i = 0; i < nodes_.size(); ++i)
-      if (nodes_[i].slope_on && !is_less_inside(i, base, weight, best))
-        best = std::max(best, ratio_inside(i, base, weight));
+    for_each_stretch(base, weight, best, [&](const Stretch& s) {
+      for (std::size_t i = s.first; i < s.end; ++i)
+        if (nodes_[i].slope_on && !is_less_inside(i, base, weight, best))
+          best = std::max(best, ratio_inside(i, base, weight));
+    });
     return best;
   }
 
@@ -72,6 +80,38 @@ class Demand {
     const double root = std::sqrt(t * (1 - t));
     if (root == 0) return {bulge.height, t < 0.5 ? kInfinity : -kInfinity};
     return {bulge.height + radius_ * root, bulge.slope + radius_ * (1 - 2 * t) / (2 * root)};
+  }
+
+  /// Nodes one after another, and the pieces of ground that begin at them.
+  struct Stretch {
+    std::size_t first, end;
+    double from_t, to_t;
+    double highest;  ///< no demand is higher
+  };
+  Stretch stretch(std::size_t first, std::size_t end) const {
+    const std::size_t last = std::min(end, nodes_.size() - 1);
+    Stretch s{first, end, nodes_[first].t, nodes_[last].t, -kInfinity};
+    for (std::size_t i = first; i < end; ++i) {
+      const Node& n = nodes_[i];
+      // A piece is below its tangent at its beginning, as it is concave.
+      const double rise = n.slope_on ? std::max(0.0, *n.slope_on + n.above.slope) * (nodes_[i + 1].t - n.t) : 0;
+      s.highest = std::max(s.highest, n.ground + n.above.height + rise);
+    }
+    return s;
+  }
+  /// Leaves out stretches where every ratio is certainly less than `best` is by then.
+  template <class Visit>
+  void for_each_stretch(const Line& base, const Line& weight, const double& best, const Visit& visit) const {
+    for (const Stretch& s : stretches_) {
+      const double most = s.highest - std::min(base.at(s.from_t), base.at(s.to_t));
+      if (!is_less(most, divisor_of(most, weight, s.from_t, s.to_t), best)) visit(s);
+    }
+  }
+
+  /// The weight between two places with which a height that is missing at most makes the greatest ratio.
+  static double divisor_of(double most, const Line& weight, double from_t, double to_t) {
+    const double first = weight.at(from_t), last = weight.at(to_t);
+    return most > 0 ? std::min(first, last) : std::max(first, last);
   }
 
   static double missing_at(const Node& n, const Line& base) { return n.ground + n.above.height - base.at(n.t); }
@@ -102,8 +142,7 @@ class Demand {
     const Node &from = nodes_[i], &to = nodes_[i + 1];
     const double slope = *from.slope_on + from.above.slope - base.slope();
     const double most = missing_at(from, base) + std::max(0.0, slope) * (to.t - from.t);
-    const double first = weight.at(from.t), last = weight.at(to.t);
-    return is_less(most, most > 0 ? std::min(first, last) : std::max(first, last), best);
+    return is_less(most, divisor_of(most, weight, from.t, to.t), best);
   }
 
   /// The derivative's numerator falls along the piece: a maximum lies inside only if it changes sign. Minus infinity
@@ -131,6 +170,7 @@ class Demand {
 
   double bulge_, radius_;
   std::vector<Node> nodes_;
+  std::vector<Stretch> stretches_;
 };
 
 /// Demands on heights above the grounds of the two ends.

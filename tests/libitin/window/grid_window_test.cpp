@@ -7,12 +7,12 @@
 
 #include <gtest/gtest.h>
 
+#include <itin/int128.hpp>
+
 #include "support/seed.hpp"
 
 namespace itin {
 namespace {
-
-__extension__ typedef __int128 Int128;
 
 struct Corner {
   std::int64_t x, y;
