@@ -8,6 +8,8 @@
 #include <queue>
 #include <tuple>
 
+#include <itin/segment_distance.hpp>
+
 #include "geometry/cell.hpp"
 #include "geometry/predicates.hpp"
 
@@ -31,10 +33,7 @@ double distance(Point2 p, Point2 q) {
 }
 
 double distance_to_segment(Point2 p, const GridPoint& from, const GridPoint& to) {
-  const Point2 a = flat_point(from), b = flat_point(to);
-  const double dx = b.x - a.x, dy = b.y - a.y;
-  const double t = std::clamp(((p.x - a.x) * dx + (p.y - a.y) * dy) / (dx * dx + dy * dy), 0.0, 1.0);
-  return distance(p, {a.x + t * dx, a.y + t * dy});
+  return itin::distance_to_segment(p, flat_point(from), flat_point(to));
 }
 
 bool strictly_inside(const GridPoint& a, const GridPoint& b, const GridPoint& c, Position p) {

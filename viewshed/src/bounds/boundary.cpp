@@ -7,6 +7,7 @@
 #include <span>
 
 #include <itin/parallel.hpp>
+#include <itin/segment_distance.hpp>
 
 #include "line/hulls.hpp"
 
@@ -51,12 +52,6 @@ void add_unpaired(std::vector<Side>& sides, std::vector<std::size_t>& unpaired) 
     if (!paired) unpaired.push_back(sides[i].half_edge);
     if (paired) ++i;
   }
-}
-
-double distance_to_segment(Point2 p, Point2 a, Point2 b) {
-  const double dx = b.x - a.x, dy = b.y - a.y;
-  const double along = std::clamp(((p.x - a.x) * dx + (p.y - a.y) * dy) / (dx * dx + dy * dy), 0.0, 1.0);
-  return std::hypot(a.x + along * dx - p.x, a.y + along * dy - p.y);
 }
 
 Point2 in_units(const Grid& units, Point2 p) {

@@ -13,7 +13,7 @@ constexpr double kAmbient = 0.42;
 /// Surfaces steeper than this are walls: the cosine of their slope.
 constexpr double kWall = 0.3;
 
-constexpr Colour kGround{206, 207, 186}, kWalls{238, 228, 208};
+constexpr Colour kGroundColour{206, 207, 186}, kWallColour{238, 228, 208};
 constexpr Colour kOther{146, 146, 150};
 
 /// The colour of tops.
@@ -46,8 +46,8 @@ Colour SurfaceColours::of(const Triangle& t) const {
   const double length = std::hypot(nx, ny, nz);
   const double lit = length > 0 ? std::max(0.0, (nx * light_[0] + ny * light_[1] + nz * light_[2]) / length) : 1;
   const std::uint16_t theme = tin_.theme(t);
-  const Colour& plain = theme == 0                   ? kGround
-                        : nz < kWall * length        ? kWalls
+  const Colour& plain = theme == 0                   ? kGroundColour
+                        : nz < kWall * length        ? kWallColour
                         : theme <= of_themes_.size() ? of_themes_[theme - std::size_t{1}]
                                                      : kOther;
   const double shade = kAmbient + (1 - kAmbient) * std::min(1.0, lit * 1.25);

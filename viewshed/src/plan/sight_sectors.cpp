@@ -17,8 +17,8 @@ namespace {
 
 /// Along the side of the boxes of cells, at first: the sectors of wider ones overlap more, and of smaller ones each is
 /// looked at with many others anyway.
-constexpr std::int64_t kSide = 16;
-static_assert(Tile::kSide % kSide == 0);
+constexpr std::int64_t kFirstSide = 16;
+static_assert(Tile::kSide % kFirstSide == 0);
 
 }  // namespace
 
@@ -30,9 +30,10 @@ SightSectors::SightSectors(const RasterGrid& cells, const Eye& eye) : cells_(cel
     Tile part;
   };
   std::vector<Place> places;
-  for (std::int64_t row = 0; row < cells.rows(); row += kSide) {
-    for (std::int64_t column = 0; column < cells.columns(); column += kSide) {
-      const Tile part{column, row, std::min(kSide, cells.columns() - column), std::min(kSide, cells.rows() - row)};
+  for (std::int64_t row = 0; row < cells.rows(); row += kFirstSide) {
+    for (std::int64_t column = 0; column < cells.columns(); column += kFirstSide) {
+      const Tile part{column, row, std::min(kFirstSide, cells.columns() - column),
+                      std::min(kFirstSide, cells.rows() - row)};
       const Box box = box_of(cells, part);
       const double squared = squared_distance(eye.position, box);
       if (!eye.view.reaches(squared)) continue;
