@@ -73,7 +73,7 @@ SectionCrossing SectionLine::crossing(const GridPoint& p) const {
   const Place place = along < 0                                ? Place::kBefore
                       : along > (is_point_ ? Int128{} : whole) ? Place::kBeyond
                                                                : Place::kWithin;
-  return at(to_double(along) / to_double(whole), grid_.point(p), place);
+  return at(static_cast<double>(along) / static_cast<double>(whole), grid_.point(p), place);
 }
 
 SectionCrossing SectionLine::crossing(const GridPoint& p, const GridPoint& q) const {
@@ -89,7 +89,7 @@ SectionCrossing SectionLine::crossing(const GridPoint& p, Int128 side_p, const G
   const std::int64_t qx = subgrid(q.x) - subgrid(p.x), qy = subgrid(q.y) - subgrid(p.y);
   // On which side of the edge the start is; at the end that differs by as much as the sides of q and p of the line do.
   Int128 before = cross(qx, qy, ax_ - subgrid(p.x), ay_ - subgrid(p.y)), all = side_q - side_p;
-  const double s = to_double(side_p) / to_double(-all);
+  const double s = static_cast<double>(side_p) / static_cast<double>(-all);
   if (all < 0) before = -before, all = -all;
   const Place place = before < 0                              ? Place::kBefore
                       : before > (is_point_ ? Int128{} : all) ? Place::kBeyond
@@ -97,7 +97,7 @@ SectionCrossing SectionLine::crossing(const GridPoint& p, Int128 side_p, const G
   const auto mean = [s](std::int32_t from, std::int32_t to) { return from + s * (static_cast<double>(to) - from); };
   const Point3 position{grid_.origin.x + mean(p.x, q.x) * grid_.resolution,
                         grid_.origin.y + mean(p.y, q.y) * grid_.resolution, mean(p.z, q.z) * grid_.resolution};
-  return at(to_double(before) / to_double(all), position, place);
+  return at(static_cast<double>(before) / static_cast<double>(all), position, place);
 }
 
 SectionCrossing SectionLine::between(const SectionCrossing& from, const SectionCrossing& to, double t, Point2 p) const {

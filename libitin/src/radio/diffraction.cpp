@@ -7,26 +7,6 @@ namespace itin {
 
 namespace {
 
-/// Tells edges of a span whose v is certainly less than another, without a division or a root: most are.
-class LesserEdges {
- public:
-  explicit LesserEdges(const PathSpan& span)
-      : span_(span), of_length_(1 / span.length()), square_(0.002 * span.length() / span.wavelength) {}
-
-  /// Precondition: v > 0.
-  bool has(const PathEdge& e, double v) const {
-    constexpr double kRoundingM = 1e-6, kRounding = 1e-9;
-    const double d1 = e.km - span_.a.km, d2 = span_.b.km - e.km;
-    const double line_m = (span_.a.height_m * d2 + span_.b.height_m * d1) * of_length_;
-    const double above = e.height_m + span_.bulge_m(d1, d2) - line_m + kRoundingM;
-    return above < 0 || above * above * square_ < (1 - kRounding) * v * v * d1 * d2;
-  }
-
- private:
-  const PathSpan& span_;
-  double of_length_, square_;  ///< 1/km; v is the root of square_ / (d1 d2), times the height over the line
-};
-
 /// The largest slope from an end of the span to an edge over the curved Earth, m/km: equations (14) and (17).
 double steepest_from(const PathEdge& end, const PathSpan& span, std::span<const PathEdge> edges) {
   double steepest = -std::numeric_limits<double>::infinity();
@@ -60,11 +40,10 @@ std::vector<PathEdge> levelled(std::vector<PathEdge> edges) {
 }
 
 const PathEdge* largest_v(const PathSpan& span, std::span<const PathEdge> edges) {
-  const LesserEdges lesser(span);
   const PathEdge* best = nullptr;
   double largest = 0;
   for (const PathEdge& e : edges) {
-    if (e.km <= span.a.km || e.km >= span.b.km || (largest > 0 && lesser.has(e, largest))) continue;
+    if (e.km <= span.a.km || e.km >= span.b.km) continue;
     const double v = span.v(e);
     if (best == nullptr || v >= largest) best = &e, largest = v;
   }
