@@ -11,7 +11,8 @@
 
 namespace itin {
 
-/// While one lives, this thread's GDAL errors are kept, not printed. Drivers are registered once.
+/// While one lives, this thread's GDAL errors are kept, not printed. Drivers are registered once. What is asked of all
+/// is answered by this thread's innermost one, of which there must be one.
 class QuietGdal {
  public:
   QuietGdal() {
@@ -23,9 +24,9 @@ class QuietGdal {
   QuietGdal(const QuietGdal&) = delete;
   QuietGdal& operator=(const QuietGdal&) = delete;
 
-  /// Whether anything failed since this thread's innermost QuietGdal began, even if GDAL went on afterwards.
+  /// Whether anything failed since it began, even if GDAL went on afterwards.
   static bool failed() { return innermost().failure_.has_value(); }
-  /// The first failure since then on one line, else what GDAL warned of last, else `otherwise`.
+  /// The first failure on one line, else what GDAL warned of last, else `otherwise`.
   static std::string message(const std::string& otherwise) {
     const QuietGdal& self = innermost();
     std::string text = self.failure_.value_or(self.warning_);

@@ -18,6 +18,7 @@ bool is_text_of_points(GDALDriver& driver) {
 
 GDALDatasetUniquePtr open_raster_file(const std::string& path) {
   require_plain_file(path);
+  const QuietGdal quiet;
   GDALDatasetUniquePtr dataset(GDALDataset::Open(path.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY));
   if (!dataset) throw FileError(path, why_not_read(path, "a raster"));
   return dataset;

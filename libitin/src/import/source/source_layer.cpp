@@ -20,6 +20,7 @@ namespace itin {
 
 GDALDatasetUniquePtr open_vector_file(const std::string& path, const char* const* options, const std::string& what) {
   require_plain_file(path);
+  const QuietGdal quiet;
   GDALDatasetUniquePtr file(
       GDALDataset::Open(path.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY, nullptr, options, nullptr));
   if (!file) throw FileError(path, why_not_read(path, what));
