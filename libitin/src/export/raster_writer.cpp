@@ -14,6 +14,7 @@
 #include <itin/raster.hpp>
 
 #include "export/pending_file.hpp"
+#include "gdal/memory_raster.hpp"
 #include "gdal/quiet_gdal.hpp"
 
 namespace itin {
@@ -81,19 +82,12 @@ std::vector<Level<T>> overviews(std::span<const T> values, const RasterGrid& gri
   return levels;
 }
 
-/// A dataset over the caller's values, without copying them; GDAL only reads from it.
+/// A band for each raster of the grid that the values hold.
 template <class T>
 GDALDatasetUniquePtr wrap(std::span<const T> values, const RasterGrid& grid, GDALDataType type) {
-  GDALDriver* const driver = GetGDALDriverManager()->GetDriverByName("MEM");
-  GDALDatasetUniquePtr dataset(
-      driver->Create("", static_cast<int>(grid.columns()), static_cast<int>(grid.rows()), 0, type, nullptr));
-  for (std::size_t first = 0; first < values.size(); first += grid.cell_count()) {
-    CPLStringList options;
-    std::array<char, 32> pointer{};
-    CPLPrintPointer(pointer.data(), const_cast<T*>(values.data() + first), static_cast<int>(pointer.size()) - 1);
-    options.SetNameValue("DATAPOINTER", pointer.data());
-    dataset->AddBand(type, options.List());
-  }
+  GDALDatasetUniquePtr dataset = memory_raster(grid);
+  for (std::size_t first = 0; first < values.size(); first += grid.cell_count())
+    add_band(*dataset, values.subspan(first, grid.cell_count()), type);
   return dataset;
 }
 
@@ -119,9 +113,7 @@ void attach_overviews(GDALDataset& dataset, std::span<const T> values, const Ras
   }
 }
 
-void describe(GDALDataset& dataset, const RasterGrid& grid, const RasterDescription& description) {
-  std::array<double, 6> affine{grid.north_west().x, grid.cell_width(), 0, grid.north_west().y, 0, -grid.cell_height()};
-  dataset.SetGeoTransform(affine.data());
+void describe(GDALDataset& dataset, const RasterDescription& description) {
   if (!description.crs_wkt.empty()) dataset.SetProjection(description.crs_wkt.c_str());
   for (const auto& [name, value] : description.metadata) dataset.SetMetadataItem(name.c_str(), value.c_str());
   for (int b = 1; b <= dataset.GetRasterCount(); ++b) {
@@ -168,7 +160,7 @@ void write_cog(const std::string& path, const RasterGrid& grid, std::span<const 
   if (!driver) throw FileError(path, "GDAL here cannot write cloud-optimised GeoTIFFs; install GDAL 3.1 or later");
   const GDALDatasetUniquePtr source = wrap(values, grid, type);
   attach_overviews(*source, values, grid, !description.classes.empty(), type);
-  describe(*source, grid, description);
+  describe(*source, description);
   const std::size_t bands = values.size() / grid.cell_count();
   const CPLStringList options = creation_options(std::is_floating_point_v<T>, tile_side(bands * sizeof(T)));
   GDALDatasetUniquePtr written(

@@ -1,9 +1,7 @@
 #include <algorithm>
-#include <array>
 #include <map>
 #include <memory>
 
-#include <cpl_string.h>
 #include <gdal_alg.h>
 #include <gdal_priv.h>
 
@@ -12,6 +10,7 @@
 
 #include "export/geopackage.hpp"
 #include "export/polygon_style.hpp"
+#include "gdal/memory_raster.hpp"
 
 namespace itin {
 
@@ -19,16 +18,6 @@ namespace {
 
 void require(bool condition, const std::string& path, const char* otherwise) {
   if (!condition) throw FileError(path, QuietGdal::message(otherwise));
-}
-
-/// Adds a band over values that are only read.
-template <class T>
-void add_band(GDALDataset& dataset, std::span<const T> values, GDALDataType type) {
-  CPLStringList options;
-  std::array<char, 32> pointer{};
-  CPLPrintPointer(pointer.data(), const_cast<T*>(values.data()), static_cast<int>(pointer.size()) - 1);
-  options.SetNameValue("DATAPOINTER", pointer.data());
-  dataset.AddBand(type, options.List());
 }
 
 struct Region {
@@ -60,12 +49,9 @@ void trace(const std::string& path, const RasterGrid& grid, std::span<const T> v
     mask[i] = 1;
     ++region->second.cells;
   }
-  GDALDatasetUniquePtr raster(GetGDALDriverManager()->GetDriverByName("MEM")->Create(
-      "", static_cast<int>(grid.columns()), static_cast<int>(grid.rows()), 0, type, nullptr));
+  const GDALDatasetUniquePtr raster = memory_raster(grid);
   add_band(*raster, values, type);
   add_band(*raster, std::span<const std::uint8_t>(mask), GDT_Byte);
-  std::array<double, 6> affine{grid.north_west().x, grid.cell_width(), 0, grid.north_west().y, 0, -grid.cell_height()};
-  raster->SetGeoTransform(affine.data());
 
   GDALDatasetUniquePtr polygons(
       GetGDALDriverManager()->GetDriverByName("Memory")->Create("", 0, 0, 0, GDT_Unknown, nullptr));

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <span>
 #include <vector>
 
 #include <profile/fresnel.hpp>
@@ -49,8 +48,9 @@ class Demand {
   double peak(const Line& base, const Line& weight) const {
     double best = -kInfinity;
     for_each_stretch(base, weight, best, [&](const Stretch& s) {
-      for (const Node& n : std::span(nodes_).subspan(s.first, s.end - s.first))
-        if (!is_less(missing_at(n, base), weight.at(n.t), best)) best = std::max(best, ratio_at(n, base, weight));
+      for (std::size_t i = s.first; i < s.end; ++i)
+        if (!is_less(missing_at(i, base), weight.at(nodes_[i].t), best))
+          best = std::max(best, ratio_at(i, base, weight));
     });
     // Most pieces have certainly less than the greatest of all points.
     for_each_stretch(base, weight, best, [&](const Stretch& s) {
@@ -91,12 +91,8 @@ class Demand {
   Stretch stretch(std::size_t first, std::size_t end) const {
     const std::size_t last = std::min(end, nodes_.size() - 1);
     Stretch s{first, end, nodes_[first].t, nodes_[last].t, -kInfinity};
-    for (std::size_t i = first; i < end; ++i) {
-      const Node& n = nodes_[i];
-      // A piece is below its tangent at its beginning, as it is concave.
-      const double rise = n.slope_on ? std::max(0.0, *n.slope_on + n.above.slope) * (nodes_[i + 1].t - n.t) : 0;
-      s.highest = std::max(s.highest, n.ground + n.above.height + rise);
-    }
+    for (std::size_t i = first; i < end; ++i)
+      s.highest = std::max(s.highest, nodes_[i].slope_on ? most_missing_inside(i, {}) : missing_at(i, {}));
     return s;
   }
   /// Leaves out stretches where every ratio is certainly less than `best` is by then.
@@ -114,7 +110,14 @@ class Demand {
     return most > 0 ? std::min(first, last) : std::max(first, last);
   }
 
-  static double missing_at(const Node& n, const Line& base) { return n.ground + n.above.height - base.at(n.t); }
+  double missing_at(std::size_t i, const Line& base) const {
+    return nodes_[i].ground + nodes_[i].above.height - base.at(nodes_[i].t);
+  }
+  /// No more is missing along the piece that begins here: by its tangent there, above which what is concave never is.
+  double most_missing_inside(std::size_t i, const Line& base) const {
+    const Node &from = nodes_[i], &to = nodes_[i + 1];
+    return missing_at(i, base) + std::max(0.0, *from.slope_on + from.above.slope - base.slope()) * (to.t - from.t);
+  }
 
   /// Whether missing / weight is certainly less than `best`, without a division.
   static bool is_less(double missing, double weight, double best) {
@@ -124,25 +127,22 @@ class Demand {
 
   /// At an end where the weight is 0 no factor helps: what is missing there makes the demand impossible, and where
   /// ray and ground just meet, the ratio has a limit (L'Hopital), which the piece beside it determines.
-  double ratio_at(const Node& n, const Line& base, const Line& weight) const {
-    const double missing = missing_at(n, base);
-    if (weight.at(n.t) > 0) return missing / weight.at(n.t);
+  double ratio_at(std::size_t i, const Line& base, const Line& weight) const {
+    const double missing = missing_at(i, base), divisor = weight.at(nodes_[i].t);
+    if (divisor > 0) return missing / divisor;
     if (missing != 0) return missing > 0 ? kInfinity : -kInfinity;
-    return limit_at_end(n, base, weight);
+    return limit_at_end(i, base, weight);
   }
-  double limit_at_end(const Node& n, const Line& base, const Line& weight) const {
-    const Node* const first = n.t < 0.5 ? &n : &n - 1;
-    if (first < nodes_.data() || !first->slope_on) return -kInfinity;
-    return (*first->slope_on + n.above.slope - base.slope()) / weight.slope();
+  double limit_at_end(std::size_t i, const Line& base, const Line& weight) const {
+    const std::size_t first = nodes_[i].t < 0.5 ? i : i - 1;
+    if (first >= nodes_.size() || !nodes_[first].slope_on) return -kInfinity;
+    return (*nodes_[first].slope_on + nodes_[i].above.slope - base.slope()) / weight.slope();
   }
 
-  /// Whether every ratio along the piece is certainly less than `best`. What is missing is less than on its tangent at
-  /// the beginning, as it is concave.
+  /// Whether every ratio along the piece is certainly less than `best`.
   bool is_less_inside(std::size_t i, const Line& base, const Line& weight, double best) const {
-    const Node &from = nodes_[i], &to = nodes_[i + 1];
-    const double slope = *from.slope_on + from.above.slope - base.slope();
-    const double most = missing_at(from, base) + std::max(0.0, slope) * (to.t - from.t);
-    return is_less(most, divisor_of(most, weight, from.t, to.t), best);
+    const double most = most_missing_inside(i, base);
+    return is_less(most, divisor_of(most, weight, nodes_[i].t, nodes_[i + 1].t), best);
   }
 
   /// The derivative's numerator falls along the piece: a maximum lies inside only if it changes sign. Minus infinity
