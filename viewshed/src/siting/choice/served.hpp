@@ -23,17 +23,25 @@ class Served {
  public:
   /// An element is served once `cover` sites serve it.
   Served(const Demand& demand, int cover)
-      : demand_(&demand), cover_(cover), counts_(64 * demand.block_count()), enough_(demand.block_count()) {}
+      : demand_(&demand),
+        cover_(cover),
+        counts_(64 * demand.block_count()),
+        enough_(demand.block_count()),
+        nearly_(demand.block_count(), cover == 1 ? ~std::uint64_t{0} : 0) {}
 
   void add(const DemandSet& set) {
     for_each_element(set, [&](std::size_t element) {
-      if (++counts_[element] == cover_) enough_[element / 64] |= std::uint64_t{1} << (element % 64);
+      const int count = ++counts_[element];
+      if (count == cover_) enough_[element / 64] |= std::uint64_t{1} << (element % 64);
+      if (count == cover_ - 1) nearly_[element / 64] |= std::uint64_t{1} << (element % 64);
     });
   }
   /// Removes a set that was added before.
   void remove(const DemandSet& set) {
     for_each_element(set, [&](std::size_t element) {
-      if (counts_[element]-- == cover_) enough_[element / 64] &= ~(std::uint64_t{1} << (element % 64));
+      const int count = counts_[element]--;
+      if (count == cover_) enough_[element / 64] &= ~(std::uint64_t{1} << (element % 64));
+      if (count == cover_ - 1) nearly_[element / 64] &= ~(std::uint64_t{1} << (element % 64));
     });
   }
 
@@ -43,6 +51,15 @@ class Served {
     for (const DemandSet::Block& block : set.blocks()) {
       const std::uint64_t open = block.members & ~enough_[block.number];
       if (open != 0) sum += demand_->weight(block.number, open);
+    }
+    return sum;
+  }
+  /// By how much value() grows where the set is added: the weight of those of its elements that one more site serves.
+  Weight completed_by(const DemandSet& set) const {
+    Weight sum = 0;
+    for (const DemandSet::Block& block : set.blocks()) {
+      const std::uint64_t last = block.members & nearly_[block.number] & ~enough_[block.number];
+      if (last != 0) sum += demand_->weight(block.number, last);
     }
     return sum;
   }
@@ -61,7 +78,8 @@ class Served {
   const Demand* demand_;
   int cover_;
   std::vector<std::uint16_t> counts_;
-  std::vector<std::uint64_t> enough_;
+  std::vector<std::uint64_t> enough_;  ///< elements that `cover` sites serve
+  std::vector<std::uint64_t> nearly_;  ///< elements that one less serves, and those of enough_
 };
 
 }  // namespace itin::viewshed

@@ -34,7 +34,7 @@ std::vector<Exchange> exchanges(const ChoiceProblem& problem, const std::vector<
   parallel_for(chosen.size(), [&](std::size_t s) {
     Served others = all;
     others.remove(problem.coverage.bounds(chosen[s]).certain);
-    const Weight loss = others.gain(problem.coverage.bounds(chosen[s]).certain);
+    const Weight loss = others.completed_by(problem.coverage.bounds(chosen[s]).certain);
     std::vector<std::size_t> rest = chosen;
     rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(s));
     const double spent = problem.cost_of(rest);
@@ -43,11 +43,12 @@ std::vector<Exchange> exchanges(const ChoiceProblem& problem, const std::vector<
           !problem.affordable(spent + problem.options[option].cost))
         continue;
       const CoverageBounds& bounds = problem.coverage.bounds(option);
-      const Weight upper = least ? loss - others.gain(bounds.certain) : others.gain(bounds.possible) - loss;
+      const Weight upper =
+          least ? loss - others.completed_by(bounds.certain) : others.completed_by(bounds.possible) - loss;
       if (upper <= 0) continue;
       const Weight lower = bounds.exact ? upper
-                           : least      ? loss - others.gain(bounds.possible)
-                                        : others.gain(bounds.certain) - loss;
+                           : least      ? loss - others.completed_by(bounds.possible)
+                                        : others.completed_by(bounds.certain) - loss;
       of_site[s].push_back({s, option, upper, lower});
     }
   });
