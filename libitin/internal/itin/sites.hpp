@@ -37,8 +37,8 @@ struct Site {
   std::int64_t feature = 0;  ///< the file's own number for it
   std::int64_t row = 0;      ///< its place among the features asked for, from 0
   std::string name;
-  Point2 position;  ///< in the CRS asked for
-  std::optional<double> height;
+  Point2 position;                             ///< in the CRS asked for
+  std::optional<double> height;                ///< nothing where the field is empty, or none is asked for
   std::vector<std::optional<double>> numbers;  ///< one for each SiteQuery::numbers; nothing where the field is empty
 };
 

@@ -60,6 +60,14 @@ TEST_F(ScatteredSource, PutsPointsOnTheGridAndDescribesThem) {
   EXPECT_EQ(info.gap_basis, (std::array{100 * info.spacing, 0.0, 0.0, 100 * info.spacing}));
 }
 
+TEST_F(ScatteredSource, UsualMarksOfMissingHeightsAreVoids) {
+  const ReadCounts counts = read_text("0,0,1\n30,0,-9999\n30,40,2\n0,40,-32768\n15,20,-32767\n9,9,-9998.9\n");
+  EXPECT_EQ(counts.read, 3u);
+  EXPECT_EQ(counts.voids, 3u);
+  EXPECT_THAT(counts.warnings, ::testing::ElementsAre(HasSubstr(
+                                   "3 heights of what customarily marks missing data, such as -32767, were taken")));
+}
+
 TEST_F(ScatteredSource, GapIsTheOneGiven) {
   ImportOptions options;
   options.max_gap = 12;

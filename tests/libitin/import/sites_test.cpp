@@ -74,6 +74,22 @@ TEST_F(Sites, CarryFurtherNumbers) {
   EXPECT_THAT([&] { read_sites(query, ""); }, ThrowsMessage<FileError>(HasSubstr("no field 'to'")));
 }
 
+TEST_F(Sites, TakeDecimalCommasAndHaveNoHeightWhereTheFieldIsEmpty) {
+  SiteQuery query = file("masts.csv", "x;y;mast;reach\n100,5;2;12,5;1,5\n3;4;;1.5\n5;6;7;\n");
+  query.height_field = "mast";
+  query.numbers = {{"reach"}};
+  const std::vector<Site> sites = read_sites(query, "");
+  ASSERT_EQ(sites.size(), 3u);
+  EXPECT_EQ(sites[0].position, (Point2{100.5, 2}));
+  EXPECT_EQ(sites[0].height, 12.5);
+  EXPECT_EQ(sites[1].height, std::nullopt);
+  EXPECT_EQ(sites[2].height, 7);
+  using Numbers = std::vector<std::optional<double>>;
+  EXPECT_EQ(sites[0].numbers, Numbers{1.5});
+  EXPECT_EQ(sites[1].numbers, Numbers{1.5});
+  EXPECT_EQ(sites[2].numbers, Numbers{std::nullopt});
+}
+
 TEST_F(Sites, InCsvHeadedLongitudeAndLatitudeAreGeographic) {
   for (const char* header : {"lon,lat", "Longitude,LATITUDE", "lng,lat", "long,lat"}) {
     const SiteQuery query = file("masts.csv", std::string(header) + "\n-3.2934,51.5437\n");

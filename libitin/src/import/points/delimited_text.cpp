@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <itin/decimal_comma.hpp>
 #include <itin/error.hpp>
 #include <itin/position_columns.hpp>
 
@@ -40,7 +41,7 @@ bool is_skipped(std::string_view line) {
 }
 
 char separator_of(std::string_view line) {
-  // Semicolons come first: where they part the columns, commas are decimal, and refused as such.
+  // Semicolons come first: where they part the columns, commas are decimal.
   for (const char candidate : {';', '\t', ','})
     if (line.find(candidate) != std::string_view::npos) return candidate;
   return ' ';
@@ -129,7 +130,8 @@ class RowParser {
  private:
   double coordinate(std::size_t axis, std::string_view line, std::uint64_t line_number) const {
     const std::string_view field = fields_[columns_[axis]];
-    const auto value = number_in(field);
+    auto value = number_in(field);
+    if (!value && separator_ != ',') value = number_in(with_decimal_point(std::string(field)));
     if (!value) fail(line, line_number, fmt::format("{} is not a number", in_quotes(field)));
     return *value;
   }

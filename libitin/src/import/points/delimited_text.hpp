@@ -6,7 +6,8 @@
 //
 // A first line without anything like a number is a header, and the columns are taken by name: those of the position as
 // position_columns() has it, that of the height likewise (z, height, elevation, ...). Otherwise the first three columns
-// are x, y and height. Numbers are decimal with a point, whatever the locale; an empty height is a void.
+// are x, y and height. Numbers are decimal with a point, whatever the locale, or with a comma where commas do not part
+// columns; an empty height is a void.
 #pragma once
 
 #include <array>

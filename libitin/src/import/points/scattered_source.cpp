@@ -34,7 +34,7 @@ class ScatteredTerrain final : public TerrainSource {
                    const SourceContext& context)
       : reader_(std::move(reader)),
         grid_(context.grid),
-        placement_(reader_->path(), crs, heights.axis, context),
+        placement_(reader_->path(), crs, heights.axis, context, Placement::Missing::kNotDeclared),
         max_gap_(max_gap) {
     info_.path = reader_->path();
     info_.kind = "terrain";

@@ -11,6 +11,7 @@
 
 #include "gdal/quiet_gdal.hpp"
 #include "gdal/value_band.hpp"
+#include "import/source/source_context.hpp"
 
 namespace itin {
 
@@ -74,7 +75,7 @@ double HeightBand::height(double raw, bool valid) {
   constexpr double kVoid = std::numeric_limits<double>::quiet_NaN();
   if (!valid || std::isnan(raw) || raw == nodata_) return kVoid;
   // -9999 could be the bottom of a trench, in a file that declares another value.
-  if (raw == -32768 || raw == -32767 || (raw == -9999 && !declares_nodata_)) {
+  if (is_usual_nodata(raw) && (raw != -9999 || !declares_nodata_)) {
     ++undeclared_voids_;
     return kVoid;
   }

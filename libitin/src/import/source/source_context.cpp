@@ -68,11 +68,13 @@ bool is_missing_mark(double height) {
                      [&](double mark) { return std::abs(height - mark) <= kMarkShare * std::abs(mark); });
 }
 
-Placement::Placement(std::string path, const Crs& crs, const HeightAxis& heights, const SourceContext& context)
+Placement::Placement(std::string path, const Crs& crs, const HeightAxis& heights, const SourceContext& context,
+                     Missing missing)
     : path_(std::move(path)),
       transform_(crs.wkt, context.crs_wkt, path_),
       height_factor_(heights.factor()),
-      grid_(context.grid) {}
+      grid_(context.grid),
+      missing_(missing) {}
 
 void Placement::require_heights(std::span<const double> x, std::span<const double> y, std::span<const double> z) const {
   for (std::size_t i = 0; i < z.size(); ++i) {
@@ -91,8 +93,9 @@ void Placement::place(std::span<double> x, std::span<double> y, std::span<const 
     const double height = z[i] * height_factor_;
     if (std::isnan(height)) {
       ++voids_;
-    } else if (!is_height(height)) {
+    } else if (!is_height(height) || (missing_ == Missing::kNotDeclared && is_usual_nodata(z[i]))) {
       ++marks_;
+      mark_ = z[i];
     } else if (!(height >= kLowest && height <= kHighest)) {
       ++out_of_range_;
     } else if (std::isnan(x[i]) || std::isnan(y[i])) {
@@ -118,7 +121,7 @@ ReadCounts Placement::counts() const {
     counts.warnings.push_back(fmt::format(
         "{}: {} heights of what customarily marks missing data, such as {:g}, were taken as missing, though "
         "the file does not declare it",
-        path_, marks_, kMissingMarks[0]));
+        path_, marks_, mark_));
   if (out_of_range_ > 0)
     counts.warnings.push_back(
         fmt::format("{}: {} heights below {} m or above {} m were taken as missing; check their "

@@ -56,14 +56,23 @@ Crs source_crs(const std::string& path, const std::string& option_crs, const std
 
 /// Whether a number is one that customarily stands for a missing height, and is none for sure.
 bool is_missing_mark(double height);
+/// Whether a number customarily stands for a missing height: -9999, -32767 or -32768. In a file that declares its
+/// missing heights it may be one.
+constexpr bool is_usual_nodata(double height) {
+  return height == -9999 || height == -32767 || height == -32768;
+}
 /// Takes points from a source's coordinates to the grid, a batch at a time; the last step of every kind of source.
 class Placement {
  public:
-  Placement(std::string path, const Crs& crs, const HeightAxis& heights, const SourceContext& context);
+  enum class Missing {
+    kNotDeclared,  ///< is_usual_nodata() is a void
+    kDeclared,     ///< what the source declares is NaN, and nothing else is missing
+  };
+  Placement(std::string path, const Crs& crs, const HeightAxis& heights, const SourceContext& context, Missing missing);
 
   /// Transforms x and y in place, and replaces `points` by those that have a position and a height. Points whose height
-  /// is NaN, is_missing_mark(), below -12,000 m or above 20,000 m, or whose position has no image are counted as voids.
-  /// Throws InputError for a position the grid cannot hold, and for a height beyond kFarthestHeight.
+  /// is NaN, is_missing_mark(), missing, below -12,000 m or above 20,000 m, or whose position has no image are counted
+  /// as voids. Throws InputError for a position the grid cannot hold, and for a height beyond kFarthestHeight.
   void place(std::span<double> x, std::span<double> y, std::span<const double> z, std::vector<GridPoint>& points);
   /// Positions only: of the corners of a lattice step, say. NaN where there is no image.
   void transform(std::span<double> x, std::span<double> y) const { transform_.transform(x, y); }
@@ -79,7 +88,9 @@ class Placement {
   double height_factor_;
   Grid grid_;
   GridBox bounds_;
+  Missing missing_;
   std::uint64_t placed_ = 0, voids_ = 0, marks_ = 0, out_of_range_ = 0, unmapped_ = 0;
+  double mark_ = 0;  ///< one of those counted
 };
 
 /// "2024-05-31T12:00:00Z": now, or the time that SOURCE_DATE_EPOCH gives (reproducible-builds.org). Throws InputError

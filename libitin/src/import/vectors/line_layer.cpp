@@ -97,7 +97,7 @@ void LineLayer::add(const OGRSimpleCurve& curve, const OGRFeature& feature, std:
 
 ReadCounts LineLayer::read(const SourceContext& context, const Sink& sink, Progress& progress) {
   const std::string stage = "reading " + path();
-  Placement placement(path(), crs_, heights_.axis, context);
+  Placement placement(path(), crs_, heights_.axis, context, Placement::Missing::kNotDeclared);
   std::vector<GridPoint> points;
   std::uint64_t done = 0, vertices = 0;
   layer_.rewind();

@@ -10,6 +10,7 @@
 #include <cpl_vsi.h>
 #include <fmt/format.h>
 
+#include <itin/decimal_comma.hpp>
 #include <itin/error.hpp>
 #include <itin/position_columns.hpp>
 
@@ -43,19 +44,9 @@ std::vector<std::string> open_options(const std::string& path, ColumnTypes types
   return options;
 }
 
-/// Whether a comma in a number may be meant to part thousands: GDAL takes 318,000 for 318, as it takes 318000,5 for
-/// 318000.5.
-bool may_part_thousands(const std::string& number) {
-  const std::size_t comma = number.find(',');
-  if (comma == std::string::npos) return false;
-  const std::size_t digits = number.find_first_not_of("0123456789", comma + 1);
-  const std::size_t after = (digits == std::string::npos ? number.size() : digits) - comma - 1;
-  return number.find(',', comma + 1) != std::string::npos || after == 3;
-}
-
 /// What is wrong with a row that has more values than the header has names, or a position that may mean another number;
 /// empty where nothing is. GDAL drops what is left over, so that a decimal comma in a file with commas between its
-/// values would shift them from column to column unseen.
+/// values would shift them from column to column unseen, and takes 318,000 for 318, as it takes 318000,5 for 318000.5.
 std::string wrong_values(const CPLStringList& cells, int columns, const std::vector<int>& position) {
   if (cells.size() > columns)
     return "it has more values than the header has columns; write numbers with a decimal point, texts with a comma in "

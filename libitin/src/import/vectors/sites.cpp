@@ -5,6 +5,7 @@
 #include <gdal_priv.h>
 #include <ogrsf_frmts.h>
 
+#include <itin/decimal_comma.hpp>
 #include <itin/error.hpp>
 #include <itin/height_limit.hpp>
 #include <itin/sites.hpp>
@@ -27,20 +28,21 @@ std::optional<double> number_of_field(const OGRFeature& feature, int field) {
   if (!feature.IsFieldSetAndNotNull(field)) return std::nullopt;
   const OGRFieldType type = feature.GetFieldDefnRef(field)->GetType();
   if (type == OFTInteger || type == OFTInteger64 || type == OFTReal) return feature.GetFieldAsDouble(field);
+  const std::string text = with_decimal_point(feature.GetFieldAsString(field));
+  if (text.empty()) return std::nullopt;
   char* end = nullptr;
-  const char* text = feature.GetFieldAsString(field);
-  if (*text == '\0') return std::nullopt;
-  const double value = CPLStrtod(text, &end);
+  const double value = CPLStrtod(text.c_str(), &end);
   return *end != '\0' ? std::numeric_limits<double>::quiet_NaN() : value;
 }
 
-double height_of(const OGRFeature& feature, int field, const std::string& place) {
+std::optional<double> height_of(const OGRFeature& feature, int field, const std::string& place) {
   const std::optional<double> height = number_of_field(feature, field);
-  if (!height || !std::isfinite(*height))
+  if (!height) return std::nullopt;
+  if (!std::isfinite(*height))
     throw FileError(place,
                     fmt::format("its height field '{}' holds no number", feature.GetFieldDefnRef(field)->GetNameRef()));
   require_height(*height, place);
-  return *height;
+  return height;
 }
 
 std::vector<int> number_fields(OGRLayer& layer, const SiteQuery& query) {
