@@ -58,8 +58,9 @@ std::string directory_of(const std::string& path) {
 /// Sums over the parts of each theme.
 std::vector<ThemeInfo> counted_themes(const LineCollection& collection, const ThemeLines& lines,
                                       const PyramidReport& pyramid) {
-  std::vector<ThemeInfo> themes = collection.themes();
-  for (std::size_t t = 0; t < themes.size(); ++t) {
+  std::vector<ThemeInfo> themes;
+  for (std::size_t t = 0; t < collection.themes().size(); ++t) {
+    themes.push_back(collection.themes()[t].info);
     themes[t].segments = pyramid.segments[t];
     themes[t].vertices = pyramid.line_vertices[t];
   }
@@ -166,7 +167,7 @@ void StorePass::add_source(TerrainSource& source, Progress& progress) {
   const ReadCounts counts = source.read(
       [&](std::span<const GridPoint> points) {
         raw.clear();
-        for (const GridPoint& p : points) raw.push_back({morton(p.x, p.y), p.z, next_number(), 0});
+        for (const GridPoint& p : points) raw.push_back({code_of(p), p.z, next_number(), 0});
         points_.add(raw);
       },
       progress);
@@ -290,8 +291,13 @@ void StorePass::count(const PyramidReport& pyramid, const ThemeLines& lines) {
 
 void StorePass::commit(const PyramidReport& pyramid, const ThemeLines& lines, StoreWriter& writer) {
   std::vector<ThemeInfo> themes = counted_themes(collection_, lines, pyramid);
-  writer.add_footprints(themes, collection_.footprints());
-  writer.add_features(themes, collection_.features());
+  const std::vector<CollectedTheme>& collected = collection_.themes();
+  for (std::size_t t = 0; t < themes.size(); ++t)
+    themes[t].footprint_blocks = writer.add_footprints(static_cast<std::uint16_t>(t + 1), collected[t].footprints);
+  for (std::size_t t = 0; t < themes.size(); ++t) {
+    themes[t].fields = collected[t].features.fields;
+    themes[t].feature_blocks = writer.add_features(static_cast<std::uint16_t>(t + 1), collected[t].features.records);
+  }
   std::vector<ThemePart> parts;
   for (const PlacedPart& part : lines.parts) parts.push_back(part.part);
   writer.commit(std::move(sources_), std::move(themes), std::move(parts));

@@ -1,9 +1,7 @@
 #include "store/store_writer.hpp"
 
 #include <algorithm>
-#include <map>
 #include <optional>
-#include <set>
 #include <stdexcept>
 #include <utility>
 
@@ -13,15 +11,12 @@
 #include "geometry/morton_range.hpp"
 #include "store/block_codec.hpp"
 #include "store/block_preface.hpp"
-#include "store/database.hpp"
-#include "store/directory.hpp"
 #include "store/edge_quadtree.hpp"
 #include "store/lateral_tolerance.hpp"
 #include "store/leaf_cutter.hpp"
 #include "store/line_codec.hpp"
 #include "store/metadata_json.hpp"
 #include "store/seal.hpp"
-#include "store/store_format.hpp"
 
 namespace itin {
 
@@ -44,52 +39,12 @@ void raise(std::vector<Leaf>& leaves, const FeatureReach& reach) {
 
 }  // namespace
 
-class StoreWriter::Impl {
- public:
-  Impl(std::unique_ptr<ReplacementFile> file, const std::string& crs_wkt, const Grid& grid,
-       const std::vector<double>& tolerances);
+StoreWriter::StoreWriter(const std::string& path, const std::string& crs_wkt, const Grid& grid,
+                         const std::vector<double>& tolerances)
+    : StoreWriter(std::make_unique<ReplacementFile>(path), crs_wkt, grid, tolerances) {}
 
-  void add_point_leaf(const EncodedLeaf& encoded);
-  void add_theme_vertices(std::uint16_t theme, std::span<const GridPoint> points,
-                          std::span<const std::uint16_t> sources);
-  void add_part_vertices(std::uint16_t part, std::span<const GridPoint> points, std::span<const std::uint16_t> sources,
-                         std::span<const FeatureReach> reaches, const PartClusters& clusters);
-  void add_segments(const std::vector<Segment>& segments, std::span<const SegmentFeature> features,
-                    const std::map<std::uint16_t, PartClusters>& clusters);
-  std::uint32_t add_footprints(std::uint16_t theme, std::span<const StoredFootprint> footprints);
-  std::uint32_t add_features(std::uint16_t theme, std::span<const FeatureRecord> records);
-  void set_aside(const Cell& cell, std::span<const GridPoint> points, std::span<const std::uint16_t> sources);
-  void set_aside(std::uint16_t theme, const SetAsideLines& lines);
-  void count_set_aside(const SetAsideCounts& counts) { set_aside_.counts = counts; }
-  void commit(std::vector<SourceInfo> sources, std::vector<ThemeInfo> themes, std::vector<ThemePart> parts);
-
- private:
-  void add_points(const EncodedLeaf& encoded);
-  void add_edges(std::uint16_t theme, std::vector<Segment> segments, std::span<const SegmentFeature> features,
-                 const PartClusters& clusters);
-  void require_version(std::uint32_t version);
-  void add_leaf(const Leaf& leaf, std::span<const std::uint8_t> block);
-  void flush_chunk();
-  void insert(Statement& statement, BlobKind kind, std::uint64_t key, std::span<const std::uint8_t> bytes);
-  void widen(LevelInfo& level, std::int32_t lo, std::int32_t hi) const;
-
-  // Destroyed in reverse order: statements, database, file.
-  std::unique_ptr<ReplacementFile> file_;
-  Database database_;
-  std::optional<Statement> insert_block_, insert_chunk_;
-  StoreMetadata metadata_;
-  DirectoryChunk chunk_;
-  ChunkList chunks_;
-  SetAsideList set_aside_;
-  std::uint32_t version_ = format::kPlainVersion;
-  std::set<std::uint16_t> with_features_;  ///< themes whose segments know their features
-  std::set<std::uint16_t> with_clusters_;  ///< parts
-  Leaf last_;                              ///< added; only its tree and cell matter
-  bool has_last_ = false;
-};
-
-StoreWriter::Impl::Impl(std::unique_ptr<ReplacementFile> file, const std::string& crs_wkt, const Grid& grid,
-                        const std::vector<double>& tolerances)
+StoreWriter::StoreWriter(std::unique_ptr<ReplacementFile> file, const std::string& crs_wkt, const Grid& grid,
+                         const std::vector<double>& tolerances)
     : file_(std::move(file)), database_(Database::create(file_->temporary_path(), file_->target())) {
   if (tolerances.empty() || tolerances.size() > format::kMaxLevels) {
     throw std::invalid_argument("a store has 1 to 64 levels");
@@ -105,21 +60,20 @@ StoreWriter::Impl::Impl(std::unique_ptr<ReplacementFile> file, const std::string
   insert_chunk_ = database_.prepare("INSERT INTO directory(key, data) VALUES(?, ?)");
 }
 
-void StoreWriter::Impl::require_version(std::uint32_t version) {
+void StoreWriter::require_version(std::uint32_t version) {
   if (version <= version_) return;
   version_ = version;
   database_.execute("PRAGMA user_version=" + std::to_string(version_));
 }
 
-void StoreWriter::Impl::insert(Statement& statement, BlobKind kind, std::uint64_t key,
-                               std::span<const std::uint8_t> bytes) {
+void StoreWriter::insert(Statement& statement, BlobKind kind, std::uint64_t key, std::span<const std::uint8_t> bytes) {
   statement.bind(1, static_cast<std::int64_t>(key));
   statement.bind(2, seal(kind, key, bytes));
   statement.step("row");
   statement.reset();
 }
 
-void StoreWriter::Impl::add_leaf(const Leaf& leaf, std::span<const std::uint8_t> block) {
+void StoreWriter::append(const Leaf& leaf, std::span<const std::uint8_t> block) {
   const bool same_tree = has_last_ && last_.level == leaf.level;
   if (leaf.cell.log2_side < format::kMinLeafLog2Side || (has_last_ && last_.level > leaf.level) ||
       (same_tree && last_.cell.end() > leaf.cell.code)) {
@@ -131,19 +85,27 @@ void StoreWriter::Impl::add_leaf(const Leaf& leaf, std::span<const std::uint8_t>
   if (leaf.points > 0) insert(*insert_block_, BlobKind::Block, leaf.key, block);
 }
 
-void StoreWriter::Impl::flush_chunk() {
+void StoreWriter::flush_chunk() {
   const int tree = chunk_.front().level;
   insert(*insert_chunk_, BlobKind::Directory, chunk_.front().key, encode_chunk(chunk_));
   chunks_[tree].push_back(entry_of(chunk_));
   chunk_.clear();
 }
 
-void StoreWriter::Impl::widen(LevelInfo& level, std::int32_t lo, std::int32_t hi) const {
+void StoreWriter::widen(LevelInfo& level, std::int32_t lo, std::int32_t hi) const {
   level.certified_error.lo = std::min(level.certified_error.lo, lo * metadata_.grid.resolution);
   level.certified_error.hi = std::max(level.certified_error.hi, hi * metadata_.grid.resolution);
 }
 
-void StoreWriter::Impl::add_point_leaf(const EncodedLeaf& encoded) {
+void StoreWriter::add_leaf(int level, const Cell& cell, std::span<const GridPoint> points,
+                           std::span<const std::uint16_t> sources, std::int32_t lo, std::int32_t hi) {
+  // The encoder takes more, and as many sources, for granted.
+  if (points.size() > kLeafCapacity || points.size() != sources.size())
+    throw std::invalid_argument("not a leaf of this store");
+  add_leaf(encode_leaf(level, cell, points, sources, lo, hi));
+}
+
+void StoreWriter::add_leaf(const EncodedLeaf& encoded) {
   const Leaf& leaf = encoded.leaf;
   if (leaf.level < 0 || static_cast<std::size_t>(leaf.level) >= metadata_.levels.size() ||
       leaf.points > kLeafCapacity) {
@@ -155,14 +117,14 @@ void StoreWriter::Impl::add_point_leaf(const EncodedLeaf& encoded) {
   add_points(encoded);
 }
 
-void StoreWriter::Impl::add_points(const EncodedLeaf& encoded) {
+void StoreWriter::add_points(const EncodedLeaf& encoded) {
   metadata_.bounds.extend(encoded.bounds);
   metadata_.vertices += encoded.vertices;
-  add_leaf(encoded.leaf, encoded.block);
+  append(encoded.leaf, encoded.block);
 }
 
-void StoreWriter::Impl::add_theme_vertices(std::uint16_t theme, std::span<const GridPoint> points,
-                                           std::span<const std::uint16_t> sources) {
+void StoreWriter::add_theme_vertices(std::uint16_t theme, std::span<const GridPoint> points,
+                                     std::span<const std::uint16_t> sources) {
   if (theme == kCoverage || theme > format::kMaxThemes || points.size() != sources.size()) {
     throw std::invalid_argument("not a theme's vertices");
   }
@@ -174,12 +136,12 @@ void StoreWriter::Impl::add_theme_vertices(std::uint16_t theme, std::span<const 
     }
     first += count;
   });
-  for (const GridPoint& p : points) cutter.add(morton(p.x, p.y));
+  for (const GridPoint& p : points) cutter.add(code_of(p));
   cutter.finish();
 }
 
-void StoreWriter::Impl::add_segments(const std::vector<Segment>& segments, std::span<const SegmentFeature> features,
-                                     const std::map<std::uint16_t, PartClusters>& clusters) {
+void StoreWriter::add_segments(const std::vector<Segment>& segments, std::span<const SegmentFeature> features,
+                               const std::map<std::uint16_t, PartClusters>& clusters) {
   std::map<std::uint16_t, std::vector<Segment>> by_theme;
   for (const Segment& s : segments) by_theme[s.theme].push_back(s);
   for (const SegmentFeature& f : features) with_features_.insert(f.segment.theme);
@@ -190,9 +152,9 @@ void StoreWriter::Impl::add_segments(const std::vector<Segment>& segments, std::
   }
 }
 
-void StoreWriter::Impl::add_part_vertices(std::uint16_t part, std::span<const GridPoint> points,
-                                          std::span<const std::uint16_t> sources, std::span<const FeatureReach> reaches,
-                                          const PartClusters& clusters) {
+void StoreWriter::add_part_vertices(std::uint16_t part, std::span<const GridPoint> points,
+                                    std::span<const std::uint16_t> sources, std::span<const FeatureReach> reaches,
+                                    const PartClusters& clusters) {
   if (!clusters.empty()) require_version(format::kVersionWithClusters), with_clusters_.insert(part);
   if (part == kCoverage || part > format::kMaxThemes || points.size() != sources.size()) {
     throw std::invalid_argument("not a part of a theme");
@@ -202,7 +164,7 @@ void StoreWriter::Impl::add_part_vertices(std::uint16_t part, std::span<const Gr
     Leaf& leaf = leaves.emplace_back();
     leaf.cell = cell, leaf.points = count;
   });
-  for (const GridPoint& p : points) cutter.add(morton(p.x, p.y));
+  for (const GridPoint& p : points) cutter.add(code_of(p));
   cutter.finish();
   for (const FeatureReach& reach : reaches) raise(leaves, reach);
   std::size_t first = 0;
@@ -219,7 +181,7 @@ void StoreWriter::Impl::add_part_vertices(std::uint16_t part, std::span<const Gr
   }
 }
 
-std::uint32_t StoreWriter::Impl::add_footprints(std::uint16_t theme, std::span<const StoredFootprint> footprints) {
+std::uint32_t StoreWriter::add_footprints(std::uint16_t theme, std::span<const StoredFootprint> footprints) {
   std::uint32_t blocks = 0;
   for (; !footprints.empty(); ++blocks) {
     const auto some = footprints.first(std::min(footprints.size(), kFootprintsInBlock));
@@ -233,7 +195,7 @@ std::uint32_t StoreWriter::Impl::add_footprints(std::uint16_t theme, std::span<c
   return blocks;
 }
 
-std::uint32_t StoreWriter::Impl::add_features(std::uint16_t theme, std::span<const FeatureRecord> records) {
+std::uint32_t StoreWriter::add_features(std::uint16_t theme, std::span<const FeatureRecord> records) {
   if (!records.empty()) require_version(format::kVersionWithFeatures);
   std::uint32_t blocks = 0;
   for (; !records.empty(); ++blocks) {
@@ -244,13 +206,13 @@ std::uint32_t StoreWriter::Impl::add_features(std::uint16_t theme, std::span<con
   return blocks;
 }
 
-void StoreWriter::Impl::set_aside(const Cell& cell, std::span<const GridPoint> points,
-                                  std::span<const std::uint16_t> sources) {
+void StoreWriter::set_aside(const Cell& cell, std::span<const GridPoint> points,
+                            std::span<const std::uint16_t> sources) {
   insert(*insert_block_, BlobKind::Block, format::set_aside_key(0, set_aside_.point_blocks++),
          encode_set_aside(cell, points, sources));
 }
 
-void StoreWriter::Impl::set_aside(std::uint16_t theme, const SetAsideLines& lines) {
+void StoreWriter::set_aside(std::uint16_t theme, const SetAsideLines& lines) {
   if (theme == kCoverage || theme > format::kMaxThemes) throw std::invalid_argument("not a theme");
   if (set_aside_.line_blocks.size() < theme) set_aside_.line_blocks.resize(theme);
   std::uint32_t& blocks = set_aside_.line_blocks[theme - std::size_t{1}];
@@ -266,8 +228,8 @@ void StoreWriter::Impl::set_aside(std::uint16_t theme, const SetAsideLines& line
            encode_set_aside(some(imported), some(made)));
 }
 
-void StoreWriter::Impl::add_edges(std::uint16_t theme, std::vector<Segment> segments,
-                                  std::span<const SegmentFeature> features, const PartClusters& clusters) {
+void StoreWriter::add_edges(std::uint16_t theme, std::vector<Segment> segments,
+                            std::span<const SegmentFeature> features, const PartClusters& clusters) {
   if (theme > format::kMaxThemes) throw std::invalid_argument("too many themes");
   const auto bytes_of = [&](const Cell& cell, const std::vector<Segment>& in_cell) {
     if (theme == kCoverage) return encode_outline(cell, in_cell);
@@ -279,13 +241,12 @@ void StoreWriter::Impl::add_edges(std::uint16_t theme, std::vector<Segment> segm
   for_each_edge_leaf(std::move(segments), [&](const Cell& cell, const std::vector<Segment>& in_cell) {
     stop_if_asked();
     const int tree = format::edge_tree(theme);
-    add_leaf({cell, tree, static_cast<std::uint32_t>(in_cell.size()), 0, 0, 0, 0, format::key(tree, cell.code)},
-             bytes_of(cell, in_cell));
+    append({cell, tree, static_cast<std::uint32_t>(in_cell.size()), 0, 0, 0, 0, format::key(tree, cell.code)},
+           bytes_of(cell, in_cell));
   });
 }
 
-void StoreWriter::Impl::commit(std::vector<SourceInfo> sources, std::vector<ThemeInfo> themes,
-                               std::vector<ThemePart> parts) {
+void StoreWriter::commit(std::vector<SourceInfo> sources, std::vector<ThemeInfo> themes, std::vector<ThemePart> parts) {
   if (!chunk_.empty()) flush_chunk();
   insert(*insert_chunk_, BlobKind::Directory, format::kSetAsideListKey, encode_set_aside(set_aside_));
   insert(*insert_chunk_, BlobKind::Directory, format::kChunkListKey, encode_chunk_list(chunks_));
@@ -319,62 +280,6 @@ void StoreWriter::Impl::commit(std::vector<SourceInfo> sources, std::vector<Them
   database_.execute("COMMIT");
   database_.close();
   file_->commit();
-}
-
-StoreWriter::StoreWriter(const std::string& path, const std::string& crs_wkt, const Grid& grid,
-                         const std::vector<double>& tolerances)
-    : StoreWriter(std::make_unique<ReplacementFile>(path), crs_wkt, grid, tolerances) {}
-StoreWriter::StoreWriter(std::unique_ptr<ReplacementFile> file, const std::string& crs_wkt, const Grid& grid,
-                         const std::vector<double>& tolerances)
-    : impl_(std::make_unique<Impl>(std::move(file), crs_wkt, grid, tolerances)) {}
-StoreWriter::~StoreWriter() = default;
-
-void StoreWriter::add_leaf(int level, const Cell& cell, std::span<const GridPoint> points,
-                           std::span<const std::uint16_t> sources, std::int32_t lo, std::int32_t hi) {
-  // The encoder takes more, and as many sources, for granted.
-  if (points.size() > kLeafCapacity || points.size() != sources.size())
-    throw std::invalid_argument("not a leaf of this store");
-  add_leaf(encode_leaf(level, cell, points, sources, lo, hi));
-}
-void StoreWriter::add_leaf(const EncodedLeaf& leaf) {
-  impl_->add_point_leaf(leaf);
-}
-void StoreWriter::add_segments(const std::vector<Segment>& segments, std::span<const SegmentFeature> features,
-                               const std::map<std::uint16_t, PartClusters>& clusters) {
-  impl_->add_segments(segments, features, clusters);
-}
-void StoreWriter::add_theme_vertices(std::uint16_t theme, std::span<const GridPoint> points,
-                                     std::span<const std::uint16_t> sources) {
-  impl_->add_theme_vertices(theme, points, sources);
-}
-void StoreWriter::add_part_vertices(std::uint16_t part, std::span<const GridPoint> points,
-                                    std::span<const std::uint16_t> sources, std::span<const FeatureReach> reaches,
-                                    const PartClusters& clusters) {
-  impl_->add_part_vertices(part, points, sources, reaches, clusters);
-}
-void StoreWriter::add_footprints(std::vector<ThemeInfo>& themes,
-                                 const std::vector<std::vector<StoredFootprint>>& footprints) {
-  for (std::size_t t = 0; t < footprints.size(); ++t)
-    themes[t].footprint_blocks = impl_->add_footprints(static_cast<std::uint16_t>(t + 1), footprints[t]);
-}
-void StoreWriter::add_features(std::vector<ThemeInfo>& themes, const std::vector<ThemeFeatures>& features) {
-  for (std::size_t t = 0; t < features.size(); ++t) {
-    themes[t].fields = features[t].fields;
-    themes[t].feature_blocks = impl_->add_features(static_cast<std::uint16_t>(t + 1), features[t].records);
-  }
-}
-void StoreWriter::set_aside(const Cell& cell, std::span<const GridPoint> points,
-                            std::span<const std::uint16_t> sources) {
-  impl_->set_aside(cell, points, sources);
-}
-void StoreWriter::set_aside(std::uint16_t theme, const SetAsideLines& lines) {
-  impl_->set_aside(theme, lines);
-}
-void StoreWriter::count_set_aside(const SetAsideCounts& counts) {
-  impl_->count_set_aside(counts);
-}
-void StoreWriter::commit(std::vector<SourceInfo> sources, std::vector<ThemeInfo> themes, std::vector<ThemePart> parts) {
-  impl_->commit(std::move(sources), std::move(themes), std::move(parts));
 }
 
 }  // namespace itin

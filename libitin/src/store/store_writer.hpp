@@ -6,8 +6,8 @@
 //   for each part of a standing theme, ascending: writer.add_part_vertices(...);
 //   writer.add_segments(segments);
 //   for each cell and then each theme of what is not in the surface as it came: writer.set_aside(...);
-//   writer.add_footprints(themes, footprints);
-//   writer.add_features(themes, features);
+//   for each theme: writer.add_footprints(theme, footprints);
+//   for each theme: writer.add_features(theme, records);
 //   writer.commit(sources, themes);
 //
 // Until commit() returns, and whatever happens before, the file at `path` is what it was. Destroying an uncommitted
@@ -17,6 +17,8 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -24,6 +26,8 @@
 #include <itin/store.hpp>
 
 #include "store/clusters.hpp"
+#include "store/database.hpp"
+#include "store/directory.hpp"
 #include "store/encoded_leaf.hpp"
 #include "store/feature_table.hpp"
 #include "store/footprint_codec.hpp"
@@ -31,6 +35,7 @@
 #include "store/replacement_file.hpp"
 #include "store/segment_features.hpp"
 #include "store/set_aside.hpp"
+#include "store/store_format.hpp"
 
 namespace itin {
 
@@ -49,7 +54,6 @@ class StoreWriter {
   /// Writes a store that takes the place of that file.
   StoreWriter(std::unique_ptr<ReplacementFile> file, const std::string& crs_wkt, const Grid& grid,
               const std::vector<double>& tolerances);
-  ~StoreWriter();
   StoreWriter(const StoreWriter&) = delete;
   StoreWriter& operator=(const StoreWriter&) = delete;
 
@@ -77,17 +81,37 @@ class StoreWriter {
   void set_aside(const Cell& cell, std::span<const GridPoint> points, std::span<const std::uint16_t> sources);
   /// Lines of a theme that are not in the surface as they came.
   void set_aside(std::uint16_t theme, const SetAsideLines& lines);
-  void count_set_aside(const SetAsideCounts& counts);
-  /// `themes` gets the number of blocks of its footprints, which may be none.
-  void add_footprints(std::vector<ThemeInfo>& themes, const std::vector<std::vector<StoredFootprint>>& footprints);
-  /// `themes` gets the fields of its features and the number of blocks of their records, which may be none.
-  void add_features(std::vector<ThemeInfo>& themes, const std::vector<ThemeFeatures>& features);
+  void count_set_aside(const SetAsideCounts& counts) { set_aside_.counts = counts; }
+  /// A theme's footprints. Returns the number of their blocks.
+  std::uint32_t add_footprints(std::uint16_t theme, std::span<const StoredFootprint> footprints);
+  /// The records of a theme's features. Returns the number of their blocks.
+  std::uint32_t add_features(std::uint16_t theme, std::span<const FeatureRecord> records);
   /// Certified error of each level = the union of its leaves'. Syncs and renames. Throws FileError (disk full, ...).
   void commit(std::vector<SourceInfo> sources, std::vector<ThemeInfo> themes = {}, std::vector<ThemePart> parts = {});
 
  private:
-  class Impl;
-  std::unique_ptr<Impl> impl_;
+  void add_points(const EncodedLeaf& encoded);
+  void add_edges(std::uint16_t theme, std::vector<Segment> segments, std::span<const SegmentFeature> features,
+                 const PartClusters& clusters);
+  void require_version(std::uint32_t version);
+  void append(const Leaf& leaf, std::span<const std::uint8_t> block);
+  void flush_chunk();
+  void insert(Statement& statement, BlobKind kind, std::uint64_t key, std::span<const std::uint8_t> bytes);
+  void widen(LevelInfo& level, std::int32_t lo, std::int32_t hi) const;
+
+  // Destroyed in reverse order: statements, database, file.
+  std::unique_ptr<ReplacementFile> file_;
+  Database database_;
+  std::optional<Statement> insert_block_, insert_chunk_;
+  StoreMetadata metadata_;
+  DirectoryChunk chunk_;
+  ChunkList chunks_;
+  SetAsideList set_aside_;
+  std::uint32_t version_ = format::kPlainVersion;
+  std::set<std::uint16_t> with_features_;  ///< themes whose segments know their features
+  std::set<std::uint16_t> with_clusters_;  ///< parts
+  Leaf last_;                              ///< added; only its tree and cell matter
+  bool has_last_ = false;
 };
 
 /// The most points a leaf of a store's quadtree holds.

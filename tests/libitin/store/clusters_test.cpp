@@ -183,7 +183,7 @@ class ClusteredStore : public testing::Test {
     writer.add_segments(segments, {}, of_parts);
     StoredFootprint shed;
     shed.feature.name = "shed";
-    writer.add_footprints(themes, {{shed}});
+    themes[0].footprint_blocks = writer.add_footprints(1, std::vector{shed});
     writer.commit(std::vector<SourceInfo>(3), themes, {{1, 0}});
   }
 

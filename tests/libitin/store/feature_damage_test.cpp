@@ -72,7 +72,8 @@ class FeatureDamage : public testing::Test {
     for (const auto& l : given.leaves) writer.add_leaf(l.level, l.cell, l.points, l.sources, l.lo, l.hi);
     writer.add_segments(lanes, features);
     writer.set_aside(kLanes, aside);
-    writer.add_features(themes, {told});
+    themes[0].fields = told.fields;
+    themes[0].feature_blocks = writer.add_features(kLanes, told.records);
     writer.commit(std::vector<SourceInfo>(3), themes);
     sound_ = test::read_bytes(path_);
     expected_ = read_told(path_);

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <itin/error.hpp>
+#include <itin/sort_unique.hpp>
 #include <itin/triangulate.hpp>
 
 #include "features/feature_mesh.hpp"
@@ -50,10 +51,8 @@ std::uint64_t bytes_of(const FeatureRecord& record) {
 }
 
 const GridPoint* vertex_at(const RaisedPart& part, Position p) {
-  const std::uint64_t code = morton(p.x, p.y);
-  const auto at = std::lower_bound(part.vertices.begin(), part.vertices.end(), code,
-                                   [](const GridPoint& q, std::uint64_t c) { return code_of(q) < c; });
-  return at != part.vertices.end() && code_of(*at) == code ? &*at : nullptr;
+  const auto at = find_by_code(part.vertices, code_of(p));
+  return at != part.vertices.end() ? &*at : nullptr;
 }
 
 /// Where features meet, what is built knows no order of import.
@@ -83,24 +82,19 @@ void LineCollection::require_room(const std::string& source) const {
 }
 
 void LineCollection::take_themes(const StoreMetadata& metadata) {
-  themes_ = metadata.themes;
-  footprints_.resize(themes_.size());
-  features_.resize(themes_.size());
-  for (const ThemeInfo& theme : themes_) raised_.push_back(theme.is_raised());
+  for (const ThemeInfo& theme : metadata.themes) themes_.push_back({.info = theme, .raised = theme.is_raised()});
   for (const SourceInfo& source : metadata.sources) theme_of_source_.push_back(source.theme);
   find_first_sources(metadata.sources);
   keeps_set_aside_ = metadata.format_version >= format::kFirstVersionThatSetsAside;
 }
 
-/// Finds each theme's first source, by a rule that does not depend on the order of import.
 void LineCollection::find_first_sources(const std::vector<SourceInfo>& sources) {
   const std::vector<std::uint32_t> ranks = ranks_of(sources);
-  first_source_.assign(themes_.size(), 0);
-  for (std::size_t t = 0; t < themes_.size(); ++t) {
+  for (CollectedTheme& theme : themes_) {
     std::optional<std::size_t> first;
     for (std::size_t s = 0; s < sources.size(); ++s)
-      if (sources[s].theme == themes_[t].name && (!first || ranks[s] < ranks[*first])) first = s;
-    if (first) first_source_[t] = static_cast<std::uint16_t>(*first);
+      if (sources[s].theme == theme.info.name && (!first || ranks[s] < ranks[*first])) first = s;
+    theme.first_source = static_cast<std::uint16_t>(first.value_or(0));
   }
 }
 
@@ -109,19 +103,17 @@ void LineCollection::take_segments(const Store& store) {
   for (std::size_t t = 1; t <= themes_.size(); ++t)
     file_of(store).segment_features(static_cast<std::uint16_t>(t), store.points().bounds(), stored_features_);
   std::erase_if(stored_features_, [](const SegmentFeature& f) { return f.segment.finest > 0; });
-  std::sort(stored_features_.begin(), stored_features_.end());
-  stored_features_.erase(std::unique(stored_features_.begin(), stored_features_.end()), stored_features_.end());
+  sort_unique(stored_features_);
   // The lines that keep the ground about features are made again with the features.
   std::erase_if(stored_, [&](const Segment& s) {
-    return s.theme == kCoverage || s.finest > 0 || s.theme > themes_.size() || raised_[s.theme - std::size_t{1}];
+    return s.theme == kCoverage || s.finest > 0 || s.theme > themes_.size() || themes_[s.theme - std::size_t{1}].raised;
   });
   line_vertices_ += stored_.size();
-  std::sort(stored_.begin(), stored_.end());
-  stored_.erase(std::unique(stored_.begin(), stored_.end()), stored_.end());
+  sort_unique(stored_);
   for (const Segment& s : stored_) {
     const auto theme = static_cast<std::uint32_t>(s.theme - 1);
-    if (!is_terrain(themes_[theme].kind)) continue;
-    for (const std::uint64_t end : {morton(s.ax, s.ay), morton(s.bx, s.by)}) {
+    if (!is_terrain(theme_of(s).kind)) continue;
+    for (const std::uint64_t end : {code_of(s.a()), code_of(s.b())}) {
       std::uint32_t& of_end = ends_.try_emplace(end, theme).first->second;
       of_end = std::min(of_end, theme);
     }
@@ -129,11 +121,11 @@ void LineCollection::take_segments(const Store& store) {
 }
 
 bool LineCollection::take_vertex(const GridPoint& p, std::uint16_t source, bool of_terrain) {
-  const std::uint64_t code = morton(p.x, p.y);
+  const std::uint64_t code = code_of(p);
   const auto end = of_terrain ? ends_.find(code) : ends_.end();
   if (theme_of_source_[source].empty()) {
     // Formats that set nothing aside have vertices of lines under the source of a post they cover.
-    if (end != ends_.end()) vertices_.try_emplace(code, Vertex{p.z, first_source_[end->second]});
+    if (end != ends_.end()) vertices_.try_emplace(code, Vertex{p.z, themes_[end->second].first_source});
     return false;
   }
   // One whose lines left the ground comes with these where they are taken as they were imported.
@@ -144,13 +136,12 @@ bool LineCollection::take_vertex(const GridPoint& p, std::uint16_t source, bool 
 }
 
 std::uint16_t LineCollection::source_of_stored(const Segment& s) const {
-  const auto theme = static_cast<std::size_t>(s.theme - 1);
-  for (const std::uint64_t end : {morton(s.ax, s.ay), morton(s.bx, s.by)}) {
+  for (const std::uint64_t end : {code_of(s.a()), code_of(s.b())}) {
     const auto found = vertices_.find(end);
-    if (found != vertices_.end() && theme_of_source_[found->second.source] == themes_[theme].name)
+    if (found != vertices_.end() && theme_of_source_[found->second.source] == theme_of(s).name)
       return found->second.source;
   }
-  return first_source_[theme];
+  return themes_[s.theme - std::size_t{1}].first_source;
 }
 
 /// At least one: kNoFeature where none is known.
@@ -162,7 +153,7 @@ std::vector<std::uint32_t> LineCollection::features_of(const Segment& s) const {
 
 void LineCollection::take_set_aside(const StoreRows& rows) {
   imported_ = imported_pieces(rows, themes_.size(), stored_, [&](const Segment& s) {
-    const bool of_terrain = is_terrain(themes_[s.theme - std::size_t{1}].kind);
+    const bool of_terrain = is_terrain(theme_of(s).kind);
     const auto vertex = [&](std::int32_t x, std::int32_t y) {
       const auto found = of_terrain ? vertices_.find(morton(x, y)) : vertices_.end();
       return GridPoint{x, y, found == vertices_.end() ? 0 : found->second.z};
@@ -201,38 +192,35 @@ void LineCollection::take_features(const Store& store) {
     const auto number = static_cast<std::uint16_t>(t + 1);
     for (StoredFootprint& footprint : stored_footprints(store, number))
       add_footprint(static_cast<std::uint32_t>(t), std::move(footprint));
-    features_[t] = stored_features(store, number);
-    for (const FeatureRecord& record : features_[t].records) record_bytes_ += bytes_of(record);
+    themes_[t].features = stored_features(store, number);
+    for (const FeatureRecord& record : themes_[t].features.records) record_bytes_ += bytes_of(record);
   }
 }
 
 std::uint32_t LineCollection::theme(const std::string& name, ThemeKind kind, bool raised) {
-  const auto found = std::find_if(themes_.begin(), themes_.end(), [&](const ThemeInfo& t) { return t.name == name; });
+  const auto found =
+      std::find_if(themes_.begin(), themes_.end(), [&](const CollectedTheme& t) { return t.info.name == name; });
   if (found == themes_.end()) {
     if (themes_.size() == format::kMaxThemes)
       throw InputError(fmt::format("a store holds at most {} themes", format::kMaxThemes));
-    themes_.push_back({name, kind, 0, 0, 0});
-    raised_.push_back(raised);
-    footprints_.emplace_back();
-    features_.emplace_back();
+    themes_.push_back({.info = {name, kind, 0, 0, 0}, .raised = raised});
     return static_cast<std::uint32_t>(themes_.size() - 1);
   }
-  if (found->kind != kind)
+  if (found->info.kind != kind)
     throw InputError(fmt::format("theme '{}': holds {} already, not {}; choose another name with `theme`", name,
-                                 name_of(found->kind), name_of(kind)));
-  const auto number = static_cast<std::uint32_t>(found - themes_.begin());
-  if (raised_[number] != raised)
+                                 name_of(found->info.kind), name_of(kind)));
+  if (found->raised != raised)
     throw InputError(fmt::format("theme '{}': holds {}; choose another name with `theme`", name,
                                  raised ? "outlines on the ground, not features with heights"
                                         : "features with heights, not outlines on the ground"));
-  return number;
+  return static_cast<std::uint32_t>(found - themes_.begin());
 }
 
 void LineCollection::offset_walls(std::uint32_t theme, double metres, const Grid& grid) {
   require_wall_offset(metres, grid);
-  ThemeInfo& info = themes_[theme];
+  ThemeInfo& info = themes_[theme].info;
   const double before = info.wall_offset.value_or(default_wall_offset(grid));
-  if (metres != before && !footprints_[theme].empty())
+  if (metres != before && !themes_[theme].footprints.empty())
     throw InputError(fmt::format(
         "theme '{}': has a `wall_offset` of {} m already, not {} m; leave it out, or choose another name with `theme`",
         info.name, before, metres));
@@ -242,7 +230,7 @@ void LineCollection::offset_walls(std::uint32_t theme, double metres, const Grid
 void LineCollection::add(std::uint32_t theme, std::uint16_t source, std::uint32_t feature,
                          std::span<const GridPoint> line) {
   line_vertices_ += line.size();
-  const bool of_terrain = is_terrain(themes_[theme].kind);
+  const bool of_terrain = is_terrain(themes_[theme].info.kind);
   const auto vertex = [&](const GridPoint& p) { return GridPoint{p.x, p.y, of_terrain ? p.z : 0}; };
   for (std::size_t i = 1; i < line.size(); ++i) {
     const auto [a, b] = std::minmax({vertex(line[i - 1]), vertex(line[i])});
@@ -253,7 +241,7 @@ void LineCollection::add(std::uint32_t theme, std::uint16_t source, std::uint32_
 
 std::uint32_t LineCollection::add_feature(std::uint32_t theme, FeatureRecord record) {
   record_bytes_ += bytes_of(record);
-  std::vector<FeatureRecord>& records = features_[theme].records;
+  std::vector<FeatureRecord>& records = themes_[theme].features.records;
   records.push_back(std::move(record));
   return static_cast<std::uint32_t>(records.size() - 1);
 }
@@ -262,32 +250,32 @@ void LineCollection::add_footprint(std::uint32_t theme, StoredFootprint footprin
                                    std::optional<FeatureRecord> record) {
   if (record) {
     // Records have the numbers of their footprints.
-    features_[theme].records.resize(footprints_[theme].size());
+    themes_[theme].features.records.resize(themes_[theme].footprints.size());
     add_feature(theme, std::move(*record));
   }
   feature_vertices_ += vertex_count(footprint.feature);
-  footprints_[theme].push_back(std::move(footprint));
+  themes_[theme].footprints.push_back(std::move(footprint));
 }
 
 bool LineCollection::is_raised() const {
-  return std::any_of(footprints_.begin(), footprints_.end(), [](const auto& of_theme) { return !of_theme.empty(); });
+  return std::any_of(themes_.begin(), themes_.end(), [](const CollectedTheme& t) { return !t.footprints.empty(); });
 }
 
 void LineCollection::raise(const Store& ground, RaisedFeatures& report, Progress& progress) {
   report = {};
-  changed_.resize(themes_.size());
   for (std::uint32_t t = 0; t < themes_.size(); ++t) {
-    if (footprints_[t].empty()) continue;
-    const double wall_offset = themes_[t].wall_offset.value_or(default_wall_offset(ground.metadata().grid));
+    CollectedTheme& theme = themes_[t];
+    if (theme.footprints.empty()) continue;
+    const double wall_offset = theme.info.wall_offset.value_or(default_wall_offset(ground.metadata().grid));
     RaisedFeatureTheme standing =
-        stand(ground, in_order_of_content(footprints_[t]), wall_offset, memory_bytes_, progress);
-    themes_[t].features = standing.built;
+        stand(ground, in_order_of_content(theme.footprints), wall_offset, memory_bytes_, progress);
+    theme.info.features = standing.built;
     report.features += standing.built;
     report.refused += standing.refused;
-    report.themes.push_back({themes_[t].name, standing.built, std::move(standing.reports)});
+    report.themes.push_back({theme.info.name, standing.built, std::move(standing.reports)});
     for (RaisedPart& part : standing.parts) parts_.push_back({t, std::move(part)});
     for (const auto& [a, b] : standing.ground.pieces) keep({{a.x, a.y, 0}, {b.x, b.y, 0}, t});
-    changed_[t] = std::move(standing.ground);
+    theme.changed = std::move(standing.ground);
   }
 }
 
@@ -303,7 +291,7 @@ void LineCollection::place_parts(ThemeLines& result) {
   std::vector<std::uint32_t> by_rank(themes_.size());
   std::iota(by_rank.begin(), by_rank.end(), 0U);
   std::sort(by_rank.begin(), by_rank.end(),
-            [&](std::uint32_t a, std::uint32_t b) { return comes_before(themes_[a], themes_[b]); });
+            [&](std::uint32_t a, std::uint32_t b) { return comes_before(themes_[a].info, themes_[b].info); });
   for (OwnPart& own : parts_) {
     const auto owner = static_cast<std::uint32_t>(themes_.size() + result.parts.size());
     if (owner >= format::kMaxThemes)
@@ -316,13 +304,13 @@ void LineCollection::place_parts(ThemeLines& result) {
     placed.masks = std::move(own.part.masks);
     placed.mask_clusters = own.part.mask_clusters;
     placed.reaches = std::move(own.part.reaches);
-    first_source_.push_back(own.part.source);
   }
 }
 
 std::uint16_t LineCollection::source_of(const GridPoint& p, std::uint32_t owner) const {
-  const auto found = vertices_.find(morton(p.x, p.y));
-  return found != vertices_.end() ? found->second.source : first_source_[owner];
+  const auto found = vertices_.find(code_of(p));
+  if (found != vertices_.end()) return found->second.source;
+  return owner < themes_.size() ? themes_[owner].first_source : parts_[owner - themes_.size()].part.source;
 }
 
 /// Keeps a line of the ground. Where it lies under a draped feature, it becomes a line of that feature's top. `masks`
@@ -347,7 +335,7 @@ void LineCollection::keep_or_raise(const OwnedSegment& ground_line, const std::v
 /// Puts all segments into one plane, with what keeps the ground about features.
 void LineCollection::make_lines(ThemeLines& result, const Store* ground, const Progress& progress) {
   GroundBorder border(themes_.size());
-  for (std::uint32_t t = 0; t < changed_.size(); ++t) border.add(t, changed_[t]);
+  for (std::uint32_t t = 0; t < themes_.size(); ++t) border.add(t, themes_[t].changed);
   std::vector<MaskIndex> masks;
   for (const PlacedPart& part : result.parts) masks.emplace_back(part.masks);
   for (const OwnedSegment& s : border.seams()) keep_or_raise(s, masks);
@@ -365,8 +353,7 @@ void LineCollection::make_lines(ThemeLines& result, const Store* ground, const P
     for (const OwnedSegment& s : fit.lines) keep_or_raise(s, masks);
   }
   segments_.clear();
-  std::sort(ground_ends_.begin(), ground_ends_.end());
-  ground_ends_.erase(std::unique(ground_ends_.begin(), ground_ends_.end()), ground_ends_.end());
+  sort_unique(ground_ends_);
   result.ground_ends = std::move(ground_ends_);
 }
 
@@ -381,26 +368,17 @@ void LineCollection::put_in_order(ThemeLines& result) {
   std::vector<std::uint32_t> order(themes_.size());
   std::iota(order.begin(), order.end(), 0u);
   std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-    return std::pair(!is_terrain(themes_[a].kind), themes_[a].name) <
-           std::pair(!is_terrain(themes_[b].kind), themes_[b].name);
+    const ThemeInfo &p = themes_[a].info, &q = themes_[b].info;
+    return std::pair(!is_terrain(p.kind), p.name) < std::pair(!is_terrain(q.kind), q.name);
   });
   std::vector<std::uint32_t> number(order.size());
-  std::vector<ThemeInfo> themes;
-  std::vector<bool> raised;
-  std::vector<std::vector<StoredFootprint>> footprints;
-  std::vector<ThemeFeatures> features;
-  std::vector<ChangedGround> changed(order.size());
-  changed_.resize(order.size());
+  std::vector<CollectedTheme> themes;
   for (std::uint32_t i = 0; i < order.size(); ++i) {
     number[order[i]] = i;
-    themes.push_back(themes_[order[i]]);
-    raised.push_back(raised_[order[i]]);
-    footprints.push_back(std::move(footprints_[order[i]]));
-    features.push_back(std::move(features_[order[i]]));
-    changed[i] = std::move(changed_[order[i]]);
-    result.terrain.push_back(is_terrain(themes.back().kind));
-    result.kinds.push_back(themes.back().kind);
-    result.standing.push_back(raised.back());
+    themes.push_back(std::move(themes_[order[i]]));
+    result.terrain.push_back(is_terrain(themes.back().info.kind));
+    result.kinds.push_back(themes.back().info.kind);
+    result.standing.push_back(themes.back().raised);
   }
   for (ThemeVertex& end : ground_ends_) end.theme = number[end.theme];
   for (OwnedSegment& s : segments_) s.owner = number[s.owner];
@@ -408,10 +386,6 @@ void LineCollection::put_in_order(ThemeLines& result) {
   for (ImportedPiece& i : imported_) i.theme = number[i.theme];
   std::sort(imported_.begin(), imported_.end());
   themes_ = std::move(themes);
-  raised_ = std::move(raised);
-  footprints_ = std::move(footprints);
-  features_ = std::move(features);
-  changed_ = std::move(changed);
 }
 
 /// A vertex that several sources bring along belongs to the one that comes first.
@@ -428,8 +402,7 @@ void LineCollection::find_vertices(const std::vector<SourceInfo>& sources) {
 
 ThemeLines LineCollection::finish(const std::vector<SourceInfo>& sources, const Store* ground,
                                   const ReplacingGround* replacing, const Progress& progress) {
-  std::sort(imported_.begin(), imported_.end());
-  imported_.erase(std::unique(imported_.begin(), imported_.end()), imported_.end());
+  sort_unique(imported_);
   add_lines(sources, replacing);
   ThemeLines result;
   put_in_order(result);

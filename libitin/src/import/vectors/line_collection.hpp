@@ -41,6 +41,15 @@ struct RaisedFeatures {
 /// Whether lines are taken as they were imported, or as they lie on a ground that features are to be raised on.
 enum class LinesAs : std::uint8_t { imported, laid };
 
+struct CollectedTheme {
+  ThemeInfo info;
+  bool raised = false;  ///< it has features with heights, which are made parts
+  std::vector<StoredFootprint> footprints{};
+  ThemeFeatures features{};
+  std::uint16_t first_source = 0;  ///< by a rule that does not depend on the order of import
+  ChangedGround changed{};         ///< by its raised features
+};
+
 class LineCollection {
  public:
   LineCollection(LinesAs as, std::uint64_t memory_bytes) : as_(as), memory_bytes_(memory_bytes) {}
@@ -68,10 +77,10 @@ class LineCollection {
   void offset_walls(std::uint32_t theme, double metres, const Grid& grid);
   /// A line of a feature of the theme, by its number, or of kNoFeature.
   void add(std::uint32_t theme, std::uint16_t source, std::uint32_t feature, std::span<const GridPoint> line);
-  void count_features(std::uint32_t theme, std::uint64_t count) { themes_[theme].features += count; }
+  void count_features(std::uint32_t theme, std::uint64_t count) { themes_[theme].info.features += count; }
 
   /// The fields of a theme's features.
-  std::vector<AttributeField>& fields(std::uint32_t theme) { return features_[theme].fields; }
+  std::vector<AttributeField>& fields(std::uint32_t theme) { return themes_[theme].features.fields; }
   /// The number of one more feature of a theme of lines on the ground, its values as fields() has them.
   std::uint32_t add_feature(std::uint32_t theme, FeatureRecord record);
   /// With a record where its source keeps any.
@@ -93,9 +102,7 @@ class LineCollection {
   /// After finish(), in order: all lines on the ground as they were imported.
   const std::vector<ImportedPiece>& imported() const { return imported_; }
   /// After finish(): the themes in order, their features counted.
-  const std::vector<ThemeInfo>& themes() const { return themes_; }
-  const std::vector<std::vector<StoredFootprint>>& footprints() const { return footprints_; }
-  const std::vector<ThemeFeatures>& features() const { return features_; }
+  const std::vector<CollectedTheme>& themes() const { return themes_; }
 
  private:
   struct Vertex {
@@ -106,6 +113,7 @@ class LineCollection {
     std::uint32_t theme;
     RaisedPart part;
   };
+  const ThemeInfo& theme_of(const Segment& s) const { return themes_[s.theme - std::size_t{1}].info; }
   std::uint16_t source_of_stored(const Segment& s) const;
   std::vector<std::uint32_t> features_of(const Segment& s) const;
   void add_lines(const std::vector<SourceInfo>& sources, const ReplacingGround* replacing);
@@ -121,11 +129,7 @@ class LineCollection {
   LinesAs as_;
   std::uint64_t memory_bytes_;
   std::uint64_t line_vertices_ = 0, feature_vertices_ = 0, record_bytes_ = 0;  ///< so far
-  std::vector<ThemeInfo> themes_;
-  std::vector<std::uint16_t> first_source_;               ///< by theme, and then by part
-  std::vector<bool> raised_;                              ///< by theme
-  std::vector<std::vector<StoredFootprint>> footprints_;  ///< by theme
-  std::vector<ThemeFeatures> features_;                   ///< by theme
+  std::vector<CollectedTheme> themes_;
   std::vector<OwnPart> parts_;
   bool keeps_set_aside_ = true;                            ///< the store does
   std::vector<std::string> theme_of_source_;               ///< by the store's source; empty for points
@@ -136,7 +140,6 @@ class LineCollection {
   std::vector<std::uint64_t> made_room_;
   std::vector<OwnedSegment> segments_;
   std::vector<ThemeVertex> ground_ends_;                ///< of edges that keep the ground about features
-  std::vector<ChangedGround> changed_;                  ///< by theme: of this ground
   std::unordered_map<std::uint64_t, Vertex> vertices_;  ///< by Morton code: of the lines as they are taken
 };
 
