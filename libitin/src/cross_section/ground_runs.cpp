@@ -66,7 +66,7 @@ class Collection {
   }
 
   void add(const Segment& s) {
-    const Position a{s.ax, s.ay}, b{s.bx, s.by};
+    const Position a = s.a(), b = s.b();
     const Int128 side_a = line_.side(a), side_b = line_.side(b);
     if ((side_a > 0 && side_b > 0) || (side_a < 0 && side_b < 0)) return;
     touches_ |= side_a == 0 || side_b == 0;

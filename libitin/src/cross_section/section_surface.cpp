@@ -61,7 +61,7 @@ class TileCache {
   static std::uint64_t key_of(const Cell& cell) { return cell.code | std::uint64_t{1} << (2 * cell.log2_side - 1); }
 
   Cell cell_at(Position place) {
-    const std::uint64_t code = morton(place.x, place.y);
+    const std::uint64_t code = code_of(place);
     const auto of_side = [code](int log2_side) { return Cell{code >> (2 * log2_side) << (2 * log2_side), log2_side}; };
     Cell cell = of_side(kUsualLog2Side);
     while (cell.log2_side > 1 && !is_small(cell)) cell = of_side(cell.log2_side - 1);

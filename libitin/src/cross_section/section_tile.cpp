@@ -34,19 +34,13 @@ SectionTile::SectionTile(const GridBox& square, const RegionMesh& region) : squa
   bin_shift_ =
       std::min(31, static_cast<int>(std::bit_width(static_cast<std::uint64_t>(4 * side / std::sqrt(count + 1.0)))));
   columns_ = column(square.xmax) + 1, rows_ = row(square.ymax) + 1;
-  first_.assign(std::size_t{columns_} * rows_ + 1, 0);
-  for (std::uint32_t t = 0; t < count; ++t) for_each_bin(box_of(t), [&](std::size_t bin) { ++first_[bin + 1]; });
-  for (std::size_t i = 1; i < first_.size(); ++i) first_[i] += first_[i - 1];
-  triangles_.resize(first_.back());
-  std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
-  for (std::uint32_t t = 0; t < count; ++t) {
-    for_each_bin(box_of(t), [&](std::size_t bin) { triangles_[next[bin]++] = t; });
-  }
+  bins_ = {std::size_t{columns_} * rows_, count,
+           [&](std::uint32_t t, const auto& add) { for_each_bin(box_of(t), add); }};
 }
 
 std::size_t SectionTile::bytes() const {
   return sizeof(*this) + vertices_.capacity() * sizeof(SectionVertex) + faces_.capacity() * sizeof(Face) +
-         (first_.size() + triangles_.size()) * sizeof(std::uint32_t);
+         bins_.bytes();
 }
 
 std::uint32_t SectionTile::column(std::int32_t x) const {
@@ -69,12 +63,8 @@ void SectionTile::for_each_bin(const GridBox& box, const Visit& visit) const {
   }
 }
 
-std::span<const std::uint32_t> SectionTile::in_bin(std::size_t bin) const {
-  return {triangles_.data() + first_[bin], first_[bin + 1] - first_[bin]};
-}
-
 SectionTile::Stop SectionTile::ahead(const CrossedEdge& edge, Position place) const {
-  for (const std::uint32_t t : in_bin(std::size_t{row(place.y)} * columns_ + column(place.x))) {
+  for (const std::uint32_t t : bins_.in(std::size_t{row(place.y)} * columns_ + column(place.x))) {
     for (std::uint32_t i = 0; i < 3; ++i) {
       if (same_position(corner(t, i), edge.left) && same_position(corner(t, (i + 1) % 3), edge.right))
         return {t, (i + 2) % 3};
@@ -94,7 +84,7 @@ SectionTile::Stop SectionTile::onwards(const Stop& from, bool keeps_left) const 
 std::vector<std::array<SectionVertex, 3>> SectionTile::around(const GridBox& box) const {
   std::vector<std::array<SectionVertex, 3>> result;
   for_each_bin(box, [&](std::size_t bin) {
-    for (const std::uint32_t t : in_bin(bin)) {
+    for (const std::uint32_t t : bins_.in(bin)) {
       if (box_of(t).meets(box)) result.push_back({corner(t, 0), corner(t, 1), corner(t, 2)});
     }
   });

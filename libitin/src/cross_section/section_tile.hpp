@@ -6,6 +6,8 @@
 #include <span>
 #include <vector>
 
+#include <itin/bucket_lists.hpp>
+
 #include "cross_section/section_walk.hpp"
 #include "triangulate/region.hpp"
 
@@ -48,7 +50,6 @@ class SectionTile {
   template <typename Visit>
   void for_each_bin(const GridBox& box, const Visit& visit) const;
   GridBox box_of(std::uint32_t triangle) const;
-  std::span<const std::uint32_t> in_bin(std::size_t bin) const;
 
   GridBox square_;
   std::vector<SectionVertex> vertices_;
@@ -57,8 +58,7 @@ class SectionTile {
   int bin_shift_ = 0;
   std::uint32_t columns_ = 0;
   std::uint32_t rows_ = 0;
-  std::vector<std::uint32_t> first_;  ///< per bin, into triangles_
-  std::vector<std::uint32_t> triangles_;
+  BucketLists bins_;  ///< numbers of faces
 };
 
 }  // namespace itin

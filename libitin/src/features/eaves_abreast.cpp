@@ -5,6 +5,8 @@
 #include <limits>
 #include <tuple>
 
+#include <itin/sort_unique.hpp>
+
 namespace itin {
 
 namespace {
@@ -44,8 +46,7 @@ bool nearer(const Nearest& a, const Nearest& b) {
 }
 
 std::vector<Way> ways(const std::vector<RoofLine>& lines, std::vector<Position> places, double offset) {
-  std::sort(places.begin(), places.end());
-  places.erase(std::unique(places.begin(), places.end()), places.end());
+  sort_unique(places);
   std::vector<Way> result;
   for (const Position& p : places) result.push_back({p, {}});
   const double furthest = kFurthest * offset + 1;

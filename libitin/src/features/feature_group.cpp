@@ -10,8 +10,8 @@
 
 #include "features/eaves_abreast.hpp"
 #include "features/entangled.hpp"
-#include "features/planar.hpp"
 #include "features/planarity.hpp"
+#include "features/segment_owners.hpp"
 #include "features/terrain_overlay.hpp"
 
 namespace itin {
@@ -221,24 +221,14 @@ class GroupBuilder {
   }
 
   void snap() {
-    // Heights come from the foot first, then from eaves and creases.
-    std::map<std::pair<SegmentClass, std::uint32_t>, std::uint32_t> owners;
-    for (const PlacedSegment& s : mesh_.segments) owners[{s.kind, s.feature}] = 0;
-    std::vector<std::pair<SegmentClass, std::uint32_t>> named;
-    for (auto& [key, number] : owners) {
-      number = static_cast<std::uint32_t>(named.size());
-      named.push_back(key);
-    }
-    std::vector<OwnedSegment> segments;
-    for (const PlacedSegment& s : mesh_.segments) segments.push_back({s.a, s.b, owners.at({s.kind, s.feature})});
-    const PlanarLines planar = make_planar(std::move(segments), &progress_);
+    const SegmentOwners owners(mesh_.segments);
+    const PlanarLines planar = make_planar(owners.owned(mesh_.segments), &progress_);
     mesh_.segments.clear();
-    const PlanarEdge* last = nullptr;
-    for (const PlanarEdge& e : planar.edges) {
-      if (last && last->from == e.from && last->to == e.to) continue;  // sorted: the first owner has it
-      const auto& [kind, feature] = named[e.owner];
+    for (std::size_t i = 0; i < planar.edges.size(); ++i) {
+      if (of_later_owner(planar.edges, i)) continue;
+      const PlanarEdge& e = planar.edges[i];
+      const auto& [kind, feature] = owners[e.owner];
       mesh_.segments.push_back({planar.vertices[e.from], planar.vertices[e.to], feature, kind});
-      last = &e;
     }
   }
 
@@ -293,7 +283,7 @@ std::map<std::uint32_t, std::string> attempt(GroupBuilder& builder, std::size_t 
 
 GroupMesh build_group(std::vector<PreparedFeature> features, double offset, const TerrainHeights* terrain,
                       const Progress& progress) {
-  std::vector<Finding> refusals;
+  std::vector<FeatureFinding> refusals;
   std::vector<std::uint32_t> refused;
   for (;;) {
     progress.throw_if_cancelled();

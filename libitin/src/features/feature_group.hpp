@@ -33,17 +33,12 @@ struct PlacedSegment {
   SegmentClass kind;
 };
 
-struct Finding {
-  std::uint32_t feature;
-  std::string text;
-};
-
 struct GroupMesh {
   std::vector<PlacedSegment> segments;
   std::vector<GridPoint> loose;  ///< vertices without segments
   std::vector<FeatureMask> masks;
   ChangedGround ground;
-  std::vector<Finding> findings;
+  std::vector<FeatureFinding> findings;
   std::vector<std::uint32_t> refused;  ///< numbers of features
   std::uint64_t flat_instead = 0;
 };

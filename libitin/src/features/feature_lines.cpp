@@ -4,6 +4,8 @@
 #include <map>
 #include <utility>
 
+#include <itin/sort_unique.hpp>
+
 #include "features/feature_outlines.hpp"
 #include "features/hot_pixel.hpp"
 #include "geometry/predicates.hpp"
@@ -58,8 +60,7 @@ class ThemeEdges {
         continue;
       }
       std::vector<std::uint32_t>& numbers = found->second;
-      std::sort(numbers.begin(), numbers.end());
-      numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+      sort_unique(numbers);
       for (const std::uint32_t feature : numbers) result[feature].push_back(ends);
     }
     return result;
@@ -70,14 +71,13 @@ class ThemeEdges {
     std::vector<SegmentFeature> features;
     if (!box_.empty()) file_of(store).segment_features(theme_, box_, features);
     std::erase_if(features, [&](const SegmentFeature& f) { return !selection.selects(f.segment); });
-    std::sort(features.begin(), features.end());
-    features.erase(std::unique(features.begin(), features.end()), features.end());
+    sort_unique(features);
     return features;
   }
 
   static bool lies_on(const Segment& edge, const Segment& s) {
-    const Position a{s.ax, s.ay}, b{s.bx, s.by};
-    return on_segment(a, b, Position{edge.ax, edge.ay}) && on_segment(a, b, Position{edge.bx, edge.by});
+    const Position a = s.a(), b = s.b();
+    return on_segment(a, b, edge.a()) && on_segment(a, b, edge.b());
   }
 
   const Tin& tin_;

@@ -42,14 +42,12 @@ class Assembly {
   }
 
   FeatureMesh finish() && {
-    const auto code = [](const GridPoint& p) { return morton(p.x, p.y); };
-    std::stable_sort(points_.begin(), points_.end(), [&](auto& a, auto& b) { return code(a) < code(b); });
-    points_.erase(std::unique(points_.begin(), points_.end(), [&](auto& a, auto& b) { return code(a) == code(b); }),
+    std::stable_sort(points_.begin(), points_.end(), before_by_code);
+    points_.erase(std::unique(points_.begin(), points_.end(),
+                              [](const GridPoint& a, const GridPoint& b) { return same_position(a, b); }),
                   points_.end());
     const auto number = [&](const GridPoint& p) {
-      const auto at = std::lower_bound(points_.begin(), points_.end(), code(p),
-                                       [&](const GridPoint& q, std::uint64_t c) { return code(q) < c; });
-      return static_cast<std::uint32_t>(at - points_.begin());
+      return static_cast<std::uint32_t>(find_by_code(points_, code_of(p)) - points_.begin());
     };
     for (const PlacedSegment& s : segments_) {
       stop_if_asked();
@@ -105,21 +103,21 @@ FeatureMesh build_feature_mesh(std::span<const FootprintFeature> features, const
     progress.report("features", static_cast<double>(++done) / static_cast<double>(groups.size()));
   });
   Assembly assembly(options.grid);
-  std::vector<std::vector<std::string>> findings(features.size());
+  std::vector<FeatureFinding> findings;
   std::uint64_t refused = 0;
-  for (std::size_t i = 0; i < features.size(); ++i) {
-    findings[i] = std::move(prepared[i].findings);
+  for (std::uint32_t i = 0; i < features.size(); ++i) {
+    for (std::string& text : prepared[i].findings) findings.push_back({i, std::move(text)});
     refused += prepared[i].raised ? 0 : 1;
   }
   for (const GroupMesh& mesh : meshes) {
     assembly.add(mesh);
     refused += mesh.refused.size();
-    for (const Finding& finding : mesh.findings) findings[finding.feature].push_back(finding.text);
+    findings.insert(findings.end(), mesh.findings.begin(), mesh.findings.end());
   }
   FeatureMesh mesh = std::move(assembly).finish();
-  for (std::size_t i = 0; i < features.size(); ++i)
-    for (const std::string& text : findings[i])
-      mesh.reports.push_back({static_cast<std::uint32_t>(i), features[i].name + ": " + text});
+  std::stable_sort(findings.begin(), findings.end(),
+                   [](const FeatureFinding& a, const FeatureFinding& b) { return a.feature < b.feature; });
+  mesh.findings = std::move(findings);
   mesh.refused = refused;
   mesh.built = features.size() - refused;
   return mesh;

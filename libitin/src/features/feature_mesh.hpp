@@ -47,22 +47,21 @@ struct FeatureMask {
   GridPolygon polygon;
 };
 
-/// A finding about a feature.
-struct FeatureReport {
+struct FeatureFinding {
   std::uint32_t feature;
-  std::string text;  ///< one line, "NAME: ..."
+  std::string text;  ///< one line
 };
 
 struct FeatureMesh {
   Grid grid;
   std::vector<GridPoint> vertices;  ///< in Morton order
   std::vector<FeatureSegment> segments;
-  std::vector<FeatureMask> masks;  ///< disjoint but for their borders
-  ChangedGround ground;            ///< outside of masks or nearly, and under what drapes (terrain_overlay.hpp)
-  std::vector<FeatureReport> reports;
-  std::uint64_t built = 0;         ///< features that stand
-  std::uint64_t refused = 0;       ///< features that do not, each reported
-  std::uint64_t flat_instead = 0;  ///< roofs that were refused, each reported
+  std::vector<FeatureMask> masks;        ///< disjoint but for their borders
+  ChangedGround ground;                  ///< outside of masks or nearly, and under what drapes (terrain_overlay.hpp)
+  std::vector<FeatureFinding> findings;  ///< by feature
+  std::uint64_t built = 0;               ///< features that stand
+  std::uint64_t refused = 0;             ///< features that do not, each with a finding
+  std::uint64_t flat_instead = 0;        ///< roofs that were refused, each with a finding
 };
 
 /// Throws InputError unless it lies between two steps of the grid and 10 m.

@@ -7,6 +7,7 @@
 
 #include <itin/error.hpp>
 #include <itin/feature_at.hpp>
+#include <itin/sort_unique.hpp>
 #include <itin/triangulate.hpp>
 
 #include "features/plan_on_grid.hpp"
@@ -28,8 +29,7 @@ std::vector<std::int64_t> features_in(const Tin& tin, std::uint16_t theme, const
   std::vector<std::int64_t> numbers;
   for (const std::optional<FeatureAt>& feature : features_at(store, theme, middles))
     if (feature) numbers.push_back(feature->number);
-  std::sort(numbers.begin(), numbers.end());
-  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+  sort_unique(numbers);
   return numbers;
 }
 

@@ -161,7 +161,7 @@ class Skeleton {
     const FlatTriangle& own = triangle(t);
     const FlatSide& side = own.sides[i];
     const GridPoint &a = own.corners[(i + 1) % 3], &b = own.corners[(i + 2) % 3];
-    const auto [known, fresh] = middles_.try_emplace(std::minmax({morton(a.x, a.y), morton(b.x, b.y)}), 0);
+    const auto [known, fresh] = middles_.try_emplace(std::minmax({code_of(a), code_of(b)}), 0);
     if (fresh) known->second = add_node(middle_node(own, i, a, b));
     const std::uint32_t node = known->second;
     if (side.passage == Passage::kExit) {

@@ -8,6 +8,7 @@
 #include <optional>
 #include <set>
 
+#include "base/disjoint_sets.hpp"
 #include "base/stoppable.hpp"
 #include "features/mask_index.hpp"
 #include "features/planar.hpp"
@@ -211,23 +212,6 @@ class Arranging {
   Arrangement result_;
 };
 
-/// Union-find with the least member as representative.
-class Groups {
- public:
-  explicit Groups(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0U); }
-  std::uint32_t find(std::uint32_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(std::uint32_t a, std::uint32_t b) {
-    a = find(a), b = find(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
-
 }  // namespace
 
 Arrangement arrange(const std::vector<Patch>& patches, double offset, const Progress* progress) {
@@ -243,7 +227,7 @@ std::vector<std::vector<std::uint32_t>> groups_of(const std::vector<GridBox>& bo
   std::int32_t tallest = 0;
   for (const GridBox& box : boxes)
     if (!box.empty()) tallest = std::max(tallest, box.ymax - box.ymin);
-  Groups groups(boxes.size());
+  DisjointSets groups(boxes.size());
   std::multimap<std::int32_t, std::uint32_t> open;
   for (const std::uint32_t i : order) {
     if (boxes[i].empty()) continue;
@@ -262,7 +246,7 @@ std::vector<std::vector<std::uint32_t>> groups_of(const std::vector<GridBox>& bo
     open.emplace(boxes[i].ymin, i);
   }
   std::map<std::uint32_t, std::vector<std::uint32_t>> members;
-  for (std::uint32_t i = 0; i < boxes.size(); ++i) members[groups.find(i)].push_back(i);
+  for (std::uint32_t i = 0; i < boxes.size(); ++i) members[groups.least(i)].push_back(i);
   std::vector<std::vector<std::uint32_t>> result;
   for (auto& [first, group] : members) result.push_back(std::move(group));
   return result;

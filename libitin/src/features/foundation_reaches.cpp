@@ -16,18 +16,11 @@ constexpr std::int32_t kFootReach = 3;
 /// Grid steps of height, against rounding.
 constexpr std::int32_t kHeightMargin = 2;
 
-GridBox about(const GridBox& box) {
-  return {box.xmin - 1, box.ymin - 1, box.xmax + 1, box.ymax + 1};
-}
-
 }  // namespace
 
 std::optional<std::int32_t> FoundationReaches::height_of_vertex(Position p) const {
-  const std::uint64_t code = morton(p.x, p.y);
-  const auto at = std::lower_bound(mesh_.vertices.begin(), mesh_.vertices.end(), code,
-                                   [](const GridPoint& v, std::uint64_t c) { return morton(v.x, v.y) < c; });
-  if (at == mesh_.vertices.end() || at->x != p.x || at->y != p.y) return std::nullopt;
-  return at->z;
+  const auto at = find_by_code(mesh_.vertices, code_of(p));
+  return at == mesh_.vertices.end() ? std::nullopt : std::optional(at->z);
 }
 
 FeatureReach FoundationReaches::of(std::size_t mask) const {
@@ -54,7 +47,7 @@ FeatureReach FoundationReaches::of(std::size_t mask) const {
       reach.box.extend(box);
     }
   });
-  reach.box = about(reach.box);
+  reach.box = expanded(reach.box, 1);
   const auto high = terrain_.base_height({polygon}, BaseRule::maximum);
   const double within = high ? *high / resolution - lowest : 0;
   reach.depth = std::max(0, static_cast<std::int32_t>(std::ceil(std::max(deepest, within)))) + kHeightMargin;

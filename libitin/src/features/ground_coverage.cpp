@@ -12,7 +12,7 @@ namespace {
 
 /// Closed segments.
 bool touch(const Segment& s, Position p, Position q) {
-  const Position a{s.ax, s.ay}, b{s.bx, s.by};
+  const Position a = s.a(), b = s.b();
   return crosses(s, p, q) || on_segment(a, b, p) || on_segment(a, b, q) || on_segment(p, q, a) || on_segment(p, q, b);
 }
 
@@ -29,7 +29,7 @@ bool lies_on_ground(const GridPolygon& polygon, const std::vector<Segment>& outl
   const GridBox box = box_about(polygon);
   for (const Segment& s : outline) {
     if (!extent_of(s).meets(box)) continue;
-    bool meets = side_of(polygon, {s.ax, s.ay}) != Side::outside;
+    bool meets = side_of(polygon, s.a()) != Side::outside;
     for_each_edge(polygon, [&](Position a, Position b) { meets = meets || touch(s, a, b); });
     if (meets) return false;
   }

@@ -6,6 +6,7 @@
 #include <unordered_map>
 
 #include <itin/box_of.hpp>
+#include <itin/sort_unique.hpp>
 
 #include "features/hot_pixel.hpp"
 #include "geometry/morton_range.hpp"
@@ -92,7 +93,7 @@ class LineHierarchy::Graph {
   using Edge = std::pair<std::uint64_t, std::uint64_t>;
 
   static Edge edge(std::uint64_t a, std::uint64_t b) { return std::minmax({a, b}); }
-  static Edge ends(const Segment& s) { return edge(morton(s.ax, s.ay), morton(s.bx, s.by)); }
+  static Edge ends(const Segment& s) { return edge(code_of(s.a()), code_of(s.b())); }
 
   void join(const Edge& e) {
     neighbours_[e.first].push_back(e.second);
@@ -160,12 +161,11 @@ LineHierarchy::LineHierarchy(const std::vector<Segment>& segments, const std::ve
     : coarsest_(static_cast<int>(tolerances.size()) - 1), obstacles_(nodes) {
   for (const std::vector<Segment>* list : {&segments, &whole}) {
     for (const Segment& s : *list) {
-      obstacles_.push_back(morton(s.ax, s.ay));
-      obstacles_.push_back(morton(s.bx, s.by));
+      obstacles_.push_back(code_of(s.a()));
+      obstacles_.push_back(code_of(s.b()));
     }
   }
-  std::sort(obstacles_.begin(), obstacles_.end());
-  obstacles_.erase(std::unique(obstacles_.begin(), obstacles_.end()), obstacles_.end());
+  sort_unique(obstacles_);
   chains_ = Graph(segments, whole, nodes).chains();
   for (Chain& chain : chains_) {
     for (const Position p : chain.vertices) chain.heights.push_back(height(p));
@@ -286,8 +286,7 @@ std::vector<Segment> LineHierarchy::segments() const {
 
 std::vector<SegmentFeature> LineHierarchy::features(const std::vector<SegmentFeature>& of_whole) const {
   std::vector<SegmentFeature> whole;
-  for (const auto& [s, feature] : of_whole)
-    whole.push_back({plan_between({s.ax, s.ay}, {s.bx, s.by}, s.theme), feature});
+  for (const auto& [s, feature] : of_whole) whole.push_back({plan_between(s.a(), s.b(), s.theme), feature});
   std::sort(whole.begin(), whole.end());
   std::vector<SegmentFeature> result;
   for (const Chain& chain : chains_) {
@@ -296,8 +295,7 @@ std::vector<SegmentFeature> LineHierarchy::features(const std::vector<SegmentFea
       for (const SegmentFeature& f : of_segment(whole, first)) result.push_back({s, f.feature});
     });
   }
-  std::sort(result.begin(), result.end());
-  result.erase(std::unique(result.begin(), result.end()), result.end());
+  sort_unique(result);
   return result;
 }
 
@@ -307,8 +305,7 @@ std::vector<LineHierarchy::VertexLevel> LineHierarchy::levels() const {
     for (std::size_t i = 0; i < chain.vertices.size(); ++i)
       result.push_back({code_of(chain.vertices[i]), chain.levels[i]});
   }
-  std::sort(result.begin(), result.end());
-  result.erase(std::unique(result.begin(), result.end()), result.end());
+  sort_unique(result);
   return result;
 }
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include <itin/sort_unique.hpp>
+
 #include "base/stoppable.hpp"
 #include "geometry/cell.hpp"
 
@@ -35,8 +37,7 @@ std::vector<PartVertex> part_vertices(const RaisedPart& part, const std::vector<
     if (!std::binary_search(part.vertices.begin(), part.vertices.end(), point, before_by_code)) fresh.push_back(point);
   }
   // By x, so that a segment finds those beside it.
-  std::sort(fresh.begin(), fresh.end());
-  fresh.erase(std::unique(fresh.begin(), fresh.end()), fresh.end());
+  sort_unique(fresh);
   std::vector<double> nearest(fresh.size(), std::numeric_limits<double>::infinity());
   std::vector<bool> on_foot(fresh.size());
   std::vector<std::uint64_t> outline;

@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include <itin/box_of.hpp>
+#include <itin/sort_unique.hpp>
 
 #include "base/stoppable.hpp"
 #include "features/hot_pixel.hpp"
@@ -33,10 +34,7 @@ struct Height {
 /// Positions sorted along the Morton curve, to be found along a segment.
 class SortedPositions {
  public:
-  explicit SortedPositions(std::vector<std::uint64_t> codes) : codes_(std::move(codes)) {
-    std::sort(codes_.begin(), codes_.end());
-    codes_.erase(std::unique(codes_.begin(), codes_.end()), codes_.end());
-  }
+  explicit SortedPositions(std::vector<std::uint64_t> codes) : codes_(std::move(codes)) { sort_unique(codes_); }
 
   /// Calls visit(position) for every position whose pixel the segment may meet.
   template <class Visit>
@@ -74,7 +72,7 @@ class SortedPositions {
     bool left = false, right = false;
     for (const Position c : {Position{box.xmin - 1, box.ymin - 1}, Position{box.xmax + 1, box.ymin - 1},
                              Position{box.xmin - 1, box.ymax + 1}, Position{box.xmax + 1, box.ymax + 1}}) {
-      const int side = orientation(Position{s.ax, s.ay}, Position{s.bx, s.by}, c);
+      const int side = orientation(s.a(), s.b(), c);
       left |= side >= 0;
       right |= side <= 0;
     }
@@ -91,8 +89,7 @@ class SnapRounding {
     for (OwnedSegment& s : segments_) {
       if (s.b < s.a) std::swap(s.a, s.b);
     }
-    std::sort(segments_.begin(), segments_.end());
-    segments_.erase(std::unique(segments_.begin(), segments_.end()), segments_.end());
+    sort_unique(segments_);
   }
 
   PlanarLines run() && {
@@ -138,13 +135,12 @@ class SnapRounding {
         for (std::size_t j = i + 1; j < near.size() && near[j].ax <= near[i].bx; ++j) {
           const Segment &s = near[i], &t = near[j];
           if (std::min(t.ay, t.by) > std::max(s.ay, s.by) || std::max(t.ay, t.by) < std::min(s.ay, s.by)) continue;
-          if (crosses(s, {t.ax, t.ay}, {t.bx, t.by})) crossing.insert({s, t});
+          if (crosses(s, t.a(), t.b())) crossing.insert({s, t});
         }
       }
     });
     crossings_ = crossing.size();
-    for (const auto& [s, t] : crossing)
-      hot_.push_back(code_of(crossing_pixel({s.ax, s.ay}, {s.bx, s.by}, {t.ax, t.ay}, {t.bx, t.by})));
+    for (const auto& [s, t] : crossing) hot_.push_back(code_of(crossing_pixel(s.a(), s.b(), t.a(), t.b())));
   }
 
   /// Leads a segment through the centres of the hot pixels it meets. It visits pixels in steps that never turn back
@@ -190,10 +186,7 @@ class SnapRounding {
     sort_pieces();
   }
 
-  void sort_pieces() {
-    std::sort(pieces_.begin(), pieces_.end());
-    pieces_.erase(std::unique(pieces_.begin(), pieces_.end()), pieces_.end());
-  }
+  void sort_pieces() { sort_unique(pieces_); }
 
   /// Rounding may lay a piece exactly through a vertex that its segment missed.
   void split_at_vertices() {
@@ -224,8 +217,7 @@ class SnapRounding {
       codes.push_back(code_of(piece.from));
       codes.push_back(code_of(piece.to));
     }
-    std::sort(codes.begin(), codes.end());
-    codes.erase(std::unique(codes.begin(), codes.end()), codes.end());
+    sort_unique(codes);
     for (const std::uint64_t code : codes) {
       stop_if_asked();
       const auto height = std::lower_bound(heights_.begin(), heights_.end(), code,

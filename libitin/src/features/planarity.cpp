@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <map>
 
+#include <itin/sort_unique.hpp>
+
 #include "base/stoppable.hpp"
 #include "features/hot_pixel.hpp"
 #include "store/edge_quadtree.hpp"
@@ -31,7 +33,7 @@ std::int64_t floored_quotient(Int128 numerator, Int128 denominator) {
 
 /// The Morton code of the grid square in which edges cross: it lies in one cell of the quadtree, and so do both there.
 std::uint64_t crossing_square(const Segment& s, const Segment& t) {
-  const Position a{s.ax, s.ay}, b{s.bx, s.by}, c{t.ax, t.ay}, d{t.bx, t.by};
+  const Position a = s.a(), b = s.b(), c = t.a(), d = t.b();
   const Int128 from = doubled_area(c, d, a), whole = from - doubled_area(c, d, b);
   const auto along = [&](std::int32_t start, std::int32_t end) {
     return static_cast<std::int32_t>(start + floored_quotient(from * (std::int64_t{end} - start), whole));
@@ -42,10 +44,10 @@ std::uint64_t crossing_square(const Segment& s, const Segment& t) {
 /// The places within a cell where two different edges meet other than at ends of both.
 std::uint64_t meetings(const Cell& cell, const Segment& s, const Segment& t) {
   if (std::min(t.ay, t.by) > std::max(s.ay, s.by) || std::max(t.ay, t.by) < std::min(s.ay, s.by)) return 0;
-  const Position a{s.ax, s.ay}, b{s.bx, s.by}, c{t.ax, t.ay}, d{t.bx, t.by};
+  const Position a = s.a(), b = s.b(), c = t.a(), d = t.b();
   if (crosses(s, c, d)) return cell.contains(crossing_square(s, t)) ? 1 : 0;
   const auto within = [&](Position from, Position to, Position p) {
-    return p != from && p != to && on_segment(from, to, p) && cell.contains(morton(p.x, p.y)) ? 1 : 0;
+    return p != from && p != to && on_segment(from, to, p) && cell.contains(code_of(p)) ? 1 : 0;
   };
   return static_cast<std::uint64_t>(within(a, b, c) + within(a, b, d) + within(c, d, a) + within(c, d, b));
 }
@@ -63,7 +65,7 @@ void visit_conflicts(std::span<const GridEdge> edges, const std::function<bool(s
   }
   std::sort(numbers.begin(), numbers.end());
   const auto number = [&](const Segment& s) {
-    const GridEdge edge{{s.ax, s.ay}, {s.bx, s.by}};
+    const GridEdge edge{s.a(), s.b()};
     return std::lower_bound(numbers.begin(), numbers.end(), std::pair{edge, std::uint32_t{0}})->second;
   };
   visit_edge_leaves(std::move(segments), [&](const Cell& cell, const std::vector<Segment>& near) {
@@ -106,8 +108,7 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> conflicts(std::span<const G
       }
     }
   });
-  std::sort(found.begin(), found.end());
-  found.erase(std::unique(found.begin(), found.end()), found.end());
+  sort_unique(found);
   return found;
 }
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <tuple>
 
+#include <itin/sort_unique.hpp>
+
 #include "base/stoppable.hpp"
 #include "features/hot_pixel.hpp"
 
@@ -114,18 +116,11 @@ void PolygonSides::for_each_cell(Point2 p, Point2 q, const Visit& visit) const {
 }
 
 void PolygonSides::fill_cells() {
-  const auto for_each = [&](const GridEdge& e, const auto& visit) {
-    stop_if_asked();
-    for_each_cell({double{1} * e.first.x, double{1} * e.first.y}, {double{1} * e.second.x, double{1} * e.second.y},
-                  visit);
-  };
-  first_.assign(static_cast<std::size_t>(columns_ * rows_) + 1, 0);
-  for (const GridEdge& e : edges_) for_each(e, [&](std::size_t cell) { ++first_[cell + 1]; });
-  for (std::size_t i = 1; i < first_.size(); ++i) first_[i] += first_[i - 1];
-  list_.resize(first_.back());
-  std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
-  for (std::uint32_t i = 0; i < edges_.size(); ++i)
-    for_each(edges_[i], [&](std::size_t cell) { list_[next[cell]++] = i; });
+  edges_of_cell_ = {static_cast<std::size_t>(columns_ * rows_), edges_.size(), [&](std::uint32_t i, const auto& add) {
+                      stop_if_asked();
+                      const auto& [a, b] = edges_[i];
+                      for_each_cell({double{1} * a.x, double{1} * a.y}, {double{1} * b.x, double{1} * b.y}, add);
+                    }};
 }
 
 /// Row by row: every edge that crosses the height of a row's references turns inside and outside to its right.
@@ -158,8 +153,8 @@ bool PolygonSides::encloses(const Place& p) const {
   const std::size_t cell = cell_of(p);
   const Place from{reference(p.x / side_), reference(p.y / side_)}, corner{p.x, from.y};
   bool inside = inside_[cell];
-  for (std::uint32_t k = first_[cell]; k < first_[cell + 1]; ++k) {
-    const Place a = place(edges_[list_[k]].first), b = place(edges_[list_[k]].second);
+  for (const std::uint32_t e : edges_of_cell_.in(cell)) {
+    const Place a = place(edges_[e].first), b = place(edges_[e].second);
     if ((a.y > from.y) != (b.y > from.y)) inside ^= right_of(a, b, from) != right_of(a, b, corner);
     if ((a.x > p.x) != (b.x > p.x)) inside ^= above(a, b, corner) != above(a, b, p);
   }
@@ -179,9 +174,9 @@ bool PolygonSides::encloses(Point2 p) const {
 Side PolygonSides::at(Position p) const {
   const Place at = place(p);
   if (!in_box(at)) return Side::outside;
-  const std::size_t cell = cell_of(at);
+  const auto near = edges_of_cell_.in(cell_of(at));
   const auto holds = [&](std::uint32_t e) { return on_segment(edges_[e].first, edges_[e].second, p); };
-  if (std::any_of(list_.begin() + first_[cell], list_.begin() + first_[cell + 1], holds)) return Side::border;
+  if (std::any_of(near.begin(), near.end(), holds)) return Side::border;
   return encloses(at) ? Side::inside : Side::outside;
 }
 
@@ -189,11 +184,11 @@ std::vector<std::pair<Point2, Point2>> PolygonSides::inside_parts(Point2 p, Poin
   std::vector<std::uint32_t> near;
   if (!edges_.empty()) {
     for_each_cell(p, q, [&](std::size_t cell) {
-      near.insert(near.end(), list_.begin() + first_[cell], list_.begin() + first_[cell + 1]);
+      const auto of_cell = edges_of_cell_.in(cell);
+      near.insert(near.end(), of_cell.begin(), of_cell.end());
     });
   }
-  std::sort(near.begin(), near.end());
-  near.erase(std::unique(near.begin(), near.end()), near.end());
+  sort_unique(near);
   const double dx = q.x - p.x, dy = q.y - p.y;
   std::vector<double> cuts{0, 1};
   for (const std::uint32_t e : near) {
@@ -211,8 +206,7 @@ std::vector<std::pair<Point2, Point2>> PolygonSides::inside_parts(Point2 p, Poin
       cut(a.x + s * (double{1} * b.x - a.x), a.y + s * (double{1} * b.y - a.y));
     }
   }
-  std::sort(cuts.begin(), cuts.end());
-  cuts.erase(std::unique(cuts.begin(), cuts.end()), cuts.end());
+  sort_unique(cuts);
   const auto position = [&](double t) { return Point2{p.x + t * dx, p.y + t * dy}; };
   std::vector<std::pair<Point2, Point2>> parts;
   for (std::size_t i = 1; i < cuts.size(); ++i)

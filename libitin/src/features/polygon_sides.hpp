@@ -11,6 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include <itin/bucket_lists.hpp>
+
 #include "features/plan_overlay.hpp"
 
 namespace itin {
@@ -57,8 +59,8 @@ class PolygonSides {
   Place extent_{-1, -1};   ///< of the box
   std::int64_t side_ = 0;  ///< of a cell
   std::int64_t columns_ = 0, rows_ = 0;
-  std::vector<std::uint32_t> first_, list_;  ///< the edges of cell i: list_[first_[i], first_[i + 1])
-  std::vector<bool> inside_;                 ///< by cell: whether the reference place is
+  BucketLists edges_of_cell_;
+  std::vector<bool> inside_;  ///< by cell: whether the reference place is
 };
 
 }  // namespace itin

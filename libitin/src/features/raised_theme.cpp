@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numeric>
 #include <optional>
 #include <set>
 
@@ -15,6 +14,7 @@
 #include <itin/silent_progress.hpp>
 #include <itin/triangulate.hpp>
 
+#include "base/disjoint_sets.hpp"
 #include "base/stoppable.hpp"
 #include "features/cell_features.hpp"
 #include "features/feature_mesh.hpp"
@@ -52,32 +52,6 @@ GridBox box_on_grid(const FootprintFeature& feature, const Grid& grid) {
       for (const Point3& p : ring) extend(p.x, p.y);
   return box;
 }
-
-GridBox widened(const GridBox& box, std::int32_t by) {
-  const auto cut = [](std::int64_t v) {
-    return static_cast<std::int32_t>(
-        std::clamp<std::int64_t>(v, -std::int64_t{kGridHalfSide}, std::int64_t{kGridHalfSide} - 1));
-  };
-  return {cut(std::int64_t{box.xmin} - by), cut(std::int64_t{box.ymin} - by), cut(std::int64_t{box.xmax} + by),
-          cut(std::int64_t{box.ymax} + by)};
-}
-
-/// Sets of features, by union-find.
-class Clusters {
- public:
-  explicit Clusters(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0U); }
-  std::uint32_t of(std::uint32_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(std::uint32_t a, std::uint32_t b) {
-    a = of(a), b = of(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
 
 /// Where a feature stands wall to wall with a higher one, whose eaves its wall reaches up to.
 struct PartyWall {
@@ -132,9 +106,7 @@ class Standing {
       build(groups, progress);
     }
     for (auto& [level, part] : parts_) {
-      const auto code = [](const GridPoint& p) { return morton(p.x, p.y); };
-      std::sort(part.vertices.begin(), part.vertices.end(),
-                [&](const GridPoint& a, const GridPoint& b) { return code(a) < code(b); });
+      std::sort(part.vertices.begin(), part.vertices.end(), before_by_code);
       theme_.parts.push_back(std::move(part));
     }
     report_patches();
@@ -155,7 +127,7 @@ class Standing {
     std::vector<GridBox> boxes;
     for (const StoredFootprint& f : footprints_) {
       const GridBox box = box_on_grid(f.feature, grid_);
-      boxes.push_back(box.empty() ? GridBox{0, 0, 0, 0} : widened(box, 2));
+      boxes.push_back(box.empty() ? GridBox{0, 0, 0, 0} : expanded(box, 2));
     }
     const double side = kPiece / grid_.resolution;
     std::map<std::pair<std::int64_t, std::int64_t>, Groups> pieces;
@@ -230,8 +202,8 @@ class Standing {
       left_out.merge(beyond);
       mesh = build_feature_mesh(features, options_, &terrain, quiet);
     }
-    for (const FeatureReport& r : mesh.reports)
-      if (!left_out.contains(r.feature)) report(numbers[r.feature], r.text.substr(features[r.feature].name.size() + 2));
+    for (const FeatureFinding& f : mesh.findings)
+      if (!left_out.contains(f.feature)) report(numbers[f.feature], f.text);
     theme_.built += mesh.built;
     theme_.refused += mesh.refused;
     add(mesh, terrain, numbers, features);
@@ -333,7 +305,7 @@ class Standing {
   };
 
   std::vector<Kept> kept_of(const FeatureMesh& mesh, const std::vector<PartyWall>& walls, std::size_t count) {
-    Clusters clusters(count);
+    DisjointSets clusters(count);
     for (const PartyWall& wall : walls) clusters.join(wall.higher, wall.lower);
     std::vector<std::uint32_t> first(mesh.vertices.size(), static_cast<std::uint32_t>(count));
     for (const FeatureSegment& s : mesh.segments) {
@@ -344,12 +316,12 @@ class Standing {
     }
     std::vector<GridBox> boxes(count);
     for (const FeatureSegment& s : mesh.segments) {
-      GridBox& box = boxes[clusters.of(s.feature)];
+      GridBox& box = boxes[clusters.least(s.feature)];
       for (const std::uint32_t v : {s.from, s.to}) box.extend(mesh.vertices[v].x, mesh.vertices[v].y);
     }
     std::vector<Kept> kept(count);
     for (std::uint32_t f = 0; f < count; ++f) {
-      const std::uint32_t own = clusters.of(f);  // the number of its first feature
+      const std::uint32_t own = clusters.least(f);  // the number of its first feature
       kept[f] = own == f ? kept_about(boxes[own]) : kept[own];
     }
     return kept;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include <itin/box_of.hpp>
+#include <itin/sort_unique.hpp>
 
 #include "base/stoppable.hpp"
 #include "features/mask_index.hpp"
@@ -95,18 +96,12 @@ GridBox TerrainHeights::bucket_range(const GridBox& box) const {
 }
 
 void TerrainHeights::fill_buckets() {
-  const auto for_each_bucket = [&](std::uint32_t t, const auto& visit) {
-    const GridBox range = bucket_range(box_of_triangle(t));
-    for (std::int32_t r = range.ymin; r <= range.ymax; ++r)
-      for (std::int32_t c = range.xmin; c <= range.xmax; ++c) visit(static_cast<std::size_t>(r) * columns_ + c);
-  };
-  const auto count = static_cast<std::uint32_t>(tin_->triangles.size());
-  first_.assign(static_cast<std::size_t>(columns_) * rows_ + 1, 0);
-  for (std::uint32_t t = 0; t < count; ++t) for_each_bucket(t, [&](std::size_t i) { ++first_[i + 1]; });
-  for (std::size_t i = 1; i < first_.size(); ++i) first_[i] += first_[i - 1];
-  triangles_.resize(first_.back());
-  std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
-  for (std::uint32_t t = 0; t < count; ++t) for_each_bucket(t, [&](std::size_t i) { triangles_[next[i]++] = t; });
+  triangles_ = {static_cast<std::size_t>(columns_) * rows_, tin_->triangles.size(),
+                [&](std::uint32_t t, const auto& add) {
+                  const GridBox range = bucket_range(box_of_triangle(t));
+                  for (std::int32_t r = range.ymin; r <= range.ymax; ++r)
+                    for (std::int32_t c = range.xmin; c <= range.xmax; ++c) add(bucket(c, r));
+                }};
 }
 
 std::vector<std::uint32_t> TerrainHeights::triangles_near(const GridBox& box) const {
@@ -115,13 +110,12 @@ std::vector<std::uint32_t> TerrainHeights::triangles_near(const GridBox& box) co
   if (range.empty()) return found;
   for (std::int32_t r = range.ymin; r <= range.ymax; ++r) {
     for (std::int32_t c = range.xmin; c <= range.xmax; ++c) {
-      const std::size_t i = static_cast<std::size_t>(r) * columns_ + c;
-      for (std::uint32_t k = first_[i]; k < first_[i + 1]; ++k) {
-        const GridBox own = box_of_triangle(triangles_[k]);
+      for (const std::uint32_t t : triangles_.in(bucket(c, r))) {
+        const GridBox own = box_of_triangle(t);
         if (!box.meets(own)) continue;
         // A triangle counts in the first of the buckets that list it.
         const GridBox all = bucket_range(own);
-        if (c == std::max(all.xmin, range.xmin) && r == std::max(all.ymin, range.ymin)) found.push_back(triangles_[k]);
+        if (c == std::max(all.xmin, range.xmin) && r == std::max(all.ymin, range.ymin)) found.push_back(t);
       }
     }
   }
@@ -134,9 +128,8 @@ bool TerrainHeights::level_about(const GridBox& box) const {
   std::optional<std::int32_t> height;
   for (std::int32_t r = range.ymin; r <= range.ymax && !range.empty(); ++r) {
     for (std::int32_t c = range.xmin; c <= range.xmax; ++c) {
-      const std::size_t i = static_cast<std::size_t>(r) * columns_ + c;
-      for (std::uint32_t k = first_[i]; k < first_[i + 1]; ++k) {
-        for (const std::uint32_t v : tin_->triangles[triangles_[k]]) {
+      for (const std::uint32_t t : triangles_.in(bucket(c, r))) {
+        for (const std::uint32_t v : tin_->triangles[t]) {
           if (height && *height != vertex(v).z) return false;
           height = vertex(v).z;
         }
@@ -172,30 +165,26 @@ std::vector<std::uint32_t> TerrainHeights::triangles_along(Position a, Position 
   // Piece by piece: the box of a long slanting segment holds many more than it meets.
   const std::int64_t dx = std::int64_t{b.x} - a.x, dy = std::int64_t{b.y} - a.y;
   const std::int64_t pieces = std::max(std::abs(dx), std::abs(dy)) / (4 * bucket_side_) + 1;
-  const std::int32_t wider = reach + 1;
   std::vector<std::uint32_t> found;
   for (std::int64_t i = 0; i < pieces; ++i) {
     GridBox box;
     for (const std::int64_t k : {i, i + 1})
       box.extend(static_cast<std::int32_t>(a.x + dx * k / pieces), static_cast<std::int32_t>(a.y + dy * k / pieces));
-    box = {box.xmin - wider, box.ymin - wider, box.xmax + wider, box.ymax + wider};
-    for (const std::uint32_t t : triangles_near(box)) {
+    for (const std::uint32_t t : triangles_near(expanded(box, reach + 1))) {
       const Triangle& v = tin_->triangles[t];
       const auto at = [&](std::size_t k) { return Position{vertex(v[k]).x, vertex(v[k]).y}; };
       if (!separated({at(0), at(1), at(2)}, a, b, reach)) found.push_back(t);
     }
   }
-  std::sort(found.begin(), found.end());
-  found.erase(std::unique(found.begin(), found.end()), found.end());
+  sort_unique(found);
   return found;
 }
 
 std::optional<double> TerrainHeights::height_at(Position p) const {
   const GridBox range = bucket_range({p.x, p.y, p.x, p.y});
   if (range.empty()) return std::nullopt;
-  const std::size_t i = static_cast<std::size_t>(range.ymin) * columns_ + range.xmin;
-  for (std::uint32_t k = first_[i]; k < first_[i + 1]; ++k) {
-    const Triangle& v = tin_->triangles[triangles_[k]];
+  for (const std::uint32_t t : triangles_.in(bucket(range.xmin, range.ymin))) {
+    const Triangle& v = tin_->triangles[t];
     const GridPoint &a = vertex(v[0]), &b = vertex(v[1]), &c = vertex(v[2]);
     if (orientation(a, b, p) < 0 || orientation(b, c, p) < 0 || orientation(c, a, p) < 0) continue;
     for (const GridPoint* q : {&a, &b, &c})
@@ -346,8 +335,7 @@ std::optional<double> TerrainHeights::base_height(const GridPolygons& footprint,
   add_outline(footprint, extremes);
   std::vector<std::uint32_t> vertices;
   for (const std::uint32_t t : near) vertices.insert(vertices.end(), triangle(t).begin(), triangle(t).end());
-  std::sort(vertices.begin(), vertices.end());
-  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  sort_unique(vertices);
   const MaskIndex inside(footprint);
   for (const std::uint32_t v : vertices) {
     stop_if_asked();

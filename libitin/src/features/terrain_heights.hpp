@@ -13,6 +13,7 @@
 #include <vector>
 
 #include <itin/box_of.hpp>
+#include <itin/bucket_lists.hpp>
 #include <itin/tin.hpp>
 
 #include "features/plan_overlay.hpp"
@@ -57,6 +58,9 @@ class TerrainHeights {
   };
   std::vector<Crossing> all_crossings(Position a, Position b) const;
   GridBox bucket_range(const GridBox& box) const;
+  std::size_t bucket(std::int32_t column, std::int32_t row) const {
+    return static_cast<std::size_t>(row) * columns_ + column;
+  }
   void fill_buckets();
   std::optional<double> mean_height(const GridPolygons& footprint, const std::vector<std::uint32_t>& near) const;
   void add_outline(const GridPolygons& footprint, Extremes& extremes) const;
@@ -65,7 +69,7 @@ class TerrainHeights {
   GridBox bounds_;
   std::int64_t bucket_side_ = 1;
   std::int32_t columns_ = 0, rows_ = 0;
-  std::vector<std::uint32_t> first_, triangles_;  ///< of bucket i: triangles_[first_[i], first_[i + 1])
+  BucketLists triangles_;  ///< by bucket
 };
 
 GridBox bounds_of(const GridPolygons& polygons);

@@ -8,7 +8,7 @@
 
 #include "base/stoppable.hpp"
 #include "features/mask_index.hpp"
-#include "features/planar.hpp"
+#include "features/segment_owners.hpp"
 #include "triangulate/apex.hpp"
 #include "triangulate/delaunay.hpp"
 
@@ -211,16 +211,10 @@ class Overlaying {
     return {std::move(segments), changed(), std::move(pierced_)};
   }
 
-  /// Feet come first, for heights; the terrain last.
+  /// The terrain comes last.
   std::vector<OwnedSegment> owned(const std::set<TerrainEdge>& edges) {
-    std::map<std::pair<SegmentClass, std::uint32_t>, std::uint32_t> owners;
-    for (const PlacedSegment& s : segments_) owners[{s.kind, s.feature}] = 0;
-    for (auto& [key, number] : owners) {
-      number = static_cast<std::uint32_t>(owners_.size());
-      owners_.push_back(key);
-    }
-    std::vector<OwnedSegment> result;
-    for (const PlacedSegment& s : segments_) result.push_back({s.a, s.b, owners.at({s.kind, s.feature})});
+    owners_ = SegmentOwners(segments_);
+    std::vector<OwnedSegment> result = owners_.owned(segments_);
     for (const CoveredGround& ground : covered_)
       for (const auto& [a, b] : ground.across)
         if (meets_terrain_edge(a, {b.x, b.y})) result.push_back({{a.x, a.y, b.z}, b, owner_of_ways()});
@@ -241,7 +235,7 @@ class Overlaying {
   }
 
   /// The terrain has the next number.
-  std::uint32_t owner_of_ways() const { return static_cast<std::uint32_t>(owners_.size()); }
+  std::uint32_t owner_of_ways() const { return owners_.count(); }
 
   Position position(std::uint32_t v) const { return {lines_.vertices[v].x, lines_.vertices[v].y}; }
 
@@ -251,12 +245,10 @@ class Overlaying {
     on_line_.resize(lines_.vertices.size());
     on_way_.resize(lines_.vertices.size());
     top_.resize(lines_.vertices.size());
-    const PlanarEdge* last = nullptr;
-    for (const PlanarEdge& e : lines_.edges) {
+    for (std::size_t i = 0; i < lines_.edges.size(); ++i) {
       stop_if_asked();
-      // Ascending: the first owner has what several share.
-      if (last && last->from == e.from && last->to == e.to) continue;
-      last = &e;
+      if (of_later_owner(lines_.edges, i)) continue;
+      const PlanarEdge& e = lines_.edges[i];
       if (e.owner == owner_of_ways()) on_way_[e.from] = on_way_[e.to] = true;
       if (e.owner < owner_of_ways()) {
         const auto& [kind, feature] = owners_[e.owner];
@@ -364,7 +356,7 @@ class Overlaying {
   std::map<std::uint32_t, std::int32_t> bases_;                    ///< of features on flat foundations
   std::map<std::uint32_t, std::unique_ptr<TopSurface>> surfaces_;  ///< of tops that the terrain may pierce
   std::vector<PlacedSegment> segments_;
-  std::vector<std::pair<SegmentClass, std::uint32_t>> owners_;
+  SegmentOwners owners_;
   PlanarLines lines_;
   std::vector<Kept> kept_;
   std::vector<PlanarEdge> ground_;

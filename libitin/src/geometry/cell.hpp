@@ -4,6 +4,7 @@
 // Morton code of its lower left corner, and its points are exactly those with codes in [code, end()).
 #pragma once
 
+#include <algorithm>
 #include <compare>
 #include <cstdint>
 
@@ -55,6 +56,13 @@ constexpr std::uint64_t code_of(const Position& p) {
 /// The order of points in a store.
 constexpr bool before_by_code(const GridPoint& p, const GridPoint& q) {
   return code_of(p) < code_of(q);
+}
+/// The point with this code among points in the order of a store, or their end.
+template <class Points>
+auto find_by_code(const Points& points, std::uint64_t code) {
+  const auto at = std::lower_bound(points.begin(), points.end(), code,
+                                   [](const auto& p, std::uint64_t c) { return code_of(p) < c; });
+  return at != points.end() && code_of(*at) == code ? at : points.end();
 }
 constexpr std::int32_t morton_x(std::uint64_t code) {
   return static_cast<std::int32_t>(detail_morton::gather(code)) - kGridHalfSide;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include <itin/parallel.hpp>
+#include <itin/sort_unique.hpp>
 
 #include "geometry/lattice_edges.hpp"
 
@@ -237,8 +238,7 @@ bool LatticeCover::ends_at(std::span<const Segment> segments) const {
   std::vector<Edge> outline;
   if (!std::all_of(segments.begin(), segments.end(), [&](const Segment& s) { return add_edges_of(s, outline); }))
     return false;
-  std::sort(outline.begin(), outline.end());
-  outline.erase(std::unique(outline.begin(), outline.end()), outline.end());
+  sort_unique(outline);
   std::vector<Edge> edges = edges_without_twin();
   std::sort(edges.begin(), edges.end());
   return edges == outline;

@@ -9,8 +9,10 @@
 #include <utility>
 #include <vector>
 
+#include <itin/bucket_lists.hpp>
 #include <itin/lattice_reader.hpp>
 #include <itin/parallel.hpp>
+#include <itin/sort_unique.hpp>
 
 #include "lattice/lattice_cover.hpp"
 #include "triangulate/grid_window.hpp"
@@ -104,8 +106,7 @@ class LatticeReader::Work {
   std::vector<Leaf> leaves_;
   std::optional<LatticeCover> cover_;  ///< while it is being opened
   std::vector<bool> being_read_;       ///< of tiles
-  // The leaves of tile t are leaves_[leaf_of_tile_[i]] with i in [first_leaf_[t], first_leaf_[t + 1]).
-  std::vector<std::uint32_t> first_leaf_, leaf_of_tile_;
+  BucketLists leaves_of_tile_;
 };
 
 bool LatticeReader::Work::find_lattice(Heights heights, std::uint64_t most_posts) {
@@ -291,13 +292,8 @@ void LatticeReader::Work::for_each_tile(const Leaf& leaf, const Visit& visit) co
 }
 
 void LatticeReader::Work::list_leaves_of_tiles() {
-  first_leaf_.assign(lattice_.tiles.size() + 1, 0);
-  for (const Leaf& leaf : leaves_) for_each_tile(leaf, [&](std::uint32_t tile) { ++first_leaf_[tile + 1]; });
-  std::partial_sum(first_leaf_.begin(), first_leaf_.end(), first_leaf_.begin());
-  leaf_of_tile_.resize(first_leaf_.back());
-  std::vector<std::uint32_t> next(first_leaf_.begin(), first_leaf_.end() - 1);
-  for (std::uint32_t i = 0; i < leaves_.size(); ++i)
-    for_each_tile(leaves_[i], [&](std::uint32_t tile) { leaf_of_tile_[next[tile]++] = i; });
+  leaves_of_tile_ = {lattice_.tiles.size(), leaves_.size(),
+                     [this](std::uint32_t i, const auto& add) { for_each_tile(leaves_[i], add); }};
 }
 
 void LatticeReader::Work::read(std::span<const std::uint32_t> tiles, Progress& progress) {
@@ -306,10 +302,10 @@ void LatticeReader::Work::read(std::span<const std::uint32_t> tiles, Progress& p
   for (const std::uint32_t t : tiles) {
     if (lattice_.tiles[t].ground == LatticeTin::Ground::kNone || lattice_.tiles[t].heights) continue;
     begin_reading(t);
-    leaves.insert(leaves.end(), leaf_of_tile_.begin() + first_leaf_[t], leaf_of_tile_.begin() + first_leaf_[t + 1]);
+    const auto of_tile = leaves_of_tile_.in(t);
+    leaves.insert(leaves.end(), of_tile.begin(), of_tile.end());
   }
-  std::sort(leaves.begin(), leaves.end());
-  leaves.erase(std::unique(leaves.begin(), leaves.end()), leaves.end());
+  sort_unique(leaves);
   try {
     read_leaves(leaves, progress);
   } catch (...) {

@@ -108,10 +108,6 @@ class CellVerification {
     return true;
   }
 
-  GridBox box_of_triangle(std::uint32_t t) const {
-    return box_of(fine_.mesh.triangles[t], [&](std::uint32_t v) { return fine_.vertices[v].position(); });
-  }
-
   /// If `mend`, raises the worst point of each coarse face and what breaks up each coarse edge that is too far off, as
   /// far as they are the cell's own. True when there was any. A line's vertex is put back with its line.
   bool raise(int k, bool mend, const RegionMesh& coarse, const Failures& failures) {
@@ -152,9 +148,7 @@ class CellVerification {
   }
 
   static bool has(const RegionMesh& coarse, std::uint64_t code) {
-    const auto before = [](const SelectedVertex& v, std::uint64_t c) { return code_of(v) < c; };
-    const auto at = std::lower_bound(coarse.vertices.begin(), coarse.vertices.end(), code, before);
-    return at != coarse.vertices.end() && code_of(*at) == code;
+    return find_by_code(coarse.vertices, code) != coarse.vertices.end();
   }
 
   /// What failed before points were raised.
@@ -195,9 +189,8 @@ class CellVerification {
   bool is_vertex_of_line(Position p) const {
     std::vector<Segment> segments;
     points_.segments({p.x, p.y, p.x, p.y}, segments);
-    return std::any_of(segments.begin(), segments.end(), [&](const Segment& s) {
-      return s.theme != kCoverage && (Position{s.ax, s.ay} == p || Position{s.bx, s.by} == p);
-    });
+    return std::any_of(segments.begin(), segments.end(),
+                       [&](const Segment& s) { return s.theme != kCoverage && (s.a() == p || s.b() == p); });
   }
 
   /// Those of level k that meet the box.
@@ -206,7 +199,7 @@ class CellVerification {
     std::vector<Segment> segments;
     points_.segments(box, segments);
     for (const Segment& s : segments) {
-      const Position a{s.ax, s.ay}, b{s.bx, s.by};
+      const Position a = s.a(), b = s.b();
       if (s.finest > 0 && s.finest <= k && s.coarsest >= k && meets(a, b, box))
         result.push_back({k, std::min(a, b), std::max(a, b)});
     }
@@ -237,7 +230,7 @@ class CellVerification {
     std::vector<std::uint32_t> leaves;
     for (std::uint32_t t = 0; t < fine_.mesh.triangles.size(); ++t) {
       leaves.clear();
-      index_.leaves_at(box_of_triangle(t), leaves);
+      index_.leaves_at(fine_.box_of_triangle(t), leaves);
       for (const std::uint32_t leaf : leaves) {
         if (task_.covers(index_.ranges()[leaf].cell)) triangles_of_leaves_.emplace_back(t, leaf);
       }

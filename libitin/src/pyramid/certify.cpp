@@ -9,6 +9,7 @@
 #include <itin/call_progress.hpp>
 #include <itin/error.hpp>
 #include <itin/parallel.hpp>
+#include <itin/sort_unique.hpp>
 
 #include "pyramid/cell_verification.hpp"
 #include "pyramid/changed_by_lines.hpp"
@@ -168,8 +169,7 @@ std::vector<LineHierarchy::Shortcut> failing_shortcuts(const std::vector<CellOut
   std::vector<LineHierarchy::Shortcut> result;
   for (const CellOutcome& outcome : outcomes)
     result.insert(result.end(), outcome.failing.begin(), outcome.failing.end());
-  std::sort(result.begin(), result.end());
-  result.erase(std::unique(result.begin(), result.end()), result.end());
+  sort_unique(result);
   return result;
 }
 

@@ -5,6 +5,7 @@
 
 #include <itin/detail.hpp>
 #include <itin/parallel.hpp>
+#include <itin/sort_unique.hpp>
 
 #include "features/flat_skeleton.hpp"
 #include "triangulate/region.hpp"
@@ -18,11 +19,10 @@ using Codes = std::vector<std::uint64_t>;
 Codes ends_of(const std::vector<Segment>& segments) {
   Codes codes;
   for (const Segment& s : segments) {
-    codes.push_back(morton(s.ax, s.ay));
-    codes.push_back(morton(s.bx, s.by));
+    codes.push_back(code_of(s.a()));
+    codes.push_back(code_of(s.b()));
   }
-  std::sort(codes.begin(), codes.end());
-  codes.erase(std::unique(codes.begin(), codes.end()), codes.end());
+  sort_unique(codes);
   return codes;
 }
 

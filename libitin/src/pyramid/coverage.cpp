@@ -26,8 +26,8 @@ Segment segment(const RegionMesh& region, std::uint32_t from, std::uint32_t to) 
 std::vector<std::uint64_t> corners_of(const std::vector<Segment>& edges) {
   std::vector<std::uint64_t> corners;
   for (const Segment& s : join_collinear(edges)) {
-    corners.push_back(morton(s.ax, s.ay));
-    corners.push_back(morton(s.bx, s.by));
+    corners.push_back(code_of(s.a()));
+    corners.push_back(code_of(s.b()));
   }
   std::sort(corners.begin(), corners.end());
   return corners;
@@ -178,7 +178,7 @@ std::vector<Segment> join_collinear(std::vector<Segment> edges) {
     const End p{s.bx, s.by};
     const auto [first, last] = leaving(p);
     if (last - first != 1 || arriving[p] != 1) return nullptr;
-    const Position a{s.ax, s.ay}, b{s.bx, s.by}, c{first->bx, first->by};
+    const Position a = s.a(), b = s.b(), c{first->bx, first->by};
     const bool forward =
         (std::int64_t{b.x} - a.x) * (std::int64_t{c.x} - b.x) + (std::int64_t{b.y} - a.y) * (std::int64_t{c.y} - b.y) >
         0;

@@ -4,6 +4,7 @@
 
 #include <itin/box_of.hpp>
 #include <itin/detail.hpp>
+#include <itin/sort_unique.hpp>
 
 #include "pyramid/gap_rule.hpp"
 #include "pyramid/points_in_triangles.hpp"
@@ -75,9 +76,8 @@ std::vector<std::uint64_t> grounded(std::span<const std::uint64_t> codes, const 
   std::vector<std::uint64_t> result;
   for_each_inside(
       ground.size(), [&](std::size_t t) { return ground[t]; }, codes,
-      [&](std::size_t, Position p) { result.push_back(morton(p.x, p.y)); });
-  std::sort(result.begin(), result.end());
-  result.erase(std::unique(result.begin(), result.end()), result.end());
+      [&](std::size_t, Position p) { result.push_back(code_of(p)); });
+  sort_unique(result);
   return result;
 }
 

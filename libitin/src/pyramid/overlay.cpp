@@ -231,8 +231,7 @@ class DifferenceSweep {
     visited_[first] = 1;
     for (std::size_t at = 0; at < queue.size(); ++at) {
       const std::uint32_t u = queue[at];
-      for (std::uint32_t k = edges_.start()[u]; k < edges_.start()[u + 1]; ++k) {
-        const std::uint32_t e = edges_.list()[k];
+      for (const std::uint32_t e : edges_.at_vertex(u)) {
         const std::uint32_t v = edges_.edges()[e].u == u ? edges_.edges()[e].v : edges_.edges()[e].u;
         follow(e, u, v);
         if (!visited_[v]) {
@@ -312,7 +311,7 @@ class DifferenceSweep {
 
 }  // namespace
 
-FineEdges::FineEdges(const RegionMesh& fine) : start_(fine.vertices.size() + 1, 0) {
+FineEdges::FineEdges(const RegionMesh& fine) {
   const PlaneMesh& mesh = fine.mesh;
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
     for (int i = 0; i < 3; ++i) {
@@ -321,14 +320,8 @@ FineEdges::FineEdges(const RegionMesh& fine) : start_(fine.vertices.size() + 1, 
       edges_.push_back({mesh.triangles[t][(i + 1) % 3], mesh.triangles[t][(i + 2) % 3], t, n});
     }
   }
-  for (const Edge& e : edges_) start_[e.u + 1] += 1, start_[e.v + 1] += 1;
-  for (std::size_t v = 1; v < start_.size(); ++v) start_[v] += start_[v - 1];
-  list_.resize(2 * edges_.size());
-  std::vector<std::uint32_t> fill(start_.begin(), start_.end() - 1);
-  for (std::uint32_t e = 0; e < edges_.size(); ++e) {
-    list_[fill[edges_[e].u]++] = e;
-    list_[fill[edges_[e].v]++] = e;
-  }
+  at_vertex_ = {fine.vertices.size(), edges_.size(),
+                [this](std::uint32_t e, const auto& add) { add(edges_[e].u), add(edges_[e].v); }};
 }
 
 Difference difference(const RegionMesh& fine, const FineEdges& edges, const RegionMesh& coarse, std::int32_t allowed) {

@@ -8,7 +8,10 @@
 #include <algorithm>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <vector>
+
+#include <itin/bucket_lists.hpp>
 
 #include "pyramid/failures.hpp"
 #include "triangulate/region.hpp"
@@ -36,13 +39,12 @@ class FineEdges {
   explicit FineEdges(const RegionMesh& fine);
 
   const std::vector<Edge>& edges() const { return edges_; }
-  /// Numbers of the edges at vertex v: list[start[v]] .. list[start[v + 1]].
-  const std::vector<std::uint32_t>& start() const { return start_; }
-  const std::vector<std::uint32_t>& list() const { return list_; }
+  /// Their numbers.
+  std::span<const std::uint32_t> at_vertex(std::uint32_t v) const { return at_vertex_.in(v); }
 
  private:
   std::vector<Edge> edges_;
-  std::vector<std::uint32_t> start_, list_;
+  BucketLists at_vertex_;
 };
 
 struct Difference {

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include <itin/parallel.hpp>
+#include <itin/sort_unique.hpp>
 
 #include "features/mask_index.hpp"
 #include "store/store_format.hpp"
@@ -34,8 +35,7 @@ class PartMask {
   /// In any order, also twice.
   void add(std::span<const std::uint64_t> codes) { masked_.insert(masked_.end(), codes.begin(), codes.end()); }
   void finish() {
-    std::sort(masked_.begin(), masked_.end());
-    masked_.erase(std::unique(masked_.begin(), masked_.end()), masked_.end());
+    sort_unique(masked_);
     if (has_clusters()) find_places();
   }
   /// Puts a segment that makes way for the part among those of clusters.
@@ -45,25 +45,22 @@ class PartMask {
   /// `ground`: it keeps the ground.
   void add_masked(const Segment& entry, bool ground) {
     if (!has_clusters()) return;
-    for (const std::uint64_t end : {morton(entry.ax, entry.ay), morton(entry.bx, entry.by)})
+    for (const std::uint64_t end : {code_of(entry.a()), code_of(entry.b())})
       if (among(masked_, end)) add_masked_for(entry, cluster_about(end));
     if (ground) return;
-    const auto about = index_.about_middle({entry.ax, entry.ay}, {entry.bx, entry.by});
+    const auto about = index_.about_middle(entry.a(), entry.b());
     if (about) add_masked_for(entry, part_.mask_clusters[*about]);
   }
   PartClusters take_clusters() && {
     std::vector<SegmentFeature>& segments = clusters_.of_segments;
-    std::sort(segments.begin(), segments.end());
-    segments.erase(std::unique(segments.begin(), segments.end()), segments.end());
+    sort_unique(segments);
     return std::move(clusters_);
   }
   /// Lines end at feet, so a segment lies inside or outside as a whole.
-  bool covers(const Segment& s) const { return hides_end(s) || index_.middle_inside({s.ax, s.ay}, {s.bx, s.by}); }
+  bool covers(const Segment& s) const { return hides_end(s) || index_.middle_inside(s.a(), s.b()); }
   /// A line that keeps the ground makes way only where it has to: between vertices that rise it keeps tops above the
   /// ground.
-  bool hides_end(const Segment& s) const {
-    return among(masked_, morton(s.ax, s.ay)) || among(masked_, morton(s.bx, s.by));
-  }
+  bool hides_end(const Segment& s) const { return among(masked_, code_of(s.a())) || among(masked_, code_of(s.b())); }
 
   void write(std::uint16_t number, StoreWriter& writer) const {
     std::vector<std::pair<GridPoint, std::uint16_t>> entries;
@@ -97,8 +94,7 @@ class PartMask {
   /// The clusters of all vertices and masked positions, and the boxes about these.
   void find_places() {
     std::vector<Place>& places = clusters_.of_places;
-    std::sort(places.begin(), places.end());
-    places.erase(std::unique(places.begin(), places.end()), places.end());
+    sort_unique(places);
     const auto known = [&, of_lines = places.size()](std::uint64_t code) {
       const auto last = places.begin() + static_cast<std::ptrdiff_t>(of_lines);
       const auto at = std::lower_bound(places.begin(), last, Place{code, 0});
@@ -202,8 +198,7 @@ WrittenParts write_parts(const ThemeLines& lines, const WorkingIndex& index, con
       if (owner >= lines.themes()) parts[owner - lines.themes()].add_masked_for(masked.back(), cluster);
     }
   }
-  std::sort(masked.begin(), masked.end());
-  masked.erase(std::unique(masked.begin(), masked.end()), masked.end());
+  sort_unique(masked);
   for (std::size_t i = 0; i < parts.size(); ++i)
     if (parts[i].has_clusters())
       written.clusters[static_cast<std::uint16_t>(lines.themes() + i + 1)] = std::move(parts[i]).take_clusters();

@@ -9,6 +9,7 @@
 #include <itin/call_progress.hpp>
 #include <itin/detail.hpp>
 #include <itin/parallel.hpp>
+#include <itin/sort_unique.hpp>
 
 #include "features/line_hierarchy.hpp"
 #include "pyramid/certify.hpp"
@@ -42,14 +43,10 @@ std::optional<LineHierarchy> generalised(const PlacedLines& placed, const std::v
   std::vector<std::uint64_t> nodes = placed.on_outline;
   nodes.insert(nodes.end(), placed.feature_ends.begin(), placed.feature_ends.end());
   for (const Segment& s : outline) {
-    nodes.push_back(morton(s.ax, s.ay));
-    nodes.push_back(morton(s.bx, s.by));
+    nodes.push_back(code_of(s.a()));
+    nodes.push_back(code_of(s.b()));
   }
-  const auto height = [&](Position p) {
-    const auto at = std::lower_bound(lines.lines.vertices.begin(), lines.lines.vertices.end(), morton(p.x, p.y),
-                                     [](const GridPoint& v, std::uint64_t code) { return morton(v.x, v.y) < code; });
-    return at->z;
-  };
+  const auto height = [&](Position p) { return find_by_code(lines.lines.vertices, code_of(p))->z; };
   std::vector<Segment> whole = placed.features;
   whole.insert(whole.end(), placed.standing.begin(), placed.standing.end());
   return LineHierarchy(placed.terrain, whole, nodes, height, by_level);
@@ -74,7 +71,7 @@ FlatSurvey survey_flat(WorkingIndex& index, const std::vector<CurveRange>& tiles
 
 std::vector<RawPoint> raw_points(const std::vector<GridPoint>& points, std::size_t source) {
   std::vector<RawPoint> result;
-  for (const GridPoint& p : points) result.push_back({morton(p.x, p.y), p.z, static_cast<std::uint16_t>(source), 0});
+  for (const GridPoint& p : points) result.push_back({code_of(p), p.z, static_cast<std::uint16_t>(source), 0});
   return result;
 }
 
@@ -84,22 +81,19 @@ void write_features(const PlacedLines& placed, const std::vector<ThemeVertex>& c
                     const std::vector<GridPoint>& draped, StoreWriter& writer, PyramidReport& report) {
   std::vector<std::pair<std::uint16_t, std::uint64_t>> ends;  // theme, code
   for (const Segment& s : placed.features) {
-    ends.emplace_back(s.theme, morton(s.ax, s.ay));
-    ends.emplace_back(s.theme, morton(s.bx, s.by));
+    ends.emplace_back(s.theme, code_of(s.a()));
+    ends.emplace_back(s.theme, code_of(s.b()));
   }
   for (const auto& [theme, code] : crossings) ends.emplace_back(theme + 1, code);
-  std::sort(ends.begin(), ends.end());
-  ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
-  const auto by_code = [](const GridPoint& p, std::uint64_t code) { return morton(p.x, p.y) < code; };
+  sort_unique(ends);
   for (auto at = ends.begin(); at != ends.end();) {
     const std::uint16_t theme = at->first;
     std::vector<GridPoint> points;
     std::vector<std::uint16_t> sources;
     for (; at != ends.end() && at->first == theme; ++at) {
-      const auto point = std::lower_bound(draped.begin(), draped.end(), at->second, by_code);
-      if (point == draped.end() || morton(point->x, point->y) != at->second) continue;
-      const auto vertex =
-          std::lower_bound(lines.lines.vertices.begin(), lines.lines.vertices.end(), at->second, by_code);
+      const auto point = find_by_code(draped, at->second);
+      if (point == draped.end()) continue;
+      const auto vertex = find_by_code(lines.lines.vertices, at->second);
       points.push_back(*point);
       sources.push_back(lines.sources[static_cast<std::size_t>(vertex - lines.lines.vertices.begin())]);
       report.vertices_of_source[sources.back()] += 1;
@@ -115,8 +109,8 @@ void count_lines(const PlacedLines& placed, std::size_t themes, PyramidReport& r
   for (const std::vector<Segment>* segments : {&placed.terrain, &placed.features, &placed.standing}) {
     for (const Segment& s : *segments) {
       report.segments[s.theme - std::size_t{1}] += 1;
-      ends[s.theme - std::size_t{1}].push_back(morton(s.ax, s.ay));
-      ends[s.theme - std::size_t{1}].push_back(morton(s.bx, s.by));
+      ends[s.theme - std::size_t{1}].push_back(code_of(s.a()));
+      ends[s.theme - std::size_t{1}].push_back(code_of(s.b()));
     }
   }
   for (std::vector<std::uint64_t>& codes : ends) {
@@ -257,8 +251,8 @@ class PyramidBuild {
     append(whole, placed_.features);
     std::vector<LevelRaise> ends;
     for (const Segment& s : whole) {
-      ends.push_back({morton(s.ax, s.ay), levels_ - 1});
-      ends.push_back({morton(s.bx, s.by), levels_ - 1});
+      ends.push_back({code_of(s.a()), levels_ - 1});
+      ends.push_back({code_of(s.b()), levels_ - 1});
     }
     index_->promote(std::move(ends));
     propose_levels_with_lines(*index_, tiles_, units_, progress_);
@@ -350,8 +344,7 @@ class PyramidBuild {
     if (placed_.features.empty() && crossings.empty()) return {};
     std::vector<std::uint64_t> ends = placed_.ends;
     for (const ThemeVertex& v : crossings) ends.push_back(v.code);
-    std::sort(ends.begin(), ends.end());
-    ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
+    sort_unique(ends);
     std::vector<GridPoint> draped = drape(ends, *index_, tiles_, progress_);
     write_features(placed_, crossings, lines_, draped, writer_, report_);
     return draped;

@@ -1,7 +1,7 @@
 // Points on their way into a store: sorted along the Morton curve in a temporary file, never all in memory.
 //
 //   PointSorter sorter(directory, memory_bytes);
-//   sorter.add({morton(p.x, p.y), p.z, source});           // any order
+//   sorter.add({code_of(p), p.z, source});           // any order
 //   SortedPoints points = sorter.finish(ranks_of_sources, progress);   // sorted, one point a position
 #pragma once
 

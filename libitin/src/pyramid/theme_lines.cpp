@@ -8,6 +8,7 @@
 #include <itin/detail.hpp>
 #include <itin/error.hpp>
 #include <itin/parallel.hpp>
+#include <itin/sort_unique.hpp>
 
 #include "features/hot_pixel.hpp"
 #include "pyramid/grounded.hpp"
@@ -76,15 +77,15 @@ class OutlineTest {
   void ends_on_outline(const Segment& s, Codes& out) const {
     const auto found = contacts_.find(s);
     if (found == contacts_.end()) return;
-    if (found->second & kTouchesA) out.push_back(morton(s.ax, s.ay));
-    if (found->second & kTouchesB) out.push_back(morton(s.bx, s.by));
+    if (found->second & kTouchesA) out.push_back(code_of(s.a()));
+    if (found->second & kTouchesB) out.push_back(code_of(s.b()));
   }
 
  private:
   static constexpr unsigned kCrosses = 1, kTouchesA = 2, kTouchesB = 4;
 
   void compare(const Segment& s, const Segment& border) {
-    const Position a{s.ax, s.ay}, b{s.bx, s.by}, p{border.ax, border.ay}, q{border.bx, border.by};
+    const Position a = s.a(), b = s.b(), p = border.a(), q = border.b();
     unsigned contact = 0;
     if (on_segment(p, q, a)) contact |= kTouchesA;
     if (on_segment(p, q, b)) contact |= kTouchesB;
@@ -119,8 +120,7 @@ std::vector<std::uint32_t> ThemeLines::terrain_vertices() const {
   std::vector<std::uint32_t> vertices;
   for (const PlanarEdge& e : lines.edges)
     if (lies(e) && terrain[e.owner]) vertices.insert(vertices.end(), {e.from, e.to});
-  std::sort(vertices.begin(), vertices.end());
-  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  sort_unique(vertices);
   return vertices;
 }
 
@@ -161,8 +161,7 @@ std::vector<ThemeVertex> crossings_of_ground(const ThemeLines& lines) {
   }
   for (const PlacedPart& part : lines.parts)
     for (const PartVertex& v : part.vertices) known.push_back({part.part.theme - 1u, code_of(v.point)});
-  std::sort(ends.begin(), ends.end());
-  ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
+  sort_unique(ends);
   std::sort(known.begin(), known.end());
   std::set_difference(ends.begin(), ends.end(), known.begin(), known.end(), std::back_inserter(crossings));
   return crossings;
@@ -177,9 +176,9 @@ Codes ends_of_features(const std::vector<Segment>& segments, const std::vector<S
   std::vector<End> all;
   std::vector<std::pair<End, std::uint32_t>> own;  // with a feature
   for (const Segment& s : segments)
-    for (const std::uint64_t code : {morton(s.ax, s.ay), morton(s.bx, s.by)}) all.emplace_back(code, s.theme);
+    for (const std::uint64_t code : {code_of(s.a()), code_of(s.b())}) all.emplace_back(code, s.theme);
   for (const auto& [s, feature] : of_features)
-    for (const std::uint64_t code : {morton(s.ax, s.ay), morton(s.bx, s.by)}) own.push_back({{code, s.theme}, feature});
+    for (const std::uint64_t code : {code_of(s.a()), code_of(s.b())}) own.push_back({{code, s.theme}, feature});
   std::sort(all.begin(), all.end());
   std::sort(own.begin(), own.end());
   Codes codes;
@@ -205,8 +204,7 @@ PlacedLines place_lines(const ThemeLines& lines, const WorkingIndex& index, cons
   for (const PlanarEdge& e : lines.lines.edges) {
     if (lines.lies(e)) wanted.insert(wanted.end(), {codes[e.from], codes[e.to]});
   }
-  std::sort(wanted.begin(), wanted.end());
-  wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
+  sort_unique(wanted);
   const SourceIndex ground_index(index, ground);
   const Codes on_ground = by_tile<std::uint64_t>(
       wanted, tiles, "laying lines on the ground", progress,
@@ -233,7 +231,7 @@ PlacedLines place_lines(const ThemeLines& lines, const WorkingIndex& index, cons
       placed.of_features.push_back({s, feature->feature});
     const bool terrain = lines.terrain[s.theme - std::size_t{1}];
     (terrain ? placed.terrain : placed.features).push_back(s);
-    for (const std::uint64_t end : {morton(s.ax, s.ay), morton(s.bx, s.by)}) placed.ends.push_back(end);
+    for (const std::uint64_t end : {code_of(s.a()), code_of(s.b())}) placed.ends.push_back(end);
     test.ends_on_outline(s, placed.on_outline);
   }
   const auto on_the_ground = std::count_if(lines.lines.edges.begin(), lines.lines.edges.end(),
@@ -241,8 +239,7 @@ PlacedLines place_lines(const ThemeLines& lines, const WorkingIndex& index, cons
   std::sort(placed.of_features.begin(), placed.of_features.end());
   placed.feature_ends = ends_of_features(placed.terrain, placed.of_features);
   placed.left_out = static_cast<std::uint64_t>(on_the_ground) - placed.terrain.size() - placed.features.size();
-  std::sort(placed.ends.begin(), placed.ends.end());
-  placed.ends.erase(std::unique(placed.ends.begin(), placed.ends.end()), placed.ends.end());
+  sort_unique(placed.ends);
   for (const std::uint32_t v : lines.terrain_vertices())
     if (!lies(v)) placed.strays.push_back(codes[v]);
   return placed;
@@ -253,17 +250,14 @@ std::vector<GridPoint> drape(const std::vector<std::uint64_t>& codes, const Work
   return by_tile<GridPoint>(codes, tiles, "draping lines", progress, [&](std::span<const std::uint64_t> own) {
     const RegionMesh region = triangulate_region(index, everything(), box_of(own, position_of));
     std::map<std::uint64_t, GridPoint> draped;
-    const auto corners = [&](std::size_t t) {
-      const auto& [a, b, c] = region.mesh.triangles[t];
-      return std::array{region.vertices[a].position(), region.vertices[b].position(), region.vertices[c].position()};
-    };
+    const auto corners = [&](std::size_t t) { return region.corners(static_cast<std::uint32_t>(t)); };
     for_each_inside(region.mesh.triangles.size(), corners, own, [&](std::size_t t, Position p) {
       const auto& [a, b, c] = region.mesh.triangles[t];
       const GridPoint &pa = region.vertices[a].point, &pb = region.vertices[b].point, &pc = region.vertices[c].point;
       const std::int64_t wa = doubled_area(p, pb, pc), wb = doubled_area(pa, p, pc), wc = doubled_area(pa, pb, p);
       const std::int64_t z =
           rounded_quotient(Int128{wa} * pa.z + Int128{wb} * pb.z + Int128{wc} * pc.z, Int128{wa} + wb + wc);
-      draped.try_emplace(morton(p.x, p.y), GridPoint{p.x, p.y, static_cast<std::int32_t>(z)});
+      draped.try_emplace(code_of(p), GridPoint{p.x, p.y, static_cast<std::int32_t>(z)});
     });
     for (const SelectedVertex& v : region.vertices) draped.erase(code_of(v.point));
     std::vector<GridPoint> result;

@@ -38,13 +38,6 @@ std::optional<Extent> extent(std::int64_t origin, std::int64_t step, std::int64_
   return Extent{low, last - first + 1};
 }
 
-GridBox grown(const GridBox& box, std::int64_t margin) {
-  const auto inside = [](std::int64_t v) {
-    return static_cast<std::int32_t>(std::clamp<std::int64_t>(v, -kGridHalfSide, kGridHalfSide - 1));
-  };
-  return {inside(box.xmin - margin), inside(box.ymin - margin), inside(box.xmax + margin), inside(box.ymax + margin)};
-}
-
 }  // namespace
 
 std::optional<WholeLattice> WholeLattice::about(const PointIndex& index, const GridBox& box) {
@@ -55,7 +48,7 @@ std::optional<WholeLattice> WholeLattice::about(const PointIndex& index, const G
   const GridBox all = index.bounds();
   if (!lattice.find_steps(index, leaves) || !lattice.find_extent(box, all)) return std::nullopt;
   // The circle about a square reaches less than a step beyond it.
-  const GridBox near = grown(lattice.bounds(), std::max(lattice.step_x_, lattice.step_y_));
+  const GridBox near = expanded(lattice.bounds(), static_cast<double>(std::max(lattice.step_x_, lattice.step_y_)));
   if (lattice.is_crossed(index, near, all) || !lattice.read(index, near)) return std::nullopt;
   lattice.find_corners(box);
   return lattice;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <itin/sort_unique.hpp>
+
 #include "geometry/cell_about.hpp"
 #include "geometry/morton_range.hpp"
 #include "store/leaf_cutter.hpp"
@@ -222,8 +224,7 @@ void WorkingIndex::count_levels(std::uint32_t leaf, std::span<const RawPoint> po
 }
 
 std::uint64_t WorkingIndex::drop(std::vector<std::uint64_t> codes) {
-  std::sort(codes.begin(), codes.end());
-  codes.erase(std::unique(codes.begin(), codes.end()), codes.end());
+  sort_unique(codes);
   for (auto at = codes.begin(); at != codes.end();) {
     const CurveRange& leaf = ranges_[leaf_of(*at)];
     const auto end = std::lower_bound(at, codes.end(), leaf.cell.end());
@@ -274,8 +275,7 @@ void WorkingIndex::set_segments(std::vector<Segment> segments) {
     const Segment& segment = segments_[s];
     found.clear();
     leaves_along({double(segment.ax), double(segment.ay)}, {double(segment.bx), double(segment.by)}, found);
-    std::sort(found.begin(), found.end());
-    found.erase(std::unique(found.begin(), found.end()), found.end());
+    sort_unique(found);
     for (const std::uint32_t leaf : found) crossings.emplace_back(leaf, s);
   }
   std::sort(crossings.begin(), crossings.end());

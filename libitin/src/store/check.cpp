@@ -108,7 +108,7 @@ class Inspection {
     if (file_.has_clusters(format::theme_of(leaf.level))) file_.read_clusters(leaf, extents_of(edges));
     for (const Segment& s : edges) {
       // A segment is listed in every leaf it meets: it counts where it starts, as part of the full surface.
-      if (s.finest == 0 && leaf.cell.contains(morton(s.ax, s.ay))) segments_[s.theme] += 1;
+      if (s.finest == 0 && leaf.cell.contains(code_of(s.a()))) segments_[s.theme] += 1;
     }
     inspect_segment_features(leaf);
   }

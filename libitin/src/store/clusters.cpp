@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <tuple>
 
+#include <itin/sort_unique.hpp>
+
 #include "store/bit_stream.hpp"
 #include "store/byte_stream.hpp"
 #include "store/rice_parameter.hpp"
@@ -93,8 +95,7 @@ LeafClusters clusters_of(std::span<const Item> items, const std::vector<GridBox>
     const auto at = std::lower_bound(result.boxes.begin(), result.boxes.end(), box, box_before);
     result.items.push_back({item, static_cast<std::uint32_t>(at - result.boxes.begin())});
   }
-  std::sort(result.items.begin(), result.items.end());
-  result.items.erase(std::unique(result.items.begin(), result.items.end()), result.items.end());
+  sort_unique(result.items);
   return result;
 }
 

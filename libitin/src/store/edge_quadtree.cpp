@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <itin/sort_unique.hpp>
+
 #include "store/byte_stream.hpp"
 #include "store/zstd_frame.hpp"
 
@@ -55,8 +57,7 @@ void for_each_edge_leaf(std::vector<Segment> segments,
 }
 
 void visit_edge_leaves(std::vector<Segment> segments, const Visit& visit) {
-  std::sort(segments.begin(), segments.end());
-  segments.erase(std::unique(segments.begin(), segments.end()), segments.end());
+  sort_unique(segments);
   split(Cell{}, segments, visit);
 }
 

@@ -5,6 +5,8 @@
 #include <bit>
 #include <numeric>
 
+#include <itin/sort_unique.hpp>
+
 #include "store/bit_stream.hpp"
 #include "store/byte_stream.hpp"
 #include "store/edge_quadtree.hpp"
@@ -35,8 +37,7 @@ std::vector<Vertex> ends_of(const std::vector<Segment>& segments) {
     ends.push_back({s.ax, s.ay});
     ends.push_back({s.bx, s.by});
   }
-  std::sort(ends.begin(), ends.end());
-  ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
+  sort_unique(ends);
   return ends;
 }
 

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -74,6 +75,10 @@ struct Segment {
   std::uint16_t theme = kCoverage;
   std::uint8_t finest = 0, coarsest = 0xff;  ///< it is part of its line at these levels
   std::int32_t reach = 0;  ///< finer segments that it stands for lie within its box, widened by this on all sides
+
+  Position a() const { return {ax, ay}; }
+  Position b() const { return {bx, by}; }
+  std::array<Position, 2> ends() const { return {a(), b()}; }
   friend auto operator<=>(const Segment&, const Segment&) = default;
 };
 

@@ -5,6 +5,8 @@
 #include <map>
 #include <utility>
 
+#include <itin/sort_unique.hpp>
+
 #include "store/content_stream.hpp"
 #include "store/zstd_frame.hpp"
 
@@ -60,8 +62,7 @@ std::vector<std::uint8_t> encode_segment_features(std::span<const Segment> segme
     for (const SegmentFeature& f : of_segment(features, s)) own.back().push_back(f.feature);
     present.insert(present.end(), own.back().begin(), own.back().end());
   }
-  std::sort(present.begin(), present.end());
-  present.erase(std::unique(present.begin(), present.end()), present.end());
+  sort_unique(present);
   ContentWriter out;
   out.whole(present.size());
   for (std::size_t i = 0; i < present.size(); ++i) out.whole(i == 0 ? present[0] : present[i] - present[i - 1] - 1);

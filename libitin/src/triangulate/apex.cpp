@@ -52,7 +52,7 @@ std::pair<GridBox, GridBox> halves(const GridBox& b) {
 }  // namespace
 
 bool crosses(const Segment& s, Position p, Position q) {
-  const Position a{s.ax, s.ay}, b{s.bx, s.by};
+  const Position a = s.a(), b = s.b();
   return orientation(p, q, a) * orientation(p, q, b) < 0 && orientation(a, b, p) * orientation(a, b, q) < 0;
 }
 
@@ -114,8 +114,7 @@ void ApexSearch::read_segments(const GridBox& part, Search& search) {
   segments_.clear();
   index_.segments(search.with_segments, segments_);
   std::erase_if(segments_, [&](const Segment& s) {
-    const bool beside = orientation(frame.a, frame.b, Position{s.ax, s.ay}) <= 0 &&
-                        orientation(frame.a, frame.b, Position{s.bx, s.by}) <= 0;
+    const bool beside = orientation(frame.a, frame.b, s.a()) <= 0 && orientation(frame.a, frame.b, s.b()) <= 0;
     return beside || !selection_.selects(s);
   });
   if (std::ssize(segments_) <= kNearSegments) return;
@@ -258,9 +257,8 @@ std::optional<SelectedVertex> ApexSearch::at(Position p) {
   selected_leaves(index_, selection_, box, leaves_);
   for (const Leaf& leaf : leaves_) {
     const auto block = blocks_.read(leaf);
-    const auto found = std::lower_bound(block->points.begin(), block->points.end(), morton(p.x, p.y),
-                                        [](const GridPoint& q, std::uint64_t code) { return morton(q.x, q.y) < code; });
-    if (found == block->points.end() || found->x != p.x || found->y != p.y) continue;
+    const auto found = find_by_code(block->points, code_of(p));
+    if (found == block->points.end()) continue;
     const auto k = static_cast<std::size_t>(found - block->points.begin());
     const std::uint8_t level = level_of(leaf, *block, k);
     if (selection_.selects(level, p.x, p.y)) return SelectedVertex{*found, block->sources[k], level, block->theme(k)};

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include <itin/parallel.hpp>
+#include <itin/sort_unique.hpp>
 
 namespace itin {
 
@@ -57,8 +58,7 @@ class Assembly {
   /// `own` is in ascending order, and stays so.
   template <class Item>
   static void add_those_of_nobody(std::vector<Item> foreign, std::vector<Item>& own) {
-    std::sort(foreign.begin(), foreign.end());
-    foreign.erase(std::unique(foreign.begin(), foreign.end()), foreign.end());
+    sort_unique(foreign);
     std::vector<Item> nobodys;
     std::set_difference(foreign.begin(), foreign.end(), own.begin(), own.end(), std::back_inserter(nobodys));
     const auto middle = static_cast<std::ptrdiff_t>(own.size());
@@ -148,8 +148,7 @@ class Assembly {
       const std::vector<std::uint32_t>& numbers = parts_[r].numbers;
       for (const LineEdge& e : regions_[r].lines) tin_.lines.push_back({numbers[e.from], numbers[e.to], e.theme});
     }
-    std::sort(tin_.lines.begin(), tin_.lines.end());
-    tin_.lines.erase(std::unique(tin_.lines.begin(), tin_.lines.end()), tin_.lines.end());
+    sort_unique(tin_.lines);
   }
 
   std::vector<RegionMesh> regions_;

@@ -34,19 +34,6 @@ Window::Ring cut(const Window::Ring& ring, double Point2::*axis, double sign) {
   return kept;
 }
 
-/// Groups edges by bucket: `visit(edge, add)` calls add(bucket) for each bucket of an edge.
-template <typename Visit>
-void list_by_bucket(std::size_t buckets, std::size_t edges, std::vector<std::uint32_t>& first,
-                    std::vector<std::uint32_t>& items, const Visit& visit) {
-  first.assign(buckets + 1, 0);
-  for (std::size_t e = 0; e < edges; ++e) visit(e, [&](std::size_t bucket) { ++first[bucket + 1]; });
-  for (std::size_t b = 0; b < buckets; ++b) first[b + 1] += first[b];
-  items.resize(first[buckets]);
-  std::vector<std::uint32_t> next(first.begin(), first.end() - 1);
-  for (std::size_t e = 0; e < edges; ++e)
-    visit(e, [&](std::size_t bucket) { items[next[bucket]++] = static_cast<std::uint32_t>(e); });
-}
-
 }  // namespace
 
 GridBox GridWindow::Edge::box() const {
@@ -194,12 +181,12 @@ void GridWindow::add_ring(std::vector<Position> corners, bool hole) {
 
 void GridWindow::index_edges() {
   choose_cells();
-  list_by_bucket(std::size_t{columns_} * rows_, edges_.size(), cell_first_, cell_edges_,
-                 [this](std::size_t e, const auto& add) { visit_cells(edges_[e], add); });
-  list_by_bucket(rows_, edges_.size(), row_first_, row_edges_, [this](std::size_t e, const auto& add) {
-    const CellRange range = cells(edges_[e].box());
-    for (std::uint32_t row = range.row0; row <= range.row1; ++row) add(row);
-  });
+  edges_by_cell_ = {std::size_t{columns_} * rows_, edges_.size(),
+                    [this](std::uint32_t e, const auto& add) { visit_cells(edges_[e], add); }};
+  edges_by_row_ = {rows_, edges_.size(), [this](std::uint32_t e, const auto& add) {
+                     const CellRange range = cells(edges_[e].box());
+                     for (std::uint32_t row = range.row0; row <= range.row1; ++row) add(row);
+                   }};
   classify_cells();
 }
 
@@ -261,7 +248,7 @@ void GridWindow::classify_cells() {
   for (std::uint32_t row = 0; row < rows_; ++row) {
     for (std::uint32_t column = 0; column < columns_; ++column) {
       const std::size_t c = cell(column, row);
-      if (cell_first_[c] != cell_first_[c + 1]) continue;
+      if (!edges_by_cell_.in(c).empty()) continue;
       // No edge meets the border shared with an unmixed neighbour, so both are on one side.
       if (column > 0 && states_[c - 1] != State::Mixed) {
         states_[c] = states_[c - 1];
@@ -278,8 +265,8 @@ bool GridWindow::wound(std::int32_t x, std::int32_t y) const {
   const std::uint32_t row = cells({x, y, x, y}).row0;
   const Position p{x, y};
   int winding = 0;
-  for (std::uint32_t i = row_first_[row]; i < row_first_[row + 1]; ++i) {
-    const Edge& edge = edges_[row_edges_[i]];
+  for (const std::uint32_t e : edges_by_row_.in(row)) {
+    const Edge& edge = edges_[e];
     const bool upward = edge.a.y <= y && y < edge.b.y, downward = edge.b.y <= y && y < edge.a.y;
     const bool beside = edge.box().contains(x, y);
     if (!upward && !downward && !beside) continue;
@@ -304,9 +291,8 @@ bool GridWindow::boundary_meets(const Figure& figure, const CellRange& range) co
     return std::any_of(edges_.begin(), edges_.end(), [&](const Edge& e) { return figure.meets(e); });
   for (std::uint32_t row = range.row0; row <= range.row1; ++row) {
     for (std::uint32_t column = range.column0; column <= range.column1; ++column) {
-      const std::size_t c = cell(column, row);
-      for (std::uint32_t i = cell_first_[c]; i < cell_first_[c + 1]; ++i) {
-        if (figure.meets(edges_[cell_edges_[i]])) return true;
+      for (const std::uint32_t e : edges_by_cell_.in(cell(column, row))) {
+        if (figure.meets(edges_[e])) return true;
       }
     }
   }

@@ -13,6 +13,7 @@
 #include <span>
 #include <vector>
 
+#include <itin/bucket_lists.hpp>
 #include <itin/geometry.hpp>
 #include <itin/window.hpp>
 
@@ -82,8 +83,7 @@ class GridWindow {
   std::uint32_t columns_ = 0;
   std::uint32_t rows_ = 0;
   std::vector<State> states_;
-  std::vector<std::uint32_t> cell_first_, cell_edges_;
-  std::vector<std::uint32_t> row_first_, row_edges_;
+  BucketLists edges_by_cell_, edges_by_row_;
 };
 
 }  // namespace itin

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include <itin/error.hpp>
+#include <itin/sort_unique.hpp>
 
 namespace itin {
 
@@ -35,8 +36,7 @@ void GrowingMesh::start(PlaneMesh mesh) {
 }
 
 std::vector<std::uint32_t> GrowingMesh::take_changed() {
-  std::sort(changed_.begin(), changed_.end());
-  changed_.erase(std::unique(changed_.begin(), changed_.end()), changed_.end());
+  sort_unique(changed_);
   return std::exchange(changed_, {});
 }
 

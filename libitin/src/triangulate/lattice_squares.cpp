@@ -187,7 +187,7 @@ void LatticeSquares::clear_about(Position p) {
 
 /// Nor are those that a segment crosses; along their sides it may run.
 void LatticeSquares::clear_along(const Segment& s) {
-  const Position a{s.ax, s.ay}, b{s.bx, s.by};
+  const Position a = s.a(), b = s.b();
   const double low = std::min(a.y, b.y), high = std::max(a.y, b.y), west = std::min(a.x, b.x),
                east = std::max(a.x, b.x);
   const double slope = a.y == b.y ? 0 : (double{1} * b.x - a.x) / (double{1} * b.y - a.y);
@@ -232,7 +232,7 @@ void LatticeSquares::find_rest(std::span<const Segment> segments) {
   std::vector<std::size_t> ends;
   if (count_ > 0) {
     for (const Segment& s : segments) {
-      for (const Position p : {Position{s.ax, s.ay}, Position{s.bx, s.by}}) ends.push_back(node_at(p));
+      for (const Position p : s.ends()) ends.push_back(node_at(p));
     }
     std::sort(ends.begin(), ends.end());
   }

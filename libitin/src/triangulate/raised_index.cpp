@@ -42,7 +42,7 @@ std::vector<std::uint64_t> RaisedIndex::masks(const GridBox& box, int below) con
     // We hold the block, for the cache may let it go.
     const std::shared_ptr<const Block> block = chosen_.block(leaf);
     for (const GridPoint& p : block->points)
-      if (box.contains(p.x, p.y)) codes.push_back(morton(p.x, p.y));
+      if (box.contains(p.x, p.y)) codes.push_back(code_of(p));
   }
   std::sort(codes.begin(), codes.end());
   return codes;
@@ -59,7 +59,7 @@ std::shared_ptr<const Block> RaisedIndex::block(const Leaf& leaf) const {
   for (std::size_t k = 0; k < whole->points.size(); ++k) {
     const GridPoint& p = whole->points[k];
     if (is_part(leaf.theme) && whole->sources[k] == format::kMask) continue;
-    if (std::binary_search(masked.begin(), masked.end(), morton(p.x, p.y))) continue;
+    if (std::binary_search(masked.begin(), masked.end(), code_of(p))) continue;
     rest->points.push_back(p);
     rest->sources.add(is_part(leaf.theme) ? static_cast<std::uint16_t>(whole->sources[k] & ~format::kOnOutline)
                                           : whole->sources[k]);

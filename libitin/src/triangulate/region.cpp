@@ -10,6 +10,7 @@
 
 #include <itin/box_of.hpp>
 #include <itin/error.hpp>
+#include <itin/sort_unique.hpp>
 
 #include "base/stoppable.hpp"
 #include "triangulate/circumdisc.hpp"
@@ -182,7 +183,7 @@ class RegionTriangulation {
   /// Into the mesh if there is one. Their ends become vertices.
   void insert(const std::vector<Segment>& segments) {
     for (const Segment& s : segments) {
-      const Constraint c{end_at({s.ax, s.ay}), end_at({s.bx, s.by}), s.theme};
+      const Constraint c{end_at(s.a()), end_at(s.b()), s.theme};
       constraints_.push_back(c);
       outline_changed_ = outline_changed_ || c.theme == kCoverage;
       if (!mesh().triangles.empty()) grown_.lay(c.from, c.to, c.theme);
@@ -245,8 +246,7 @@ class RegionTriangulation {
     if (std::any_of(changed.begin(), changed.end(), unknown)) return false;
     if (at_outline) outline_ = edges_of(Lines::kOutline);
     open_.insert(open_.end(), marked.begin(), marked.end());
-    std::sort(open_.begin(), open_.end());
-    open_.erase(std::unique(open_.begin(), open_.end()), open_.end());
+    sort_unique(open_);
     return true;
   }
 
@@ -323,8 +323,7 @@ class RegionTriangulation {
         enclosure.add_missing(missing);
       }
     }
-    std::sort(missing.begin(), missing.end());
-    missing.erase(std::unique(missing.begin(), missing.end()), missing.end());
+    sort_unique(missing);
     bool fresh = false;
     for (const Cell& cell : missing) fresh = read_cell(cell) || fresh;
     return fresh;

@@ -12,9 +12,11 @@
 // or its box (C. L. Lawson's local test made global; Lee and Lin 1986).
 #pragma once
 
+#include <array>
 #include <optional>
 #include <vector>
 
+#include <itin/box_of.hpp>
 #include <itin/tin.hpp>
 
 #include "store/point_index.hpp"
@@ -31,6 +33,13 @@ struct RegionMesh {
   PlaneMesh mesh;               ///< in_order(); neighbours are kNoTriangle where there is no triangle in this mesh
   std::vector<LineEdge> lines;  ///< edges of these triangles that are part of a theme's line
   RetrievalStatistics statistics;
+
+  /// Counterclockwise.
+  std::array<Position, 3> corners(std::uint32_t triangle) const {
+    const auto& [a, b, c] = mesh.triangles[triangle];
+    return {vertices[a].position(), vertices[b].position(), vertices[c].position()};
+  }
+  GridBox box_of_triangle(std::uint32_t triangle) const { return box_of(corners(triangle)); }
 };
 
 /// Triangles that meet both `tile` and, if given, `window`. Touching counts.

@@ -80,7 +80,7 @@ void RegionReader::read_block(const Leaf& leaf, const GridBox& box, std::vector<
     if (!box.contains(p.x, p.y)) continue;
     const std::uint8_t level = level_of(leaf, *block, k);
     if (selection_.selects(level, p.x, p.y))
-      found.push_back({morton(p.x, p.y), {p, block->sources[k], level, block->theme(k)}});
+      found.push_back({code_of(p), {p, block->sources[k], level, block->theme(k)}});
   }
 }
 
@@ -88,8 +88,7 @@ std::vector<Segment> RegionReader::fresh_segments(const GridBox& box) {
   std::vector<Segment> found, fresh;
   index_.segments(box, found);
   for (const Segment& s : found) {
-    if (meets({s.ax, s.ay}, {s.bx, s.by}, box) && selection_.selects(s) && segments_.insert(s).second)
-      fresh.push_back(s);
+    if (meets(s.a(), s.b(), box) && selection_.selects(s) && segments_.insert(s).second) fresh.push_back(s);
   }
   return fresh;
 }

@@ -53,7 +53,7 @@ class RegionReader {
  private:
   struct HashOfEnds {
     std::size_t operator()(const Segment& s) const {
-      return morton(s.ax, s.ay) * 0x9e3779b97f4a7c15 ^ morton(s.bx, s.by) * 0xc2b2ae3d27d4eb4f;
+      return code_of(s.a()) * 0x9e3779b97f4a7c15 ^ code_of(s.b()) * 0xc2b2ae3d27d4eb4f;
     }
   };
 

@@ -24,16 +24,9 @@ SightFan::SightFan(Position a, Position b, Position eye, std::span<const Segment
   count_ = static_cast<std::uint32_t>(std::clamp<std::size_t>(segments.size() / kSegmentsASector, 1, kMostSectors));
   std::vector<Sectors> sectors;
   for (const Segment& s : segments) sectors.push_back(sectors_of(s));
-  start_.assign(std::size_t{count_} + 1, 0);
-  for (const Sectors& s : sectors) {
-    for (std::uint32_t k = s.first; k < s.last; ++k) start_[k + 1] += 1;
-  }
-  for (std::size_t k = 1; k < start_.size(); ++k) start_[k] += start_[k - 1];
-  list_.resize(start_.back());
-  std::vector<std::uint32_t> next(start_.begin(), start_.end() - 1);
-  for (std::uint32_t i = 0; i < sectors.size(); ++i) {
-    for (std::uint32_t k = sectors[i].first; k < sectors[i].last; ++k) list_[next[k]++] = i;
-  }
+  in_sector_ = {count_, sectors.size(), [&](std::uint32_t i, const auto& add) {
+                  for (std::uint32_t k = sectors[i].first; k < sectors[i].last; ++k) add(k);
+                }};
 }
 
 /// Grows from 0 along ab to 2 against it, over directions to the left.
@@ -65,9 +58,8 @@ SightFan::Sectors SightFan::sectors_of(const Segment& s) const {
 }
 
 bool SightFan::blocked(Position c) const {
-  const std::uint32_t k = sector(turn(static_cast<double>(c.x) - eye_.x, static_cast<double>(c.y) - eye_.y));
-  return std::any_of(list_.begin() + start_[k], list_.begin() + start_[k + 1],
-                     [&](std::uint32_t i) { return crosses(segments_[i], eye_, c); });
+  const auto near = in_sector_.in(sector(turn(static_cast<double>(c.x) - eye_.x, static_cast<double>(c.y) - eye_.y)));
+  return std::any_of(near.begin(), near.end(), [&](std::uint32_t i) { return crosses(segments_[i], eye_, c); });
 }
 
 }  // namespace itin

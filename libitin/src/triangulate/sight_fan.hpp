@@ -6,6 +6,8 @@
 #include <span>
 #include <vector>
 
+#include <itin/bucket_lists.hpp>
+
 #include "geometry/predicates.hpp"
 #include "store/point_index.hpp"
 
@@ -32,7 +34,7 @@ class SightFan {
   double along_x_, along_y_;  ///< the unit vector from a to b
   std::span<const Segment> segments_;
   std::uint32_t count_;
-  std::vector<std::uint32_t> start_, list_;  ///< numbers of segments by sector, ascending
+  BucketLists in_sector_;  ///< numbers of segments
 };
 
 }  // namespace itin

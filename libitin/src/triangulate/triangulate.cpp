@@ -4,6 +4,7 @@
 
 #include <itin/call_progress.hpp>
 #include <itin/parallel.hpp>
+#include <itin/sort_unique.hpp>
 #include <itin/store.hpp>
 #include <itin/triangulate.hpp>
 
@@ -73,8 +74,7 @@ void name_themes(Tin& tin, const StoreMetadata& metadata) {
   for (LineEdge& e : tin.lines) {
     if (e.theme > metadata.themes.size()) e.theme = metadata.parts[e.theme - metadata.themes.size() - 1].theme;
   }
-  std::sort(tin.lines.begin(), tin.lines.end());
-  tin.lines.erase(std::unique(tin.lines.begin(), tin.lines.end()), tin.lines.end());
+  sort_unique(tin.lines);
 }
 
 }  // namespace

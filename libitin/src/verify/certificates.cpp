@@ -46,7 +46,7 @@ class TileVerification {
     std::optional<Cell> gap;
     for (std::uint32_t t = 0; t < of_triangles.size(); ++t) {
       cover.visit(
-          corners_of(fine_, t), [&](std::size_t leaf) { of_leaves[leaf].add(of_triangles[t]); },
+          fine_.corners(t), [&](std::size_t leaf) { of_leaves[leaf].add(of_triangles[t]); },
           [&](const Cell& cell) { gap = cell; });
     }
     if (gap) found_.push_back({level, std::nullopt, somewhere_in(*gap)});
@@ -65,7 +65,7 @@ class TileVerification {
     };
     for (std::uint32_t t = 0; t < fine_.mesh.triangles.size(); ++t)
       cover.visit(
-          corners_of(fine_, t), [&](std::size_t leaf) { compare_in(t, leaf); }, [](const Cell&) {});
+          fine_.corners(t), [&](std::size_t leaf) { compare_in(t, leaf); }, [](const Cell&) {});
     for (std::size_t i = 0; i < of_leaves.size(); ++i) {
       const Leaf& leaf = cover.leaves()[i];
       if (of_leaves[i].lo < leaf.lo - kErrorRounding || of_leaves[i].hi > leaf.hi + kErrorRounding)

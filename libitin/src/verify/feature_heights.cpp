@@ -108,7 +108,7 @@ std::vector<FalseCell> PartHeights::higher_in(const Cell& tile) const {
   const std::vector<std::uint32_t> features = features_of(raised, square_of(tile));
   if (features.empty()) return {};
   GridBox box;
-  for (const std::uint32_t t : features) box.extend(box_of_triangle(raised, t));
+  for (const std::uint32_t t : features) box.extend(raised.box_of_triangle(t));
   const RegionMesh bare = triangulate_region(file_, ground_, box);
   const HeightDifference difference(bare);
   const LeafCover cover(leaves_about(box));
@@ -116,7 +116,7 @@ std::vector<FalseCell> PartHeights::higher_in(const Cell& tile) const {
   Extremes beside;  // all leaves
   for (const std::uint32_t t : features) {
     cover.visit(
-        corners_of(raised, t),
+        raised.corners(t),
         [&](std::size_t i) { difference.add(raised, t, square_of(cover.leaves()[i].cell), of_leaves[i]); },
         [&](const Cell& gap) { difference.add(raised, t, square_of(gap), beside); });
   }

@@ -81,10 +81,6 @@ void cut(Polygon& polygon, const GridBox& box, Position origin) {
 
 }  // namespace
 
-GridBox box_of_triangle(const RegionMesh& mesh, std::uint32_t triangle) {
-  return box_of(mesh.mesh.triangles[triangle], [&](std::uint32_t v) { return mesh.vertices[v].point; });
-}
-
 HeightDifference::HeightDifference(const RegionMesh& low)
     : low_(low), bounds_(box_of(low.vertices, &SelectedVertex::point)) {
   const auto count = static_cast<std::uint32_t>(low.mesh.triangles.size());
@@ -94,18 +90,12 @@ HeightDifference::HeightDifference(const RegionMesh& low)
   side_ = static_cast<std::int64_t>(
       std::ceil(std::max({std::sqrt(width * height / count), width / count, height / count})));
   columns_ = column(bounds_.xmax) + 1;
-  start_.assign(static_cast<std::size_t>(columns_ * (row(bounds_.ymax) + 1)) + 1, 0);
-  const auto for_each_bucket = [&](std::uint32_t t, const auto& visit) {
-    const GridBox box = box_of_triangle(low_, t);
-    for (std::int64_t r = row(box.ymin); r <= row(box.ymax); ++r)
-      for (std::int64_t c = column(box.xmin); c <= column(box.xmax); ++c)
-        visit(static_cast<std::size_t>(r * columns_ + c));
-  };
-  for (std::uint32_t t = 0; t < count; ++t) for_each_bucket(t, [&](std::size_t b) { ++start_[b + 1]; });
-  for (std::size_t b = 1; b < start_.size(); ++b) start_[b] += start_[b - 1];
-  list_.resize(start_.back());
-  std::vector<std::uint32_t> fill(start_.begin(), start_.end() - 1);
-  for (std::uint32_t t = 0; t < count; ++t) for_each_bucket(t, [&](std::size_t b) { list_[fill[b]++] = t; });
+  triangles_ = {static_cast<std::size_t>(columns_ * (row(bounds_.ymax) + 1)), count,
+                [&](std::uint32_t t, const auto& add) {
+                  const GridBox box = low_.box_of_triangle(t);
+                  for (std::int64_t r = row(box.ymin); r <= row(box.ymax); ++r)
+                    for (std::int64_t c = column(box.xmin); c <= column(box.xmax); ++c) add(bucket(c, r));
+                }};
 }
 
 template <class Visit>
@@ -114,11 +104,10 @@ void HeightDifference::for_each_near(const GridBox& box, const Visit& visit) con
   if (common.empty()) return;
   for (std::int64_t r = row(common.ymin); r <= row(common.ymax); ++r) {
     for (std::int64_t c = column(common.xmin); c <= column(common.xmax); ++c) {
-      const auto bucket = static_cast<std::size_t>(r * columns_ + c);
-      for (std::uint32_t i = start_[bucket]; i < start_[bucket + 1]; ++i) {
-        const GridBox shared = intersection(common, box_of_triangle(low_, list_[i]));
+      for (const std::uint32_t t : triangles_.in(bucket(c, r))) {
+        const GridBox shared = intersection(common, low_.box_of_triangle(t));
         // In the first of the buckets that both meet.
-        if (!shared.empty() && row(shared.ymin) == r && column(shared.xmin) == c) visit(list_[i]);
+        if (!shared.empty() && row(shared.ymin) == r && column(shared.xmin) == c) visit(t);
       }
     }
   }
@@ -131,7 +120,7 @@ void HeightDifference::add(const RegionMesh& high, std::uint32_t triangle, const
   Polygon within = upper.polygon();
   cut(within, box, origin);
   if (within.count == 0) return;
-  for_each_near(intersection(box, box_of_triangle(high, triangle)), [&](std::uint32_t t) {
+  for_each_near(intersection(box, high.box_of_triangle(triangle)), [&](std::uint32_t t) {
     const Facet lower(low_, t, origin);
     Polygon shared = within;
     lower.cut(shared);

@@ -12,6 +12,8 @@
 #include <limits>
 #include <vector>
 
+#include <itin/bucket_lists.hpp>
+
 #include "triangulate/region.hpp"
 
 namespace itin {
@@ -43,16 +45,17 @@ class HeightDifference {
  private:
   std::int64_t column(std::int32_t x) const { return (std::int64_t{x} - bounds_.xmin) / side_; }
   std::int64_t row(std::int32_t y) const { return (std::int64_t{y} - bounds_.ymin) / side_; }
+  std::size_t bucket(std::int64_t column, std::int64_t row) const {
+    return static_cast<std::size_t>(row * columns_ + column);
+  }
   /// Calls visit(triangle) for each whose box meets this one, once.
   template <class Visit>
   void for_each_near(const GridBox& box, const Visit& visit) const;
 
   const RegionMesh& low_;
   GridBox bounds_;
-  std::int64_t side_ = 1, columns_ = 0;      ///< of buckets
-  std::vector<std::uint32_t> start_, list_;  ///< triangles of each bucket
+  std::int64_t side_ = 1, columns_ = 0;  ///< of buckets
+  BucketLists triangles_;                ///< by bucket
 };
-
-GridBox box_of_triangle(const RegionMesh& mesh, std::uint32_t triangle);
 
 }  // namespace itin

@@ -15,11 +15,6 @@ bool keeps_right(Position p, Position q, const GridBox& box) {
 
 }  // namespace
 
-Corners corners_of(const RegionMesh& mesh, std::uint32_t triangle) {
-  const auto& [a, b, c] = mesh.mesh.triangles[triangle];
-  return {mesh.vertices[a].position(), mesh.vertices[b].position(), mesh.vertices[c].position()};
-}
-
 // Two convex sets share no area just where the line along one of their edges parts them.
 bool shares_area(const Corners& triangle, const GridBox& box) {
   const auto [a, b, c] = triangle;

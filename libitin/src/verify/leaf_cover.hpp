@@ -15,7 +15,6 @@
 namespace itin {
 
 using Corners = std::array<Position, 3>;  ///< counterclockwise
-Corners corners_of(const RegionMesh& mesh, std::uint32_t triangle);
 
 /// Whether a triangle and a closed box share more than a border.
 bool shares_area(const Corners& triangle, const GridBox& box);

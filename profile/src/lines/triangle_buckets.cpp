@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <itin/sort_unique.hpp>
+
 namespace itin::profile {
 
 namespace {
@@ -20,30 +22,17 @@ TriangleBuckets::TriangleBuckets(const Tin& tin) {
   column_count_ = static_cast<int>(bounds_.width() / side_) + 1;
   row_count_ = static_cast<int>(bounds_.height() / side_) + 1;
 
-  const auto count = static_cast<std::uint32_t>(tin.triangles.size());
-  first_.assign(static_cast<std::size_t>(column_count_) * row_count_ + 1, 0);
-  for (std::uint32_t t = 0; t < count; ++t) for_each_bucket(tin, t, [&](std::size_t bucket) { ++first_[bucket + 1]; });
-  for (std::size_t i = 1; i < first_.size(); ++i) first_[i] += first_[i - 1];
-  triangles_.resize(first_.back());
-  std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
-  for (std::uint32_t t = 0; t < count; ++t) {
-    for_each_bucket(tin, t, [&](std::size_t bucket) { triangles_[next[bucket]++] = t; });
-  }
-}
-
-template <typename Visit>
-void TriangleBuckets::for_each_bucket(const Tin& tin, std::uint32_t triangle, const Visit& visit) const {
-  Box box;
-  for (const std::uint32_t v : tin.triangles[triangle]) {
-    const Point3 p = tin.point(v);
-    box.extend(Point2{p.x, p.y});
-  }
-  const Span across = columns(box.xmin, box.xmax), up = rows(box.ymin, box.ymax);
-  for (int row = up.first; row <= up.last; ++row) {
-    for (int column = across.first; column <= across.last; ++column) {
-      visit(static_cast<std::size_t>(row) * column_count_ + column);
-    }
-  }
+  triangles_ = {static_cast<std::size_t>(column_count_) * row_count_, tin.triangles.size(),
+                [&](std::uint32_t t, const auto& add) {
+                  Box box;
+                  for (const std::uint32_t v : tin.triangles[t]) {
+                    const Point3 p = tin.point(v);
+                    box.extend(Point2{p.x, p.y});
+                  }
+                  const Span across = columns(box.xmin, box.xmax), up = rows(box.ymin, box.ymax);
+                  for (int row = up.first; row <= up.last; ++row)
+                    for (int column = across.first; column <= across.last; ++column) add(bucket(column, row));
+                }};
 }
 
 TriangleBuckets::Span TriangleBuckets::columns(double xmin, double xmax) const {
@@ -75,12 +64,11 @@ std::vector<std::uint32_t> TriangleBuckets::near(Point2 a, Point2 b) const {
     const double y0 = y_at(left), y1 = y_at(right);
     const Span up = rows(std::min(y0, y1), std::max(y0, y1));
     for (int row = up.first; row <= up.last; ++row) {
-      const std::size_t bucket = static_cast<std::size_t>(row) * column_count_ + column;
-      found.insert(found.end(), triangles_.begin() + first_[bucket], triangles_.begin() + first_[bucket + 1]);
+      const auto inside = triangles_.in(bucket(column, row));
+      found.insert(found.end(), inside.begin(), inside.end());
     }
   }
-  std::sort(found.begin(), found.end());
-  found.erase(std::unique(found.begin(), found.end()), found.end());
+  sort_unique(found);
   return found;
 }
 

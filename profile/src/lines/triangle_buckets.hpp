@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include <itin/bucket_lists.hpp>
 #include <itin/tin.hpp>
 
 namespace itin::profile {
@@ -23,15 +24,13 @@ class TriangleBuckets {
   };
   Span columns(double xmin, double xmax) const;
   Span rows(double ymin, double ymax) const;
-  template <typename Visit>
-  void for_each_bucket(const Tin& tin, std::uint32_t triangle, const Visit& visit) const;
+  std::size_t bucket(int column, int row) const { return static_cast<std::size_t>(row) * column_count_ + column; }
 
   Box bounds_;
   double side_ = 1;  ///< of a bucket, metres
   int column_count_ = 0;
   int row_count_ = 0;
-  std::vector<std::uint32_t> first_;  ///< of each bucket, row by row, and one past the last
-  std::vector<std::uint32_t> triangles_;
+  BucketLists triangles_;  ///< by bucket, row by row
 };
 
 }  // namespace itin::profile

@@ -120,9 +120,13 @@ inline double mask_area(const FeatureMesh& mesh, std::uint32_t feature) {
 }
 
 inline bool reported(const FeatureMesh& mesh, const std::string& text) {
-  for (const auto& [feature, line] : mesh.reports)
-    if (line.find(text) != std::string::npos) return true;
-  return false;
+  return std::any_of(mesh.findings.begin(), mesh.findings.end(),
+                     [&](const FeatureFinding& f) { return f.text.find(text) != std::string::npos; });
+}
+
+inline bool reported(const FeatureMesh& mesh, std::uint32_t feature, const std::string& text) {
+  return std::any_of(mesh.findings.begin(), mesh.findings.end(),
+                     [&](const FeatureFinding& f) { return f.feature == feature && f.text.starts_with(text); });
 }
 
 }  // namespace itin::test

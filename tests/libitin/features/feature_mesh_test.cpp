@@ -53,7 +53,7 @@ TEST(FeatureMesh, BuildsABoxOfTwoRings) {
   const FeatureMesh mesh = meshed({house("box", {box_ring(0, 0, 10, 6)}, 50, 8)});
   EXPECT_EQ(mesh.vertices.size(), 8U);
   EXPECT_EQ(mesh.segments.size(), 8U);
-  EXPECT_TRUE(mesh.reports.empty());
+  EXPECT_TRUE(mesh.findings.empty());
   EXPECT_EQ(mesh.built, 1U);
   std::set<GridPoint> expected;
   for (const int x : {0, 1000})
@@ -84,7 +84,7 @@ TEST(FeatureMesh, BuildsAnIslandInACourtyard) {
   EXPECT_NEAR(surface.at(10, 10), 4, 1e-9);
   EXPECT_NEAR(surface.at(6.5, 10), 0, 1e-9);
   EXPECT_EQ(mesh.built, 2U);
-  EXPECT_TRUE(mesh.reports.empty());
+  EXPECT_TRUE(mesh.findings.empty());
 }
 
 // A street 8 m wide between 12 m and 9 m high: from its middle, 2 m up, the sky begins at atan(10/4) and atan(7/4).
@@ -146,7 +146,7 @@ TEST(FeatureMesh, GivesTheGroundToTheHigher) {
   expect_planar(mesh);
   EXPECT_NEAR(mask_area(mesh, 0), 100 - 24, 1e-6);
   EXPECT_NEAR(mask_area(mesh, 1), 60, 1e-6);
-  EXPECT_TRUE(reported(mesh, "low: loses 24.0 %")) << testing::PrintToString(mesh.reports);
+  EXPECT_TRUE(reported(mesh, 0, "loses 24.0 %")) << testing::PrintToString(mesh.findings);
   const Surface surface(mesh);
   EXPECT_NEAR(surface.at(8, 5), 9, 1e-9);
 }
@@ -157,7 +157,7 @@ TEST(FeatureMesh, BuildsDuplicatesOnce) {
   EXPECT_EQ(mesh.built, 1U);
   EXPECT_EQ(mesh.refused, 1U);
   EXPECT_EQ(mesh.segments.size(), 8U);
-  EXPECT_TRUE(reported(mesh, "two: left out: lies wholly under others"));
+  EXPECT_TRUE(reported(mesh, 1, "left out: lies wholly under others"));
 }
 
 TEST(FeatureMesh, RefusesWhatCannotStand) {
@@ -173,14 +173,14 @@ TEST(FeatureMesh, RefusesWhatCannotStand) {
               house("nothing", {}, 0, 5), house("far", {box_ring(1e9, 0, 1e9 + 1, 1)}, 0, 5)});
   EXPECT_EQ(mesh.built, 0U);
   EXPECT_EQ(mesh.refused, 8U);
-  EXPECT_EQ(mesh.reports.size(), 8U);
+  EXPECT_EQ(mesh.findings.size(), 8U);
   EXPECT_TRUE(mesh.segments.empty());
-  EXPECT_TRUE(reported(mesh, "heightless: left out: has no height"));
-  EXPECT_TRUE(reported(mesh, "baseless: left out: has no base height"));
-  EXPECT_TRUE(reported(mesh, "tree: left out: follows the terrain"));
-  EXPECT_TRUE(reported(mesh, "sliver: left out: nowhere as wide"));
-  EXPECT_TRUE(reported(mesh, "line: left out: has no area"));
-  EXPECT_TRUE(reported(mesh, "far: left out: has coordinates beyond the grid"));
+  EXPECT_TRUE(reported(mesh, 0, "left out: has no height"));
+  EXPECT_TRUE(reported(mesh, 1, "left out: has no base height"));
+  EXPECT_TRUE(reported(mesh, 2, "left out: follows the terrain"));
+  EXPECT_TRUE(reported(mesh, 4, "left out: nowhere as wide"));
+  EXPECT_TRUE(reported(mesh, 5, "left out: has no area"));
+  EXPECT_TRUE(reported(mesh, 7, "left out: has coordinates beyond the grid"));
 }
 
 TEST(FeatureMesh, RepairsABowTie) {
@@ -188,7 +188,7 @@ TEST(FeatureMesh, RepairsABowTie) {
   const FeatureMesh mesh = meshed({house("tie", {{box[0], box[2], box[1], box[3]}}, 0, 5)});
   EXPECT_EQ(mesh.built, 1U);
   EXPECT_NEAR(mask_area(mesh, 0), 50, 1e-6);
-  EXPECT_TRUE(reported(mesh, "tie: crosses or touches itself"));
+  EXPECT_TRUE(reported(mesh, 0, "crosses or touches itself"));
   expect_planar(mesh);
 }
 

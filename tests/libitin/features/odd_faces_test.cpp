@@ -109,7 +109,7 @@ TEST(FeatureMesh, LeavesOutWhatCrossesItselfTooOften) {
                                    house("beside", {test::box_ring(600, 600, 610, 610)}, 0, 5)});
   EXPECT_EQ(mesh.built, 1U);
   EXPECT_EQ(mesh.refused, 1U);
-  EXPECT_TRUE(reported(mesh, "knot: left out: crosses itself ")) << mesh.reports.at(0).text;
+  EXPECT_TRUE(reported(mesh, 0, "left out: crosses itself ")) << mesh.findings.at(0).text;
   EXPECT_TRUE(reported(mesh, " times, and more than 20000 crossings of 2000 edges are not taken apart"));
 }
 
@@ -123,8 +123,8 @@ TEST(FeatureMesh, LeavesOutMeasuredRoofsThatCrossTooOften) {
   }
   const FeatureMesh mesh = meshed({model});
   EXPECT_EQ(mesh.refused, 1U);
-  EXPECT_TRUE(reported(mesh, "model: left out: its outline crosses itself and its neighbours "))
-      << mesh.reports.at(0).text;
+  EXPECT_TRUE(reported(mesh, 0, "left out: its outline crosses itself and its neighbours "))
+      << mesh.findings.at(0).text;
 }
 
 Patch box_patch(std::int32_t xmin, std::int32_t ymin, std::int32_t xmax, std::int32_t ymax) {
@@ -166,7 +166,7 @@ TEST(FeatureMesh, LeavesOutNeighboursThatCrossTooOften) {
               house("beside", {test::box_ring(300, 300, 310, 310)}, 0, 5)});
   EXPECT_EQ(mesh.built, 2U);
   EXPECT_EQ(mesh.refused, 1U);
-  EXPECT_TRUE(reported(mesh, "to the right: left out: its outline crosses itself and its neighbours "));
+  EXPECT_TRUE(reported(mesh, 1, "left out: its outline crosses itself and its neighbours "));
   EXPECT_TRUE(reported(mesh, " times, where no more than 20000 crossings of 606 edges are taken apart"));
 }
 

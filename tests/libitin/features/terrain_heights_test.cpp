@@ -183,7 +183,7 @@ TEST(Drape, RepeatsTheTerrain) {
     const GridPolygons plan = star(random, {0, 0}, 6000);
     for (const Position& p : plan.front().outline) ring.push_back(kFeatureGrid.position(p.x, p.y));
     const FeatureMesh mesh = meshed({wood}, &terrain);
-    ASSERT_EQ(mesh.built, 1U) << testing::PrintToString(mesh.reports);
+    ASSERT_EQ(mesh.built, 1U) << testing::PrintToString(mesh.findings);
     expect_planar(mesh);
     const Joined joined(tin, mesh);
     const TerrainHeights surface(joined.tin());
@@ -222,7 +222,7 @@ TEST(Drape, FollowsAPlaneExactly) {
   const Point2 o = tin.grid.origin;
   wall.rings = band_about({{o.x + 12, o.y + 13}, {o.x + 71, o.y + 44}, {o.x + 80, o.y + 90}}, 0.3, tin.grid);
   const FeatureMesh mesh = meshed({wall}, &terrain);
-  ASSERT_EQ(mesh.built, 1U) << testing::PrintToString(mesh.reports);
+  ASSERT_EQ(mesh.built, 1U) << testing::PrintToString(mesh.findings);
   expect_planar(mesh);
   EXPECT_NEAR(test::mask_area(mesh, 0), 0.3 * (std::hypot(59, 31) + std::hypot(9, 46)), 0.4);
   for (const FeatureSegment& s : mesh.segments) {
@@ -242,7 +242,7 @@ TEST(Drape, ReportsWhatReachesBeyondTheTerrain) {
   wood.rings = {test::box_ring(50, 50, 150, 70)};
   const FeatureMesh mesh = meshed({wood}, &terrain);
   EXPECT_EQ(mesh.built, 0U);
-  EXPECT_TRUE(test::reported(mesh, "wood: left out: reaches beyond the terrain"));
+  EXPECT_TRUE(test::reported(mesh, 0, "left out: reaches beyond the terrain"));
 }
 
 TEST(Building, TakesItsBaseByTheRule) {

@@ -210,9 +210,9 @@ void print(const std::string& what, const FootprintSource& source, const Feature
   std::cout << what << ": " << source.features.size() << " features, " << mesh.built << " built, " << mesh.refused
             << " refused (" << 100.0 * static_cast<double>(mesh.refused) / static_cast<double>(source.features.size())
             << " %), " << mesh.flat_instead << " flat instead, " << mesh.vertices.size() << " vertices, "
-            << mesh.reports.size() << " reports\n";
-  for (std::size_t i = 0; i < std::min<std::size_t>(mesh.reports.size(), 12); ++i)
-    std::cout << "  " << mesh.reports[i].text << "\n";
+            << mesh.findings.size() << " findings\n";
+  for (std::size_t i = 0; i < std::min<std::size_t>(mesh.findings.size(), 12); ++i)
+    std::cout << "  " << mesh.findings[i].text << "\n";
 }
 
 Grid grid_about(const FootprintSource& source) {

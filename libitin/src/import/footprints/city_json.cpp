@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <limits>
 #include <map>
-#include <numeric>
 #include <set>
 
 #include <fmt/format.h>
@@ -15,6 +14,7 @@
 #include <itin/error.hpp>
 #include <itin/height_limit.hpp>
 
+#include "base/disjoint_sets.hpp"
 #include "gdal/crs.hpp"
 #include "gdal/quiet_gdal.hpp"
 #include "import/footprints/city_json_attributes.hpp"
@@ -275,23 +275,18 @@ class CityModel {
   std::vector<Rings> plane_pieces(const std::vector<Surface>& surfaces) const {
     std::vector<SurfacePlane> planes;
     for (const Surface& s : surfaces) planes.push_back(plane(s));
-    std::vector<std::size_t> parent(surfaces.size());
-    std::iota(parent.begin(), parent.end(), std::size_t{0});
-    const auto find = [&](std::size_t i) {
-      while (parent[i] != i) i = parent[i] = parent[parent[i]];
-      return i;
-    };
-    std::map<std::pair<Index, Index>, std::size_t> left_of;
-    for (std::size_t s = 0; s < surfaces.size(); ++s)
+    const auto count = static_cast<std::uint32_t>(surfaces.size());
+    DisjointSets sets(count);
+    std::map<std::pair<Index, Index>, std::uint32_t> left_of;
+    for (std::uint32_t s = 0; s < count; ++s)
       for_each_edge(surfaces[s].rings, [&](Index a, Index b) { left_of[{a, b}] = s; });
     for (const auto& [edge, s] : left_of) {
       const auto other = left_of.find({edge.second, edge.first});
       if (other == left_of.end() || !same_plane(planes[s], planes[other->second], edge.first)) continue;
-      const auto [a, b] = std::minmax({find(s), find(other->second)});
-      parent[b] = a;
+      sets.join(s, other->second);
     }
-    std::map<std::size_t, std::vector<const Surface*>> groups;
-    for (std::size_t s = 0; s < surfaces.size(); ++s) groups[find(s)].push_back(&surfaces[s]);
+    std::map<std::uint32_t, std::vector<const Surface*>> groups;
+    for (std::uint32_t s = 0; s < count; ++s) groups[sets.least(s)].push_back(&surfaces[s]);
     std::vector<Rings> pieces;
     for (const auto& [first, group] : groups) pieces.push_back(outline(group));
     return pieces;

@@ -10,7 +10,7 @@ namespace {
 
 /// A segment's ends alone, in order.
 Segment plan_of(const Segment& s) {
-  const auto [a, b] = std::minmax({Position{s.ax, s.ay}, Position{s.bx, s.by}});
+  const auto [a, b] = std::minmax({s.a(), s.b()});
   return {a.x, a.y, b.x, b.y};
 }
 Segment plan_of(const ImportedSegment& s) {
@@ -20,8 +20,7 @@ Segment plan_of(const ImportedSegment& s) {
 /// Whether an end of a line of the terrain has the height and the source that it came with.
 bool is_as_it_came(const GridPoint& p, std::uint16_t source, const ThemeLines& lines) {
   const std::vector<GridPoint>& vertices = lines.lines.vertices;
-  const auto at = std::lower_bound(vertices.begin(), vertices.end(), code_of(p),
-                                   [](const GridPoint& v, std::uint64_t code) { return code_of(v) < code; });
+  const auto at = find_by_code(vertices, code_of(p));
   return *at == p && lines.sources[static_cast<std::size_t>(at - vertices.begin())] == source;
 }
 
