@@ -268,7 +268,7 @@ TEST_F(Sites, SitesAreProposedOnSummitsAndSpaced) {
   EXPECT_LE(proposals.size(), 50U);
   double chosen = 0;
   for (const Proposal& p : proposals) {
-    EXPECT_TRUE(lies_in(area, p.position));
+    EXPECT_TRUE(area.contains(p.position));
     chosen += p.visibility_index;
   }
   // They see more than places at random.
@@ -277,13 +277,6 @@ TEST_F(Sites, SitesAreProposedOnSummitsAndSpaced) {
   EXPECT_TRUE(std::any_of(proposals.begin(), proposals.end(), [](const Proposal& p) { return p.summit; }));
   EXPECT_EQ(propose_sites(*store_, area, request, progress_).size(), proposals.size());
   EXPECT_GT(chosen / static_cast<double>(proposals.size()), 0);
-}
-
-TEST(LiesIn, PolygonsWithHoles) {
-  const Window window = Window::polygons({{{{0, 0}, {10, 0}, {10, 10}, {0, 10}}, {{{4, 4}, {6, 4}, {6, 6}, {4, 6}}}}});
-  EXPECT_TRUE(lies_in(window, {1, 1}));
-  EXPECT_FALSE(lies_in(window, {5, 5}));
-  EXPECT_FALSE(lies_in(window, {11, 5}));
 }
 
 TEST(SitesInTown, FeaturesOnlyHide) {

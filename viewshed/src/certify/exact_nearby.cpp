@@ -8,6 +8,7 @@
 
 #include "line/infinity.hpp"
 #include "request/request.hpp"
+#include "request/request_window.hpp"
 #include "window/retrieval.hpp"
 
 namespace itin::viewshed {
@@ -46,7 +47,7 @@ double Surroundings::reach_of(const Observer& observer) const {
 std::optional<ExactNearby> Surroundings::decide(const Observer& observer, Statistics& statistics,
                                                 Progress& progress) const {
   const double reach = reach_of(observer);
-  const CellRectangle part = cells_within(grid_, disc_box(observer.position, reach));
+  const CellRectangle part = cells_within(grid_, square_about(observer.position, reach));
   if (part.columns <= 0 || part.rows <= 0 || reach < std::max(grid_.cell_width(), grid_.cell_height()) ||
       reach <= observer.min_radius.value_or(request_.min_radius))
     return std::nullopt;

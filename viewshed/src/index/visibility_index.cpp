@@ -12,7 +12,6 @@
 #include <itin/error.hpp>
 #include <itin/silent_progress.hpp>
 #include <itin/triangulate.hpp>
-#include <viewshed/site_proposal.hpp>
 #include <viewshed/surface.hpp>
 #include <viewshed/visibility_index.hpp>
 
@@ -122,7 +121,7 @@ class IndexWork {
 
   void sample(const VisibilitySampler& sampler, RasterGrid::Cell cell) {
     const Point2 place = index_.grid.centre(cell.column, cell.row);
-    const auto height = lies_in(request_.area, place) ? sampler.ground(place) : std::nullopt;
+    const auto height = request_.area.contains(place) ? sampler.ground(place) : std::nullopt;
     if (!height) return;
     any_eye_ = true;
     const GridPoint seed = store_.metadata().grid.quantise({place.x, place.y, 0});
