@@ -12,6 +12,7 @@
 #include "bounds/surface_heights.hpp"
 #include "judge/bounded_target.hpp"
 #include "line/infinity.hpp"
+#include "line/set_bits.hpp"
 
 namespace itin::viewshed {
 
@@ -163,8 +164,8 @@ class EnvelopeJudge::TileWork final : public TileJudge::Work {
     if (packet.low.active == 0) return;
     const EnvelopeScene::Decided decided = scene_.decide(packet, occluder_);
     lines_ += decided.lines;
-    for_each_line(decided.visible, [&](unsigned i) { values[cell_of(i)] = Verdict::kVisible; });
-    for_each_line(decided.hidden, [&](unsigned i) { values[cell_of(i)] = Verdict::kHidden; });
+    for_each_bit(decided.visible, [&](unsigned i) { values[cell_of(i)] = Verdict::kVisible; });
+    for_each_bit(decided.hidden, [&](unsigned i) { values[cell_of(i)] = Verdict::kHidden; });
     if (packet.low.active != 0 && judge_.on_undecided_) judge_.on_undecided_(number_, packet);
   }
 

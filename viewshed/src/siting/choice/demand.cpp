@@ -8,6 +8,8 @@
 #include <itin/error.hpp>
 #include <viewshed/demand.hpp>
 
+#include "line/set_bits.hpp"
+
 namespace itin::viewshed {
 
 namespace {
@@ -79,8 +81,7 @@ Demand::Demand(const std::vector<double>& weights) : count_(weights.size()) {
 Weight Demand::weight(std::uint32_t block, std::uint64_t members) const {
   if (weights_.empty()) return std::popcount(members);
   Weight sum = 0;
-  for (; members != 0; members &= members - 1)
-    sum += weights_[std::size_t{64} * block + static_cast<std::size_t>(std::countr_zero(members))];
+  for_each_bit(members, [&](unsigned bit) { sum += weights_[std::size_t{64} * block + bit]; });
   return sum;
 }
 

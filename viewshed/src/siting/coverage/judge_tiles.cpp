@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <bit>
 
 #include <itin/parallel.hpp>
 #include <viewshed/viewshed.hpp>
 
 #include "judge/zone_cut.hpp"
+#include "line/set_bits.hpp"
 #include "progress/stage.hpp"
 #include "siting/coverage/cell_blocks.hpp"
 
@@ -65,23 +65,22 @@ bool open(const CellBlocks& blocks, const Tile& tile, const CoverageBounds& boun
     cover.possible[b] = members(bounds.possible, number);
     if (cover.possible[b] == 0) continue;
     cover.certain[b] = members(bounds.certain, number);
-    for (std::uint64_t rest = cover.possible[b] & ~cover.certain[b]; rest != 0; rest &= rest - 1) {
-      values[cell_in_tile(b, static_cast<unsigned>(std::countr_zero(rest)))] = Verdict::kUndecided;
+    for_each_bit(cover.possible[b] & ~cover.certain[b], [&](unsigned bit) {
+      values[cell_in_tile(b, bit)] = Verdict::kUndecided;
       any = true;
-    }
+    });
   }
   return any;
 }
 
 void close(const TileValues<Verdict>& values, TileCover& cover) {
   for (std::size_t b = 0; b < cover.certain.size(); ++b) {
-    for (std::uint64_t rest = cover.possible[b] & ~cover.certain[b]; rest != 0; rest &= rest - 1) {
-      const auto bit = static_cast<unsigned>(std::countr_zero(rest));
+    for_each_bit(cover.possible[b] & ~cover.certain[b], [&](unsigned bit) {
       const Verdict value = values[cell_in_tile(b, bit)];
       if (value == Verdict::kVisible) cover.certain[b] |= std::uint64_t{1} << bit;
       if (value == Verdict::kHidden || value == Verdict::kZoneCut || value == Verdict::kOutside)
         cover.possible[b] &= ~(std::uint64_t{1} << bit);
-    }
+    });
   }
 }
 
