@@ -16,6 +16,7 @@
 #include "support/raster_file.hpp"
 #include "support/seed.hpp"
 #include "support/slow_greedy.hpp"
+#include "support/subset.hpp"
 #include "support/temporary_directory.hpp"
 #include "support/terrain_tin.hpp"
 #include "viewshed/siting/survey_points.hpp"
@@ -91,8 +92,8 @@ class Sites : public ::testing::Test {
   }
 
   static void expect_bounds(const CoverageBounds& bounds, const DemandSet& truth) {
-    EXPECT_TRUE(is_subset(bounds.certain, truth));
-    EXPECT_TRUE(is_subset(truth, bounds.possible));
+    EXPECT_TRUE(test::is_subset(bounds.certain, truth));
+    EXPECT_TRUE(test::is_subset(truth, bounds.possible));
     if (bounds.exact) {
       EXPECT_TRUE(bounds.certain == truth);
       EXPECT_TRUE(bounds.possible == truth);
@@ -300,10 +301,10 @@ TEST(SitesInTown, FeaturesOnlyHide) {
     DemandSet before = themed.bounds(i).possible;
     while (!themed.bounds(i).exact) {
       themed.refine({&i, 1});
-      EXPECT_TRUE(is_subset(themed.bounds(i).possible, before));
+      EXPECT_TRUE(test::is_subset(themed.bounds(i).possible, before));
       before = themed.bounds(i).possible;
     }
-    EXPECT_TRUE(is_subset(themed.bounds(i).certain, bare.bounds(i).certain));
+    EXPECT_TRUE(test::is_subset(themed.bounds(i).certain, bare.bounds(i).certain));
     EXPECT_LT(themed.bounds(i).certain.size(), bare.bounds(i).certain.size());
     EXPECT_GT(themed.bounds(i).certain.size(), 0U);
     Request request;

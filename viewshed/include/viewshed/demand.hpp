@@ -53,8 +53,6 @@ void for_each_element(const DemandSet& set, const Visit& visit) {
 DemandSet intersection(const DemandSet& a, const DemandSet& b);
 /// Contains the members of either. O(blocks).
 DemandSet set_union(const DemandSet& a, const DemandSet& b);
-/// Whether every member of `a` is one of `b`.
-bool is_subset(const DemandSet& a, const DemandSet& b);
 
 /// Every element the same, 1, or weights of their own.
 class Demand {

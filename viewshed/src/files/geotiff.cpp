@@ -7,6 +7,7 @@
 #include <fmt/ranges.h>
 
 #include <viewshed/viewshed.hpp>
+#include <viewshed/visibility_index.hpp>
 
 #include "files/verdict_classes.hpp"
 #include "line/verdicts.hpp"
@@ -197,6 +198,26 @@ void write_geotiff(const std::string& path, const Result& result, const GeotiffO
     case Mode::kLoss:
       return writer.losses();
   }
+}
+
+void write_geotiff(const std::string& path, const VisibilityIndex& index, const IndexRequest& request,
+                   const GeotiffOptions& options) {
+  std::vector<float> values = index.share;
+  values.insert(values.end(), index.standard_error.begin(), index.standard_error.end());
+  RasterDescription description;
+  description.crs_wkt = options.crs_wkt;
+  description.nodata = std::numeric_limits<double>::quiet_NaN();
+  description.band_name = "share of the ground within the radius that is seen";
+  description.further_bands = {"standard error of the share"};
+  description.metadata = {{"radius_m", fmt::format("{:g}", request.radius)},
+                          {"observer_height_m", fmt::format("{:g}", request.height)},
+                          {"target_height_m", fmt::format("{:g}", request.target_height)},
+                          {"targets", fmt::format("{}", request.targets)},
+                          {"nodata_rule", nodata_text(request.nodata)},
+                          {"refraction", request.earth.convention()}};
+  description.metadata.insert(description.metadata.end(), options.metadata.begin(), options.metadata.end());
+  description.overwrite = options.overwrite;
+  write_raster(path, index.grid, values, description);
 }
 
 }  // namespace itin::viewshed

@@ -56,10 +56,6 @@ DemandSet set_union(const DemandSet& a, const DemandSet& b) {
   return result;
 }
 
-bool is_subset(const DemandSet& a, const DemandSet& b) {
-  return intersection(a, b) == a;
-}
-
 Demand::Demand(const std::vector<double>& weights) : count_(weights.size()) {
   double sum = 0;
   bool whole = true;
