@@ -118,7 +118,7 @@ class InputReader {
   void leave_out_forbidden() {
     if (options_.forbidden.empty()) return;
     const Window area = window_from_polygon(options_.forbidden, crs_, options_.in_crs.crs);
-    leave_out("lies in a forbidden area", [&](Point2 p) { return viewshed::lies_in(area, p); });
+    leave_out("lies in a forbidden area", [&](Point2 p) { return area.contains(p); });
   }
 
   void leave_out_near_dwellings() {

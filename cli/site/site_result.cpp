@@ -1,7 +1,6 @@
 #include "site/site_result.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -43,13 +42,10 @@ class BestServer {
 
  private:
   void for_each_cell(const DemandSet& set, const auto& visit) const {
-    for (const DemandSet::Block& block : set.blocks()) {
-      for (std::uint64_t rest = block.members; rest != 0; rest &= rest - 1) {
-        const RasterGrid::Cell cell =
-            viewshed::cell_of(grid_, std::size_t{64} * block.number + static_cast<std::size_t>(std::countr_zero(rest)));
-        visit(grid_.index(cell), grid_.centre(cell.column, cell.row));
-      }
-    }
+    for_each_element(set, [&](std::size_t element) {
+      const RasterGrid::Cell cell = viewshed::cell_of(grid_, element);
+      visit(grid_.index(cell), grid_.centre(cell.column, cell.row));
+    });
   }
 
   const RasterGrid& grid_;

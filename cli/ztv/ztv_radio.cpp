@@ -117,7 +117,7 @@ Document ZtvRadioOptions::document(const Zone& zone) const {
                                         [&](const Turbine& t) { return nearest_link(t).clearance < 0; });
     document["links"] = bad_rows_document(links_path_, links_.size() + bad_links_.size(), links_.size(), bad_links_);
     document["links"].update(
-        {{"links", links_.size()}, {"wavelength_m", 0.299792458 / frequency_ghz_}, {"turbines_excluded", excluded}});
+        {{"links", links_.size()}, {"wavelength_m", wavelength_m(frequency_ghz_)}, {"turbines_excluded", excluded}});
   }
   return document;
 }

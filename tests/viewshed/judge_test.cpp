@@ -16,6 +16,7 @@
 #include "bounds/boundary.hpp"
 #include "judge/envelope_judge.hpp"
 #include "judge/exact_judge.hpp"
+#include "line/set_bits.hpp"
 #include "line/verdicts.hpp"
 #include "modes/observation.hpp"
 #include "support/seed.hpp"
@@ -102,7 +103,7 @@ TEST_F(Judges, WhatStaysUndecidedIsTold) {
   const EnvelopeJudge judge(scene, grid_, tiles_, eyes_, [&](std::size_t tile, const EnvelopePacket& packet) {
     const std::lock_guard lock(mutex);
     EXPECT_LT(tile, tiles_.cell_count());
-    for_each_line(packet.low.active, [&](unsigned) { ++told; });
+    for_each_bit(packet.low.active, [&](unsigned) { ++told; });
   });
   for (std::size_t tile = 0; tile < tiles_.cell_count(); ++tile) {
     const auto values = all_of(judge, tile, 0);

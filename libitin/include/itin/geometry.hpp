@@ -90,6 +90,15 @@ struct GridBox {
 /// Grid coordinates lie in [-kGridHalfSide, kGridHalfSide).
 inline constexpr std::int32_t kGridHalfSide = std::int32_t{1} << 29;
 
+inline Box intersection(const Box& a, const Box& b) {
+  return {std::max(a.xmin, b.xmin), std::max(a.ymin, b.ymin), std::min(a.xmax, b.xmax), std::min(a.ymax, b.ymax)};
+}
+
+/// The square that holds the disc of this radius.
+inline Box square_about(Point2 centre, double radius) {
+  return {centre.x - radius, centre.y - radius, centre.x + radius, centre.y + radius};
+}
+
 inline GridBox intersection(const GridBox& a, const GridBox& b) {
   return {std::max(a.xmin, b.xmin), std::max(a.ymin, b.ymin), std::min(a.xmax, b.xmax), std::min(a.ymax, b.ymax)};
 }

@@ -28,6 +28,8 @@ class Window {
     Ring outer;
     std::vector<Ring> holes;
   };
+  /// The corners of a box as a part; unlike box(), also of one without area.
+  static Polygon rectangle(const Box& b);
 
   /// Everything the store covers.
   static Window all();
@@ -47,6 +49,8 @@ class Window {
   const std::vector<Polygon>& parts() const { return parts_; }
   /// Empty for `all()`.
   Box bounds() const;
+  /// Whether a position lies within a part and none of its holes; on an edge, either may be told. O(corners).
+  bool contains(Point2 position) const;
 
  private:
   bool all_ = false;

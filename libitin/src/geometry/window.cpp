@@ -111,7 +111,20 @@ Window::Ring arc(Point2 centre, double azimuth, double width, double radius, int
   return corners;
 }
 
+bool in_ring(const Window::Ring& ring, Point2 p) {
+  bool inside = false;
+  for (std::size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++) {
+    const Point2 &a = ring[i], &b = ring[j];
+    if ((a.y > p.y) != (b.y > p.y) && p.x < (b.x - a.x) * (p.y - a.y) / (b.y - a.y) + a.x) inside = !inside;
+  }
+  return inside;
+}
+
 }  // namespace
+
+Window::Polygon Window::rectangle(const Box& b) {
+  return {{{b.xmin, b.ymin}, {b.xmax, b.ymin}, {b.xmax, b.ymax}, {b.xmin, b.ymax}}, {}};
+}
 
 Window Window::all() {
   Window window;
@@ -126,7 +139,7 @@ Window Window::box(const Box& b) {
     throw InputError(fmt::format("box: {},{},{},{} is empty; give xmin,ymin,xmax,ymax with xmin < xmax and ymin < ymax",
                                  b.xmin, b.ymin, b.xmax, b.ymax));
   Window window;
-  window.parts_ = {{{{b.xmin, b.ymin}, {b.xmax, b.ymin}, {b.xmax, b.ymax}, {b.xmin, b.ymax}}, {}}};
+  window.parts_ = {rectangle(b)};
   return window;
 }
 
@@ -185,6 +198,14 @@ Box Window::bounds() const {
   for (const Polygon& part : parts_)
     for (const Point2& p : part.outer) box.extend(p);
   return box;
+}
+
+bool Window::contains(Point2 position) const {
+  return all_ || std::any_of(parts_.begin(), parts_.end(), [&](const Polygon& part) {
+           return in_ring(part.outer, position) &&
+                  std::none_of(part.holes.begin(), part.holes.end(),
+                               [&](const Ring& hole) { return in_ring(hole, position); });
+         });
 }
 
 }  // namespace itin

@@ -33,9 +33,8 @@ struct Place {
 };
 
 /// All triangles that hold a position meet this, whatever rounding does.
-Box box_about(Point2 p, const Grid& grid) {
-  const double margin = 2 * grid.resolution;
-  return {p.x - margin, p.y - margin, p.x + margin, p.y + margin};
+Box surroundings(Point2 p, const Grid& grid) {
+  return square_about(p, 2 * grid.resolution);
 }
 
 /// The positions that may have ground.
@@ -43,7 +42,7 @@ std::vector<Place> places_of(const StoreMetadata& metadata, const std::vector<Po
   const Box data = metadata.grid.box(metadata.bounds);
   std::vector<Place> places;
   for (std::size_t i = 0; i < positions.size(); ++i) {
-    const Box about = box_about(positions[i], metadata.grid);
+    const Box about = surroundings(positions[i], metadata.grid);
     const bool near = about.xmax >= data.xmin && about.xmin <= data.xmax && about.ymax >= data.ymin &&
                       about.ymin <= data.ymax;  // false for what is no number
     if (near) places.push_back({place_in_units(metadata.grid, positions[i]), i});
@@ -92,10 +91,7 @@ std::vector<std::span<Place>> groups_of(std::span<Place> places, const StoreMeta
 
 Window window_about(std::span<const Place> places, const std::vector<Point2>& positions, const Grid& grid) {
   std::vector<Window::Polygon> boxes;
-  for (const Place& place : places) {
-    const Box b = box_about(positions[place.index], grid);
-    boxes.push_back({{{b.xmin, b.ymin}, {b.xmax, b.ymin}, {b.xmax, b.ymax}, {b.xmin, b.ymax}}, {}});
-  }
+  for (const Place& place : places) boxes.push_back(Window::rectangle(surroundings(positions[place.index], grid)));
   return Window::polygons(std::move(boxes));
 }
 

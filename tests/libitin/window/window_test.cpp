@@ -109,5 +109,13 @@ TEST(Window, RefusesCrossingEdges) {
   EXPECT_NO_THROW(Window::polygons({{{{0, 0}, {9, 0}, {9, 9}, {0, 9}}, {{{5, 0}, {6, 6}, {4, 6}}}}}));
 }
 
+TEST(Window, PolygonsContainNothingOfTheirHoles) {
+  const Window window = Window::polygons({{{{0, 0}, {10, 0}, {10, 10}, {0, 10}}, {{{4, 4}, {6, 4}, {6, 6}, {4, 6}}}}});
+  EXPECT_TRUE(window.contains({1, 1}));
+  EXPECT_FALSE(window.contains({5, 5}));
+  EXPECT_FALSE(window.contains({11, 5}));
+  EXPECT_TRUE(Window::all().contains({11, 5}));
+}
+
 }  // namespace
 }  // namespace itin

@@ -14,6 +14,7 @@
 #include "support/raster_file.hpp"
 #include "support/seed.hpp"
 #include "support/slow_greedy.hpp"
+#include "support/subset.hpp"
 #include "support/temporary_directory.hpp"
 #include "support/terrain_tin.hpp"
 #include "support/vector_file.hpp"
@@ -134,8 +135,8 @@ class FresnelSites : public ::testing::Test {
       for (const std::size_t i : all) {
         const CoverageBounds& bounds = coverage.bounds(i);
         const DemandSet certain = inside(bounds.certain), possible = inside(bounds.possible);
-        EXPECT_TRUE(is_subset(certain, truth[i])) << "stage " << stage << ", site " << i;
-        EXPECT_TRUE(is_subset(truth[i], possible)) << "stage " << stage << ", site " << i;
+        EXPECT_TRUE(test::is_subset(certain, truth[i])) << "stage " << stage << ", site " << i;
+        EXPECT_TRUE(test::is_subset(truth[i], possible)) << "stage " << stage << ", site " << i;
         EXPECT_TRUE(!bounds.exact || (certain == truth[i] && possible == truth[i])) << "site " << i;
       }
       if (stage == coverage.last_stage()) break;

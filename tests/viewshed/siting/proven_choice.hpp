@@ -10,6 +10,7 @@
 
 #include "support/full_detail.hpp"
 #include "support/slow_greedy.hpp"
+#include "support/subset.hpp"
 
 namespace itin::test {
 

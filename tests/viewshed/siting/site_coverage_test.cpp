@@ -16,6 +16,7 @@
 #include "support/raster_file.hpp"
 #include "support/seed.hpp"
 #include "support/slow_greedy.hpp"
+#include "support/subset.hpp"
 #include "support/temporary_directory.hpp"
 #include "support/terrain_tin.hpp"
 #include "viewshed/siting/survey_points.hpp"
@@ -91,8 +92,8 @@ class Sites : public ::testing::Test {
   }
 
   static void expect_bounds(const CoverageBounds& bounds, const DemandSet& truth) {
-    EXPECT_TRUE(is_subset(bounds.certain, truth));
-    EXPECT_TRUE(is_subset(truth, bounds.possible));
+    EXPECT_TRUE(test::is_subset(bounds.certain, truth));
+    EXPECT_TRUE(test::is_subset(truth, bounds.possible));
     if (bounds.exact) {
       EXPECT_TRUE(bounds.certain == truth);
       EXPECT_TRUE(bounds.possible == truth);
@@ -268,7 +269,7 @@ TEST_F(Sites, SitesAreProposedOnSummitsAndSpaced) {
   EXPECT_LE(proposals.size(), 50U);
   double chosen = 0;
   for (const Proposal& p : proposals) {
-    EXPECT_TRUE(lies_in(area, p.position));
+    EXPECT_TRUE(area.contains(p.position));
     chosen += p.visibility_index;
   }
   // They see more than places at random.
@@ -277,13 +278,6 @@ TEST_F(Sites, SitesAreProposedOnSummitsAndSpaced) {
   EXPECT_TRUE(std::any_of(proposals.begin(), proposals.end(), [](const Proposal& p) { return p.summit; }));
   EXPECT_EQ(propose_sites(*store_, area, request, progress_).size(), proposals.size());
   EXPECT_GT(chosen / static_cast<double>(proposals.size()), 0);
-}
-
-TEST(LiesIn, PolygonsWithHoles) {
-  const Window window = Window::polygons({{{{0, 0}, {10, 0}, {10, 10}, {0, 10}}, {{{4, 4}, {6, 4}, {6, 6}, {4, 6}}}}});
-  EXPECT_TRUE(lies_in(window, {1, 1}));
-  EXPECT_FALSE(lies_in(window, {5, 5}));
-  EXPECT_FALSE(lies_in(window, {11, 5}));
 }
 
 TEST(SitesInTown, FeaturesOnlyHide) {
@@ -307,10 +301,10 @@ TEST(SitesInTown, FeaturesOnlyHide) {
     DemandSet before = themed.bounds(i).possible;
     while (!themed.bounds(i).exact) {
       themed.refine({&i, 1});
-      EXPECT_TRUE(is_subset(themed.bounds(i).possible, before));
+      EXPECT_TRUE(test::is_subset(themed.bounds(i).possible, before));
       before = themed.bounds(i).possible;
     }
-    EXPECT_TRUE(is_subset(themed.bounds(i).certain, bare.bounds(i).certain));
+    EXPECT_TRUE(test::is_subset(themed.bounds(i).certain, bare.bounds(i).certain));
     EXPECT_LT(themed.bounds(i).certain.size(), bare.bounds(i).certain.size());
     EXPECT_GT(themed.bounds(i).certain.size(), 0U);
     Request request;

@@ -6,7 +6,6 @@
 #include <gtest/gtest.h>
 
 #include <itin/error.hpp>
-#include <viewshed/site_proposal.hpp>
 #include <viewshed/turbine_layout.hpp>
 
 #include "support/seed.hpp"
@@ -72,7 +71,7 @@ TEST(Dwellings, AreAsFarAsTheirNearestPoint) {
   std::size_t near = 0;
   for (int i = 0; i < 400; ++i) {
     const Point2 p{place(random), place(random)};
-    double least = lies_in(window, p) ? 0 : 1e9;
+    double least = window.contains(p) ? 0 : 1e9;
     for (const Point2& q : outlines) least = std::min(least, std::hypot(p.x - q.x, p.y - q.y));
     for (const double metres : {20.0, 80.0}) {
       if (std::abs(least - metres) < 0.5) continue;  // between the points of the slow way
@@ -92,7 +91,7 @@ TEST(SpacedPositions, AreTheMiddlesOfSquaresInTheArea) {
   std::size_t expected = 0;
   for (double y = 50; y < 2100; y += 100)
     for (double x = 50; x < 2100; x += 100) {
-      if (!lies_in(area, {x, y})) continue;
+      if (!area.contains({x, y})) continue;
       ++expected;
       EXPECT_TRUE(
           std::any_of(places.begin(), places.end(), [&](Point2 p) { return std::hypot(p.x - x, p.y - y) < 1e-6; }));

@@ -9,6 +9,7 @@
 // do not depend on their order and comparisons of bounds with exact values are exact.
 #pragma once
 
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -40,12 +41,18 @@ class DemandSet {
   std::vector<Block> blocks_;
 };
 
+/// Calls visit(element) for each member, in ascending order.
+template <class Visit>
+void for_each_element(const DemandSet& set, const Visit& visit) {
+  for (const DemandSet::Block& block : set.blocks())
+    for (std::uint64_t rest = block.members; rest != 0; rest &= rest - 1)
+      visit(std::size_t{64} * block.number + static_cast<std::size_t>(std::countr_zero(rest)));
+}
+
 /// Contains the members of both. O(blocks).
 DemandSet intersection(const DemandSet& a, const DemandSet& b);
 /// Contains the members of either. O(blocks).
 DemandSet set_union(const DemandSet& a, const DemandSet& b);
-/// Whether every member of `a` is one of `b`.
-bool is_subset(const DemandSet& a, const DemandSet& b);
 
 /// Every element the same, 1, or weights of their own.
 class Demand {

@@ -43,7 +43,4 @@ struct Proposal {
 std::vector<Proposal> propose_sites(const Store& store, const Window& area, const ProposalRequest& request,
                                     Progress& progress);
 
-/// Whether a position lies within the window, its edges included up to rounding.
-bool lies_in(const Window& window, Point2 position);
-
 }  // namespace itin::viewshed

@@ -21,7 +21,7 @@ struct ZoneMap {
     std::uint64_t cells = 0;
   };
   std::string name;          ///< as in the names of files: "tip-count-screened"
-  std::string title;         ///< "Blade tips theoretically visible"
+  std::string title;         ///< "Zone of theoretical visibility: blade tips"
   std::string heading;       ///< of its legend
   const char* seen = "tip";  ///< "tip", "hub" or "farms"
   bool screened = false;

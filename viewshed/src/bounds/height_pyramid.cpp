@@ -14,14 +14,8 @@ namespace {
 
 /// Some two triangles' worth per bin; a power of two per side.
 RasterGrid grid_of_bins(const Tin& tin) {
-  const Box box = tin.bounds();
-  if (box.empty()) return {{0, 0}, 1, 1, 1, 1};
-  const double size = std::max({box.width(), box.height(), tin.grid.resolution});
   const auto wanted = static_cast<std::uint32_t>(std::sqrt(static_cast<double>(tin.triangles.size()) / 2));
-  const double side = std::clamp(std::bit_floor(wanted), 1U, 2048U);
-  // A hundredth more than needed, so that the eastern and southern edges lie inside.
-  const double bin = size * 1.01 / side;
-  return {{box.xmin, box.ymax}, bin, bin, static_cast<std::int64_t>(side), static_cast<std::int64_t>(side)};
+  return square_bins_over(tin, std::clamp(std::bit_floor(wanted), 1U, 2048U));
 }
 
 double reciprocal(double d) {

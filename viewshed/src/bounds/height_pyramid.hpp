@@ -14,6 +14,7 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include <itin/lattice_tin.hpp>
@@ -170,6 +171,19 @@ class HeightPyramid {
   RasterGrid bin_grid_;
   std::optional<Listed> listed_;
   std::vector<std::vector<std::int32_t>> highest_;  ///< per level, row by row; a lattice's cells tell their own
+};
+
+/// Triangles that a search visited of late: most lie in several bins, and so come again.
+class RecentTriangles {
+ public:
+  RecentTriangles() { triangles_.fill(std::numeric_limits<std::uint32_t>::max()); }
+  /// Whether it remembers that it was asked about this triangle before; it forgets some.
+  bool seen(std::uint32_t triangle) {
+    return std::exchange(triangles_[triangle % triangles_.size()], triangle) == triangle;
+  }
+
+ private:
+  std::array<std::uint32_t, 256> triangles_;
 };
 
 inline std::int32_t HeightPyramid::highest_of_cell(std::uint32_t cell) const {

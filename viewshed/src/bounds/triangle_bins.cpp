@@ -14,14 +14,17 @@
 
 namespace itin::viewshed {
 
-RasterGrid location_grid(const Tin& tin) {
+RasterGrid square_bins_over(const Tin& tin, double side) {
   const Box box = tin.bounds();
   if (box.empty()) return {{0, 0}, 1, 1, 1, 1};
   const double size = std::max({box.width(), box.height(), tin.grid.resolution});
-  const double side = std::clamp(std::floor(std::sqrt(tin.triangles.size())), 1.0, 512.0);
   // A hundredth more than needed, so that the eastern and southern edges lie inside.
   const double bin = size * 1.01 / side;
   return {{box.xmin, box.ymax}, bin, bin, static_cast<std::int64_t>(side), static_cast<std::int64_t>(side)};
+}
+
+RasterGrid location_grid(const Tin& tin) {
+  return square_bins_over(tin, std::clamp(std::floor(std::sqrt(tin.triangles.size())), 1.0, 512.0));
 }
 
 TriangleBins::TriangleBins(const Tin& tin, const RasterGrid& grid) {

@@ -10,6 +10,8 @@
 
 namespace itin::viewshed {
 
+/// Square bins over the whole Tin, `side` along each side.
+RasterGrid square_bins_over(const Tin& tin, double side);
 /// About as many bins over a Tin as it has triangles, so that a few lie in each.
 RasterGrid location_grid(const Tin& tin);
 

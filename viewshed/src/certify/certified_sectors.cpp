@@ -17,6 +17,7 @@
 #include "progress/stage.hpp"
 #include "progress/stopwatch.hpp"
 #include "request/request.hpp"
+#include "request/request_window.hpp"
 #include "window/retrieval.hpp"
 
 namespace itin::viewshed {
@@ -74,10 +75,11 @@ class CertifiedSectors {
   /// to it: where the window ends, coarse ground stays beside finer one, and would hide everything.
   static EnvelopeRequest within(std::vector<Point2> sector, const Eye& eye, EnvelopeRequest wanted) {
     for (const FineDisc& disc : wanted.discs)
-      if (disc.centre == eye.position) add_corners(disc_box(disc.centre, disc.radius), sector);
+      if (disc.centre == eye.position) add_corners(square_about(disc.centre, disc.radius), sector);
     wanted.window = Window::polygons({{hull_of(std::move(sector)), {}}});
     const Box box = wanted.window.bounds();
-    std::erase_if(wanted.discs, [&](const FineDisc& disc) { return !disc_box(disc.centre, disc.radius).meets(box); });
+    std::erase_if(wanted.discs,
+                  [&](const FineDisc& disc) { return !square_about(disc.centre, disc.radius).meets(box); });
     return wanted;
   }
 

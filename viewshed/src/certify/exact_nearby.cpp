@@ -8,6 +8,7 @@
 
 #include "line/infinity.hpp"
 #include "request/request.hpp"
+#include "request/request_window.hpp"
 #include "window/retrieval.hpp"
 
 namespace itin::viewshed {
@@ -16,18 +17,6 @@ namespace {
 
 /// As far as about so many points of the full surface lie, and no more than this share of them.
 constexpr double kPointsNearby = 32000, kShareNearby = 1.0 / 64;
-
-/// The cells that meet a box.
-CellRectangle cells_within(const RasterGrid& grid, const Box& box) {
-  const auto at = [](double v, std::int64_t count) {
-    return static_cast<std::int64_t>(std::clamp(v, 0.0, static_cast<double>(count)));
-  };
-  const std::int64_t west = at(std::floor(grid.column_at(box.xmin)), grid.columns()),
-                     east = at(std::ceil(grid.column_at(box.xmax)), grid.columns()),
-                     north = at(std::floor(grid.row_at(box.ymax)), grid.rows()),
-                     south = at(std::ceil(grid.row_at(box.ymin)), grid.rows());
-  return {west, north, east - west, south - north};
-}
 
 }  // namespace
 
@@ -46,7 +35,7 @@ double Surroundings::reach_of(const Observer& observer) const {
 std::optional<ExactNearby> Surroundings::decide(const Observer& observer, Statistics& statistics,
                                                 Progress& progress) const {
   const double reach = reach_of(observer);
-  const CellRectangle part = cells_within(grid_, disc_box(observer.position, reach));
+  const CellRectangle part = cells_meeting(grid_, square_about(observer.position, reach));
   if (part.columns <= 0 || part.rows <= 0 || reach < std::max(grid_.cell_width(), grid_.cell_height()) ||
       reach <= observer.min_radius.value_or(request_.min_radius))
     return std::nullopt;

@@ -10,6 +10,7 @@
 #include "certify/certified_blocks.hpp"
 #include "certify/certified_sectors.hpp"
 #include "request/request.hpp"
+#include "request/request_window.hpp"
 
 namespace itin::viewshed {
 

@@ -9,6 +9,7 @@
 
 #include "judge/block_judge.hpp"
 #include "judge/envelope_judge.hpp"
+#include "line/set_bits.hpp"
 #include "line/verdicts.hpp"
 #include "request/request.hpp"
 
@@ -94,7 +95,7 @@ class Rays final : public CoarsePass {
   void add_ground(const EnvelopePacket& packet, TileSet& tiles) const {
     UpperScene::Stretches stretches;
     scene_.upper.find_stretches(packet.low, packet.starts_under, packet.ends_under, stretches);
-    for_each_line(packet.low.active, [&](unsigned i) {
+    for_each_bit(packet.low.active, [&](unsigned i) {
       const Point2 target = along(packet.low, i, 1);
       over_.ground.add_line(target, target, tiles);
       for (const Stretch& s : stretches[i])

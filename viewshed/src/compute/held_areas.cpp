@@ -10,8 +10,6 @@
 #include <itin/level_choice.hpp>
 #include <itin/window.hpp>
 
-#include "request/request.hpp"
-
 namespace itin::viewshed {
 
 namespace {

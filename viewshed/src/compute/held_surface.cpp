@@ -15,6 +15,7 @@
 #include "modes/feature_names.hpp"
 #include "plan/memory.hpp"
 #include "request/request.hpp"
+#include "request/request_window.hpp"
 #include "window/retrieval.hpp"
 
 namespace itin::viewshed {

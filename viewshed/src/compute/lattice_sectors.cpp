@@ -25,6 +25,8 @@
 #include "progress/stage.hpp"
 #include "progress/stopwatch.hpp"
 #include "request/request.hpp"
+#include "request/request_window.hpp"
+#include "request/void_shadow.hpp"
 #include "scene/full_surface.hpp"
 #include "scene/reveal.hpp"
 #include "window/retrieval.hpp"

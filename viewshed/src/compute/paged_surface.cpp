@@ -7,6 +7,7 @@
 #include "compute/planned_surface.hpp"
 #include "compute/store_viewshed.hpp"
 #include "request/request.hpp"
+#include "request/request_window.hpp"
 
 namespace itin::viewshed {
 

@@ -9,6 +9,7 @@
 #include "modes/triangle_studies.hpp"
 #include "progress/stopwatch.hpp"
 #include "request/request.hpp"
+#include "request/request_window.hpp"
 #include "scene/reveal.hpp"
 #include "window/retrieval.hpp"
 

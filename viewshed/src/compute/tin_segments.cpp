@@ -14,6 +14,7 @@
 #include <viewshed/surface.hpp>
 #include <viewshed/viewshed.hpp>
 
+#include "bounds/boundary.hpp"
 #include "compute/coarse_pass.hpp"
 #include "judge/exact_judge.hpp"
 #include "line/infinity.hpp"
@@ -27,6 +28,8 @@
 #include "progress/stopwatch.hpp"
 #include "request/cells_in_view.hpp"
 #include "request/request.hpp"
+#include "request/request_window.hpp"
+#include "request/void_shadow.hpp"
 #include "scene/full_surface.hpp"
 #include "window/retrieval.hpp"
 
@@ -223,7 +226,7 @@ class TinSegments {
 
   Window window_over(const std::vector<std::size_t>& cells) const {
     std::vector<Window::Polygon> parts;
-    for (const std::size_t i : cells) parts.push_back(rectangle(box_of_cell(tiles_, place_of(tiles_, i))));
+    for (const std::size_t i : cells) parts.push_back(Window::rectangle(box_of_cell(tiles_, place_of(tiles_, i))));
     return Window::polygons(std::move(parts));
   }
 

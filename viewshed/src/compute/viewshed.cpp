@@ -11,6 +11,7 @@
 #include "progress/stopwatch.hpp"
 #include "request/eye.hpp"
 #include "request/request.hpp"
+#include "request/void_shadow.hpp"
 #include "scene/full_surface.hpp"
 #include "scene/reveal.hpp"
 

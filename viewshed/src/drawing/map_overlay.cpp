@@ -13,6 +13,7 @@
 #include <viewshed/viewshed.hpp>
 
 #include "line/infinity.hpp"
+#include "modes/feature_names.hpp"
 
 namespace itin::viewshed {
 
@@ -195,12 +196,9 @@ void MapOverlay::scale_blockers() {
   add_step(0, {kSeenColour, kOpacity}, "visible");
   for (std::size_t i = 0; i < blockers_.size(); ++i) {
     const std::uint32_t theme = blockers_[i];
-    const std::string name = theme == 0                            ? "terrain"
-                             : theme == kMissingGround             ? "no data"
-                             : theme <= result_.theme_names.size() ? result_.theme_names[theme - 1]
-                                                                   : fmt::format("theme {}", theme);
     // Blue is for what is seen.
-    add_step(static_cast<double>(i + 1), {kPalette[1 + i % (kPalette.size() - 1)], theme == 0 ? 0.2 : kOpacity}, name);
+    add_step(static_cast<double>(i + 1), {kPalette[1 + i % (kPalette.size() - 1)], theme == 0 ? 0.2 : kOpacity},
+             blocker_name(result_, theme));
   }
 }
 

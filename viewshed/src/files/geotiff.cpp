@@ -7,7 +7,9 @@
 #include <fmt/ranges.h>
 
 #include <viewshed/viewshed.hpp>
+#include <viewshed/visibility_index.hpp>
 
+#include "files/verdict_classes.hpp"
 #include "line/verdicts.hpp"
 #include "request/request.hpp"
 
@@ -82,38 +84,18 @@ Metadata metadata_of(const Result& result) {
   return items;
 }
 
-using RasterClasses = std::vector<RasterClass>;
-
-RasterClasses raster_classes_of_zones() {
-  return {{code_of(Verdict::kHidden), "hidden", 225, 225, 225, 255},
-          {code_of(Verdict::kVisible), "in sight, zone clear", 0, 114, 178, 255},
-          {code_of(Verdict::kUndecided), "undecided", 230, 159, 0, 255},
-          {code_of(Verdict::kZoneCut), "in sight, zone cut", 204, 121, 167, 255},
-          {code_of(Verdict::kOutside), "outside or no data", 0, 0, 0, 0}};
-}
-
-RasterClasses raster_classes_of_verdicts(bool certified) {
-  const std::string certainly = certified ? "certainly " : "";
-  return {{code_of(Verdict::kHidden), certainly + "hidden", 225, 225, 225, 255},
-          {code_of(Verdict::kVisible), certainly + "visible", 0, 114, 178, 255},
-          {code_of(Verdict::kUndecided), "undecided", 230, 159, 0, 255},
-          {code_of(Verdict::kOutside), "outside or no data", 0, 0, 0, 0}};
-}
-
 /// A result's values under one description.
 class Writer {
  public:
   Writer(const std::string& path, const Result& result, RasterDescription description)
       : path_(path), result_(result), description_(std::move(description)) {}
 
-  void verdicts() {
-    description_.classes = raster_classes_of_verdicts(result_.certified);
-    write<std::uint8_t>({result_.certified ? "certified" : "visible"}, code_of(Verdict::kOutside),
-                        codes_of(result_.visible));
-  }
-  void zones() {
-    description_.classes = raster_classes_of_zones();
-    write<std::uint8_t>({"first Fresnel zone"}, code_of(Verdict::kOutside), codes_of(result_.visible));
+  void verdicts(const std::string& band) {
+    description_.classes = verdict_classes(result_);
+    description_.classes.push_back({code_of(Verdict::kOutside), "outside or no data", 0, 0, 0, 0});
+    // The file lists them in this order.
+    std::ranges::sort(description_.classes, {}, &RasterClass::value);
+    write<std::uint8_t>({band}, code_of(Verdict::kOutside), codes_of(result_.visible));
   }
   void losses() {
     std::vector<float> values = result_.loss_db;
@@ -196,7 +178,7 @@ void write_geotiff(const std::string& path, const Result& result, const GeotiffO
   Writer writer(path, result, std::move(description));
   switch (result.request.mode) {
     case Mode::kVisible:
-      return writer.verdicts();
+      return writer.verdicts(result.certified ? "certified" : "visible");
     case Mode::kCount:
       return writer.counts();
     case Mode::kWhich:
@@ -212,10 +194,30 @@ void write_geotiff(const std::string& path, const Result& result, const GeotiffO
     case Mode::kProbability:
       return writer.probabilities();
     case Mode::kFresnel:
-      return writer.zones();
+      return writer.verdicts("first Fresnel zone");
     case Mode::kLoss:
       return writer.losses();
   }
+}
+
+void write_geotiff(const std::string& path, const VisibilityIndex& index, const IndexRequest& request,
+                   const GeotiffOptions& options) {
+  std::vector<float> values = index.share;
+  values.insert(values.end(), index.standard_error.begin(), index.standard_error.end());
+  RasterDescription description;
+  description.crs_wkt = options.crs_wkt;
+  description.nodata = std::numeric_limits<double>::quiet_NaN();
+  description.band_name = "share of the ground within the radius that is seen";
+  description.further_bands = {"standard error of the share"};
+  description.metadata = {{"radius_m", fmt::format("{:g}", request.radius)},
+                          {"observer_height_m", fmt::format("{:g}", request.height)},
+                          {"target_height_m", fmt::format("{:g}", request.target_height)},
+                          {"targets", fmt::format("{}", request.targets)},
+                          {"nodata_rule", nodata_text(request.nodata)},
+                          {"refraction", request.earth.convention()}};
+  description.metadata.insert(description.metadata.end(), options.metadata.begin(), options.metadata.end());
+  description.overwrite = options.overwrite;
+  write_raster(path, index.grid, values, description);
 }
 
 }  // namespace itin::viewshed

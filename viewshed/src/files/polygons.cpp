@@ -8,7 +8,9 @@
 #include <itin/raster_regions.hpp>
 #include <viewshed/viewshed.hpp>
 
+#include "files/verdict_classes.hpp"
 #include "line/verdicts.hpp"
+#include "modes/feature_names.hpp"
 #include "turbines/value_bands.hpp"
 
 namespace itin::viewshed {
@@ -17,18 +19,10 @@ namespace {
 
 using RegionClasses = std::vector<RegionClass>;
 
-RegionClasses region_classes_of_verdicts(bool certified) {
-  const std::string certainly = certified ? "certainly " : "";
-  return {{code_of(Verdict::kVisible), certainly + "visible"},
-          {code_of(Verdict::kHidden), certainly + "hidden"},
-          {code_of(Verdict::kUndecided), "undecided"}};
-}
-
-RegionClasses region_classes_of_zones() {
-  return {{code_of(Verdict::kVisible), "in sight, zone clear"},
-          {code_of(Verdict::kZoneCut), "in sight, zone cut"},
-          {code_of(Verdict::kHidden), "hidden"},
-          {code_of(Verdict::kUndecided), "undecided"}};
+RegionClasses regions_of_verdicts(const Result& result) {
+  RegionClasses classes;
+  for (const RasterClass& c : verdict_classes(result)) classes.push_back({static_cast<std::uint32_t>(c.value), c.name});
+  return classes;
 }
 
 RegionClasses classes_of_counts(const Result& result) {
@@ -54,13 +48,8 @@ RegionClasses classes_of_observers(const Result& result) {
 RegionClasses classes_of_blockers(const Result& result) {
   const std::set<std::uint32_t> themes(result.blocker_theme.begin(), result.blocker_theme.end());
   RegionClasses classes;
-  for (const std::uint32_t theme : themes) {
-    if (theme == kNoBlocker) continue;
-    classes.push_back({theme, theme == 0                           ? std::string("terrain")
-                              : theme == kMissingGround            ? std::string("no data")
-                              : theme <= result.theme_names.size() ? result.theme_names[theme - 1]
-                                                                   : fmt::format("theme {}", theme)});
-  }
+  for (const std::uint32_t theme : themes)
+    if (theme != kNoBlocker) classes.push_back({theme, blocker_name(result, theme)});
   return classes;
 }
 
@@ -97,14 +86,13 @@ void write_polygons(const std::string& path, const Result& result, const std::st
     case Mode::kBlocker:
       return write(result.blocker_theme, classes_of_blockers(result));
     case Mode::kFresnel:
-      return write(codes_of(result.visible), region_classes_of_zones());
     case Mode::kVisible:
     case Mode::kWhich:
     case Mode::kAngle:
     case Mode::kHeight:
     case Mode::kProbability:
     case Mode::kLoss:
-      return write(codes_of(result.visible), region_classes_of_verdicts(result.certified));
+      return write(codes_of(result.visible), regions_of_verdicts(result));
   }
 }
 

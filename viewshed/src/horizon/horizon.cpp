@@ -24,6 +24,7 @@
 #include "progress/stage.hpp"
 #include "request/eye.hpp"
 #include "request/request.hpp"
+#include "request/request_window.hpp"
 #include "window/retrieval.hpp"
 
 namespace itin::viewshed {

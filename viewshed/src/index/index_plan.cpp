@@ -6,7 +6,6 @@
 
 #include <itin/error.hpp>
 #include <itin/level_choice.hpp>
-#include <viewshed/site_proposal.hpp>
 
 #include "plan/partition.hpp"
 
@@ -65,7 +64,7 @@ class IndexPlan {
     for (std::size_t i = 0; i < cells.count(); ++i) {
       const RasterGrid::Cell cell = cells.cell(i);
       const Point2 centre = grid_.centre(cell.column, cell.row);
-      if (lies_in(request_.area, centre)) box.extend(centre);
+      if (request_.area.contains(centre)) box.extend(centre);
     }
     return box;
   }

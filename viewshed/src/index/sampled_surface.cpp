@@ -1,10 +1,9 @@
 #include "index/sampled_surface.hpp"
 
-#include <bit>
-
 #include <itin/grazing.hpp>
 
 #include "bounds/boundary.hpp"
+#include "line/set_bits.hpp"
 #include "line/sight_line.hpp"
 
 namespace itin::viewshed {
@@ -43,11 +42,10 @@ std::vector<RimEdge> SampledSurface::rim() const {
 
 unsigned SampledSurface::hidden(const SightLines& lines, Work& work) const {
   unsigned result = rays_ ? rays_->hidden(lines, work.occluder) : 0;
-  for (unsigned open = lines.active & ~result; open != 0; open &= open - 1) {
-    const auto i = static_cast<unsigned>(std::countr_zero(open));
+  for_each_bit(lines.active & ~result, [&](unsigned i) {
     if (hidden({lines.from_x[i], lines.from_y[i], lines.from_z[i]}, {lines.to_x[i], lines.to_y[i], lines.to_z[i]}))
       result |= 1U << i;
-  }
+  });
   return result;
 }
 

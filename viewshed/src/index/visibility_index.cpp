@@ -6,13 +6,10 @@
 #include <utility>
 #include <vector>
 
-#include <fmt/format.h>
-
 #include <itin/call_progress.hpp>
 #include <itin/error.hpp>
 #include <itin/silent_progress.hpp>
 #include <itin/triangulate.hpp>
-#include <viewshed/site_proposal.hpp>
 #include <viewshed/surface.hpp>
 #include <viewshed/visibility_index.hpp>
 
@@ -20,7 +17,6 @@
 #include "index/sampled_surface.hpp"
 #include "index/visibility_sampler.hpp"
 #include "progress/stage.hpp"
-#include "request/request.hpp"
 
 namespace itin::viewshed {
 
@@ -122,7 +118,7 @@ class IndexWork {
 
   void sample(const VisibilitySampler& sampler, RasterGrid::Cell cell) {
     const Point2 place = index_.grid.centre(cell.column, cell.row);
-    const auto height = lies_in(request_.area, place) ? sampler.ground(place) : std::nullopt;
+    const auto height = request_.area.contains(place) ? sampler.ground(place) : std::nullopt;
     if (!height) return;
     any_eye_ = true;
     const GridPoint seed = store_.metadata().grid.quantise({place.x, place.y, 0});
@@ -173,26 +169,6 @@ class IndexWork {
 VisibilityIndex visibility_index(const Store& store, const IndexRequest& request, Progress& progress) {
   require_valid_index(request);
   return IndexWork(store, request, progress).run();
-}
-
-void write_geotiff(const std::string& path, const VisibilityIndex& index, const IndexRequest& request,
-                   const GeotiffOptions& options) {
-  std::vector<float> values = index.share;
-  values.insert(values.end(), index.standard_error.begin(), index.standard_error.end());
-  RasterDescription description;
-  description.crs_wkt = options.crs_wkt;
-  description.nodata = std::numeric_limits<double>::quiet_NaN();
-  description.band_name = "share of the ground within the radius that is seen";
-  description.further_bands = {"standard error of the share"};
-  description.metadata = {{"radius_m", fmt::format("{:g}", request.radius)},
-                          {"observer_height_m", fmt::format("{:g}", request.height)},
-                          {"target_height_m", fmt::format("{:g}", request.target_height)},
-                          {"targets", fmt::format("{}", request.targets)},
-                          {"nodata_rule", nodata_text(request.nodata)},
-                          {"refraction", request.earth.convention()}};
-  description.metadata.insert(description.metadata.end(), options.metadata.begin(), options.metadata.end());
-  description.overwrite = options.overwrite;
-  write_raster(path, index.grid, values, description);
 }
 
 }  // namespace itin::viewshed

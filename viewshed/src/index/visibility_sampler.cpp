@@ -11,6 +11,7 @@
 #include <itin/same_place.hpp>
 
 #include "bounds/boundary.hpp"
+#include "line/set_bits.hpp"
 #include "request/void_shadow.hpp"
 
 namespace itin::viewshed {
@@ -93,17 +94,14 @@ VisibilitySampler::Tally VisibilitySampler::observe(Point2 eye, double elevation
       if (!same_place(lines.to_x[i] - from.x, lines.to_y[i] - from.y)) lines.active |= 1U << i;
     }
     unsigned hidden = surface_.hidden(packet.lines, work);
-    for (unsigned open = packet.lines.active & ~hidden; open != 0; open &= open - 1) {
-      const auto i = static_cast<unsigned>(std::countr_zero(open));
+    for_each_bit(packet.lines.active & ~hidden, [&](unsigned i) {
       if (behind_voids.holds(packet.lines.to_x[i], packet.lines.to_y[i])) hidden |= 1U << i;
-    }
+    });
     tally.asked += size;
     tally.on_ground += static_cast<unsigned>(std::popcount(packet.on_ground));
     tally.seen += static_cast<unsigned>(std::popcount(packet.on_ground & ~hidden));
-    for (unsigned rest = on_target ? packet.on_ground : 0; rest != 0; rest &= rest - 1) {
-      const auto i = static_cast<unsigned>(std::countr_zero(rest));
-      on_target(packet.targets[i], (hidden >> i & 1) == 0);
-    }
+    if (on_target)
+      for_each_bit(packet.on_ground, [&](unsigned i) { on_target(packet.targets[i], (hidden >> i & 1) == 0); });
   }
   return tally;
 }

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "request/request.hpp"
-
 namespace itin::viewshed {
 
 BoundedEnvelope::BoundedEnvelope(Envelope envelope, const RasterGrid& tiles, const TargetRises& rises)
@@ -21,7 +19,7 @@ void BoundedEnvelope::bound(const Box& box) {
 void BoundedEnvelope::bound_for(const Eye& eye) {
   const Box ground = envelope_.lower.bounds();
   const double reach = eye.view.farthest();
-  bound(std::isfinite(reach) ? intersection(disc_box(eye.position, reach), ground) : ground);
+  bound(std::isfinite(reach) ? intersection(square_about(eye.position, reach), ground) : ground);
 }
 
 }  // namespace itin::viewshed

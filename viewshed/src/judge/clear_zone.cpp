@@ -1,16 +1,13 @@
 #include "judge/clear_zone.hpp"
 
 #include <algorithm>
-#include <array>
-#include <bit>
 #include <cmath>
-#include <limits>
-#include <utility>
 #include <vector>
 
 #include <itin/grazing.hpp>
 
 #include "line/infinity.hpp"
+#include "line/set_bits.hpp"
 
 namespace itin::viewshed {
 
@@ -96,8 +93,7 @@ unsigned ClearZone::cut(const Bounded& surface, const SightLines& lines) const {
   LoweredLines bundle;
   bundle.margin = grazing;
   bundle.end = kInfinity;
-  for (unsigned rest = lines.active; rest != 0; rest &= rest - 1) {
-    const auto i = static_cast<unsigned>(std::countr_zero(rest));
+  for_each_bit(lines.active, [&](unsigned i) {
     // From the target: what cuts the zone is most often near it.
     const SightLine line({lines.to_x[i], lines.to_y[i], lines.to_z[i]},
                          {lines.from_x[i], lines.from_y[i], lines.from_z[i]}, drop_, grazing);
@@ -106,20 +102,18 @@ unsigned ClearZone::cut(const Bounded& surface, const SightLines& lines) const {
     bundle.add(line);
     bundle.end = std::min(bundle.end, line.to_z());
     bundle.depth = std::max(bundle.depth, tests.back().depth());
-  }
+  });
   unsigned result = 0;
-  // Most triangles lie in several bins.
-  std::array<std::uint32_t, 256> before;
-  before.fill(std::numeric_limits<std::uint32_t>::max());
+  RecentTriangles recent;
   surface.pyramid.search(bundle, [&](std::uint32_t t) {
-    if (std::exchange(before[t % before.size()], t) == t) return;
+    if (recent.seen(t)) return;
     const Triangle& triangle = tin.triangles[t];
     const GridPoint &a = tin.vertices[triangle[0]], &b = tin.vertices[triangle[1]], &c = tin.vertices[triangle[2]];
     std::size_t n = 0;
-    for (unsigned rest = lines.active; rest != 0; rest &= rest - 1, ++n) {
-      const unsigned bit = rest & -rest;
-      if ((result & bit) == 0 && tests[n].cut_by(a, b, c)) result |= bit;
-    }
+    for_each_bit(lines.active, [&](unsigned i) {
+      const ZoneTest& test = tests[n++];
+      if ((result >> i & 1) == 0 && test.cut_by(a, b, c)) result |= 1U << i;
+    });
     if (result == lines.active) bundle.reach = -1;
   });
   return result;

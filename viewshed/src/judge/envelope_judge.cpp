@@ -9,9 +9,11 @@
 #include <itin/grazing.hpp>
 #include <itin/parallel.hpp>
 
+#include "bounds/cell_blocks.hpp"
 #include "bounds/surface_heights.hpp"
 #include "judge/bounded_target.hpp"
 #include "line/infinity.hpp"
+#include "line/set_bits.hpp"
 
 namespace itin::viewshed {
 
@@ -73,11 +75,6 @@ class EnvelopeJudge::TileWork final : public TileJudge::Work {
   }
 
  private:
-  /// Cells of the tile: rows and columns from the first to the last.
-  struct Block {
-    std::size_t row0, row1, column0, column1;
-  };
-
   /// On this ground, grid units. The arithmetic of plain viewsheds, to the last bit.
   double target(double ground) const { return view_->eye.target(ground * resolution_) * metre_; }
 
@@ -86,52 +83,49 @@ class EnvelopeJudge::TileWork final : public TileJudge::Work {
   void hide_quarters(std::size_t row, std::size_t column, std::size_t side, TileValues<Verdict>& values) {
     SightLines lines;
     lines.start_at(view_->eye.units);
-    std::array<Block, 4> blocks{};
+    std::array<CellBlock, 4> blocks{};
     for (unsigned q = 0; q < 4; ++q) {
       const std::size_t r = row + q / 2 * side, c = column + q % 2 * side;
       if (r >= rows_ || c >= columns_) continue;
       blocks[q] = {r, std::min(r + side, rows_), c, std::min(c + side, columns_)};
-      aim_at_corners({r, blocks[q].row1 - 1, c, blocks[q].column1 - 1}, 4 * q, lines);
+      aim_at_corners(blocks[q], 4 * q, lines);
     }
     const unsigned hidden = lines.active == 0 ? 0 : scene_.lower.hidden_together(lines, occluder_);
     lines_ += static_cast<unsigned>(std::popcount(lines.active));
     for (unsigned q = 0; q < 4; ++q) {
-      const Block& block = blocks[q];
-      if (block.row1 == 0) continue;
+      const CellBlock& block = blocks[q];
+      if (block.row_end == 0) continue;
       if ((hidden >> q & 1) != 0) {
         hide(block, values);
       } else if (side > kBlockSide) {
-        hide_quarters(block.row0, block.column0, side / 2, values);
+        hide_quarters(block.row, block.column, side / 2, values);
       }
     }
   }
 
-  void hide(const Block& block, TileValues<Verdict>& values) const {
-    for (std::size_t r = block.row0; r < block.row1; ++r) {
-      for (std::size_t c = block.column0; c < block.column1; ++c) {
-        const std::size_t cell = r * Tile::kSide + c;
-        if (values[cell] == Verdict::kUndecided)
-          values[cell] = std::isnan(low_[cell]) ? Verdict::kOutside : Verdict::kHidden;
-      }
-    }
+  void hide(const CellBlock& block, TileValues<Verdict>& values) const {
+    for_each_cell(block, [&](std::size_t cell) {
+      if (values[cell] == Verdict::kUndecided)
+        values[cell] = std::isnan(low_[cell]) ? Verdict::kOutside : Verdict::kHidden;
+    });
   }
 
-  double highest_of(const Block& block) const {
+  double highest_of(const CellBlock& block) const {
     double highest = -kInfinity;
-    for (std::size_t r = block.row0 / kBlockSide; r <= block.row1 / kBlockSide; ++r)
-      for (std::size_t c = block.column0 / kBlockSide; c <= block.column1 / kBlockSide; ++c)
+    for (std::size_t r = block.row / kBlockSide; r <= (block.row_end - 1) / kBlockSide; ++r)
+      for (std::size_t c = block.column / kBlockSide; c <= (block.column_end - 1) / kBlockSide; ++c)
         highest = std::max(highest, highest_[r * kBlocks + c]);
     return highest;
   }
 
   /// Aims four lines, the first of them number `first`, at the corners of a flat piece above all targets of the block;
   /// not where that cannot hide it as a whole.
-  void aim_at_corners(const Block& block, unsigned first, SightLines& lines) const {
+  void aim_at_corners(const CellBlock& block, unsigned first, SightLines& lines) const {
     const Eye& eye = view_->eye;
     const double highest = highest_of(block);
     if (!std::isfinite(highest)) return;
-    const double west = centres_.x[block.column0], east = centres_.x[block.column1];
-    const double north = centres_.y[block.row0], south = centres_.y[block.row1];
+    const double west = centres_.x[block.column], east = centres_.x[block.column_end - 1];
+    const double north = centres_.y[block.row], south = centres_.y[block.row_end - 1];
     const auto squared = [&](double x, double y) {
       return (x - eye.units.x) * (x - eye.units.x) + (y - eye.units.y) * (y - eye.units.y);
     };
@@ -163,8 +157,8 @@ class EnvelopeJudge::TileWork final : public TileJudge::Work {
     if (packet.low.active == 0) return;
     const EnvelopeScene::Decided decided = scene_.decide(packet, occluder_);
     lines_ += decided.lines;
-    for_each_line(decided.visible, [&](unsigned i) { values[cell_of(i)] = Verdict::kVisible; });
-    for_each_line(decided.hidden, [&](unsigned i) { values[cell_of(i)] = Verdict::kHidden; });
+    for_each_bit(decided.visible, [&](unsigned i) { values[cell_of(i)] = Verdict::kVisible; });
+    for_each_bit(decided.hidden, [&](unsigned i) { values[cell_of(i)] = Verdict::kHidden; });
     if (packet.low.active != 0 && judge_.on_undecided_) judge_.on_undecided_(number_, packet);
   }
 

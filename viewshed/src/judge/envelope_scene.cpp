@@ -7,9 +7,9 @@
 
 #include <viewshed/viewshed.hpp>
 
+#include "bounds/boundary.hpp"
 #include "bounds/surface_heights.hpp"
 #include "line/infinity.hpp"
-#include "request/request.hpp"
 
 namespace itin::viewshed {
 

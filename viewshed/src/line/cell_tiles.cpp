@@ -19,6 +19,17 @@ Tile tile_at(const RasterGrid& cells, const RasterGrid& tiles, std::size_t index
   return {column, row, std::min(Tile::kSide, cells.columns() - column), std::min(Tile::kSide, cells.rows() - row)};
 }
 
+CellRectangle cells_meeting(const RasterGrid& grid, const Box& box) {
+  const auto at = [](double v, std::int64_t count) {
+    return static_cast<std::int64_t>(std::clamp(v, 0.0, static_cast<double>(count)));
+  };
+  const std::int64_t west = at(std::floor(grid.column_at(box.xmin)), grid.columns()),
+                     east = at(std::ceil(grid.column_at(box.xmax)), grid.columns()),
+                     north = at(std::floor(grid.row_at(box.ymax)), grid.rows()),
+                     south = at(std::ceil(grid.row_at(box.ymin)), grid.rows());
+  return {west, north, east - west, south - north};
+}
+
 RasterGrid::Cell place_of(const RasterGrid& grid, std::size_t index) {
   const auto number = static_cast<std::int64_t>(index);
   return {number % grid.columns(), number / grid.columns()};

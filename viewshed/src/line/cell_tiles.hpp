@@ -58,6 +58,10 @@ inline CellRectangle all_cells(const RasterGrid& grid) {
   return {0, 0, grid.columns(), grid.rows()};
 }
 
+/// The cells that the inside of a box meets: those that it only touches are left out. No columns or no rows where it
+/// lies beside the grid.
+CellRectangle cells_meeting(const RasterGrid& grid, const Box& box);
+
 /// The inverse of RasterGrid::index().
 RasterGrid::Cell place_of(const RasterGrid& grid, std::size_t index);
 

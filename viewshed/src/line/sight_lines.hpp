@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <bit>
 
 #include <itin/geometry.hpp>
 
@@ -22,12 +21,6 @@ struct SightLines {
     from_z.fill(eye.z);
   }
 };
-
-/// Calls visit(i) for each line whose bit is set.
-template <class Visit>
-void for_each_line(unsigned bits, const Visit& visit) {
-  for (; bits != 0; bits &= bits - 1) visit(static_cast<unsigned>(std::countr_zero(bits)));
-}
 
 /// Packets are four by four cells: the closer together, the fewer boxes of a scene they meet.
 inline constexpr unsigned kPacketSide = 4;

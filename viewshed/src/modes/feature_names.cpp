@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include <itin/feature_at.hpp>
 
 namespace itin::viewshed {
@@ -47,6 +49,12 @@ void name_features(const Store& store, Result& result) {
   result.theme_names.clear();
   for (const ThemeInfo& theme : store.metadata().themes) result.theme_names.push_back(theme.name);
   if (result.request.mode == Mode::kBlocker) find_blocking_features(store, result);
+}
+
+std::string blocker_name(const Result& result, std::uint32_t theme) {
+  if (theme == 0) return "terrain";
+  if (theme == kMissingGround) return "no data";
+  return theme <= result.theme_names.size() ? result.theme_names[theme - 1] : fmt::format("theme {}", theme);
 }
 
 }  // namespace itin::viewshed

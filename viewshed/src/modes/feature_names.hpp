@@ -1,6 +1,9 @@
 // The themes and features of a viewshed over a store.
 #pragma once
 
+#include <cstdint>
+#include <string>
+
 #include <itin/store.hpp>
 #include <viewshed/viewshed.hpp>
 
@@ -9,5 +12,8 @@ namespace itin::viewshed {
 /// Takes names from the store that the result was made of: those of its themes, and the features that its blockers are
 /// part of.
 void name_features(const Store& store, Result& result);
+
+/// The name of a value of the result's `blocker_theme`, which is not kNoBlocker.
+std::string blocker_name(const Result& result, std::uint32_t theme);
 
 }  // namespace itin::viewshed

@@ -1,7 +1,6 @@
 #include "modes/surface_pieces.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 #include <itin/grid_units.hpp>
@@ -79,11 +78,9 @@ void SurfacePieces::search(const SectionLine& line, std::vector<Piece>& pieces) 
   const Point2 from = place_in_units(tin_.grid, line.start()), to = place_in_units(tin_.grid, line.end());
   LineBundle bundle(SightLine({from.x, from.y, 0}, {to.x, to.y, 0}, 0, 0));
   bundle.margin = kInfinity;  // however far below
-  // Most triangles lie in several bins.
-  std::array<std::uint32_t, 256> before;
-  before.fill(std::numeric_limits<std::uint32_t>::max());
+  RecentTriangles recent;
   pyramid_.search(bundle, [&](std::uint32_t t) {
-    if (std::exchange(before[t % before.size()], t) == t) return;
+    if (recent.seen(t)) return;
     if (const auto chord = line.chord(tin_.corners(t))) add_piece(line, chord->from, chord->to, pieces);
   });
   std::sort(pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) {

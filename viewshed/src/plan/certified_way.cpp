@@ -5,6 +5,7 @@
 #include <viewshed/surface.hpp>
 
 #include "request/request.hpp"
+#include "request/request_window.hpp"
 
 namespace itin::viewshed {
 

@@ -8,7 +8,6 @@
 #include <itin/parallel.hpp>
 
 #include "line/cell_tiles.hpp"
-#include "request/request.hpp"
 
 namespace itin::viewshed {
 
@@ -131,7 +130,7 @@ Window GroundTiles::window(const TileSet& tiles) const {
       while (row < grid_.rows() && tiles.contains(grid_.index({column, row}))) ++row;
       Box b = box_of_cell(grid_, {column, first});
       b.extend(box_of_cell(grid_, {column, row - 1}));
-      parts.push_back(rectangle(b));
+      parts.push_back(Window::rectangle(b));
     }
   }
   return Window::polygons(std::move(parts));

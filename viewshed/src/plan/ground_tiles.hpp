@@ -9,6 +9,8 @@
 #include <itin/store.hpp>
 #include <itin/window.hpp>
 
+#include "line/set_bits.hpp"
+
 namespace itin::viewshed {
 
 class TileSet {
@@ -21,10 +23,7 @@ class TileSet {
   TileSet& operator&=(const TileSet& other);
   template <class Visit>
   void for_each(const Visit& visit) const {
-    for (std::size_t w = 0; w < words_.size(); ++w) {
-      for (std::uint64_t rest = words_[w]; rest != 0; rest &= rest - 1)
-        visit(64 * w + static_cast<std::size_t>(__builtin_ctzll(rest)));
-    }
+    for (std::size_t w = 0; w < words_.size(); ++w) for_each_bit(words_[w], [&](unsigned bit) { visit(64 * w + bit); });
   }
 
  private:

@@ -55,7 +55,7 @@ std::uint64_t points_about(const Store& store, const Detail& detail, const Box& 
   std::uint64_t points = store.points_about(level_within(metadata, detail.coarsest()), box);
   for (std::size_t i = 0; i + 1 < detail.rings().size(); ++i) {
     const Ring& ring = detail.rings()[i];
-    const Box finer = intersection(disc_box(detail.centre(), ring.radius), box);
+    const Box finer = intersection(square_about(detail.centre(), ring.radius), box);
     if (!finer.empty()) points += store.points_about(level_within(metadata, ring.tolerance), finer);
   }
   return points;

@@ -16,6 +16,7 @@
 #include "plan/plan_id.hpp"
 #include "plan/point_counts.hpp"
 #include "request/request.hpp"
+#include "request/request_window.hpp"
 
 namespace itin::viewshed {
 
@@ -34,7 +35,7 @@ class SurfacePoints {
     std::uint64_t points = coarsest_.within(window);
     for (std::size_t i = 0; i + 1 < detail_.rings().size(); ++i) {
       const Ring& ring = detail_.rings()[i];
-      const Box box = intersection(disc_box(detail_.centre(), ring.radius), window.bounds());
+      const Box box = intersection(square_about(detail_.centre(), ring.radius), window.bounds());
       if (!box.empty()) points += store_.points_about(level_within(store_.metadata(), ring.tolerance), box);
     }
     return points;

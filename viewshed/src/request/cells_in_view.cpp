@@ -15,7 +15,7 @@ Box box_of_radii(const Request& request) {
   for (const Observer& observer : request.observers) {
     const std::optional<double> radius = radius_of(request, observer);
     if (!radius) return {};
-    box.extend(disc_box(observer.position, *radius));
+    box.extend(square_about(observer.position, *radius));
   }
   return box;
 }

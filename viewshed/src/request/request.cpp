@@ -1,17 +1,12 @@
 #include "request/request.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <map>
 
 #include <fmt/format.h>
 
 #include <itin/error.hpp>
-#include <viewshed/surface.hpp>
 
-#include "line/hulls.hpp"
-#include "line/infinity.hpp"
 #include "request/eye.hpp"
 
 namespace itin::viewshed {
@@ -140,11 +135,6 @@ void validate_radio(const Request& request) {
                                  radio.effective_earth_km, effective_earth_km(request.earth)));
 }
 
-bool all_bounded(const Request& request) {
-  return std::all_of(request.observers.begin(), request.observers.end(),
-                     [&](const Observer& o) { return radius_of(request, o).has_value(); });
-}
-
 }  // namespace
 
 bool casts_rays(const Request& request) {
@@ -172,6 +162,11 @@ std::vector<Point2> positions_of(const Request& request) {
 
 std::optional<double> radius_of(const Request& request, const Observer& observer) {
   return observer.radius ? observer.radius : request.radius;
+}
+
+bool all_bounded(const Request& request) {
+  return std::all_of(request.observers.begin(), request.observers.end(),
+                     [&](const Observer& o) { return radius_of(request, o).has_value(); });
 }
 
 void validate(const Request& request) {
@@ -210,7 +205,7 @@ RasterGrid cells_of(const Request& request, const Box& extent) {
   if (all_bounded(request)) {
     area = {};
     for (const Observer& observer : request.observers)
-      area.extend(intersection(disc_box(observer.position, *radius_of(request, observer)), extent));
+      area.extend(intersection(square_about(observer.position, *radius_of(request, observer)), extent));
   }
   if (area.empty()) throw InputError("no observer's radius reaches any data");
   const double size = request.cell_size ? *request.cell_size : default_cell_size(area);
@@ -227,98 +222,6 @@ std::string nodata_text(NoData rule) {
       return "clear";
   }
   return {};
-}
-
-Window::Polygon rectangle(const Box& b) {
-  return {{{b.xmin, b.ymin}, {b.xmax, b.ymin}, {b.xmax, b.ymax}, {b.xmin, b.ymax}}, {}};
-}
-
-Box intersection(const Box& a, const Box& b) {
-  return {std::max(a.xmin, b.xmin), std::max(a.ymin, b.ymin), std::min(a.xmax, b.xmax), std::min(a.ymax, b.ymax)};
-}
-
-Box disc_box(Point2 centre, double radius) {
-  return {centre.x - radius, centre.y - radius, centre.x + radius, centre.y + radius};
-}
-
-std::vector<Point2> hull_about(Point2 observer, const Box& box) {
-  // The hull has an area even where the box is empty.
-  constexpr double kMetre = 1;
-  std::vector<Point2> corners;
-  add_corners(disc_box(observer, kMetre), corners);
-  if (!box.empty()) add_corners(box, corners);
-  return hull_of(std::move(corners));
-}
-
-namespace {
-
-/// The part of the window that one observer needs.
-Window::Polygon part_of(const Request& request, const Observer& observer) {
-  const std::optional<double> radius = radius_of(request, observer);
-  if (!request.grid) return Window::disc(observer.position, *radius).parts().front();
-  const Box cells = request.grid->bounds();
-  return {hull_about(observer.position, radius ? intersection(cells, disc_box(observer.position, *radius)) : cells),
-          {}};
-}
-
-/// From so many observers on, those that stand within half a radius of each other share a part of the window.
-constexpr std::size_t kCrowd = 256;
-
-/// Observers of about the same radius in the same square of a grid, whose side is about half of it.
-std::map<std::array<double, 3>, std::vector<const Observer*>> crowds_of(const Request& request) {
-  std::map<std::array<double, 3>, std::vector<const Observer*>> crowds;
-  for (const Observer& observer : request.observers) {
-    const std::optional<double> radius = radius_of(request, observer);
-    const double side = radius ? std::exp2(std::floor(std::log2(*radius)) - 1) : 0;
-    const auto square = [&](double v) { return radius ? std::floor(v / side) : 0; };
-    crowds[{side, square(observer.position.x), square(observer.position.y)}].push_back(&observer);
-  }
-  return crowds;
-}
-
-}  // namespace
-
-Window window_of(const Request& request) {
-  if (!all_bounded(request) && !request.grid) return Window::all();
-  std::vector<Window::Polygon> parts;
-  if (request.observers.size() < kCrowd) {
-    for (const Observer& observer : request.observers) parts.push_back(part_of(request, observer));
-    return Window::polygons(std::move(parts));
-  }
-  for (const auto& [square, crowd] : crowds_of(request)) {
-    if (crowd.size() == 1) {
-      parts.push_back(part_of(request, *crowd.front()));
-      continue;
-    }
-    Box box;
-    for (const Observer* const observer : crowd)
-      for (const Point2& corner : part_of(request, *observer).outer) box.extend(corner);
-    parts.push_back(rectangle(box));
-  }
-  return Window::polygons(std::move(parts));
-}
-
-Box area_under(const Store& store, const Request& request) {
-  const Window window = window_of(request);
-  const Box all = extent_of(store);
-  return window.is_all() ? all : intersection(window.bounds(), all);
-}
-
-Box box_of_window(const Store& store, const Request& request) {
-  const Box within = area_under(store, request);
-  // An observer outside the data is told so later on.
-  return within.empty() ? window_of(request).bounds() : within;
-}
-
-void find_voids(const Grid& units, const std::vector<RimEdge>& rim, Result& result) {
-  for (const Observer& observer : result.request.observers) {
-    const double reach = radius_of(result.request, observer).value_or(kInfinity);
-    result.crosses_voids = result.crosses_voids || surface_resumes(units, rim, observer.position, reach,
-                                                                   hull_about(observer.position, result.grid.bounds()));
-  }
-  const Request& request = result.request;
-  if (result.crosses_voids && request.nodata == NoData::kUnknown && !leaves_open(request))
-    result.warnings.emplace_back(kVoidsWarning);
 }
 
 }  // namespace itin::viewshed

@@ -5,15 +5,9 @@
 #include <vector>
 
 #include <itin/store.hpp>
-#include <itin/window.hpp>
 #include <viewshed/viewshed.hpp>
 
-#include "bounds/boundary.hpp"
-
 namespace itin::viewshed {
-
-inline constexpr const char* kVoidsWarning =
-    "sight lines may cross ground without data, which counts as clear; give nodata block or clear to choose";
 
 /// In height mode no target stands higher above the eye, metres; ground that hides it there hides everything.
 inline constexpr double kSky = 1e7;
@@ -40,6 +34,8 @@ std::vector<Point2> positions_of(const Request& request);
 
 /// How far the observer looks; nothing: as far as there is ground.
 std::optional<double> radius_of(const Request& request, const Observer& observer);
+/// Whether every observer has a radius.
+bool all_bounded(const Request& request);
 
 /// Whether the angles between which an observer looks have bounds.
 bool bounds_elevations(const Request& request);
@@ -51,26 +47,5 @@ RasterGrid cells_of(const Request& request, const Box& extent);
 
 /// As options and metadata have it.
 std::string nodata_text(NoData rule);
-
-Box intersection(const Box& a, const Box& b);
-/// As a part of a window; unlike Window::box(), also of one without area.
-Window::Polygon rectangle(const Box& box);
-/// About a disc, metres.
-Box disc_box(Point2 centre, double radius);
-
-/// Holds the sight lines from an observer to places in the box, which may be empty. Convex, counterclockwise.
-std::vector<Point2> hull_about(Point2 observer, const Box& box);
-
-/// The region that holds every sight line of the request: a convex one about each observer, or about observers that
-/// stand close together.
-Window window_of(const Request& request);
-/// The part of the data that these lines lie over; empty where they lie over none.
-Box area_under(const Store& store, const Request& request);
-/// About all that the window may hold of the store.
-Box box_of_window(const Store& store, const Request& request);
-
-/// Whether sight lines of the result's request may cross ground without data, with a warning where neither the request
-/// nor its answer says what becomes of them. `rim` is where the surface ends, in these units.
-void find_voids(const Grid& units, const std::vector<RimEdge>& rim, Result& result);
 
 }  // namespace itin::viewshed

@@ -6,7 +6,10 @@
 
 #include <itin/same_place.hpp>
 
+#include "bounds/boundary.hpp"
+#include "line/infinity.hpp"
 #include "request/request.hpp"
+#include "request/request_window.hpp"
 
 namespace itin::viewshed {
 
@@ -113,6 +116,17 @@ std::shared_ptr<const VoidShadow> shadow_of(const Eye& eye, const std::vector<Ri
   const NoData rule = missing_ground_rule(result.request);
   if (rule == NoData::kClear || !result.crosses_voids) return nullptr;
   return std::make_shared<const VoidShadow>(rim, eye.units, rule);
+}
+
+void find_voids(const Grid& units, const std::vector<RimEdge>& rim, Result& result) {
+  for (const Observer& observer : result.request.observers) {
+    const double reach = radius_of(result.request, observer).value_or(kInfinity);
+    result.crosses_voids = result.crosses_voids || surface_resumes(units, rim, observer.position, reach,
+                                                                   hull_about(observer.position, result.grid.bounds()));
+  }
+  const Request& request = result.request;
+  if (result.crosses_voids && request.nodata == NoData::kUnknown && !leaves_open(request))
+    result.warnings.emplace_back(kVoidsWarning);
 }
 
 }  // namespace itin::viewshed

@@ -18,6 +18,9 @@
 
 namespace itin::viewshed {
 
+inline constexpr const char* kVoidsWarning =
+    "sight lines may cross ground without data, which counts as clear; give nodata block or clear to choose";
+
 /// The rule for lines that cross ground without data and come back: the request's own, but kClear in place of kUnknown
 /// in modes that leave nothing open (leaves_open()).
 NoData missing_ground_rule(const Request& request);
@@ -65,5 +68,9 @@ class VoidShadow {
 /// Holds what ground without data, beyond this rim, hides from the eye or leaves undecided; null where that changes
 /// nothing in the result.
 std::shared_ptr<const VoidShadow> shadow_of(const Eye& eye, const std::vector<RimEdge>& rim, const Result& result);
+
+/// Whether sight lines of the result's request may cross ground without data, with a warning where neither the request
+/// nor its answer says what becomes of them. `rim` is where the surface ends, in these units.
+void find_voids(const Grid& units, const std::vector<RimEdge>& rim, Result& result);
 
 }  // namespace itin::viewshed

@@ -11,6 +11,7 @@
 #include <itin/lattice_tin.hpp>
 
 #include "line/infinity.hpp"
+#include "line/set_bits.hpp"
 #include "request/cells_in_view.hpp"
 
 namespace itin::viewshed {
@@ -120,8 +121,8 @@ void FullSurface::cast_rays_to_targets(const Eye& eye, TileWork& work) const {
       }
       if (lines.active == 0) continue;
       const unsigned hidden = rays_->hidden(lines, work.rays);
-      for_each_line(lines.active,
-                    [&](unsigned i) { work.seen[cells[i]] = (hidden >> i & 1) != 0 ? kNoSurface : eye.units.z; });
+      for_each_bit(lines.active,
+                   [&](unsigned i) { work.seen[cells[i]] = (hidden >> i & 1) != 0 ? kNoSurface : eye.units.z; });
     }
   }
 }

@@ -1,14 +1,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include <itin/earth.hpp>
 #include <itin/parallel.hpp>
 #include <viewshed/link_exclusion.hpp>
 
 namespace itin::viewshed {
 
 double second_fresnel_radius_m(double d1, double d2, double frequency_ghz) {
-  const double wavelength = 0.299792458 / frequency_ghz;
-  return d1 + d2 > 0 ? std::sqrt(2 * wavelength * d1 * d2 / (d1 + d2)) : 0;
+  return d1 + d2 > 0 ? std::sqrt(2 * wavelength_m(frequency_ghz) * d1 * d2 / (d1 + d2)) : 0;
 }
 
 double link_clearance_m(const RadioLink& link, Point2 turbine, double frequency_ghz, double rotor_radius_m) {

@@ -15,7 +15,6 @@
 #include "line/cell_tiles.hpp"
 #include "line/infinity.hpp"
 #include "progress/stage.hpp"
-#include "request/request.hpp"
 #include "turbines/zone_request.hpp"
 #include "window/envelope.hpp"
 

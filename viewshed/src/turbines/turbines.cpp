@@ -14,6 +14,7 @@
 #include "progress/stage.hpp"
 #include "progress/stopwatch.hpp"
 #include "request/request.hpp"
+#include "request/request_window.hpp"
 #include "request/void_shadow.hpp"
 #include "scene/full_surface.hpp"
 #include "scene/sweep/radial_sweep.hpp"
@@ -43,7 +44,8 @@ void warn_of_voids(const Tin& tin, Zone& zone) {
   if (zone.request.nodata != NoData::kUnknown) return;
   const std::vector<RimEdge> rim = rim_of(tin, boundary_edges(tin));
   const bool crossed = std::any_of(zone.request.turbines.begin(), zone.request.turbines.end(), [&](const Turbine& t) {
-    return surface_resumes(tin.grid, rim, t.position, t.radius, hull_about(t.position, disc_box(t.position, t.radius)));
+    return surface_resumes(tin.grid, rim, t.position, t.radius,
+                           hull_about(t.position, square_about(t.position, t.radius)));
   });
   if (crossed) zone.warnings.emplace_back(kVoidsWarning);
 }

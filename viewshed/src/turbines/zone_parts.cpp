@@ -20,7 +20,6 @@
 #include "plan/azimuth_order.hpp"
 #include "plan/partition.hpp"
 #include "plan/point_counts.hpp"
-#include "request/request.hpp"
 
 namespace itin::viewshed {
 
@@ -39,10 +38,10 @@ Window::Polygon farm_disc(const std::vector<const Turbine*>& farm) {
 
 /// Convex about the radar and all the rest, so that it holds the radar's sight lines.
 Window::Polygon box_with_radar(const std::vector<Window::Polygon>& parts, Point2 radar) {
-  Box box = disc_box(radar, 1);
+  Box box = square_about(radar, 1);
   for (const Window::Polygon& part : parts)
     for (const Point2& p : part.outer) box.extend(p);
-  return rectangle(box);
+  return Window::rectangle(box);
 }
 
 std::vector<Window::Polygon> farm_discs(const ZoneRequest& request) {
@@ -104,7 +103,7 @@ class Partition {
     const Point2 radar = zone_.request.radar->position;
     std::vector<Box> boxes;
     for (std::size_t i = 0; i < tiles_.cell_count(); ++i) boxes.push_back(box_about(i));
-    for (const Turbine& t : zone_.request.turbines) boxes.push_back(disc_box(t.position, margin_));
+    for (const Turbine& t : zone_.request.turbines) boxes.push_back(square_about(t.position, margin_));
     std::vector<std::size_t> all = numbers_to(boxes.size());
     sort_by_azimuth(
         radar, [&](std::size_t i) { return middle_of(boxes[i]); }, all);
@@ -168,14 +167,14 @@ class Partition {
     for (const std::size_t i : of) add_corners(boxes[i], points);
     for (const Turbine& t : zone_.request.turbines)
       if (std::any_of(of.begin(), of.end(), [&](std::size_t i) { return in_reach(t, boxes[i]); }))
-        add_corners(disc_box(t.position, margin_), points);
+        add_corners(square_about(t.position, margin_), points);
     return hull_of(std::move(points));
   }
 
   std::vector<Point2> about_radar(const std::vector<Box>& boxes, Numbers of) const {
     std::vector<Point2> points;
     for (const std::size_t i : of) add_corners(boxes[i], points);
-    add_corners(disc_box(zone_.request.radar->position, margin_), points);
+    add_corners(square_about(zone_.request.radar->position, margin_), points);
     return hull_of(std::move(points));
   }
 
@@ -193,7 +192,7 @@ Window window_of(const ZoneRequest& request) {
 
 Window window_of(const Zone& zone) {
   std::vector<Window::Polygon> parts = farm_discs(zone.request);
-  if (zone.request.radar) parts.push_back(rectangle(zone.grid.bounds()));
+  if (zone.request.radar) parts.push_back(Window::rectangle(zone.grid.bounds()));
   return with_radar(std::move(parts), zone.request);
 }
 

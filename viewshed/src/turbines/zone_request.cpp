@@ -31,16 +31,10 @@ void require_valid_turbine(const Turbine& t) {
   if (t.rotor_diameter && !is_positive(*t.rotor_diameter)) refuse("its rotor's diameter is not a positive number");
 }
 
-/// The part of the coverage that may lie within the radius.
-Box reach(const Turbine& t, const Box& coverage) {
-  return {std::max(coverage.xmin, t.position.x - t.radius), std::max(coverage.ymin, t.position.y - t.radius),
-          std::min(coverage.xmax, t.position.x + t.radius), std::min(coverage.ymax, t.position.y + t.radius)};
-}
-
 RasterGrid grid_of(const ZoneRequest& request, const Box& coverage) {
   if (request.grid) return *request.grid;
   Box area;
-  for (const Turbine& t : request.turbines) area.extend(reach(t, coverage));
+  for (const Turbine& t : request.turbines) area.extend(intersection(coverage, square_about(t.position, t.radius)));
   return RasterGrid::aligned(area, *request.cell_size);
 }
 

@@ -9,6 +9,7 @@
 #include <viewshed/surface.hpp>
 
 #include "request/request.hpp"
+#include "request/request_window.hpp"
 
 namespace itin::viewshed {
 
@@ -57,7 +58,7 @@ double radius_with(const Store& store, int level, Point2 centre, double points) 
   double radius = store.metadata().grid.resolution;
   // In steps of a square root of 2.
   while (radius < greatest &&
-         static_cast<double>(store.points_about(level, disc_box(centre, std::sqrt(2) * radius))) <= points)
+         static_cast<double>(store.points_about(level, square_about(centre, std::sqrt(2) * radius))) <= points)
     radius *= std::sqrt(2);
   return radius;
 }

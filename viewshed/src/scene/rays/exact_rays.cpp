@@ -6,6 +6,7 @@
 
 #include "bounds/surface_heights.hpp"
 #include "line/infinity.hpp"
+#include "line/set_bits.hpp"
 #include "scene/rays/drift.hpp"
 
 namespace itin::viewshed {
@@ -28,12 +29,11 @@ unsigned hidden_exactly(const Scene& surface, const UpperScene& upper, const Sig
   UpperScene::Stretches stretches;
   upper.find_stretches(lines, starts_under, ends_under, stretches);
   unsigned result = 0;
-  for (unsigned active = lines.active; active != 0; active &= active - 1) {
-    const auto i = static_cast<unsigned>(std::countr_zero(active));
+  for_each_bit(lines.active, [&](unsigned i) {
     const bool hidden = std::any_of(stretches[i].begin(), stretches[i].end(),
                                     [&](const Stretch& s) { return surface.hidden_between(lines, i, s.from, s.to); });
     if (hidden) result |= 1U << i;
-  }
+  });
   return result;
 }
 
@@ -53,14 +53,13 @@ unsigned ExactRays::hidden(const SightLines& lines, Work& work) const {
   const auto first = static_cast<unsigned>(std::countr_zero(open.active));
   const double upper_eye = upper_at(lines.from_x[first], lines.from_y[first]);
   unsigned starts_under = 0, ends_under = 0;
-  for (unsigned rest = open.active; rest != 0; rest &= rest - 1) {
-    const auto i = static_cast<unsigned>(std::countr_zero(rest));
+  for_each_bit(open.active, [&](unsigned i) {
     const double dx = lines.to_x[i] - lines.from_x[i], dy = lines.to_y[i] - lines.from_y[i],
                  dz = lines.to_z[i] - lines.from_z[i];
     const double clear = 2 * upper_.error_bound(std::sqrt(dx * dx + dy * dy + dz * dz));
     if (lines.from_z[i] < upper_eye + clear) starts_under |= 1U << i;
     if (lines.to_z[i] < upper_at(lines.to_x[i], lines.to_y[i]) + clear) ends_under |= 1U << i;
-  }
+  });
   const unsigned under = starts_under | ends_under;
   SightLines above = open;
   above.active &= ~under;

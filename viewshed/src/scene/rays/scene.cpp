@@ -7,6 +7,7 @@
 #include "bounds/boundary.hpp"
 #include "bounds/surface_heights.hpp"
 #include "bounds/triangle_bins.hpp"
+#include "line/set_bits.hpp"
 #include "scene/rays/embree.hpp"
 #include "scene/rays/tessellation.hpp"
 #include "scene/rays/walls.hpp"
@@ -66,10 +67,9 @@ class Scene::Impl {
     unsigned result = known | cast(lines, lines.active & ~known, exact, packet);
     if (packet.by_triangle != 0)
       occluder.triangle = packet.by[static_cast<unsigned>(std::bit_width(packet.by_triangle)) - 1];
-    for (unsigned doubtful = packet.doubtful & ~result; doubtful != 0; doubtful &= doubtful - 1) {
-      const auto i = static_cast<unsigned>(std::countr_zero(doubtful));
+    for_each_bit(packet.doubtful & ~result, [&](unsigned i) {
       if (hidden_by_any(lines, i, exact[i], 0, 1)) result |= 1U << i;
-    }
+    });
     return result;
   }
 
@@ -157,10 +157,9 @@ class Scene::Impl {
   unsigned hidden_by_one(const Occluder& occluder, const ExactLines& lines, unsigned active) const {
     if (!occluder.triangle) return 0;
     unsigned result = 0;
-    for (; active != 0; active &= active - 1) {
-      const auto i = static_cast<unsigned>(std::countr_zero(active));
+    for_each_bit(active, [&](unsigned i) {
       if (hides(lines[i], *occluder.triangle)) result |= 1U << i;
-    }
+    });
     return result;
   }
 

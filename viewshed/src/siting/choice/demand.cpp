@@ -8,6 +8,8 @@
 #include <itin/error.hpp>
 #include <viewshed/demand.hpp>
 
+#include "line/set_bits.hpp"
+
 namespace itin::viewshed {
 
 namespace {
@@ -54,10 +56,6 @@ DemandSet set_union(const DemandSet& a, const DemandSet& b) {
   return result;
 }
 
-bool is_subset(const DemandSet& a, const DemandSet& b) {
-  return intersection(a, b) == a;
-}
-
 Demand::Demand(const std::vector<double>& weights) : count_(weights.size()) {
   double sum = 0;
   bool whole = true;
@@ -79,8 +77,7 @@ Demand::Demand(const std::vector<double>& weights) : count_(weights.size()) {
 Weight Demand::weight(std::uint32_t block, std::uint64_t members) const {
   if (weights_.empty()) return std::popcount(members);
   Weight sum = 0;
-  for (; members != 0; members &= members - 1)
-    sum += weights_[std::size_t{64} * block + static_cast<std::size_t>(std::countr_zero(members))];
+  for_each_bit(members, [&](unsigned bit) { sum += weights_[std::size_t{64} * block + bit]; });
   return sum;
 }
 

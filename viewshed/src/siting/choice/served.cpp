@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "line/set_bits.hpp"
+
 namespace itin::viewshed {
 
 Weight Served::gain(std::span<const DemandSet* const> sets) const {
@@ -22,10 +24,10 @@ Weight Served::gain(std::span<const DemandSet* const> sets) const {
     DemandSet helped;
     for (const DemandSet::Block& block : layers[n].blocks()) {
       std::uint64_t members = 0;
-      for (std::uint64_t rest = block.members; rest != 0; rest &= rest - 1) {
-        const std::size_t element = std::size_t{64} * block.number + static_cast<std::size_t>(__builtin_ctzll(rest));
-        if (counts_[element] + n < static_cast<std::size_t>(cover_)) members |= rest & -rest;
-      }
+      for_each_bit(block.members, [&](unsigned bit) {
+        if (counts_[std::size_t{64} * block.number + bit] + n < static_cast<std::size_t>(cover_))
+          members |= std::uint64_t{1} << bit;
+      });
       helped.add(block.number, members);
     }
     sum += demand_->weight(helped);

@@ -1,7 +1,6 @@
 // How many of some sites serve each element of a demand.
 #pragma once
 
-#include <bit>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -9,15 +8,6 @@
 #include <viewshed/demand.hpp>
 
 namespace itin::viewshed {
-
-/// Visits the elements of a set in ascending order.
-template <class Visit>
-void for_each_element(const DemandSet& set, const Visit& visit) {
-  for (const DemandSet::Block& block : set.blocks()) {
-    for (std::uint64_t rest = block.members; rest != 0; rest &= rest - 1)
-      visit(std::size_t{64} * block.number + static_cast<std::size_t>(std::countr_zero(rest)));
-  }
-}
 
 class Served {
  public:

@@ -10,7 +10,7 @@
 
 #include "bounds/surface_heights.hpp"
 #include "plan/partition.hpp"
-#include "request/request.hpp"
+#include "siting/coverage/site_window.hpp"
 #include "siting/coverage/target_ground.hpp"
 
 namespace itin::viewshed {
@@ -20,13 +20,6 @@ namespace {
 constexpr double kNarrowest = 0.5;  ///< metres
 /// Of what is read at once: a point bare, and three where features stand, triangulated.
 constexpr std::uint64_t kBytesPerPointRead = 1200;
-
-/// Everything within the radius of a site, as far as there is data.
-Box box_of_survey(const Store& store, const SiteSurvey& survey) {
-  Box box;
-  for (const SitePosition& place : survey.positions) box.extend(disc_box(place.position, survey.radius));
-  return intersection(box, extent_of(store));
-}
 
 class SurfaceBinner {
  public:
@@ -56,7 +49,7 @@ class SurfaceBinner {
 
  private:
   SurfaceBins bins_within(std::uint64_t bytes) const {
-    const Box box = box_of_survey(store_, survey_);
+    const Box box = intersection(reach_of(survey_), extent_of(store_));
     const std::uint64_t most = std::max<std::uint64_t>(1, bytes / SurfaceBins::kBytesPerBin);
     const double side = std::max(kNarrowest, std::sqrt(box.width() * box.height() / static_cast<double>(most)));
     return {store_.metadata().grid, box, side, bytes / SurfaceBins::kBytesPerDivided};

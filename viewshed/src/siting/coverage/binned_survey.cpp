@@ -1,11 +1,11 @@
 // Cells or points judged by how low and how high the full surface is within bins.
 #include <atomic>
-#include <bit>
 #include <utility>
 
 #include <itin/grid_units.hpp>
 
 #include "judge/bin_judge.hpp"
+#include "line/set_bits.hpp"
 #include "progress/stage.hpp"
 #include "siting/coverage/binned_surface.hpp"
 #include "siting/coverage/group_survey.hpp"
@@ -57,14 +57,13 @@ class BinnedSurvey final : public GroupSurvey {
 
   ServedPoints served(const Eye& eye, std::size_t first, std::uint64_t open) const {
     ServedPoints served;
-    for (; open != 0; open &= open - 1) {
-      const auto bit = static_cast<unsigned>(std::countr_zero(open));
+    for_each_bit(open, [&](unsigned bit) {
       const Point2 p = survey_.targets.points[first + bit];
       const Verdict verdict =
           verdict_by_bins(walk_, eye, units().resolution, p, place_in_units(units(), p), surface_.ground[first + bit]);
       if (verdict == Verdict::kVisible) served.certain |= std::uint64_t{1} << bit;
       if (verdict == Verdict::kHidden || verdict == Verdict::kOutside) served.never |= std::uint64_t{1} << bit;
-    }
+    });
     return served;
   }
 

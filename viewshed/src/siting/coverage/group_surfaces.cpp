@@ -125,7 +125,7 @@ EnvelopeRequest GroupSurfaces::what_to_read(const std::vector<std::size_t>& grou
     const Point2 position = survey_.positions[option].position;
     read.observers.push_back(position);
     if (level == 0) continue;
-    const double points = static_cast<double>(store_.points_about(0, disc_box(position, survey_.radius)));
+    const double points = static_cast<double>(store_.points_about(0, square_about(position, survey_.radius)));
     const double share = std::sqrt(kSiteNearPoints / std::max(points, kSiteNearPoints));
     read.discs.push_back({position, survey_.radius * share, 0});
     if (level > 1) read.discs.push_back({position, 2 * survey_.radius * share, 1});

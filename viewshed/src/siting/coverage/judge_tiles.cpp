@@ -3,21 +3,21 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <bit>
 
 #include <itin/parallel.hpp>
 #include <viewshed/viewshed.hpp>
 
 #include "judge/zone_cut.hpp"
+#include "line/set_bits.hpp"
 #include "progress/stage.hpp"
-#include "siting/coverage/cell_blocks.hpp"
+#include "siting/coverage/demand_blocks.hpp"
 
 namespace itin::viewshed {
 
 namespace {
 
-constexpr std::int64_t kBlocks = Tile::kSide / CellBlocks::kSide;  ///< a side of a tile
-static_assert(Tile::kSide % CellBlocks::kSide == 0);
+constexpr std::int64_t kBlocks = Tile::kSide / DemandBlocks::kSide;  ///< a side of a tile
+static_assert(Tile::kSide % DemandBlocks::kSide == 0);
 
 using TileWords = std::array<std::uint64_t, kBlocks * kBlocks>;
 
@@ -31,15 +31,15 @@ struct TileCover {
   }
 };
 
-std::uint32_t block_of(const CellBlocks& blocks, const Tile& tile, std::size_t i) {
+std::uint32_t block_of(const DemandBlocks& blocks, const Tile& tile, std::size_t i) {
   const auto n = static_cast<std::int64_t>(i);
-  return blocks.block({tile.column + n % kBlocks * CellBlocks::kSide, tile.row + n / kBlocks * CellBlocks::kSide});
+  return blocks.block({tile.column + n % kBlocks * DemandBlocks::kSide, tile.row + n / kBlocks * DemandBlocks::kSide});
 }
 
 /// Whether the grid reaches block `i` of the tile.
 bool in_grid(const Tile& tile, std::size_t i) {
   const auto n = static_cast<std::int64_t>(i);
-  return n % kBlocks * CellBlocks::kSide < tile.columns && n / kBlocks * CellBlocks::kSide < tile.rows;
+  return n % kBlocks * DemandBlocks::kSide < tile.columns && n / kBlocks * DemandBlocks::kSide < tile.rows;
 }
 
 std::uint64_t members(const DemandSet& set, std::uint32_t number) {
@@ -50,13 +50,13 @@ std::uint64_t members(const DemandSet& set, std::uint32_t number) {
 }
 
 std::size_t cell_in_tile(std::size_t block, unsigned bit) {
-  const std::size_t row = block / kBlocks * CellBlocks::kSide + bit / CellBlocks::kSide;
-  const std::size_t column = block % kBlocks * CellBlocks::kSide + bit % CellBlocks::kSide;
+  const std::size_t row = block / kBlocks * DemandBlocks::kSide + bit / DemandBlocks::kSide;
+  const std::size_t column = block % kBlocks * DemandBlocks::kSide + bit % DemandBlocks::kSide;
   return row * Tile::kSide + column;
 }
 
 /// Opens in `values`, which are all outside, what the bounds leave open. Returns whether anything is.
-bool open(const CellBlocks& blocks, const Tile& tile, const CoverageBounds& bounds, TileCover& cover,
+bool open(const DemandBlocks& blocks, const Tile& tile, const CoverageBounds& bounds, TileCover& cover,
           TileValues<Verdict>& values) {
   bool any = false;
   for (std::size_t b = 0; b < cover.certain.size(); ++b) {
@@ -65,23 +65,22 @@ bool open(const CellBlocks& blocks, const Tile& tile, const CoverageBounds& boun
     cover.possible[b] = members(bounds.possible, number);
     if (cover.possible[b] == 0) continue;
     cover.certain[b] = members(bounds.certain, number);
-    for (std::uint64_t rest = cover.possible[b] & ~cover.certain[b]; rest != 0; rest &= rest - 1) {
-      values[cell_in_tile(b, static_cast<unsigned>(std::countr_zero(rest)))] = Verdict::kUndecided;
+    for_each_bit(cover.possible[b] & ~cover.certain[b], [&](unsigned bit) {
+      values[cell_in_tile(b, bit)] = Verdict::kUndecided;
       any = true;
-    }
+    });
   }
   return any;
 }
 
 void close(const TileValues<Verdict>& values, TileCover& cover) {
   for (std::size_t b = 0; b < cover.certain.size(); ++b) {
-    for (std::uint64_t rest = cover.possible[b] & ~cover.certain[b]; rest != 0; rest &= rest - 1) {
-      const auto bit = static_cast<unsigned>(std::countr_zero(rest));
+    for_each_bit(cover.possible[b] & ~cover.certain[b], [&](unsigned bit) {
       const Verdict value = values[cell_in_tile(b, bit)];
       if (value == Verdict::kVisible) cover.certain[b] |= std::uint64_t{1} << bit;
       if (value == Verdict::kHidden || value == Verdict::kZoneCut || value == Verdict::kOutside)
         cover.possible[b] &= ~(std::uint64_t{1} << bit);
-    }
+    });
   }
 }
 
@@ -163,7 +162,7 @@ class SiteTiles {
   const SitesToJudge& sites_;
   const RasterGrid& grid_;
   const RasterGrid tiles_;
-  const CellBlocks blocks_;
+  const DemandBlocks blocks_;
   std::vector<std::vector<TileCover>> covers_;  ///< each tile's
 };
 

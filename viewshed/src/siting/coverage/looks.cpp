@@ -89,9 +89,7 @@ bool Looks::fits(std::uint64_t points, std::size_t options, int level) const {
 }
 
 std::uint64_t Looks::points_of(Options options, int level) const {
-  Box box;
-  for (const std::size_t option : options) box.extend(disc_box(survey_.positions[option].position, survey_.radius));
-  return store_.points_about(level, box);
+  return store_.points_about(level, reach_of(survey_, options));
 }
 
 std::vector<std::vector<std::size_t>> Looks::groups(std::vector<std::size_t> options, const Look& look) const {

@@ -9,8 +9,10 @@
 #include "bounds/surface_heights.hpp"
 #include "judge/clear_zone.hpp"
 #include "judge/envelope_scene.hpp"
+#include "line/set_bits.hpp"
 #include "line/sight_line.hpp"
 #include "progress/stage.hpp"
+#include "scene/rays/exact_rays.hpp"
 #include "siting/coverage/group_survey.hpp"
 #include "siting/coverage/point_bins.hpp"
 #include "siting/coverage/point_blocks.hpp"
@@ -43,22 +45,6 @@ GroundBounds ground_at(const EnvelopeScene& scene, const RasterGrid& tiles, Poin
   return ground;
 }
 
-/// One bit for each active line that is hidden, over a scene of level 0. `starts_under` and `ends_under` say which
-/// lines begin or end below the upper surface.
-unsigned hidden_exactly(const EnvelopeScene& scene, const SightLines& lines, unsigned starts_under,
-                        unsigned ends_under) {
-  UpperScene::Stretches stretches;
-  scene.upper.find_stretches(lines, starts_under, ends_under, stretches);
-  unsigned result = 0;
-  for_each_line(lines.active, [&](unsigned i) {
-    const bool hidden = std::any_of(stretches[i].begin(), stretches[i].end(), [&](const Stretch& s) {
-      return scene.lower.hidden_between(lines, i, s.from, s.to);
-    });
-    if (hidden) result |= 1U << i;
-  });
-  return result;
-}
-
 /// Judges points, sixteen at a time.
 class PointPass {
  public:
@@ -84,7 +70,7 @@ class PointPass {
     Decided decided;
     if (open == 0) return decided;
     EnvelopePacket packet(view.eye);
-    for_each_line(open, [&](unsigned i) {
+    for_each_bit(open, [&](unsigned i) {
       const Verdict verdict = aim(view, first + i, i, packet);
       if (verdict == Verdict::kVisible) decided.visible |= 1U << i;
       if (verdict == Verdict::kHidden) decided.hidden |= 1U << i;
@@ -93,7 +79,8 @@ class PointPass {
     if (lines == 0) return decided;
     Decided of_lines = scene_.decide(packet, occluder);
     if (scene_.exact && packet.low.active != 0) {
-      const unsigned hidden = hidden_exactly(scene_, packet.low, packet.starts_under, packet.ends_under);
+      const unsigned hidden =
+          hidden_exactly(scene_.lower, scene_.upper, packet.low, packet.starts_under, packet.ends_under);
       of_lines.visible |= packet.low.active & ~hidden;
       of_lines.hidden |= hidden;
     }
@@ -107,7 +94,7 @@ class PointPass {
   void judge_zones(const EnvelopePacket& packet, unsigned lines, Decided& decided) const {
     // One by one: points may lie far apart.
     SightLines low = packet.low, high = packet.high;
-    for_each_line(lines & ~decided.hidden, [&](unsigned i) {
+    for_each_bit(lines & ~decided.hidden, [&](unsigned i) {
       const unsigned bit = 1U << i;
       low.active = high.active = bit;
       if (zone_->certainly_cut(high) != 0) {

@@ -14,7 +14,6 @@
 
 #include "index/visibility_sampler.hpp"
 #include "progress/stage.hpp"
-#include "request/request.hpp"
 
 namespace itin::viewshed {
 
@@ -31,15 +30,6 @@ constexpr double kMostSquares = 1e6;
 constexpr double kLeastRoofHeight = 3, kLeastRoofArea = 2;
 /// What rises by more above a post, metres, stands on it.
 constexpr double kStandsOnPost = 0.05;
-
-bool in_ring(const Window::Ring& ring, Point2 p) {
-  bool inside = false;
-  for (std::size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++) {
-    const Point2 &a = ring[i], &b = ring[j];
-    if ((a.y > p.y) != (b.y > p.y) && p.x < (b.x - a.x) * (p.y - a.y) / (b.y - a.y) + a.x) inside = !inside;
-  }
-  return inside;
-}
 
 /// A place where a site may stand.
 struct Post {
@@ -150,7 +140,7 @@ class Proposer {
     for (std::uint32_t i = 0; i < posts_.size(); ++i) {
       const Point2 place = plan(i);
       const auto square = squares_.cell_at(place);
-      if (square && lies_in(area_, place)) posts[squares_.index(*square)].push_back(i);
+      if (square && area_.contains(place)) posts[squares_.index(*square)].push_back(i);
     }
     return posts;
   }
@@ -195,15 +185,6 @@ class Proposer {
 };
 
 }  // namespace
-
-bool lies_in(const Window& window, Point2 position) {
-  if (window.is_all()) return true;
-  return std::any_of(window.parts().begin(), window.parts().end(), [&](const Window::Polygon& part) {
-    return in_ring(part.outer, position) &&
-           std::none_of(part.holes.begin(), part.holes.end(),
-                        [&](const Window::Ring& hole) { return in_ring(hole, position); });
-  });
-}
 
 std::vector<Proposal> propose_sites(const Store& store, const Window& area, const ProposalRequest& request,
                                     Progress& progress) {

@@ -5,7 +5,7 @@
 #include <itin/call_progress.hpp>
 #include <viewshed/site_coverage.hpp>
 
-#include "siting/coverage/cell_blocks.hpp"
+#include "siting/coverage/demand_blocks.hpp"
 #include "siting/coverage/point_bins.hpp"
 #include "siting/coverage/target_ground.hpp"
 #include "window/retrieval.hpp"
@@ -15,8 +15,8 @@ namespace itin::viewshed {
 namespace {
 
 DemandSet cells_in_reach(const RasterGrid& grid, Point2 p, double radius) {
-  const CellBlocks blocks(grid);
-  constexpr std::int64_t kSide = CellBlocks::kSide;
+  const DemandBlocks blocks(grid);
+  constexpr std::int64_t kSide = DemandBlocks::kSide;
   const auto clamp = [](double v, std::int64_t count) {
     return std::clamp<std::int64_t>(static_cast<std::int64_t>(std::floor(v)), 0, count - 1);
   };
@@ -31,7 +31,7 @@ DemandSet cells_in_reach(const RasterGrid& grid, Point2 p, double radius) {
       for (std::int64_t r = row * kSide; r < std::min((row + 1) * kSide, grid.rows()); ++r) {
         for (std::int64_t c = column * kSide; c < std::min((column + 1) * kSide, grid.columns()); ++c) {
           const double dx = grid.centre_x(c) - p.x, dy = grid.centre_y(r) - p.y;
-          if (dx * dx + dy * dy <= radius * radius) members |= std::uint64_t{1} << CellBlocks::bit({c, r});
+          if (dx * dx + dy * dy <= radius * radius) members |= std::uint64_t{1} << DemandBlocks::bit({c, r});
         }
       }
       set.add(blocks.block({column * kSide, row * kSide}), members);
@@ -66,11 +66,11 @@ namespace {
 double blocks_in_reach(const SiteTargets& targets, double radius) {
   if (!targets.grid) return std::ceil(static_cast<double>(targets.points.size()) / 64);
   const RasterGrid& grid = *targets.grid;
-  constexpr double kSide = CellBlocks::kSide;
+  constexpr double kSide = DemandBlocks::kSide;
   // Blocks that meet a disc lie within one that is a block's diagonal wider.
   const double columns = radius / (kSide * grid.cell_width()) + std::sqrt(2),
                rows = radius / (kSide * grid.cell_height()) + std::sqrt(2);
-  return std::min(std::numbers::pi * columns * rows, static_cast<double>(CellBlocks(grid).count()));
+  return std::min(std::numbers::pi * columns * rows, static_cast<double>(DemandBlocks(grid).count()));
 }
 
 }  // namespace
@@ -92,11 +92,11 @@ DemandSet set_of_words(const std::vector<std::uint64_t>& words) {
 }
 
 DemandSet cells_with_ground(const Tin& ground, const RasterGrid& grid) {
-  const CellBlocks blocks(grid);
+  const DemandBlocks blocks(grid);
   std::vector<std::uint64_t> members(blocks.count());
   for_each_tile_on(ground, grid, [&](const Tile& tile, const TileValues<double>& heights) {
     for_each_cell(tile, [&](std::size_t cell, RasterGrid::Cell place) {
-      if (!std::isnan(heights[cell])) members[blocks.block(place)] |= std::uint64_t{1} << CellBlocks::bit(place);
+      if (!std::isnan(heights[cell])) members[blocks.block(place)] |= std::uint64_t{1} << DemandBlocks::bit(place);
     });
   });
   return set_of_words(members);

@@ -11,7 +11,7 @@
 
 #include "progress/stopwatch.hpp"
 #include "request/request.hpp"
-#include "siting/coverage/cell_blocks.hpp"
+#include "siting/coverage/demand_blocks.hpp"
 #include "siting/coverage/group_surfaces.hpp"
 #include "siting/coverage/looks.hpp"
 #include "siting/coverage/site_window.hpp"
@@ -42,13 +42,13 @@ RasterGrid grid_of_reach(const Store& store, const std::vector<SitePosition>& po
 }
 
 std::size_t element_count(const RasterGrid& grid) {
-  return CellBlocks(grid).element_count();
+  return DemandBlocks(grid).element_count();
 }
 std::size_t element_of(const RasterGrid& grid, RasterGrid::Cell cell) {
-  return CellBlocks(grid).element(cell);
+  return DemandBlocks(grid).element(cell);
 }
 RasterGrid::Cell cell_of(const RasterGrid& grid, std::size_t element) {
-  return CellBlocks(grid).cell(element);
+  return DemandBlocks(grid).cell(element);
 }
 
 class SiteCoverage::Impl {

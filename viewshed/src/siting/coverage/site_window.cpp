@@ -8,8 +8,6 @@
 
 #include <itin/raster.hpp>
 
-#include "request/request.hpp"
-
 namespace itin::viewshed {
 
 std::vector<std::size_t> all_options(const SiteSurvey& survey) {
@@ -19,8 +17,12 @@ std::vector<std::size_t> all_options(const SiteSurvey& survey) {
 }
 
 Box reach_of(const SiteSurvey& survey) {
+  return reach_of(survey, all_options(survey));
+}
+
+Box reach_of(const SiteSurvey& survey, std::span<const std::size_t> options) {
   Box box;
-  for (const SitePosition& place : survey.positions) box.extend(disc_box(place.position, survey.radius));
+  for (const std::size_t option : options) box.extend(square_about(survey.positions[option].position, survey.radius));
   return box;
 }
 
@@ -28,12 +30,10 @@ Window window_about(const SiteSurvey& survey, const std::vector<std::size_t>& op
   const std::vector<SitePosition>& positions = survey.positions;
   const double radius = survey.radius;
   if (options.size() == 1) return Window::disc(positions[options.front()].position, radius);
-  Box box;
-  for (const std::size_t option : options) box.extend(disc_box(positions[option].position, radius));
-  const RasterGrid cells = RasterGrid::aligned(box, radius / 4);
+  const RasterGrid cells = RasterGrid::aligned(reach_of(survey, options), radius / 4);
   std::vector<bool> met(cells.cell_count());
   for (const std::size_t option : options) {
-    const Box disc = disc_box(positions[option].position, radius);
+    const Box disc = square_about(positions[option].position, radius);
     // Aligned cells may end a hair within the box.
     const auto within = [](double at, std::int64_t count) {
       return std::clamp<std::int64_t>(static_cast<std::int64_t>(std::floor(at)), 0, count - 1);
@@ -56,7 +56,7 @@ Window window_about(const SiteSurvey& survey, const std::vector<std::size_t>& op
       const double west = corner.x + static_cast<double>(first) * side,
                    east = corner.x + static_cast<double>(column) * side,
                    north = corner.y - static_cast<double>(row) * side, south = north - side;
-      runs.push_back({{{west, south}, {east, south}, {east, north}, {west, north}}, {}});
+      runs.push_back(Window::rectangle({west, south, east, north}));
     }
   }
   return Window::polygons(std::move(runs));

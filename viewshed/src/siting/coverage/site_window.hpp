@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include <itin/window.hpp>
@@ -12,8 +13,9 @@ namespace itin::viewshed {
 /// The numbers of all sites.
 std::vector<std::size_t> all_options(const SiteSurvey& survey);
 
-/// About all sites as far as they serve.
+/// About all sites, or these, as far as they serve.
 Box reach_of(const SiteSurvey& survey);
+Box reach_of(const SiteSurvey& survey, std::span<const std::size_t> options);
 
 /// The disc about a site, and about several few rectangles that hold their discs: a window of hundreds of discs takes
 /// long to classify.

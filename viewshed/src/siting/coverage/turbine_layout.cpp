@@ -8,7 +8,6 @@
 #include <itin/geodesic.hpp>
 #include <itin/raster.hpp>
 #include <itin/segment_distance.hpp>
-#include <viewshed/site_proposal.hpp>
 #include <viewshed/turbine_layout.hpp>
 
 #include "line/cell_tiles.hpp"
@@ -36,7 +35,7 @@ std::vector<Point2> spaced_positions(const Window& area, double side) {
   std::vector<Point2> places;
   for (std::int64_t row = 0; row < squares.rows(); ++row)
     for (std::int64_t column = 0; column < squares.columns(); ++column)
-      if (const Point2 middle = squares.centre(column, row); lies_in(area, middle)) places.push_back(middle);
+      if (const Point2 middle = squares.centre(column, row); area.contains(middle)) places.push_back(middle);
   if (places.empty())
     throw InputError(
         fmt::format("no middle of a square of {:g} m lies in the search area: give a smaller spacing", side));
@@ -63,7 +62,7 @@ bool Dwellings::any_within(Point2 position, double metres) const {
   const auto polygon_within = [&](const Polygon& polygon) {
     if (squared_distance(position, polygon.bounds) > metres * metres) return false;
     const Window::Polygon& part = polygon.outline.parts().front();
-    return lies_in(polygon.outline, position) || any_edge_within(part.outer, position, metres) ||
+    return polygon.outline.contains(position) || any_edge_within(part.outer, position, metres) ||
            std::any_of(part.holes.begin(), part.holes.end(),
                        [&](const Window::Ring& hole) { return any_edge_within(hole, position, metres); });
   };

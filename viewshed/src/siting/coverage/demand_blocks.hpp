@@ -7,11 +7,11 @@
 
 namespace itin::viewshed {
 
-class CellBlocks {
+class DemandBlocks {
  public:
   static constexpr std::int64_t kSide = 8;
 
-  explicit CellBlocks(const RasterGrid& grid)
+  explicit DemandBlocks(const RasterGrid& grid)
       : columns_((grid.columns() + kSide - 1) / kSide), rows_((grid.rows() + kSide - 1) / kSide) {}
 
   std::size_t count() const { return static_cast<std::size_t>(columns_ * rows_); }
