@@ -143,11 +143,7 @@ void run_verb(Verb& verb, CLI::App& options, const Everywhere& everywhere) {
   Result result;
   {
     StderrProgress progress(StderrProgress::style_for(everywhere.quiet));
-    try {
-      result = verb.execute(progress);
-    } catch (const std::bad_alloc&) {
-      throw Error("out of memory; " + verb.advice_for_less_memory());
-    }
+    result = verb.execute(progress);
   }
   for (std::string& warning : result.warnings) warning = in_options(std::move(warning));
   for (const std::string& warning : result.warnings) std::cerr << "itin: warning: " << warning << "\n";

@@ -36,10 +36,6 @@ class Verb {
   virtual Document parameters() const = 0;
   /// Throws itin::Error.
   virtual Result execute(Progress& progress) = 0;
-  /// Advice for a call that runs out of memory.
-  virtual std::string advice_for_less_memory() const {
-    return "ask for a smaller window, a coarser tolerance or larger cells";
-  }
 };
 
 std::unique_ptr<Verb> make_import_verb();
