@@ -133,7 +133,7 @@ class ViewshedVerb final : public Verb {
   }
 
   Document parameters() const override {
-    Document parameters{{"store", store_}, {"observers", observers_document(places_)}};
+    Document parameters{{"store", store_}, {"observers", observers_document(request_.observers)}};
     parameters["mode"] = mode_name();
     parameters["precise"] = precise_;
     parameters[request_.target_absolute ? "target_elevation_m" : "target_height_m"] = request_.target_height;
@@ -168,7 +168,7 @@ class ViewshedVerb final : public Verb {
     complete_request(metadata);
     request_.themes.check(metadata.themes);
     features_.require_themes(metadata, request_.themes);
-    if (!horizon_.paths().empty() && places_.size() > 1)
+    if (!horizon_.paths().empty() && request_.observers.size() > 1)
       throw InputError("--horizon is that of one observer; give one");
     outputs_.prepare(request_);
     compute_options_.whole_surface = outputs_.draws_map() || !horizon_.paths().empty();
@@ -312,23 +312,13 @@ class ViewshedVerb final : public Verb {
                      : survey(store, request, progress).result;
   }
 
-  static viewshed::Observer observer_of(const ObserverPlace& place) {
-    const auto angles = [](const std::optional<ViewFields::Angles>& range) {
-      return range ? std::optional(viewshed::AngleRange{range->first, range->second}) : std::nullopt;
-    };
-    const ViewFields::View& view = place.view;
-    return {place.name,  place.position,  place.height,         place.absolute,        view.target_height,
-            view.radius, view.min_radius, angles(view.azimuth), angles(view.elevation)};
-  }
-
   /// Completes the request by the options that need the store's CRS.
   void complete_request(const StoreMetadata& metadata) {
-    places_ = observers_.places(metadata);
-    if (detail_.has_rings() && places_.size() > 1) {
+    request_.observers = observers_.observers(metadata);
+    if (detail_.has_rings() && request_.observers.size() > 1) {
       throw InputError("--rings lie about one observer; for several give --tolerance");
     }
-    for (const ObserverPlace& place : places_) request_.observers.push_back(observer_of(place));
-    request_.detail = detail_.detail(places_.front().position);
+    request_.detail = detail_.detail(request_.observers.front().position);
     if (!like_.empty()) request_.grid = raster_grid_like(like_, metadata.crs_wkt);
   }
 
@@ -381,7 +371,6 @@ class ViewshedVerb final : public Verb {
   HorizonOutput horizon_;
   FeatureRaster features_;
 
-  std::vector<ObserverPlace> places_;
   viewshed::Request request_;
 };
 
