@@ -35,7 +35,7 @@ void OutputPolicy::require_writable(const std::string& path) const {
 }
 
 std::string style_beside(const std::string& raster) {
-  return fs::path(raster).replace_extension(".qml").string();
+  return std::filesystem::path(raster).replace_extension(".qml").string();
 }
 
 std::string file_name(const std::string& name) {

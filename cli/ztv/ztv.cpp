@@ -27,12 +27,12 @@
 #include "options/sheet_options.hpp"
 #include "options/store_scale.hpp"
 #include "options/surface_options.hpp"
-#include "output/output_folder.hpp"
 #include "output/store_document.hpp"
 #include "program/call_files.hpp"
 #include "program/field_names.hpp"
 #include "program/values.hpp"
 #include "program/verb.hpp"
+#include "ztv/ztv_folder.hpp"
 #include "ztv/ztv_methods.hpp"
 #include "ztv/ztv_radio.hpp"
 #include "ztv/ztv_route.hpp"
@@ -143,7 +143,7 @@ class ZtvVerb final : public Verb {
 
   cli::Result execute(Progress& progress) override {
     const std::future<void> rasters = beside(make_gdal_ready);
-    OutputFolder::require_writable(output_, policy_);
+    ZtvFolder::require_writable(output_, policy_);
     radius_.load();
     // A budget holds for what is kept of the store as well.
     StoreOptions kept;
@@ -156,7 +156,7 @@ class ZtvVerb final : public Verb {
       list_.bad.push_back({m.number, list_.features[m.number - 1], m.message});
     sources_ = sources_in(store, zone.grid.bounds(), request_.themes.value_or(ThemeChoice::none()));
     missing_ = viewshed::missing_ground(zone);
-    OutputFolder folder(output_, policy_);
+    ZtvFolder folder(output_, policy_);
     cli::Result result;
     result.document = document(zone, metadata);
     write(store, zone, folder.working(), result.document, progress);
@@ -351,7 +351,7 @@ class ZtvVerb final : public Verb {
     manifest.update(result.document);
     manifest["warnings"] = result.warnings;
     manifest.erase("statistics");
-    write_file(folder + "/" + OutputFolder::kManifest, json_text(manifest, 2) + "\n", true);
+    write_file(folder + "/" + ZtvFolder::kManifest, json_text(manifest, 2) + "\n", true);
   }
 
   std::string text(const Zone& zone) const {
