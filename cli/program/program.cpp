@@ -104,10 +104,7 @@ std::uint64_t peak_memory_bytes() {
 }
 
 Document complete_document(const Verb& verb, Result& result, double seconds) {
-  Document document;
-  document["itin"] = ITIN_VERSION;
-  document["command"] = {{"verb", verb.name()}};
-  document["command"].update(verb.parameters());
+  Document document = call_document(verb);
   Document statistics = result.document.value("statistics", Document::object());
   result.document.erase("statistics");
   document.update(result.document);

@@ -38,6 +38,9 @@ class Verb {
   virtual Result execute(Progress& progress) = 0;
 };
 
+/// The head of every document: `itin`, and `command` with the verb and its parameters. Called after execute().
+Document call_document(const Verb& verb);
+
 std::unique_ptr<Verb> make_import_verb();
 std::unique_ptr<Verb> make_info_verb();
 std::unique_ptr<Verb> make_check_verb();

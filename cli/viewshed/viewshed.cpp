@@ -21,6 +21,7 @@
 #include "options/engine_option.hpp"
 #include "options/observer_options.hpp"
 #include "options/sheet_options.hpp"
+#include "options/store_cache.hpp"
 #include "options/store_scale.hpp"
 #include "options/surface_options.hpp"
 #include "output/store_document.hpp"
@@ -161,9 +162,7 @@ class ViewshedVerb final : public Verb {
 
   Result execute(Progress& progress) override {
     const std::future<void> rasters = beside(make_gdal_ready);
-    // A budget holds for what is kept of the store as well.
-    const std::uint64_t cache = std::min(StoreOptions().cache_bytes, compute_options_.memory_bytes / 4);
-    const Store store(store_, {cache});
+    const Store store(store_, cache_within(compute_options_.memory_bytes));
     const StoreMetadata& metadata = store.metadata();
     complete_request(metadata);
     request_.themes.check(metadata.themes);

@@ -20,6 +20,7 @@
 #include "options/detail_options.hpp"
 #include "options/earth_options.hpp"
 #include "options/sheet_options.hpp"
+#include "options/store_cache.hpp"
 #include "options/store_scale.hpp"
 #include "options/surface_options.hpp"
 #include "options/window_options.hpp"
@@ -118,8 +119,7 @@ class VisibilityVerb final : public Verb {
     policy_.require_writable(output_);
     policy_.claim(style_beside(output_));
     if (!sheet_.file().empty()) policy_.require_writable(sheet_.file());
-    // A budget holds for what is kept of the store as well.
-    const Store store(store_, {std::min(StoreOptions().cache_bytes, request_.memory_bytes / 4)});
+    const Store store(store_, cache_within(request_.memory_bytes));
     const StoreMetadata& metadata = store.metadata();
     request_.area = window_.region(metadata).window;
     if (!request_.area.is_all() && !metadata.grid.box(metadata.bounds).meets(request_.area.bounds()))

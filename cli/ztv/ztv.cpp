@@ -25,6 +25,7 @@
 #include "options/off_the_data.hpp"
 #include "options/radius_preset.hpp"
 #include "options/sheet_options.hpp"
+#include "options/store_cache.hpp"
 #include "options/store_scale.hpp"
 #include "options/surface_options.hpp"
 #include "output/store_document.hpp"
@@ -145,10 +146,7 @@ class ZtvVerb final : public Verb {
     const std::future<void> rasters = beside(make_gdal_ready);
     ZtvFolder::require_writable(output_, policy_);
     radius_.load();
-    // A budget holds for what is kept of the store as well.
-    StoreOptions kept;
-    if (request_.memory_bytes) kept.cache_bytes = std::min(kept.cache_bytes, *request_.memory_bytes / 4);
-    const Store store(store_, kept);
+    const Store store(store_, request_.memory_bytes ? cache_within(*request_.memory_bytes) : StoreOptions());
     const StoreMetadata& metadata = store.metadata();
     complete_request(metadata);
     Zone zone = viewshed::survey_turbines(store, request_, progress);
@@ -346,8 +344,7 @@ class ZtvVerb final : public Verb {
 
   /// The document as it stands in the folder: without times, so that equal runs write equal files.
   void write_manifest(const std::string& folder, const cli::Result& result) const {
-    Document manifest{{"itin", ITIN_VERSION}, {"command", {{"verb", name()}}}};
-    manifest["command"].update(parameters());
+    Document manifest = call_document(*this);
     manifest.update(result.document);
     manifest["warnings"] = result.warnings;
     manifest.erase("statistics");
