@@ -19,6 +19,7 @@
 #include "options/detail_options.hpp"
 #include "options/earth_options.hpp"
 #include "options/engine_option.hpp"
+#include "options/nodata_option.hpp"
 #include "options/observer_options.hpp"
 #include "options/sheet_options.hpp"
 #include "options/store_cache.hpp"
@@ -97,8 +98,7 @@ class ViewshedVerb final : public Verb {
     detail_.declare(app);
     themes_.declare(app);
     earth_.declare(app);
-    app.add_option("--nodata", nodata_text_, "What ground without data does to sight lines (default: unknown)")
-        ->type_name("unknown|block|clear");
+    nodata_.declare(app);
     engine_.declare(app);
     app.add_flag("--precise", precise_, "Exact for the full surface: the same as --tolerance 0");
     app.add_option(
@@ -124,11 +124,7 @@ class ViewshedVerb final : public Verb {
     radio_.validate();
     if (!mode_text_.empty()) parse_mode();
     if (radio_.is_given()) radio_.complete(request_);
-    if (!nodata_text_.empty()) {
-      using enum viewshed::NoData;
-      constexpr viewshed::NoData kChoices[] = {kUnknown, kBlock, kClear};
-      request_.nodata = kChoices[parse_choice("--nodata", nodata_text_, {"unknown", "block", "clear"})];
-    }
+    request_.nodata = nodata_.rule();
     validate_vertical_error();
     validate_precise();
   }
@@ -156,7 +152,7 @@ class ViewshedVerb final : public Verb {
     parameters["target_on"] = target_on_;
     parameters.update(detail_.parameters());
     parameters.update(themes_.parameters());
-    parameters["nodata"] = nodata_text_.empty() ? "unknown" : nodata_text_;
+    parameters["nodata"] = nodata_.text();
     return parameters;
   }
 
@@ -353,7 +349,7 @@ class ViewshedVerb final : public Verb {
     return text;
   }
 
-  std::string store_, mode_text_, nodata_text_, like_, memory_text_;
+  std::string store_, mode_text_, like_, memory_text_;
   std::string sigma_text_, correlation_text_;
   std::string target_height_text_, radius_text_, min_radius_text_, azimuth_text_, elevation_text_, cell_text_;
   std::string target_on_ = "ground";
@@ -363,6 +359,7 @@ class ViewshedVerb final : public Verb {
   DetailOptions detail_;
   ThemeOptions themes_;
   EarthOptions earth_;
+  NoDataOption nodata_;
   EngineOption engine_;
   ViewshedRadio radio_;
   ViewshedOutputs outputs_;

@@ -19,6 +19,7 @@
 
 #include "options/detail_options.hpp"
 #include "options/earth_options.hpp"
+#include "options/nodata_option.hpp"
 #include "options/sheet_options.hpp"
 #include "options/store_cache.hpp"
 #include "options/store_scale.hpp"
@@ -66,8 +67,7 @@ class VisibilityVerb final : public Verb {
     detail_.declare(app);
     themes_.declare(app);
     earth_.declare(app);
-    app.add_option("--nodata", nodata_text_, "What ground without data does to sight lines (default: clear)")
-        ->type_name("block|clear");
+    nodata_.declare(app);
     app.add_option("--memory", memory_text_,
                    "Memory to work in, block by block of observers where it does not hold all ground at once; the "
                    "result never depends on it (default: 1G)")
@@ -93,8 +93,7 @@ class VisibilityVerb final : public Verb {
     request_.themes = themes_.choice();
     earth_.validate();
     request_.earth = earth_.earth();
-    if (!nodata_text_.empty() && parse_choice("--nodata", nodata_text_, {"block", "clear"}) == 0)
-      request_.nodata = viewshed::NoData::kBlock;
+    request_.nodata = nodata_.rule();
     if (!memory_text_.empty()) request_.memory_bytes = parse_bytes("--memory", memory_text_);
   }
 
@@ -110,7 +109,7 @@ class VisibilityVerb final : public Verb {
     parameters.update(window_.parameters());
     parameters.update(detail_.parameters());
     parameters.update(themes_.parameters());
-    parameters["nodata"] = request_.nodata == viewshed::NoData::kBlock ? "block" : "clear";
+    parameters["nodata"] = nodata_.text();
     return parameters;
   }
 
@@ -180,12 +179,12 @@ class VisibilityVerb final : public Verb {
                policy_.overwrite);
   }
 
-  std::string store_, output_, cell_text_, radius_text_, height_text_, target_text_, targets_text_, nodata_text_,
-      memory_text_;
+  std::string store_, output_, cell_text_, radius_text_, height_text_, target_text_, targets_text_, memory_text_;
   WindowOptions window_;
   DetailOptions detail_;
   ThemeOptions themes_;
   EarthOptions earth_;
+  NoDataOption nodata_{{"block", "clear"}, "clear"};  // a sample knows no doubt
   SheetOptions sheet_;
   OutputPolicy policy_;
   viewshed::IndexRequest request_;

@@ -22,6 +22,7 @@
 
 #include "options/detail_options.hpp"
 #include "options/earth_options.hpp"
+#include "options/nodata_option.hpp"
 #include "options/off_the_data.hpp"
 #include "options/radius_preset.hpp"
 #include "options/sheet_options.hpp"
@@ -79,8 +80,7 @@ class ZtvVerb final : public Verb {
     detail_.declare(app);
     themes_.declare(app);
     earth_.declare(app);
-    app.add_option("--nodata", nodata_text_, "What ground without data does to sight lines (default: unknown)")
-        ->type_name("unknown|block|clear");
+    nodata_.declare(app);
     app.add_option("--memory", memory_text_,
                    "Memory to work in, in parts where it does not hold all at once; the result never depends on it "
                    "(default: no limit)")
@@ -107,11 +107,7 @@ class ZtvVerb final : public Verb {
     if (like_.empty())
       request_.cell_size = cell_text_.empty() ? kDefaultCell : parse_number("--cell", cell_text_, Range::kPositive);
     if (!memory_text_.empty()) request_.memory_bytes = parse_bytes("--memory", memory_text_);
-    if (!nodata_text_.empty()) {
-      using enum viewshed::NoData;
-      constexpr viewshed::NoData kChoices[] = {kUnknown, kBlock, kClear};
-      request_.nodata = kChoices[parse_choice("--nodata", nodata_text_, {"unknown", "block", "clear"})];
-    }
+    request_.nodata = nodata_.rule();
   }
 
   std::vector<std::size_t> parse_bands() const {
@@ -138,7 +134,7 @@ class ZtvVerb final : public Verb {
     parameters.update(sheets_.parameters());
     parameters.update(detail_.parameters());
     parameters.update(themes_.parameters());
-    parameters["nodata"] = nodata_text_.empty() ? "unknown" : nodata_text_;
+    parameters["nodata"] = nodata_.text();
     return parameters;
   }
 
@@ -363,8 +359,9 @@ class ZtvVerb final : public Verb {
     return text;
   }
 
-  std::string store_, output_, cell_text_, like_, observer_text_, bands_text_, nodata_text_, memory_text_;
+  std::string store_, output_, cell_text_, like_, observer_text_, bands_text_, memory_text_;
   TurbineOptions turbines_;
+  NoDataOption nodata_;
   RadiusOptions radius_;
   ViewpointOptions viewpoints_;
   RouteOptions route_;
