@@ -1,6 +1,7 @@
 // The options of `itin site`, from the command line and from a parameter file.
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,8 +14,8 @@
 #include "options/earth_options.hpp"
 #include "options/engine_option.hpp"
 #include "options/in_crs.hpp"
-#include "options/sheet_options.hpp"
 #include "options/nodata_option.hpp"
+#include "options/sheet_options.hpp"
 #include "options/surface_options.hpp"
 #include "output/output_path.hpp"
 #include "program/values.hpp"
@@ -50,6 +51,8 @@ class SiteOptions {
   std::string meaning_of_served() const;
 
   std::string store, directory;
+  /// Where a file of the folder is.
+  std::string path(const std::string& name) const { return (std::filesystem::path(directory) / name).string(); }
   SheetOptions sheets;
   // Candidates.
   SiteQuery candidates;
