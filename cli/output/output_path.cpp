@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <itin/error.hpp>
+#include <itin/file_ending.hpp>
 
 namespace itin::cli {
 
@@ -32,6 +33,11 @@ void OutputPolicy::require_writable(const std::string& path) const {
   if (access(directory.c_str(), W_OK) != 0) {
     throw FileError(path, "its directory is not writable; change its permissions or name another place");
   }
+}
+
+bool names_geotiff(const std::string& path) {
+  const std::string ending = ending_of(path);
+  return ending == ".tif" || ending == ".tiff";
 }
 
 std::string style_beside(const std::string& raster) {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <filesystem>
 
 #include <fmt/format.h>
 
@@ -11,6 +10,7 @@
 #include <itin/error.hpp>
 #include <itin/triangulate.hpp>
 
+#include "output/output_path.hpp"
 #include "output/store_document.hpp"
 #include "program/call_files.hpp"
 
@@ -106,8 +106,7 @@ void FeatureRaster::declare(CLI::App& app) {
 }
 
 void FeatureRaster::validate() const {
-  const std::string ending = std::filesystem::path(path_).extension().string();
-  if (!path_.empty() && ending != ".tif" && ending != ".tiff")
+  if (!path_.empty() && !names_geotiff(path_))
     throw InputError(fmt::format("--features '{}': a raster is written as .tif", path_));
 }
 

@@ -83,7 +83,7 @@ class VisibilityVerb final : public Verb {
       request_.target_height = parse_height("--target-height", target_text_, Range::kNotNegative);
     if (!targets_text_.empty())
       request_.targets = static_cast<unsigned>(parse_whole("--targets", targets_text_, 1, kMostTargets));
-    if (std::filesystem::path(output_).extension() != ".tif")
+    if (!names_geotiff(output_))
       throw InputError(fmt::format("--output '{}': a visibility index is written as .tif", output_));
     sheet_.validate();
     window_.validate();

@@ -1,7 +1,6 @@
 #include "ztv/ztv_wirelines.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <optional>
 
@@ -14,6 +13,7 @@
 #include <profile/wireline_sheet.hpp>
 
 #include "output/map_base.hpp"
+#include "output/output_path.hpp"
 #include "output/store_document.hpp"
 #include "ztv/ztv_turbines.hpp"
 
@@ -26,12 +26,8 @@ using viewshed::Zone;
 
 constexpr double kCylinder = 90, kRoomBeside = 10;  ///< degrees
 
-/// A name that every file system takes.
-std::string file_name(const char* kind, const Viewpoint& v, const std::string& ending) {
-  std::string name;
-  for (const char c : v.name)
-    name += std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '_' ? c : '_';
-  return fmt::format("{}-{}-{}{}", kind, v.number, name, ending);
+std::string name_of_file(const char* kind, const Viewpoint& v, const std::string& ending) {
+  return file_name(fmt::format("{}-{}-{}", kind, v.number, v.name)) + ending;
 }
 
 double turned(double degrees) {
@@ -180,7 +176,7 @@ void WirelineWriter::write(const Viewpoint& v, const ViewedSurface& view, const 
       fmt::format("viewpoint {}, {}{}", v.number, v.name, view.suffix.empty() ? "" : ", with what screens");
   const profile::Wireline drawn = profile::survey_wireline(view.surface, query, progress);
   for (const char* ending : {".svg", ".pdf", ".png"}) {
-    const std::string name = file_name("wireline", v, view.suffix + ending);
+    const std::string name = name_of_file("wireline", v, view.suffix + ending);
     add(name, "wireline from " + of + ", to scale", profile::draw_wireline(drawn, name));
   }
   if (!sheets_.given()) return;
@@ -191,10 +187,10 @@ void WirelineWriter::write(const Viewpoint& v, const ViewedSurface& view, const 
   profile::WirelineSheet sheet{query.title, facts, centre};
   if (!sheets_.project().empty()) sheet.facts.insert(sheet.facts.begin(), {"Project", sheets_.project()});
   sheet.facts.emplace_back("Date", sheets_.date());
-  std::string planar = file_name("wireline", v, view.suffix + "-planar.pdf");
+  std::string planar = name_of_file("wireline", v, view.suffix + "-planar.pdf");
   add(planar, "sheet of 841 by 297 mm: planar wireline of 53.5 degrees from " + of,
       profile::draw_planar_sheet(wide, sheet, planar));
-  std::string cylindrical = file_name("wireline", v, view.suffix + "-cylindrical.pdf");
+  std::string cylindrical = name_of_file("wireline", v, view.suffix + "-cylindrical.pdf");
   std::optional<profile::Wireline> alone;
   if (!choice_.alone.empty()) alone = of_one_farm(wide, choice_.alone);
   std::vector<profile::WirelineField> drawn_fields;
@@ -207,7 +203,7 @@ void WirelineWriter::write(const Viewpoint& v, const ViewedSurface& view, const 
                   alone ? ", each with " + choice_.alone + " alone and with all wind farms" : "", of),
       profile::draw_cylindrical_sheets(drawn_fields, sheet, cylindrical));
   sheet.title = fmt::format("Viewpoint {}: {}", v.number, v.name);
-  const std::string name = file_name("viewpoint", v, view.suffix + ".pdf");
+  const std::string name = name_of_file("viewpoint", v, view.suffix + ".pdf");
   add(name, "sheet about " + of,
       profile::draw_viewpoint_sheet(
           wide, {sheet, farm_table(zone_, sights), location_map(store_, zone_, v, sights, sheets_.basemap(), progress)},
