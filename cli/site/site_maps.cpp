@@ -91,9 +91,9 @@ ResultSheet sheet_of(const Store& store, const SiteResult& r, const SiteMap& map
                     shown_area(r),
                     viewshed::result_map(map.result, map.options),
                     wording_of(r.options).share,
-                    [&](std::size_t cell) { return map.result.visible[cell] != viewshed::Verdict::kOutside; },
+                    in_cells(map.result.grid,
+                             [&](std::size_t cell) { return map.result.visible[cell] != viewshed::Verdict::kOutside; }),
                     objects,
-                    r.options.earth.earth(),
                     {}};
   if (map.result.cells.outside > 0) sheet.map.keys.push_back({{255, 255, 255, 153}, map.options.outside});
   sheet.title.title = map.options.title;
@@ -105,7 +105,8 @@ ResultSheet sheet_of(const Store& store, const SiteResult& r, const SiteMap& map
       {"Targets", map.options.subtitle},
       {"Choice",
        fmt::format("{}, {}", counted(r.choice.chosen.size(), one),
-                   turbines ? least_in_words(r) : fmt::format("{:.1f} % of the demand served", r.served_percent()))}};
+                   turbines ? least_in_words(r) : fmt::format("{:.1f} % of the demand served", r.served_percent()))},
+      {"Earth", r.options.earth.earth().convention()}};
   sheet.title.sources = sources;
   return sheet;
 }

@@ -162,9 +162,8 @@ class VisibilityVerb final : public Verb {
                       index.grid.bounds(),
                       viewshed::result_map(index),
                       "Share of the ground within the radius that is seen",
-                      [&](std::size_t cell) { return !std::isnan(index.share[cell]); },
+                      in_cells(index.grid, [&](std::size_t cell) { return !std::isnan(index.share[cell]); }),
                       {},
-                      request_.earth,
                       {}};
     profile::TitleBlock& block = sheet.title;
     block.title = "How much is seen from everywhere";
@@ -173,7 +172,8 @@ class VisibilityVerb final : public Verb {
                                              request_.cell_size, request_.height)},
                    {"Targets", fmt::format("{} at random for each observer, {:g} m above the ground", request_.targets,
                                            request_.target_height)},
-                   {"Radius", fmt::format("{:g} km", request_.radius / 1000)}};
+                   {"Radius", fmt::format("{:g} km", request_.radius / 1000)},
+                   {"Earth", request_.earth.convention()}};
     block.sources = described(sources_in(store, index.grid.bounds(), request_.themes), metadata);
     write_file(sheet_.file(), draw_result_sheet(store, sheet, sheet_.papers().front(), sheet_, sheet_.file(), progress),
                policy_.overwrite);

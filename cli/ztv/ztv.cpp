@@ -207,7 +207,8 @@ class ZtvVerb final : public Verb {
       document["viewpoints"] = bad_rows_document(seen_.path, seen_.rows, seen_.rows - seen_.bad.size(), seen_.bad);
     }
     if (route_.given()) add(route_.write(folder, store, zone, progress));
-    if (sheets_.given()) add(write_ztv_sheets(folder, store, zone, sheets_, sheet_facts(metadata), progress));
+    if (sheets_.given())
+      add(write_ztv_sheets(folder, store, zone, sheets_, {seen_.places, sources_, missing_}, progress));
     add_text("areas.csv", "km2 by band of turbines visible and by ring of distance to the nearest turbine",
              viewshed::area_table(zone));
     add_text("area-totals.csv",
@@ -225,15 +226,6 @@ class ZtvVerb final : public Verb {
     for (const ZoneFile& file : files)
       document["outputs"].push_back(
           {{"path", (std::filesystem::path(output_) / file.name).string()}, {"what", file.what}});
-  }
-
-  ZtvSheetFacts sheet_facts(const StoreMetadata& metadata) const {
-    ZtvSheetFacts facts;
-    facts.viewpoints = seen_.places;
-    if (request_.themes) facts.themes = request_.themes->names(metadata.themes);
-    facts.sources = sources_;
-    facts.missing = missing_;
-    return facts;
   }
 
   std::string turbine_table(const Zone& zone) const {
@@ -361,7 +353,6 @@ class ZtvVerb final : public Verb {
 
   std::string store_, output_, cell_text_, like_, observer_text_, bands_text_, memory_text_;
   TurbineOptions turbines_;
-  NoDataOption nodata_;
   RadiusOptions radius_;
   ViewpointOptions viewpoints_;
   RouteOptions route_;
@@ -370,6 +361,7 @@ class ZtvVerb final : public Verb {
   DetailOptions detail_;
   ThemeOptions themes_;
   EarthOptions earth_;
+  NoDataOption nodata_;
   OutputPolicy policy_;
 
   TurbineList list_;
