@@ -40,10 +40,10 @@ void LosStoreOptions::declare(CLI::App& app) {
   in_crs_.declare(app);
   detail_.declare(app);
   themes_.declare(app);
-  app.add_option("--nodata", nodata_text_,
-                 "What ground without data does to the sight line: unknown (default) leaves it undecided, unless known "
-                 "ground hides it")
-      ->type_name("unknown|block|clear");
+  nodata_.declare(
+      app,
+      "What ground without data does to the sight line: unknown (default) leaves it undecided, unless known "
+      "ground hides it");
 }
 
 void LosStoreOptions::validate(std::optional<double> object_tip_m) {
@@ -62,9 +62,7 @@ void LosStoreOptions::validate(std::optional<double> object_tip_m) {
 }
 
 void LosStoreOptions::validate_choices() {
-  using enum profile::NoData;
-  constexpr profile::NoData kRules[] = {kUnknown, kBlock, kClear};
-  nodata_ = kRules[parse_choice("--nodata", nodata_text_, {"unknown", "block", "clear"})];
+  nodata_.rule();
   parse_choice("--observer-on", from_on_, {"ground", "surface"});
   parse_choice("--target-on", to_on_, {"ground", "surface"});
   detail_.validate();
@@ -83,7 +81,7 @@ Document LosStoreOptions::surface_parameters() const {
   parameters["observer_on"] = from_on_;
   parameters["target_on"] = to_on_;
   if (!in_crs_.crs.empty()) parameters["in_crs"] = in_crs_.crs;
-  parameters["nodata"] = nodata_text_;
+  parameters["nodata"] = nodata_.text();
   return parameters;
 }
 

@@ -12,6 +12,7 @@
 
 #include "options/detail_options.hpp"
 #include "options/in_crs.hpp"
+#include "options/nodata_option.hpp"
 #include "options/surface_options.hpp"
 #include "program/values.hpp"
 #include "program/verb.hpp"
@@ -32,7 +33,7 @@ class LosStoreOptions {
   const ThemeChoice& themes() const { return themes_.choice(); }
   bool from_on_surface() const { return from_on_ == "surface"; }
   bool to_on_surface() const { return to_on_ == "surface"; }
-  profile::NoData nodata() const { return nodata_; }
+  NoData nodata() const { return nodata_.rule(); }
   const std::string& in_crs() const { return in_crs_.crs; }
   Document parameters() const;
 
@@ -54,13 +55,13 @@ class LosStoreOptions {
  private:
   void validate_choices();
 
-  std::string from_text_, to_text_, nodata_text_ = "unknown";
-  profile::NoData nodata_ = profile::NoData::kUnknown;
+  std::string from_text_, to_text_;
   std::string from_on_ = "ground", to_on_ = "ground";
   bool absolute_heights_ = false;
   InCrs in_crs_;
   DetailOptions detail_;
   ThemeOptions themes_;
+  NoDataOption nodata_;
 
   Place from_, to_;
   double from_height_ = 2, to_height_ = 2;

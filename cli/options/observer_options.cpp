@@ -64,53 +64,51 @@ void ObserverOptions::require_above_ground(const std::string& where, double heig
   }
 }
 
-std::vector<ObserverPlace> ObserverOptions::places(const StoreMetadata& metadata) const {
-  return sites_.path.empty() ? places_given(metadata) : places_of_file(metadata);
+std::vector<viewshed::Observer> ObserverOptions::observers(const StoreMetadata& metadata) const {
+  return sites_.path.empty() ? observers_given(metadata) : observers_of_file(metadata);
 }
 
-std::vector<ObserverPlace> ObserverOptions::places_given(const StoreMetadata& metadata) const {
-  std::vector<ObserverPlace> places;
+std::vector<viewshed::Observer> ObserverOptions::observers_given(const StoreMetadata& metadata) const {
+  std::vector<viewshed::Observer> observers;
   for (std::size_t i = 0; i < given_.size(); ++i) {
     const std::string what = fmt::format("--observer '{}'", observers_[i]);
-    places.push_back({fmt::format("{}", i + 1),
-                      on_the_data(what, given_[i], in_crs_, metadata),
-                      given_[i].height.value_or(height_),
-                      absolute_heights_,
-                      {}});
+    observers.push_back({fmt::format("{}", i + 1), on_the_data(what, given_[i], in_crs_, metadata),
+                         given_[i].height.value_or(height_), absolute_heights_});
   }
-  return places;
+  return observers;
 }
 
-std::vector<ObserverPlace> ObserverOptions::places_of_file(const StoreMetadata& metadata) const {
+std::vector<viewshed::Observer> ObserverOptions::observers_of_file(const StoreMetadata& metadata) const {
   SiteQuery query = sites_;
   query.crs = in_crs_.crs;
   query.numbers = views_.numbers();
-  std::vector<ObserverPlace> places;
+  std::vector<viewshed::Observer> observers;
   for (const Site& site : read_sites(query, metadata.crs_wkt)) {
     const std::string where = fmt::format("{}: feature {}", query.path, site.feature);
     require_on_the_data(where, site.position, in_crs_, metadata);
-    ObserverPlace place{site.name, site.position, site.height.value_or(height_), absolute_heights_,
-                        views_.view(site.numbers, where)};
-    if (place.view.height) place.height = *place.view.height;
-    if (place.view.spot) place.height += *place.view.spot, place.absolute = true;
-    if (!place.absolute) require_above_ground(where, place.height);
-    places.push_back(std::move(place));
-  }
-  if (places.empty()) throw InputError(none_in(query, "observer"));
-  return places;
-}
-
-Document observers_document(const std::vector<ObserverPlace>& places) {
-  Document observers = Document::array();
-  for (const ObserverPlace& place : places) {
-    Document observer{{"name", place.name},
-                      {"x", place.position.x},
-                      {"y", place.position.y},
-                      {place.absolute ? "elevation_m" : "height_m", place.height}};
-    add_view(place.view, observer);
+    viewshed::Observer observer{site.name, site.position, site.height.value_or(height_), absolute_heights_};
+    views_.fill(observer, site.numbers, where);
+    if (!observer.absolute) require_above_ground(where, observer.height);
     observers.push_back(std::move(observer));
   }
+  if (observers.empty()) throw InputError(none_in(query, "observer"));
   return observers;
+}
+
+Document observers_document(const std::vector<viewshed::Observer>& observers) {
+  Document documents = Document::array();
+  for (const viewshed::Observer& o : observers) {
+    Document& document = documents.emplace_back(Document{{"name", o.name},
+                                                         {"x", o.position.x},
+                                                         {"y", o.position.y},
+                                                         {o.absolute ? "elevation_m" : "height_m", o.height}});
+    if (o.target_height) document["target_height_m"] = *o.target_height;
+    if (o.radius) document["radius_m"] = *o.radius;
+    if (o.min_radius) document["min_radius_m"] = *o.min_radius;
+    if (o.azimuth) document["azimuth_deg"] = {o.azimuth->from, o.azimuth->to};
+    if (o.elevation) document["elevation_deg"] = {o.elevation->from, o.elevation->to};
+  }
+  return documents;
 }
 
 }  // namespace itin::cli

@@ -17,15 +17,6 @@
 
 namespace itin::cli {
 
-/// An observer in the store's CRS, as understood.
-struct ObserverPlace {
-  std::string name;
-  Point2 position;
-  double height = 0;  ///< metres above the surface, or an elevation
-  bool absolute = false;
-  ViewFields::View view;
-};
-
 class ObserverOptions {
  public:
   void declare(CLI::App& app);
@@ -33,12 +24,12 @@ class ObserverOptions {
   void validate();
   bool absolute_heights() const { return absolute_heights_; }
   bool on_surface() const { return observer_on_ == "surface"; }
-  /// At least one. Throws InputError, FileError.
-  std::vector<ObserverPlace> places(const StoreMetadata& metadata) const;
+  /// At least one, in the store's CRS. Throws InputError, FileError.
+  std::vector<viewshed::Observer> observers(const StoreMetadata& metadata) const;
 
  private:
-  std::vector<ObserverPlace> places_given(const StoreMetadata& metadata) const;
-  std::vector<ObserverPlace> places_of_file(const StoreMetadata& metadata) const;
+  std::vector<viewshed::Observer> observers_given(const StoreMetadata& metadata) const;
+  std::vector<viewshed::Observer> observers_of_file(const StoreMetadata& metadata) const;
   void require_above_ground(const std::string& where, double height) const;
 
   std::vector<std::string> observers_;
@@ -53,6 +44,6 @@ class ObserverOptions {
   std::vector<Place> given_;
 };
 
-Document observers_document(const std::vector<ObserverPlace>& places);
+Document observers_document(const std::vector<viewshed::Observer>& observers);
 
 }  // namespace itin::cli

@@ -15,15 +15,14 @@ namespace itin::cli {
 namespace {
 
 /// Throws InputError where nothing can be in view.
-void require_view(const ViewFields::View& view, const std::string& where) {
-  const auto refuse = [&](const char* what, const ViewFields::Angles& angles, const char* advice) {
-    throw InputError(
-        fmt::format("{}: its {} run from {:g} to {:g}: {}", where, what, angles.first, angles.second, advice));
+void require_view(const viewshed::Observer& observer, const std::string& where) {
+  const auto refuse = [&](const char* what, const viewshed::AngleRange& angles, const char* advice) {
+    throw InputError(fmt::format("{}: its {} run from {:g} to {:g}: {}", where, what, angles.from, angles.to, advice));
   };
-  if (view.elevation && view.elevation->first >= view.elevation->second)
-    refuse("elevations", *view.elevation, "give a lower and then a higher one");
-  if (view.azimuth && view.azimuth->first == view.azimuth->second)
-    refuse("azimuths", *view.azimuth, "for the whole circle leave them empty");
+  if (observer.elevation && observer.elevation->from >= observer.elevation->to)
+    refuse("elevations", *observer.elevation, "give a lower and then a higher one");
+  if (observer.azimuth && observer.azimuth->from == observer.azimuth->to)
+    refuse("azimuths", *observer.azimuth, "for the whole circle leave them empty");
 }
 
 }  // namespace
@@ -80,8 +79,8 @@ std::vector<NumberField> ViewFields::numbers() const {
   return numbers;
 }
 
-ViewFields::View ViewFields::view(const std::vector<std::optional<double>>& numbers, const std::string& where) const {
-  View view;
+void ViewFields::fill(viewshed::Observer& observer, const std::vector<std::optional<double>>& numbers,
+                      const std::string& where) const {
   const auto refuse = [&](const Field& field, double value, const std::string& expected) {
     throw InputError(fmt::format("{}: field '{}' holds {:.10g}: expected {}", where, field.name, value, expected));
   };
@@ -91,9 +90,11 @@ ViewFields::View ViewFields::view(const std::vector<std::optional<double>>& numb
     return value;
   };
   // A range of which one end is given is open to the other.
-  const auto range = [](std::optional<Angles>& angles, Angles all) -> Angles& {
+  const auto range = [](std::optional<viewshed::AngleRange>& angles,
+                        viewshed::AngleRange all) -> viewshed::AngleRange& {
     return angles ? *angles : angles.emplace(all);
   };
+  std::optional<double> spot;
   for (std::size_t i = 0; i < fields_.size(); ++i) {
     const Field& field = fields_[i];
     if (!numbers[i]) continue;
@@ -103,13 +104,13 @@ ViewFields::View ViewFields::view(const std::vector<std::optional<double>>& numb
     switch (field.role) {
       case Role::kHeight:
         if (value < 0) refuse(field, value, "0 or a positive number of metres");
-        view.height = value;
+        observer.height = value;
         break;
       case Role::kSpot:
-        view.spot = value;
+        spot = value;
         break;
       case Role::kTargetHeight:
-        view.target_height = value;
+        observer.target_height = value;
         break;
       case Role::kRadius:
       case Role::kMinRadius: {
@@ -118,33 +119,25 @@ ViewFields::View ViewFields::view(const std::vector<std::optional<double>>& numb
         if (field.role == Role::kRadius && !(metres > 0)) refuse(field, value, "a positive number of metres");
         if (metres > kFarthest) refuse(field, value, fmt::format("at most {:.0f} metres", kFarthest));
         if (metres < 0) refuse(field, value, "0 or a positive number of metres");
-        (field.role == Role::kRadius ? view.radius : view.min_radius) = metres;
+        (field.role == Role::kRadius ? observer.radius : observer.min_radius) = metres;
         break;
       }
       case Role::kAzimuthFrom:
-        range(view.azimuth, {0, 360}).first = angle(field, value, 360);
+        range(observer.azimuth, {0, 360}).from = angle(field, value, 360);
         break;
       case Role::kAzimuthTo:
-        range(view.azimuth, {0, 360}).second = angle(field, value, 360);
+        range(observer.azimuth, {0, 360}).to = angle(field, value, 360);
         break;
       case Role::kElevationFrom:
-        range(view.elevation, {-90, 90}).first = angle(field, value, 90);
+        range(observer.elevation, {-90, 90}).from = angle(field, value, 90);
         break;
       case Role::kElevationTo:
-        range(view.elevation, {-90, 90}).second = angle(field, value, 90);
+        range(observer.elevation, {-90, 90}).to = angle(field, value, 90);
         break;
     }
   }
-  require_view(view, where);
-  return view;
-}
-
-void add_view(const ViewFields::View& view, Document& observer) {
-  if (view.target_height) observer["target_height_m"] = *view.target_height;
-  if (view.radius) observer["radius_m"] = *view.radius;
-  if (view.min_radius) observer["min_radius_m"] = *view.min_radius;
-  if (view.azimuth) observer["azimuth_deg"] = {view.azimuth->first, view.azimuth->second};
-  if (view.elevation) observer["elevation_deg"] = {view.elevation->first, view.elevation->second};
+  if (spot) observer.height += *spot, observer.absolute = true;
+  require_view(observer, where);
 }
 
 }  // namespace itin::cli

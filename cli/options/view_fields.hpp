@@ -3,41 +3,28 @@
 
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
 
 #include <itin/sites.hpp>
-
-#include "program/verb.hpp"
+#include <viewshed/viewshed.hpp>
 
 namespace itin::cli {
 
 class ViewFields {
  public:
-  using Angles = std::pair<double, double>;  ///< degrees, from and to
-
-  /// The values of an observer's fields; nothing where they are empty.
-  struct View {
-    std::optional<double> height;  ///< OFFSETA
-    std::optional<double> spot;    ///< SPOT: the elevation that the height is above
-    std::optional<double> target_height;
-    std::optional<double> radius;
-    std::optional<double> min_radius;
-    std::optional<Angles> azimuth;
-    std::optional<Angles> elevation;
-  };
-
   void declare(CLI::App& app);
   /// Throws InputError.
   void validate();
   bool given() const { return !fields_.empty() || !text_given().empty(); }
   bool arcgis() const { return arcgis_; }
-  /// The fields to read, in the order that view() takes them.
+  /// The fields to read, in the order that fill() takes them.
   std::vector<NumberField> numbers() const;
-  /// Throws InputError for a value out of range, saying `where`, the field and the value.
-  View view(const std::vector<std::optional<double>>& numbers, const std::string& where) const;
+  /// Gives the observer what its fields say; it keeps what it has where they are empty. Throws InputError for a value
+  /// out of range, saying `where`, the field and the value.
+  void fill(viewshed::Observer& observer, const std::vector<std::optional<double>>& numbers,
+            const std::string& where) const;
 
  private:
   enum class Role {
@@ -63,8 +50,5 @@ class ViewFields {
   std::string target_height_, radius_, min_radius_, azimuths_, elevations_;
   std::vector<Field> fields_;
 };
-
-/// Adds what the view says under the contract's names.
-void add_view(const ViewFields::View& view, Document& observer);
 
 }  // namespace itin::cli

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <itin/error.hpp>
+#include <itin/file_ending.hpp>
 
 namespace itin::cli {
 
@@ -34,8 +35,13 @@ void OutputPolicy::require_writable(const std::string& path) const {
   }
 }
 
+bool names_geotiff(const std::string& path) {
+  const std::string ending = ending_of(path);
+  return ending == ".tif" || ending == ".tiff";
+}
+
 std::string style_beside(const std::string& raster) {
-  return fs::path(raster).replace_extension(".qml").string();
+  return std::filesystem::path(raster).replace_extension(".qml").string();
 }
 
 std::string file_name(const std::string& name) {

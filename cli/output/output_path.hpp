@@ -27,6 +27,9 @@ class OutputPolicy {
   std::optional<CallFiles> files_;
 };
 
+/// Whether the name has the ending of a GeoTIFF.
+bool names_geotiff(const std::string& path);
+
 /// The QGIS style that is written beside a raster.
 std::string style_beside(const std::string& raster);
 

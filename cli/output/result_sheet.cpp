@@ -29,8 +29,15 @@ profile::MapSheet empty_sheet(const Store& store, const ResultSheet& content, pr
 }  // namespace
 
 MapObjects mast_objects(std::vector<profile::SheetMark> masts, std::string key) {
-  return {profile::SheetMarks{profile::SheetSymbol::kMast, kMastColour, std::move(masts)},
-          {SheetKey::Sample::kMark, kMastColour, std::move(key)}};
+  return {{profile::SheetMarks{profile::SheetSymbol::kMast, kMastColour, std::move(masts)}},
+          {{SheetKey::Sample::kMark, kMastColour, std::move(key)}}};
+}
+
+std::function<bool(Point2)> in_cells(const RasterGrid& grid, std::function<bool(std::size_t)> studied) {
+  return [grid, studied = std::move(studied)](Point2 p) {
+    const auto cell = grid.cell_at(p);
+    return cell && studied(grid.index(*cell));
+  };
 }
 
 std::string statement_of(const StoreMetadata& metadata, const ThemeChoice& themes) {
@@ -43,22 +50,16 @@ std::string statement_of(const StoreMetadata& metadata, const ThemeChoice& theme
 MapBase base_of(const Store& store, const ResultSheet& content, profile::PaperSize paper, const SheetOptions& options,
                 Progress& progress) {
   const profile::MapSheet sheet = empty_sheet(store, content, paper, options);
-  return faded_for(
-      map_base(store, profile::ground_in_frame(sheet), profile::scale_of(sheet), options.basemap(), progress), content);
-}
-
-MapBase faded_for(MapBase base, const ResultSheet& content) {
-  return faded(std::move(base), [&](Point2 p) {
-    const auto cell = content.grid.cell_at(p);
-    return cell && content.studied(content.grid.index(*cell));
-  });
+  return faded(map_base(store, profile::ground_in_frame(sheet), profile::scale_of(sheet), options.basemap(), progress),
+               content.studied);
 }
 
 std::vector<profile::SheetLayer> layers_of(const MapBase& base, const ResultSheet& content) {
   profile::SheetCells cells{content.grid, {}};
   for (const auto& colour : content.map.cells) cells.colours.push_back(drawn(colour));
   std::vector<profile::SheetLayer> layers = layers_of(base, std::move(cells));
-  for (const MapObjects& objects : content.objects) layers.push_back(objects.layer);
+  for (const MapObjects& objects : content.objects)
+    layers.insert(layers.end(), objects.layers.begin(), objects.layers.end());
   return layers;
 }
 
@@ -72,7 +73,7 @@ std::vector<SheetKey> keys_of(const MapBase& base, const ResultSheet& content) {
   add(content.heading, content.map.keys);
   add(content.map.scale_title, content.map.scale);
   keys.push_back({SheetKey::Sample::kHeading, {}, "Map"});
-  for (const MapObjects& objects : content.objects) keys.push_back(objects.key);
+  for (const MapObjects& objects : content.objects) keys.insert(keys.end(), objects.keys.begin(), objects.keys.end());
   keys.insert(keys.end(), base.keys.begin(), base.keys.end());
   return keys;
 }
@@ -83,7 +84,6 @@ profile::MapSheet map_sheet(const Store& store, const ResultSheet& content, cons
   sheet.layers = layers_of(base, content);
   sheet.legend = keys_of(base, content);
   sheet.title = content.title;
-  sheet.title.facts.emplace_back("Earth", content.earth.convention());
   sheet.title.facts.emplace_back("Coordinates", crs_title(store.metadata().crs_wkt));
   if (!options.basemap().empty()) sheet.title.facts.push_back(basemap_fact(options.basemap()));
   sheet.title.project = options.project(), sheet.title.date = options.date();

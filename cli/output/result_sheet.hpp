@@ -1,11 +1,10 @@
-// A map of cells in colours on a sheet of paper, over relief or a picture: viewsheds, visibility and sites.
+// A map of cells in colours on a sheet of paper, over relief or a picture: viewsheds, visibility, zones and sites.
 #pragma once
 
 #include <functional>
 #include <string>
 #include <vector>
 
-#include <itin/earth.hpp>
 #include <itin/raster.hpp>
 #include <itin/store.hpp>
 #include <profile/map_sheet.hpp>
@@ -16,10 +15,10 @@
 
 namespace itin::cli {
 
-/// Lines or marks, and what stands for them in the legend.
+/// Lines or marks, the lowest first, and what stands for them in the legend.
 struct MapObjects {
-  profile::SheetLayer layer;
-  profile::SheetKey key;
+  std::vector<profile::SheetLayer> layers;
+  std::vector<profile::SheetKey> keys;
 };
 
 inline constexpr profile::SheetColour kMastColour{213, 94, 0, 255};
@@ -28,25 +27,24 @@ MapObjects mast_objects(std::vector<profile::SheetMark> masts, std::string key);
 
 struct ResultSheet {
   RasterGrid grid;
-  Box area;                                  ///< that the map shows at least, metres
-  viewshed::ResultMap map;                   ///< of its cells
-  std::string heading;                       ///< of the map's keys
-  std::function<bool(std::size_t)> studied;  ///< whether a cell is part of the study: the others' relief is faded
-  std::vector<MapObjects> objects;           ///< over the cells, the lowest first
-  Earth earth;
-  profile::TitleBlock title;  ///< without what every sheet says: the Earth, coordinates, project, date, maker
+  Box area;                             ///< that the map shows at least, metres
+  viewshed::ResultMap map;              ///< of its cells
+  std::string heading;                  ///< of the map's keys
+  std::function<bool(Point2)> studied;  ///< whether a place is part of the study: the others' relief is faded
+  std::vector<MapObjects> objects;      ///< over the cells, the lowest first
+  profile::TitleBlock title;            ///< without what every sheet says: coordinates, project, date, maker
 };
+
+/// Holds in the grid's cells of which `studied` holds.
+std::function<bool(Point2)> in_cells(const RasterGrid& grid, std::function<bool(std::size_t)> studied);
 
 /// What screens on a map, and what does not.
 std::string statement_of(const StoreMetadata& metadata, const ThemeChoice& themes);
 
-/// What lies below a result's map on this paper. Results of equal grids and studied cells may share it. Throws
+/// What lies below a result's map on this paper. Results of one area and study may share it. Throws
 /// FileError (a basemap), InputError (a scale that is too large), Cancelled.
 MapBase base_of(const Store& store, const ResultSheet& content, profile::PaperSize paper, const SheetOptions& options,
                 Progress& progress);
-
-/// The base with the relief of cells that are not studied faded.
-MapBase faded_for(MapBase base, const ResultSheet& content);
 
 /// All that is drawn over such a base, the base lowest, and its legend.
 std::vector<profile::SheetLayer> layers_of(const MapBase& base, const ResultSheet& content);

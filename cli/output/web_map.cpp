@@ -138,7 +138,7 @@ std::string WebMaps::part(std::string svg) {
 }
 
 std::string WebMaps::figure(const ResultSheet& content, const std::string& about) {
-  const std::vector<profile::SheetLayer> layers = layers_of(faded_for(base_, content), content);
+  const std::vector<profile::SheetLayer> layers = layers_of(faded(base_, content.studied), content);
   std::string html =
       fmt::format("<figure>\n<svg class=\"map\" style=\"aspect-ratio:{:.6g}\" role=\"img\" aria-label=\"{}\">\n",
                   frame_.width() / frame_.height(), escaped_markup("Map: " + content.title.title));

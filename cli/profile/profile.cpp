@@ -241,8 +241,7 @@ class ProfileVerb final : public Verb {
 
   void write(const StoreMetadata& metadata, const std::vector<SurfaceProfile>& profiles, const profile::Profile& ground,
              const std::vector<Point2>& corners, const Document& found) const {
-    Document document{{"itin", ITIN_VERSION}, {"command", {{"verb", name()}}}};
-    document["command"].update(parameters());
+    Document document = call_document(*this);
     document.update(found);
     document.erase("outputs");
     const Point2 a = corners.front(), b = corners.back();

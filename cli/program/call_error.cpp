@@ -78,11 +78,10 @@ std::string call_error(const CLI::App& verb, const CLI::ParseError& error) {
 }
 
 std::string out_of_memory(const CLI::App& verb) {
-  constexpr std::pair<const char*, const char*> kRemedies[] = {{"--bbox", "a smaller window"},
-                                                               {"--radius", "a smaller --radius"},
-                                                               {"--cell", "a larger --cell"},
-                                                               {"--tolerance", "a coarser --tolerance"},
-                                                               {"--memory", "less --memory"}};
+  constexpr std::pair<const char*, const char*> kRemedies[] = {
+      {"--bbox", "a smaller window"}, {"--radius", "a smaller --radius"},
+      {"--cell", "a larger --cell"},  {"--tolerance", "a coarser --tolerance"},
+      {"--memory", "less --memory"},  {"SOURCE", "fewer sources at once"}};
   std::vector<std::string> remedies;
   for (const auto& [option, remedy] : kRemedies)
     if (verb.get_option_no_throw(option) != nullptr) remedies.emplace_back(remedy);

@@ -104,10 +104,7 @@ std::uint64_t peak_memory_bytes() {
 }
 
 Document complete_document(const Verb& verb, Result& result, double seconds) {
-  Document document;
-  document["itin"] = ITIN_VERSION;
-  document["command"] = {{"verb", verb.name()}};
-  document["command"].update(verb.parameters());
+  Document document = call_document(verb);
   Document statistics = result.document.value("statistics", Document::object());
   result.document.erase("statistics");
   document.update(result.document);
@@ -143,11 +140,7 @@ void run_verb(Verb& verb, CLI::App& options, const Everywhere& everywhere) {
   Result result;
   {
     StderrProgress progress(StderrProgress::style_for(everywhere.quiet));
-    try {
-      result = verb.execute(progress);
-    } catch (const std::bad_alloc&) {
-      throw Error("out of memory; " + verb.advice_for_less_memory());
-    }
+    result = verb.execute(progress);
   }
   for (std::string& warning : result.warnings) warning = in_options(std::move(warning));
   for (const std::string& warning : result.warnings) std::cerr << "itin: warning: " << warning << "\n";

@@ -36,11 +36,10 @@ class Verb {
   virtual Document parameters() const = 0;
   /// Throws itin::Error.
   virtual Result execute(Progress& progress) = 0;
-  /// Advice for a call that runs out of memory.
-  virtual std::string advice_for_less_memory() const {
-    return "ask for a smaller window, a coarser tolerance or larger cells";
-  }
 };
+
+/// The head of every document: `itin`, and `command` with the verb and its parameters. Called after execute().
+Document call_document(const Verb& verb);
 
 std::unique_ptr<Verb> make_import_verb();
 std::unique_ptr<Verb> make_info_verb();

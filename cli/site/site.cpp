@@ -16,6 +16,7 @@
 #include <viewshed/siting.hpp>
 
 #include "options/off_the_data.hpp"
+#include "options/store_cache.hpp"
 #include "options/store_scale.hpp"
 #include "output/new_folder.hpp"
 #include "output/output_path.hpp"
@@ -23,10 +24,13 @@
 #include "program/verb.hpp"
 #include "site/site_inputs.hpp"
 #include "site/site_links.hpp"
+#include "site/site_maps.hpp"
 #include "site/site_options.hpp"
 #include "site/site_outputs.hpp"
+#include "site/site_rasters.hpp"
 #include "site/site_report.hpp"
 #include "site/site_result.hpp"
+#include "site/site_tables.hpp"
 #include "site/site_warnings.hpp"
 #include "site/site_wording.hpp"
 #include "site/site_work.hpp"
@@ -54,11 +58,10 @@ class SiteVerb final : public Verb {
   Result execute(Progress& progress) override {
     // Files that a killed run has written may be replaced when it is resumed.
     policy_ = options_.policy;
-    policy_.overwrite = policy_.overwrite || (options_.resume && std::filesystem::exists(place("site.work")));
+    policy_.overwrite = policy_.overwrite || (options_.resume && std::filesystem::exists(options_.path("site.work")));
     const NewFolder folder(options_.directory);
     outputs_ = site_outputs(options_, policy_);
-    // A budget holds for what is kept of the store as well.
-    const Store store(options_.store, {std::min(StoreOptions().cache_bytes, options_.memory_bytes / 4)});
+    const Store store(options_.store, cache_within(options_.memory_bytes));
     options_.themes.choice().check(store.metadata().themes);
     inputs_document_ = hash_inputs(progress);
     const SiteInputs inputs = read_site_inputs(store, options_, progress);
@@ -72,7 +75,7 @@ class SiteVerb final : public Verb {
     viewshed::Demand shown;
     if (heights) shown = viewshed::Demand(summed_visible_heights(store, options_, inputs, progress));
     viewshed::SiteCoverage coverage(store, site_survey(options_, inputs), progress);
-    SiteWork work(place("site.work"), key(), options_.resume, inputs.positions.size(), coverage);
+    SiteWork work(options_.path("site.work"), key(), options_.resume, inputs.positions.size(), coverage);
     coverage.on_refined = [&](std::size_t option, int stage, const viewshed::CoverageBounds& bounds) {
       work.add(option, stage, bounds);
     };
@@ -92,8 +95,6 @@ class SiteVerb final : public Verb {
   }
 
  private:
-  std::string place(const char* name) const { return (std::filesystem::path(options_.directory) / name).string(); }
-
   /// Every file that the result depends on.
   Document hash_inputs(Progress& progress) const {
     Document inputs = Document::array();
@@ -209,26 +210,24 @@ class SiteVerb final : public Verb {
     result.document = site_document(site, store.metadata());
     for (const SiteOutput& output : outputs_)
       result.document["outputs"].push_back({{"path", output.path}, {"what", output.what}});
-    write_site_maps(store, site, options_.directory, policy_.overwrite, progress, result.warnings);
-    write_site_rasters(site, options_.directory, crs, json_text(parameters()), policy_.overwrite);
-    write_site_tables(site, options_.directory, policy_.overwrite);
-    write_site_layers(site, options_.directory, crs, policy_.overwrite);
-    const auto profiles = write_site_profiles(store, site, options_.directory, policy_.overwrite, progress);
+    write_site_maps(store, site, policy_.overwrite, progress, result.warnings);
+    write_site_rasters(site, crs, json_text(parameters()), policy_.overwrite);
+    write_site_tables(site, policy_.overwrite);
+    write_site_layers(site, crs, policy_.overwrite);
+    const auto profiles = write_site_profiles(store, site, policy_.overwrite, progress);
     for (const SiteProfile& profile : profiles)
       result.document["outputs"].push_back({{"path", profile.path}, {"what", "profile of the link " + profile.what}});
     const std::vector<SourceInfo> sources = sources_in(store, site.rasters.grid.bounds(), options_.themes.choice());
     result.document["sources"] = sources_document(sources);
     const std::vector<std::string> in_words = described(sources, store.metadata());
-    write_site_sheets(store, site, in_words, options_.directory, policy_.overwrite, progress);
-    write_site_report(site, {site_figures(store, site, progress), profiles, parameters(), in_words}, options_.directory,
-                      policy_.overwrite);
-    Document whole{{"itin", ITIN_VERSION}, {"command", {{"verb", name()}}}};
-    whole["command"].update(parameters());
+    write_site_sheets(store, site, in_words, policy_.overwrite, progress);
+    write_site_report(site, {site_figures(store, site, progress), profiles, parameters(), in_words}, policy_.overwrite);
+    Document whole = call_document(*this);
     whole.update(result.document);
-    write_file(place("site.json"), json_text(whole, 2) + "\n", policy_.overwrite);
+    write_file(options_.path("site.json"), json_text(whole, 2) + "\n", policy_.overwrite);
     Document given = options_.given();
     given["inputs"] = inputs_document_;
-    write_file(place("parameters.json"), json_text(given, 2) + "\n", policy_.overwrite);
+    write_file(options_.path("parameters.json"), json_text(given, 2) + "\n", policy_.overwrite);
     const viewshed::Statistics& statistics = site.coverage.statistics();
     result.document["statistics"] = {{"points_read", statistics.retrieval.points_read},
                                      {"blocks_read", statistics.retrieval.blocks_read},

@@ -39,12 +39,11 @@ class LinkJudge {
 }  // namespace
 
 LinkRules link_rules(const SiteOptions& options) {
-  constexpr profile::NoData kRules[] = {profile::NoData::kUnknown, profile::NoData::kBlock, profile::NoData::kClear};
   LinkRules rules{{.earth = options.earth.earth(),
                    .themes = options.themes.choice(),
                    .from_on_surface = options.on_surface,
                    .to_on_surface = options.on_surface,
-                   .nodata = kRules[static_cast<int>(options.nodata)]},
+                   .nodata = options.nodata.rule()},
                   options.fresnel};
   if (options.frequency_ghz) {
     rules.query.radio.emplace().frequency_ghz = *options.frequency_ghz;

@@ -1,4 +1,4 @@
-#include <filesystem>
+#include "site/site_maps.hpp"
 
 #include <fmt/format.h>
 
@@ -13,7 +13,6 @@
 #include "output/store_document.hpp"
 #include "output/web_map.hpp"
 #include "site/site_map_objects.hpp"
-#include "site/site_report.hpp"
 #include "site/site_wording.hpp"
 
 namespace itin::cli {
@@ -92,9 +91,9 @@ ResultSheet sheet_of(const Store& store, const SiteResult& r, const SiteMap& map
                     shown_area(r),
                     viewshed::result_map(map.result, map.options),
                     wording_of(r.options).share,
-                    [&](std::size_t cell) { return map.result.visible[cell] != viewshed::Verdict::kOutside; },
+                    in_cells(map.result.grid,
+                             [&](std::size_t cell) { return map.result.visible[cell] != viewshed::Verdict::kOutside; }),
                     objects,
-                    r.options.earth.earth(),
                     {}};
   if (map.result.cells.outside > 0) sheet.map.keys.push_back({{255, 255, 255, 153}, map.options.outside});
   sheet.title.title = map.options.title;
@@ -106,7 +105,8 @@ ResultSheet sheet_of(const Store& store, const SiteResult& r, const SiteMap& map
       {"Targets", map.options.subtitle},
       {"Choice",
        fmt::format("{}, {}", counted(r.choice.chosen.size(), one),
-                   turbines ? least_in_words(r) : fmt::format("{:.1f} % of the demand served", r.served_percent()))}};
+                   turbines ? least_in_words(r) : fmt::format("{:.1f} % of the demand served", r.served_percent()))},
+      {"Earth", r.options.earth.earth().convention()}};
   sheet.title.sources = sources;
   return sheet;
 }
@@ -128,14 +128,14 @@ std::uint64_t bytes_of_site_maps(const Store& store, const RasterGrid& grid) {
   return kCell * grid.cell_count() + kPoint * store.points_about(hillshade_level(store, grid), grid.bounds());
 }
 
-void write_site_maps(const Store& store, const SiteResult& r, const std::string& directory, bool overwrite,
-                     Progress& progress, std::vector<std::string>& warnings) {
+void write_site_maps(const Store& store, const SiteResult& r, bool overwrite, Progress& progress,
+                     std::vector<std::string>& warnings) {
   progress.report("maps", 0);
   const Tin tin = hillshade_surface(store, r.rasters.grid, progress);
   const std::vector<SiteMap> maps = site_maps(r);
   parallel_for(maps.size(), [&](std::size_t i) {
     const viewshed::MapImage image = draw_map(tin, maps[i].result, maps[i].options);
-    write_image((std::filesystem::path(directory) / maps[i].name).string() + ".png", image, overwrite);
+    write_image(r.options.path(maps[i].name) + ".png", image, overwrite);
     // All maps are drawn with the same letters, or without: the first one tells.
     if (i == 0) warnings.insert(warnings.end(), image.warnings.begin(), image.warnings.end());
   });
@@ -150,8 +150,8 @@ std::vector<std::string> site_figures(const Store& store, const SiteResult& r, P
   return figures;
 }
 
-void write_site_sheets(const Store& store, const SiteResult& r, const std::vector<std::string>& sources,
-                       const std::string& directory, bool overwrite, Progress& progress) {
+void write_site_sheets(const Store& store, const SiteResult& r, const std::vector<std::string>& sources, bool overwrite,
+                       Progress& progress) {
   if (!r.options.sheets.given()) return;
   const SheetOptions& options = r.options.sheets;
   const std::vector<SiteMap> maps = site_maps(r);
@@ -161,7 +161,7 @@ void write_site_sheets(const Store& store, const SiteResult& r, const std::vecto
     for (std::size_t i = 0; i < maps.size(); ++i) {
       const profile::MapSheet sheet = map_sheet(store, sheets[i], base, paper, options);
       for (const std::string& name : sheet_names(maps[i].name, paper))
-        write_file((std::filesystem::path(directory) / name).string(), profile::draw_map_sheet(sheet, name), overwrite);
+        write_file(r.options.path(name), profile::draw_map_sheet(sheet, name), overwrite);
     }
   }
 }

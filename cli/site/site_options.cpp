@@ -118,8 +118,7 @@ void SiteOptions::declare_work(CLI::App& app) {
       ->type_name("METRES");
   themes.declare(app);
   earth.declare(app);
-  app.add_option("--nodata", nodata_text_, "What ground without data does to sight lines (default: unknown)")
-      ->type_name("unknown|block|clear");
+  nodata.declare(app);
   engine.declare(app);
   app.add_option("--memory", memory_text_,
                  "Memory for surfaces, what every site serves, and maps; it changes the speed only (default: 1G)")
@@ -255,11 +254,7 @@ void SiteOptions::validate_work() {
   themes.validate();
   earth.validate();
   engine.engine();
-  if (!nodata_text_.empty()) {
-    using enum viewshed::NoData;
-    constexpr viewshed::NoData kChoices[] = {kUnknown, kBlock, kClear};
-    nodata = kChoices[parse_choice("--nodata", nodata_text_, {"unknown", "block", "clear"})];
-  }
+  nodata.rule();
   if (!memory_text_.empty()) memory_bytes = parse_bytes("--memory", memory_text_);
 }
 
@@ -295,7 +290,7 @@ Document SiteOptions::parameters() const {
   p["exact_final"] = exact_final;
   p["swap"] = swaps;
   p.update(themes.parameters());
-  p["nodata"] = nodata_text_.empty() ? "unknown" : nodata_text_;
+  p["nodata"] = nodata.text();
   return p;
 }
 

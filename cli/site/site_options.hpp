@@ -1,6 +1,7 @@
 // The options of `itin site`, from the command line and from a parameter file.
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "options/earth_options.hpp"
 #include "options/engine_option.hpp"
 #include "options/in_crs.hpp"
+#include "options/nodata_option.hpp"
 #include "options/sheet_options.hpp"
 #include "options/surface_options.hpp"
 #include "output/output_path.hpp"
@@ -49,6 +51,8 @@ class SiteOptions {
   std::string meaning_of_served() const;
 
   std::string store, directory;
+  /// Where a file of the folder is.
+  std::string path(const std::string& name) const { return (std::filesystem::path(directory) / name).string(); }
   SheetOptions sheets;
   // Candidates.
   SiteQuery candidates;
@@ -84,7 +88,7 @@ class SiteOptions {
   ThemeOptions themes;
   EarthOptions earth;
   EngineOption engine;
-  viewshed::NoData nodata = viewshed::NoData::kUnknown;
+  NoDataOption nodata;
   std::uint64_t memory_bytes = std::uint64_t{1} << 30;
   bool resume = false;
   OutputPolicy policy;
@@ -106,7 +110,7 @@ class SiteOptions {
   std::string spacing_text_, mast_height_text_, mast_cost_text_, observer_on_ = "ground";
   std::string target_height_text_, target_on_ = "ground", radius_text_, cell_text_;
   std::string count_text_, budget_text_, share_text_, min_spacing_text_, cover_text_, hub_text_;
-  std::string exact_final_text_, swap_text_, tolerance_text_, nodata_text_, memory_text_;
+  std::string exact_final_text_, swap_text_, tolerance_text_, memory_text_;
   std::string frequency_text_, fresnel_text_;
 };
 

@@ -1,7 +1,5 @@
 #include "site/site_outputs.hpp"
 
-#include <filesystem>
-
 #include <fmt/format.h>
 
 #include <itin/coordinates.hpp>
@@ -56,7 +54,7 @@ std::vector<SiteOutput> site_outputs(const SiteOptions& options, OutputPolicy& p
         files.emplace_back(name, fmt::format("{}.tif as a map on paper", map));
   std::vector<SiteOutput> outputs;
   for (const auto& [name, what] : files) {
-    outputs.push_back({(std::filesystem::path(options.directory) / name).string(), what});
+    outputs.push_back({options.path(name), what});
     policy.claim(outputs.back().path);
   }
   return outputs;

@@ -26,11 +26,4 @@ std::vector<SiteOutput> site_outputs(const SiteOptions& options, OutputPolicy& p
 /// `value`, `upper_bound`, `chosen` and the rest of the contract's document, without what the program adds.
 Document site_document(const SiteResult& result, const StoreMetadata& metadata);
 
-/// Tables, layers and rasters. Throws FileError.
-void write_site_tables(const SiteResult& result, const std::string& directory, bool overwrite);
-void write_site_layers(const SiteResult& result, const std::string& directory, const std::string& crs_wkt,
-                       bool overwrite);
-void write_site_rasters(const SiteResult& result, const std::string& directory, const std::string& crs_wkt,
-                        const std::string& parameters, bool overwrite);
-
 }  // namespace itin::cli

@@ -59,10 +59,10 @@ std::vector<char> shown_in_report(const SiteResult& r) {
 
 }  // namespace
 
-std::vector<SiteProfile> write_site_profiles(const Store& store, const SiteResult& r, const std::string& directory,
-                                             bool overwrite, Progress& progress) {
+std::vector<SiteProfile> write_site_profiles(const Store& store, const SiteResult& r, bool overwrite,
+                                             Progress& progress) {
   namespace fs = std::filesystem;
-  const fs::path folder = fs::path(directory) / "links";
+  const fs::path folder = r.options.path("links");
   std::vector<SiteProfile> profiles;
   std::set<std::string> taken;
   const std::vector<char> in_report = shown_in_report(r);

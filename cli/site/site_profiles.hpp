@@ -23,7 +23,7 @@ struct SiteProfile {
 /// order of the result's links. The report shows those on routes to the hub; without a hub, the shortest kMostProfiles.
 /// Throws FileError, Cancelled.
 inline constexpr std::size_t kMostProfiles = 40;
-std::vector<SiteProfile> write_site_profiles(const Store& store, const SiteResult& result, const std::string& directory,
-                                             bool overwrite, Progress& progress);
+std::vector<SiteProfile> write_site_profiles(const Store& store, const SiteResult& result, bool overwrite,
+                                             Progress& progress);
 
 }  // namespace itin::cli

@@ -1,18 +1,16 @@
-#include <filesystem>
+#include "site/site_rasters.hpp"
 
 #include <fmt/format.h>
 
 #include <itin/raster.hpp>
 
-#include "site/site_outputs.hpp"
 #include "site/site_wording.hpp"
 
 namespace itin::cli {
 
-void write_site_rasters(const SiteResult& r, const std::string& directory, const std::string& crs_wkt,
-                        const std::string& parameters, bool overwrite) {
+void write_site_rasters(const SiteResult& r, const std::string& crs_wkt, const std::string& parameters,
+                        bool overwrite) {
   const SiteRasters& rasters = r.rasters;
-  const auto path_of = [&](const char* name) { return (std::filesystem::path(directory) / name).string(); };
   const SiteWording wording = wording_of(r.options);
   const bool turbines = r.options.placement.given();
   RasterDescription description;
@@ -30,10 +28,10 @@ void write_site_rasters(const SiteResult& r, const std::string& directory, const
   classes.classes = {{0, turbines ? wording.unserved : "not served", 225, 225, 225, 255},
                      {1, turbines ? wording.served : "served", 0, 114, 178, 255},
                      {255, "no data", 0, 0, 0, 0}};
-  write_raster(path_of("coverage.tif"), rasters.grid, std::span<const std::uint8_t>(served), classes);
+  write_raster(r.options.path("coverage.tif"), rasters.grid, std::span<const std::uint8_t>(served), classes);
   description.nodata = SiteRasters::kNoDemand;
   description.band_name = wording.count;
-  write_raster(path_of("redundancy.tif"), rasters.grid, std::span<const std::uint16_t>(rasters.redundancy),
+  write_raster(r.options.path("redundancy.tif"), rasters.grid, std::span<const std::uint16_t>(rasters.redundancy),
                description);
   description.band_name = wording.nearest;
   for (std::size_t i = 0; i < r.choice.chosen.size(); ++i)
@@ -41,7 +39,7 @@ void write_site_rasters(const SiteResult& r, const std::string& directory, const
   for (std::size_t i = 0; i < r.inputs.existing(); ++i)
     description.metadata.emplace_back(fmt::format("site_{}", r.choice.chosen.size() + i + 1),
                                       "existing " + r.inputs.positions[r.inputs.options.size() + i].name);
-  write_raster(path_of("best-server.tif"), rasters.grid, std::span<const std::uint16_t>(rasters.best_server),
+  write_raster(r.options.path("best-server.tif"), rasters.grid, std::span<const std::uint16_t>(rasters.best_server),
                description);
 }
 

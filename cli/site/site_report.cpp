@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <filesystem>
 
 #include <fmt/format.h>
 
@@ -124,8 +123,7 @@ std::string backhaul(const SiteResult& r) {
 
 }  // namespace
 
-void write_site_report(const SiteResult& r, const SiteReportParts& parts, const std::string& directory,
-                       bool overwrite) {
+void write_site_report(const SiteResult& r, const SiteReportParts& parts, bool overwrite) {
   const SiteWording wording = wording_of(r.options);
   std::string html = fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
@@ -152,7 +150,7 @@ void write_site_report(const SiteResult& r, const SiteReportParts& parts, const 
                   escaped_markup(r.options.meaning_of_served()), escaped_markup(r.options.earth.earth().convention()),
                   escaped_markup(json_text(parts.parameters, 2)));
   html += fmt::format("<p class=\"note\">itin {}</p>\n</body></html>\n", ITIN_VERSION);
-  write_file((std::filesystem::path(directory) / "report.html").string(), html, overwrite);
+  write_file(r.options.path("report.html"), html, overwrite);
 }
 
 }  // namespace itin::cli

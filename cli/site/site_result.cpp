@@ -84,7 +84,7 @@ viewshed::SiteSurvey site_survey(const SiteOptions& options, const SiteInputs& i
   survey.targets = inputs.targets;
   survey.radius = options.radius;
   survey.earth = options.earth.earth();
-  survey.nodata = options.nodata;
+  survey.nodata = options.nodata.rule();
   survey.themes = options.themes.choice();
   survey.fresnel = options.criterion();
   survey.tolerance = options.tolerance;

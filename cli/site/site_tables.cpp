@@ -1,4 +1,5 @@
-#include <filesystem>
+#include "site/site_tables.hpp"
+
 #include <iterator>
 
 #include <fmt/format.h>
@@ -8,15 +9,10 @@
 #include <itin/vector_export.hpp>
 
 #include "site/site_link_outputs.hpp"
-#include "site/site_outputs.hpp"
 
 namespace itin::cli {
 
 namespace {
-
-std::string in_folder(const std::string& directory, const char* name) {
-  return (std::filesystem::path(directory) / name).string();
-}
 
 std::string sites_csv(const SiteResult& r) {
   std::string text =
@@ -128,26 +124,25 @@ VectorLayer turbines_layer(const SiteResult& r) {
 
 }  // namespace
 
-void write_site_tables(const SiteResult& result, const std::string& directory, bool overwrite) {
-  write_file(in_folder(directory, "sites.csv"), sites_csv(result), overwrite);
-  write_file(in_folder(directory, "candidates.csv"), candidates_table(result), overwrite);
+void write_site_tables(const SiteResult& result, bool overwrite) {
+  write_file(result.options.path("sites.csv"), sites_csv(result), overwrite);
+  write_file(result.options.path("candidates.csv"), candidates_table(result), overwrite);
   if (result.options.placement.given()) {
-    write_file(in_folder(directory, "turbines.csv"), turbines_csv(result), overwrite);
+    write_file(result.options.path("turbines.csv"), turbines_csv(result), overwrite);
   } else {
-    write_file(in_folder(directory, "links.csv"), links_csv(result), overwrite);
-    if (result.options.hub) write_file(in_folder(directory, "routes.csv"), routes_csv(result), overwrite);
+    write_file(result.options.path("links.csv"), links_csv(result), overwrite);
+    if (result.options.hub) write_file(result.options.path("routes.csv"), routes_csv(result), overwrite);
   }
 }
 
-void write_site_layers(const SiteResult& result, const std::string& directory, const std::string& crs_wkt,
-                       bool overwrite) {
+void write_site_layers(const SiteResult& result, const std::string& crs_wkt, bool overwrite) {
   std::vector<VectorLayer> layers{sites_layer(result), candidates_layer(result)};
   if (result.options.placement.given()) {
-    write_geopackage(in_folder(directory, "turbines.gpkg"), crs_wkt, {turbines_layer(result)}, overwrite);
+    write_geopackage(result.options.path("turbines.gpkg"), crs_wkt, {turbines_layer(result)}, overwrite);
   } else {
     layers.push_back(links_layer(result));
   }
-  write_geopackage(in_folder(directory, "sites.gpkg"), crs_wkt, layers, overwrite);
+  write_geopackage(result.options.path("sites.gpkg"), crs_wkt, layers, overwrite);
 }
 
 }  // namespace itin::cli

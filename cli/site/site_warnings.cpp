@@ -1,7 +1,6 @@
 #include "site/site_warnings.hpp"
 
 #include <algorithm>
-#include <filesystem>
 
 #include <fmt/format.h>
 
@@ -14,7 +13,7 @@ namespace {
 constexpr std::size_t kMostWarnings = 20;
 
 void warn_of_left_out(const SiteResult& site, std::vector<std::string>& warnings) {
-  const std::string all = (std::filesystem::path(site.options.directory) / "site.json").string();
+  const std::string all = site.options.path("site.json");
   std::vector<std::string> lines = site.inputs.rejected;
   // Proposed candidates are none of the caller's: how many were left out is enough.
   for (std::size_t i = site.options.search_area.empty() ? 0 : site.inputs.barred.size(); i-- > 0;) {

@@ -31,7 +31,7 @@ viewshed::ZoneRequest zone_request(const SiteOptions& options, const SiteInputs&
                                 .radius = options.radius});
   request.observer_height = options.target_height;
   request.earth = options.earth.earth();
-  request.nodata = options.nodata;
+  request.nodata = options.nodata.rule();
   return request;
 }
 
@@ -74,7 +74,7 @@ std::vector<double> heights_over_points(const Store& store, const SiteOptions& o
     const Viewpoint eye{p, {}, points[p], options.target_height, *grounds[p]};
     const std::vector<Sight> sights = sights_to_all(surface, eye, near);
     for (std::size_t k = 0; k < numbers.size(); ++k)
-      if (sights[k].tip && !(sights[k].gaps && options.nodata == viewshed::NoData::kBlock))
+      if (sights[k].tip && !(sights[k].gaps && request.nodata == NoData::kBlock))
         sums[numbers[k]] += weight_of(inputs.demand, p) * sights[k].visible;
   }
   return sums;

@@ -210,10 +210,6 @@ class ImportVerb final : public Verb {
     return parameters;
   }
 
-  std::string advice_for_less_memory() const override {
-    return "give a smaller --memory, or import fewer sources at once";
-  }
-
   Result execute(Progress& progress) override {
     const ImportReport report =
         options_.kind ? import_lines(store_, options_, progress) : import_terrain(store_, options_, progress);

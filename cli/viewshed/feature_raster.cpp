@@ -1,7 +1,6 @@
 #include "viewshed/feature_raster.hpp"
 
 #include <array>
-#include <filesystem>
 
 #include <fmt/format.h>
 
@@ -9,6 +8,7 @@
 #include <itin/error.hpp>
 #include <viewshed/theme_raster.hpp>
 
+#include "output/output_path.hpp"
 #include "output/store_document.hpp"
 #include "program/call_files.hpp"
 
@@ -35,8 +35,7 @@ void FeatureRaster::declare(CLI::App& app) {
 }
 
 void FeatureRaster::validate() const {
-  const std::string ending = std::filesystem::path(path_).extension().string();
-  if (!path_.empty() && ending != ".tif" && ending != ".tiff")
+  if (!path_.empty() && !names_geotiff(path_))
     throw InputError(fmt::format("--features '{}': a raster is written as .tif", path_));
 }
 

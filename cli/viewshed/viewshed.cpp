@@ -19,8 +19,10 @@
 #include "options/detail_options.hpp"
 #include "options/earth_options.hpp"
 #include "options/engine_option.hpp"
+#include "options/nodata_option.hpp"
 #include "options/observer_options.hpp"
 #include "options/sheet_options.hpp"
+#include "options/store_cache.hpp"
 #include "options/store_scale.hpp"
 #include "options/surface_options.hpp"
 #include "output/store_document.hpp"
@@ -96,8 +98,7 @@ class ViewshedVerb final : public Verb {
     detail_.declare(app);
     themes_.declare(app);
     earth_.declare(app);
-    app.add_option("--nodata", nodata_text_, "What ground without data does to sight lines (default: unknown)")
-        ->type_name("unknown|block|clear");
+    nodata_.declare(app);
     engine_.declare(app);
     app.add_flag("--precise", precise_, "Exact for the full surface: the same as --tolerance 0");
     app.add_option(
@@ -123,17 +124,13 @@ class ViewshedVerb final : public Verb {
     radio_.validate();
     if (!mode_text_.empty()) parse_mode();
     if (radio_.is_given()) radio_.complete(request_);
-    if (!nodata_text_.empty()) {
-      using enum viewshed::NoData;
-      constexpr viewshed::NoData kChoices[] = {kUnknown, kBlock, kClear};
-      request_.nodata = kChoices[parse_choice("--nodata", nodata_text_, {"unknown", "block", "clear"})];
-    }
+    request_.nodata = nodata_.rule();
     validate_vertical_error();
     validate_precise();
   }
 
   Document parameters() const override {
-    Document parameters{{"store", store_}, {"observers", observers_document(places_)}};
+    Document parameters{{"store", store_}, {"observers", observers_document(request_.observers)}};
     parameters["mode"] = mode_name();
     parameters["precise"] = precise_;
     parameters[request_.target_absolute ? "target_elevation_m" : "target_height_m"] = request_.target_height;
@@ -155,20 +152,18 @@ class ViewshedVerb final : public Verb {
     parameters["target_on"] = target_on_;
     parameters.update(detail_.parameters());
     parameters.update(themes_.parameters());
-    parameters["nodata"] = nodata_text_.empty() ? "unknown" : nodata_text_;
+    parameters["nodata"] = nodata_.text();
     return parameters;
   }
 
   Result execute(Progress& progress) override {
     const std::future<void> rasters = beside(make_gdal_ready);
-    // A budget holds for what is kept of the store as well.
-    const std::uint64_t cache = std::min(StoreOptions().cache_bytes, compute_options_.memory_bytes / 4);
-    const Store store(store_, {cache});
+    const Store store(store_, cache_within(compute_options_.memory_bytes));
     const StoreMetadata& metadata = store.metadata();
     complete_request(metadata);
     request_.themes.check(metadata.themes);
     features_.require_themes(metadata, request_.themes);
-    if (!horizon_.paths().empty() && places_.size() > 1)
+    if (!horizon_.paths().empty() && request_.observers.size() > 1)
       throw InputError("--horizon is that of one observer; give one");
     outputs_.prepare(request_);
     compute_options_.whole_surface = outputs_.draws_map() || !horizon_.paths().empty();
@@ -312,23 +307,13 @@ class ViewshedVerb final : public Verb {
                      : survey(store, request, progress).result;
   }
 
-  static viewshed::Observer observer_of(const ObserverPlace& place) {
-    const auto angles = [](const std::optional<ViewFields::Angles>& range) {
-      return range ? std::optional(viewshed::AngleRange{range->first, range->second}) : std::nullopt;
-    };
-    const ViewFields::View& view = place.view;
-    return {place.name,  place.position,  place.height,         place.absolute,        view.target_height,
-            view.radius, view.min_radius, angles(view.azimuth), angles(view.elevation)};
-  }
-
   /// Completes the request by the options that need the store's CRS.
   void complete_request(const StoreMetadata& metadata) {
-    places_ = observers_.places(metadata);
-    if (detail_.has_rings() && places_.size() > 1) {
+    request_.observers = observers_.observers(metadata);
+    if (detail_.has_rings() && request_.observers.size() > 1) {
       throw InputError("--rings lie about one observer; for several give --tolerance");
     }
-    for (const ObserverPlace& place : places_) request_.observers.push_back(observer_of(place));
-    request_.detail = detail_.detail(places_.front().position);
+    request_.detail = detail_.detail(request_.observers.front().position);
     if (!like_.empty()) request_.grid = raster_grid_like(like_, metadata.crs_wkt);
   }
 
@@ -364,7 +349,7 @@ class ViewshedVerb final : public Verb {
     return text;
   }
 
-  std::string store_, mode_text_, nodata_text_, like_, memory_text_;
+  std::string store_, mode_text_, like_, memory_text_;
   std::string sigma_text_, correlation_text_;
   std::string target_height_text_, radius_text_, min_radius_text_, azimuth_text_, elevation_text_, cell_text_;
   std::string target_on_ = "ground";
@@ -374,6 +359,7 @@ class ViewshedVerb final : public Verb {
   DetailOptions detail_;
   ThemeOptions themes_;
   EarthOptions earth_;
+  NoDataOption nodata_;
   EngineOption engine_;
   ViewshedRadio radio_;
   ViewshedOutputs outputs_;
@@ -381,7 +367,6 @@ class ViewshedVerb final : public Verb {
   HorizonOutput horizon_;
   FeatureRaster features_;
 
-  std::vector<ObserverPlace> places_;
   viewshed::Request request_;
 };
 

@@ -9,6 +9,7 @@
 
 #include <itin/document.hpp>
 #include <itin/error.hpp>
+#include <itin/file_ending.hpp>
 #include <itin/output_file.hpp>
 #include <viewshed/map_image.hpp>
 #include <viewshed/qgis_styles.hpp>
@@ -21,7 +22,7 @@ namespace itin::cli {
 namespace {
 
 bool is_polygons(const std::string& path) {
-  return std::filesystem::path(path).extension() == ".gpkg";
+  return ending_of(path) == ".gpkg";
 }
 
 }  // namespace
@@ -47,11 +48,9 @@ void ViewshedOutputs::validate(const std::vector<std::string>& others) {
     throw InputError(
         "give an output: --output FILE.tif or FILE.gpkg, --image FILE.png, --sheet FILE.pdf, --each DIR, --horizon "
         "FILE.csv, or --features FILE.tif");
-  for (const std::string& path : outputs_) {
-    const std::string ending = std::filesystem::path(path).extension().string();
-    if (ending != ".tif" && ending != ".tiff" && ending != ".gpkg")
+  for (const std::string& path : outputs_)
+    if (!names_geotiff(path) && !is_polygons(path))
       throw InputError(fmt::format("--output '{}': a viewshed is written as .tif or .gpkg", path));
-  }
   if (!image_.empty()) viewshed::require_image_format(image_);
 }
 

@@ -38,6 +38,7 @@ profile::TitleBlock title_of_map(const Store& store, const viewshed::Result& res
   if (request.radius)
     block.facts.insert(block.facts.begin() + 2, {"Radius", fmt::format("{:g} km", *request.radius / 1000)});
   if (const auto criterion = radio_criterion(request)) block.facts.emplace_back("Radio", *criterion);
+  block.facts.emplace_back("Earth", request.earth.convention());
   block.sources = sources;
   return block;
 }
@@ -47,14 +48,14 @@ profile::TitleBlock title_of_map(const Store& store, const viewshed::Result& res
 void write_viewshed_sheet(const Store& store, const viewshed::Result& result, const SheetOptions& options,
                           const std::vector<std::string>& sources, bool overwrite, Progress& progress) {
   if (options.file().empty()) return;
-  ResultSheet sheet{result.grid,
-                    result.grid.bounds(),
-                    viewshed::result_map(result, {}),
-                    "Share of the cells with terrain data in view",
-                    [&](std::size_t cell) { return result.visible[cell] != viewshed::Verdict::kOutside; },
-                    {},
-                    result.request.earth,
-                    title_of_map(store, result, sources)};
+  ResultSheet sheet{
+      result.grid,
+      result.grid.bounds(),
+      viewshed::result_map(result, {}),
+      "Share of the cells with terrain data in view",
+      in_cells(result.grid, [&](std::size_t cell) { return result.visible[cell] != viewshed::Verdict::kOutside; }),
+      {},
+      title_of_map(store, result, sources)};
   std::vector<profile::SheetMark> observers;
   for (const viewshed::Observer& o : result.request.observers) observers.push_back({o.position, o.name});
   sheet.objects.push_back(mast_objects(std::move(observers), "Observer"));

@@ -19,7 +19,9 @@
 
 #include "options/detail_options.hpp"
 #include "options/earth_options.hpp"
+#include "options/nodata_option.hpp"
 #include "options/sheet_options.hpp"
+#include "options/store_cache.hpp"
 #include "options/store_scale.hpp"
 #include "options/surface_options.hpp"
 #include "options/window_options.hpp"
@@ -65,8 +67,7 @@ class VisibilityVerb final : public Verb {
     detail_.declare(app);
     themes_.declare(app);
     earth_.declare(app);
-    app.add_option("--nodata", nodata_text_, "What ground without data does to sight lines (default: clear)")
-        ->type_name("block|clear");
+    nodata_.declare(app);
     app.add_option("--memory", memory_text_,
                    "Memory to work in, block by block of observers where it does not hold all ground at once; the "
                    "result never depends on it (default: 1G)")
@@ -82,7 +83,7 @@ class VisibilityVerb final : public Verb {
       request_.target_height = parse_height("--target-height", target_text_, Range::kNotNegative);
     if (!targets_text_.empty())
       request_.targets = static_cast<unsigned>(parse_whole("--targets", targets_text_, 1, kMostTargets));
-    if (std::filesystem::path(output_).extension() != ".tif")
+    if (!names_geotiff(output_))
       throw InputError(fmt::format("--output '{}': a visibility index is written as .tif", output_));
     sheet_.validate();
     window_.validate();
@@ -92,8 +93,7 @@ class VisibilityVerb final : public Verb {
     request_.themes = themes_.choice();
     earth_.validate();
     request_.earth = earth_.earth();
-    if (!nodata_text_.empty() && parse_choice("--nodata", nodata_text_, {"block", "clear"}) == 0)
-      request_.nodata = viewshed::NoData::kBlock;
+    request_.nodata = nodata_.rule();
     if (!memory_text_.empty()) request_.memory_bytes = parse_bytes("--memory", memory_text_);
   }
 
@@ -109,7 +109,7 @@ class VisibilityVerb final : public Verb {
     parameters.update(window_.parameters());
     parameters.update(detail_.parameters());
     parameters.update(themes_.parameters());
-    parameters["nodata"] = request_.nodata == viewshed::NoData::kBlock ? "block" : "clear";
+    parameters["nodata"] = nodata_.text();
     return parameters;
   }
 
@@ -118,8 +118,7 @@ class VisibilityVerb final : public Verb {
     policy_.require_writable(output_);
     policy_.claim(style_beside(output_));
     if (!sheet_.file().empty()) policy_.require_writable(sheet_.file());
-    // A budget holds for what is kept of the store as well.
-    const Store store(store_, {std::min(StoreOptions().cache_bytes, request_.memory_bytes / 4)});
+    const Store store(store_, cache_within(request_.memory_bytes));
     const StoreMetadata& metadata = store.metadata();
     request_.area = window_.region(metadata).window;
     if (!request_.area.is_all() && !metadata.grid.box(metadata.bounds).meets(request_.area.bounds()))
@@ -163,9 +162,8 @@ class VisibilityVerb final : public Verb {
                       index.grid.bounds(),
                       viewshed::result_map(index),
                       "Share of the ground within the radius that is seen",
-                      [&](std::size_t cell) { return !std::isnan(index.share[cell]); },
+                      in_cells(index.grid, [&](std::size_t cell) { return !std::isnan(index.share[cell]); }),
                       {},
-                      request_.earth,
                       {}};
     profile::TitleBlock& block = sheet.title;
     block.title = "How much is seen from everywhere";
@@ -174,18 +172,19 @@ class VisibilityVerb final : public Verb {
                                              request_.cell_size, request_.height)},
                    {"Targets", fmt::format("{} at random for each observer, {:g} m above the ground", request_.targets,
                                            request_.target_height)},
-                   {"Radius", fmt::format("{:g} km", request_.radius / 1000)}};
+                   {"Radius", fmt::format("{:g} km", request_.radius / 1000)},
+                   {"Earth", request_.earth.convention()}};
     block.sources = described(sources_in(store, index.grid.bounds(), request_.themes), metadata);
     write_file(sheet_.file(), draw_result_sheet(store, sheet, sheet_.papers().front(), sheet_, sheet_.file(), progress),
                policy_.overwrite);
   }
 
-  std::string store_, output_, cell_text_, radius_text_, height_text_, target_text_, targets_text_, nodata_text_,
-      memory_text_;
+  std::string store_, output_, cell_text_, radius_text_, height_text_, target_text_, targets_text_, memory_text_;
   WindowOptions window_;
   DetailOptions detail_;
   ThemeOptions themes_;
   EarthOptions earth_;
+  NoDataOption nodata_{{"block", "clear"}, "clear"};  // a sample knows no doubt
   SheetOptions sheet_;
   OutputPolicy policy_;
   viewshed::IndexRequest request_;

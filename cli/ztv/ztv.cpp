@@ -22,17 +22,19 @@
 
 #include "options/detail_options.hpp"
 #include "options/earth_options.hpp"
+#include "options/nodata_option.hpp"
 #include "options/off_the_data.hpp"
 #include "options/radius_preset.hpp"
 #include "options/sheet_options.hpp"
+#include "options/store_cache.hpp"
 #include "options/store_scale.hpp"
 #include "options/surface_options.hpp"
-#include "output/output_folder.hpp"
 #include "output/store_document.hpp"
 #include "program/call_files.hpp"
 #include "program/field_names.hpp"
 #include "program/values.hpp"
 #include "program/verb.hpp"
+#include "ztv/ztv_folder.hpp"
 #include "ztv/ztv_methods.hpp"
 #include "ztv/ztv_radio.hpp"
 #include "ztv/ztv_route.hpp"
@@ -78,8 +80,7 @@ class ZtvVerb final : public Verb {
     detail_.declare(app);
     themes_.declare(app);
     earth_.declare(app);
-    app.add_option("--nodata", nodata_text_, "What ground without data does to sight lines (default: unknown)")
-        ->type_name("unknown|block|clear");
+    nodata_.declare(app);
     app.add_option("--memory", memory_text_,
                    "Memory to work in, in parts where it does not hold all at once; the result never depends on it "
                    "(default: no limit)")
@@ -106,11 +107,7 @@ class ZtvVerb final : public Verb {
     if (like_.empty())
       request_.cell_size = cell_text_.empty() ? kDefaultCell : parse_number("--cell", cell_text_, Range::kPositive);
     if (!memory_text_.empty()) request_.memory_bytes = parse_bytes("--memory", memory_text_);
-    if (!nodata_text_.empty()) {
-      using enum viewshed::NoData;
-      constexpr viewshed::NoData kChoices[] = {kUnknown, kBlock, kClear};
-      request_.nodata = kChoices[parse_choice("--nodata", nodata_text_, {"unknown", "block", "clear"})];
-    }
+    request_.nodata = nodata_.rule();
   }
 
   std::vector<std::size_t> parse_bands() const {
@@ -137,18 +134,15 @@ class ZtvVerb final : public Verb {
     parameters.update(sheets_.parameters());
     parameters.update(detail_.parameters());
     parameters.update(themes_.parameters());
-    parameters["nodata"] = nodata_text_.empty() ? "unknown" : nodata_text_;
+    parameters["nodata"] = nodata_.text();
     return parameters;
   }
 
   cli::Result execute(Progress& progress) override {
     const std::future<void> rasters = beside(make_gdal_ready);
-    OutputFolder::require_writable(output_, policy_);
+    ZtvFolder::require_writable(output_, policy_);
     radius_.load();
-    // A budget holds for what is kept of the store as well.
-    StoreOptions kept;
-    if (request_.memory_bytes) kept.cache_bytes = std::min(kept.cache_bytes, *request_.memory_bytes / 4);
-    const Store store(store_, kept);
+    const Store store(store_, request_.memory_bytes ? cache_within(*request_.memory_bytes) : StoreOptions());
     const StoreMetadata& metadata = store.metadata();
     complete_request(metadata);
     Zone zone = viewshed::survey_turbines(store, request_, progress);
@@ -156,7 +150,7 @@ class ZtvVerb final : public Verb {
       list_.bad.push_back({m.number, list_.features[m.number - 1], m.message});
     sources_ = sources_in(store, zone.grid.bounds(), request_.themes.value_or(ThemeChoice::none()));
     missing_ = viewshed::missing_ground(zone);
-    OutputFolder folder(output_, policy_);
+    ZtvFolder folder(output_, policy_);
     cli::Result result;
     result.document = document(zone, metadata);
     write(store, zone, folder.working(), result.document, progress);
@@ -213,7 +207,8 @@ class ZtvVerb final : public Verb {
       document["viewpoints"] = bad_rows_document(seen_.path, seen_.rows, seen_.rows - seen_.bad.size(), seen_.bad);
     }
     if (route_.given()) add(route_.write(folder, store, zone, progress));
-    if (sheets_.given()) add(write_ztv_sheets(folder, store, zone, sheets_, sheet_facts(metadata), progress));
+    if (sheets_.given())
+      add(write_ztv_sheets(folder, store, zone, sheets_, {seen_.places, sources_, missing_}, progress));
     add_text("areas.csv", "km2 by band of turbines visible and by ring of distance to the nearest turbine",
              viewshed::area_table(zone));
     add_text("area-totals.csv",
@@ -231,15 +226,6 @@ class ZtvVerb final : public Verb {
     for (const ZoneFile& file : files)
       document["outputs"].push_back(
           {{"path", (std::filesystem::path(output_) / file.name).string()}, {"what", file.what}});
-  }
-
-  ZtvSheetFacts sheet_facts(const StoreMetadata& metadata) const {
-    ZtvSheetFacts facts;
-    facts.viewpoints = seen_.places;
-    if (request_.themes) facts.themes = request_.themes->names(metadata.themes);
-    facts.sources = sources_;
-    facts.missing = missing_;
-    return facts;
   }
 
   std::string turbine_table(const Zone& zone) const {
@@ -346,12 +332,11 @@ class ZtvVerb final : public Verb {
 
   /// The document as it stands in the folder: without times, so that equal runs write equal files.
   void write_manifest(const std::string& folder, const cli::Result& result) const {
-    Document manifest{{"itin", ITIN_VERSION}, {"command", {{"verb", name()}}}};
-    manifest["command"].update(parameters());
+    Document manifest = call_document(*this);
     manifest.update(result.document);
     manifest["warnings"] = result.warnings;
     manifest.erase("statistics");
-    write_file(folder + "/" + OutputFolder::kManifest, json_text(manifest, 2) + "\n", true);
+    write_file(folder + "/" + ZtvFolder::kManifest, json_text(manifest, 2) + "\n", true);
   }
 
   std::string text(const Zone& zone) const {
@@ -366,7 +351,7 @@ class ZtvVerb final : public Verb {
     return text;
   }
 
-  std::string store_, output_, cell_text_, like_, observer_text_, bands_text_, nodata_text_, memory_text_;
+  std::string store_, output_, cell_text_, like_, observer_text_, bands_text_, memory_text_;
   TurbineOptions turbines_;
   RadiusOptions radius_;
   ViewpointOptions viewpoints_;
@@ -376,6 +361,7 @@ class ZtvVerb final : public Verb {
   DetailOptions detail_;
   ThemeOptions themes_;
   EarthOptions earth_;
+  NoDataOption nodata_;
   OutputPolicy policy_;
 
   TurbineList list_;

@@ -5,17 +5,15 @@
 #include <limits>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <itin/contour_lines.hpp>
-#include <itin/coordinates.hpp>
 #include <itin/output_file.hpp>
 #include <itin/parallel.hpp>
 #include <itin/sources_in.hpp>
 #include <viewshed/result_map.hpp>
 #include <viewshed/zone_maps.hpp>
 
-#include "output/map_base.hpp"
+#include "output/result_sheet.hpp"
 #include "output/store_document.hpp"
 #include "ztv/ztv_methods.hpp"
 
@@ -23,7 +21,6 @@ namespace itin::cli {
 
 namespace {
 
-using profile::MapSheet;
 using profile::SheetColour;
 using profile::SheetKey;
 using viewshed::Turbine;
@@ -90,70 +87,56 @@ double ring_step(double farthest) {
   return farthest <= 7500 ? 1000 : farthest <= 50000 ? 5000 : 10000;
 }
 
+/// The study area's edge, and rings of distance within it.
+MapObjects distance_objects(const Zone& zone) {
+  const Box box = study_area(zone);
+  double farthest = 0;
+  for (const Turbine& t : zone.request.turbines) farthest = std::max(farthest, t.radius);
+  const double step = ring_step(farthest);
+  profile::SheetLines rings{{}, kRing, 0.15, false}, edge{{}, kStudyArea, 0.4, true};
+  const PlaneField distance(box, [&](Point2 p) { return nearest_turbine(zone, p); });
+  for (double at = step; at < farthest; at += step) distance.add_lines(at, fmt::format("{:g} km", at / 1000), rings);
+  PlaneField(box, [&](Point2 p) { return beyond_study_area(zone, p); }).add_lines(0, "", edge);
+  return {
+      {std::move(rings), std::move(edge)},
+      {{SheetKey::Sample::kDashes, kStudyArea, "Study area"},
+       {SheetKey::Sample::kLine, kRing, fmt::format("Distance to the nearest turbine, every {:g} km", step / 1000)}}};
+}
+
+SheetColour farm_colour(std::size_t farm) {
+  constexpr SheetColour kColours[kMostFarmColours] = {{170, 20, 20},  {20, 40, 110}, {0, 90, 60}, {110, 50, 0},
+                                                      {100, 20, 100}, {0, 80, 110},  {70, 70, 0}, {60, 60, 60}};
+  return kColours[farm];
+}
+
+MapObjects turbine_objects(const Zone& zone) {
+  std::vector<std::string> farms = viewshed::farms_of(zone);
+  if (farms.size() > kMostFarmColours) farms = {""};
+  const bool single = farms.size() == 1;
+  MapObjects objects;
+  for (std::size_t f = 0; f < farms.size(); ++f) {
+    profile::SheetMarks marks{profile::SheetSymbol::kTurbine, farm_colour(f), {}};
+    for (const Turbine& t : zone.request.turbines)
+      if (single || t.farm == farms[f]) marks.marks.push_back({t.position, fmt::format("{}", t.number)});
+    const std::string turbines = counted(marks.marks.size(), "wind turbine") + ", numbered";
+    objects.keys.push_back({SheetKey::Sample::kMark, marks.colour,
+                            farms[f].empty() ? turbines : fmt::format("{}: {}", farms[f], turbines), marks.symbol});
+    objects.layers.emplace_back(std::move(marks));
+  }
+  return objects;
+}
+
+MapObjects viewpoint_objects(const std::vector<NamedPlace>& viewpoints) {
+  profile::SheetMarks marks{profile::SheetSymbol::kViewpoint, kViewpoint, {}};
+  for (const NamedPlace& v : viewpoints) marks.marks.push_back({v.position, fmt::format("{} {}", v.number, v.name)});
+  return {{std::move(marks)}, {{SheetKey::Sample::kMark, kViewpoint, "Viewpoint", profile::SheetSymbol::kViewpoint}}};
+}
+
 /// What every map of the zone has above its classes.
-class Furniture {
- public:
-  Furniture(const Zone& zone, const ZtvSheetFacts& facts) {
-    add_rings(zone);
-    add_turbines(zone);
-    if (facts.viewpoints.empty()) return;
-    profile::SheetMarks marks{profile::SheetSymbol::kViewpoint, kViewpoint, {}};
-    for (const NamedPlace& v : facts.viewpoints)
-      marks.marks.push_back({v.position, fmt::format("{} {}", v.number, v.name)});
-    layers.emplace_back(std::move(marks));
-    keys.push_back({SheetKey::Sample::kMark, kViewpoint, "Viewpoint", profile::SheetSymbol::kViewpoint});
-  }
-
-  std::vector<profile::SheetLayer> layers;
-  std::vector<SheetKey> keys;
-
- private:
-  void add_rings(const Zone& zone) {
-    const Box box = study_area(zone);
-    double farthest = 0;
-    for (const Turbine& t : zone.request.turbines) farthest = std::max(farthest, t.radius);
-    const double step = ring_step(farthest);
-    profile::SheetLines rings{{}, kRing, 0.15, false}, edge{{}, kStudyArea, 0.4, true};
-    const PlaneField distance(box, [&](Point2 p) { return nearest_turbine(zone, p); });
-    for (double at = step; at < farthest; at += step) distance.add_lines(at, fmt::format("{:g} km", at / 1000), rings);
-    PlaneField(box, [&](Point2 p) { return beyond_study_area(zone, p); }).add_lines(0, "", edge);
-    layers.emplace_back(std::move(rings));
-    layers.emplace_back(std::move(edge));
-    keys.push_back({SheetKey::Sample::kDashes, kStudyArea, "Study area"});
-    keys.push_back(
-        {SheetKey::Sample::kLine, kRing, fmt::format("Distance to the nearest turbine, every {:g} km", step / 1000)});
-  }
-
-  void add_turbines(const Zone& zone) {
-    std::vector<std::string> farms = viewshed::farms_of(zone);
-    if (farms.size() > kMostFarmColours) farms = {""};
-    const bool single = farms.size() == 1;
-    for (std::size_t f = 0; f < farms.size(); ++f) {
-      profile::SheetMarks marks{profile::SheetSymbol::kTurbine, farm_colour(f), {}};
-      for (const Turbine& t : zone.request.turbines)
-        if (single || t.farm == farms[f]) marks.marks.push_back({t.position, fmt::format("{}", t.number)});
-      const std::string turbines = counted(marks.marks.size(), "wind turbine") + ", numbered";
-      keys.push_back({SheetKey::Sample::kMark, marks.colour,
-                      farms[f].empty() ? turbines : fmt::format("{}: {}", farms[f], turbines), marks.symbol});
-      layers.emplace_back(std::move(marks));
-    }
-  }
-
-  static SheetColour farm_colour(std::size_t farm) {
-    constexpr SheetColour kColours[kMostFarmColours] = {{170, 20, 20},  {20, 40, 110}, {0, 90, 60}, {110, 50, 0},
-                                                        {100, 20, 100}, {0, 80, 110},  {70, 70, 0}, {60, 60, 60}};
-    return kColours[farm];
-  }
-};
-
-profile::SheetCells classes_of(const Zone& zone, const ZoneMap& map) {
-  profile::SheetCells cells{zone.grid, std::vector<SheetColour>(map.class_of_cell.size(), SheetColour{0, 0, 0, 0})};
-  for (std::size_t i = 0; i < cells.colours.size(); ++i) {
-    if (map.class_of_cell[i] == viewshed::kNoMapClass) continue;
-    const ZoneMap::Class& c = map.classes[map.class_of_cell[i]];
-    if (c.alpha > 0) cells.colours[i] = {c.red, c.green, c.blue, viewshed::kAlphaOverRelief};
-  }
-  return cells;
+std::vector<MapObjects> objects_of(const Zone& zone, const ZtvSheetFacts& facts) {
+  std::vector<MapObjects> objects{distance_objects(zone), turbine_objects(zone)};
+  if (!facts.viewpoints.empty()) objects.push_back(viewpoint_objects(facts.viewpoints));
+  return objects;
 }
 
 /// Three figures, or whole km2 where there are more.
@@ -161,19 +144,22 @@ std::string readable_area(double km2) {
   return km2 >= 100 ? fmt::format("{:.0f}", km2) : fmt::format("{:.3g}", km2);
 }
 
-std::vector<SheetKey> class_keys(const Zone& zone, const ZoneMap& map) {
+viewshed::ResultMap classes_of(const Zone& zone, const ZoneMap& map) {
+  viewshed::ResultMap result;
   std::uint64_t all = 0;
   for (const ZoneMap::Class& c : map.classes) all += c.cells;
-  std::vector<SheetKey> keys{{SheetKey::Sample::kHeading, {}, map.heading + ", and share of the study area"}};
   for (const ZoneMap::Class& c : map.classes) {
     const double km2 = static_cast<double>(c.cells) * zone.grid.cell_area() / 1e6;
-    keys.push_back(
-        {SheetKey::Sample::kPatch,
-         {c.red, c.green, c.blue, c.alpha > 0 ? viewshed::kAlphaOverRelief : std::uint8_t{0}},
+    result.keys.push_back(
+        {{c.red, c.green, c.blue, c.alpha > 0 ? viewshed::kAlphaOverRelief : std::uint8_t{0}},
          fmt::format("{}: {} km² ({:.1f} %)", c.label, readable_area(km2),
                      100.0 * static_cast<double>(c.cells) / static_cast<double>(std::max<std::uint64_t>(1, all)))});
   }
-  return keys;
+  for (const std::uint8_t c : map.class_of_cell) {
+    const bool shown = c != viewshed::kNoMapClass && map.classes[c].alpha > 0;
+    result.cells.push_back(shown ? result.keys[c].colour : viewshed::ResultMap::Colour());
+  }
+  return result;
 }
 
 std::string terrain_on_sheet(const StoreMetadata& metadata, const Detail& detail) {
@@ -183,15 +169,6 @@ std::string terrain_on_sheet(const StoreMetadata& metadata, const Detail& detail
   const std::string posts = spacing > 0 ? fmt::format("posts up to {:.3g} m apart; ", spacing) : "";
   const double tolerance = detail.coarsest();
   return posts + (tolerance > 0 ? fmt::format("generalised to {:g} m", tolerance) : "every point is used");
-}
-
-std::string statement_of(const ZoneMap& map, const ZtvSheetFacts& facts) {
-  if (!map.screened)
-    return "Bare ground: the screening effect of buildings, walls and vegetation is not taken into account. What is "
-           "shown as visible may be hidden by them.";
-  return fmt::format(
-      "Screened: {} as imported are taken as solid. Whatever else stands on the ground is not taken into account.",
-      fmt::join(facts.themes, ", "));
 }
 
 std::string without_terrain_in_words(const viewshed::MissingGround& missing) {
@@ -215,13 +192,12 @@ std::string radii_in_words(const Zone& zone) {
              : fmt::format("within {:g} to {:g} km of each turbine, by its height", least / 1000, most / 1000);
 }
 
-profile::TitleBlock title_block(const Store& store, const Zone& zone, const ZoneMap& map, const SheetOptions& options,
+profile::TitleBlock title_block(const StoreMetadata& metadata, const Zone& zone, const ZoneMap& map,
                                 const ZtvSheetFacts& facts) {
-  const StoreMetadata& metadata = store.metadata();
   profile::TitleBlock block;
-  block.project = options.project(), block.date = options.date();
   block.title = map.title + (map.screened ? ", screened" : "");
-  block.statement = statement_of(map, facts);
+  block.statement = statement_of(metadata, map.screened ? *zone.request.themes : ThemeChoice::none());
+  if (!map.screened) block.statement += " What is shown as visible may be hidden by them.";
   block.facts = {{"Turbines", heights_in_words(zone)},
                  {"Study area", radii_in_words(zone) + without_terrain_in_words(facts.missing)},
                  {"Observer", fmt::format("eyes {:g} m above the ground at the centre of cells of {:g} m",
@@ -229,11 +205,8 @@ profile::TitleBlock title_block(const Store& store, const Zone& zone, const Zone
                  {"Earth", zone.request.earth.curvature
                                ? "curvature and refraction are taken into account, " + zone.request.earth.convention()
                                : "flat; curvature and refraction are not taken into account"},
-                 {"Terrain", terrain_on_sheet(metadata, zone.request.detail)},
-                 {"Coordinates", crs_title(metadata.crs_wkt)}};
-  if (!options.basemap().empty()) block.facts.push_back(basemap_fact(options.basemap()));
+                 {"Terrain", terrain_on_sheet(metadata, zone.request.detail)}};
   block.sources = described(facts.sources, metadata);
-  block.made_by = fmt::format("Drawn by itin {}", ITIN_VERSION);
   return block;
 }
 
@@ -244,23 +217,21 @@ std::vector<viewshed::ZoneFile> write_ztv_sheets(const std::string& folder, cons
                                                  Progress& progress) {
   std::vector<viewshed::ZoneFile> files;
   const std::vector<ZoneMap> maps = viewshed::zone_maps(zone);
-  const Furniture furniture(zone, facts);
+  const std::vector<MapObjects> objects = objects_of(zone, facts);
+  const auto content_of = [&](const ZoneMap& map) {
+    return ResultSheet{zone.grid,
+                       study_area(zone),
+                       classes_of(zone, map),
+                       map.heading + ", and share of the study area",
+                       [&](Point2 p) { return beyond_study_area(zone, p) <= 0; },
+                       objects,
+                       title_block(store.metadata(), zone, map, facts)};
+  };
   std::size_t done = 0;
   for (const profile::PaperSize paper : options.papers()) {
-    MapSheet sheet;
-    sheet.paper = paper, sheet.scale = options.scale(), sheet.area = study_area(zone);
-    sheet.crs_wkt = store.metadata().crs_wkt;
-    const MapBase base =
-        faded(map_base(store, profile::ground_in_frame(sheet), profile::scale_of(sheet), options.basemap(), progress),
-              [&](Point2 p) { return beyond_study_area(zone, p) <= 0; });
+    const MapBase base = base_of(store, content_of(maps.front()), paper, options, progress);
     for (const ZoneMap& map : maps) {
-      sheet.layers = layers_of(base, classes_of(zone, map));
-      sheet.layers.insert(sheet.layers.end(), furniture.layers.begin(), furniture.layers.end());
-      sheet.legend = class_keys(zone, map);
-      sheet.legend.push_back({SheetKey::Sample::kHeading, {}, "Map"});
-      sheet.legend.insert(sheet.legend.end(), furniture.keys.begin(), furniture.keys.end());
-      sheet.legend.insert(sheet.legend.end(), base.keys.begin(), base.keys.end());
-      sheet.title = title_block(store, zone, map, options, facts);
+      const profile::MapSheet sheet = map_sheet(store, content_of(map), base, paper, options);
       for (const std::string& name : sheet_names(map.name, paper)) {
         write_file(fmt::format("{}/{}", folder, name), profile::draw_map_sheet(sheet, name), true);
         files.push_back({name, fmt::format("map sheet: {}, {} at 1:{:.0f}", sheet.title.title, profile::name_of(paper),

@@ -23,7 +23,6 @@ struct NamedPlace {
 /// What title blocks say besides what the zone tells.
 struct ZtvSheetFacts {
   std::vector<NamedPlace> viewpoints;
-  std::vector<std::string> themes;  ///< that screen
   std::vector<SourceInfo> sources;  ///< within the study area
   viewshed::MissingGround missing;  ///< in the study area
 };

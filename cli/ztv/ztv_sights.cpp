@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <itin/azimuth.hpp>
 #include <itin/geodesic.hpp>
 #include <itin/parallel.hpp>
 #include <profile/profile.hpp>
@@ -25,9 +26,8 @@ Sight sight_to(const SectionSurface& surface, const Viewpoint& from, const Turbi
   Sight sight;
   const CrossSection section = surface.between(from.position, turbine.position);
   const Point2 foot = section.one_place ? from.position : turbine.position;
-  const double dx = foot.x - from.position.x, dy = foot.y - from.position.y;
-  sight.distance = std::hypot(dx, dy);
-  sight.azimuth = std::fmod(std::atan2(dx, dy) * kDegreesPerRadian + 360, 360);
+  sight.distance = std::hypot(foot.x - from.position.x, foot.y - from.position.y);
+  sight.azimuth = grid_azimuth_deg(from.position, foot);
   sight.gaps = !section.gaps.empty();
   const profile::Profile profile = profile::from_section(section);
   const double hub = turbine.hub_height.value_or(turbine.tip_height);
@@ -56,25 +56,16 @@ std::vector<Sight> sights_to_all(const SectionSurface& surface, const Viewpoint&
   return sights;
 }
 
-double Span::middle_deg() const {
-  return std::fmod(from_deg + width_deg / 2, 360);
-}
-
-/// The widest gap between azimuths lies behind the viewer.
-Span smallest_span(std::vector<double> azimuths) {
-  std::sort(azimuths.begin(), azimuths.end());
-  double widest = 360 - (azimuths.back() - azimuths.front()), from = azimuths.front();
-  for (std::size_t i = 0; i + 1 < azimuths.size(); ++i) {
-    const double gap = azimuths[i + 1] - azimuths[i];
-    if (gap > widest) widest = gap, from = azimuths[i + 1];
-  }
-  return {from, 360 - widest};
+viewshed::Arc arc_to_all(const std::vector<Sight>& sights) {
+  std::vector<viewshed::Arc> arcs;
+  for (const Sight& s : sights) arcs.push_back({s.azimuth, 0});
+  return rotor_horizon(arcs).held;
 }
 
 Seen seen_of(const Zone& zone, const std::vector<Sight>& sights, const std::vector<std::size_t>& turbines) {
   Seen seen;
   seen.turbines = turbines.size(), seen.nearest = turbines.front();
-  std::vector<double> azimuths;
+  std::vector<viewshed::Arc> rotors;
   for (const std::size_t k : turbines) {
     const Sight& s = sights[k];
     if (zone.request.turbines[k].hub_height) seen.hubs = seen.hubs.value_or(0) + (s.hub.value_or(false) ? 1 : 0);
@@ -84,12 +75,11 @@ Seen seen_of(const Zone& zone, const std::vector<Sight>& sights, const std::vect
     ++seen.tips;
     const double half =
         std::atan2(zone.request.turbines[k].rotor_diameter.value_or(0) / 2, s.distance) * kDegreesPerRadian;
-    azimuths.push_back(std::fmod(s.azimuth - half + 360, 360));
-    azimuths.push_back(std::fmod(s.azimuth + half, 360));
+    rotors.push_back({within_turn(s.azimuth - half), 2 * half});
     seen.vertical_deg = std::max(seen.vertical_deg, s.vertical_deg);
     if (!seen.nearest_seen || s.distance < sights[*seen.nearest_seen].distance) seen.nearest_seen = k;
   }
-  if (!azimuths.empty()) seen.span = smallest_span(azimuths);
+  if (!rotors.empty()) seen.arc = rotor_horizon(rotors).held;
   return seen;
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <itin/cross_section.hpp>
+#include <viewshed/turbine_view.hpp>
 #include <viewshed/turbines.hpp>
 
 namespace itin::cli {
@@ -32,14 +33,8 @@ struct Sight {
 /// Both ends keep their bare ground whatever the surface.
 std::vector<Sight> sights_to_all(const SectionSurface& surface, const Viewpoint& from, const viewshed::Zone& zone);
 
-/// A part of the horizon, degrees clockwise from grid north.
-struct Span {
-  double from_deg = 0, width_deg = 0;
-  double middle_deg() const;
-};
-
-/// The smallest span that holds these azimuths.
-Span smallest_span(std::vector<double> azimuths);
+/// The smallest part of the horizon that holds all turbines' axes.
+viewshed::Arc arc_to_all(const std::vector<Sight>& sights);
 
 /// What is seen of some turbines together.
 struct Seen {
@@ -47,8 +42,8 @@ struct Seen {
   std::optional<std::size_t> hubs;  ///< nothing: no hub's height is known
   std::size_t nearest = 0;          ///< index in the request
   std::optional<std::size_t> nearest_seen;
-  std::optional<Span> span;  ///< of the rotors whose tips are seen
-  double vertical_deg = 0;   ///< the greatest vertical angle that the visible part of a turbine takes up
+  std::optional<viewshed::Arc> arc;  ///< the smallest that holds the rotors whose tips are seen
+  double vertical_deg = 0;           ///< the greatest vertical angle that the visible part of a turbine takes up
   bool gaps = false;
 };
 /// `turbines` are indices of the request, at least one.

@@ -69,8 +69,7 @@ std::string summary_cells(const Zone& zone, const std::vector<Sight>& sights, co
   std::string cells = fmt::format(",{},{}", seen.hubs ? fmt::format("{}", *seen.hubs) : "", seen.tips);
   if (!seen.nearest_seen) return cells + ",,,,,0";
   return cells + fmt::format(",{},{:.0f},{:.1f},{:.1f},{:.3f}", zone.request.turbines[*seen.nearest_seen].number,
-                             sights[*seen.nearest_seen].distance, seen.span->from_deg, seen.span->width_deg,
-                             seen.vertical_deg);
+                             sights[*seen.nearest_seen].distance, seen.arc->from, seen.arc->width, seen.vertical_deg);
 }
 
 /// `remark`: where there is a screened surface, what stands before the eye.

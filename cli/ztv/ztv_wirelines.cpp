@@ -1,12 +1,12 @@
 #include "ztv/ztv_wirelines.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <optional>
 
 #include <fmt/format.h>
 
+#include <itin/azimuth.hpp>
 #include <itin/coordinates.hpp>
 #include <itin/grid_reference.hpp>
 #include <itin/output_file.hpp>
@@ -14,6 +14,7 @@
 #include <profile/wireline_sheet.hpp>
 
 #include "output/map_base.hpp"
+#include "output/output_path.hpp"
 #include "output/store_document.hpp"
 #include "ztv/ztv_turbines.hpp"
 
@@ -26,16 +27,8 @@ using viewshed::Zone;
 
 constexpr double kCylinder = 90, kRoomBeside = 10;  ///< degrees
 
-/// A name that every file system takes.
-std::string file_name(const char* kind, const Viewpoint& v, const std::string& ending) {
-  std::string name;
-  for (const char c : v.name)
-    name += std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '_' ? c : '_';
-  return fmt::format("{}-{}-{}{}", kind, v.number, name, ending);
-}
-
-double turned(double degrees) {
-  return std::fmod(degrees + 720, 360);
+std::string name_of_file(const char* kind, const Viewpoint& v, const std::string& ending) {
+  return file_name(fmt::format("{}-{}-{}", kind, v.number, v.name)) + ending;
 }
 
 std::string visible_in_words(const Zone& zone, const Seen& seen) {
@@ -118,7 +111,7 @@ std::vector<std::vector<std::string>> farm_table(const Zone& zone, const std::ve
     const Seen s = seen_of(zone, sights, turbines);
     rows.push_back({name, fmt::format("{}", s.turbines), s.hubs ? fmt::format("{}", *s.hubs) : "unknown",
                     fmt::format("{}", s.tips), fmt::format("{:.2f}", sights[s.nearest].distance / 1000),
-                    s.span ? fmt::format("{:.1f}°", s.span->width_deg) : "none",
+                    s.arc ? fmt::format("{:.1f}°", s.arc->width) : "none",
                     s.tips > 0 ? fmt::format("{:.2f}°", s.vertical_deg) : "none"});
   };
   const std::vector<std::string> farms = viewshed::farms_of(zone);
@@ -168,33 +161,31 @@ void WirelineWriter::add(const std::string& name, const std::string& what, const
 
 void WirelineWriter::write(const Viewpoint& v, const ViewedSurface& view, const std::vector<Sight>& sights,
                            Progress& progress) {
-  std::vector<double> azimuths;
-  for (const Sight& s : sights) azimuths.push_back(s.azimuth);
-  const Span span = smallest_span(azimuths);
-  const double centre = choice_.bearing_deg.value_or(span.middle_deg());
+  const viewshed::Arc arc = arc_to_all(sights);
+  const double centre = choice_.bearing_deg.value_or(within_turn(arc.from + arc.width / 2));
   const Facts facts = facts_of(v, view, zone_, sights, centre, store_);
   profile::WirelineQuery query = query_of(v, view, zone_, sights, choice_, facts);
-  query.width_deg = std::min(360.0, std::max(choice_.least_width_deg, std::ceil(span.width_deg + kRoomBeside)));
-  query.from_deg = turned(centre - query.width_deg / 2);
+  query.width_deg = std::min(360.0, std::max(choice_.least_width_deg, std::ceil(arc.width + kRoomBeside)));
+  query.from_deg = within_turn(centre - query.width_deg / 2);
   const std::string of =
       fmt::format("viewpoint {}, {}{}", v.number, v.name, view.suffix.empty() ? "" : ", with what screens");
   const profile::Wireline drawn = profile::survey_wireline(view.surface, query, progress);
   for (const char* ending : {".svg", ".pdf", ".png"}) {
-    const std::string name = file_name("wireline", v, view.suffix + ending);
+    const std::string name = name_of_file("wireline", v, view.suffix + ending);
     add(name, "wireline from " + of + ", to scale", profile::draw_wireline(drawn, name));
   }
   if (!sheets_.given()) return;
-  const int fields = std::clamp(static_cast<int>(std::ceil((span.width_deg + kRoomBeside) / kCylinder)), 1, 4);
+  const int fields = std::clamp(static_cast<int>(std::ceil((arc.width + kRoomBeside) / kCylinder)), 1, 4);
   query.width_deg = fields * kCylinder, query.step_deg = 0.025;
-  query.from_deg = turned(centre - query.width_deg / 2);
+  query.from_deg = within_turn(centre - query.width_deg / 2);
   const profile::Wireline wide = profile::survey_wireline(view.surface, query, progress);
   profile::WirelineSheet sheet{query.title, facts, centre};
   if (!sheets_.project().empty()) sheet.facts.insert(sheet.facts.begin(), {"Project", sheets_.project()});
   sheet.facts.emplace_back("Date", sheets_.date());
-  std::string planar = file_name("wireline", v, view.suffix + "-planar.pdf");
+  std::string planar = name_of_file("wireline", v, view.suffix + "-planar.pdf");
   add(planar, "sheet of 841 by 297 mm: planar wireline of 53.5 degrees from " + of,
       profile::draw_planar_sheet(wide, sheet, planar));
-  std::string cylindrical = file_name("wireline", v, view.suffix + "-cylindrical.pdf");
+  std::string cylindrical = name_of_file("wireline", v, view.suffix + "-cylindrical.pdf");
   std::optional<profile::Wireline> alone;
   if (!choice_.alone.empty()) alone = of_one_farm(wide, choice_.alone);
   std::vector<profile::WirelineField> drawn_fields;
@@ -207,7 +198,7 @@ void WirelineWriter::write(const Viewpoint& v, const ViewedSurface& view, const 
                   alone ? ", each with " + choice_.alone + " alone and with all wind farms" : "", of),
       profile::draw_cylindrical_sheets(drawn_fields, sheet, cylindrical));
   sheet.title = fmt::format("Viewpoint {}: {}", v.number, v.name);
-  const std::string name = file_name("viewpoint", v, view.suffix + ".pdf");
+  const std::string name = name_of_file("viewpoint", v, view.suffix + ".pdf");
   add(name, "sheet about " + of,
       profile::draw_viewpoint_sheet(
           wide, {sheet, farm_table(zone_, sights), location_map(store_, zone_, v, sights, sheets_.basemap(), progress)},

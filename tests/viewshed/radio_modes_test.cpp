@@ -27,12 +27,6 @@ constexpr Point2 kNorthWest{300000, 200000};
 constexpr double kStep = 50;
 constexpr int kPosts = 70;
 
-profile::NoData of_lines(NoData rule) {
-  return rule == NoData::kBlock   ? profile::NoData::kBlock
-         : rule == NoData::kClear ? profile::NoData::kClear
-                                  : profile::NoData::kUnknown;
-}
-
 class RadioModes : public ::testing::Test {
  protected:
   double draw(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random_); }
@@ -88,7 +82,7 @@ class RadioModes : public ::testing::Test {
     query.earth = request.earth;
     query.themes = request.themes;
     query.radio = request.radio;
-    query.nodata = of_lines(request.nodata);
+    query.nodata = request.nodata;
     query.from_on_surface = request.observers_on_surface;
     query.to_on_surface = request.targets_on_surface;
     return survey_links(store, links, query, progress_);

@@ -16,6 +16,7 @@
 #include <itin/geodesic.hpp>
 #include <itin/parallel.hpp>
 #include <viewshed/link_exclusion.hpp>
+#include <viewshed/turbine_view.hpp>
 #include <viewshed/turbines.hpp>
 #include <viewshed/zone_files.hpp>
 
@@ -24,7 +25,6 @@
 #include "support/seed.hpp"
 #include "support/terrain_tin.hpp"
 #include "turbines/farm_combinations.hpp"
-#include "turbines/turbine_view.hpp"
 #include "turbines/value_bands.hpp"
 
 namespace itin::viewshed {

@@ -1,4 +1,5 @@
-// Earth curvature and refraction, as one parabola; and the radio waves that run over it.
+// What sight lines meet with: Earth curvature and refraction, as one parabola, and ground without data; and the radio
+// waves that run over the Earth.
 //
 //   const Earth earth;                                         // curved, k = 0.13, R = 6371 km
 //   const double light = earth.drop(40000);                    // 109.2 m
@@ -34,6 +35,13 @@ struct Earth {
   double drop(double distance) const { return drop_coefficient() * distance * distance; }
   /// One line for results, for example "drop = d^2 (1 - k) / (2 R), k = 0.13, R = 6371000 m".
   std::string convention() const;
+};
+
+/// What ground without data does to sight lines across it.
+enum class NoData {
+  kUnknown,  ///< they are undecided, unless known ground hides them
+  kBlock,    ///< none passes: the edge of the surface is a curtain up to the sky
+  kClear     ///< they pass
 };
 
 /// Radius of the Earth over which rays are straight. Precondition: its surface drops.

@@ -35,8 +35,7 @@ namespace itin::profile {
 enum class SightVerdict { kVisible, kHidden, kUndecided };
 /// The certified error of a coarse surface, or ground without data, leaves a criterion undecided.
 enum class CriterionVerdict { kMeets, kFails, kUndecided };
-/// What ground without data does to a ray over it. Under kUnknown the ray is undecided, unless known ground hides it.
-enum class NoData { kUnknown, kBlock, kClear };
+using itin::NoData;
 const char* name_of(SightVerdict verdict);
 const char* name_of(CriterionVerdict verdict);
 

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <itin/azimuth.hpp>
 #include <itin/error.hpp>
 #include <profile/chart.hpp>
 
@@ -32,7 +33,7 @@ std::string rounded_distance(double metres) {
 
 std::string azimuth_text(double degrees) {
   constexpr std::array<const char*, 8> kNames{"N", "NE", "E", "SE", "S", "SW", "W", "NW"};
-  const double turned = std::fmod(degrees + 360, 360);
+  const double turned = within_turn(degrees);
   const double eighth = turned / 45;
   return eighth == std::floor(eighth) ? kNames[static_cast<std::size_t>(eighth) % 8] : fmt::format("{:g}°", turned);
 }

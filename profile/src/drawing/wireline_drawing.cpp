@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <itin/azimuth.hpp>
 #include <itin/error.hpp>
 #include <itin/geodesic.hpp>
 #include <profile/wireline.hpp>
@@ -96,7 +97,7 @@ class WirelinePage {
     for (double a = std::ceil(query_.from_deg / step) * step; a <= query_.from_deg + query_.width_deg; a += step) {
       const double x = x_at(a - query_.from_deg);
       drawing_->polyline(std::array{Point2{x, frame_.ymax}, Point2{x, frame_.ymax + 4}}, ink);
-      drawing_->text({x, frame_.ymax + 14}, fmt::format("{:g}", std::fmod(a + 720, 360)),
+      drawing_->text({x, frame_.ymax + 14}, fmt::format("{:g}", within_turn(a)),
                      {.size = 8, .colour = kInk, .align = Align::kCentre});
     }
     for (double e = std::ceil(low_); e <= high_; e += 1)

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include <itin/azimuth.hpp>
 #include <itin/geodesic.hpp>
 #include <itin/label_places.hpp>
 #include <itin/simplified.hpp>
@@ -28,8 +29,7 @@ std::vector<PlacedTurbine> placed_turbines(const WirelineQuery& query) {
   std::vector<PlacedTurbine> placed;
   for (const WirelineTurbine& t : query.turbines) {
     const double dx = t.position.x - query.eye.x, dy = t.position.y - query.eye.y, d = std::hypot(dx, dy);
-    double across = std::fmod(std::atan2(dx, dy) * kDegreesPerRadian - query.from_deg, 360);
-    if (across < 0) across += 360;
+    const double across = within_turn(std::atan2(dx, dy) * kDegreesPerRadian - query.from_deg);
     if (across > query.width_deg || d > query.reach_m || d == 0) continue;
     PlacedTurbine& p = placed.emplace_back(PlacedTurbine{&t, d, across, 0, 0});
     p.base = elevation_of(query, p, 0), p.top = elevation_of(query, p, t.tip_m);

@@ -15,8 +15,8 @@
 #include <itin/level_choice.hpp>
 #include <itin/sources_in.hpp>
 
-#include "lines/azimuth.hpp"
 #include "lines/line_sources.hpp"
+#include "lines/magnetic_azimuth.hpp"
 
 namespace itin::profile {
 

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "lines/azimuth.hpp"
+#include "lines/magnetic_azimuth.hpp"
 
 namespace itin::profile {
 

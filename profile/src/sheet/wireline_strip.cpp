@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <itin/azimuth.hpp>
 #include <itin/error.hpp>
 #include <itin/geodesic.hpp>
 
@@ -19,7 +20,7 @@ namespace {
 
 /// Degrees from the view's left edge to the middle of the strip.
 double middle_of(const Wireline& view, const WirelineStrip& strip) {
-  return std::fmod(strip.centre_deg - view.query.from_deg + 720, 360);
+  return within_turn(strip.centre_deg - view.query.from_deg);
 }
 
 /// Points to the right of the strip's middle and above its horizon.
@@ -40,7 +41,7 @@ void draw_bearings(Drawing& drawing, const WirelineStrip& strip) {
   for (double a = std::ceil(first / 5) * 5; a <= last + 1e-9; a += 5) {
     const double x = (f.xmin + f.xmax) / 2 + on_paper(strip, a - strip.centre_deg, 0).x;
     drawing.polyline(std::array{Point2{x, f.ymax}, Point2{x, f.ymax + 4}}, {kInk, 0.6, {}});
-    drawing.text({x, f.ymax + 12}, fmt::format("{:g}°", std::fmod(a + 720, 360)),
+    drawing.text({x, f.ymax + 12}, fmt::format("{:g}°", within_turn(a)),
                  {.size = 7, .colour = kInk, .align = Align::kCentre});
   }
 }

@@ -56,14 +56,9 @@ struct Observer {
   std::optional<AngleRange> elevation = std::nullopt;
 };
 
-/// How ground without data affects sight lines.
-enum class NoData {
-  /// Modes kVisible, kFresnel and kLoss: a line that nothing known hides is undecided. Other modes: it passes, and a
-  /// warning says so if any could be concerned.
-  kUnknown,
-  kBlock,  ///< none passes: the edge of the surface is a curtain up to the sky
-  kClear   ///< they pass
-};
+/// Under kUnknown modes kVisible, kFresnel and kLoss have undecided lines. In other modes these pass, and a warning
+/// says so if any could be concerned.
+using itin::NoData;
 
 /// The algorithm that decides sight lines to cells. The result never depends on it.
 enum class Engine {

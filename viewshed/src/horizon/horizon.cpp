@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <itin/azimuth.hpp>
 #include <itin/call_progress.hpp>
 #include <itin/error.hpp>
 #include <itin/geodesic.hpp>
@@ -32,10 +33,6 @@ namespace itin::viewshed {
 namespace {
 
 using Heights = std::vector<std::optional<double>>;
-
-double clockwise(double degrees) {
-  return std::fmod(degrees + 720, 360);
-}
 
 /// Metres: the request's radius, or as far as there is data.
 double greatest_reach(const Request& request, const Box& data) {
@@ -119,9 +116,9 @@ class Survey {
     const Point3 to = units_of(sighted);
     const auto [dx, dy] = eye_.offset_to(p, {to.x, to.y});
     sighted.distance_m = std::hypot(dx, dy);
-    sighted.azimuth_deg = std::fmod(std::atan2(dx, dy) * kDegreesPerRadian + 360, 360);
+    sighted.azimuth_deg = within_turn(std::atan2(dx, dy) * kDegreesPerRadian);
     sighted.elevation_deg = eye_.view.elevation(dx, dy, sighted.elevation_m - eye_.elevation);
-    directions_.push_back({clockwise(sighted.azimuth_deg - start_), result_.targets.size() - 1, true});
+    directions_.push_back({within_turn(sighted.azimuth_deg - start_), result_.targets.size() - 1, true});
   }
 
   Point3 units_of(const SightedTarget& target) const {

@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include <itin/azimuth.hpp>
 #include <itin/geodesic.hpp>
 #include <itin/grazing.hpp>
 #include <viewshed/viewshed.hpp>
@@ -63,18 +64,14 @@ class FieldOfView {
 
  private:
   bool azimuth_within(double degrees) const {
-    const double width = turn(azimuth_->to - azimuth_->from);
+    const double width = within_turn(azimuth_->to - azimuth_->from);
     // A range of a whole turn is given as such, not as nothing.
     if (width == 0 && azimuth_->to != azimuth_->from) return true;
-    return turn(degrees - azimuth_->from) <= width;
+    return within_turn(degrees - azimuth_->from) <= width;
   }
   double elevation_at(double squared, double dz) const {
     if (squared == 0 && std::abs(dz) <= kGrazing) return 0;
     return std::atan2(dz - drop_ * squared, std::sqrt(squared)) * kDegreesPerRadian;
-  }
-  static double turn(double degrees) {
-    const double rest = std::fmod(degrees, 360);
-    return rest < 0 ? rest + 360 : rest;
   }
 
   std::optional<AngleRange> azimuth_;

@@ -1,20 +1,11 @@
-#include "turbines/turbine_view.hpp"
-
 #include <algorithm>
 #include <cmath>
 
+#include <itin/azimuth.hpp>
 #include <itin/geodesic.hpp>
+#include <viewshed/turbine_view.hpp>
 
 namespace itin::viewshed {
-
-namespace {
-
-double turn(double degrees) {
-  const double rest = std::fmod(degrees, 360);
-  return rest < 0 ? rest + 360 : rest;
-}
-
-}  // namespace
 
 double vertical_angle_deg(const Earth& earth, double distance, double eye, double low, double high) {
   const double drop = earth.drop(distance);
@@ -26,7 +17,7 @@ double vertical_angle_deg(const Earth& earth, double distance, double eye, doubl
 Arc rotor_arc(Point2 eye, Point2 turbine, double rotor_diameter) {
   const double dx = turbine.x - eye.x, dy = turbine.y - eye.y;
   const double half = rotor_diameter > 0 ? std::atan2(rotor_diameter / 2, std::hypot(dx, dy)) * kDegreesPerRadian : 0;
-  return {turn(std::atan2(dx, dy) * kDegreesPerRadian - half), 2 * half};
+  return {within_turn(std::atan2(dx, dy) * kDegreesPerRadian - half), 2 * half};
 }
 
 RotorHorizon rotor_horizon(std::vector<Arc>& arcs) {

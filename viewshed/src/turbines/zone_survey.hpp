@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include <viewshed/turbine_view.hpp>
 #include <viewshed/turbines.hpp>
 
 #include "line/cell_tiles.hpp"
@@ -13,7 +14,6 @@
 #include "request/void_shadow.hpp"
 #include "scene/full_surface.hpp"
 #include "scene/sweep/radial_sweep.hpp"
-#include "turbines/turbine_view.hpp"
 
 namespace itin::viewshed {
 

@@ -1,6 +1,6 @@
 // A folder of outputs that appears complete or not at all.
 //
-//   OutputFolder folder("ztv", policy);
+//   ZtvFolder folder("ztv", policy);
 //   write(folder.working() + "/tip-count.tif");
 //   folder.publish();
 #pragma once
@@ -14,7 +14,7 @@
 
 namespace itin::cli {
 
-class OutputFolder {
+class ZtvFolder {
  public:
   /// The file that tells a folder of outputs from any other.
   static constexpr const char* kManifest = "ztv.json";
@@ -24,7 +24,7 @@ class OutputFolder {
   static void require_writable(const std::string& path, const OutputPolicy& policy);
 
   /// Makes a working folder beside `path`, which goes again unless it is published. Throws as require_writable() does.
-  OutputFolder(std::string path, const OutputPolicy& policy);
+  ZtvFolder(std::string path, const OutputPolicy& policy);
 
   const std::string& working() const { return working_->path(); }
   /// Gives the working folder the name, in one step. Files of the earlier folder that its manifest does not list as

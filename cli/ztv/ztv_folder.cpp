@@ -1,4 +1,4 @@
-#include "output/output_folder.hpp"
+#include "ztv/ztv_folder.hpp"
 
 #include <cerrno>
 #include <cstdio>
@@ -27,7 +27,7 @@ std::string without_slash(std::string path) {
 
 /// Names of the files that an earlier run wrote.
 std::set<std::string> listed_outputs(const fs::path& manifest) {
-  std::set<std::string> names{OutputFolder::kManifest};
+  std::set<std::string> names{ZtvFolder::kManifest};
   std::ifstream in(manifest);
   const nlohmann::json document = nlohmann::json::parse(in, nullptr, false);
   if (!document.is_object() || !document.contains("outputs") || !document["outputs"].is_array()) return names;
@@ -42,7 +42,7 @@ std::set<std::string> listed_outputs(const fs::path& manifest) {
 
 }  // namespace
 
-void OutputFolder::require_writable(const std::string& given, const OutputPolicy& policy) {
+void ZtvFolder::require_writable(const std::string& given, const OutputPolicy& policy) {
   const std::string path = without_slash(given);
   std::error_code ignored;
   const fs::file_status status = fs::status(path, ignored);
@@ -60,7 +60,7 @@ void OutputFolder::require_writable(const std::string& given, const OutputPolicy
     throw FileError(path, "its parent folder is not writable; change its permissions or name another place");
 }
 
-OutputFolder::OutputFolder(std::string path, const OutputPolicy& policy) : path_(without_slash(std::move(path))) {
+ZtvFolder::ZtvFolder(std::string path, const OutputPolicy& policy) : path_(without_slash(std::move(path))) {
   require_writable(path_, policy);
   const std::string working = fmt::format("{}.{}.tmp", path_, getpid());
   std::error_code error;
@@ -69,7 +69,7 @@ OutputFolder::OutputFolder(std::string path, const OutputPolicy& policy) : path_
   working_.emplace(working, Unfinished::Kind::folder);
 }
 
-void OutputFolder::publish() {
+void ZtvFolder::publish() {
   const bool replace = fs::exists(path_) && !fs::is_empty(path_);
   const unsigned flags = replace ? RENAME_EXCHANGE : 0;
   working_->finish([&] {
@@ -82,7 +82,7 @@ void OutputFolder::publish() {
   fs::remove_all(working(), ignored);
 }
 
-void OutputFolder::keep_foreign_files(const std::string& earlier) const {
+void ZtvFolder::keep_foreign_files(const std::string& earlier) const {
   const std::set<std::string> own = listed_outputs(fs::path(earlier) / kManifest);
   for (const fs::directory_entry& entry : fs::directory_iterator(earlier)) {
     const std::string name = entry.path().filename().string();
