@@ -58,7 +58,8 @@ void SiteOptions::declare_candidates(CLI::App& app) {
       ->type_name("METRES");
   app.add_option("--mast-height", mast_height_text_, "Height of the masts, or several to choose from (default: 20)")
       ->type_name("H[,H...]");
-  app.add_option("--mast-cost", mast_cost_text_, "What each of these costs, besides the place (default: 1)")
+  app.add_option("--mast-cost", mast_cost_text_,
+                 "What each of these costs, besides the place (default: 1, with --cost-field 0)")
       ->type_name("C[,C...]");
   app.add_option("--observer-on", observer_on_,
                  "Masts stand on the ground (default), or on the roofs of --themes, which are then proposed, too")

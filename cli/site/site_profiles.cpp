@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 #include <set>
 #include <string>
 
@@ -57,6 +58,23 @@ std::vector<char> shown_in_report(const SiteResult& r) {
   return shown;
 }
 
+/// Of the profiles that an earlier run wrote into the folder, those that this one did not write again.
+void remove_former(const SiteOptions& options, const std::set<std::string>& written) {
+  namespace fs = std::filesystem;
+  std::ifstream file(options.path("site.json"));
+  const Document former = Document::parse(file, nullptr, false);
+  if (!former.is_object() || !former.contains("outputs") || !former["outputs"].is_array()) return;
+  const fs::path folder = options.path("links");
+  for (const Document& output : former["outputs"]) {
+    if (!output.is_object() || !output.contains("path") || !output["path"].is_string()) continue;
+    const fs::path path = output["path"].get<std::string>();
+    std::error_code ignored;
+    if (path.extension() == ".svg" && path.parent_path().filename() == folder.filename() &&
+        !written.contains(path.stem().string()))
+      fs::remove(folder / path.filename(), ignored);
+  }
+}
+
 }  // namespace
 
 std::vector<SiteProfile> write_site_profiles(const Store& store, const SiteResult& r, bool overwrite,
@@ -84,6 +102,7 @@ std::vector<SiteProfile> write_site_profiles(const Store& store, const SiteResul
                         in_report[i] ? profile::sight_svg(report, kProfileWidth, kProfileHeight) : ""});
     progress.report("profiles of links", static_cast<double>(i + 1) / static_cast<double>(r.network.links.size()));
   }
+  if (overwrite) remove_former(r.options, taken);
   return profiles;
 }
 

@@ -15,7 +15,7 @@
 #include <viewshed/qgis_styles.hpp>
 
 #include "program/call_files.hpp"
-#include "viewshed/viewshed_radio.hpp"
+#include "viewshed/viewshed_title.hpp"
 
 namespace itin::cli {
 
@@ -108,7 +108,7 @@ void ViewshedOutputs::write(const Store& store, viewshed::ViewshedWithSurface& c
     options.sources = context.sources;
     options.no_data = no_data;
     options.outside = "Outside the field of view";
-    if (const auto title = radio_title(computed.result.request)) options.title = *title;
+    options.title = title_of(computed.result);
     if (context.missing.share() > 0)
       options.no_data_text += fmt::format(": {} of the area in view", context.missing.text());
     map = viewshed::draw_map(*computed.surface, computed.result, progress, options);

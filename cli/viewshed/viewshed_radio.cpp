@@ -75,14 +75,6 @@ Document ViewshedRadio::parameters() const {
   return {{"frequency_ghz", parameters["frequency_ghz"]}, {"fresnel", fraction_}};
 }
 
-std::optional<std::string> radio_title(const viewshed::Request& request) {
-  if (request.mode == viewshed::Mode::kFresnel)
-    return fmt::format("Fresnel zones at {:.6g} GHz", kSpeedOfLight / request.fresnel.wavelength);
-  if (request.mode == viewshed::Mode::kLoss)
-    return fmt::format("Diffraction loss at {:.6g} GHz", request.radio.frequency_ghz);
-  return std::nullopt;
-}
-
 std::optional<std::string> radio_criterion(const viewshed::Request& request) {
   if (request.mode == viewshed::Mode::kFresnel)
     return fmt::format("clear: {:g} of the first Fresnel zone's radius", request.fresnel.fraction);

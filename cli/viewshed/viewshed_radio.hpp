@@ -28,8 +28,7 @@ class ViewshedRadio {
   double fraction_ = 0.6;
 };
 
-/// The title of a map of radio, and what its cells are judged by; nothing in other modes.
-std::optional<std::string> radio_title(const viewshed::Request& request);
+/// What the cells of a map of radio are judged by; nothing in other modes.
 std::optional<std::string> radio_criterion(const viewshed::Request& request);
 
 /// The line of a call's text that says how many cells each class has.

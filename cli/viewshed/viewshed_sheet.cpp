@@ -10,6 +10,7 @@
 #include "output/result_sheet.hpp"
 #include "output/store_document.hpp"
 #include "viewshed/viewshed_radio.hpp"
+#include "viewshed/viewshed_title.hpp"
 
 namespace itin::cli {
 
@@ -29,7 +30,7 @@ profile::TitleBlock title_of_map(const Store& store, const viewshed::Result& res
                                  const std::vector<std::string>& sources) {
   const viewshed::Request& request = result.request;
   profile::TitleBlock block;
-  block.title = radio_title(request).value_or(result.certified ? "Certified viewshed" : "Viewshed");
+  block.title = title_of(result);
   block.statement = statement_of(store.metadata(), request.themes);
   block.facts = {{"Observers", observers_in_words(request)},
                  {"Targets", fmt::format("{:g} m {}", request.target_height,

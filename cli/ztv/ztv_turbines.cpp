@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <itin/decimal_comma.hpp>
 #include <itin/error.hpp>
 #include <itin/file_digest.hpp>
 #include <itin/progress.hpp>
@@ -22,7 +23,7 @@ namespace {
 enum Field : std::size_t { kHub, kRotor, kTip, kFarm, kName };
 
 std::optional<double> number_in_row(const char* name, const std::optional<std::string>& text) {
-  return text ? std::optional(parse_height(name, *text, Range::kPositive)) : std::nullopt;
+  return text ? std::optional(parse_height(name, with_decimal_point(*text), Range::kPositive)) : std::nullopt;
 }
 
 }  // namespace

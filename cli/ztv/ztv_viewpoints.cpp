@@ -9,6 +9,7 @@
 
 #include <itin/cross_section.hpp>
 #include <itin/csv_cell.hpp>
+#include <itin/decimal_comma.hpp>
 #include <itin/error.hpp>
 #include <itin/grid_reference.hpp>
 #include <itin/output_file.hpp>
@@ -95,7 +96,8 @@ Viewpoint viewpoint_of(const SiteRow& row, std::size_t number, const SectionSurf
   v.number = number;
   v.position = *row.position;
   v.name = row.values[0].value_or(fmt::format("{}", number));
-  v.height = row.values[1] ? parse_height("its height", *row.values[1], Range::kNotNegative) : usual_height;
+  v.height = row.values[1] ? parse_height("its height", with_decimal_point(*row.values[1]), Range::kNotNegative)
+                           : usual_height;
   const CrossSection here = ground.between(v.position, v.position);
   if (here.breakpoints.empty())
     throw InputError(fmt::format("there is no data at {:.10g},{:.10g}", v.position.x, v.position.y));
@@ -113,7 +115,8 @@ void ViewpointOptions::declare(CLI::App& app) {
             ->type_name("FILE"));
   app.add_option("--wireline-field", field_text_, "Least width of a wireline (default: 53.5)")->type_name("DEGREES");
   app.add_option("--wireline-bearing", bearing_text_,
-                 "Bearing of every wireline's middle, from grid north (default: the middle of the turbines)")
+                 "Bearing of every wireline's middle, from grid north (default: the middle of the turbines; sheets too "
+                 "narrow for all look at the nearest that is seen)")
       ->type_name("DEGREES");
   app.add_flag("--wireline-hidden", choice_.hidden_dashed, "Draw the hidden parts of turbines dashed in wirelines");
   app.add_option("--wireline-blades", blades_text_,

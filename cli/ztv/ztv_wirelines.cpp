@@ -60,13 +60,19 @@ double scattered_blade(std::size_t turbine) {
 
 using Facts = std::vector<std::pair<std::string, std::string>>;
 
+constexpr const char* kMiddle = "Bearing to the middle";
+
+std::string bearing_in_words(double degrees) {
+  return fmt::format("{:.1f}° from grid north", degrees);
+}
+
 Facts facts_of(const Viewpoint& v, const ViewedSurface& view, const Zone& zone, const std::vector<Sight>& sights,
                double centre_deg, const Store& store) {
   const Seen seen = seen_of(zone, sights, all_turbines(zone));
   Facts facts{{"Grid reference", place_in_words(v, store.metadata().crs_wkt)},
               {"Ground", fmt::format("{:.1f} m", v.ground)},
               {"Eye", fmt::format("{:g} m above the ground, {:.1f} m", v.height, v.ground + v.height)},
-              {"Bearing to the middle", fmt::format("{:.1f}° from grid north", centre_deg)},
+              {kMiddle, bearing_in_words(centre_deg)},
               {"Nearest turbine", fmt::format("{:.2f} km, {}", sights[seen.nearest].distance / 1000,
                                               turbine_in_words(zone.request.turbines[seen.nearest]))},
               {"Visible", visible_in_words(zone, seen)},
@@ -123,6 +129,27 @@ std::vector<std::vector<std::string>> farm_table(const Zone& zone, const std::ve
   }
   if (farms.size() > 1) add("All", all_turbines(zone));
   return rows;
+}
+
+/// Where a picture looks that is too narrow for all turbines: at the nearest whose tip is seen, else at the nearest.
+double bearing_of_nearest(const Zone& zone, const std::vector<Sight>& sights) {
+  const Seen seen = seen_of(zone, sights, all_turbines(zone));
+  return sights[seen.nearest_seen.value_or(seen.nearest)].azimuth;
+}
+
+/// A sheet that looks in one direction, which says how many turbines lie beside what it shows.
+profile::WirelineSheet sheet_towards(double bearing_deg, double field_deg, const std::vector<Sight>& sights,
+                                     profile::WirelineSheet sheet) {
+  sheet.centre_deg = bearing_deg;
+  for (auto& [name, value] : sheet.facts)
+    if (name == kMiddle) value = bearing_in_words(bearing_deg);
+  const auto beside = std::count_if(sights.begin(), sights.end(), [&](const Sight& s) {
+    return std::abs(within_turn(s.azimuth - bearing_deg + 180) - 180) > field_deg / 2;
+  });
+  if (beside > 0)
+    sheet.facts.emplace_back("Beside this field", fmt::format("{} of {} turbines, which the cylindrical sheets show",
+                                                              beside, sights.size()));
+  return sheet;
 }
 
 profile::Wireline of_one_farm(profile::Wireline view, const std::string& farm) {
@@ -182,9 +209,15 @@ void WirelineWriter::write(const Viewpoint& v, const ViewedSurface& view, const 
   profile::WirelineSheet sheet{query.title, facts, centre};
   if (!sheets_.project().empty()) sheet.facts.insert(sheet.facts.begin(), {"Project", sheets_.project()});
   sheet.facts.emplace_back("Date", sheets_.date());
+  const bool fits = choice_.bearing_deg || arc.width + kRoomBeside <= profile::kPlanarField;
+  const double bearing = fits ? centre : bearing_of_nearest(zone_, sights);
+  query.width_deg = kCylinder, query.from_deg = within_turn(bearing - kCylinder / 2);
+  std::optional<profile::Wireline> turned;
+  if (!fits) turned = profile::survey_wireline(view.surface, query, progress);
+  const profile::Wireline& narrow = turned ? *turned : wide;
   std::string planar = name_of_file("wireline", v, view.suffix + "-planar.pdf");
   add(planar, "sheet of 841 by 297 mm: planar wireline of 53.5 degrees from " + of,
-      profile::draw_planar_sheet(wide, sheet, planar));
+      profile::draw_planar_sheet(narrow, sheet_towards(bearing, profile::kPlanarField, sights, sheet), planar));
   std::string cylindrical = name_of_file("wireline", v, view.suffix + "-cylindrical.pdf");
   std::optional<profile::Wireline> alone;
   if (!choice_.alone.empty()) alone = of_one_farm(wide, choice_.alone);
@@ -200,9 +233,10 @@ void WirelineWriter::write(const Viewpoint& v, const ViewedSurface& view, const 
   sheet.title = fmt::format("Viewpoint {}: {}", v.number, v.name);
   const std::string name = name_of_file("viewpoint", v, view.suffix + ".pdf");
   add(name, "sheet about " + of,
-      profile::draw_viewpoint_sheet(
-          wide, {sheet, farm_table(zone_, sights), location_map(store_, zone_, v, sights, sheets_.basemap(), progress)},
-          name));
+      profile::draw_viewpoint_sheet(narrow,
+                                    {sheet_towards(bearing, kCylinder, sights, sheet), farm_table(zone_, sights),
+                                     location_map(store_, zone_, v, sights, sheets_.basemap(), progress)},
+                                    name));
 }
 
 }  // namespace itin::cli

@@ -13,6 +13,8 @@
 
 namespace itin::profile {
 
+inline constexpr double kPlanarField = 53.5;  ///< degrees
+
 struct WirelineSheet {
   std::string title;
   std::vector<std::pair<std::string, std::string>> facts;  ///< name, value

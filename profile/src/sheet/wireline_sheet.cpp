@@ -21,7 +21,7 @@ namespace {
 
 // Millimetres and degrees; see wireline_sheet.hpp.
 constexpr double kPageWidth = 841, kPageHeight = 297, kImageWidth = 820;
-constexpr double kPlanarField = 53.5, kPlanarHeight = 260, kPlanarPrincipal = 812.5;
+constexpr double kPlanarHeight = 260, kPlanarPrincipal = 812.5;
 constexpr double kWeight = 1.6;
 constexpr double kCylinderField = 90, kCylinderHeight = 130, kCylinderPrincipal = 522;
 

@@ -56,8 +56,9 @@ struct Observer {
   std::optional<AngleRange> elevation = std::nullopt;
 };
 
-/// Under kUnknown modes kVisible, kFresnel and kLoss have undecided lines. In other modes these pass, and a warning
-/// says so if any could be concerned.
+/// Under kUnknown lines are undecided that only ground without data could hide; what counts or names observers counts
+/// those that certainly see. In modes kBlocker, kHeight and kProbability these lines pass, and a warning says so if any
+/// could be concerned.
 using itin::NoData;
 
 /// The algorithm that decides sight lines to cells. The result never depends on it.
@@ -172,11 +173,11 @@ struct Statistics {
 struct Result {
   Request request;  ///< as understood
   RasterGrid grid;
-  /// In every mode. Undecided in kVisible, kFresnel and kLoss alone: what only ground without data leaves open, under
-  /// NoData::kUnknown, and in certified results what the level leaves open.
+  /// In every mode. Undecided is what only ground without data leaves open, under NoData::kUnknown (not in kBlocker,
+  /// kHeight and kProbability), and in certified results what the level leaves open.
   std::vector<Verdict> visible;
   bool certified = false;              ///< made by compute_certified(): verdicts at a level are certain
-  std::vector<std::uint16_t> count;    ///< kCount: how many observers see the cell, or kCountOutside
+  std::vector<std::uint16_t> count;    ///< kCount: how many certainly see the cell, or kCountOutside
   std::vector<std::uint32_t> which;    ///< kWhich: see observer_bit()
   std::vector<float> angle_deg;        ///< kAngle, of the line after curvature and refraction; NaN where none sees
   std::vector<std::uint32_t> nearest;  ///< kNearest: the observer's number from 1 in their order; 0 where none sees

@@ -8,6 +8,7 @@
 
 #include <itin/lattice_tin.hpp>
 #include <itin/parallel.hpp>
+#include <itin/sort_unique.hpp>
 
 #include "bounds/surface_heights.hpp"
 #include "line/rounded_outwards.hpp"
@@ -128,8 +129,7 @@ void BinnedHeights::add(std::span<const std::uint32_t> tiles) {
     if (tile % columns > 0) touched.push_back(tile - 1);
     if (tile >= columns) touched.push_back(tile - columns);
   }
-  std::sort(touched.begin(), touched.end());
-  touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
+  sort_unique(touched);
   parallel_for(touched.size(), [&](std::size_t i) {
     if (lattice_->tiles[touched[i]].heights) bound_tile(touched[i]);
   });

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include <itin/sort_unique.hpp>
 #include <viewshed/documents.hpp>
 #include <viewshed/viewshed.hpp>
 
@@ -190,8 +191,7 @@ void MapOverlay::scale_distances() {
 void MapOverlay::scale_blockers() {
   title_ = "Hidden by";
   blockers_ = result_.blocker_theme;
-  std::sort(blockers_.begin(), blockers_.end());
-  blockers_.erase(std::unique(blockers_.begin(), blockers_.end()), blockers_.end());
+  sort_unique(blockers_);
   std::erase(blockers_, kNoBlocker);
   add_step(0, {kSeenColour, kOpacity}, "visible");
   for (std::size_t i = 0; i < blockers_.size(); ++i) {
@@ -256,19 +256,22 @@ void MapOverlay::make_keys(const MapOptions& options) {
 
 void MapOverlay::add_verdict_keys(const MapOptions& options) {
   const CellCounts& cells = result_.cells;
-  std::vector<Tint> seen;
   const Mode mode = result_.request.mode;
-  const bool zones = mode == Mode::kFresnel;
-  if (mode != Mode::kBlocker && mode != Mode::kHeight && mode != Mode::kProbability)
-    for (const Step& step : steps_) seen.push_back(step.tint);
+  // Its steps show what is seen and what is hidden alike.
+  if (mode == Mode::kProbability) return;
+  // The first step of these is what is seen, the others what is hidden.
+  const bool both = mode == Mode::kBlocker || mode == Mode::kHeight;
+  std::vector<Tint> seen, hidden;
+  for (const Step& step : steps_) (both && !seen.empty() ? hidden : seen).push_back(step.tint);
   if (seen.empty()) seen.push_back({kSeenColour, kOpacity});
+  const bool zones = mode == Mode::kFresnel;
   keys_ = {{std::move(seen),
             result_.certified ? "Certainly visible"
             : zones           ? fmt::format("In sight, {:g} F1 clear", result_.request.fresnel.fraction)
                               : options.seen,
             cells.visible}};
   if (zones) keys_.push_back({{{kZoneCutColour, kOpacity}}, "In sight, zone cut", cells.zone_cut});
-  keys_.push_back({{}, result_.certified ? "Certainly hidden" : options.unseen, cells.hidden});
+  keys_.push_back({std::move(hidden), result_.certified ? "Certainly hidden" : options.unseen, cells.hidden});
 }
 
 }  // namespace itin::viewshed

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <itin/sort_unique.hpp>
+
 #include "line/infinity.hpp"
 
 namespace itin::viewshed {
@@ -17,8 +19,7 @@ std::uint64_t BlockerObservation::observe(const TileView& tile) {
   const std::uint64_t lines = Observation::observe(tile);
   std::vector<std::uint32_t> triangles;
   for (const std::size_t cell : found_) triangles.push_back(blocker_[cell]);
-  std::sort(triangles.begin(), triangles.end());
-  triangles.erase(std::unique(triangles.begin(), triangles.end()), triangles.end());
+  sort_unique(triangles);
   std::vector<BlockingTriangle> corners;
   for (const std::uint32_t t : triangles) {
     const Triangle& triangle = tile.studies->tin.triangles[t];

@@ -5,6 +5,8 @@
 #include <limits>
 #include <numbers>
 
+#include <itin/sort_unique.hpp>
+
 #include "line/infinity.hpp"
 #include "line/sight_line.hpp"
 
@@ -107,8 +109,7 @@ bool VisibilityProbability::cross(const Line& line, Scratch& scratch) const {
   if (const auto last = scratch.highest_) add(*last);
   if (highest < hidden) pyramid_.search(bundle, add);
   if (highest >= hidden) return false;
-  std::sort(crossings.begin(), crossings.end());
-  crossings.erase(std::unique(crossings.begin(), crossings.end()), crossings.end());
+  sort_unique(crossings);
   return true;
 }
 

@@ -147,7 +147,7 @@ bool needs_triangles(const Request& request) {
 }
 
 bool leaves_open(const Request& request) {
-  return request.mode == Mode::kVisible || request.mode == Mode::kFresnel || request.mode == Mode::kLoss;
+  return request.mode != Mode::kBlocker && request.mode != Mode::kHeight && request.mode != Mode::kProbability;
 }
 
 bool needs_bare_lines(const Request& request) {

@@ -19,7 +19,7 @@
 namespace itin::viewshed {
 
 inline constexpr const char* kVoidsWarning =
-    "sight lines may cross ground without data, which counts as clear; give nodata block or clear to choose";
+    "sight lines may cross ground without data, which counts as clear; give `nodata` block or clear to choose";
 
 /// The rule for lines that cross ground without data and come back: the request's own, but kClear in place of kUnknown
 /// in modes that leave nothing open (leaves_open()).

@@ -1,0 +1,36 @@
+#include "viewshed/viewshed_title.hpp"
+
+#include <fmt/format.h>
+
+#include <itin/earth.hpp>
+
+namespace itin::cli {
+
+std::string title_of(const viewshed::Result& result) {
+  using viewshed::Mode;
+  const viewshed::Request& request = result.request;
+  switch (request.mode) {
+    case Mode::kCount:
+    case Mode::kWhich:
+      return "How many observers see each place";
+    case Mode::kAngle:
+      return "Elevation angle of what is seen";
+    case Mode::kNearest:
+      return "Nearest observer in sight";
+    case Mode::kBlocker:
+      return "What hides each place";
+    case Mode::kHeight:
+      return "Least height at which a target is seen";
+    case Mode::kProbability:
+      return "Probability of being visible";
+    case Mode::kFresnel:
+      return fmt::format("Fresnel zones at {:.6g} GHz", kSpeedOfLight / request.fresnel.wavelength);
+    case Mode::kLoss:
+      return fmt::format("Diffraction loss at {:.6g} GHz", request.radio.frequency_ghz);
+    case Mode::kVisible:
+      break;
+  }
+  return result.certified ? "Certified viewshed" : "Viewshed";
+}
+
+}  // namespace itin::cli
