@@ -249,11 +249,35 @@ TEST(Viewshed, GroundWithoutDataIsUnknownClearOrBlocks) {
 
 TEST(Viewshed, ModesThatCannotSayUndecidedWarn) {
   Request request = look(105, 205, 5);
-  request.mode = Mode::kCount;
+  request.mode = Mode::kHeight;
   const Result unknown = run(parted(), request);
   EXPECT_EQ(unknown.warnings.size(), 1U);
+  EXPECT_EQ(unknown.cells.undecided, 0U);
   request.nodata = NoData::kClear;
-  EXPECT_EQ(run(parted(), request).count, unknown.count);
+  EXPECT_EQ(run(parted(), request).visible, unknown.visible);
+}
+
+TEST(Viewshed, ObserversAreCountedAndNamedWhereTheyCertainlySee) {
+  Request request = look(105, 205, 5);
+  request.observers.push_back({"east", {kCorner.x + 305, kCorner.y + 105}, 5});
+  const Result visible = run(parted(), request);
+  EXPECT_GT(visible.cells.undecided, 0U);
+  const auto in = [&](Mode mode, NoData rule) {
+    request.mode = mode, request.nodata = rule;
+    return run(parted(), request);
+  };
+  const Result counted = in(Mode::kCount, NoData::kUnknown), named = in(Mode::kWhich, NoData::kUnknown),
+               nearest = in(Mode::kNearest, NoData::kUnknown), angle = in(Mode::kAngle, NoData::kUnknown);
+  EXPECT_EQ(counted.count, in(Mode::kCount, NoData::kBlock).count);
+  EXPECT_EQ(named.which, in(Mode::kWhich, NoData::kBlock).which);
+  EXPECT_EQ(nearest.nearest, in(Mode::kNearest, NoData::kBlock).nearest);
+  EXPECT_NE(counted.count, in(Mode::kCount, NoData::kClear).count);
+  for (const Result* r : {&counted, &named, &nearest, &angle}) {
+    EXPECT_EQ(r->visible, visible.visible);
+    EXPECT_THAT(r->warnings, IsEmpty());
+  }
+  for (std::size_t i = 0; i < visible.visible.size(); ++i)
+    ASSERT_EQ(std::isnan(angle.angle_deg[i]), visible.visible[i] != Verdict::kVisible) << i;
 }
 
 TEST(Viewshed, TheEdgeOfTheDataHidesNothingOnThisSide) {
