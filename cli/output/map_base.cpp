@@ -62,10 +62,11 @@ void add_contours(const Heights& heights, MapBase& base) {
   const double interval = contour_interval(high - low);
   profile::SheetLines plain{{}, kContour, 0.09, false}, index{{}, kContour, 0.2, false};
   constexpr std::size_t kWorthALabel = 60;
-  for (double k = std::ceil(low / interval); k * interval < high; ++k) {
-    const bool fifth = std::fmod(k, 5) == 0;
-    for (auto& points : contour_lines(heights.grid, heights.values, k * interval)) {
-      const std::string label = fifth && points.size() > kWorthALabel ? fmt::format("{:g}", k * interval) : "";
+  for (auto k = static_cast<long>(std::ceil(low / interval)); static_cast<double>(k) * interval < high; ++k) {
+    const bool fifth = k % 5 == 0;
+    const double height = static_cast<double>(k) * interval;
+    for (auto& points : contour_lines(heights.grid, heights.values, height)) {
+      const std::string label = fifth && points.size() > kWorthALabel ? fmt::format("{:g}", height) : "";
       (fifth ? index : plain).lines.push_back({std::move(points), label});
     }
   }

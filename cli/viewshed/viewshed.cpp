@@ -290,7 +290,8 @@ class ViewshedVerb final : public Verb {
     if (!memory_text_.empty()) compute_options_.memory_bytes = parse_bytes("--memory", memory_text_);
     if (!precise_) return;
     if (certified_)
-      throw InputError("--precise leaves nothing undecided: give --mode visible or count, or leave --precise out");
+      throw InputError(
+          "--precise is exact, and --mode certified says what a tolerance leaves open: give one of the two");
     if (detail_.has_rings() || request_detail_given())
       throw InputError("--precise is exact for the full surface: leave out --tolerance and --rings");
   }
