@@ -58,7 +58,7 @@ std::vector<char> shown_in_report(const SiteResult& r) {
   return shown;
 }
 
-/// Of the profiles that an earlier run wrote into the folder, those that this one did not write again.
+/// Removes profiles that an earlier run wrote into the folder, and this one did not write again.
 void remove_former(const SiteOptions& options, const std::set<std::string>& written) {
   namespace fs = std::filesystem;
   std::ifstream file(options.path("site.json"));

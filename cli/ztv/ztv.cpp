@@ -320,13 +320,14 @@ class ZtvVerb final : public Verb {
 
   std::vector<std::string> warnings(const Zone& zone) const {
     std::vector<std::string> warnings = zone.warnings;
-    if (const auto warning = missing_.warning("the study area, all turbines' radii,"))
-      warnings.push_back(in_options(*warning));
+    if (const auto warning = missing_.warning("the study area, all turbines' radii,")) warnings.push_back(*warning);
     for (const BadRow& bad : list_.bad) warnings.push_back(bad_row_warning(turbines_.path(), bad));
     for (const std::string& warning : list_.warnings) warnings.push_back(turbines_.path() + ": " + warning);
     const auto of_radio = radio_.warnings(zone);
     warnings.insert(warnings.end(), of_radio.begin(), of_radio.end());
     for (const BadRow& bad : seen_.bad) warnings.push_back(bad_row_warning(seen_.path, bad));
+    // The program does so, too, but after they are in the document of the folder.
+    std::transform(warnings.begin(), warnings.end(), warnings.begin(), in_options);
     return warnings;
   }
 

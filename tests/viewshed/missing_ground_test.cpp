@@ -184,7 +184,7 @@ TEST_F(VerdictsOverVoids, FeaturesChangeNothingOfThat) {
       EXPECT_TRUE(same(parts.least_height_m, whole.least_height_m));
       EXPECT_TRUE(same(parts.angle_deg, whole.angle_deg));
       EXPECT_TRUE(parts.count == whole.count);
-      const bool undecided = mode == Mode::kVisible && rule == NoData::kUnknown;
+      const bool undecided = mode != Mode::kHeight && rule == NoData::kUnknown;
       EXPECT_EQ(parts.cells.undecided > 0, undecided);
     }
   }

@@ -285,7 +285,7 @@ TEST_F(Plans, WarnOfMissingGroundWhereLinesCrossIt) {
   const Store store(hills_path());
   Request request = over_hills();
   request.observers.resize(1);
-  request.mode = Mode::kCount;
+  request.mode = Mode::kHeight;
   request.cell_size.reset();
   request.grid.emplace(Point2{302500, 203500}, 20, 20, 50, 50);
   EXPECT_TRUE(compute(store, request, progress_).warnings.empty());
