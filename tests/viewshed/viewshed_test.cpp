@@ -259,7 +259,7 @@ TEST(Viewshed, ModesThatCannotSayUndecidedWarn) {
 
 TEST(Viewshed, ObserversAreCountedAndNamedWhereTheyCertainlySee) {
   Request request = look(105, 205, 5);
-  request.observers.push_back({"east", {kCorner.x + 305, kCorner.y + 105}, 5});
+  request.observers.push_back({"north", {kCorner.x + 155, kCorner.y + 305}, 5});
   const Result visible = run(parted(), request);
   EXPECT_GT(visible.cells.undecided, 0U);
   const auto in = [&](Mode mode, NoData rule) {
