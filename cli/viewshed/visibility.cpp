@@ -78,6 +78,8 @@ class VisibilityVerb final : public Verb {
   void validate() override {
     request_.cell_size = parse_number("--cell", cell_text_, Range::kPositive);
     request_.radius = parse_radius("--radius", radius_text_);
+    if (request_.cell_size > request_.radius)
+      throw InputError(fmt::format("--cell '{}': larger than the radius", cell_text_));
     if (!height_text_.empty()) request_.height = parse_height("--observer-height", height_text_, Range::kNotNegative);
     if (!target_text_.empty())
       request_.target_height = parse_height("--target-height", target_text_, Range::kNotNegative);
