@@ -1,4 +1,6 @@
 // The two engines, the sweep and rays, decide every sight line alike.
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <random>
 #include <string>
@@ -12,6 +14,7 @@
 #include <viewshed/site_coverage.hpp>
 #include <viewshed/viewshed.hpp>
 
+#include "bounds/boundary.hpp"
 #include "bounds/surface_heights.hpp"
 #include "support/alexandria.hpp"
 #include "support/delaunay_tin.hpp"
@@ -108,6 +111,41 @@ TEST_F(Engines, AgreeOverWalls) {
   expect_same_by_both(request, kFewModes, [&](const Request& r) { return compute(tin, r, progress_); });
   request.observers = {{"between walls", {test::kCorner.x + 95, test::kCorner.y + 95}, 1.5}};
   expect_same_by_both(request, kFewModes, [&](const Request& r) { return compute(tin, r, progress_); });
+  EXPECT_GT(visible_, 200U);
+  EXPECT_GT(hidden_, 200U);
+}
+
+/// Posts on and beside lines that run along where the ground ends: along sides at all angles and past its corners.
+TEST_F(Engines, AgreeAlongTheRim) {
+  const auto gap = [](int c, int r) { return c > 11 && c < 17 && r > 5 && r < 10; };
+  for (int round = 0; round < 120; ++round) {
+    SCOPED_TRACE(round);
+    Tin tin = test::lattice_tin(30, round % 3 == 0 ? 16 : 2, 1, [&](int c, int r) {
+      return round % 3 == 0 && gap(c, r) ? std::nan("") : random_() % 20 == 0 ? 5 : 0;
+    });
+    // Turned so that no side runs along an axis, but from post to post; far from the grid's origin, so that posts in
+    // metres lie beside the posts in grid units by rounding.
+    const auto ahead = static_cast<std::int32_t>(round % 4), aside = static_cast<std::int32_t>(round / 4 % 3);
+    const auto east = static_cast<std::int32_t>(50000000 + random_() % 1000000),
+               north = static_cast<std::int32_t>(400000000 + random_() % 1000000);
+    for (GridPoint& p : tin.vertices) {
+      if (ahead != 0) p = {ahead * p.x - aside * p.y, aside * p.x + ahead * p.y, p.z};
+      p.x += east, p.y += north;
+    }
+    tin.grid.origin = {0, 0};
+    std::vector<BoundaryEdge> rim = boundary_edges(tin);
+    std::shuffle(rim.begin(), rim.end(), random_);
+    Request request;
+    for (std::size_t i = 0; i < 8; ++i) {
+      const Point3 post = tin.point(rim[i].from);
+      request.observers.push_back({std::to_string(i), {post.x, post.y}, std::array{0.0, 0.5, 1.0, 2.0}[i % 4]});
+    }
+    const Box box = tin.bounds();
+    request.grid.emplace(Point2{box.xmin - 0.5, box.ymax + 0.5}, 1, 1, static_cast<std::int64_t>(box.width()) + 1,
+                         static_cast<std::int64_t>(box.height()) + 1);
+    request.nodata = round % 2 == 0 ? NoData::kClear : NoData::kUnknown;
+    expect_same_by_both(request, {Mode::kWhich}, [&](const Request& r) { return compute(tin, r, progress_); });
+  }
   EXPECT_GT(visible_, 200U);
   EXPECT_GT(hidden_, 200U);
 }

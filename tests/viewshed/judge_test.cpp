@@ -48,7 +48,9 @@ class Judges : public testing::Test {
 
   /// The surface, lowered and raised by so many metres.
   Envelope envelope(double metres) const {
-    Envelope e{tin_, tin_, boundary_edges(tin_), {}, false, std::nullopt};
+    Envelope e;
+    e.lower = e.upper = tin_;
+    e.outline = boundary_edges(tin_);
     const auto units = static_cast<std::int32_t>(metres / tin_.grid.resolution);
     for (auto& v : e.lower.vertices) v.z -= units;
     for (auto& v : e.upper.vertices) v.z += units;

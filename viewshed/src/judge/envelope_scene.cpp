@@ -16,7 +16,7 @@ namespace itin::viewshed {
 EnvelopeScene::EnvelopeScene(Envelope e, const Request& request, const RasterGrid& tiles, NoData r)
     : envelope(std::move(e)),
       lower(envelope.lower, request.earth),
-      upper(envelope.upper, envelope.pieces, request.earth),
+      upper(envelope.upper, envelope.pieces, envelope.drift, request.earth),
       bins(envelope.lower, tiles),
       rule(r),
       exact(envelope.exact),

@@ -203,6 +203,7 @@ class Builder {
     envelope.upper = lower_;
     for (std::size_t v = 0; v < upper_.size(); ++v) envelope.upper.vertices[v].z = upper_[v];
     raise_against_drift(observers, envelope.upper);
+    envelope.drift = greatest_drift(observers, envelope.upper);
     envelope.lower = std::move(lower_);
     envelope.outline = std::move(outline_);
     envelope.pieces.assign(firsts_.begin() + 1, firsts_.end());

@@ -42,7 +42,7 @@ ExactRays::ExactRays(const Tin& surface, const Earth& earth, const std::vector<P
       location_(location_grid(surface)),
       bins_(surface, location_),
       surface_(surface, earth),
-      upper_(upper_tin_, {}, earth) {}
+      upper_(upper_tin_, {}, greatest_drift(eyes, upper_tin_), earth) {}
 
 unsigned ExactRays::hidden(const SightLines& lines, Work& work) const {
   const unsigned hidden = surface_.hidden(lines, work.occluder);
@@ -69,11 +69,9 @@ unsigned ExactRays::hidden(const SightLines& lines, Work& work) const {
 
 double ExactRays::upper_at(double x, double y) const {
   const Grid& grid = upper_tin_.grid;
-  const Point2 place{grid.origin.x + x * grid.resolution, grid.origin.y + y * grid.resolution};
-  const auto bin = location_.cell_at(place);
+  const auto bin = location_.cell_at({grid.origin.x + x * grid.resolution, grid.origin.y + y * grid.resolution});
   if (!bin) return -kInfinity;
-  const auto height = surface_height(upper_tin_, bins_.triangles(location_.index(*bin)), place);
-  return height.value_or(-kInfinity);
+  return height_over(upper_tin_, bins_.triangles(location_.index(*bin)), {x, y}).value_or(-kInfinity);
 }
 
 }  // namespace itin::viewshed

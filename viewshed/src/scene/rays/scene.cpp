@@ -205,12 +205,12 @@ class Scene::Impl {
 
   void attach_walls() {
     if (boundary_.empty()) return;
-    const Walls walls = walls_under(tin_, boundary_, tessellation_, drop_);
+    const Barrier walls = walls_under(tin_, boundary_, tessellation_, drop_);
     const Geometry geometry = embree_.triangles(walls.vertices, walls.indices, this);
     rtcSetGeometryOccludedFilterFunction(geometry.get(), [](const RTCFilterFunctionNArguments* arguments) {
       const auto& self = *static_cast<const Impl*>(arguments->geometryUserPtr);
       keep_hits_that_hide(arguments, [&](const HiddenPacket& packet, unsigned line, std::uint32_t side) {
-        return self.hides(packet.exact[line], self.boundary_[side / 2].triangle);
+        return self.hides(packet.exact[line], self.boundary_[side / kTrianglesPerWall].triangle);
       });
     });
     embree_.attach(geometry);

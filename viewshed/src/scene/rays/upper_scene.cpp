@@ -64,7 +64,7 @@ void join(std::vector<Event>& events, bool starts_under, bool ends_under, std::v
 
 class UpperScene::Impl {
  public:
-  Impl(const Tin& tin, std::vector<std::uint32_t> pieces, const Earth& earth)
+  Impl(const Tin& tin, std::vector<std::uint32_t> pieces, double drift, const Earth& earth)
       : tin_(tin), pieces_(std::move(pieces)), boundary_(boundary_edges(tin)) {
     const double drop = earth.drop_coefficient() * tin.grid.resolution;
     Tessellation tessellation = tessellate(tin, drop);
@@ -72,8 +72,9 @@ class UpperScene::Impl {
     frame_ = {tessellation.centre, drop, -(sag / tin.grid.resolution + rounding_error(tessellation.half_height, 0)),
               -kRounding * kRoundings};
     attach_surface(tessellation);
-    parents_ = std::move(tessellation.parents);
     attach_walls(walls_under(tin, boundary_, tessellation, drop));
+    if (drift > 0) attach_boxes(boxes_about(tin, boundary_, tessellation, drop, 2 * drift));
+    parents_ = std::move(tessellation.parents);
     embree_.commit();
   }
 
@@ -108,14 +109,54 @@ class UpperScene::Impl {
     return result;
   }
 
-  /// `triangle` of the Tin.
-  bool collect(const RTCFilterFunctionNArguments* arguments, PacketContext& packet, unsigned line, unsigned i,
-               std::uint32_t triangle, bool enters) const {
+  /// Keeps a hit, or only takes down what it means for the piece of the surface that was hit.
+  static bool collect(const RTCFilterFunctionNArguments* arguments, PacketContext& packet, unsigned line, unsigned i,
+                      std::size_t piece, bool enters) {
     if (packet.events == nullptr) return true;
-    const auto piece = std::upper_bound(pieces_.begin(), pieces_.end(), triangle) - pieces_.begin();
     (*packet.events)[line].push_back(
         {RTCRayN_tfar(arguments->ray, arguments->N, i), enters, static_cast<std::uint32_t>(piece)});
     return false;
+  }
+
+  std::size_t piece_of(std::uint32_t triangle) const {
+    return static_cast<std::size_t>(std::upper_bound(pieces_.begin(), pieces_.end(), triangle) - pieces_.begin());
+  }
+  /// Every box is a piece of its own, after those of the surface.
+  std::size_t piece_of_box(std::size_t edge) const { return pieces_.size() + 1 + edge; }
+
+  /// Whether a line goes beneath the triangle that it hits, whose outer side is the upper one, whichever way Embree's
+  /// normals point.
+  static bool goes_beneath(const RTCFilterFunctionNArguments* arguments, unsigned i) {
+    RTCRayN* const ray = arguments->ray;
+    RTCHitN* const hit = arguments->hit;
+    const unsigned n = arguments->N;
+    const float nz = RTCHitN_Ng_z(hit, n, i);
+    const float along = RTCRayN_dir_x(ray, n, i) * RTCHitN_Ng_x(hit, n, i) +
+                        RTCRayN_dir_y(ray, n, i) * RTCHitN_Ng_y(hit, n, i) + RTCRayN_dir_z(ray, n, i) * nz;
+    return nz >= 0 ? along <= 0 : along >= 0;
+  }
+  /// Whether a line goes through an upright face to the inside.
+  static bool goes_inside(const SightLines& lines, unsigned line, Point2 outwards) {
+    return (lines.to_x[line] - lines.from_x[line]) * outwards.x +
+               (lines.to_y[line] - lines.from_y[line]) * outwards.y <=
+           0;
+  }
+  Point2 outwards(std::size_t edge, BoxFace face) const {
+    const GridPoint &a = tin_.vertices[boundary_[edge].from], &b = tin_.vertices[boundary_[edge].to];
+    const Point2 ahead{static_cast<double>(b.x) - a.x, static_cast<double>(b.y) - a.y};
+    switch (face) {
+      case BoxFace::kRight:
+        return {ahead.y, -ahead.x};
+      case BoxFace::kLeft:
+        return {-ahead.y, ahead.x};
+      case BoxFace::kAhead:
+        return ahead;
+      case BoxFace::kBack:
+        return {-ahead.x, -ahead.y};
+      case BoxFace::kTop:
+        break;
+    }
+    return {};
   }
 
   void attach_surface(const Tessellation& tessellation) {
@@ -123,33 +164,40 @@ class UpperScene::Impl {
     rtcSetGeometryOccludedFilterFunction(geometry.get(), [](const RTCFilterFunctionNArguments* arguments) {
       const auto& self = *static_cast<const Impl*>(arguments->geometryUserPtr);
       filter(arguments, [&](PacketContext& packet, unsigned line, unsigned i) {
-        RTCRayN* const ray = arguments->ray;
-        RTCHitN* const hit = arguments->hit;
-        const unsigned n = arguments->N;
-        const float nz = RTCHitN_Ng_z(hit, n, i);
-        const float along = RTCRayN_dir_x(ray, n, i) * RTCHitN_Ng_x(hit, n, i) +
-                            RTCRayN_dir_y(ray, n, i) * RTCHitN_Ng_y(hit, n, i) + RTCRayN_dir_z(ray, n, i) * nz;
-        // The surface's upper side is the outer one, whichever way Embree's normals point.
-        const std::uint32_t part = RTCHitN_primID(hit, n, i);
+        const std::uint32_t part = RTCHitN_primID(arguments->hit, arguments->N, i);
         const std::uint32_t triangle = self.parents_.empty() ? part : self.parents_[part];
-        return self.collect(arguments, packet, line, i, triangle, nz >= 0 ? along <= 0 : along >= 0);
+        return collect(arguments, packet, line, i, self.piece_of(triangle), goes_beneath(arguments, i));
       });
     });
     embree_.attach(geometry);
   }
 
-  void attach_walls(const Walls& walls) {
+  void attach_walls(const Barrier& walls) {
     if (walls.indices.empty()) return;
     const Geometry geometry = embree_.triangles(walls.vertices, walls.indices, this);
     rtcSetGeometryOccludedFilterFunction(geometry.get(), [](const RTCFilterFunctionNArguments* arguments) {
       const auto& self = *static_cast<const Impl*>(arguments->geometryUserPtr);
       filter(arguments, [&](PacketContext& packet, unsigned line, unsigned i) {
-        const BoundaryEdge& edge = self.boundary_[RTCHitN_primID(arguments->hit, arguments->N, i) / 2];
-        const GridPoint &a = self.tin_.vertices[edge.from], &b = self.tin_.vertices[edge.to];
-        const SightLines& l = *packet.lines;
-        const double outwards = (l.to_x[line] - l.from_x[line]) * (static_cast<double>(b.y) - a.y) -
-                                (l.to_y[line] - l.from_y[line]) * (static_cast<double>(b.x) - a.x);
-        return self.collect(arguments, packet, line, i, edge.triangle, outwards <= 0);
+        const std::size_t edge = RTCHitN_primID(arguments->hit, arguments->N, i) / kTrianglesPerWall;
+        return collect(arguments, packet, line, i, self.piece_of(self.boundary_[edge].triangle),
+                       goes_inside(*packet.lines, line, self.outwards(edge, BoxFace::kRight)));
+      });
+    });
+    embree_.attach(geometry);
+  }
+
+  void attach_boxes(const Barrier& boxes) {
+    if (boxes.indices.empty()) return;
+    const Geometry geometry = embree_.triangles(boxes.vertices, boxes.indices, this);
+    rtcSetGeometryOccludedFilterFunction(geometry.get(), [](const RTCFilterFunctionNArguments* arguments) {
+      const auto& self = *static_cast<const Impl*>(arguments->geometryUserPtr);
+      filter(arguments, [&](PacketContext& packet, unsigned line, unsigned i) {
+        const std::uint32_t part = RTCHitN_primID(arguments->hit, arguments->N, i);
+        const std::size_t edge = part / kTrianglesPerBox;
+        const auto face = static_cast<BoxFace>(part % kTrianglesPerBox / 2);
+        const bool enters = face == BoxFace::kTop ? goes_beneath(arguments, i)
+                                                  : goes_inside(*packet.lines, line, self.outwards(edge, face));
+        return collect(arguments, packet, line, i, self.piece_of_box(edge), enters);
       });
     });
     embree_.attach(geometry);
@@ -163,8 +211,8 @@ class UpperScene::Impl {
   EmbreeScene embree_;
 };
 
-UpperScene::UpperScene(const Tin& tin, std::vector<std::uint32_t> pieces, const Earth& earth)
-    : impl_(std::make_unique<Impl>(tin, std::move(pieces), earth)) {}
+UpperScene::UpperScene(const Tin& tin, std::vector<std::uint32_t> pieces, double drift, const Earth& earth)
+    : impl_(std::make_unique<Impl>(tin, std::move(pieces), drift, earth)) {}
 UpperScene::UpperScene(UpperScene&&) noexcept = default;
 UpperScene& UpperScene::operator=(UpperScene&&) noexcept = default;
 UpperScene::~UpperScene() = default;

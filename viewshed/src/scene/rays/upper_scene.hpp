@@ -1,12 +1,12 @@
 // Which sight lines certainly clear a surface, and where those that do not come near it.
 //
-//   UpperScene scene(upper, {}, earth);
+//   UpperScene scene(upper, {}, drift, earth);
 //   unsigned doubtful = scene.touched(lines);      // a line whose bit is 0 clears the surface
 //
 // Accuracy. Rays are cast in single precision with both ends lowered by e(l) of scene.hpp, so that heights need no
 // care. Sideways a ray may run delta(l) beside its line: the surface must have been raised against that, as Envelope
-// does. Both ends must lie above the surface, which the caller sees to: a line that runs beneath it from end to end
-// crosses nothing.
+// does, and is made wider here where it ends. Both ends must lie above the surface, which the caller sees to: a line
+// that runs beneath it from end to end crosses nothing.
 #pragma once
 
 #include <array>
@@ -33,8 +33,8 @@ struct Stretch {
 class UpperScene {
  public:
   /// The Tin must outlive the scene, and may consist of overlapping pieces: `pieces` has the first triangle of each but
-  /// the first. Throws std::bad_alloc.
-  UpperScene(const Tin& tin, std::vector<std::uint32_t> pieces, const Earth& earth);
+  /// the first. `drift` is how far rays may run beside their lines, grid units. Throws std::bad_alloc.
+  UpperScene(const Tin& tin, std::vector<std::uint32_t> pieces, double drift, const Earth& earth);
   UpperScene(UpperScene&&) noexcept;
   UpperScene& operator=(UpperScene&&) noexcept;
   ~UpperScene();

@@ -1,4 +1,5 @@
-// Walls under the edge of a surface, so that no ray passes from outside to beneath it unnoticed.
+// What stands along the edge of a surface, so that no ray passes it unnoticed: walls under it against rays from outside
+// to beneath, and boxes about it against rays that run beside their lines.
 #pragma once
 
 #include <cstdint>
@@ -11,14 +12,24 @@
 
 namespace itin::viewshed {
 
-/// Two triangles per edge, side by side in order, seen counterclockwise from outside the surface.
-struct Walls {
+/// Triangles in single precision, as Embree takes them.
+struct Barrier {
   std::vector<float> vertices;
   std::vector<std::uint32_t> indices;
 };
 
-/// From below everything up to the surface's edge.
-Walls walls_under(const Tin& tin, const std::vector<BoundaryEdge>& boundary, const Tessellation& tessellation,
-                  double drop);
+inline constexpr std::uint32_t kTrianglesPerWall = 2;
+
+/// A wall under each edge of the boundary, in order, from below everything up to the surface.
+Barrier walls_under(const Tin& tin, const std::vector<BoundaryEdge>& boundary, const Tessellation& tessellation,
+                    double drop);
+
+/// The faces of a box along an edge, of two triangles each; `kRight` is where the surface is not.
+enum class BoxFace : std::uint8_t { kRight, kLeft, kAhead, kBack, kTop };
+inline constexpr std::uint32_t kTrianglesPerBox = 10;
+
+/// A box about each wall, `margin` grid units to both sides of it and beyond both ends, in order.
+Barrier boxes_about(const Tin& tin, const std::vector<BoundaryEdge>& boundary, const Tessellation& tessellation,
+                    double drop, double margin);
 
 }  // namespace itin::viewshed
