@@ -1,6 +1,7 @@
 // Diffraction against figures published by ITU-R Study Group 3 and its members, and against values worked by hand.
 #include <cmath>
 #include <limits>
+#include <random>
 
 #include <gtest/gtest.h>
 
@@ -8,6 +9,7 @@
 #include <profile/diffraction.hpp>
 
 #include "published_profile.hpp"
+#include "support/seed.hpp"
 
 namespace itin::profile {
 
@@ -156,6 +158,19 @@ TEST(SphericalEarth, FallsToNothingWithHeight) {
   RadioPath sea = radio(0.05, 8500, Polarisation::kVertical), land = sea;
   sea.over_sea = 1;
   EXPECT_LT(spherical_earth_loss_db(100, 10, 10, sea), spherical_earth_loss_db(100, 10, 10, land) - 10);
+}
+
+/// An antenna on the surface loses what one a hair above it does, wherever rounding has the reflection.
+TEST(SphericalEarth, KnowsAnAntennaOnTheGround) {
+  std::mt19937 random(test::seed());
+  std::uniform_real_distribution<double> kilometres(0.005, 40), metres(0.5, 300), gigahertz(0.1, 40), radius(6000, 9e4);
+  for (int i = 0; i < 2000; ++i) {
+    const RadioPath path = radio(gigahertz(random), radius(random));
+    const double d = kilometres(random), height = metres(random);
+    const double on_the_ground = spherical_earth_loss_db(d, height, 0, path);
+    EXPECT_NEAR(on_the_ground, spherical_earth_loss_db(d, height, 1e-13, path), 0.01) << d << " km, " << height << " m";
+    EXPECT_NEAR(on_the_ground, spherical_earth_loss_db(d, 0, height, path), 1e-6);
+  }
 }
 
 TEST(PathLosses, AreTheSameFromEitherEnd) {

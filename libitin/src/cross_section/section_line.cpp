@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <itin/error.hpp>
+#include <itin/grid_units.hpp>
 #include <itin/same_place.hpp>
 #include <itin/section_line.hpp>
 
@@ -22,7 +23,7 @@ SectionLine::SectionLine(const Grid& grid, Point2 a, Point2 b) : grid_(grid) {
   const auto rounded = [&](double v, double origin) {
     const double units = (v - origin) / grid.resolution;
     if (!(std::abs(units) <= 0x1p31)) throw InputError(fmt::format("the coordinate {} is too far from the store", v));
-    return std::llround(units * kSubgrid);
+    return std::llround(snapped_to_units(units) * kSubgrid);
   };
   std::int64_t bx = rounded(b.x, grid.origin.x), by = rounded(b.y, grid.origin.y);
   ax_ = rounded(a.x, grid.origin.x), ay_ = rounded(a.y, grid.origin.y);

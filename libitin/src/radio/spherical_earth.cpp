@@ -60,16 +60,14 @@ double first_term(const SmoothPath& smooth, double radius_km, const RadioPath& p
   return loss;
 }
 
-struct SmoothClearance {
-  double least_m, required_m;
-};
-
-/// Equations (24) to (26): the least clearance of a path within the horizon over a smooth Earth.
-SmoothClearance smooth_clearance(const SmoothPath& s, const RadioPath& path) {
+/// Equations (24) to (26): the least clearance of a path within the horizon over a smooth Earth, as a part of the
+/// clearance for no loss. An antenna on the surface has none.
+double cleared_part(const SmoothPath& s, const RadioPath& path) {
   const double radius = path.effective_earth_km, d = s.distance_km;
   const double d1 = reflection_km(s, radius), d2 = d - d1;
   const double least = ((s.from_m - 500 * d1 * d1 / radius) * d2 + (s.to_m - 500 * d2 * d2 / radius) * d1) / d;
-  return {least, 17.456 * std::sqrt(d1 * d2 * wavelength_m(path.frequency_ghz) / d)};
+  const double required = 17.456 * std::sqrt(d1 * d2 * wavelength_m(path.frequency_ghz) / d);
+  return required > 0 ? least / required : 0;
 }
 
 }  // namespace
@@ -79,11 +77,11 @@ double spherical_earth_db(double distance_km, double from_height_m, double to_he
   const double roots = std::sqrt(from_height_m) + std::sqrt(to_height_m);
   const double horizon_km = std::sqrt(2 * path.effective_earth_km) * std::sqrt(0.001) * roots;  // equation (23)
   if (distance_km >= horizon_km) return first_term(smooth, path.effective_earth_km, path);
-  const SmoothClearance clearance = smooth_clearance(smooth, path);
-  if (clearance.least_m > clearance.required_m) return 0;
+  const double cleared = cleared_part(smooth, path);
+  if (cleared > 1) return 0;
   const double grazing_radius_km = 500 * std::pow(distance_km / roots, 2);  // equation (27)
   const double loss = first_term(smooth, grazing_radius_km, path);
-  return loss < 0 ? 0 : (1 - clearance.least_m / clearance.required_m) * loss;  // equation (28)
+  return loss < 0 ? 0 : (1 - cleared) * loss;  // equation (28)
 }
 
 }  // namespace itin
