@@ -22,7 +22,7 @@ using viewshed::Zone;
 
 /// `ground` is what the turbine stands on; both ends keep their bare ground whatever the surface.
 Sight sight_to(const SectionSurface& surface, const Viewpoint& from, const Turbine& turbine, double ground,
-               const Earth& earth) {
+               const viewshed::ZoneRequest& request) {
   Sight sight;
   const CrossSection section = surface.between(from.position, turbine.position);
   const Point2 foot = section.one_place ? from.position : turbine.position;
@@ -31,15 +31,16 @@ Sight sight_to(const SectionSurface& surface, const Viewpoint& from, const Turbi
   sight.gaps = !section.gaps.empty();
   const profile::Profile profile = profile::from_section(section);
   const double hub = turbine.hub_height.value_or(turbine.tip_height);
-  const auto seen = profile::visible_height(profile, from.height, hub, turbine.tip_height, earth,
+  const auto seen = profile::visible_height(profile, from.height, hub, turbine.tip_height, request.earth,
                                             profile::EndGrounds{from.ground, ground});
-  sight.least = std::max(0.0, seen.from_m);
+  const bool blocked = sight.gaps && request.nodata == NoData::kBlock;
+  sight.least = blocked ? turbine.tip_height : std::max(0.0, seen.from_m);
   sight.visible = turbine.tip_height - sight.least;
-  sight.tip = seen.tip_visible_m > 0;
+  sight.tip = !blocked && seen.tip_visible_m > 0;
   if (turbine.hub_height) sight.hub = sight.tip && sight.least <= *turbine.hub_height;
   const double eye = from.ground + from.height;
   const auto angle = [&](double height) {
-    return profile::apparent_angle_deg(earth, sight.distance, ground + height - eye);
+    return profile::apparent_angle_deg(request.earth, sight.distance, ground + height - eye);
   };
   sight.tip_deg = angle(turbine.tip_height);
   if (sight.tip) sight.vertical_deg = sight.tip_deg - angle(sight.least);
@@ -51,7 +52,7 @@ Sight sight_to(const SectionSurface& surface, const Viewpoint& from, const Turbi
 std::vector<Sight> sights_to_all(const SectionSurface& surface, const Viewpoint& from, const Zone& zone) {
   std::vector<Sight> sights(zone.request.turbines.size());
   parallel_for(sights.size(), [&](std::size_t k) {
-    sights[k] = sight_to(surface, from, zone.request.turbines[k], zone.ground_m[k], zone.request.earth);
+    sights[k] = sight_to(surface, from, zone.request.turbines[k], zone.ground_m[k], zone.request);
   });
   return sights;
 }
