@@ -7,6 +7,7 @@
 
 #include <itin/coordinates.hpp>
 #include <itin/error.hpp>
+#include <itin/grid_units.hpp>
 
 namespace itin::cli {
 
@@ -59,8 +60,9 @@ std::string likely_mistake(Point2 given, const InCrs& in_crs, const StoreMetadat
 }  // namespace
 
 bool is_on_the_data(Point2 p, const StoreMetadata& metadata) {
-  const Box bounds = metadata.grid.box(metadata.bounds);
-  return p.x >= bounds.xmin && p.x <= bounds.xmax && p.y >= bounds.ymin && p.y <= bounds.ymax;
+  const auto [x, y] = place_in_units(metadata.grid, p);
+  const GridBox& bounds = metadata.bounds;
+  return x >= bounds.xmin && x <= bounds.xmax && y >= bounds.ymin && y <= bounds.ymax;
 }
 
 std::string extent_of(const StoreMetadata& metadata) {

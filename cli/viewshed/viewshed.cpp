@@ -83,7 +83,8 @@ class ViewshedVerb final : public Verb {
            "32); angle (elevation angle of the sight line, degrees, the greatest of several observers; of an "
            "observer's own place -90 or 90, or 0 of the eye); "
            "nearest (two bands: distance and number of the nearest visible observer); blocker (two bands: theme and "
-           "feature of what first hides the cell from the nearest observer); height (the least height above the "
+           "feature of what first hides the cell from the nearest observer, none where the target itself is below the "
+           "ground); height (the least height above the "
            "ground at which a target is seen, metres, no value where none is); probability (two bands: of being "
            "visible, with --vertical-error, and visible as the heights are)")
         ->type_name("MODE");
