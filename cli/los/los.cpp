@@ -18,6 +18,7 @@
 #include "los/los_reports.hpp"
 #include "los/los_store.hpp"
 #include "options/earth_options.hpp"
+#include "options/memory_option.hpp"
 #include "options/radio_options.hpp"
 #include "options/store_scale.hpp"
 #include "output/output_path.hpp"
@@ -144,7 +145,7 @@ class LosVerb final : public Verb {
   }
 
   LosCase run_store() {
-    const Store store(store_);
+    const Store store(store_, cache_within(line_.memory_bytes()));
     LosCase one = los_case(store, line_.run(store, query_), header());
     warn_of_scale(store.metadata(), one.result.warnings);
     warn_of_date(one.result);
@@ -153,7 +154,7 @@ class LosVerb final : public Verb {
 
   Result run_links(Progress& progress) {
     for (const std::string& output : links_.outputs()) policy_.require_writable(output);
-    const Store store(store_);
+    const Store store(store_, cache_within(line_.memory_bytes()));
     const profile::LinkTable table = links_.table(store, line_);
     std::vector<LosReports::Job> jobs = reports_.jobs(table.links, policy_);
     const LosLinks::Page page{reports_.title(), facts_of_links(store)};

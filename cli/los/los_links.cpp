@@ -11,6 +11,7 @@
 #include <profile/documents.hpp>
 #include <profile/link_output.hpp>
 
+#include "options/memory_option.hpp"
 #include "options/off_the_data.hpp"
 #include "output/store_document.hpp"
 #include "program/call_files.hpp"
@@ -92,6 +93,7 @@ profile::LinkQuery LosLinks::query(const profile::LosQuery& line, const LosStore
           .criteria = line.criteria,
           .object = line.object,
           .nodata = surface.nodata(),
+          .sections = section_cache_within(surface.memory_bytes()),
           .day = line.day};
 }
 

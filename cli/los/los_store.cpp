@@ -44,6 +44,7 @@ void LosStoreOptions::declare(CLI::App& app) {
       app,
       "What ground without data does to the sight line: unknown (default) leaves it undecided, unless known "
       "ground hides it");
+  memory_.declare(app, kKeptOfTheStore);
 }
 
 void LosStoreOptions::validate(std::optional<double> object_tip_m) {
@@ -63,6 +64,7 @@ void LosStoreOptions::validate(std::optional<double> object_tip_m) {
 
 void LosStoreOptions::validate_choices() {
   nodata_.rule();
+  memory_.bytes();
   parse_choice("--observer-on", from_on_, {"ground", "surface"});
   parse_choice("--target-on", to_on_, {"ground", "surface"});
   detail_.validate();

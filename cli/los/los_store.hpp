@@ -12,6 +12,7 @@
 
 #include "options/detail_options.hpp"
 #include "options/in_crs.hpp"
+#include "options/memory_option.hpp"
 #include "options/nodata_option.hpp"
 #include "options/surface_options.hpp"
 #include "program/values.hpp"
@@ -34,6 +35,7 @@ class LosStoreOptions {
   bool from_on_surface() const { return from_on_ == "surface"; }
   bool to_on_surface() const { return to_on_ == "surface"; }
   NoData nodata() const { return nodata_.rule(); }
+  std::optional<std::uint64_t> memory_bytes() const { return memory_.bytes(); }
   const std::string& in_crs() const { return in_crs_.crs; }
   Document parameters() const;
 
@@ -62,6 +64,7 @@ class LosStoreOptions {
   DetailOptions detail_;
   ThemeOptions themes_;
   NoDataOption nodata_;
+  MemoryOption memory_;
 
   Place from_, to_;
   double from_height_ = 2, to_height_ = 2;

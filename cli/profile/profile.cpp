@@ -15,6 +15,7 @@
 #include <profile/profile_text.hpp>
 
 #include "options/in_crs.hpp"
+#include "options/memory_option.hpp"
 #include "options/off_the_data.hpp"
 #include "options/picture_options.hpp"
 #include "options/store_scale.hpp"
@@ -88,6 +89,7 @@ class ProfileVerb final : public Verb {
                ->type_name("FILE"));
     picture_.declare(app, "the triangles that the line crosses");
     themes_.declare(app);
+    memory_.declare(app, kKeptOfTheStore);
     policy_.declare(app);
   }
 
@@ -117,6 +119,7 @@ class ProfileVerb final : public Verb {
           "--triangles, --image: profiles of several tolerances cross different triangles; give one --tolerance");
     picture_.validate();
     themes_.validate();
+    memory_.bytes();
   }
 
   Document parameters() const override {
@@ -143,7 +146,7 @@ class ProfileVerb final : public Verb {
     for (const std::string& output : outputs_) policy_.require_writable(output);
     if (!triangles_.empty()) require_tin_output(triangles_, policy_.overwrite);
     if (!picture_.path().empty()) policy_.require_writable(picture_.path());
-    const Store store(store_);
+    const Store store(store_, cache_within(memory_.bytes()));
     const std::vector<Point2> corners = corners_in(store.metadata());
     Result result;
     std::vector<SurfaceProfile> profiles;
@@ -279,6 +282,7 @@ class ProfileVerb final : public Verb {
   InCrs in_crs_;
   PictureOptions picture_;
   ThemeOptions themes_;
+  MemoryOption memory_;
   OutputPolicy policy_;
 };
 

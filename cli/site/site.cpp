@@ -15,8 +15,8 @@
 #include <viewshed/site_coverage.hpp>
 #include <viewshed/siting.hpp>
 
+#include "options/memory_option.hpp"
 #include "options/off_the_data.hpp"
-#include "options/store_cache.hpp"
 #include "options/store_scale.hpp"
 #include "output/new_folder.hpp"
 #include "output/output_path.hpp"

@@ -7,6 +7,8 @@
 #include <itin/parallel.hpp>
 #include <profile/los.hpp>
 
+#include "options/memory_option.hpp"
+
 namespace itin::cli {
 
 namespace {
@@ -87,7 +89,7 @@ std::shared_ptr<viewshed::LinkNetwork> link_network(const Store& store, const Si
   if (hub) positions.push_back(*hub);
   const std::size_t existing = positions.size() - inputs.options.size();
   const auto last = hub ? std::optional(positions.size() - 1) : std::nullopt;
-  const SectionSurface::Options cache{std::min(SectionSurface::Options().cache_bytes, options.memory_bytes / 8)};
+  const SectionSurface::Options cache = section_cache_within(options.memory_bytes);
   const auto linked = [&progress, judge = std::make_shared<const LinkJudge>(store, link_rules(options), cache),
                        positions = std::move(positions)](std::size_t site, std::span<const std::size_t> others) {
     std::vector<char> clear(others.size());

@@ -127,9 +127,7 @@ void SiteOptions::declare_work(CLI::App& app) {
   earth.declare(app);
   nodata.declare(app);
   engine.declare(app);
-  app.add_option("--memory", memory_text_,
-                 "Memory for surfaces, what every site serves, and maps; it changes the speed only (default: 1G)")
-      ->type_name("SIZE");
+  memory.declare(app, "Memory for surfaces, what every site serves, and maps; it changes the speed only (default: 1G)");
   sheets.declare(app);
   app.add_flag("--resume", resume, "Go on where a run with the same parameters was killed");
   policy.declare(app);
@@ -262,7 +260,7 @@ void SiteOptions::validate_work() {
   earth.validate();
   engine.engine();
   nodata.rule();
-  if (!memory_text_.empty()) memory_bytes = parse_bytes("--memory", memory_text_);
+  memory_bytes = memory.bytes().value_or(memory_bytes);
 }
 
 Document SiteOptions::parameters() const {

@@ -14,6 +14,7 @@
 #include "options/earth_options.hpp"
 #include "options/engine_option.hpp"
 #include "options/in_crs.hpp"
+#include "options/memory_option.hpp"
 #include "options/nodata_option.hpp"
 #include "options/sheet_options.hpp"
 #include "options/surface_options.hpp"
@@ -88,6 +89,7 @@ class SiteOptions {
   ThemeOptions themes;
   EarthOptions earth;
   EngineOption engine;
+  MemoryOption memory;
   NoDataOption nodata;
   std::uint64_t memory_bytes = std::uint64_t{1} << 30;
   bool resume = false;
@@ -110,7 +112,7 @@ class SiteOptions {
   std::string spacing_text_, mast_height_text_, mast_cost_text_, observer_on_ = "ground";
   std::string target_height_text_, target_on_ = "ground", radius_text_, cell_text_;
   std::string count_text_, budget_text_, share_text_, min_spacing_text_, cover_text_, hub_text_;
-  std::string exact_final_text_, swap_text_, tolerance_text_, memory_text_;
+  std::string exact_final_text_, swap_text_, tolerance_text_;
   std::string frequency_text_, fresnel_text_;
 };
 

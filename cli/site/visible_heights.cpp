@@ -6,6 +6,7 @@
 #include <itin/cross_section.hpp>
 #include <viewshed/turbines.hpp>
 
+#include "options/memory_option.hpp"
 #include "ztv/ztv_sights.hpp"
 
 namespace itin::cli {
@@ -55,7 +56,8 @@ std::vector<double> heights_over_points(const Store& store, const SiteOptions& o
   const viewshed::ZoneRequest request = zone_request(options, inputs);
   const std::vector<Point2>& points = inputs.targets.points;
   const auto grounds = viewshed::ground_under(store, points, ThemeChoice::none(), progress);
-  const SectionSurface surface(store, Detail::tolerance(0), options.themes.choice(), {options.memory_bytes / 4});
+  const SectionSurface surface(store, Detail::tolerance(0), options.themes.choice(),
+                               section_cache_within(options.memory_bytes));
   std::vector<double> sums(inputs.options.size());
   for (std::size_t p = 0; p < points.size(); ++p) {
     progress.throw_if_cancelled();

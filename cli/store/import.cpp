@@ -8,6 +8,7 @@
 #include <itin/coordinates.hpp>
 #include <itin/import.hpp>
 
+#include "options/memory_option.hpp"
 #include "options/store_scale.hpp"
 #include "output/store_document.hpp"
 #include "program/call_files.hpp"
@@ -140,9 +141,8 @@ class ImportVerb final : public Verb {
         ->type_name("T,T...");
     app.add_option("--resolution", resolution_, "Grid of a new store's coordinates (default: 0.01)")
         ->type_name("METRES");
-    app.add_option("--memory", memory_,
-                   "Memory to work in; the result never depends on it, and what needs more is refused (default: 4G)")
-        ->type_name("SIZE");
+    memory_.declare(app,
+                    "Memory to work in; the result never depends on it, and what needs more is refused (default: 4G)");
   }
 
   void validate() override {
@@ -167,7 +167,7 @@ class ImportVerb final : public Verb {
     if (!max_gap_.empty()) options_.max_gap = parse_number("--max-gap", max_gap_, Range::kPositive);
     if (!levels_.empty()) options_.tolerances = growing_levels();
     if (!resolution_.empty()) options_.resolution = parse_number("--resolution", resolution_, Range::kPositive);
-    if (!memory_.empty()) options_.memory_bytes = parse_bytes("--memory", memory_);
+    options_.memory_bytes = memory_.bytes().value_or(options_.memory_bytes);
   }
 
   Document parameters() const override {
@@ -335,7 +335,8 @@ class ImportVerb final : public Verb {
   std::string store_;
   std::string kind_ = "terrain";
   bool no_repair_ = false;
-  std::string classes_, band_, sea_level_, max_gap_, levels_, resolution_, memory_;
+  std::string classes_, band_, sea_level_, max_gap_, levels_, resolution_;
+  MemoryOption memory_;
   std::string height_, base_, foundation_, roof_, thickness_, wall_offset_, height_step_, height_threshold_,
       height_rounding_;
   std::vector<std::string> attributes_;

@@ -15,6 +15,7 @@
 #include <itin/triangulate.hpp>
 
 #include "options/detail_options.hpp"
+#include "options/memory_option.hpp"
 #include "options/picture_options.hpp"
 #include "options/store_scale.hpp"
 #include "options/surface_options.hpp"
@@ -51,6 +52,7 @@ class TinVerb final : public Verb {
         ->delimiter(',');
     detail_.declare(app);
     themes_.declare(app);
+    memory_.declare(app, "Memory to work in; a window that needs more is refused (default: no limit)");
     policy_.declare(app);
   }
 
@@ -58,6 +60,7 @@ class TinVerb final : public Verb {
     window_.validate();
     detail_.validate();
     themes_.validate();
+    memory_.bytes();
     if (output_.empty() && picture_.path().empty())
       throw InputError("give an output: --output FILE, or --image FILE.png");
     if (output_.empty() && !topology_.empty()) throw InputError("--topology: give --output FILE.json with it");
@@ -85,12 +88,13 @@ class TinVerb final : public Verb {
     } else if (!output_.empty()) {
       require_tin_output(output_, policy_.overwrite);
     }
-    const Store store(store_);
+    const Store store(store_, cache_within(memory_.bytes()));
     const auto [window, centre] = window_.region(store.metadata());
     const Detail detail = detail_.detail(centre);
     const ThemeChoice themes = themes_.choice().with_ground_lines();
     themes.check(store.metadata().themes);
     const std::vector<std::uint16_t> lines = line_themes(store.metadata(), themes);
+    require_memory(points_about(store, window, detail, themes));
     const Tin tin = triangulate(store, window, detail, progress, themes);
     if (tin.triangles.empty() && !picture_.path().empty())
       throw InputError(window_.no_ground(store.metadata()) + "; there is nothing to draw");
@@ -112,6 +116,20 @@ class TinVerb final : public Verb {
     if (kind_) query["topology"] = topology_;
     if (!lines_.empty()) query["lines"] = lines_;
     return query;
+  }
+
+  /// Throws InputError where the memory does not hold the triangulation of so many points, and what is made of it.
+  void require_memory(std::uint64_t points) const {
+    constexpr std::uint64_t kMesh = 180, kTopology = 300;  ///< bytes a point at the peak, measured
+    constexpr std::uint64_t kPicture = std::uint64_t{160} << 20;
+    const std::uint64_t needed = points * (kind_ ? kTopology : kMesh) + (picture_.path().empty() ? 0 : kPicture);
+    const std::optional<std::uint64_t> given = memory_.bytes();
+    if (!given || needed <= *given) return;
+    const std::uint64_t megabytes = (needed >> 20) + 1;
+    throw InputError(
+        fmt::format("--memory: the triangulation of this window, of about {}, takes some {}M; give as much, "
+                    "a smaller window, or a coarser --tolerance",
+                    counted(points, "point"), megabytes));
   }
 
   static std::string theme_names(const StoreMetadata& metadata) {
@@ -191,6 +209,7 @@ class TinVerb final : public Verb {
   WindowOptions window_;
   DetailOptions detail_;
   ThemeOptions themes_;
+  MemoryOption memory_;
   OutputPolicy policy_;
 };
 

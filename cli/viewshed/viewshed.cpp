@@ -19,10 +19,10 @@
 #include "options/detail_options.hpp"
 #include "options/earth_options.hpp"
 #include "options/engine_option.hpp"
+#include "options/memory_option.hpp"
 #include "options/nodata_option.hpp"
 #include "options/observer_options.hpp"
 #include "options/sheet_options.hpp"
-#include "options/store_cache.hpp"
 #include "options/store_scale.hpp"
 #include "options/surface_options.hpp"
 #include "output/store_document.hpp"
@@ -102,11 +102,10 @@ class ViewshedVerb final : public Verb {
     nodata_.declare(app);
     engine_.declare(app);
     app.add_flag("--precise", precise_, "Exact for the full surface: the same as --tolerance 0");
-    app.add_option(
-           "--memory", memory_text_,
-           "Memory to work in (default: 1G). What exceeds it is read in segments: it changes the speed only, and "
-           "too little is refused")
-        ->type_name("SIZE");
+    memory_.declare(
+        app,
+        "Memory to work in (default: 1G). What exceeds it is read in segments: it changes the speed only, and "
+        "too little is refused");
   }
 
   void validate() override {
@@ -288,7 +287,7 @@ class ViewshedVerb final : public Verb {
   }
 
   void validate_precise() {
-    if (!memory_text_.empty()) compute_options_.memory_bytes = parse_bytes("--memory", memory_text_);
+    compute_options_.memory_bytes = memory_.bytes().value_or(compute_options_.memory_bytes);
     if (!precise_) return;
     if (certified_)
       throw InputError(
@@ -351,7 +350,8 @@ class ViewshedVerb final : public Verb {
     return text;
   }
 
-  std::string store_, mode_text_, like_, memory_text_;
+  std::string store_, mode_text_, like_;
+  MemoryOption memory_;
   std::string sigma_text_, correlation_text_;
   std::string target_height_text_, radius_text_, min_radius_text_, azimuth_text_, elevation_text_, cell_text_;
   std::string target_on_ = "ground";

@@ -19,9 +19,9 @@
 
 #include "options/detail_options.hpp"
 #include "options/earth_options.hpp"
+#include "options/memory_option.hpp"
 #include "options/nodata_option.hpp"
 #include "options/sheet_options.hpp"
-#include "options/store_cache.hpp"
 #include "options/store_scale.hpp"
 #include "options/surface_options.hpp"
 #include "options/window_options.hpp"
@@ -68,10 +68,9 @@ class VisibilityVerb final : public Verb {
     themes_.declare(app);
     earth_.declare(app);
     nodata_.declare(app);
-    app.add_option("--memory", memory_text_,
-                   "Memory to work in, block by block of observers where it does not hold all ground at once; the "
-                   "result never depends on it (default: 1G)")
-        ->type_name("SIZE");
+    memory_.declare(app,
+                    "Memory to work in, block by block of observers where it does not hold all ground at once; the "
+                    "result never depends on it (default: 1G)");
     policy_.declare(app);
   }
 
@@ -96,7 +95,7 @@ class VisibilityVerb final : public Verb {
     earth_.validate();
     request_.earth = earth_.earth();
     request_.nodata = nodata_.rule();
-    if (!memory_text_.empty()) request_.memory_bytes = parse_bytes("--memory", memory_text_);
+    request_.memory_bytes = memory_.bytes().value_or(request_.memory_bytes);
   }
 
   Document parameters() const override {
@@ -181,7 +180,8 @@ class VisibilityVerb final : public Verb {
                policy_.overwrite);
   }
 
-  std::string store_, output_, cell_text_, radius_text_, height_text_, target_text_, targets_text_, memory_text_;
+  std::string store_, output_, cell_text_, radius_text_, height_text_, target_text_, targets_text_;
+  MemoryOption memory_;
   WindowOptions window_;
   DetailOptions detail_;
   ThemeOptions themes_;

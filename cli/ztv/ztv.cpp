@@ -22,11 +22,11 @@
 
 #include "options/detail_options.hpp"
 #include "options/earth_options.hpp"
+#include "options/memory_option.hpp"
 #include "options/nodata_option.hpp"
 #include "options/off_the_data.hpp"
 #include "options/radius_preset.hpp"
 #include "options/sheet_options.hpp"
-#include "options/store_cache.hpp"
 #include "options/store_scale.hpp"
 #include "options/surface_options.hpp"
 #include "output/store_document.hpp"
@@ -81,10 +81,9 @@ class ZtvVerb final : public Verb {
     themes_.declare(app);
     earth_.declare(app);
     nodata_.declare(app);
-    app.add_option("--memory", memory_text_,
-                   "Memory to work in, in parts where it does not hold all at once; the result never depends on it "
-                   "(default: no limit)")
-        ->type_name("SIZE");
+    memory_.declare(app,
+                    "Memory to work in, in parts where it does not hold all at once; the result never depends on it "
+                    "(default: no limit)");
     policy_.declare(app);
   }
 
@@ -106,7 +105,7 @@ class ZtvVerb final : public Verb {
     if (!cell_text_.empty() && !like_.empty()) throw InputError("--cell and --like exclude each other");
     if (like_.empty())
       request_.cell_size = cell_text_.empty() ? kDefaultCell : parse_number("--cell", cell_text_, Range::kPositive);
-    if (!memory_text_.empty()) request_.memory_bytes = parse_bytes("--memory", memory_text_);
+    request_.memory_bytes = memory_.bytes();
     request_.nodata = nodata_.rule();
   }
 
@@ -142,7 +141,7 @@ class ZtvVerb final : public Verb {
     const std::future<void> rasters = beside(make_gdal_ready);
     ZtvFolder::require_writable(output_, policy_);
     radius_.load();
-    const Store store(store_, request_.memory_bytes ? cache_within(*request_.memory_bytes) : StoreOptions());
+    const Store store(store_, cache_within(request_.memory_bytes));
     const StoreMetadata& metadata = store.metadata();
     complete_request(metadata);
     Zone zone = viewshed::survey_turbines(store, request_, progress);
@@ -352,7 +351,8 @@ class ZtvVerb final : public Verb {
     return text;
   }
 
-  std::string store_, output_, cell_text_, like_, observer_text_, bands_text_, memory_text_;
+  std::string store_, output_, cell_text_, like_, observer_text_, bands_text_;
+  MemoryOption memory_;
   TurbineOptions turbines_;
   RadiusOptions radius_;
   ViewpointOptions viewpoints_;

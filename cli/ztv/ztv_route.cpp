@@ -15,6 +15,7 @@
 #include <itin/paths.hpp>
 #include <profile/route_chart.hpp>
 
+#include "options/memory_option.hpp"
 #include "output/output_path.hpp"
 #include "output/store_document.hpp"
 #include "program/call_files.hpp"
@@ -180,9 +181,10 @@ Document RouteOptions::parameters() const {
 std::vector<viewshed::ZoneFile> RouteOptions::write(const std::string& folder, const Store& store, const Zone& zone,
                                                     Progress& progress) const {
   const StoreMetadata& metadata = store.metadata();
-  const SectionSurface ground(store, zone.request.detail);
+  const SectionSurface::Options cache = section_cache_within(zone.request.memory_bytes);
+  const SectionSurface ground(store, zone.request.detail, ThemeChoice::none(), cache);
   std::optional<SectionSurface> features;
-  if (zone.request.themes) features.emplace(store, zone.request.detail, *zone.request.themes);
+  if (zone.request.themes) features.emplace(store, zone.request.detail, *zone.request.themes, cache);
   const bool national = is_national_grid(metadata.crs_wkt);
   std::vector<viewshed::ZoneFile> files;
   const auto add = [&](const std::string& name, const std::string& what, const std::string& bytes) {

@@ -15,6 +15,7 @@
 #include <itin/output_file.hpp>
 #include <itin/site_table.hpp>
 
+#include "options/memory_option.hpp"
 #include "options/site_list.hpp"
 #include "program/call_files.hpp"
 #include "program/field_names.hpp"
@@ -199,11 +200,12 @@ ViewpointOptions::Written ViewpointOptions::write(const std::string& folder, con
   Written written;
   written.path = query_.path;
   const StoreMetadata& metadata = store.metadata();
-  const SectionSurface ground(store, zone.request.detail);
+  const SectionSurface::Options cache = section_cache_within(zone.request.memory_bytes);
+  const SectionSurface ground(store, zone.request.detail, ThemeChoice::none(), cache);
   std::optional<SectionSurface> features;
   std::string screened_title;
   if (zone.request.themes) {
-    features.emplace(store, zone.request.detail, *zone.request.themes);
+    features.emplace(store, zone.request.detail, *zone.request.themes, cache);
     screened_title = fmt::format("Ground with {}", fmt::join(zone.request.themes->names(metadata.themes), ", "));
   }
   std::vector<std::string> theme_names;

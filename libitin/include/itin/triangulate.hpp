@@ -8,6 +8,7 @@
 //   if (metres) std::cout << *metres << " m\n";
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -33,6 +34,10 @@ class Store;
 /// is not an error.
 Tin triangulate(const Store& store, const Window& window, const Detail& detail, Progress& progress,
                 const ThemeChoice& themes = ThemeChoice::none());
+
+/// About how many points triangulate() has for this: reads directories, no points. Throws InputError, CorruptStore.
+std::uint64_t points_about(const Store& store, const Window& window, const Detail& detail,
+                           const ThemeChoice& themes = ThemeChoice::none());
 
 /// The elevation of the surface under each position, metres; nothing where there is no ground. A position within a
 /// ten-thousandth of a grid unit of a grid point is taken to be there.

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <numeric>
 
 #include <itin/call_progress.hpp>
 #include <itin/parallel.hpp>
@@ -12,6 +13,7 @@
 #include "triangulate/assembly.hpp"
 #include "triangulate/raised_index.hpp"
 #include "triangulate/region.hpp"
+#include "triangulate/window_leaves.hpp"
 
 namespace itin {
 
@@ -22,16 +24,25 @@ namespace {
 /// reading beyond its border is what costs. No result depends on it.
 constexpr double kMostPerTile = 32768, kLeastPerTile = 16384, kTiles = 8;
 
+void leave_out_finer(const Selection& selection, std::vector<Leaf>& leaves) {
+  std::erase_if(leaves, [&](const Leaf& leaf) { return leaf.level < selection.finest_in(leaf.cell.box()); });
+}
+
+std::uint64_t points_of(const std::vector<Leaf>& leaves) {
+  return std::accumulate(leaves.begin(), leaves.end(), std::uint64_t{0},
+                         [](std::uint64_t sum, const Leaf& leaf) { return sum + leaf.points; });
+}
+
 /// Cells that cover the window.
 class TilePlan {
  public:
   TilePlan(const PointIndex& index, const Selection& selection, const GridWindow& window)
       : index_(index), selection_(selection), window_(window) {
     selected_leaves(index_, selection_, window_.bounds(), leaves_);
-    std::erase_if(leaves_, [&](const Leaf& leaf) { return leaf.level < selection_.finest_in(leaf.cell.box()); });
+    leave_out_finer(selection_, leaves_);
     std::vector<std::uint32_t> all(leaves_.size());
-    double points = 0;
-    for (std::uint32_t i = 0; i < all.size(); ++i) all[i] = i, points += leaves_[i].points;
+    std::iota(all.begin(), all.end(), 0U);
+    const auto points = static_cast<double>(points_of(leaves_));
     if (points > kMostPerTile) per_tile_ = std::clamp(points / kTiles, kLeastPerTile, kMostPerTile);
     split(Cell{}, all);
   }
@@ -101,6 +112,15 @@ Tin triangulate(const Store& store, const Window& window, const Detail& detail, 
   name_themes(tin, metadata);
   call.finish();
   return tin;
+}
+
+std::uint64_t points_about(const Store& store, const Window& window, const Detail& detail, const ThemeChoice& themes) {
+  const StoreMetadata& metadata = store.metadata();
+  const Selection selection = selection_of(metadata, detail, themes);
+  const GridWindow grid_window(window, metadata.grid, metadata.bounds);
+  std::vector<Leaf> leaves = leaves_about(store.points(), selection, grid_window, 0);
+  leave_out_finer(selection, leaves);
+  return points_of(leaves);
 }
 
 }  // namespace itin

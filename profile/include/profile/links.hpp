@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include <itin/cross_section.hpp>
 #include <itin/detail.hpp>
 #include <itin/earth.hpp>
 #include <itin/geometry.hpp>
@@ -82,6 +83,8 @@ struct LinkQuery {
   std::vector<Criterion> criteria = {};   ///< with a fraction > 0 only for links with a frequency
   std::optional<TallObject> object = {};  ///< the object at each second end; gives visible
   NoData nodata = NoData::kUnknown;
+  /// What each surface keeps for the links that follow; it changes the speed only.
+  SectionSurface::Options sections = {};
   /// The day of magnetic azimuths, which tables have besides the others where it is given.
   std::optional<std::chrono::year_month_day> day = {};
 };

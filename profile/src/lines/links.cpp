@@ -72,8 +72,9 @@ class Surfaces {
  public:
   Surfaces(const Store& store, const LinkQuery& query, const std::vector<Link>& links) : store_(store), query_(query) {
     const bool standing = query.themes.includes_raised(store.metadata().themes);
-    if (standing || sharing_pays(store, query.detail, links)) surface_.emplace(store, query.detail, query.themes);
-    if (standing) ground_.emplace(store, query.detail);
+    if (standing || sharing_pays(store, query.detail, links))
+      surface_.emplace(store, query.detail, query.themes, query.sections);
+    if (standing) ground_.emplace(store, query.detail, ThemeChoice::none(), query.sections);
   }
 
   LinkResult survey(const Link& link) const {
