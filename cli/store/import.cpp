@@ -114,9 +114,10 @@ class ImportVerb final : public Verb {
         "--no-repair", no_repair_,
         "Contours: infer no points where the triangles of a contour would be flat, in the whole store, whatever "
         "other imports say");
-    app.add_flag("--replace", options_.replace,
-                 "Take the place of coarser terrain, and of lines with heights, within the sources' coverage, in "
-                 "whatever order they come");
+    app.add_flag(
+        "--replace", options_.replace,
+        "Take the place of terrain that is no finer, and of lines with heights, within the sources' coverage, in "
+        "whatever order they come");
     app.add_flag(
         "--stay", options_.stay,
         "Contours, breaklines and water: stay within the coverage of terrain that was imported with --replace, "
@@ -289,10 +290,9 @@ class ImportVerb final : public Verb {
     };
     mention(report.voids, "post", "without data");
     if (report.filtered > 0) text += fmt::format(", {} filtered out", grouped(report.filtered));
-    if (report.duplicates > 0)
-      text += fmt::format(", {} where another point was already", counted(report.duplicates, "point"));
+    if (report.duplicates > 0) text += fmt::format(", {} at the place of another", counted(report.duplicates, "point"));
     if (report.sea > 0) text += fmt::format(", {} of the sea", counted(report.sea, "vertex", "vertices"));
-    mention(report.replaced, "coarser point", "replaced");
+    mention(report.replaced, "point", "replaced");
     mention(report.made_room, "piece", "of lines replaced by finer ground");
     mention(report.isolated, "isolated point", "left out");
     mention(report.refused, "feature", "that cannot stand");

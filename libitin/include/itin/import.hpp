@@ -78,7 +78,7 @@ struct ImportOptions {
   /// missing.
   std::optional<double> sea_level;
   std::string sea_area;  ///< polygons, as text or a file: only within them, and all of them
-  bool replace = false;  ///< these sources take the place of coarser ones within their coverage
+  bool replace = false;  ///< these sources take the place of others that are no finer in their coverage
   bool stay = false;     ///< import_lines() of contours, breaklines and water: they stay within the coverage of sources
                          ///< that replace others
   std::vector<double> tolerances;  ///< metres; default: those of 0.5,1,2,4,8,16,32 that are no less than the
@@ -96,7 +96,7 @@ struct ImportReport {
   std::uint64_t read_features = 0;  ///< lines, polygons and other features that these vertices are of
   std::uint64_t voids = 0;          ///< posts without data
   std::uint64_t filtered = 0;       ///< points and features left out by class or where
-  std::uint64_t duplicates = 0;     ///< positions that were there already
+  std::uint64_t duplicates = 0;     ///< points at the place of another
   std::uint64_t replaced = 0;       ///< coarser points that made room now
   std::uint64_t made_room = 0;      ///< pieces of lines, of all imports so far, that make room for ground that replaces
                                     ///< others, wholly or in part; counted where such lines or ground are imported

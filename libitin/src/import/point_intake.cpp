@@ -20,7 +20,8 @@ std::vector<SourceRank> ranks_for_sorting(const std::vector<SourceInfo>& sources
     return is_sea(s) ? std::numeric_limits<double>::infinity() : s.spacing;
   };
   for (std::size_t s = 0; s < sources.size(); ++s)
-    ranks.push_back({spacing(sources[s]), is_ground(sources[s]), !sources[s].theme.empty(), order[s]});
+    ranks.push_back(
+        {spacing(sources[s]), is_ground(sources[s]), !sources[s].theme.empty(), order[s], sources[s].replaces});
   return ranks;
 }
 

@@ -13,11 +13,12 @@ namespace itin {
 
 namespace {
 
-/// All ground takes the place of the sea, and nothing makes room for it.
+/// All ground takes the place of the sea, and nothing makes room for it. Ground of equal spacing, a new survey for
+/// instance, takes the place of what does not replace itself.
 bool takes_place(const SourceInfo& source, const SourceInfo& of) {
   if (is_sea(source)) return false;
   if (is_sea(of)) return is_ground(source);
-  return source.replaces && source.spacing < of.spacing;
+  return source.replaces && (source.spacing < of.spacing || (source.spacing == of.spacing && !of.replaces));
 }
 
 /// For each source, those that take its place. Empty sets are left out.

@@ -295,7 +295,8 @@ class PointSorter::Impl {
   void merge_distinct(std::span<const SourceRank> sources, Progress& progress, SortedPoints::Impl& sorted) {
     const auto preference = [&](const RawPoint& point) {
       const SourceRank& source = sources[point.source];
-      return std::tuple(!source.line, source.spacing, -std::int64_t{point.z}, source.order, point.source);
+      return std::tuple(!source.line, source.spacing, !source.replaces, -std::int64_t{point.z}, source.order,
+                        point.source);
     };
     const auto prefer = [&](std::optional<RawPoint>& best, const RawPoint& point) {
       if (!best || preference(point) < preference(*best)) best = point;

@@ -64,6 +64,7 @@ struct SourceRank {
   bool ground = true;       ///< its points are ground by themselves, not only where others are
   bool line = false;        ///< its points are vertices of lines, which come before all others
   std::uint32_t order = 0;  ///< the least comes first, where nothing else decides
+  bool replaces = false;    ///< comes before others of its spacing
 };
 
 /// External merge sort. Temporary files are unlinked at once where the system allows, so that none outlives a kill.
@@ -76,7 +77,8 @@ class PointSorter {
   void add(const RawPoint& point);
   void add(std::span<const RawPoint> points);
   /// Among several points at one position one of a line stays, else the one whose source has the finest spacing, among
-  /// equal spacings the highest, among equal heights the one whose source comes first: a rule on the points alone.
+  /// equal spacings one of a source that replaces others, among those the highest, among equal heights the one whose
+  /// source comes first: a rule on the points alone.
   /// Where it is not ground and one of the others is, it becomes a point of that one's source, or there would be a
   /// hole. `duplicates`, if given, receives the number dropped and not covered. Throws FileError, Cancelled.
   SortedPoints finish(std::span<const SourceRank> sources, Progress& progress, std::uint64_t* duplicates = nullptr);

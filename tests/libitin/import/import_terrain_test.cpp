@@ -130,6 +130,33 @@ TEST_F(ImportTerrain, NothingIsTriangulatedAcrossVoids) {
   }
 }
 
+/// A new survey takes the place of an old one as fine, in either order, and also where its posts lie beside the old
+/// ones.
+TEST_F(ImportTerrain, GroundAsFineIsReplacedInEitherOrder) {
+  const RasterShape old{300000, 200000, 10, 60, 60, 27700};
+  test::write_raster(path("old.tif"), old, [](int c, int r) { return 300 + (c * 5 + r * 3) % 7; });
+  for (const double aside : {0.0, 4.0}) {
+    const std::string a = path(aside == 0 ? "a.itin" : "c.itin"), b = path(aside == 0 ? "b.itin" : "d.itin");
+    test::write_raster(path("new.tif"), {300200 + aside, 199900 + aside, 10, 20, 20, 27700},
+                       [](int c, int r) { return 100 + (c * 7 + r * 3) % 11; });
+    import(a, {path("old.tif")});
+    import(a, {path("new.tif")}, true);
+    import(b, {path("new.tif")}, true);
+    import(b, {path("old.tif")});
+    expect_same_surface(a, b);
+    std::size_t of_new = 0;
+    const Tin tin = whole(Store(a), 0);
+    for (std::size_t v = 0; v < tin.vertices.size(); ++v) {
+      const Point3 p = tin.point(static_cast<std::uint32_t>(v));
+      const bool inside =
+          p.x >= 300205 + aside && p.x <= 300395 + aside && p.y <= 199895 + aside && p.y >= 199705 + aside;
+      EXPECT_EQ(inside, p.z < 200) << p.x << " " << p.y;
+      of_new += inside;
+    }
+    EXPECT_EQ(of_new, 20U * 20U);
+  }
+}
+
 TEST_F(ImportTerrain, FinerGroundReplacesCoarserInEitherOrder) {
   const RasterShape coarse{300000, 200000, 50, 40, 40, 27700}, fine{300500, 199500, 10, 50, 40, 27700};
   test::write_raster(path("coarse.tif"), coarse, [](int c, int r) { return 100 + c + 2 * r; });

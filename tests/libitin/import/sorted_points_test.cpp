@@ -38,11 +38,14 @@ std::vector<RawPoint> random_points(std::size_t count, std::uint64_t codes, std:
   return points;
 }
 
-/// The rule word for word: finest spacing, then highest, then lowest source number; ground stays ground.
+/// The rule word for word: finest spacing, then those that replace, then highest, then lowest source number; ground
+/// stays ground.
 std::vector<RawPoint> expected(std::vector<RawPoint> points, const std::vector<SourceRank>& sources) {
   const auto keep_order_by = [&](auto before) { std::stable_sort(points.begin(), points.end(), before); };
   keep_order_by([](const RawPoint& a, const RawPoint& b) { return a.source < b.source; });
   keep_order_by([](const RawPoint& a, const RawPoint& b) { return a.z > b.z; });
+  keep_order_by(
+      [&](const RawPoint& a, const RawPoint& b) { return sources[a.source].replaces > sources[b.source].replaces; });
   keep_order_by(
       [&](const RawPoint& a, const RawPoint& b) { return sources[a.source].spacing < sources[b.source].spacing; });
   keep_order_by([](const RawPoint& a, const RawPoint& b) { return a.code < b.code; });
@@ -73,7 +76,7 @@ std::vector<RawPoint> all_of(const SortedPoints& sorted) {
 
 TEST(PointSorter, AgreesWithStableSortWhateverTheMemory) {
   std::mt19937_64 random(test::seed());
-  const std::vector<SourceRank> sources{{50}, {5, false}, {50, false}};
+  const std::vector<SourceRank> sources{{50}, {5, false}, {50, false, false, 0, true}};
   for (const std::size_t count : {0, 1, 2, 1023, 1024, 1025, 5000, 300000}) {
     for (const std::uint64_t codes : {std::uint64_t{3}, std::uint64_t{20000}, std::uint64_t{1} << 36}) {
       const std::vector<RawPoint> points = random_points(count, codes, random);
@@ -110,6 +113,13 @@ TEST(PointSorter, PrefersFinerThenHigherThenEarlierSources) {
   EXPECT_TRUE(same(winner({{7, 900, 0}, {7, 10, 1}}), {7, 10, 1}));
   EXPECT_TRUE(same(winner({{7, 10, 1}, {7, 11, 2}}), {7, 11, 2}));
   EXPECT_TRUE(same(winner({{7, 10, 2}, {7, 10, 1}}), {7, 10, 1}));
+}
+
+TEST(PointSorter, PrefersSourcesThatReplaceAmongEquallyFineOnes) {
+  const std::vector<SourceRank> sources{{50}, {50, true, false, 1, true}, {2}};
+  const auto winner = [&](const std::vector<RawPoint>& points) { return all_of(sort(points, sources, kTiny)).at(0); };
+  EXPECT_TRUE(same(winner({{7, 900, 0}, {7, 10, 1}}), {7, 10, 1}));
+  EXPECT_TRUE(same(winner({{7, 900, 1}, {7, 10, 2}}), {7, 10, 2}));
 }
 
 TEST(PointSorter, GroundStaysGround) {
