@@ -179,7 +179,7 @@ class ImportOrder : public testing::Test {
           return terrain("beyond", {300905, 199955, 10, 25, 60, 27700}, true, false);
         },
         [&] {
-          return terrain("shifted", {300003, 199987, 50, 18, 18, 27700}, false, false);
+          return terrain("shifted", {300003, 199987, 50, 18, 18, 27700}, chance(2), false);
         },
         [&] { return lines(ThemeKind::Contours, "contours", random_lines(4, 150, std::round(in(90, 120))), false); },
         [&] { return lines(ThemeKind::Contours, "contours", random_lines(4, 150, std::round(in(90, 120))), false); },
