@@ -66,6 +66,7 @@ void warn_of(const SiteResult& site, const StoreMetadata& metadata, std::vector<
     warnings.push_back(fmt::format("{} of the demand cannot be served: there is no ground data",
                                    counted(site.inputs.demand_without_ground, "point")));
   warn_of_too_few(site, warnings);
+  warnings.insert(warnings.end(), site.coverage.warnings().begin(), site.coverage.warnings().end());
 }
 
 }  // namespace itin::cli

@@ -121,6 +121,9 @@ class SiteCoverage final : public Coverage {
   std::function<void(std::size_t option, int stage, const CoverageBounds& bounds)> on_refined;
 
   const Statistics& statistics() const;
+  /// What is to be known of sites that were looked at: that their lines may cross ground without data, which counts as
+  /// clear unless the rule is kBlock, where no rule was chosen.
+  const std::vector<std::string>& warnings() const;
 
  private:
   class Impl;

@@ -118,6 +118,10 @@ std::shared_ptr<const VoidShadow> shadow_of(const Eye& eye, const std::vector<Ri
   return std::make_shared<const VoidShadow>(rim, eye.units, rule);
 }
 
+bool may_cross_voids(const Grid& units, const std::vector<RimEdge>& rim, Point2 position, double radius) {
+  return surface_resumes(units, rim, position, radius, hull_about(position, square_about(position, radius)));
+}
+
 void find_voids(const Grid& units, const std::vector<RimEdge>& rim, Result& result) {
   for (const Observer& observer : result.request.observers) {
     const double reach = radius_of(result.request, observer).value_or(kInfinity);

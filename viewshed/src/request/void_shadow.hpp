@@ -69,6 +69,8 @@ class VoidShadow {
 /// nothing in the result.
 std::shared_ptr<const VoidShadow> shadow_of(const Eye& eye, const std::vector<RimEdge>& rim, const Result& result);
 
+/// Whether a sight line from a place to another within the radius, metres, may cross ground without data.
+bool may_cross_voids(const Grid& units, const std::vector<RimEdge>& rim, Point2 position, double radius);
 /// Whether sight lines of the result's request may cross ground without data, with a warning where neither the request
 /// nor its answer says what becomes of them. `rim` is where the surface ends, in these units.
 void find_voids(const Grid& units, const std::vector<RimEdge>& rim, Result& result);

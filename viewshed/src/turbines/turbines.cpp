@@ -44,8 +44,7 @@ void warn_of_voids(const Tin& tin, Zone& zone) {
   if (zone.request.nodata != NoData::kUnknown) return;
   const std::vector<RimEdge> rim = rim_of(tin, boundary_edges(tin));
   const bool crossed = std::any_of(zone.request.turbines.begin(), zone.request.turbines.end(), [&](const Turbine& t) {
-    return surface_resumes(tin.grid, rim, t.position, t.radius,
-                           hull_about(t.position, square_about(t.position, t.radius)));
+    return may_cross_voids(tin.grid, rim, t.position, t.radius);
   });
   if (crossed) zone.warnings.emplace_back(kVoidsWarning);
 }

@@ -32,6 +32,8 @@ class GroupSurvey {
   /// The new bounds. Throws Cancelled.
   virtual std::vector<CoverageBounds> judge(const SitesToJudge& sites, Progress& progress,
                                             Statistics& statistics) const = 0;
+  /// Whether a sight line from a site here may cross ground without data; false where this surface does not tell.
+  virtual bool may_cross_voids(Point2) const { return false; }
 };
 
 /// Surveys cells over bounds of the surface. The survey must outlive it, as it must all of these. `zones`: whether they

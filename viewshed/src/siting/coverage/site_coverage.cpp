@@ -11,6 +11,7 @@
 
 #include "progress/stopwatch.hpp"
 #include "request/request.hpp"
+#include "request/void_shadow.hpp"
 #include "siting/coverage/demand_blocks.hpp"
 #include "siting/coverage/group_surfaces.hpp"
 #include "siting/coverage/looks.hpp"
@@ -112,6 +113,7 @@ class SiteCoverage::Impl {
   void release_surfaces() { surfaces_.release(); }
 
   const Statistics& statistics() const { return statistics_; }
+  const std::vector<std::string>& warnings() const { return warnings_; }
   std::function<void(std::size_t, int, const CoverageBounds&)>* on_refined = nullptr;
 
  private:
@@ -162,6 +164,15 @@ class SiteCoverage::Impl {
       settle(options[i], stage, std::exchange(after[i], {}));
     }
     statistics_.lines_seconds += watch.lap();
+    warn_of_voids(options, survey);
+  }
+
+  void warn_of_voids(const std::vector<std::size_t>& options, const GroupSurvey& survey) {
+    if (survey_.nodata != NoData::kUnknown || !warnings_.empty()) return;
+    const bool crossed = std::any_of(options.begin(), options.end(), [&](std::size_t option) {
+      return survey.may_cross_voids(survey_.positions[option].position);
+    });
+    if (crossed) warnings_.emplace_back(kVoidsWarning);
   }
 
   void settle(std::size_t option, int stage, const CoverageBounds& bounds) {
@@ -175,6 +186,7 @@ class SiteCoverage::Impl {
   Looks looks_;
   GroupSurfaces surfaces_;
   std::vector<State> states_;
+  std::vector<std::string> warnings_;
 };
 
 SiteCoverage::SiteCoverage(const Store& store, SiteSurvey survey, Progress& progress)
@@ -212,6 +224,9 @@ void SiteCoverage::restore(std::size_t option, int stage, const CoverageBounds& 
 }
 const Statistics& SiteCoverage::statistics() const {
   return impl_->statistics();
+}
+const std::vector<std::string>& SiteCoverage::warnings() const {
+  return impl_->warnings();
 }
 
 }  // namespace itin::viewshed
