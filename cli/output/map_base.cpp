@@ -20,8 +20,8 @@ namespace {
 
 constexpr double kPixel = 0.00025;    ///< metres on paper
 constexpr std::int64_t kCoarser = 3;  ///< pixels a side, whose mean contours follow
-constexpr profile::SheetColour kContour{150, 105, 60, 150};
-constexpr profile::SheetColour kClear{0, 0, 0, 0};
+constexpr Rgba kContour{150, 105, 60, 150};
+constexpr Rgba kClear{0, 0, 0, 0};
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 
 struct Heights {
@@ -77,7 +77,7 @@ void add_contours(const Heights& heights, MapBase& base) {
 /// Clear where there is no ground.
 profile::SheetCells shaded(const viewshed::Relief& ground) {
   constexpr double kLevelGrey = 226, kContrast = 90;
-  profile::SheetCells cells{ground.pixels, std::vector<profile::SheetColour>(ground.pixels.cell_count(), kClear)};
+  profile::SheetCells cells{ground.pixels, std::vector<Rgba>(ground.pixels.cell_count(), kClear)};
   for (std::size_t i = 0; i < cells.colours.size(); ++i) {
     if (std::isnan(ground.shades[i])) continue;
     const double grey = kLevelGrey + kContrast * (ground.shades[i] - viewshed::kLevelShade);
@@ -101,13 +101,10 @@ MapBase relief_base(const Store& store, const RasterGrid& pixels, Progress& prog
 }
 
 MapBase picture_base(const std::string& basemap, const RasterGrid& pixels, const std::string& crs_wkt) {
-  MapBase base{{pixels, {}}, {}, {}};
-  for (const PictureColour& c : picture_at(basemap, pixels, crs_wkt))
-    base.picture.colours.push_back({c.red, c.green, c.blue, c.alpha});
-  return base;
+  return {{pixels, picture_at(basemap, pixels, crs_wkt)}, {}, {}};
 }
 
-profile::SheetColour paler(const profile::SheetColour& c) {
+Rgba paler(const Rgba& c) {
   constexpr double kFade = 0.6;
   const auto part = [](std::uint8_t v) { return static_cast<std::uint8_t>(std::lround(v + kFade * (255 - v))); };
   return {part(c.red), part(c.green), part(c.blue), c.alpha};
@@ -140,7 +137,7 @@ MapBase faded(MapBase base, const std::function<bool(Point2)>& studied) {
   parallel_for(static_cast<std::size_t>(picture.grid.rows()), [&](std::size_t r) {
     const auto row = static_cast<std::int64_t>(r);
     for (std::int64_t column = 0; column < picture.grid.columns(); ++column) {
-      profile::SheetColour& colour = picture.colours[picture.grid.index({column, row})];
+      Rgba& colour = picture.colours[picture.grid.index({column, row})];
       if (colour.alpha > 0 && !studied(picture.grid.centre(column, row))) colour = paler(colour);
     }
   });

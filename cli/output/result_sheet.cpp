@@ -13,10 +13,6 @@ namespace {
 
 using profile::SheetKey;
 
-profile::SheetColour drawn(const viewshed::ResultMap::Colour& c) {
-  return {c.red, c.green, c.blue, c.alpha};
-}
-
 /// Without layers, legend and title.
 profile::MapSheet empty_sheet(const Store& store, const ResultSheet& content, profile::PaperSize paper,
                               const SheetOptions& options) {
@@ -55,9 +51,7 @@ MapBase base_of(const Store& store, const ResultSheet& content, profile::PaperSi
 }
 
 std::vector<profile::SheetLayer> layers_of(const MapBase& base, const ResultSheet& content) {
-  profile::SheetCells cells{content.grid, {}};
-  for (const auto& colour : content.map.cells) cells.colours.push_back(drawn(colour));
-  std::vector<profile::SheetLayer> layers = layers_of(base, std::move(cells));
+  std::vector<profile::SheetLayer> layers = layers_of(base, {content.grid, content.map.cells});
   for (const MapObjects& objects : content.objects)
     layers.insert(layers.end(), objects.layers.begin(), objects.layers.end());
   return layers;
@@ -68,7 +62,7 @@ std::vector<SheetKey> keys_of(const MapBase& base, const ResultSheet& content) {
   const auto add = [&](const std::string& heading, const std::vector<viewshed::ResultMap::Key>& more) {
     if (more.empty()) return;
     keys.push_back({SheetKey::Sample::kHeading, {}, heading});
-    for (const auto& key : more) keys.push_back({SheetKey::Sample::kPatch, drawn(key.colour), key.text});
+    for (const auto& key : more) keys.push_back({SheetKey::Sample::kPatch, key.colour, key.text});
   };
   add(content.heading, content.map.keys);
   add(content.map.scale_title, content.map.scale);

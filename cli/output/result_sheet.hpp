@@ -21,7 +21,7 @@ struct MapObjects {
   std::vector<profile::SheetKey> keys;
 };
 
-inline constexpr profile::SheetColour kMastColour{213, 94, 0, 255};
+inline constexpr Rgba kMastColour{213, 94, 0, 255};
 /// Masts or eyes, as all maps mark them.
 MapObjects mast_objects(std::vector<profile::SheetMark> masts, std::string key);
 

@@ -18,7 +18,7 @@ constexpr int kJpegQuality = 80;
 constexpr double kPathUnits = 10 * kWebGroundPixels;  ///< of a path, over the frame's width
 constexpr SvgPrecision kTenthOfAPixel{.tolerance = 1, .step = 1};
 constexpr double kPixelsPerMillimetre = 96 / 25.4, kMarkPixels = 14;
-constexpr profile::SheetColour kNoGround{237, 237, 242, 255};
+constexpr Rgba kNoGround{237, 237, 242, 255};
 
 /// The cells themselves, or where they are many, those at the centres of as many pixels as a page shows.
 profile::SheetCells few_enough(const profile::SheetCells& cells) {
@@ -51,8 +51,8 @@ std::string embedded(const RasterGrid& grid, const std::vector<std::uint8_t>& sa
 std::string opaque_picture(const profile::SheetCells& cells) {
   std::vector<std::uint8_t> grey, colours;
   bool coloured = false;
-  for (const profile::SheetColour& cell : cells.colours) {
-    const profile::SheetColour c = cell.alpha > 0 ? cell : kNoGround;
+  for (const Rgba& cell : cells.colours) {
+    const Rgba c = cell.alpha > 0 ? cell : kNoGround;
     coloured = coloured || (cell.alpha > 0 && (c.red != c.green || c.green != c.blue));
     grey.push_back(c.green);
     for (const std::uint8_t v : {c.red, c.green, c.blue}) colours.push_back(v);
@@ -62,7 +62,7 @@ std::string opaque_picture(const profile::SheetCells& cells) {
 
 std::string clear_picture(const profile::SheetCells& cells) {
   std::vector<std::uint8_t> samples;
-  for (const profile::SheetColour& c : cells.colours)
+  for (const Rgba& c : cells.colours)
     for (const std::uint8_t v : {c.red, c.green, c.blue, c.alpha}) samples.push_back(v);
   return embedded(cells.grid, samples, 4, "png");
 }
@@ -121,7 +121,7 @@ std::string web_layer(const Box& frame, const profile::SheetLayer& layer, WebPic
   return std::visit(WebLayer(frame, picture), layer);
 }
 
-std::string web_mark(profile::SheetSymbol symbol, const profile::SheetColour& colour) {
+std::string web_mark(profile::SheetSymbol symbol, const Rgba& colour) {
   const std::string paint =
       fmt::format("fill=\"{}\" stroke=\"#fff\" stroke-width=\"1.5\" paint-order=\"stroke\"", web_colour(colour));
   const std::span<const Point2> corners = profile::corners_of(symbol);
@@ -132,7 +132,7 @@ std::string web_mark(profile::SheetSymbol symbol, const profile::SheetColour& co
   return fmt::format("<polygon points=\"{}\" {}/>", points, paint);
 }
 
-std::string web_colour(const profile::SheetColour& c) {
+std::string web_colour(const Rgba& c) {
   return fmt::format("#{:02x}{:02x}{:02x}", c.red, c.green, c.blue);
 }
 

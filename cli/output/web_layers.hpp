@@ -21,10 +21,10 @@ enum class WebPicture { kGround, kCells };
 std::string web_layer(const Box& frame, const profile::SheetLayer& layer, WebPicture picture);
 
 /// A mark about the origin of an SVG.
-std::string web_mark(profile::SheetSymbol symbol, const profile::SheetColour& colour);
+std::string web_mark(profile::SheetSymbol symbol, const Rgba& colour);
 
 /// "#d55e00"
-std::string web_colour(const profile::SheetColour& colour);
+std::string web_colour(const Rgba& colour);
 
 /// A share, 0 to 1: "23.40%".
 std::string web_percent(double share);

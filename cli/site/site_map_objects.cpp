@@ -10,12 +10,11 @@ namespace itin::cli {
 
 namespace {
 
-using profile::SheetColour;
 using profile::SheetKey;
 using profile::SheetSymbol;
 using Sample = SheetKey::Sample;
 
-constexpr SheetColour kBuilding{70, 60, 55, 255}, kBackhaul{160, 55, 0, 255}, kExistingSite{110, 50, 130, 255},
+constexpr Rgba kBuilding{70, 60, 55, 255}, kBackhaul{160, 55, 0, 255}, kExistingSite{110, 50, 130, 255},
     kHubMark{25, 25, 25, 255};
 
 /// To a tenth of a picture's pixel where it is 1000 pixels long; what is smaller than two pixels would be a blot.
@@ -44,7 +43,7 @@ MapObjects link_objects(const SiteResult& r) {
 
 /// The ends of a network that `is_one` takes.
 template <class IsOne>
-MapObjects marks(const SiteNetwork& network, SheetSymbol symbol, const SheetColour& colour, const std::string& what,
+MapObjects marks(const SiteNetwork& network, SheetSymbol symbol, const Rgba& colour, const std::string& what,
                  const IsOne& is_one) {
   profile::SheetMarks marks{symbol, colour, {}};
   for (std::size_t i = 0; i < network.ends.size(); ++i)

@@ -20,10 +20,8 @@ namespace {
 constexpr std::size_t kMostThemes = 254;
 
 RasterClass class_of(int number, const std::string& name) {
-  static constexpr std::array<std::array<std::uint8_t, 3>, 4> kColours{
-      {{184, 97, 84}, {97, 148, 87}, {133, 112, 173}, {217, 166, 64}}};
-  const auto& [red, green, blue] = kColours[static_cast<std::size_t>(number - 1) % kColours.size()];
-  return {number, name, red, green, blue, 255};
+  static constexpr std::array<Rgba, 4> kColours{{{184, 97, 84}, {97, 148, 87}, {133, 112, 173}, {217, 166, 64}}};
+  return {number, name, kColours[static_cast<std::size_t>(number - 1) % kColours.size()]};
 }
 
 }  // namespace

@@ -21,13 +21,12 @@ namespace itin::cli {
 
 namespace {
 
-using profile::SheetColour;
 using profile::SheetKey;
 using viewshed::Turbine;
 using viewshed::Zone;
 using viewshed::ZoneMap;
 
-constexpr SheetColour kRing{70, 70, 70, 255}, kStudyArea{20, 20, 20, 255}, kViewpoint{20, 60, 140, 255};
+constexpr Rgba kRing{70, 70, 70, 255}, kStudyArea{20, 20, 20, 255}, kViewpoint{20, 60, 140, 255};
 constexpr std::size_t kMostFarmColours = 8;
 
 /// Metres beyond its radius of the turbine that is farthest within it: not above 0 in the study area.
@@ -103,9 +102,9 @@ MapObjects distance_objects(const Zone& zone) {
        {SheetKey::Sample::kLine, kRing, fmt::format("Distance to the nearest turbine, every {:g} km", step / 1000)}}};
 }
 
-SheetColour farm_colour(std::size_t farm) {
-  constexpr SheetColour kColours[kMostFarmColours] = {{170, 20, 20},  {20, 40, 110}, {0, 90, 60}, {110, 50, 0},
-                                                      {100, 20, 100}, {0, 80, 110},  {70, 70, 0}, {60, 60, 60}};
+Rgba farm_colour(std::size_t farm) {
+  constexpr Rgba kColours[kMostFarmColours] = {{170, 20, 20},  {20, 40, 110}, {0, 90, 60}, {110, 50, 0},
+                                               {100, 20, 100}, {0, 80, 110},  {70, 70, 0}, {60, 60, 60}};
   return kColours[farm];
 }
 
@@ -151,14 +150,12 @@ viewshed::ResultMap classes_of(const Zone& zone, const ZoneMap& map) {
   for (const ZoneMap::Class& c : map.classes) {
     const double km2 = static_cast<double>(c.cells) * zone.grid.cell_area() / 1e6;
     result.keys.push_back(
-        {{c.red, c.green, c.blue, c.alpha > 0 ? viewshed::kAlphaOverRelief : std::uint8_t{0}},
+        {viewshed::over_relief(c.colour),
          fmt::format("{}: {} km² ({:.1f} %)", c.label, readable_area(km2),
                      100.0 * static_cast<double>(c.cells) / static_cast<double>(std::max<std::uint64_t>(1, all)))});
   }
-  for (const std::uint8_t c : map.class_of_cell) {
-    const bool shown = c != viewshed::kNoMapClass && map.classes[c].alpha > 0;
-    result.cells.push_back(shown ? result.keys[c].colour : viewshed::ResultMap::Colour());
-  }
+  for (const std::uint8_t c : map.class_of_cell)
+    result.cells.push_back(c == viewshed::kNoMapClass ? kClear : result.keys[c].colour);
   return result;
 }
 

@@ -92,11 +92,19 @@ class RasterGrid {
 /// from west to east (rotated) or if its CRS and `crs_wkt` are both known and differ.
 RasterGrid raster_grid_like(const std::string& path, const std::string& crs_wkt);
 
+/// A colour; its opacity is 255 where nothing shows through.
+struct Rgba {
+  std::uint8_t red = 0, green = 0, blue = 0, alpha = 255;
+
+  friend bool operator==(const Rgba&, const Rgba&) = default;
+};
+inline constexpr Rgba kClear{0, 0, 0, 0};
+
 /// A value that stands for a class.
 struct RasterClass {
   int value = 0;
   std::string name;
-  std::uint8_t red = 0, green = 0, blue = 0, alpha = 255;
+  Rgba colour;
 };
 
 struct RasterDescription {

@@ -20,7 +20,7 @@ std::string polygon_style(const std::vector<RegionClass>& classes) {
         "        <layer class=\"SimpleFill\" pass=\"0\" locked=\"0\" enabled=\"1\">\n"
         "          <prop k=\"color\" v=\"{1},{2},{3},255\"/>\n          <prop k=\"outline_style\" v=\"no\"/>\n"
         "          <prop k=\"style\" v=\"solid\"/>\n        </layer>\n      </symbol>\n",
-        i, c.red, c.green, c.blue);
+        i, c.colour.red, c.colour.green, c.colour.blue);
   }
   return "<!DOCTYPE qgis PUBLIC 'http://mrcc.com/qgis.dtd' 'SYSTEM'>\n"
          "<qgis version=\"3.22\" styleCategories=\"Symbology\">\n"

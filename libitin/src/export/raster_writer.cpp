@@ -130,7 +130,7 @@ void describe(GDALDataset& dataset, const RasterDescription& description) {
     colours.SetColorEntry(value, &unused);
   }
   for (const RasterClass& c : description.classes) {
-    const GDALColorEntry colour{c.red, c.green, c.blue, c.alpha};
+    const GDALColorEntry colour{c.colour.red, c.colour.green, c.colour.blue, c.colour.alpha};
     colours.SetColorEntry(c.value, &colour);
     // GeoTIFF has no place for category names, and GDAL would leave a side file for them.
     band.SetMetadataItem(fmt::format("class_{}", c.value).c_str(), c.name.c_str());

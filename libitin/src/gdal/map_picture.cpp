@@ -73,7 +73,7 @@ GDALDatasetUniquePtr warped(const std::string& path, GDALDataset& picture, const
 
 }  // namespace
 
-std::vector<PictureColour> picture_at(const std::string& path, const RasterGrid& pixels, const std::string& crs_wkt) {
+std::vector<Rgba> picture_at(const std::string& path, const RasterGrid& pixels, const std::string& crs_wkt) {
   const QuietGdal quiet;
   const GDALDatasetUniquePtr picture = without_palette(path, open_raster_file(path));
   require_colours(path, *picture);
@@ -81,8 +81,8 @@ std::vector<PictureColour> picture_at(const std::string& path, const RasterGrid&
   const int bands = placed->GetRasterCount(), columns = placed->GetRasterXSize(), rows = placed->GetRasterYSize();
   // Grey is read three times.
   const std::array<int, 4> channels = bands == 2 ? std::array{1, 1, 1, 2} : std::array{1, 2, 3, 4};
-  std::vector<PictureColour> colours(pixels.cell_count());
-  static_assert(sizeof(PictureColour) == 4);
+  std::vector<Rgba> colours(pixels.cell_count());
+  static_assert(sizeof(Rgba) == 4);
   for (std::size_t c = 0; c < channels.size(); ++c) {
     auto* first = reinterpret_cast<std::uint8_t*>(colours.data()) + c;
     if (placed->GetRasterBand(channels[c])

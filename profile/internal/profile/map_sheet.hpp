@@ -27,14 +27,10 @@ enum class PaperSize { kA4, kA3, kA1 };
 /// "A3"
 const char* name_of(PaperSize paper);
 
-struct SheetColour {
-  std::uint8_t red = 0, green = 0, blue = 0, alpha = 255;
-};
-
 /// The cells of a grid, row by row from the north-west, each in its colour.
 struct SheetCells {
   RasterGrid grid;
-  std::vector<SheetColour> colours;
+  std::vector<Rgba> colours;
 };
 
 /// A label stands where the line is farthest north: there it runs from west to east.
@@ -44,7 +40,7 @@ struct SheetLine {
 };
 struct SheetLines {
   std::vector<SheetLine> lines;
-  SheetColour colour;
+  Rgba colour;
   double width_mm = 0.2;
   bool dashed = false;
 };
@@ -60,7 +56,7 @@ struct SheetMark {
 };
 struct SheetMarks {
   SheetSymbol symbol = SheetSymbol::kMast;
-  SheetColour colour;
+  Rgba colour;
   std::vector<SheetMark> marks;
 };
 
@@ -70,7 +66,7 @@ using SheetLayer = std::variant<SheetCells, SheetLines, SheetMarks>;
 struct SheetKey {
   enum class Sample { kPatch, kLine, kDashes, kMark, kHeading };
   Sample sample = Sample::kPatch;
-  SheetColour colour;
+  Rgba colour;
   std::string text;
   SheetSymbol symbol = SheetSymbol::kMast;  ///< of a mark
 };

@@ -25,12 +25,12 @@ double grid_step(double points_per_metre) {
   return 100000;
 }
 
-Colour opaque(SheetColour c) {
+Colour opaque(Rgba c) {
   c.alpha = 255;
   return drawn(c);
 }
 
-std::uint32_t argb(const SheetColour& c) {
+std::uint32_t argb(const Rgba& c) {
   return std::uint32_t{c.alpha} << 24 | std::uint32_t{c.red} << 16 | std::uint32_t{c.green} << 8 | c.blue;
 }
 
@@ -46,7 +46,7 @@ std::span<const Point2> corners_of(SheetSymbol symbol) {
   return {};
 }
 
-void draw_symbol(Drawing& drawing, SheetSymbol symbol, Point2 at, double size, const SheetColour& colour) {
+void draw_symbol(Drawing& drawing, SheetSymbol symbol, Point2 at, double size, const Rgba& colour) {
   const Colour fill = drawn(colour);
   if (symbol == SheetSymbol::kTurbine) {
     const Point2 hub{at.x, at.y - 0.45 * size};
@@ -129,7 +129,7 @@ void MapFrame::draw_layer(const SheetMarks& marks) {
   }
 }
 
-void MapFrame::label_line(const SheetLine& line, const SheetColour& colour) {
+void MapFrame::label_line(const SheetLine& line, const Rgba& colour) {
   if (line.label.empty()) return;
   const Lettering lettering{.size = 6 * paper_.type, .colour = opaque(colour), .align = Align::kCentre, .rim = 1.4};
   const double half = drawing_.text_width(line.label, lettering) / 2 + 1, up = lettering.size / 2;

@@ -10,12 +10,12 @@
 
 namespace itin::profile {
 
-inline Colour drawn(const SheetColour& c) {
+inline Colour drawn(const Rgba& c) {
   return {c.red / 255.0, c.green / 255.0, c.blue / 255.0, c.alpha / 255.0};
 }
 
 /// A mark of a map or its legend; `size` is its height in points.
-void draw_symbol(Drawing& drawing, SheetSymbol symbol, Point2 at, double size, const SheetColour& colour);
+void draw_symbol(Drawing& drawing, SheetSymbol symbol, Point2 at, double size, const Rgba& colour);
 
 class MapFrame {
  public:
@@ -30,7 +30,7 @@ class MapFrame {
   void draw_layer(const SheetCells& cells);
   void draw_layer(const SheetLines& lines);
   void draw_layer(const SheetMarks& marks);
-  void label_line(const SheetLine& line, const SheetColour& colour);
+  void label_line(const SheetLine& line, const Rgba& colour);
   void label_marks(const SheetMarks& marks);
   void draw_grid(const std::string& crs_wkt);
 

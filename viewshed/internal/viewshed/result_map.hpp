@@ -13,19 +13,18 @@
 
 namespace itin::viewshed {
 
-/// How much a class hides the relief below it, 0 to 255.
-inline constexpr std::uint8_t kAlphaOverRelief = 165;
+/// A class's colour, if it has one, through which the relief below it shows.
+constexpr Rgba over_relief(const Rgba& colour) {
+  return colour.alpha > 0 ? Rgba{colour.red, colour.green, colour.blue, 165} : kClear;
+}
 
 struct ResultMap {
-  struct Colour {
-    std::uint8_t red = 0, green = 0, blue = 0, alpha = 0;
-  };
   struct Key {
-    Colour colour;
+    Rgba colour;
     std::string text;
   };
-  std::vector<Colour> cells;  ///< clear where nothing is shown
-  std::vector<Key> keys;      ///< of single colours, with their shares of the cells decided
+  std::vector<Rgba> cells;  ///< clear where nothing is shown
+  std::vector<Key> keys;    ///< of single colours, with their shares of the cells decided
   std::string scale_title;
   std::vector<Key> scale;  ///< empty where the mode has no more to tell
 };

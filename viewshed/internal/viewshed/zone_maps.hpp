@@ -17,7 +17,7 @@ inline constexpr std::uint8_t kNoMapClass = 255;
 struct ZoneMap {
   struct Class {
     std::string label;
-    std::uint8_t red = 0, green = 0, blue = 0, alpha = 255;
+    Rgba colour;
     std::uint64_t cells = 0;
   };
   std::string name;          ///< as in the names of files: "tip-count-screened"

@@ -25,12 +25,12 @@ int floor_pixel(double v) {
 
 }  // namespace
 
-Canvas::Canvas(int width, int height, Colour background)
+Canvas::Canvas(int width, int height, Rgba background)
     : width_(width), height_(height), rgb_(3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height)) {
   fill_rectangle(0, 0, width, height, background);
 }
 
-void Canvas::blend(int x, int y, Colour colour, double opacity) {
+void Canvas::blend(int x, int y, Rgba colour, double opacity) {
   if (opacity == 0 || x < 0 || y < 0 || x >= width_ || y >= height_) return;
   std::uint8_t* const pixel =
       rgb_.data() + 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x));
@@ -43,26 +43,26 @@ void Canvas::blend(int x, int y, Colour colour, double opacity) {
     pixel[i] = static_cast<std::uint8_t>(std::lround(pixel[i] + opacity * (over[i] - pixel[i])));
 }
 
-void Canvas::fill_rectangle(int x, int y, int width, int height, Colour colour, double opacity) {
+void Canvas::fill_rectangle(int x, int y, int width, int height, Rgba colour, double opacity) {
   for (int row = y; row < y + height; ++row)
     for (int column = x; column < x + width; ++column) blend(column, row, colour, opacity);
 }
 
-void Canvas::frame(int x, int y, int width, int height, Colour colour) {
+void Canvas::frame(int x, int y, int width, int height, Rgba colour) {
   fill_rectangle(x, y, width, 1, colour);
   fill_rectangle(x, y + height - 1, width, 1, colour);
   fill_rectangle(x, y, 1, height, colour);
   fill_rectangle(x + width - 1, y, 1, height, colour);
 }
 
-void Canvas::fill_disc(Point2 centre, double radius, Colour colour, double opacity) {
+void Canvas::fill_disc(Point2 centre, double radius, Rgba colour, double opacity) {
   const auto inside = [&](double x, double y) { return std::hypot(x - centre.x, y - centre.y) <= radius; };
   for (int y = floor_pixel(centre.y - radius); y <= floor_pixel(centre.y + radius); ++y)
     for (int x = floor_pixel(centre.x - radius); x <= floor_pixel(centre.x + radius); ++x)
       blend(x, y, colour, opacity * coverage(x, y, inside));
 }
 
-void Canvas::fill_triangle(const std::array<Point2, 3>& corners, Colour colour) {
+void Canvas::fill_triangle(const std::array<Point2, 3>& corners, Rgba colour) {
   const auto inside = [&](double x, double y) {
     bool left = true, right = true;
     for (std::size_t i = 0; i < 3; ++i) {

@@ -7,29 +7,26 @@
 #include <vector>
 
 #include <itin/geometry.hpp>
+#include <itin/raster.hpp>
 
 namespace itin::viewshed {
-
-struct Colour {
-  std::uint8_t red = 0, green = 0, blue = 0;
-};
 
 /// Pixel (0, 0) is the north-west one; its area is [0, 1] x [0, 1].
 class Canvas {
  public:
-  Canvas(int width, int height, Colour background);
+  Canvas(int width, int height, Rgba background);
 
   int width() const { return width_; }
   int height() const { return height_; }
   std::vector<std::uint8_t>& rgb() { return rgb_; }
 
   /// Lays `colour` over a pixel; nothing outside the picture. `opacity` 0 to 1.
-  void blend(int x, int y, Colour colour, double opacity);
-  void fill_rectangle(int x, int y, int width, int height, Colour colour, double opacity = 1);
+  void blend(int x, int y, Rgba colour, double opacity);
+  void fill_rectangle(int x, int y, int width, int height, Rgba colour, double opacity = 1);
   /// One pixel wide, inside the rectangle.
-  void frame(int x, int y, int width, int height, Colour colour);
-  void fill_disc(Point2 centre, double radius, Colour colour, double opacity = 1);
-  void fill_triangle(const std::array<Point2, 3>& corners, Colour colour);
+  void frame(int x, int y, int width, int height, Rgba colour);
+  void fill_disc(Point2 centre, double radius, Rgba colour, double opacity = 1);
+  void fill_triangle(const std::array<Point2, 3>& corners, Rgba colour);
 
  private:
   int width_;

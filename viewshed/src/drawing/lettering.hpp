@@ -16,10 +16,10 @@ class Lettering {
   bool available() const { return !font_.empty(); }
 
   /// `baseline` is where the text stands; `size` is the font's height in pixels.
-  void draw(Canvas& canvas, const std::string& text, Point2 baseline, int size, Colour colour,
+  void draw(Canvas& canvas, const std::string& text, Point2 baseline, int size, Rgba colour,
             Align align = Align::kLeft) const;
   /// Draws the text with a white rim, so that it can be read over anything.
-  void draw_with_rim(Canvas& canvas, const std::string& text, Point2 baseline, int size, Colour colour) const;
+  void draw_with_rim(Canvas& canvas, const std::string& text, Point2 baseline, int size, Rgba colour) const;
   int width(const std::string& text, int size) const;
 
  private:

@@ -20,12 +20,12 @@ namespace itin::viewshed {
 
 namespace {
 
-constexpr Colour kMark{213, 94, 0};
-constexpr Colour kInk{30, 30, 30};
-constexpr Colour kFaint{95, 95, 95};
-constexpr Colour kMapPaper{255, 255, 255};
-constexpr Colour kVoid{244, 244, 244};
-constexpr Colour kVoidStripe{170, 170, 170};
+constexpr Rgba kMark{213, 94, 0};
+constexpr Rgba kInk{30, 30, 30};
+constexpr Rgba kFaint{95, 95, 95};
+constexpr Rgba kMapPaper{255, 255, 255};
+constexpr Rgba kVoid{244, 244, 244};
+constexpr Rgba kVoidStripe{170, 170, 170};
 
 constexpr std::uint8_t kLevelGrey = 214;  ///< of level ground
 
@@ -143,9 +143,9 @@ class MapDrawing {
       green += tint->opacity * tint->colour.green;
       blue += tint->opacity * tint->colour.blue;
     }
-    Colour colour() const {
+    Rgba colour() const {
       const auto channel = [&](double sum) { return static_cast<std::uint8_t>(std::lround(sum / opacity)); };
-      return opacity > 0 ? Colour{channel(red), channel(green), channel(blue)} : Colour{};
+      return opacity > 0 ? Rgba{channel(red), channel(green), channel(blue)} : Rgba{};
     }
   };
 

@@ -47,7 +47,7 @@ std::string find_font() {
 
 Lettering::Lettering() : font_(find_font()) {}
 
-void Lettering::draw(Canvas& canvas, const std::string& text, Point2 baseline, int size, Colour colour,
+void Lettering::draw(Canvas& canvas, const std::string& text, Point2 baseline, int size, Rgba colour,
                      Align align) const {
   if (!available()) return;
   const std::array<float, 3> rgb{colour.red / 255.0F, colour.green / 255.0F, colour.blue / 255.0F};
@@ -57,7 +57,7 @@ void Lettering::draw(Canvas& canvas, const std::string& text, Point2 baseline, i
                       rgb.data());
 }
 
-void Lettering::draw_with_rim(Canvas& canvas, const std::string& text, Point2 baseline, int size, Colour colour) const {
+void Lettering::draw_with_rim(Canvas& canvas, const std::string& text, Point2 baseline, int size, Rgba colour) const {
   for (const double dx : {-2.0, 0.0, 2.0})
     for (const double dy : {-2.0, 0.0, 2.0})
       draw(canvas, text, {baseline.x + dx, baseline.y + dy}, size, {255, 255, 255});

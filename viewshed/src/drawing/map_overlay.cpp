@@ -25,7 +25,7 @@ constexpr int kSteps = 5;
 constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
 
 /// The rest of the palette, for observers.
-constexpr std::array<Colour, 7> kPalette{
+constexpr std::array<Rgba, 7> kPalette{
     {{0, 114, 178}, {230, 159, 0}, {0, 158, 115}, {204, 121, 167}, {86, 180, 233}, {213, 94, 0}, {240, 228, 66}}};
 
 /// The opacity of step i of n, weak to strong.
@@ -235,7 +235,7 @@ void MapOverlay::scale_probabilities() {
 void MapOverlay::scale_losses() {
   title_ = "Diffraction loss, up to dB";
   // Amber is for the undecided.
-  constexpr std::array<std::pair<int, Colour>, 5> kSteps{
+  constexpr std::array<std::pair<int, Rgba>, 5> kSteps{
       {{0, kPalette[0]}, {6, kPalette[4]}, {15, kPalette[2]}, {30, kPalette[6]}, {50, kPalette[5]}}};
   for (const auto& [most, colour] : kSteps) add_step(most, {colour, kOpacity}, fmt::format("{}", most));
   add_step(kInfinity, {kPalette[3], kOpacity}, fmt::format("> {}", kSteps.back().first));

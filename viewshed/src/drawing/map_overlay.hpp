@@ -14,12 +14,12 @@ namespace itin::viewshed {
 
 /// From the palette of Okabe and Ito, told apart with every kind of colour blindness; visible is also darker than what
 /// is hidden, for grey print.
-inline constexpr Colour kSeenColour{0, 114, 178};
-inline constexpr Colour kUndecidedColour{230, 159, 0};
-inline constexpr Colour kZoneCutColour{204, 121, 167};
+inline constexpr Rgba kSeenColour{0, 114, 178};
+inline constexpr Rgba kUndecidedColour{230, 159, 0};
+inline constexpr Rgba kZoneCutColour{204, 121, 167};
 
 struct Tint {
-  Colour colour = kSeenColour;
+  Rgba colour = kSeenColour;
   double opacity = 0;
 };
 

@@ -15,7 +15,7 @@ namespace {
 
 /// This share of the picture's longer side is left free around the surface.
 constexpr double kFrame = 0.02;
-constexpr Colour kPaper{255, 255, 255};
+constexpr Rgba kPaper{255, 255, 255};
 
 /// Parallel rays: metres in the picture's plane, and away from the viewer.
 class ParallelView {

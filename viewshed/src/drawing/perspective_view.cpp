@@ -11,7 +11,7 @@ namespace itin::viewshed {
 
 namespace {
 
-constexpr Colour kSkyColour{214, 228, 240};
+constexpr Rgba kSkyColour{214, 228, 240};
 /// What is nearer to the eye than this is not drawn, metres.
 constexpr double kNearest = 0.1;
 constexpr double kHeightOfWidth = 9.0 / 16;
@@ -38,7 +38,7 @@ class PerspectiveView {
     for (std::uint32_t v = 0; v < tin_.vertices.size(); ++v) seen.push_back(project(tin_.point(v)));
     for (const Triangle& t : tin_.triangles) {
       const std::vector<Point3> corners = in_front({seen[t[0]], seen[t[1]], seen[t[2]]});
-      const Colour colour = colours.of(t);
+      const Rgba colour = colours.of(t);
       for (std::size_t i = 2; i < corners.size(); ++i)
         picture.fill({in_plane(corners[0], picture), in_plane(corners[i - 1], picture), in_plane(corners[i], picture)},
                      colour, options_.edges);

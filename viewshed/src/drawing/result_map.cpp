@@ -12,7 +12,7 @@ namespace itin::viewshed {
 
 namespace {
 
-ResultMap::Colour colour_of(const Tint& tint) {
+Rgba colour_of(const Tint& tint) {
   return {tint.colour.red, tint.colour.green, tint.colour.blue,
           static_cast<std::uint8_t>(std::lround(255 * tint.opacity))};
 }
@@ -27,12 +27,12 @@ std::string key_text(const std::string& what, std::uint64_t cells, std::uint64_t
 ResultMap result_map(const Result& result, const MapOptions& options) {
   const MapOverlay overlay(result, options);
   ResultMap map;
-  map.cells.resize(result.grid.cell_count());
+  map.cells.resize(result.grid.cell_count(), kClear);
   for (std::size_t i = 0; i < map.cells.size(); ++i)
     if (const auto tint = overlay.at(i)) map.cells[i] = colour_of(*tint);
   const std::uint64_t decided = std::max<std::uint64_t>(1, result.cells.in_view());
   for (const MapOverlay::Key& key : overlay.keys()) {
-    map.keys.push_back({key.tints.empty() ? ResultMap::Colour{} : colour_of(key.tints.back()),
+    map.keys.push_back({key.tints.empty() ? kClear : colour_of(key.tints.back()),
                         key_text(key.text, key.cells, decided, result.grid.cell_area())});
   }
   map.scale_title = overlay.scale_title();
@@ -44,17 +44,16 @@ ResultMap result_map(const VisibilityIndex& index) {
   const std::vector<ValueBand> bands = share_bands();
   std::vector<std::uint64_t> cells(bands.size());
   ResultMap map;
-  map.cells.resize(index.share.size());
+  map.cells.resize(index.share.size(), kClear);
   for (std::size_t i = 0; i < index.share.size(); ++i) {
     if (std::isnan(index.share[i])) continue;
     const std::size_t b = band_of(bands, index.share[i]);
     ++cells[b];
-    if (bands[b].alpha > 0) map.cells[i] = {bands[b].red, bands[b].green, bands[b].blue, kAlphaOverRelief};
+    map.cells[i] = over_relief(bands[b].colour);
   }
   for (std::size_t b = 0; b < bands.size(); ++b) {
-    const std::uint8_t alpha = bands[b].alpha > 0 ? kAlphaOverRelief : std::uint8_t{0};
     map.keys.push_back(
-        {{bands[b].red, bands[b].green, bands[b].blue, alpha},
+        {over_relief(bands[b].colour),
          key_text(bands[b].label, cells[b], std::max<std::uint64_t>(1, index.observers), index.grid.cell_area())});
   }
   return map;

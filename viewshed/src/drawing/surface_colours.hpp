@@ -21,12 +21,12 @@ class SurfaceColours {
   SurfaceColours(const Tin& tin, double azimuth, const std::vector<ThemeKind>& kinds);
 
   /// Ground has one colour, and so have walls; each kind of theme has its own.
-  Colour of(const Triangle& t) const;
+  Rgba of(const Triangle& t) const;
 
  private:
   const Tin& tin_;
   std::array<double, 3> light_;
-  std::vector<Colour> of_themes_;  ///< by number, from 1
+  std::vector<Rgba> of_themes_;  ///< by number, from 1
 };
 
 }  // namespace itin::viewshed

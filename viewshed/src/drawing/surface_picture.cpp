@@ -17,7 +17,7 @@ using Corner = SurfacePicture::Corner;
 constexpr double kEdge = 0.8;
 constexpr double kEdgeShade = 0.45;
 
-Colour darker(const Colour& c) {
+Rgba darker(const Rgba& c) {
   const auto part = [](std::uint8_t value) { return static_cast<std::uint8_t>(std::lround(value * kEdgeShade)); };
   return {part(c.red), part(c.green), part(c.blue)};
 }
@@ -52,18 +52,18 @@ void require_drawable(const Tin& tin, int pixels) {
   if (tin.triangles.empty()) throw InputError("there is no ground in the window, so nothing to draw");
 }
 
-SurfacePicture::SurfacePicture(int width, int height, Colour background)
+SurfacePicture::SurfacePicture(int width, int height, Rgba background)
     : width_(width * kSamples), height_(height * kSamples) {
   colours_.assign(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_), background);
   depths_.assign(colours_.size(), kFloatInfinity);
 }
 
-void SurfacePicture::fill(const std::array<Corner, 3>& given, Colour colour, bool edges) {
+void SurfacePicture::fill(const std::array<Corner, 3>& given, Rgba colour, bool edges) {
   std::array<Corner, 3> s = given;
   for (Corner& corner : s) corner.x -= 0.5, corner.y -= 0.5;  // samples lie at the middle of their squares
   const double area = (s[1].x - s[0].x) * (s[2].y - s[0].y) - (s[2].x - s[0].x) * (s[1].y - s[0].y);
   if (area == 0) return;
-  const Colour edge = darker(colour);
+  const Rgba edge = darker(colour);
   const std::array<double, 3> edge_weights = weights_within(kEdge, s, area);
   const auto [low, high] = std::minmax({s[0].y, s[1].y, s[2].y});
   const int last = static_cast<int>(std::min(height_ - 1.0, std::floor(high)));
@@ -99,7 +99,7 @@ void SurfacePicture::add_pixel(int x, int y, std::vector<std::uint8_t>& rgb) con
     for (int i = 0; i < kSamples; ++i) {
       const std::size_t at = static_cast<std::size_t>(y * kSamples + j) * static_cast<std::size_t>(width_) +
                              static_cast<std::size_t>(x * kSamples + i);
-      const Colour& c = colours_[at];
+      const Rgba& c = colours_[at];
       sums[0] += c.red, sums[1] += c.green, sums[2] += c.blue;
     }
   }

@@ -30,20 +30,20 @@ class SurfacePicture {
   };
 
   /// Pixels.
-  SurfacePicture(int width, int height, Colour background);
+  SurfacePicture(int width, int height, Rgba background);
 
   double width() const { return width_; }    ///< samples
   double height() const { return height_; }  ///< samples
   /// Takes the samples whose centres the triangle covers and that nothing nearer has taken. With `edges`, those near a
   /// side are darker.
-  void fill(const std::array<Corner, 3>& corners, Colour colour, bool edges);
+  void fill(const std::array<Corner, 3>& corners, Rgba colour, bool edges);
   MapImage image() const;
 
  private:
   void add_pixel(int x, int y, std::vector<std::uint8_t>& rgb) const;
 
   int width_, height_;  ///< samples
-  std::vector<Colour> colours_;
+  std::vector<Rgba> colours_;
   std::vector<float> depths_;
 };
 

@@ -71,11 +71,9 @@ void write_polygons(const std::string& path, const Result& result, const std::st
       values = marked;
     }
     description.classes = std::move(classes);
-    for (std::size_t i = 0; i < description.classes.size() && description.classes.size() > 1; ++i) {
-      RegionClass& c = description.classes[i];
-      set_distinct_colour(i, c.red, c.green, c.blue);
-    }
-    if (!no_data.empty()) description.classes.push_back({kNoData, "no ground data", 160, 160, 160});
+    for (std::size_t i = 0; i < description.classes.size() && description.classes.size() > 1; ++i)
+      description.classes[i].colour = distinct_colour(i);
+    if (!no_data.empty()) description.classes.push_back({kNoData, "no ground data", {160, 160, 160}});
     write_regions(path, result.grid, values, description);
   };
   switch (result.request.mode) {

@@ -15,10 +15,10 @@ namespace itin::viewshed {
 
 /// Those of cells in view that the result's mode may have.
 inline std::vector<RasterClass> verdict_classes(const Result& result) {
-  constexpr Colour kHiddenColour{225, 225, 225};
+  constexpr Rgba kHiddenColour{225, 225, 225};
   std::vector<RasterClass> classes;
-  const auto add = [&](Verdict verdict, std::string name, Colour colour) {
-    classes.push_back({code_of(verdict), std::move(name), colour.red, colour.green, colour.blue});
+  const auto add = [&](Verdict verdict, std::string name, Rgba colour) {
+    classes.push_back({code_of(verdict), std::move(name), colour});
   };
   const bool zones = result.request.mode == Mode::kFresnel;
   const std::string certainly = result.certified ? "certainly " : "";

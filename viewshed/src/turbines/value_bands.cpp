@@ -14,29 +14,22 @@ namespace itin::viewshed {
 
 namespace {
 
-struct Colour {
-  std::uint8_t red, green, blue;
-};
-
 // From few to many, told apart over a grey base map with every kind of colour blindness (after Okabe and Ito).
-constexpr std::array<Colour, 8> kBands{{{240, 228, 66},
-                                        {86, 180, 233},
-                                        {0, 158, 115},
-                                        {0, 114, 178},
-                                        {230, 159, 0},
-                                        {213, 94, 0},
-                                        {204, 121, 167},
-                                        {117, 30, 90}}};
+constexpr std::array<Rgba, 8> kBands{{{240, 228, 66},
+                                      {86, 180, 233},
+                                      {0, 158, 115},
+                                      {0, 114, 178},
+                                      {230, 159, 0},
+                                      {213, 94, 0},
+                                      {204, 121, 167},
+                                      {117, 30, 90}}};
 
 ValueBand none() {
-  return {0, "none", 0, 0, 0, 0};
+  return {0, "none", kClear};
 }
 
 void colour_bands(std::vector<ValueBand>& bands) {
-  for (std::size_t i = 1; i < bands.size(); ++i) {
-    const Colour& c = kBands[(i - 1) % kBands.size()];
-    bands[i].red = c.red, bands[i].green = c.green, bands[i].blue = c.blue;
-  }
+  for (std::size_t i = 1; i < bands.size(); ++i) bands[i].colour = kBands[(i - 1) % kBands.size()];
 }
 
 std::string style(const std::string& renderer) {
@@ -86,18 +79,15 @@ std::size_t band_of(const std::vector<ValueBand>& bands, double value) {
   return static_cast<std::size_t>(std::min(band, bands.end() - 1) - bands.begin());
 }
 
-void set_distinct_colour(std::size_t index, std::uint8_t& red, std::uint8_t& green, std::uint8_t& blue) {
-  if (index < kBands.size()) {
-    red = kBands[index].red, green = kBands[index].green, blue = kBands[index].blue;
-    return;
-  }
+Rgba distinct_colour(std::size_t index) {
+  if (index < kBands.size()) return kBands[index];
   // Further ones by golden angles about the circle of hues.
   const double hue = std::fmod(static_cast<double>(index) * 0.61803398875, 1.0) * 6;
   const auto channel = [&](double shift) {
     const double d = std::abs(std::fmod(hue + shift, 6.0) - 3) - 1;
     return static_cast<std::uint8_t>(60 + 160 * std::clamp(d, 0.0, 1.0));
   };
-  red = channel(0), green = channel(4), blue = channel(2);
+  return {channel(0), channel(4), channel(2)};
 }
 
 std::string banded_style(const std::vector<ValueBand>& bands) {
@@ -111,8 +101,8 @@ std::string banded_style(const std::vector<ValueBand>& bands) {
       last);
   for (const ValueBand& b : bands)
     text += fmt::format("          <item value=\"{}\" label=\"{}\" color=\"#{:02x}{:02x}{:02x}\" alpha=\"{}\"/>\n",
-                        std::isfinite(b.to) ? fmt::format("{:.10g}", b.to) : "inf", escaped_markup(b.label), b.red,
-                        b.green, b.blue, b.alpha);
+                        std::isfinite(b.to) ? fmt::format("{:.10g}", b.to) : "inf", escaped_markup(b.label),
+                        b.colour.red, b.colour.green, b.colour.blue, b.colour.alpha);
   return style(text + "        </colorrampshader>\n      </rastershader>\n    </rasterrenderer>\n");
 }
 
@@ -123,7 +113,7 @@ std::string class_style(const std::vector<StyleClass>& classes) {
   for (const StyleClass& c : classes)
     text +=
         fmt::format("        <paletteEntry value=\"{}\" label=\"{}\" color=\"#{:02x}{:02x}{:02x}\" alpha=\"{}\"/>\n",
-                    c.value, escaped_markup(c.label), c.red, c.green, c.blue, c.alpha);
+                    c.value, escaped_markup(c.label), c.colour.red, c.colour.green, c.colour.blue, c.colour.alpha);
   return style(text + "      </colorPalette>\n    </rasterrenderer>\n");
 }
 

@@ -5,13 +5,15 @@
 #include <string>
 #include <vector>
 
+#include <itin/raster.hpp>
+
 namespace itin::viewshed {
 
 /// Values above the last band's limit up to this one.
 struct ValueBand {
   double to = 0;  ///< may be infinite
   std::string label;
-  std::uint8_t red = 0, green = 0, blue = 0, alpha = 255;
+  Rgba colour = {};
 };
 
 /// 0 (clear of colour), then 1 to `most` in bands up to these limits, the last one up to `most`; without limits in at
@@ -25,14 +27,14 @@ std::vector<ValueBand> share_bands();
 std::size_t band_of(const std::vector<ValueBand>& bands, double value);
 
 /// Hues that are told apart, for classes without an order.
-void set_distinct_colour(std::size_t index, std::uint8_t& red, std::uint8_t& green, std::uint8_t& blue);
+Rgba distinct_colour(std::size_t index);
 
 /// A QGIS layer style that draws a raster of values in these bands, or of classes.
 std::string banded_style(const std::vector<ValueBand>& bands);
 struct StyleClass {
   std::int64_t value = 0;
   std::string label;
-  std::uint8_t red = 0, green = 0, blue = 0, alpha = 255;
+  Rgba colour = {};
 };
 std::string class_style(const std::vector<StyleClass>& classes);
 

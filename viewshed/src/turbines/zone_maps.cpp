@@ -17,8 +17,7 @@ constexpr const char* kNone = "None visible";
 ZoneMap count_map(const Zone& zone, const std::vector<std::uint16_t>& counts) {
   ZoneMap map;
   const auto bands = count_bands(zone.request.turbines.size(), zone.request.count_bands);
-  for (const ValueBand& b : bands)
-    map.classes.push_back({b.to > 0 ? b.label : kNone, b.red, b.green, b.blue, b.alpha, 0});
+  for (const ValueBand& b : bands) map.classes.push_back({b.to > 0 ? b.label : kNone, b.colour, 0});
   map.class_of_cell.assign(counts.size(), kNoMapClass);
   for (std::size_t i = 0; i < counts.size(); ++i) {
     if (counts[i] == kCountOutside) continue;
@@ -34,17 +33,11 @@ ZoneMap farm_map(const Zone& zone, const Visibility& visibility, std::size_t mos
   std::vector<Combination> present = commonest_first(combinations_present(zone, {&farms}), cells);
   std::erase_if(present, [](const Combination& c) { return c.farms == 0; });
   ZoneMap map;
-  map.classes.push_back({kNone, 0, 0, 0, 0, cells[0]});
+  map.classes.push_back({kNone, kClear, cells[0]});
   std::map<std::uint32_t, std::uint8_t> class_of{{0, 0}, {kOutsideFarms, kNoMapClass}};
   for (std::size_t i = 0; i < present.size(); ++i) {
-    if (i <= most) {
-      ZoneMap::Class& c = map.classes.emplace_back();
-      c.label = i < most ? present[i].name : "other combinations";
-      if (i < most)
-        set_distinct_colour(i, c.red, c.green, c.blue);
-      else
-        c.red = c.green = c.blue = 90;
-    }
+    if (i < most) map.classes.push_back({present[i].name, distinct_colour(i), 0});
+    if (i == most) map.classes.push_back({"other combinations", {90, 90, 90}, 0});
     map.classes.back().cells += cells[present[i].farms];
     class_of[present[i].farms] = static_cast<std::uint8_t>(map.classes.size() - 1);
   }

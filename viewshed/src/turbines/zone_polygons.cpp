@@ -16,8 +16,7 @@ void write_bands(const std::string& path, const std::string& layer, const Zone& 
   const auto bands = count_bands(zone.request.turbines.size(), zone.request.count_bands);
   RegionDescription description{options.crs_wkt, layer, {}, true};
   for (std::size_t b = 1; b < bands.size(); ++b)
-    description.classes.push_back(
-        {static_cast<std::uint32_t>(b), bands[b].label, bands[b].red, bands[b].green, bands[b].blue});
+    description.classes.push_back({static_cast<std::uint32_t>(b), bands[b].label, bands[b].colour});
   constexpr std::uint8_t kOutsideBands = 255;
   std::vector<std::uint8_t> banded(counts.size());
   std::transform(counts.begin(), counts.end(), banded.begin(), [&](std::uint16_t count) {
@@ -30,10 +29,7 @@ void write_farm_polygons(const std::string& path, const Zone& zone, const std::v
                          const ZoneFileOptions& options) {
   RegionDescription description{options.crs_wkt, "farms", {}, true};
   for (const Combination& c : combinations_present(zone, {&farms}))
-    if (c.farms != 0) {
-      RegionClass& entry = description.classes.emplace_back(RegionClass{c.farms, c.name});
-      set_distinct_colour(description.classes.size() - 1, entry.red, entry.green, entry.blue);
-    }
+    if (c.farms != 0) description.classes.push_back({c.farms, c.name, distinct_colour(description.classes.size())});
   write_regions(path, zone.grid, std::span<const std::uint32_t>(farms), description);
 }
 

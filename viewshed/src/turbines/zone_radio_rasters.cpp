@@ -24,10 +24,10 @@ std::vector<ZoneFile> write_link_raster(const std::string& folder, const Zone& z
   RasterFolder files(folder, zone, options);
   if (study.links.empty()) return {};
   RasterDescription description;
-  description.classes = {{kLinkClear, "clear of links", 0, 0, 0, 0},
-                         {kLinkExcluded, "rotor within a second Fresnel zone", 213, 94, 0, 255}};
+  description.classes = {{kLinkClear, "clear of links", kClear},
+                         {kLinkExcluded, "rotor within a second Fresnel zone", {213, 94, 0}}};
   std::vector<StyleClass> style;
-  for (const RasterClass& c : description.classes) style.push_back({c.value, c.name, c.red, c.green, c.blue, c.alpha});
+  for (const RasterClass& c : description.classes) style.push_back({c.value, c.name, c.colour});
   files.write(
       "link-exclusion",
       fmt::format("1 where a rotor of radius {:g} m would come into the second Fresnel zone of a link at {:g} GHz "

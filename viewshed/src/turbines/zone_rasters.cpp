@@ -85,9 +85,7 @@ void write_counts(const Zone& zone, const Visibility& v, const std::string& suff
 
 /// Whether any turbine of the first 32 is seen: which one it is, QGIS's identify tool tells.
 std::string seen_style() {
-  ValueBand any{4294967295.0, "some turbine of the first 32 seen"};
-  set_distinct_colour(3, any.red, any.green, any.blue);
-  return banded_style({{0, "none", 0, 0, 0, 0}, any});
+  return banded_style({{0, "none", kClear}, {4294967295.0, "some turbine of the first 32 seen", distinct_colour(3)}});
 }
 
 void write_bits(const Zone& zone, const Visibility& v, const std::string& suffix, RasterFolder& folder) {
@@ -144,11 +142,9 @@ std::string style_of_commonest(const std::vector<std::uint32_t>& farms, std::vec
   present = commonest_first(std::move(present), cells_by_combination(farms));
   std::erase_if(present, [](const Combination& c) { return c.farms == 0; });
   present.resize(std::min(present.size(), kMostColours));
-  std::vector<StyleClass> style{{0, "none", 0, 0, 0, 0}};
-  for (std::size_t i = 0; i < present.size(); ++i) {
-    StyleClass& entry = style.emplace_back(StyleClass{present[i].farms, present[i].name});
-    set_distinct_colour(i, entry.red, entry.green, entry.blue);
-  }
+  std::vector<StyleClass> style{{0, "none", kClear}};
+  for (std::size_t i = 0; i < present.size(); ++i)
+    style.push_back({present[i].farms, present[i].name, distinct_colour(i)});
   return class_style(style);
 }
 
@@ -171,10 +167,9 @@ void write_farm_raster(const std::vector<std::uint32_t>& farms, const std::vecto
   std::vector<StyleClass> style;
   std::size_t index = 0;
   for (const Combination& c : present) {
-    RasterClass& entry = description.classes.emplace_back();
-    entry.value = static_cast<int>(c.farms), entry.name = c.name, entry.alpha = c.farms == 0 ? 0 : 255;
-    if (c.farms != 0) set_distinct_colour(index++, entry.red, entry.green, entry.blue);
-    style.push_back({c.farms, entry.name, entry.red, entry.green, entry.blue, entry.alpha});
+    const Rgba colour = c.farms == 0 ? kClear : distinct_colour(index++);
+    description.classes.push_back({static_cast<int>(c.farms), c.name, colour});
+    style.push_back({c.farms, c.name, colour});
   }
   std::vector<std::uint8_t> classes(farms.size());
   std::transform(farms.begin(), farms.end(), classes.begin(),
