@@ -48,8 +48,9 @@ class VisibilityVerb final : public Verb {
     writes(
         app.add_option(
                "-o,--output", output_,
-               "The raster to write (.tif), two bands: the share of the ground within the radius that an observer "
-               "at the cell's centre sees, 0 to 1, and its standard error; its QGIS style is written beside it (.qml)")
+               "The raster to write (.tif), three bands: the share of the ground within the radius that an observer "
+               "at the cell's centre certainly sees, 0 to 1; its standard error; and the share that is undecided, as "
+               "ground without data alone could hide it. Its QGIS style is written beside it (.qml)")
             ->type_name("FILE")
             ->required());
     app.add_option("--cell", cell_text_, "Distance of observers: the size of the raster's cells")
@@ -142,6 +143,7 @@ class VisibilityVerb final : public Verb {
     document["observers"] = index.observers;
     document["mean_share"] = index.mean;
     document["mean_share_standard_error"] = index.mean_error;
+    document["mean_share_undecided"] = index.mean_undecided;
     document["outputs"] = {output_, style_beside(output_)};
     if (!sheet_.file().empty()) document["outputs"].push_back(sheet_.file());
     document["statistics"] = {{"points_read", index.retrieval.points_read},
@@ -149,14 +151,21 @@ class VisibilityVerb final : public Verb {
                               {"triangles", index.triangles},
                               {"lines", index.lines}};
     result.text =
-        fmt::format("{}: {}\nseen on average by {}: {:.2f} % (+- {:.2f}) of the ground within {:g} m\n{}, {}; {}\n",
+        fmt::format("{}: {}\nseen on average by {}: {:.2f} % (+- {:.2f}) of the ground within {:g} m\n{}{}, {}; {}\n",
                     output_, readable_bytes(std::filesystem::file_size(output_)), counted(index.observers, "observer"),
-                    100 * index.mean, 100 * index.mean_error, request_.radius, counted(index.triangles, "triangle"),
-                    counted(index.lines, "line"), earth_.earth().convention());
+                    100 * index.mean, 100 * index.mean_error, request_.radius, undecided_in_words(index),
+                    counted(index.triangles, "triangle"), counted(index.lines, "line"), earth_.earth().convention());
     return result;
   }
 
  private:
+  static std::string undecided_in_words(const viewshed::VisibilityIndex& index) {
+    if (index.mean_undecided == 0) return "";
+    return fmt::format(
+        "undecided: {:.2f} %, which ground without data alone could hide; --nodata block or clear decides it\n",
+        100 * index.mean_undecided);
+  }
+
   void write_sheet(const Store& store, const viewshed::VisibilityIndex& index, Progress& progress) const {
     const StoreMetadata& metadata = store.metadata();
     ResultSheet sheet{index.grid,
@@ -174,6 +183,8 @@ class VisibilityVerb final : public Verb {
                    {"Targets", fmt::format("{} at random for each observer, {:g} m above the ground", request_.targets,
                                            request_.target_height)},
                    {"Radius", fmt::format("{:g} km", request_.radius / 1000)},
+                   {"Undecided", fmt::format("{:.2f} % on average, which ground without data alone could hide",
+                                             100 * index.mean_undecided)},
                    {"Earth", request_.earth.convention()}};
     block.sources = described(sources_in(store, index.grid.bounds(), request_.themes), metadata);
     write_file(sheet_.file(), draw_result_sheet(store, sheet, sheet_.papers().front(), sheet_, sheet_.file(), progress),
@@ -186,7 +197,7 @@ class VisibilityVerb final : public Verb {
   DetailOptions detail_;
   ThemeOptions themes_;
   EarthOptions earth_;
-  NoDataOption nodata_{{"block", "clear"}, "clear"};  // a sample knows no doubt
+  NoDataOption nodata_;
   SheetOptions sheet_;
   OutputPolicy policy_;
   viewshed::IndexRequest request_;

@@ -58,10 +58,12 @@ class VisibilityIndexTest : public testing::Test {
     for (std::size_t i = 0; i < a.share.size(); ++i) {
       ASSERT_TRUE(test::same_bits(a.share[i], b.share[i])) << "cell " << i;
       ASSERT_TRUE(test::same_bits(a.standard_error[i], b.standard_error[i])) << "cell " << i;
+      ASSERT_TRUE(test::same_bits(a.undecided[i], b.undecided[i])) << "cell " << i;
     }
     EXPECT_EQ(a.lines, b.lines);
     EXPECT_EQ(a.observers, b.observers);
     EXPECT_EQ(a.mean, b.mean);
+    EXPECT_EQ(a.mean_undecided, b.mean_undecided);
   }
 
   void expect_blocks_make_the_whole(IndexRequest request, const std::vector<std::uint64_t>& memories) const {
@@ -87,23 +89,25 @@ class VisibilityIndexTest : public testing::Test {
     const SampledSurface screen(full, request.earth, 0), ground(bare, request.earth, 0);
     const VisibilitySampler sampler(screen, ground, {request.radius, request.target_height, request.targets},
                                     request.nodata);
-    int visible = 0, hidden = 0;
+    int visible = 0, hidden = 0, undecided = 0;
     for (const Point2 eye : {Point2{301500, 197900}, {302225, 198725}, {301325, 197425}, {302800, 197300}}) {
       const std::optional<double> height = sampler.ground(eye);
       ASSERT_TRUE(height);
-      sampler.observe(eye, *height + request.height, 7, [&](Point2 target, bool seen) {
-        ++(seen ? visible : hidden);
-        EXPECT_EQ(seen_in_viewshed(store, request, eye, target), seen) << eye.x << ' ' << target.x << ' ' << target.y;
-        if (request.nodata == NoData::kClear) {
-          EXPECT_EQ(seen_along_line(store, request, eye, target), seen) << eye.x << ' ' << target.x << ' ' << target.y;
-        }
+      sampler.observe(eye, *height + request.height, 7, [&](Point2 target, Verdict verdict) {
+        visible += verdict == Verdict::kVisible, hidden += verdict == Verdict::kHidden;
+        undecided += verdict == Verdict::kUndecided;
+        EXPECT_EQ(verdict_in_viewshed(store, request, eye, target), verdict)
+            << eye.x << ' ' << target.x << ' ' << target.y;
+        EXPECT_EQ(verdict_along_line(store, request, eye, target), verdict)
+            << eye.x << ' ' << target.x << ' ' << target.y;
       });
     }
+    EXPECT_EQ(undecided > 0, request.nodata == NoData::kUnknown);
     EXPECT_GT(visible, 50);
     EXPECT_GT(hidden, 50);
   }
 
-  static bool seen_in_viewshed(const Store& store, const IndexRequest& index, Point2 eye, Point2 target) {
+  static Verdict verdict_in_viewshed(const Store& store, const IndexRequest& index, Point2 eye, Point2 target) {
     Request request;
     request.observers = {{"o", eye, index.height}};
     request.target_height = index.target_height;
@@ -111,20 +115,28 @@ class VisibilityIndexTest : public testing::Test {
     request.themes = index.themes;
     request.nodata = index.nodata;
     NoProgress progress;
-    return compute(store, request, progress).visible[0] == Verdict::kVisible;
+    return compute(store, request, progress).visible[0];
   }
 
-  static bool seen_along_line(const Store& store, const IndexRequest& index, Point2 eye, Point2 target) {
+  static Verdict verdict_along_line(const Store& store, const IndexRequest& index, Point2 eye, Point2 target) {
     const auto along = [&](const ThemeChoice& themes) {
       return profile::from_section(cross_section(store, eye, target, index.detail, themes));
     };
     profile::LosQuery query;
     query.from_height_m = index.height, query.to_height_m = index.target_height;
     query.earth = index.earth;
+    query.nodata = index.nodata;
     const bool standing = index.themes.includes_raised(store.metadata().themes);
-    // Missing ground alone leaves a line undecided.
-    return profile::analyse(along(index.themes), query, standing ? along(ThemeChoice::none()) : profile::Profile{})
-               .verdict != profile::SightVerdict::kHidden;
+    switch (profile::analyse(along(index.themes), query, standing ? along(ThemeChoice::none()) : profile::Profile{})
+                .verdict) {
+      case profile::SightVerdict::kVisible:
+        return Verdict::kVisible;
+      case profile::SightVerdict::kHidden:
+        return Verdict::kHidden;
+      case profile::SightVerdict::kUndecided:
+        return Verdict::kUndecided;
+    }
+    return Verdict::kOutside;
   }
 
   VisibilityIndex index(const IndexRequest& request) const {
@@ -142,7 +154,7 @@ class VisibilityIndexTest : public testing::Test {
     look.nodata = request.nodata;
     NoProgress progress;
     const CellCounts cells = compute(Store(path_), look, progress).cells;
-    return static_cast<double>(cells.visible) / static_cast<double>(cells.visible + cells.hidden);
+    return static_cast<double>(cells.visible) / static_cast<double>(cells.visible + cells.hidden + cells.undecided);
   }
 
   test::TemporaryDirectory directory_;
@@ -196,9 +208,9 @@ TEST_F(VisibilityIndexTest, ThreadsAndNeighboursDoNotMatter) {
 TEST_F(VisibilityIndexTest, BlocksMakeTheWhole) {
   import_hills();
   IndexRequest request{.area = Window::box({300500, 196500, 303500, 199500}), .cell_size = 150, .radius = 700};
-  for (const NoData rule : {NoData::kClear, NoData::kBlock}) {
+  for (const NoData rule : {NoData::kUnknown, NoData::kClear, NoData::kBlock}) {
     request.nodata = rule;
-    expect_blocks_make_the_whole(request, {40000, 18000});
+    expect_blocks_make_the_whole(request, {40000, 22000});
   }
   // At a tolerance the surface is no lattice; nor is it where houses stand.
   request.detail = Detail::tolerance(1);
@@ -206,7 +218,7 @@ TEST_F(VisibilityIndexTest, BlocksMakeTheWhole) {
   import_houses();
   request.detail = Detail::tolerance(0);
   request.themes = ThemeChoice::all();
-  for (const NoData rule : {NoData::kClear, NoData::kBlock}) {
+  for (const NoData rule : {NoData::kUnknown, NoData::kClear, NoData::kBlock}) {
     request.nodata = rule;
     expect_blocks_make_the_whole(request, {2000000, 800000});
   }
@@ -219,13 +231,16 @@ TEST_F(VisibilityIndexTest, BlocksMakeTheWhole) {
 TEST_F(VisibilityIndexTest, LinesAreThoseOfViewshedsAndLinesOfSight) {
   import_hills();
   IndexRequest request{.area = Window::all(), .height = 4, .radius = 1500, .targets = 200};
-  expect_lines_of_viewsheds(request);
-  request.nodata = NoData::kBlock;
-  expect_lines_of_viewsheds(request);
+  const auto expect_under_each_rule = [&] {
+    for (const NoData rule : {NoData::kUnknown, NoData::kBlock, NoData::kClear}) {
+      request.nodata = rule;
+      expect_lines_of_viewsheds(request);
+    }
+  };
+  expect_under_each_rule();
   import_houses();
-  request.nodata = NoData::kClear;
   request.themes = ThemeChoice::all();
-  expect_lines_of_viewsheds(request);
+  expect_under_each_rule();
 }
 
 TEST_F(VisibilityIndexTest, RaysFindNothingElse) {
@@ -240,9 +255,9 @@ TEST_F(VisibilityIndexTest, RaysFindNothingElse) {
       other(many, many, {1500, 0, 4000}, NoData::kClear);
   for (const Point2 eye : {Point2{301500, 197900}, {302225, 198725}, {301225, 197225}}) {
     ASSERT_TRUE(one.ground(eye) && other.ground(eye));
-    std::vector<bool> seen, seen_too;
-    one.observe(eye, *one.ground(eye) + 3, 1, [&](Point2, bool s) { seen.push_back(s); });
-    other.observe(eye, *other.ground(eye) + 3, 1, [&](Point2, bool s) { seen_too.push_back(s); });
+    std::vector<Verdict> seen, seen_too;
+    one.observe(eye, *one.ground(eye) + 3, 1, [&](Point2, Verdict v) { seen.push_back(v); });
+    other.observe(eye, *other.ground(eye) + 3, 1, [&](Point2, Verdict v) { seen_too.push_back(v); });
     EXPECT_EQ(seen, seen_too);
   }
 }
@@ -271,7 +286,6 @@ TEST_F(VisibilityIndexTest, WrongCallsAreRefused) {
   import_posts([](int, int) { return 50.0; });
   EXPECT_THROW(index({.area = Window::box({0, 0, 10, 10})}), InputError);
   EXPECT_THROW(index({.area = Window::all(), .cell_size = 0}), InputError);
-  EXPECT_THROW(index({.area = Window::all(), .nodata = NoData::kUnknown}), InputError);
   EXPECT_THROW(index({.area = Window::box({301000, 197000, 301010, 197010}), .cell_size = 30000}), InputError);
 }
 

@@ -30,7 +30,7 @@ struct IndexRequest {
   Earth earth = {};
   Detail detail = Detail::tolerance(0);
   ThemeChoice themes = ThemeChoice::none();
-  NoData nodata = NoData::kClear;  ///< kUnknown is refused: a sample knows no doubt
+  NoData nodata = NoData::kUnknown;
   /// To work in, about: where it does not hold all ground at once, this is read block by block of observers.
   std::uint64_t memory_bytes = ComputeOptions().memory_bytes;
 };
@@ -39,8 +39,10 @@ struct VisibilityIndex {
   RasterGrid grid;
   std::vector<float> share;           ///< of the ground within the radius, 0 to 1; NaN outside the area, or its ground
   std::vector<float> standard_error;  ///< of that: sqrt(p (1 - p) / n), with one target more of either kind
-  double mean = 0;                    ///< over the cells
+  std::vector<float> undecided;       ///< share that ground without data alone could hide, under kUnknown; NaN likewise
+  double mean = 0;                    ///< of the share seen, over the cells
   double mean_error = 0;              ///< the standard error of that, for these cells
+  double mean_undecided = 0;
   std::uint64_t observers = 0;
   std::uint64_t lines = 0;
   std::uint64_t triangles = 0;
@@ -53,7 +55,7 @@ struct VisibilityIndex {
 /// too little memory for a single observer), and what triangulate() throws.
 VisibilityIndex visibility_index(const Store& store, const IndexRequest& request, Progress& progress);
 
-/// Two bands, Float32: the share and its standard error; nodata NaN. Throws FileError.
+/// Three bands, Float32: the share, its standard error and the share undecided; nodata NaN. Throws FileError.
 void write_geotiff(const std::string& path, const VisibilityIndex& index, const IndexRequest& request,
                    const GeotiffOptions& options);
 

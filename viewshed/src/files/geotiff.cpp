@@ -203,12 +203,14 @@ void write_geotiff(const std::string& path, const Result& result, const GeotiffO
 void write_geotiff(const std::string& path, const VisibilityIndex& index, const IndexRequest& request,
                    const GeotiffOptions& options) {
   std::vector<float> values = index.share;
-  values.insert(values.end(), index.standard_error.begin(), index.standard_error.end());
+  for (const std::vector<float>* const band : {&index.standard_error, &index.undecided})
+    values.insert(values.end(), band->begin(), band->end());
   RasterDescription description;
   description.crs_wkt = options.crs_wkt;
   description.nodata = std::numeric_limits<double>::quiet_NaN();
   description.band_name = "share of the ground within the radius that is seen";
-  description.further_bands = {"standard error of the share"};
+  description.further_bands = {"standard error of the share",
+                               "share of that ground that ground without data alone could hide"};
   description.metadata = {{"radius_m", fmt::format("{:g}", request.radius)},
                           {"observer_height_m", fmt::format("{:g}", request.height)},
                           {"target_height_m", fmt::format("{:g}", request.target_height)},

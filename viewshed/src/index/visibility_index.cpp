@@ -32,7 +32,6 @@ void require_valid_index(const IndexRequest& request) {
   require(std::isfinite(request.radius) && request.radius > 0, "the radius must be positive, in metres");
   require(request.height >= 0 && request.target_height >= 0, "heights above the ground must not be negative");
   require(request.targets > 0, "give at least one target for each observer");
-  require(request.nodata != NoData::kUnknown, "ground without data must block or be clear for a visibility index");
 }
 
 /// The standard error of the share seen among targets on ground, with one more of either kind, so that none or all seen
@@ -55,6 +54,7 @@ class IndexWork {
         RasterGrid::aligned(request.area.is_all() ? extent_of(store) : request.area.bounds(), request.cell_size);
     index_.share.assign(index_.grid.cell_count(), kNoShare);
     index_.standard_error.assign(index_.grid.cell_count(), kNoShare);
+    index_.undecided.assign(index_.grid.cell_count(), kNoShare);
     const std::uint64_t rasters = std::min(request.memory_bytes, kBytesPerCell * index_.grid.cell_count());
     memory_ = std::max(request.memory_bytes / 4, request.memory_bytes - rasters);
   }
@@ -127,8 +127,11 @@ class IndexWork {
                         std::uint64_t{static_cast<std::uint32_t>(seed.x)} << 32 | static_cast<std::uint32_t>(seed.y));
     lines_ += tally.on_ground;
     if (tally.on_ground == 0) return;
-    index_.share[index_.grid.index(cell)] = static_cast<float>(tally.seen) / static_cast<float>(tally.on_ground);
-    index_.standard_error[index_.grid.index(cell)] = static_cast<float>(standard_error(tally));
+    const std::size_t i = index_.grid.index(cell);
+    const auto all = static_cast<float>(tally.on_ground);
+    index_.share[i] = static_cast<float>(tally.seen) / all;
+    index_.undecided[i] = static_cast<float>(tally.undecided) / all;
+    index_.standard_error[i] = static_cast<float>(standard_error(tally));
   }
 
   void summarise() {
@@ -139,6 +142,7 @@ class IndexWork {
       if (std::isnan(index_.share[i])) continue;
       ++index_.observers;
       index_.mean += index_.share[i];
+      index_.mean_undecided += index_.undecided[i];
       variance += double{index_.standard_error[i]} * index_.standard_error[i];
     }
     if (index_.observers == 0)
@@ -146,10 +150,11 @@ class IndexWork {
           "no target fell on ground: the radius reaches far beyond it; give a smaller one, or more targets");
     index_.lines = lines_;
     index_.mean /= static_cast<double>(index_.observers);
+    index_.mean_undecided /= static_cast<double>(index_.observers);
     index_.mean_error = std::sqrt(variance) / static_cast<double>(index_.observers);
   }
 
-  static constexpr std::uint64_t kBytesPerCell = 16;
+  static constexpr std::uint64_t kBytesPerCell = 24;
   static constexpr double kTriangulating = 0.3;  ///< its share of the time, about
 
   const Store& store_;

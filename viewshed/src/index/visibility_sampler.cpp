@@ -34,6 +34,10 @@ class Random {
   std::uint64_t state_;
 };
 
+std::int32_t southern_end(const RimEdge& edge) {
+  return std::min(edge.from.y, edge.to.y);
+}
+
 }  // namespace
 
 /// Lines to targets on ground; those at the eye's own place are seen without one.
@@ -45,8 +49,11 @@ struct VisibilitySampler::Packet {
 
 VisibilitySampler::VisibilitySampler(const SampledSurface& surface, const SampledSurface& ground,
                                      const Targets& targets, NoData nodata)
-    : surface_(surface), ground_(ground), targets_(targets) {
-  if (nodata == NoData::kBlock) rim_ = surface.rim();
+    : surface_(surface), ground_(ground), targets_(targets), rule_(nodata) {
+  if (rule_ == NoData::kClear) return;
+  rim_ = surface.rim();
+  std::ranges::sort(rim_, {}, southern_end);
+  for (const RimEdge& edge : rim_) longest_ = std::max(longest_, std::abs(edge.to.y - edge.from.y));
 }
 
 std::optional<double> VisibilitySampler::ground(Point2 place) const {
@@ -58,17 +65,19 @@ std::optional<double> VisibilitySampler::ground(Point2 place) const {
 /// Returns the part of the rim that lines within the radius may cross.
 std::vector<RimEdge> VisibilitySampler::rim_near(const Point3& eye) const {
   const double reach = targets_.radius / surface_.units().resolution + 1;
+  const auto first = std::ranges::lower_bound(rim_, eye.y - reach - longest_, {}, southern_end),
+             last = std::ranges::upper_bound(rim_, eye.y + reach, {}, southern_end);
   std::vector<RimEdge> near;
-  std::copy_if(rim_.begin(), rim_.end(), std::back_inserter(near), [&](const RimEdge& edge) {
+  std::copy_if(first, last, std::back_inserter(near), [&](const RimEdge& edge) {
     const auto& [a, b] = edge;
     return std::min(a.x, b.x) <= eye.x + reach && std::max(a.x, b.x) >= eye.x - reach &&
-           std::min(a.y, b.y) <= eye.y + reach && std::max(a.y, b.y) >= eye.y - reach;
+           std::max(a.y, b.y) >= eye.y - reach;
   });
   return near;
 }
 
 VisibilitySampler::Tally VisibilitySampler::observe(Point2 eye, double elevation, std::uint64_t seed,
-                                                    const TargetSeen& on_target) const {
+                                                    const TargetJudged& on_target) const {
   const Grid& units = surface_.units();
   const Point3 from{easting_in_units(units, eye.x), northing_in_units(units, eye.y), elevation / units.resolution};
   Random random(seed);
@@ -93,15 +102,23 @@ VisibilitySampler::Tally VisibilitySampler::observe(Point2 eye, double elevation
       lines.to_z[i] = (*height + targets_.height) / units.resolution;
       if (!same_place(lines.to_x[i] - from.x, lines.to_y[i] - from.y)) lines.active |= 1U << i;
     }
-    unsigned hidden = surface_.hidden(packet.lines, work);
+    unsigned hidden = surface_.hidden(packet.lines, work), undecided = 0;
     for_each_bit(packet.lines.active & ~hidden, [&](unsigned i) {
-      if (behind_voids.holds(packet.lines.to_x[i], packet.lines.to_y[i])) hidden |= 1U << i;
+      if (!behind_voids.holds(packet.lines.to_x[i], packet.lines.to_y[i])) return;
+      (rule_ == NoData::kBlock ? hidden : undecided) |= 1U << i;
     });
+    const unsigned seen = packet.on_ground & ~hidden & ~undecided;
     tally.asked += size;
     tally.on_ground += static_cast<unsigned>(std::popcount(packet.on_ground));
-    tally.seen += static_cast<unsigned>(std::popcount(packet.on_ground & ~hidden));
-    if (on_target)
-      for_each_bit(packet.on_ground, [&](unsigned i) { on_target(packet.targets[i], (hidden >> i & 1) == 0); });
+    tally.seen += static_cast<unsigned>(std::popcount(seen));
+    tally.undecided += static_cast<unsigned>(std::popcount(undecided));
+    if (!on_target) continue;
+    for_each_bit(packet.on_ground, [&](unsigned i) {
+      const unsigned bit = 1U << i;
+      on_target(packet.targets[i], (seen & bit) != 0        ? Verdict::kVisible
+                                   : (undecided & bit) != 0 ? Verdict::kUndecided
+                                                            : Verdict::kHidden);
+    });
   }
   return tally;
 }

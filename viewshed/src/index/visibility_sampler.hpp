@@ -18,6 +18,7 @@ class VisibilitySampler {
     unsigned asked = 0;      ///< targets within the radius
     unsigned on_ground = 0;  ///< of these
     unsigned seen = 0;       ///< of those
+    unsigned undecided = 0;  ///< of those: ground without data alone could hide them
   };
 
   /// The targets of every eye.
@@ -32,11 +33,11 @@ class VisibilitySampler {
   /// The ground under a place, metres.
   std::optional<double> ground(Point2 place) const;
 
-  /// Called with every target on ground, metres, and whether it is seen.
-  using TargetSeen = std::function<void(Point2 target, bool seen)>;
+  /// Called with every target on ground, metres: visible, hidden or undecided.
+  using TargetJudged = std::function<void(Point2 target, Verdict verdict)>;
   /// Tests lines from an eye at this elevation, metres, to targets spread evenly over the disc about it. A seed always
   /// gives the same targets. Safe for concurrent use.
-  Tally observe(Point2 eye, double elevation, std::uint64_t seed, const TargetSeen& on_target = nullptr) const;
+  Tally observe(Point2 eye, double elevation, std::uint64_t seed, const TargetJudged& on_target = nullptr) const;
 
  private:
   struct Packet;
@@ -45,7 +46,9 @@ class VisibilitySampler {
   const SampledSurface& surface_;
   const SampledSurface& ground_;
   Targets targets_;
-  std::vector<RimEdge> rim_;  ///< where ground without data hides
+  NoData rule_;
+  std::vector<RimEdge> rim_;  ///< from south to north, where ground without data matters
+  std::int32_t longest_ = 0;  ///< of its edges, from south to north
 };
 
 }  // namespace itin::viewshed
