@@ -288,12 +288,13 @@ class ViewshedVerb final : public Verb {
 
   void validate_precise() {
     compute_options_.memory_bytes = memory_.bytes().value_or(compute_options_.memory_bytes);
-    if (!precise_) return;
-    if (certified_)
+    const bool exact = !certified_ && !detail_.has_rings() && !request_detail_given();
+    if (precise_ && certified_)
       throw InputError(
           "--precise is exact, and --mode certified says what a tolerance leaves open: give one of the two");
-    if (detail_.has_rings() || request_detail_given())
+    if (precise_ && !exact)
       throw InputError("--precise is exact for the full surface: leave out --tolerance and --rings");
+    precise_ = exact;  // whether or not it was asked for by this name
   }
   bool request_detail_given() const { return detail_.detail({}).coarsest() > 0; }
 
