@@ -143,9 +143,8 @@ class ProfileVerb final : public Verb {
   }
 
   Result execute(Progress& progress) override {
-    for (const std::string& output : outputs_) policy_.require_writable(output);
+    for (const std::string& output : outputs()) policy_.require_writable(output);
     if (!triangles_.empty()) require_tin_output(triangles_, policy_.overwrite);
-    if (!picture_.path().empty()) policy_.require_writable(picture_.path());
     const Store store(store_, cache_within(memory_.bytes()));
     const std::vector<Point2> corners = corners_in(store.metadata());
     Result result;

@@ -80,7 +80,7 @@ class TinVerb final : public Verb {
   }
 
   Result execute(Progress& progress) override {
-    if (!picture_.path().empty()) policy_.require_writable(picture_.path());
+    for (const std::string& path : outputs()) policy_.require_writable(path);
     if (kind_) {
       require_topology_output(output_, policy_.overwrite);
     } else if (!lines_.empty()) {
