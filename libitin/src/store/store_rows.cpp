@@ -37,7 +37,7 @@ int checked_version(const std::string& path, std::uint64_t file_bytes) {
   constexpr std::string_view magic("SQLite format 3\0", 16);
   const auto read = static_cast<std::size_t>(file.gcount());
   if (std::memcmp(header.data(), magic.data(), std::min(read, magic.size())) != 0 || read == 0) {
-    throw StoreFormatError(path, "is not an itin store; make one with itin import");
+    throw StoreFormatError(path, "is not an itin store; name one that itin import made, or a new file to import into");
   }
   if (read < kHeaderBytes) throw CorruptStore(path, "header", "is cut short; restore a copy or import again");
   if (big_endian(header, 68) != format::kApplicationId) {
