@@ -158,7 +158,7 @@ class LosVerb final : public Verb {
     const profile::LinkTable table = links_.table(store, line_);
     std::vector<LosReports::Job> jobs = reports_.jobs(table.links, policy_);
     const LosLinks::Page page{reports_.title(), facts_of_links(store)};
-    const profile::LinkQuery links = links_.query(query_, line_);
+    const profile::LinkQuery links = LosLinks::query(query_, line_);
     LosLinks::Survey survey = links_.run(store, table, links, page, policy_.overwrite, progress);
     const bool radio = query_.radio || std::any_of(table.links.begin(), table.links.end(),
                                                    [](const profile::Link& l) { return l.frequency_ghz.has_value(); });
