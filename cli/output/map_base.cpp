@@ -21,7 +21,6 @@ namespace {
 constexpr double kPixel = 0.00025;    ///< metres on paper
 constexpr std::int64_t kCoarser = 3;  ///< pixels a side, whose mean contours follow
 constexpr Rgba kContour{150, 105, 60, 150};
-constexpr Rgba kClear{0, 0, 0, 0};
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 
 struct Heights {
@@ -77,7 +76,7 @@ void add_contours(const Heights& heights, MapBase& base) {
 /// Clear where there is no ground.
 profile::SheetCells shaded(const viewshed::Relief& ground) {
   constexpr double kLevelGrey = 226, kContrast = 90;
-  profile::SheetCells cells{ground.pixels, std::vector<Rgba>(ground.pixels.cell_count(), kClear)};
+  profile::SheetCells cells{ground.pixels, std::vector<Rgba>(ground.pixels.cell_count(), kTransparent)};
   for (std::size_t i = 0; i < cells.colours.size(); ++i) {
     if (std::isnan(ground.shades[i])) continue;
     const double grey = kLevelGrey + kContrast * (ground.shades[i] - viewshed::kLevelShade);

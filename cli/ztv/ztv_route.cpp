@@ -137,7 +137,7 @@ void survey(Route& route, const SectionSurface& ground, const SectionSurface* fe
   const std::vector<std::size_t> all = all_turbines(zone);
   for (const RoutePlace& p : route.places) {
     progress.throw_if_cancelled();
-    progress.report("route " + route.name,
+    progress.report(fmt::format("route {}", route.number),
                     static_cast<double>(route.bare.size()) / static_cast<double>(route.places.size()));
     const CrossSection here = ground.between(p.position, p.position);
     const bool known = !here.breakpoints.empty();
@@ -197,15 +197,17 @@ std::vector<viewshed::ZoneFile> RouteOptions::write(const std::string& folder, c
   std::size_t number = 0;
   for (const Path& path : read_paths(path_, metadata.crs_wkt)) {
     Route route;
-    route.name = path.name, route.number = ++number;
+    route.number = ++number;
+    route.name = path.name.empty() ? fmt::format("route {}", route.number) : path.name;
     const std::vector<double> at = distances_along(path.corners);
     route.length = at.back();
     route.places = places_along(path.corners, at, every_);
     survey(route, ground, features ? &*features : nullptr, zone, progress);
     if (std::none_of(route.bare.begin(), route.bare.end(), [](const Found& f) { return f.has_value(); }))
-      throw InputError(fmt::format("{}: route {} lies off the data", path_, route.name));
-    const std::string stem = file_name(fmt::format("route-{}-{}", route.number, route.name));
-    const std::string what = fmt::format("route {}, {}", route.number, route.name);
+      throw InputError(fmt::format("{}: {} lies off the data", path_, route.name));
+    const std::string stem = file_name(path.name.empty() ? fmt::format("route-{}", route.number)
+                                                         : fmt::format("route-{}-{}", route.number, path.name));
+    const std::string what = path.name.empty() ? route.name : fmt::format("route {}, {}", route.number, path.name);
     add(stem + ".csv", what + ": hubs and tips visible place by place", table_of(route, zone, national));
     const auto draw = [&](const std::vector<Found>& found, const std::string& suffix, const std::string& surface) {
       profile::RouteChart chart;

@@ -155,7 +155,7 @@ viewshed::ResultMap classes_of(const Zone& zone, const ZoneMap& map) {
                      100.0 * static_cast<double>(c.cells) / static_cast<double>(std::max<std::uint64_t>(1, all)))});
   }
   for (const std::uint8_t c : map.class_of_cell)
-    result.cells.push_back(c == viewshed::kNoMapClass ? kClear : result.keys[c].colour);
+    result.cells.push_back(c == viewshed::kNoMapClass ? kTransparent : result.keys[c].colour);
   return result;
 }
 

@@ -98,7 +98,7 @@ struct Rgba {
 
   friend bool operator==(const Rgba&, const Rgba&) = default;
 };
-inline constexpr Rgba kClear{0, 0, 0, 0};
+inline constexpr Rgba kTransparent{0, 0, 0, 0};
 
 /// A value that stands for a class.
 struct RasterClass {

@@ -13,7 +13,8 @@ namespace itin {
 
 struct Path {
   std::int64_t feature = 0;     ///< the file's own number for it
-  std::string name;             ///< its `name` or `id` field, else its number
+  std::string id;               ///< its `id` or `name` field, else its number
+  std::string name;             ///< its `name` or `id` field; may be empty
   std::vector<Point2> corners;  ///< at least two, in the CRS asked for
 };
 

@@ -247,7 +247,7 @@ bool is_table(const std::string& path) {
 std::vector<Link> read_lines(const std::string& path, const std::string& to_crs, const LinkHeights& heights) {
   std::vector<Link> links;
   for (const Path& line : read_paths(path, to_crs))
-    links.push_back({line.name, line.corners.front(), heights.from_m, line.corners.back(), heights.to_m});
+    links.push_back({line.id, line.corners.front(), heights.from_m, line.corners.back(), heights.to_m});
   return links;
 }
 

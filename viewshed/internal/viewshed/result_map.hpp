@@ -15,7 +15,7 @@ namespace itin::viewshed {
 
 /// A class's colour, if it has one, through which the relief below it shows.
 constexpr Rgba over_relief(const Rgba& colour) {
-  return colour.alpha > 0 ? Rgba{colour.red, colour.green, colour.blue, 165} : kClear;
+  return colour.alpha > 0 ? Rgba{colour.red, colour.green, colour.blue, 165} : kTransparent;
 }
 
 struct ResultMap {

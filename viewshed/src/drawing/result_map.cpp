@@ -27,12 +27,12 @@ std::string key_text(const std::string& what, std::uint64_t cells, std::uint64_t
 ResultMap result_map(const Result& result, const MapOptions& options) {
   const MapOverlay overlay(result, options);
   ResultMap map;
-  map.cells.resize(result.grid.cell_count(), kClear);
+  map.cells.resize(result.grid.cell_count(), kTransparent);
   for (std::size_t i = 0; i < map.cells.size(); ++i)
     if (const auto tint = overlay.at(i)) map.cells[i] = colour_of(*tint);
   const std::uint64_t decided = std::max<std::uint64_t>(1, result.cells.in_view());
   for (const MapOverlay::Key& key : overlay.keys()) {
-    map.keys.push_back({key.tints.empty() ? kClear : colour_of(key.tints.back()),
+    map.keys.push_back({key.tints.empty() ? kTransparent : colour_of(key.tints.back()),
                         key_text(key.text, key.cells, decided, result.grid.cell_area())});
   }
   map.scale_title = overlay.scale_title();
@@ -44,7 +44,7 @@ ResultMap result_map(const VisibilityIndex& index) {
   const std::vector<ValueBand> bands = share_bands();
   std::vector<std::uint64_t> cells(bands.size());
   ResultMap map;
-  map.cells.resize(index.share.size(), kClear);
+  map.cells.resize(index.share.size(), kTransparent);
   for (std::size_t i = 0; i < index.share.size(); ++i) {
     if (std::isnan(index.share[i])) continue;
     const std::size_t b = band_of(bands, index.share[i]);

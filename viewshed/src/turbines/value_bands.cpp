@@ -25,7 +25,7 @@ constexpr std::array<Rgba, 8> kBands{{{240, 228, 66},
                                       {117, 30, 90}}};
 
 ValueBand none() {
-  return {0, "none", kClear};
+  return {0, "none", kTransparent};
 }
 
 void colour_bands(std::vector<ValueBand>& bands) {

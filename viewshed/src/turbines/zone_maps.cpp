@@ -33,7 +33,7 @@ ZoneMap farm_map(const Zone& zone, const Visibility& visibility, std::size_t mos
   std::vector<Combination> present = commonest_first(combinations_present(zone, {&farms}), cells);
   std::erase_if(present, [](const Combination& c) { return c.farms == 0; });
   ZoneMap map;
-  map.classes.push_back({kNone, kClear, cells[0]});
+  map.classes.push_back({kNone, kTransparent, cells[0]});
   std::map<std::uint32_t, std::uint8_t> class_of{{0, 0}, {kOutsideFarms, kNoMapClass}};
   for (std::size_t i = 0; i < present.size(); ++i) {
     if (i < most) map.classes.push_back({present[i].name, distinct_colour(i), 0});

@@ -24,7 +24,7 @@ std::vector<ZoneFile> write_link_raster(const std::string& folder, const Zone& z
   RasterFolder files(folder, zone, options);
   if (study.links.empty()) return {};
   RasterDescription description;
-  description.classes = {{kLinkClear, "clear of links", kClear},
+  description.classes = {{kLinkClear, "clear of links", kTransparent},
                          {kLinkExcluded, "rotor within a second Fresnel zone", {213, 94, 0}}};
   std::vector<StyleClass> style;
   for (const RasterClass& c : description.classes) style.push_back({c.value, c.name, c.colour});

@@ -85,7 +85,8 @@ void write_counts(const Zone& zone, const Visibility& v, const std::string& suff
 
 /// Whether any turbine of the first 32 is seen: which one it is, QGIS's identify tool tells.
 std::string seen_style() {
-  return banded_style({{0, "none", kClear}, {4294967295.0, "some turbine of the first 32 seen", distinct_colour(3)}});
+  return banded_style(
+      {{0, "none", kTransparent}, {4294967295.0, "some turbine of the first 32 seen", distinct_colour(3)}});
 }
 
 void write_bits(const Zone& zone, const Visibility& v, const std::string& suffix, RasterFolder& folder) {
@@ -142,7 +143,7 @@ std::string style_of_commonest(const std::vector<std::uint32_t>& farms, std::vec
   present = commonest_first(std::move(present), cells_by_combination(farms));
   std::erase_if(present, [](const Combination& c) { return c.farms == 0; });
   present.resize(std::min(present.size(), kMostColours));
-  std::vector<StyleClass> style{{0, "none", kClear}};
+  std::vector<StyleClass> style{{0, "none", kTransparent}};
   for (std::size_t i = 0; i < present.size(); ++i)
     style.push_back({present[i].farms, present[i].name, distinct_colour(i)});
   return class_style(style);
@@ -167,7 +168,7 @@ void write_farm_raster(const std::vector<std::uint32_t>& farms, const std::vecto
   std::vector<StyleClass> style;
   std::size_t index = 0;
   for (const Combination& c : present) {
-    const Rgba colour = c.farms == 0 ? kClear : distinct_colour(index++);
+    const Rgba colour = c.farms == 0 ? kTransparent : distinct_colour(index++);
     description.classes.push_back({static_cast<int>(c.farms), c.name, colour});
     style.push_back({c.farms, c.name, colour});
   }

@@ -17,12 +17,13 @@ namespace itin {
 
 namespace {
 
-std::string name_of(const OGRFeature& feature) {
-  for (const char* field : {"id", "name"}) {
+/// The first of two fields that has a value, else the text.
+std::string first_of(const OGRFeature& feature, const char* first, const char* second, const std::string& otherwise) {
+  for (const char* field : {first, second}) {
     const int index = feature.GetFieldIndex(field);
     if (index >= 0 && feature.IsFieldSetAndNotNull(index)) return feature.GetFieldAsString(index);
   }
-  return std::to_string(feature.GetFID());
+  return otherwise;
 }
 
 const OGRLineString* line_of(const OGRFeature& feature) {
@@ -37,7 +38,10 @@ const OGRLineString* line_of(const OGRFeature& feature) {
 Path path_of(const OGRFeature& feature, const std::string& place, const CoordinateTransform* transform) {
   const OGRLineString* line = line_of(feature);
   if (line == nullptr || line->getNumPoints() < 2) throw FileError(place, "is not one line of two or more points");
-  Path path{feature.GetFID(), name_of(feature), {}};
+  Path path{feature.GetFID(),
+            first_of(feature, "id", "name", std::to_string(feature.GetFID())),
+            first_of(feature, "name", "id", ""),
+            {}};
   for (int i = 0; i < line->getNumPoints(); ++i) {
     const Point2 p{line->getX(i), line->getY(i)};
     try {

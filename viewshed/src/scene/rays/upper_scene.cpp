@@ -71,9 +71,13 @@ class UpperScene::Impl {
     const double sag = drop == 0 ? 0 : kSag;
     frame_ = {tessellation.centre, drop, -(sag / tin.grid.resolution + rounding_error(tessellation.half_height, 0)),
               -kRounding * kRoundings};
-    attach_surface(tessellation);
-    attach_walls(walls_under(tin, boundary_, tessellation, drop));
-    if (drift > 0) attach_boxes(boxes_about(tin, boundary_, tessellation, drop, 2 * drift));
+    attach<&Impl::of_surface>(tessellation.vertices, tessellation.indices);
+    const Barrier walls = walls_under(tin, boundary_, tessellation, drop);
+    attach<&Impl::of_wall>(walls.vertices, walls.indices);
+    if (drift > 0) {
+      const Barrier boxes = boxes_about(tin, boundary_, tessellation, drop, 2 * drift);
+      attach<&Impl::of_box>(boxes.vertices, boxes.indices);
+    }
     parents_ = std::move(tessellation.parents);
     embree_.commit();
   }
@@ -109,20 +113,57 @@ class UpperScene::Impl {
     return result;
   }
 
-  /// Keeps a hit, or only takes down what it means for the piece of the surface that was hit.
-  static bool collect(const RTCFilterFunctionNArguments* arguments, PacketContext& packet, unsigned line, unsigned i,
-                      std::size_t piece, bool enters) {
-    if (packet.events == nullptr) return true;
-    (*packet.events)[line].push_back(
-        {RTCRayN_tfar(arguments->ray, arguments->N, i), enters, static_cast<std::uint32_t>(piece)});
-    return false;
+  /// What a hit means: the line goes beneath a piece of the surface or comes out.
+  struct Crossing {
+    std::size_t piece;
+    bool enters;
+  };
+  /// What hit `i`, of one line of the packet, means.
+  using CrossingOf = Crossing (Impl::*)(const RTCFilterFunctionNArguments* arguments, const PacketContext& packet,
+                                        unsigned line, unsigned i) const;
+
+  /// Takes down crossings where the packet collects them, and else keeps the hit.
+  template <CrossingOf crossing_of>
+  void attach(const std::vector<float>& vertices, const std::vector<std::uint32_t>& indices) {
+    if (indices.empty()) return;
+    const Geometry geometry = embree_.triangles(vertices, indices, this);
+    rtcSetGeometryOccludedFilterFunction(geometry.get(), [](const RTCFilterFunctionNArguments* arguments) {
+      const auto& self = *static_cast<const Impl*>(arguments->geometryUserPtr);
+      filter(arguments, [&](PacketContext& packet, unsigned line, unsigned i) {
+        if (packet.events == nullptr) return true;
+        const auto [piece, enters] = (self.*crossing_of)(arguments, packet, line, i);
+        (*packet.events)[line].push_back(
+            {RTCRayN_tfar(arguments->ray, arguments->N, i), enters, static_cast<std::uint32_t>(piece)});
+        return false;
+      });
+    });
+    embree_.attach(geometry);
+  }
+
+  Crossing of_surface(const RTCFilterFunctionNArguments* arguments, const PacketContext&, unsigned, unsigned i) const {
+    const std::uint32_t part = RTCHitN_primID(arguments->hit, arguments->N, i);
+    return {piece_of(parents_.empty() ? part : parents_[part]), goes_beneath(arguments, i)};
+  }
+
+  Crossing of_wall(const RTCFilterFunctionNArguments* arguments, const PacketContext& packet, unsigned line,
+                   unsigned i) const {
+    const std::size_t edge = RTCHitN_primID(arguments->hit, arguments->N, i) / kTrianglesPerWall;
+    return {piece_of(boundary_[edge].triangle), goes_inside(*packet.lines, line, outwards(edge, BoxFace::kRight))};
+  }
+
+  /// Every box is a piece of its own, after those of the surface.
+  Crossing of_box(const RTCFilterFunctionNArguments* arguments, const PacketContext& packet, unsigned line,
+                  unsigned i) const {
+    const std::uint32_t part = RTCHitN_primID(arguments->hit, arguments->N, i);
+    const std::size_t edge = part / kTrianglesPerBox;
+    const auto face = static_cast<BoxFace>(part % kTrianglesPerBox / 2);
+    return {pieces_.size() + 1 + edge, face == BoxFace::kTop ? goes_beneath(arguments, i)
+                                                             : goes_inside(*packet.lines, line, outwards(edge, face))};
   }
 
   std::size_t piece_of(std::uint32_t triangle) const {
     return static_cast<std::size_t>(std::upper_bound(pieces_.begin(), pieces_.end(), triangle) - pieces_.begin());
   }
-  /// Every box is a piece of its own, after those of the surface.
-  std::size_t piece_of_box(std::size_t edge) const { return pieces_.size() + 1 + edge; }
 
   /// Whether a line goes beneath the triangle that it hits, whose outer side is the upper one, whichever way Embree's
   /// normals point.
@@ -137,70 +178,16 @@ class UpperScene::Impl {
   }
   /// Whether a line goes through an upright face to the inside.
   static bool goes_inside(const SightLines& lines, unsigned line, Point2 outwards) {
-    return (lines.to_x[line] - lines.from_x[line]) * outwards.x +
-               (lines.to_y[line] - lines.from_y[line]) * outwards.y <=
-           0;
+    const double dx = lines.to_x[line] - lines.from_x[line], dy = lines.to_y[line] - lines.from_y[line];
+    return dx * outwards.x + dy * outwards.y <= 0;
   }
+  /// Where the outside of an upright face is.
   Point2 outwards(std::size_t edge, BoxFace face) const {
     const GridPoint &a = tin_.vertices[boundary_[edge].from], &b = tin_.vertices[boundary_[edge].to];
     const Point2 ahead{static_cast<double>(b.x) - a.x, static_cast<double>(b.y) - a.y};
-    switch (face) {
-      case BoxFace::kRight:
-        return {ahead.y, -ahead.x};
-      case BoxFace::kLeft:
-        return {-ahead.y, ahead.x};
-      case BoxFace::kAhead:
-        return ahead;
-      case BoxFace::kBack:
-        return {-ahead.x, -ahead.y};
-      case BoxFace::kTop:
-        break;
-    }
-    return {};
-  }
-
-  void attach_surface(const Tessellation& tessellation) {
-    const Geometry geometry = embree_.triangles(tessellation.vertices, tessellation.indices, this);
-    rtcSetGeometryOccludedFilterFunction(geometry.get(), [](const RTCFilterFunctionNArguments* arguments) {
-      const auto& self = *static_cast<const Impl*>(arguments->geometryUserPtr);
-      filter(arguments, [&](PacketContext& packet, unsigned line, unsigned i) {
-        const std::uint32_t part = RTCHitN_primID(arguments->hit, arguments->N, i);
-        const std::uint32_t triangle = self.parents_.empty() ? part : self.parents_[part];
-        return collect(arguments, packet, line, i, self.piece_of(triangle), goes_beneath(arguments, i));
-      });
-    });
-    embree_.attach(geometry);
-  }
-
-  void attach_walls(const Barrier& walls) {
-    if (walls.indices.empty()) return;
-    const Geometry geometry = embree_.triangles(walls.vertices, walls.indices, this);
-    rtcSetGeometryOccludedFilterFunction(geometry.get(), [](const RTCFilterFunctionNArguments* arguments) {
-      const auto& self = *static_cast<const Impl*>(arguments->geometryUserPtr);
-      filter(arguments, [&](PacketContext& packet, unsigned line, unsigned i) {
-        const std::size_t edge = RTCHitN_primID(arguments->hit, arguments->N, i) / kTrianglesPerWall;
-        return collect(arguments, packet, line, i, self.piece_of(self.boundary_[edge].triangle),
-                       goes_inside(*packet.lines, line, self.outwards(edge, BoxFace::kRight)));
-      });
-    });
-    embree_.attach(geometry);
-  }
-
-  void attach_boxes(const Barrier& boxes) {
-    if (boxes.indices.empty()) return;
-    const Geometry geometry = embree_.triangles(boxes.vertices, boxes.indices, this);
-    rtcSetGeometryOccludedFilterFunction(geometry.get(), [](const RTCFilterFunctionNArguments* arguments) {
-      const auto& self = *static_cast<const Impl*>(arguments->geometryUserPtr);
-      filter(arguments, [&](PacketContext& packet, unsigned line, unsigned i) {
-        const std::uint32_t part = RTCHitN_primID(arguments->hit, arguments->N, i);
-        const std::size_t edge = part / kTrianglesPerBox;
-        const auto face = static_cast<BoxFace>(part % kTrianglesPerBox / 2);
-        const bool enters = face == BoxFace::kTop ? goes_beneath(arguments, i)
-                                                  : goes_inside(*packet.lines, line, self.outwards(edge, face));
-        return collect(arguments, packet, line, i, self.piece_of_box(edge), enters);
-      });
-    });
-    embree_.attach(geometry);
+    if (face == BoxFace::kRight) return {ahead.y, -ahead.x};
+    if (face == BoxFace::kLeft) return {-ahead.y, ahead.x};
+    return face == BoxFace::kAhead ? ahead : Point2{-ahead.x, -ahead.y};
   }
 
   const Tin& tin_;
