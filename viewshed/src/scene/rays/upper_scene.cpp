@@ -113,7 +113,7 @@ class UpperScene::Impl {
     return result;
   }
 
-  /// What a hit means: the line goes beneath a piece of the surface or comes out.
+  /// A line goes beneath a piece of the surface, or comes out.
   struct Crossing {
     std::size_t piece;
     bool enters;
