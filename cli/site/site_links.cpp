@@ -1,6 +1,5 @@
 #include "site/site_links.hpp"
 
-#include <algorithm>
 #include <utility>
 
 #include <itin/cross_section.hpp>
