@@ -97,7 +97,7 @@ struct ImportReport {
   std::uint64_t voids = 0;          ///< posts without data
   std::uint64_t filtered = 0;       ///< points and features left out by class or where
   std::uint64_t duplicates = 0;     ///< points at the place of another
-  std::uint64_t replaced = 0;       ///< coarser points that made room now
+  std::uint64_t replaced = 0;       ///< points that made room for others now
   std::uint64_t made_room = 0;      ///< pieces of lines, of all imports so far, that make room for ground that replaces
                                     ///< others, wholly or in part; counted where such lines or ground are imported
   std::uint64_t isolated = 0;       ///< points left out now because no ground could be triangulated about them

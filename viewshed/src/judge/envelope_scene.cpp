@@ -38,10 +38,6 @@ EnvelopeScene::View EnvelopeScene::view_from(const Eye& eye) const {
   return view;
 }
 
-bool EnvelopeScene::may_cross_voids(Point2 position, double radius) const {
-  return viewshed::may_cross_voids(envelope.upper.grid, rim_of(envelope.upper, envelope.outline), position, radius);
-}
-
 double EnvelopeScene::upper_height(const Eye& eye, std::span<const std::uint32_t> triangles) const {
   const Tin& tin = envelope.upper;
   double highest = -kInfinity;

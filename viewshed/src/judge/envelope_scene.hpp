@@ -61,8 +61,6 @@ class EnvelopeScene {
     std::shared_ptr<const VoidShadow> shadow = nullptr;  ///< unless voids are passed
   };
   View view_from(const Eye& eye) const;
-  /// Whether a sight line from a place to another within the radius, metres, may cross ground without data.
-  bool may_cross_voids(Point2 position, double radius) const;
 
   /// Makes line `i` of the packet lead to the target.
   void aim(const View& view, const EnvelopeTarget& target, unsigned i, EnvelopePacket& packet) const;

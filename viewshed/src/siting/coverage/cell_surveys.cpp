@@ -22,7 +22,7 @@ class EnvelopeCells final : public GroupSurvey {
                               eyes_of(scene_.envelope.lower.grid, survey_, sites));
     return judge_tiles(judge, zone_, survey_, sites, progress, statistics);
   }
-  bool may_cross_voids(Point2 position) const override { return scene_.may_cross_voids(position, survey_.radius); }
+  std::vector<RimEdge> rim() const override { return rim_of(scene_.envelope.upper, scene_.envelope.outline); }
 
  private:
   const SiteSurvey& survey_;
@@ -55,9 +55,7 @@ class ExactCells final : public GroupSurvey {
     for (CoverageBounds& bounds : result) bounds.exact = true;
     return result;
   }
-  bool may_cross_voids(Point2 position) const override {
-    return viewshed::may_cross_voids(surface_.full.units(), surface_.full.rim(), position, survey_.radius);
-  }
+  std::vector<RimEdge> rim() const override { return surface_.full.rim(); }
 
  private:
   const SiteSurvey& survey_;

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include <itin/lattice_tin.hpp>
 #include <viewshed/site_coverage.hpp>
 #include <viewshed/surface.hpp>
 
@@ -32,8 +33,8 @@ class GroupSurvey {
   /// The new bounds. Throws Cancelled.
   virtual std::vector<CoverageBounds> judge(const SitesToJudge& sites, Progress& progress,
                                             Statistics& statistics) const = 0;
-  /// Whether a sight line from a site here may cross ground without data; false where this surface does not tell.
-  virtual bool may_cross_voids(Point2) const { return false; }
+  /// Where the surface that is judged over ends; empty where it does not tell.
+  virtual std::vector<RimEdge> rim() const { return {}; }
 };
 
 /// Surveys cells over bounds of the surface. The survey must outlive it, as it must all of these. `zones`: whether they

@@ -163,7 +163,7 @@ class PointSurvey final : public GroupSurvey {
     statistics.lines += rays;
     return result;
   }
-  bool may_cross_voids(Point2 position) const override { return scene_.may_cross_voids(position, survey_.radius); }
+  std::vector<RimEdge> rim() const override { return rim_of(scene_.envelope.upper, scene_.envelope.outline); }
 
  private:
   const SiteSurvey& survey_;

@@ -55,7 +55,8 @@ RasterGrid::Cell cell_of(const RasterGrid& grid, std::size_t element) {
 class SiteCoverage::Impl {
  public:
   Impl(const Store& store, SiteSurvey survey, Progress& progress)
-      : survey_(with_positions(std::move(survey))),
+      : units_(store.metadata().grid),
+        survey_(with_positions(std::move(survey))),
         progress_(progress),
         looks_(store, survey_),
         surfaces_(store, survey_, looks_, statistics_) {
@@ -169,8 +170,9 @@ class SiteCoverage::Impl {
 
   void warn_of_voids(const std::vector<std::size_t>& options, const GroupSurvey& survey) {
     if (survey_.nodata != NoData::kUnknown || !warnings_.empty()) return;
+    const std::vector<RimEdge> rim = survey.rim();
     const bool crossed = std::any_of(options.begin(), options.end(), [&](std::size_t option) {
-      return survey.may_cross_voids(survey_.positions[option].position);
+      return may_cross_voids(units_, rim, survey_.positions[option].position, survey_.radius);
     });
     if (crossed) warnings_.emplace_back(kVoidsWarning);
   }
@@ -180,6 +182,7 @@ class SiteCoverage::Impl {
     if (on_refined != nullptr && *on_refined) (*on_refined)(option, stage, states_[option].bounds);
   }
 
+  const Grid units_;
   const SiteSurvey survey_;
   Progress& progress_;
   Statistics statistics_;
