@@ -2,13 +2,15 @@
 
 #include <itin/error.hpp>
 
+#include "gdal/drivers.hpp"
+
 namespace itin {
 
 GeoPackage::GeoPackage(const PendingFile& output, const std::string& crs_wkt) : path_(output.path()) {
   require(crs_wkt.empty() || crs_.SetFromUserInput(crs_wkt.c_str()) == OGRERR_NONE,
           "the store's CRS is not understood");
   crs_.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
-  GDALDriver* const driver = GetGDALDriverManager()->GetDriverByName("GPKG");
+  GDALDriver* const driver = written_driver("GPKG");
   require(driver != nullptr, "this GDAL has no GeoPackage driver; choose another ending");
   dataset_.reset(driver->Create(output.temporary_path().c_str(), 0, 0, 0, GDT_Unknown, nullptr));
   require(dataset_ != nullptr, "cannot be created");

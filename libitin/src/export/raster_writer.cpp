@@ -14,6 +14,7 @@
 #include <itin/raster.hpp>
 
 #include "export/pending_file.hpp"
+#include "gdal/drivers.hpp"
 #include "gdal/memory_raster.hpp"
 #include "gdal/quiet_gdal.hpp"
 
@@ -156,7 +157,7 @@ void write_cog(const std::string& path, const RasterGrid& grid, std::span<const 
   PendingFile file(path, description.overwrite);
   const QuietGdal quiet;
   const CPLConfigOptionSetter no_side_files("GDAL_PAM_ENABLED", "NO", false);
-  GDALDriver* const driver = GetGDALDriverManager()->GetDriverByName("COG");
+  GDALDriver* const driver = written_driver("COG");
   if (!driver) throw FileError(path, "GDAL here cannot write cloud-optimised GeoTIFFs; install GDAL 3.1 or later");
   const GDALDatasetUniquePtr source = wrap(values, grid, type);
   attach_overviews(*source, values, grid, !description.classes.empty(), type);

@@ -10,6 +10,7 @@
 
 #include "export/geopackage.hpp"
 #include "export/polygon_style.hpp"
+#include "gdal/drivers.hpp"
 #include "gdal/memory_raster.hpp"
 
 namespace itin {
@@ -53,8 +54,7 @@ void trace(const std::string& path, const RasterGrid& grid, std::span<const T> v
   add_band(*raster, values, type);
   add_band(*raster, std::span<const std::uint8_t>(mask), GDT_Byte);
 
-  GDALDatasetUniquePtr polygons(
-      GetGDALDriverManager()->GetDriverByName("Memory")->Create("", 0, 0, 0, GDT_Unknown, nullptr));
+  GDALDatasetUniquePtr polygons(written_driver("Memory")->Create("", 0, 0, 0, GDT_Unknown, nullptr));
   OGRLayer* const layer = polygons->CreateLayer("polygons", nullptr, wkbPolygon, nullptr);
   OGRFieldDefn field("value", OFTInteger64);
   require(layer != nullptr && layer->CreateField(&field) == OGRERR_NONE, path, "its regions cannot be traced");

@@ -12,12 +12,14 @@
 
 #include <itin/raster.hpp>
 
+#include "gdal/drivers.hpp"
+
 namespace itin {
 
 /// Without bands, at the grid's place.
 inline GDALDatasetUniquePtr memory_raster(const RasterGrid& grid) {
-  GDALDatasetUniquePtr raster(GetGDALDriverManager()->GetDriverByName("MEM")->Create(
-      "", static_cast<int>(grid.columns()), static_cast<int>(grid.rows()), 0, GDT_Unknown, nullptr));
+  GDALDatasetUniquePtr raster(written_driver("MEM")->Create("", static_cast<int>(grid.columns()),
+                                                            static_cast<int>(grid.rows()), 0, GDT_Unknown, nullptr));
   std::array<double, 6> affine{grid.north_west().x, grid.cell_width(), 0, grid.north_west().y, 0, -grid.cell_height()};
   raster->SetGeoTransform(affine.data());
   return raster;

@@ -2,24 +2,19 @@
 #pragma once
 
 #include <algorithm>
-#include <mutex>
 #include <optional>
 #include <string>
 
 #include <cpl_error.h>
-#include <gdal.h>
+#include <cpl_port.h>
 
 namespace itin {
 
-/// While one lives, this thread's GDAL errors are kept, not printed. Drivers are registered once. What is asked of all
-/// is answered by this thread's innermost one, of which there must be one.
+/// While one lives, this thread's GDAL errors are kept, not printed. What is asked of all is answered by this thread's
+/// innermost one, of which there must be one.
 class QuietGdal {
  public:
-  QuietGdal() {
-    static std::once_flag registered;
-    std::call_once(registered, GDALAllRegister);
-    CPLPushErrorHandlerEx(remember, this);
-  }
+  QuietGdal() { CPLPushErrorHandlerEx(remember, this); }
   ~QuietGdal() { CPLPopErrorHandler(); }
   QuietGdal(const QuietGdal&) = delete;
   QuietGdal& operator=(const QuietGdal&) = delete;

@@ -3,6 +3,7 @@
 #include <itin/error.hpp>
 #include <itin/raster_values.hpp>
 
+#include "gdal/drivers.hpp"
 #include "gdal/quiet_gdal.hpp"
 #include "gdal/source_path.hpp"
 
@@ -19,18 +20,18 @@ bool is_text_of_points(GDALDriver& driver) {
 GDALDatasetUniquePtr open_raster_file(const std::string& path) {
   require_plain_file(path);
   const QuietGdal quiet;
-  GDALDatasetUniquePtr dataset(GDALDataset::Open(path.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY));
+  GDALDatasetUniquePtr dataset = open_dataset(path, GDAL_OF_RASTER);
   if (!dataset) throw FileError(path, why_not_read(path, "a raster"));
   return dataset;
 }
 
 bool is_raster(const std::string& path) {
   const QuietGdal quiet;
-  auto* driver = static_cast<GDALDriver*>(GDALIdentifyDriverEx(path.c_str(), GDAL_OF_RASTER, nullptr, nullptr));
+  GDALDriver* const driver = driver_of(path, GDAL_OF_RASTER);
   if (!driver || is_text_of_points(*driver)) return false;
   if (!driver->GetMetadataItem(GDAL_DCAP_VECTOR)) return true;
   // A GeoPackage, say, holds either; only opening it tells.
-  return GDALDatasetUniquePtr(GDALDataset::Open(path.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY)) != nullptr;
+  return open_dataset(path, GDAL_OF_RASTER) != nullptr;
 }
 
 }  // namespace itin

@@ -8,6 +8,7 @@
 
 #include <itin/error.hpp>
 
+#include "gdal/drivers.hpp"
 #include "gdal/quiet_gdal.hpp"
 
 namespace itin {
@@ -42,7 +43,7 @@ void require_small_blocks(GDALDataset& dataset, const std::string& path, std::ui
     const CPLStringList files(dataset.GetFileList());
     for (int i = 0; i < files.size(); ++i) {
       if (path == files[i]) continue;
-      const GDALDatasetUniquePtr part(GDALDataset::Open(files[i], GDAL_OF_RASTER | GDAL_OF_READONLY));
+      const GDALDatasetUniquePtr part = open_dataset(files[i], GDAL_OF_RASTER);
       if (part) require_small_blocks(*part, files[i], memory_bytes, depth + 1);
     }
     return;

@@ -1,15 +1,14 @@
-#include <gdal_priv.h>
 
 #include <itin/source_files.hpp>
 
+#include "gdal/drivers.hpp"
 #include "gdal/quiet_gdal.hpp"
 
 namespace itin {
 
 std::vector<std::string> source_files(const std::string& path) {
   const QuietGdal quiet;
-  const GDALDatasetUniquePtr dataset(
-      GDALDataset::Open(path.c_str(), GDAL_OF_RASTER | GDAL_OF_VECTOR | GDAL_OF_READONLY));
+  const GDALDatasetUniquePtr dataset = open_dataset(path, GDAL_OF_RASTER | GDAL_OF_VECTOR);
   if (!dataset) return {};
   const CPLStringList files(dataset->GetFileList());
   return {files.List(), files.List() + files.size()};

@@ -13,6 +13,7 @@
 #include <itin/error.hpp>
 
 #include "gdal/crs.hpp"
+#include "gdal/drivers.hpp"
 #include "gdal/quiet_gdal.hpp"
 #include "gdal/source_path.hpp"
 
@@ -21,8 +22,7 @@ namespace itin {
 GDALDatasetUniquePtr open_vector_file(const std::string& path, const char* const* options, const std::string& what) {
   require_plain_file(path);
   const QuietGdal quiet;
-  GDALDatasetUniquePtr file(
-      GDALDataset::Open(path.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY, nullptr, options, nullptr));
+  GDALDatasetUniquePtr file = open_dataset(path, GDAL_OF_VECTOR, options);
   if (!file) throw FileError(path, why_not_read(path, what));
   return file;
 }

@@ -13,6 +13,7 @@
 #include <itin/window_source.hpp>
 
 #include "gdal/crs.hpp"
+#include "gdal/drivers.hpp"
 #include "gdal/quiet_gdal.hpp"
 #include "import/source/source_layer.hpp"
 
@@ -89,7 +90,7 @@ void append_layer(OGRLayer& layer, const std::string& target_crs, std::vector<Wi
 }
 
 std::vector<Window::Polygon> polygons_of_file(const std::string& path, const std::string& target_crs) {
-  const GDALDatasetUniquePtr dataset(GDALDataset::Open(path.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY));
+  const GDALDatasetUniquePtr dataset = open_dataset(path, GDAL_OF_VECTOR);
   if (!dataset) throw FileError(path, "neither well-known text nor a vector file that can be read");
   std::vector<Window::Polygon> parts;
   for (OGRLayer* layer : dataset->GetLayers()) {

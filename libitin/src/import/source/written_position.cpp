@@ -42,7 +42,7 @@ std::optional<Point2> national_grid(std::string_view text) {
   const auto large = letter_number(compact[0]), small = letter_number(compact[1]);
   const std::string_view digits = std::string_view(compact).substr(2);
   if (!large || !small || !std::all_of(digits.begin(), digits.end(), is_digit)) return std::nullopt;
-  const double east = (*large % 5 - 2) * 5 + *small % 5, north = (3 - *large / 5) * 5 + 4 - *small / 5;
+  const int east = (*large % 5 - 2) * 5 + *small % 5, north = (3 - *large / 5) * 5 + 4 - *small / 5;
   if (east < 0 || east > 6 || north < 0 || north > 12) return std::nullopt;
   const std::size_t half = digits.size() / 2;
   return Point2{east * kSquare + digits_value(digits.substr(0, half)),
