@@ -28,8 +28,13 @@ void register_all_drivers() {
 }  // namespace
 
 GDALDatasetUniquePtr open_dataset(const std::string& path, unsigned kinds, const char* const* options) {
+  const auto open = [&] {
+    return GDALDatasetUniquePtr(GDALDataset::Open(path.c_str(), kinds | GDAL_OF_READONLY, nullptr, options, nullptr));
+  };
+  make_gdal_ready();
+  if (GDALDatasetUniquePtr written = open()) return written;
   register_all_drivers();
-  return GDALDatasetUniquePtr(GDALDataset::Open(path.c_str(), kinds | GDAL_OF_READONLY, nullptr, options, nullptr));
+  return open();
 }
 
 GDALDriver* driver_of(const std::string& path, unsigned kinds) {
@@ -45,6 +50,7 @@ void make_gdal_ready() {
     GDALRegister_MEM();
     RegisterOGRGeoPackage();
     RegisterOGRMEM();
+    RegisterOGRCSV();
   });
 }
 

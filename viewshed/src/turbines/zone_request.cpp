@@ -90,11 +90,6 @@ void validate(const ZoneRequest& request) {
   request.earth.validate();
 }
 
-double squared_distance(const Turbine& turbine, const RasterGrid& grid, RasterGrid::Cell cell) {
-  const double dx = grid.centre_x(cell.column) - turbine.position.x, dy = grid.centre_y(cell.row) - turbine.position.y;
-  return dx * dx + dy * dy;
-}
-
 bool knows_hubs(const Zone& zone) {
   return std::any_of(zone.request.turbines.begin(), zone.request.turbines.end(),
                      [](const Turbine& turbine) { return turbine.hub_height.has_value(); });

@@ -19,7 +19,10 @@ Zone lay_out(const ZoneRequest& request, const Box& coverage,
              const std::function<std::optional<double>(Point2)>& ground);
 
 /// How far the centre of a cell lies from a turbine in plan, metres squared; whether that is within its radius.
-double squared_distance(const Turbine& turbine, const RasterGrid& grid, RasterGrid::Cell cell);
+inline double squared_distance(const Turbine& turbine, const RasterGrid& grid, RasterGrid::Cell cell) {
+  const double dx = grid.centre_x(cell.column) - turbine.position.x, dy = grid.centre_y(cell.row) - turbine.position.y;
+  return dx * dx + dy * dy;
+}
 inline bool in_reach(const Turbine& turbine, const RasterGrid& grid, RasterGrid::Cell cell) {
   return squared_distance(turbine, grid, cell) <= turbine.radius * turbine.radius;
 }
