@@ -25,9 +25,9 @@ void write_site_rasters(const SiteResult& r, const std::string& crs_wkt, const s
   RasterDescription classes = description;
   classes.band_name = turbines ? "seen" : "served";
   classes.nodata = 255;
-  classes.classes = {{0, turbines ? wording.unserved : "not served", 225, 225, 225, 255},
-                     {1, turbines ? wording.served : "served", 0, 114, 178, 255},
-                     {255, "no data", 0, 0, 0, 0}};
+  classes.classes = {{0, turbines ? wording.unserved : "not served", {225, 225, 225}},
+                     {1, turbines ? wording.served : "served", {0, 114, 178}},
+                     {255, "no data", kTransparent}};
   write_raster(r.options.path("coverage.tif"), rasters.grid, std::span<const std::uint8_t>(served), classes);
   description.nodata = SiteRasters::kNoDemand;
   description.band_name = wording.count;

@@ -62,7 +62,7 @@ Document FeatureRaster::write(const Store& store, const RasterGrid& grid, const 
   description.crs_wkt = metadata.crs_wkt;
   description.band_name = "theme of what stands there";
   description.overwrite = overwrite;
-  description.classes = {{0, "none", 255, 255, 255, 0}};
+  description.classes = {{0, "none", {255, 255, 255, 0}}};
   description.metadata = {{"itin", ITIN_VERSION},
                           {"surface", json_text(surface_document(metadata, surface.detail, surface.themes))}};
   Document found = Document::array();

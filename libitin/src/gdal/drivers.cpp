@@ -25,21 +25,26 @@ void register_all_drivers() {
   register_once(done, [] { GDALAllRegister(); });
 }
 
+/// What `find` gives with few drivers, else with all.
+template <class Find>
+auto found_by_drivers(const Find& find) {
+  make_gdal_ready();
+  if (auto found = find()) return found;
+  register_all_drivers();
+  return find();
+}
+
 }  // namespace
 
 GDALDatasetUniquePtr open_dataset(const std::string& path, unsigned kinds, const char* const* options) {
-  const auto open = [&] {
+  return found_by_drivers([&] {
     return GDALDatasetUniquePtr(GDALDataset::Open(path.c_str(), kinds | GDAL_OF_READONLY, nullptr, options, nullptr));
-  };
-  make_gdal_ready();
-  if (GDALDatasetUniquePtr written = open()) return written;
-  register_all_drivers();
-  return open();
+  });
 }
 
 GDALDriver* driver_of(const std::string& path, unsigned kinds) {
-  register_all_drivers();
-  return static_cast<GDALDriver*>(GDALIdentifyDriverEx(path.c_str(), kinds, nullptr, nullptr));
+  return found_by_drivers(
+      [&] { return static_cast<GDALDriver*>(GDALIdentifyDriverEx(path.c_str(), kinds, nullptr, nullptr)); });
 }
 
 void make_gdal_ready() {

@@ -13,8 +13,9 @@ namespace {
 std::string in_units(double steps, double step) {
   const double per_unit = std::round(1 / step);
   std::string text = fmt::format("{}", steps == 0 ? 0.0 : steps / per_unit);
-  if (text.starts_with("0.")) return text.substr(1);
-  return text.starts_with("-0.") ? "-" + text.substr(2) : text;
+  if (text.starts_with("0.")) text.erase(0, 1);
+  if (text.starts_with("-0.")) text.erase(1, 1);
+  return text;
 }
 
 std::string pair_in_units(Point2 p, double step) {
@@ -34,7 +35,7 @@ std::string svg_path(std::span<const Point2> points, const SvgPrecision& precisi
   for (const Point2& p : simplified(points, precision.tolerance)) {
     const Point2 here{std::round(p.x / precision.step), std::round(p.y / precision.step)};
     if (path.empty()) {
-      path = "M" + pair_in_units(here, precision.step) + "l";
+      path = fmt::format("M{}l", pair_in_units(here, precision.step));
     } else if (here.x != last.x || here.y != last.y) {
       const std::string way = pair_in_units({here.x - last.x, here.y - last.y}, precision.step);
       path += (path.back() == 'l' || way[0] == '-' ? "" : " ") + way;

@@ -67,7 +67,7 @@ class RasterFile : public ::testing::Test {
     description_.crs_wkt = "EPSG:27700";
     description_.nodata = 255;
     description_.band_name = "visible";
-    description_.classes = {{0, "hidden", 200, 200, 200}, {1, "visible", 0, 114, 178}};
+    description_.classes = {{0, "hidden", {200, 200, 200}}, {1, "visible", {0, 114, 178}}};
     description_.metadata = {{"radius_m", "5000"}};
   }
   void TearDown() override { fs::remove_all(directory_); }

@@ -92,7 +92,7 @@ class Writer {
 
   void verdicts(const std::string& band) {
     description_.classes = verdict_classes(result_);
-    description_.classes.push_back({code_of(Verdict::kOutside), "outside or no data", 0, 0, 0, 0});
+    description_.classes.push_back({code_of(Verdict::kOutside), "outside or no data", kTransparent});
     // The file lists them in this order.
     std::ranges::sort(description_.classes, {}, &RasterClass::value);
     write<std::uint8_t>({band}, code_of(Verdict::kOutside), codes_of(result_.visible));

@@ -198,11 +198,12 @@ void write_study_area(const Zone& zone, RasterFolder& folder) {
   for (std::size_t i = 0; i < values.size(); ++i)
     if (missing[i] == 1 || zone.bare.tip_count[i] != kCountOutside) values[i] = missing[i] == 1 ? kNoGround : kGround;
   RasterDescription description = with_nodata(kOutsideStudy);
-  description.classes = {{kNoGround, "no ground data", 120, 120, 120, 255}, {kGround, "studied", 0, 0, 0, 0}};
+  constexpr Rgba kGrey{120, 120, 120};
+  description.classes = {{kNoGround, "no ground data", kGrey}, {kGround, "studied", kTransparent}};
   folder.write("study-area",
                "1 where turbines are looked for, 0 where there is no ground data; 255: outside every turbine's radius",
                values, description,
-               class_style({{kNoGround, "no ground data", 120, 120, 120, 255}, {kGround, "studied", 0, 0, 0, 0}}));
+               class_style({{kNoGround, "no ground data", kGrey}, {kGround, "studied", kTransparent}}));
 }
 
 }  // namespace
