@@ -185,8 +185,7 @@ class ProfileVerb final : public Verb {
                                 const ThemeChoice& themes, Cost& cost, Progress& progress) {
     profile::Profile whole;
     for (std::size_t i = 0; i + 1 < corners.size(); ++i) {
-      progress.throw_if_cancelled();
-      const CrossSection section = cross_section(store, corners[i], corners[i + 1], detail, themes);
+      const CrossSection section = cross_section(store, corners[i], corners[i + 1], detail, themes, progress);
       append(whole, profile::from_section(section));
       cost.read += section.statistics;
       cost.triangles += section.triangles;

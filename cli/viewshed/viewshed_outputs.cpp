@@ -85,14 +85,14 @@ std::vector<std::string> ViewshedOutputs::rasters() const {
   return rasters;
 }
 
-void ViewshedOutputs::write_raster(const std::string& path, const viewshed::Result& result,
-                                   const Context& context) const {
+void ViewshedOutputs::write_raster(const std::string& path, const viewshed::Result& result, const Context& context,
+                                   const Progress& progress) const {
   viewshed::GeotiffOptions options;
   options.crs_wkt = context.crs_wkt;
   options.metadata = {{"itin", ITIN_VERSION}, {"surface", json_text(context.surface)}};
   options.metadata.insert(options.metadata.end(), context.parameters.begin(), context.parameters.end());
   options.overwrite = policy_.overwrite;
-  viewshed::write_geotiff(path, result, options);
+  viewshed::write_geotiff(path, result, options, progress);
   if (const std::string style = viewshed::qgis_style(result.request); !style.empty())
     write_file(style_beside(path), style, policy_.overwrite);
 }
@@ -118,14 +118,14 @@ void ViewshedOutputs::write(const Store& store, viewshed::ViewshedWithSurface& c
     if (is_polygons(path)) {
       viewshed::write_polygons(path, computed.result, context.crs_wkt, policy_.overwrite, no_data);
     } else {
-      write_raster(path, computed.result, context);
+      write_raster(path, computed.result, context, progress);
     }
   }
   if (map) viewshed::write_image(image_, *map, policy_.overwrite);
 }
 
-void ViewshedOutputs::write_each(const Compute& compute, const Context& context) {
-  for (std::size_t i = 0; i < single_.size(); ++i) write_raster(single_[i], compute(i), context);
+void ViewshedOutputs::write_each(const Compute& compute, const Context& context, const Progress& progress) {
+  for (std::size_t i = 0; i < single_.size(); ++i) write_raster(single_[i], compute(i), context, progress);
   for (Unfinished& raster : in_new_folder_) raster.finish([] {});
 }
 

@@ -39,7 +39,7 @@ class ViewshedOutputs {
              std::vector<std::string>& warnings, Progress& progress) const;
   /// Calls compute(observer) for every observer whose own raster is wanted.
   using Compute = std::function<viewshed::Result(std::size_t)>;
-  void write_each(const Compute& compute, const Context& context);
+  void write_each(const Compute& compute, const Context& context, const Progress& progress);
 
   /// In the order of the options, the others last.
   std::vector<std::string> paths() const;
@@ -48,7 +48,8 @@ class ViewshedOutputs {
 
  private:
   std::vector<std::string> rasters() const;
-  void write_raster(const std::string& path, const viewshed::Result& result, const Context& context) const;
+  void write_raster(const std::string& path, const viewshed::Result& result, const Context& context,
+                    const Progress& progress) const;
 
   std::vector<std::string> outputs_;
   std::string image_, each_;

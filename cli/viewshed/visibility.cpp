@@ -131,7 +131,7 @@ class VisibilityVerb final : public Verb {
     const Document surface = surface_document(metadata, request_.detail, request_.themes);
     viewshed::write_geotiff(
         output_, index, request_,
-        {metadata.crs_wkt, {{"itin", ITIN_VERSION}, {"surface", json_text(surface)}}, policy_.overwrite});
+        {metadata.crs_wkt, {{"itin", ITIN_VERSION}, {"surface", json_text(surface)}}, policy_.overwrite}, progress);
     write_file(style_beside(output_), viewshed::qgis_style_of_shares(), policy_.overwrite);
     if (!sheet_.file().empty()) write_sheet(store, index, progress);
     Result result;

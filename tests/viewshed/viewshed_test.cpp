@@ -1,6 +1,7 @@
 // The meaning of a viewshed request: cells, values, fields of view, several observers, ground without data, wrong
 // calls.
 #include <cmath>
+#include <filesystem>
 #include <gmock/gmock.h>
 #include <limits>
 
@@ -10,6 +11,8 @@
 #include <itin/parallel.hpp>
 #include <viewshed/viewshed.hpp>
 
+#include "support/impatient.hpp"
+#include "support/temporary_directory.hpp"
 #include "support/terrain_tin.hpp"
 #include "support/viewshed_of.hpp"
 
@@ -352,12 +355,21 @@ TEST(Viewshed, WrongCallsAreRefused) {
 }
 
 TEST(Viewshed, CanBeCancelled) {
-  class Stop final : public Progress {
-   public:
-    void report(std::string_view, double) override {}
-    bool cancelled() const override { return true; }
-  } stop;
+  test::Impatient stop(0);
   EXPECT_THROW(compute(plane(), look(205, 205), stop), Cancelled);
+}
+
+TEST(Viewshed, LeavesNoFileWhenItsWriterIsCancelled) {
+  const test::TemporaryDirectory directory;
+  Request request = look(205, 205);
+  const Result cells = run(plane(), request);
+  EXPECT_THROW(write_geotiff(directory.file("a.tif"), cells, {}, test::Impatient(0)), Cancelled);
+  request.mode = Mode::kCount;
+  const Result counts = run(plane(), request);
+  EXPECT_THROW(write_geotiff(directory.file("b.tif"), counts, {}, test::Impatient(0)), Cancelled);
+  EXPECT_TRUE(std::filesystem::is_empty(directory.path()));
+  write_geotiff(directory.file("a.tif"), cells, {});
+  EXPECT_TRUE(std::filesystem::exists(directory.file("a.tif")));
 }
 
 }  // namespace

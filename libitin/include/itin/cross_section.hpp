@@ -60,9 +60,9 @@ struct CrossSection {
 
 /// Cost: about a microsecond per triangle crossed when warm. Memory follows the line.
 /// Throws InputError for ends that are not finite or farther than 2^31 grid units from the grid's origin and for themes
-/// that the store does not have, CorruptStore, FileError.
+/// that the store does not have, CorruptStore, FileError, Cancelled.
 CrossSection cross_section(const Store& store, Point2 from, Point2 to, const Detail& detail,
-                           const ThemeChoice& themes = ThemeChoice::none());
+                           const ThemeChoice& themes = ThemeChoice::none(), const Progress& progress = NoProgress());
 
 /// The triangles that a path meets, be it at a corner: of all that a window query has there, those over which the
 /// cross-sections of its legs run. Memory follows the path. Throws InputError for fewer than two places, and as

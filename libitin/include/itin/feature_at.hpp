@@ -15,6 +15,7 @@
 #include <vector>
 
 #include <itin/geometry.hpp>
+#include <itin/progress.hpp>
 
 namespace itin {
 
@@ -32,9 +33,10 @@ std::string title_of(const FeatureAt& feature);
 /// The feature of a standing theme (its number from 1) whose footprint holds each place, or is nearest to it within a
 /// metre, for footprints are moved a little when they are made to fit together. Where several do, the first one
 /// imported counts. Cost: reads all footprints of the theme, a block of 256 at a time, about a microsecond each. Throws
-/// CorruptStore.
+/// CorruptStore, Cancelled.
 std::vector<std::optional<FeatureAt>> features_at(const Store& store, std::uint16_t theme,
-                                                  const std::vector<Point2>& places);
+                                                  const std::vector<Point2>& places,
+                                                  const Progress& progress = NoProgress());
 
 /// The features of a standing theme of these numbers; nothing for one that it does not have. Cost: reads the blocks of
 /// 256 that they are in. Throws CorruptStore.

@@ -22,6 +22,7 @@
 #include <vector>
 
 #include <itin/geometry.hpp>
+#include <itin/progress.hpp>
 
 namespace itin {
 
@@ -120,14 +121,15 @@ struct RasterDescription {
 /// Writes a cloud-optimised GeoTIFF: tiled, compressed, with overviews (the value most frequent for classes, the
 /// nearest otherwise). Precondition: values.size() == grid.cell_count() * bands; they lie one band after the other. The
 /// file appears under its name only when it is complete; its bytes do not depend on the number of threads. Throws
-/// FileError if the place cannot be written or the file exists and may not be replaced.
+/// FileError if the place cannot be written or the file exists and may not be replaced; Cancelled, and then leaves what
+/// there was.
 void write_raster(const std::string& path, const RasterGrid& grid, std::span<const std::uint8_t> values,
-                  const RasterDescription& description);
+                  const RasterDescription& description, const Progress& progress = NoProgress());
 void write_raster(const std::string& path, const RasterGrid& grid, std::span<const std::uint16_t> values,
-                  const RasterDescription& description);
+                  const RasterDescription& description, const Progress& progress = NoProgress());
 void write_raster(const std::string& path, const RasterGrid& grid, std::span<const std::uint32_t> values,
-                  const RasterDescription& description);
+                  const RasterDescription& description, const Progress& progress = NoProgress());
 void write_raster(const std::string& path, const RasterGrid& grid, std::span<const float> values,
-                  const RasterDescription& description);
+                  const RasterDescription& description, const Progress& progress = NoProgress());
 
 }  // namespace itin

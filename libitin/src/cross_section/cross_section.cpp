@@ -26,10 +26,15 @@ Point2 heading_of(const SectionLine& line) {
 /// Smith's retrieval: one triangle after another.
 class RetrievedTriangles final : public TriangleFinder {
  public:
-  RetrievedTriangles(const ReadOnce& index, const Selection& selection, Point2 heading)
-      : index_(index), selection_(selection), cells_(index, selection, heading), apex_(index, selection, heading) {}
+  RetrievedTriangles(const ReadOnce& index, const Selection& selection, Point2 heading, const Progress& progress)
+      : index_(index),
+        selection_(selection),
+        progress_(progress),
+        cells_(index, selection, heading),
+        apex_(index, selection, heading) {}
 
   SectionVertex beyond(const CrossedEdge& edge) override {
+    progress_.throw_if_cancelled();
     const Position left{edge.left.x, edge.left.y}, right{edge.right.x, edge.right.y};
     if (const auto post = cells_.beyond(left, right)) return {*post, 0};
     const auto found = apex_.apex(left, right);
@@ -60,6 +65,7 @@ class RetrievedTriangles final : public TriangleFinder {
  private:
   const ReadOnce& index_;
   const Selection& selection_;
+  const Progress& progress_;
   LatticeCells cells_;
   NearbyApex apex_;
   GridBox box_;
@@ -68,19 +74,20 @@ class RetrievedTriangles final : public TriangleFinder {
 
 }  // namespace
 
-CrossSection retrieve_section(const PointIndex& index, const Selection& selection, const SectionLine& line) {
+CrossSection retrieve_section(const PointIndex& index, const Selection& selection, const SectionLine& line,
+                              const Progress& progress) {
   const ReadOnce blocks(index);
-  RetrievedTriangles triangles(blocks, selection, heading_of(line));
+  RetrievedTriangles triangles(blocks, selection, heading_of(line), progress);
   CrossSection section = walk_section(blocks, line, triangles);
   section.statistics = blocks.statistics();
   return section;
 }
 
-CrossSection cross_section(const Store& store, Point2 from, Point2 to, const Detail& detail,
-                           const ThemeChoice& themes) {
+CrossSection cross_section(const Store& store, Point2 from, Point2 to, const Detail& detail, const ThemeChoice& themes,
+                           const Progress& progress) {
   const Selection selection = selection_of(store.metadata(), detail, themes);
   const RaisedIndex index(store, selection);
-  return retrieve_section(index, selection, SectionLine(store.metadata().grid, from, to));
+  return retrieve_section(index, selection, SectionLine(store.metadata().grid, from, to), progress);
 }
 
 }  // namespace itin

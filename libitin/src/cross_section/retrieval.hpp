@@ -9,6 +9,7 @@
 
 namespace itin {
 
-CrossSection retrieve_section(const PointIndex& index, const Selection& selection, const SectionLine& line);
+CrossSection retrieve_section(const PointIndex& index, const Selection& selection, const SectionLine& line,
+                              const Progress& progress = NoProgress());
 
 }  // namespace itin

@@ -151,23 +151,30 @@ CPLStringList creation_options(bool floating, int tile_side) {
   return options;
 }
 
+/// As GDAL asks, on its way through a call.
+int go_on_unless_cancelled(double, const char*, void* progress) {
+  return static_cast<const Progress*>(progress)->cancelled() ? FALSE : TRUE;
+}
+
 template <class T>
 void write_cog(const std::string& path, const RasterGrid& grid, std::span<const T> values, GDALDataType type,
-               const RasterDescription& description) {
+               const RasterDescription& description, const Progress& progress) {
   PendingFile file(path, description.overwrite);
   const QuietGdal quiet;
   const CPLConfigOptionSetter no_side_files("GDAL_PAM_ENABLED", "NO", false);
   GDALDriver* const driver = written_driver("COG");
   if (!driver) throw FileError(path, "GDAL here cannot write cloud-optimised GeoTIFFs; install GDAL 3.1 or later");
   const GDALDatasetUniquePtr source = wrap(values, grid, type);
+  progress.throw_if_cancelled();
   attach_overviews(*source, values, grid, !description.classes.empty(), type);
   describe(*source, description);
   const std::size_t bands = values.size() / grid.cell_count();
   const CPLStringList options = creation_options(std::is_floating_point_v<T>, tile_side(bands * sizeof(T)));
-  GDALDatasetUniquePtr written(
-      driver->CreateCopy(file.temporary_path().c_str(), source.get(), false, options.List(), nullptr, nullptr));
+  GDALDatasetUniquePtr written(driver->CreateCopy(file.temporary_path().c_str(), source.get(), false, options.List(),
+                                                  go_on_unless_cancelled, const_cast<Progress*>(&progress)));
   const bool created = written != nullptr;
   written.reset();  // the last bytes are written on closing
+  progress.throw_if_cancelled();
   if (!created || QuietGdal::failed())
     throw FileError(path, "cannot be written: " + QuietGdal::message("unknown reason"));
   file.commit();
@@ -179,23 +186,23 @@ void write_cog(const std::string& path, const RasterGrid& grid, std::span<const 
 }  // namespace
 
 void write_raster(const std::string& path, const RasterGrid& grid, std::span<const std::uint8_t> values,
-                  const RasterDescription& description) {
-  write_cog(path, grid, values, GDT_Byte, description);
+                  const RasterDescription& description, const Progress& progress) {
+  write_cog(path, grid, values, GDT_Byte, description, progress);
 }
 
 void write_raster(const std::string& path, const RasterGrid& grid, std::span<const std::uint16_t> values,
-                  const RasterDescription& description) {
-  write_cog(path, grid, values, GDT_UInt16, description);
+                  const RasterDescription& description, const Progress& progress) {
+  write_cog(path, grid, values, GDT_UInt16, description, progress);
 }
 
 void write_raster(const std::string& path, const RasterGrid& grid, std::span<const std::uint32_t> values,
-                  const RasterDescription& description) {
-  write_cog(path, grid, values, GDT_UInt32, description);
+                  const RasterDescription& description, const Progress& progress) {
+  write_cog(path, grid, values, GDT_UInt32, description, progress);
 }
 
 void write_raster(const std::string& path, const RasterGrid& grid, std::span<const float> values,
-                  const RasterDescription& description) {
-  write_cog(path, grid, values, GDT_Float32, description);
+                  const RasterDescription& description, const Progress& progress) {
+  write_cog(path, grid, values, GDT_Float32, description, progress);
 }
 
 }  // namespace itin

@@ -102,13 +102,14 @@ std::string title_of(const FeatureAt& feature) {
 }
 
 std::vector<std::optional<FeatureAt>> features_at(const Store& store, std::uint16_t theme,
-                                                  const std::vector<Point2>& places) {
+                                                  const std::vector<Point2>& places, const Progress& progress) {
   std::vector<std::optional<FeatureAt>> found(places.size());
   std::vector<double> nearest(places.size(), kNear);
   const std::vector<std::size_t> order = from_west(places);
   std::int64_t number = 0;
   const std::uint32_t blocks = store.metadata().themes[theme - std::size_t{1}].footprint_blocks;
   for (std::uint32_t block = 0; block < blocks; ++block) {
+    progress.throw_if_cancelled();
     for (const StoredFootprint& footprint : stored_footprints(store, theme, block)) {
       const Box box = extent_of(footprint.feature);
       auto i = std::lower_bound(order.begin(), order.end(), box.xmin - kNear,

@@ -19,7 +19,8 @@ namespace itin {
 namespace {
 
 /// The numbers of the features of a theme that triangles of the surface are part of, ascending.
-std::vector<std::int64_t> features_in(const Tin& tin, std::uint16_t theme, const Store& store) {
+std::vector<std::int64_t> features_in(const Tin& tin, std::uint16_t theme, const Store& store,
+                                      const Progress& progress) {
   std::vector<Point2> middles;
   for (const Triangle& t : tin.triangles) {
     if (tin.theme(t) != theme) continue;
@@ -27,7 +28,7 @@ std::vector<std::int64_t> features_in(const Tin& tin, std::uint16_t theme, const
     middles.push_back({(a.x + b.x + c.x) / 3, (a.y + b.y + c.y) / 3});
   }
   std::vector<std::int64_t> numbers;
-  for (const std::optional<FeatureAt>& feature : features_at(store, theme, middles))
+  for (const std::optional<FeatureAt>& feature : features_at(store, theme, middles, progress))
     if (feature) numbers.push_back(feature->number);
   sort_unique(numbers);
   return numbers;
@@ -133,7 +134,7 @@ class Outlines {
 
 std::vector<FeatureLine> feature_outlines(const Store& store, const WindowLines& window_lines, std::uint16_t theme,
                                           Progress& progress) {
-  const Outlines outlines(store, theme, features_in(window_lines.tin, theme, store));
+  const Outlines outlines(store, theme, features_in(window_lines.tin, theme, store, progress));
   return outlines.lines(store, window_lines, progress);
 }
 

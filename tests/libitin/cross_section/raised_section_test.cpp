@@ -17,6 +17,7 @@
 #include <itin/triangulate.hpp>
 
 #include "support/houses.hpp"
+#include "support/impatient.hpp"
 #include "support/raster_file.hpp"
 #include "support/rolling_ground.hpp"
 #include "support/section_text.hpp"
@@ -198,6 +199,20 @@ TEST_F(RaisedSections, FeaturesAreKnownByPlace) {
   EXPECT_EQ(houses[2]->number, 0);
   EXPECT_FALSE(houses[3]);
   EXPECT_TRUE(features_at(store, 2, {{300210, 199710}}).front());
+}
+
+TEST_F(RaisedSections, EndWhenTheyAreCancelled) {
+  ground(flat);
+  raise(ThemeKind::Buildings, "houses", {box(300102, 199702, 300142, 199732, 9)});
+  const Store store(path("s.itin"));
+  const auto cut = [&](const Progress& progress) {
+    return cross_section(store, {300050, 199713}, {300250, 199721}, Detail::tolerance(0), ThemeChoice::all(), progress);
+  };
+  const test::Impatient patient(1 << 30);
+  cut(patient);
+  ASSERT_GT(patient.asked(), 20);  // for each triangle
+  for (const int looks : {0, 10, patient.asked() - 1}) EXPECT_THROW(cut(test::Impatient(looks)), Cancelled) << looks;
+  EXPECT_THROW(features_at(store, 1, {{300103, 199703}}, test::Impatient(0)), Cancelled);
 }
 
 TEST_F(RaisedSections, UnknownThemesAreRefused) {

@@ -15,6 +15,8 @@
 #include <itin/parallel.hpp>
 #include <itin/raster.hpp>
 
+#include "support/impatient.hpp"
+
 namespace itin {
 namespace {
 
@@ -83,6 +85,23 @@ class RasterFile : public ::testing::Test {
   std::vector<std::uint8_t> values_ = std::vector<std::uint8_t>(1500 * 1100);
   RasterDescription description_;
 };
+
+TEST_F(RasterFile, IsAsItWasWhenItsWriterIsCancelled) {
+  const auto write = [&](const Progress& progress) {
+    write_raster(path("a.tif"), grid_, std::span<const std::uint8_t>(values_), description_, progress);
+  };
+  const test::Impatient patient(1 << 30);
+  write(patient);
+  const std::string before = bytes(path("a.tif"));
+  description_.overwrite = true;
+  values_.assign(values_.size(), 1);
+  ASSERT_GT(patient.asked(), 4);  // GDAL asks for each row of tiles
+  for (const int looks : {0, 1, patient.asked() / 2}) {
+    EXPECT_THROW(write(test::Impatient(looks)), Cancelled) << looks;
+    EXPECT_EQ(bytes(path("a.tif")), before) << looks;
+    EXPECT_EQ(files(), 1U) << looks;
+  }
+}
 
 TEST_F(RasterFile, IsACloudOptimisedGeotiffThatSaysWhatItIs) {
   write_raster(path("a.tif"), grid_, std::span<const std::uint8_t>(values_), description_);

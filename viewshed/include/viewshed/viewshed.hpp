@@ -304,8 +304,9 @@ struct GeotiffOptions {
 
 /// As write_raster() writes them: Byte classes (Verdict, nodata 255; of kFresnel, too), UInt16 counts (nodata 65535),
 /// UInt32 bits without nodata (0 where none sees, a band for every 32 observers), Float32 angles (nodata NaN), Float32
-/// bands of distance and number of the nearest, and of both losses (nodata NaN). Throws FileError.
-void write_geotiff(const std::string& path, const Result& result, const GeotiffOptions& options);
+/// bands of distance and number of the nearest, and of both losses (nodata NaN). Throws FileError, Cancelled.
+void write_geotiff(const std::string& path, const Result& result, const GeotiffOptions& options,
+                   const Progress& progress = NoProgress());
 
 /// Writes what is seen as polygons to a GeoPackage, one per class as write_regions() does: visible and hidden; the
 /// undecided; those in sight whose zone is cut; a class for every count, nearest observer or theme that hides; and the

@@ -55,8 +55,9 @@ struct VisibilityIndex {
 /// too little memory for a single observer), and what triangulate() throws.
 VisibilityIndex visibility_index(const Store& store, const IndexRequest& request, Progress& progress);
 
-/// Three bands, Float32: the share, its standard error and the share undecided; nodata NaN. Throws FileError.
+/// Three bands, Float32: the share, its standard error and the share undecided; nodata NaN. Throws FileError,
+/// Cancelled.
 void write_geotiff(const std::string& path, const VisibilityIndex& index, const IndexRequest& request,
-                   const GeotiffOptions& options);
+                   const GeotiffOptions& options, const Progress& progress = NoProgress());
 
 }  // namespace itin::viewshed

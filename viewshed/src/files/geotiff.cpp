@@ -87,8 +87,8 @@ Metadata metadata_of(const Result& result) {
 /// A result's values under one description.
 class Writer {
  public:
-  Writer(const std::string& path, const Result& result, RasterDescription description)
-      : path_(path), result_(result), description_(std::move(description)) {}
+  Writer(const std::string& path, const Result& result, RasterDescription description, const Progress& progress)
+      : path_(path), result_(result), description_(std::move(description)), progress_(progress) {}
 
   void verdicts(const std::string& band) {
     description_.classes = verdict_classes(result_);
@@ -159,23 +159,25 @@ class Writer {
     description_.band_name = bands.front();
     description_.further_bands.assign(bands.begin() + 1, bands.end());
     description_.nodata = nodata;
-    write_raster(path_, result_.grid, values, description_);
+    write_raster(path_, result_.grid, values, description_, progress_);
   }
 
   const std::string& path_;
   const Result& result_;
   RasterDescription description_;
+  const Progress& progress_;
 };
 
 }  // namespace
 
-void write_geotiff(const std::string& path, const Result& result, const GeotiffOptions& options) {
+void write_geotiff(const std::string& path, const Result& result, const GeotiffOptions& options,
+                   const Progress& progress) {
   RasterDescription description;
   description.crs_wkt = options.crs_wkt;
   description.overwrite = options.overwrite;
   description.metadata = metadata_of(result);
   description.metadata.insert(description.metadata.end(), options.metadata.begin(), options.metadata.end());
-  Writer writer(path, result, std::move(description));
+  Writer writer(path, result, std::move(description), progress);
   switch (result.request.mode) {
     case Mode::kVisible:
       return writer.verdicts(result.certified ? "certified" : "visible");
@@ -201,7 +203,7 @@ void write_geotiff(const std::string& path, const Result& result, const GeotiffO
 }
 
 void write_geotiff(const std::string& path, const VisibilityIndex& index, const IndexRequest& request,
-                   const GeotiffOptions& options) {
+                   const GeotiffOptions& options, const Progress& progress) {
   std::vector<float> values = index.share;
   for (const std::vector<float>* const band : {&index.standard_error, &index.undecided})
     values.insert(values.end(), band->begin(), band->end());
@@ -219,7 +221,7 @@ void write_geotiff(const std::string& path, const VisibilityIndex& index, const 
                           {"refraction", request.earth.convention()}};
   description.metadata.insert(description.metadata.end(), options.metadata.begin(), options.metadata.end());
   description.overwrite = options.overwrite;
-  write_raster(path, index.grid, values, description);
+  write_raster(path, index.grid, values, description, progress);
 }
 
 }  // namespace itin::viewshed
