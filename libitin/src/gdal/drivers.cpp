@@ -25,7 +25,7 @@ void register_all_drivers() {
   register_once(done, [] { GDALAllRegister(); });
 }
 
-/// What `find` gives with few drivers, else with all.
+/// What `find` gives with the drivers of make_gdal_ready(), else with all.
 template <class Find>
 auto found_by_drivers(const Find& find) {
   make_gdal_ready();

@@ -1,5 +1,5 @@
-// GDAL's formats, registered when the first call needs them. All 210 take 9 MB and 2 ms; those that itin writes take 2
-// MB.
+// GDAL's formats, registered when the first call needs them. All 210 take 9 MB and 2 ms. Those that itin writes, and
+// tables (CSV), take 2 MB: they come first, and all others when a file is opened that is none of these.
 #pragma once
 
 #include <string>
