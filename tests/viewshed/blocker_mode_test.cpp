@@ -8,8 +8,11 @@
 #include <viewshed/viewshed.hpp>
 
 #include "line/sight_line.hpp"
+#include "modes/feature_names.hpp"
 #include "modes/first_blocker.hpp"
 #include "support/exact_line_of_sight.hpp"
+#include "support/hills_and_town.hpp"
+#include "support/impatient.hpp"
 #include "support/real_terrain.hpp"
 #include "support/terrain_tin.hpp"
 #include "support/viewshed_of.hpp"
@@ -111,6 +114,17 @@ TEST(BlockerMode, NamesTheThemeAndMissingGround) {
   const Result high = run(tin, request);
   EXPECT_EQ(theme(high, 255), kNoBlocker);
   EXPECT_EQ(theme(high, 355), kMissingGround);
+}
+
+TEST(BlockerMode, IsCancelledWhileItNamesFeatures) {
+  const test::HillsAndTown stores;
+  const Store store(stores.town());
+  Request request = test::HillsAndTown::over_town();
+  request.mode = Mode::kBlocker;
+  NoProgress progress;
+  Result result = compute(store, request, progress);
+  ASSERT_NE(result.blocker_feature, std::vector<std::uint32_t>(result.blocker.size(), kNoBlocker));
+  EXPECT_THROW(name_features(store, result, test::Impatient(0)), Cancelled);
 }
 
 TEST(BlockerMode, OfSeveralObserversThatOfTheNearest) {

@@ -51,7 +51,7 @@ ViewshedWithSurface compute_with_surface(const Store& store, const Request& requ
   validate(request);
   CallProgress call(progress);
   ViewshedWithSurface computed = climb(store, request, options, call);
-  name_features(store, computed.result);
+  name_features(store, computed.result, call);
   call.finish();
   return computed;
 }

@@ -74,7 +74,7 @@ class HeldSurface::Impl {
     CallProgress call(progress);
     const SurfaceInMemory over = surface_for(request, call);
     Result result = viewshed::compute(over, request, call);
-    name_features(store_, result);
+    name_features(store_, result, call);
     call.finish();
     return result;
   }

@@ -64,7 +64,7 @@ ViewshedWithSurface compute_over_tin(const Store& store, const Request& request,
 Result compute_on_surface(const Store& store, const ViewshedWithSurface& computed, const Request& request,
                           Progress& progress) {
   Result result = compute(*computed.surface, computed.ground ? &*computed.ground : nullptr, request, progress);
-  name_features(store, result);
+  name_features(store, result, progress);
   return result;
 }
 

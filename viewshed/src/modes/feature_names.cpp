@@ -23,7 +23,7 @@ Point2 middle(const Grid& grid, const std::array<GridPoint, 3>& corners) {
 }
 
 /// Fills `blocker_feature`.
-void find_blocking_features(const Store& store, Result& result) {
+void find_blocking_features(const Store& store, Result& result, const Progress& progress) {
   std::map<std::uint16_t, std::pair<std::vector<std::uint32_t>, std::vector<Point2>>> by_theme;
   for (std::uint32_t i = 0; i < result.blockers.size(); ++i) {
     const BlockingTriangle& blocker = result.blockers[i];
@@ -34,7 +34,7 @@ void find_blocking_features(const Store& store, Result& result) {
   }
   std::vector<std::uint32_t> feature_of(result.blockers.size(), kNoBlocker);
   for (const auto& [theme, blockers] : by_theme) {
-    const auto found = features_at(store, theme, blockers.second);
+    const auto found = features_at(store, theme, blockers.second, progress);
     for (std::size_t i = 0; i < found.size(); ++i)
       if (found[i]) feature_of[blockers.first[i]] = static_cast<std::uint32_t>(found[i]->number);
   }
@@ -45,10 +45,10 @@ void find_blocking_features(const Store& store, Result& result) {
 
 }  // namespace
 
-void name_features(const Store& store, Result& result) {
+void name_features(const Store& store, Result& result, const Progress& progress) {
   result.theme_names.clear();
   for (const ThemeInfo& theme : store.metadata().themes) result.theme_names.push_back(theme.name);
-  if (result.request.mode == Mode::kBlocker) find_blocking_features(store, result);
+  if (result.request.mode == Mode::kBlocker) find_blocking_features(store, result, progress);
 }
 
 std::string blocker_name(const Result& result, std::uint32_t theme) {

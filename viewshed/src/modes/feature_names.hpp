@@ -4,14 +4,15 @@
 #include <cstdint>
 #include <string>
 
+#include <itin/progress.hpp>
 #include <itin/store.hpp>
 #include <viewshed/viewshed.hpp>
 
 namespace itin::viewshed {
 
 /// Takes names from the store that the result was made of: those of its themes, and the features that its blockers are
-/// part of.
-void name_features(const Store& store, Result& result);
+/// part of. Throws Cancelled where `progress` asks for it.
+void name_features(const Store& store, Result& result, const Progress& progress);
 
 /// The name of a value of the result's `blocker_theme`, which is not kNoBlocker.
 std::string blocker_name(const Result& result, std::uint32_t theme);
