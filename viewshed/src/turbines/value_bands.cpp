@@ -117,4 +117,10 @@ std::string class_style(const std::vector<StyleClass>& classes) {
   return style(text + "      </colorPalette>\n    </rasterrenderer>\n");
 }
 
+std::string class_style(const std::vector<RasterClass>& classes) {
+  std::vector<StyleClass> style;
+  for (const RasterClass& c : classes) style.push_back({c.value, c.name, c.colour});
+  return class_style(style);
+}
+
 }  // namespace itin::viewshed

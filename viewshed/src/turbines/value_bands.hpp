@@ -37,5 +37,6 @@ struct StyleClass {
   Rgba colour = {};
 };
 std::string class_style(const std::vector<StyleClass>& classes);
+std::string class_style(const std::vector<RasterClass>& classes);
 
 }  // namespace itin::viewshed

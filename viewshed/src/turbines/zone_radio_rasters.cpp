@@ -26,15 +26,13 @@ std::vector<ZoneFile> write_link_raster(const std::string& folder, const Zone& z
   RasterDescription description;
   description.classes = {{kLinkClear, "clear of links", kTransparent},
                          {kLinkExcluded, "rotor within a second Fresnel zone", {213, 94, 0}}};
-  std::vector<StyleClass> style;
-  for (const RasterClass& c : description.classes) style.push_back({c.value, c.name, c.colour});
   files.write(
       "link-exclusion",
       fmt::format("1 where a rotor of radius {:g} m would come into the second Fresnel zone of a link at {:g} GHz "
                   "in plan (after Bacon 2002), otherwise 0",
                   study.rotor_radius_m, study.frequency_ghz),
       link_exclusion(zone.grid, study.links, study.frequency_ghz, study.rotor_radius_m), description,
-      class_style(style));
+      class_style(description.classes));
   return std::move(files).files();
 }
 

@@ -165,18 +165,16 @@ void write_farm_raster(const std::vector<std::uint32_t>& farms, const std::vecto
   }
   constexpr std::uint8_t kOutsideClass = 255;
   RasterDescription description = with_nodata(kOutsideClass);
-  std::vector<StyleClass> style;
   std::size_t index = 0;
   for (const Combination& c : present) {
     const Rgba colour = c.farms == 0 ? kTransparent : distinct_colour(index++);
     description.classes.push_back({static_cast<int>(c.farms), c.name, colour});
-    style.push_back({c.farms, c.name, colour});
   }
   std::vector<std::uint8_t> classes(farms.size());
   std::transform(farms.begin(), farms.end(), classes.begin(),
                  [](std::uint32_t f) { return f == kOutsideFarms ? kOutsideClass : static_cast<std::uint8_t>(f); });
   folder.write(name, fmt::format("which farms have a tip seen, by combination; 255: {}", kNoValue), classes,
-               description, class_style(style));
+               description, class_style(description.classes));
 }
 
 void write_farm_rasters(const Zone& zone, RasterFolder& folder) {
@@ -198,12 +196,10 @@ void write_study_area(const Zone& zone, RasterFolder& folder) {
   for (std::size_t i = 0; i < values.size(); ++i)
     if (missing[i] == 1 || zone.bare.tip_count[i] != kCountOutside) values[i] = missing[i] == 1 ? kNoGround : kGround;
   RasterDescription description = with_nodata(kOutsideStudy);
-  constexpr Rgba kGrey{120, 120, 120};
-  description.classes = {{kNoGround, "no ground data", kGrey}, {kGround, "studied", kTransparent}};
+  description.classes = {{kNoGround, "no ground data", {120, 120, 120}}, {kGround, "studied", kTransparent}};
   folder.write("study-area",
                "1 where turbines are looked for, 0 where there is no ground data; 255: outside every turbine's radius",
-               values, description,
-               class_style({{kNoGround, "no ground data", kGrey}, {kGround, "studied", kTransparent}}));
+               values, description, class_style(description.classes));
 }
 
 }  // namespace
