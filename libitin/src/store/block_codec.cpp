@@ -17,11 +17,6 @@ namespace itin {
 
 namespace {
 
-// A position within the block: on the block's lattice where there is one, else in grid units from the cell's corner.
-struct Local {
-  std::uint32_t x, y;
-};
-
 // The lattice all positions lie on: x = x0 + i * step_x with i < width. Steps of 1 mean that there is none; then
 // positions are coded along the Morton curve, otherwise row by row.
 struct Lattice {
@@ -135,24 +130,13 @@ PointSources read_sources(ByteReader& in, std::size_t count) {
   return sources;
 }
 
-// Width and height of the positions' extent, and the positions moved to its corner.
-Local move_to_corner(std::vector<Local>& positions) {
-  Local low = positions.front(), high = low;
-  for (const Local& p : positions) {
-    low.x = std::min(low.x, p.x), high.x = std::max(high.x, p.x);
-    low.y = std::min(low.y, p.y), high.y = std::max(high.y, p.y);
-  }
-  for (Local& p : positions) p.x -= low.x, p.y -= low.y;
-  return {high.x - low.x + 1, high.y - low.y + 1};
-}
-
 // Positions are counted from the corner of the cell, or of the lattice.
-std::vector<Local> read_positions(BitReader& in, std::size_t count, int rice, const Cell& cell,
-                                  const Lattice& lattice) {
+std::vector<LocalPosition> read_positions(BitReader& in, std::size_t count, int rice, const Cell& cell,
+                                          const Lattice& lattice) {
   const std::uint64_t ranks = lattice.scattered() ? cell.end() - cell.code : lattice.width << (cell.log2_side + 1);
-  std::vector<Local> positions(count);
+  std::vector<LocalPosition> positions(count);
   std::uint64_t rank = ~std::uint64_t{0}, row = 0, row_start = 0;
-  for (Local& p : positions) {
+  for (LocalPosition& p : positions) {
     const std::uint64_t gap = in.rice(rice);
     if (gap >= ranks || (rank += gap + 1) >= ranks) throw DecodeError("a point lies outside its cell");
     if (lattice.scattered()) {
@@ -177,13 +161,11 @@ std::vector<std::int64_t> heights_of(std::span<const GridPoint> points, std::uin
 
 // Calls visit(i, prediction) for each point but the first; visit returns the height.
 template <typename Visit>
-void for_each_prediction(std::vector<Local> positions, const Visit& visit) {
-  const Local size = move_to_corner(positions);
-  HeightPredictor predictor(size.x, size.y, positions.size());
-  predictor.add(positions[0].x, positions[0].y, 0);
-  for (std::size_t i = 1; i < positions.size(); ++i) {
-    predictor.add(positions[i].x, positions[i].y, visit(i, predictor.predict(positions[i].x, positions[i].y)));
-  }
+void for_each_prediction(std::vector<LocalPosition> positions, const Visit& visit) {
+  const std::size_t count = positions.size();
+  HeightPredictor predictor(std::move(positions));
+  predictor.add(0);
+  for (std::size_t i = 1; i < count; ++i) predictor.add(visit(i, predictor.predict()));
 }
 
 // The parameter the residuals' scale starts from: that of their mean.
@@ -193,9 +175,10 @@ int mean_parameter(std::span<const std::uint64_t> residuals) {
   return std::min<int>(std::bit_width(sum / residuals.size()), kMaxRiceParameter);
 }
 
-std::vector<Local> local_positions(const Cell& cell, const Lattice& lattice, std::span<const GridPoint> points) {
+std::vector<LocalPosition> local_positions(const Cell& cell, const Lattice& lattice,
+                                           std::span<const GridPoint> points) {
   const GridBox box = cell.box();
-  std::vector<Local> positions;
+  std::vector<LocalPosition> positions;
   positions.reserve(points.size());
   for (const GridPoint& p : points) {
     positions.push_back(
@@ -248,13 +231,13 @@ std::int32_t checked_height(std::int64_t z) {
 }
 
 // The plan position of each local one, heights 0.
-std::vector<GridPoint> plan_points(const Cell& cell, const Lattice& lattice, std::span<const Local> positions) {
+std::vector<GridPoint> plan_points(const Cell& cell, const Lattice& lattice, std::span<const LocalPosition> positions) {
   const GridBox box = cell.box();
   const auto last_row = ((std::uint64_t{1} << cell.log2_side) - 1 - lattice.y0) / lattice.step_y;
   if (positions.back().y > last_row && !lattice.scattered()) throw DecodeError("a point lies outside its cell");
   std::vector<GridPoint> points;
   points.reserve(positions.size());
-  for (const Local& p : positions) {
+  for (const LocalPosition& p : positions) {
     points.push_back({static_cast<std::int32_t>(box.xmin + lattice.x0 + p.x * lattice.step_x),
                       static_cast<std::int32_t>(box.ymin + lattice.y0 + p.y * lattice.step_y), 0});
   }
@@ -323,7 +306,7 @@ struct Plan {
   int first_rice;
   PointSources sources;
   std::vector<std::uint8_t> padded;
-  std::vector<Local> positions;
+  std::vector<LocalPosition> positions;
   std::optional<BitReader> heights;  // of `padded`, before the first residual
 };
 
@@ -358,6 +341,7 @@ Block decode_plan(const Cell& cell, std::span<const std::uint8_t> bytes) {
   const Plan plan = read_plan(cell, bytes);
   Block block;
   block.points = plan_points(cell, plan.lattice, plan.positions);
+  block.in_order = plan.lattice.scattered();
   return block;
 }
 
@@ -381,8 +365,11 @@ Block decode_block(const Cell& cell, std::span<const std::uint8_t> bytes, BlockO
     return height;
   });
   if (!bits.finished_cleanly()) throw DecodeError("points end too early or too late");
-  if (order == BlockOrder::kMorton && !plan.lattice.scattered())
+  block.in_order = plan.lattice.scattered();
+  if (!block.in_order && order == BlockOrder::kMorton) {
     sort_along_curve(cell, plan.lattice.step_x, plan.lattice.step_y, block.points);
+    block.in_order = true;
+  }
   return block;
 }
 

@@ -1,147 +1,207 @@
 #include "store/height_predictor.hpp"
 
 #include <algorithm>
-#include <array>
+#include <cstdlib>
+#include <cstring>
 #include <utility>
 
 namespace itin {
 
 namespace {
 
-constexpr int kMaxOffset = 25;
+// Sums of products stay below 2^53 with differences of heights up to this one.
+constexpr std::int64_t kGreatestDifference = std::int64_t{1} << 20;
+// No difference of moderate heights is greater.
+constexpr std::int64_t kModerateHeight = kGreatestDifference / 2;
+// Offsets are below 36 steps and differ by whole ones, so that shares are found from numbers below 10^4, with errors
+// below 10^-11. Those of eight moderate heights add up to less than 10^-4, and FORMAT.md's arithmetic has no greater
+// error.
+constexpr double kDoubt = 1e-3;
 
-constexpr auto kWeights = [] {
-  std::array<double, 2 * kMaxOffset * kMaxOffset + 1> weights{};
-  for (std::uint32_t d2 = 0; d2 < weights.size(); ++d2) {
-    const std::uint32_t weight = 65536 / (d2 + 1);
-    weights[d2] = weight;
+constexpr std::size_t kMargin = 2;  // of buckets, for those around
+
+// One number for each of four points.
+using Ints = std::int32_t __attribute__((vector_size(16)));
+using Floats = float __attribute__((vector_size(16)));
+using Doubles = double __attribute__((vector_size(32)));
+constexpr std::size_t kLanes = 4;
+
+constexpr std::int32_t weight_of(std::int32_t dx, std::int32_t dy) {
+  return kGreatestWeight / (dx * dx + dy * dy + 1);
+}
+
+// Where buckets are single positions: the share of each sample, by which of them are there, as bits.
+constexpr auto kShares = [] {
+  std::array<std::array<double, kBucketsAround.size()>, std::size_t{1} << kBucketsAround.size()> all{};
+  for (std::size_t there = 1; there < all.size(); ++there) {
+    PlaneMoments<double> moments;
+    for (std::size_t i = 0; i < kBucketsAround.size(); ++i) {
+      const auto [x, y] = kBucketsAround[i];
+      if ((there >> i & 1) != 0) moments.add(weight_of(x, y), x, y);
+    }
+    const SampleShares<double> shares{PredictionPlane<double>(moments)};
+    for (std::size_t i = 0; i < kBucketsAround.size(); ++i) {
+      const auto [x, y] = kBucketsAround[i];
+      if ((there >> i & 1) != 0) shares.find(all[there][i], weight_of(x, y), x, y);
+    }
   }
-  return weights;
+  return all;
 }();
 
-// Where the buckets lie that are looked at, from the point's own.
-struct Offset {
-  int x, y;
-  constexpr std::int64_t weight() const { return 65536 / (x * x + y * y + 1); }
-};
-constexpr std::array<Offset, 8> kAround = {{{0, 0}, {-1, 0}, {0, -1}, {-1, -1}, {1, -1}, {-1, 1}, {-2, 0}, {0, -2}}};
-
-// Weighted sums over the samples. All are integers below 2^53, hence exact, in whatever order they are added up.
-struct Moments {
-  double w = 0, x = 0, y = 0, xx = 0, xy = 0, yy = 0, z = 0, xz = 0, yz = 0;
-
-  constexpr void add(double weight, double dx, double dy, double dz) {
-    const double wx = weight * dx, wy = weight * dy;
-    w += weight, x += wx, y += wy;
-    xx += wx * dx, xy += wx * dy, yy += wy * dy;
-    z += weight * dz, xz += wx * dz, yz += wy * dz;
+// Moves positions to the corner of their extent; returns the greatest of both.
+LocalPosition move_to_corner(std::vector<LocalPosition>& positions) {
+  LocalPosition low = positions.front(), high = low;
+  for (const LocalPosition& p : positions) {
+    low.x = std::min(low.x, p.x), high.x = std::max(high.x, p.x);
+    low.y = std::min(low.y, p.y), high.y = std::max(high.y, p.y);
   }
-};
-
-// The part of a least-squares plane that depends on the samples' positions alone.
-struct Plane {
-  double w = 0, x = 0, y = 0, a = 0, c = 0, cross = 0, determinant = 0;
-
-  constexpr Plane() = default;
-  constexpr explicit Plane(const Moments& m) : w(m.w), x(m.x), y(m.y), cross(m.xy * m.w - m.x * m.y) {
-    const double spread_x = m.xx * m.w - m.x * m.x, spread_y = m.yy * m.w - m.y * m.y;
-    const double damping = (spread_x + spread_y) * 0.125;
-    a = spread_x + damping, c = spread_y + damping;
-    determinant = a * c - cross * cross;
-  }
-
-  // Its height at the origin of the offsets.
-  double intercept(double z, double xz, double yz) const {
-    if (!(determinant > 0)) return z / w;
-    const double e = xz * w - z * x, f = yz * w - z * y;
-    const double slope_x = e * c - f * cross, slope_y = a * f - cross * e;
-    return (z - (slope_x * x + slope_y * y) / determinant) / w;
-  }
-};
-
-// Where buckets are single positions, by which of them hold a sample, as bits.
-constexpr auto kPlanes = [] {
-  std::array<Plane, std::size_t{1} << kAround.size()> planes{};
-  for (std::size_t there = 0; there < planes.size(); ++there) {
-    Moments moments;
-    for (std::size_t i = 0; i < kAround.size(); ++i)
-      if ((there >> i & 1) != 0) moments.add(static_cast<double>(kAround[i].weight()), kAround[i].x, kAround[i].y, 0);
-    planes[there] = Plane(moments);
-  }
-  return planes;
-}();
+  for (LocalPosition& p : positions) p.x -= low.x, p.y -= low.y;
+  return {high.x - low.x, high.y - low.y};
+}
 
 }  // namespace
 
-HeightPredictor::HeightPredictor(std::uint32_t width, std::uint32_t height, std::size_t count) {
+HeightPredictor::HeightPredictor(std::vector<LocalPosition> positions) : positions_(std::move(positions)) {
+  const LocalPosition greatest = move_to_corner(positions_);
   const auto buckets = [&](int shift) {
-    return (std::uint64_t{(width - 1) >> shift} + 1) * (std::uint64_t{(height - 1) >> shift} + 1);
+    return (std::uint64_t{greatest.x >> shift} + 1) * (std::uint64_t{greatest.y >> shift} + 1);
   };
-  while (buckets(shift_) > 2 * count) ++shift_;
+  while (buckets(shift_) > 2 * positions_.size()) ++shift_;
   offset_shift_ = std::max(0, shift_ - 3);
-  stride_ = ((width - 1) >> shift_) + 1 + 2 * kMargin;
-  const std::size_t all = stride_ * (((height - 1) >> shift_) + 1 + 2 * kMargin);
+  stride_ = (greatest.x >> shift_) + 1 + 2 * kMargin;
+  const std::size_t all = stride_ * ((greatest.y >> shift_) + 1 + 2 * kMargin);
+  for (std::size_t i = 0; i < kSamples; ++i)
+    around_[i] = kBucketsAround[i].y * static_cast<std::ptrdiff_t>(stride_) + kBucketsAround[i].x;
+  heights_.resize(all);
   if (on_lattice()) {
-    heights_.assign(all, kNoHeight);
+    samples_.resize(all);
   } else {
-    latest_.resize(all);
-    samples_.reserve(count);
+    spots_.resize(all);
   }
+  begin_batch();
 }
 
-std::int64_t HeightPredictor::predict(std::uint32_t x, std::uint32_t y) const {
-  const double limit = 2.0 * kHeightLimit;
-  const double above = on_lattice() ? offset_on_lattice(x, y) : offset_among(x, y);
-  const double offset = std::clamp(above, -limit, limit) + limit + 0.5;
-  return last_ + static_cast<std::int64_t>(offset) - 2 * kHeightLimit;
-}
-
-double HeightPredictor::offset_on_lattice(std::uint32_t x, std::uint32_t y) const {
-  const std::size_t here = bucket(x, y);
-  const auto stride = static_cast<std::ptrdiff_t>(stride_);
-  std::size_t there = 0;
-  std::int64_t z = 0, xz = 0, yz = 0;
-  const auto at_offset = [&](std::size_t number, const Offset& b) __attribute__((always_inline)) {
-    const std::int64_t height = heights_[here + static_cast<std::size_t>(b.y * stride + b.x)];
-    const bool is_there = height != kNoHeight;
-    there |= std::size_t{is_there} << number;
-    const std::int64_t wz = is_there ? b.weight() * above_last(height) : 0;
-    z += wz, xz += wz * b.x, yz += wz * b.y;
-  };
-  // Without a loop, for all factors are constants then.
-  [&]<std::size_t... i>(std::index_sequence<i...>) {
-    (at_offset(i, kAround[i]), ...);
+void HeightPredictor::begin_batch() {
+  const std::size_t count = std::min(kBatch, positions_.size() - next_);
+  for (std::size_t j = 0; j < count; ++j) {
+    const LocalPosition& p = positions_[next_ + j];
+    x_[j] = static_cast<std::int32_t>(p.x), y_[j] = static_cast<std::int32_t>(p.y);
+    bucket_[j] = ((p.y >> shift_) + kMargin) * stride_ + (p.x >> shift_) + kMargin;
   }
-  (std::make_index_sequence<kAround.size()>());
-  return there == 0
-             ? 0
-             : kPlanes[there].intercept(static_cast<double>(z), static_cast<double>(xz), static_cast<double>(yz));
-}
-
-double HeightPredictor::offset_among(std::uint32_t x, std::uint32_t y) const {
-  const std::size_t here = bucket(x, y);
-  const auto stride = static_cast<std::ptrdiff_t>(stride_);
-  Moments moments;
-#pragma GCC unroll 8
-  for (const Offset& b : kAround) {
-    const Sample* const s = latest(here + static_cast<std::size_t>(b.y * stride + b.x));
-    if (s == nullptr) continue;
-    const std::int64_t east = (static_cast<std::int64_t>(s->x) - x) >> offset_shift_,
-                       north = (static_cast<std::int64_t>(s->y) - y) >> offset_shift_;
-    const double weight = kWeights[static_cast<std::size_t>(east * east + north * north)];
-    moments.add(weight, static_cast<double>(east), static_cast<double>(north), static_cast<double>(above_last(s->z)));
-  }
-  return moments.w == 0 ? 0 : Plane(moments).intercept(moments.z, moments.xz, moments.yz);
-}
-
-void HeightPredictor::add(std::uint32_t x, std::uint32_t y, std::int64_t z) {
-  last_ = z;
   if (on_lattice()) {
-    heights_[bucket(x, y)] = z;
-    return;
+    look_around_on_lattice(count);
+  } else {
+    look_around(count);
+    find_shares(count);
   }
-  samples_.push_back({x, y, z});
-  latest_[bucket(x, y)] = static_cast<std::uint16_t>(samples_.size());
+}
+
+void HeightPredictor::look_around_on_lattice(std::size_t count) {
+  for (std::size_t j = 0; j < count; ++j) {
+    std::uint8_t* const samples = &samples_[bucket_[j]];
+    there_[j] = *samples, alone_[j] = *samples == 0;
+    for (std::size_t i = 0; i < kSamples; ++i) samples[-around_[i]] |= static_cast<std::uint8_t>(1U << i);
+  }
+}
+
+void HeightPredictor::look_around(std::size_t count) {
+  for (std::size_t j = 0; j < count; ++j) {
+    Spot* const spots = &spots_[bucket_[j]];
+    for (std::size_t i = 0; i < kSamples; ++i) {
+      const Spot spot = spots[around_[i]];
+      sample_x_[i][j] = spot.x, sample_y_[i][j] = spot.y;
+    }
+    *spots = {x_[j], y_[j]};
+  }
+}
+
+void HeightPredictor::find_shares(std::size_t count) {
+  for (std::size_t first = 0; first < count; first += kLanes) {
+    const auto lanes = [first](const OfBatch<std::int32_t>& values, Ints& four) {
+      std::memcpy(&four, &values[first], sizeof four);
+    };
+    Ints x, y, sample_x, sample_y;
+    lanes(x_, x), lanes(y_, y);
+    std::array<Floats, kSamples> dx, dy, weight;
+    PlaneMoments<Floats> sums;
+    for (std::size_t i = 0; i < kSamples; ++i) {
+      lanes(sample_x_[i], sample_x), lanes(sample_y_[i], sample_y);
+      dx[i] = __builtin_convertvector((sample_x - x) >> offset_shift_, Floats);
+      dy[i] = __builtin_convertvector((sample_y - y) >> offset_shift_, Floats);
+      const Floats quotient = static_cast<float>(kGreatestWeight) / (dx[i] * dx[i] + dy[i] * dy[i] + 1);
+      const Ints there = sample_x != kNone;
+      weight[i] = __builtin_convertvector(__builtin_convertvector(quotient, Ints) & there, Floats);
+      sums.add(weight[i], dx[i], dy[i]);
+    }
+    const auto widen = [](const Floats& from, Doubles& to) { to = __builtin_convertvector(from, Doubles); };
+    PlaneMoments<Doubles> wide;
+    widen(sums.w, wide.w), widen(sums.x, wide.x), widen(sums.y, wide.y);
+    widen(sums.xx, wide.xx), widen(sums.xy, wide.xy), widen(sums.yy, wide.yy);
+    const SampleShares<Doubles> shares{PredictionPlane<Doubles>(wide)};
+    for (std::size_t i = 0; i < kSamples; ++i) {
+      Doubles share, w, east, north;
+      widen(weight[i], w), widen(dx[i], east), widen(dy[i], north);
+      shares.find(share, w, east, north);
+      for (std::size_t k = 0; k < kLanes; ++k) shares_[first + k][i] = share[k];
+    }
+    for (std::size_t k = 0; k < kLanes; ++k) alone_[first + k] = sums.w[k] == 0;
+  }
+}
+
+std::int64_t HeightPredictor::predict() const {
+  const std::size_t j = next_ % kBatch;
+  if (!moderate_ || alone_[j]) [[unlikely]]
+    return predict_slowly();
+  const Shares& shares = on_lattice() ? kShares[there_[j]] : shares_[j];
+  const double* const heights = &heights_[bucket_[j]];
+  const auto part = [&](std::size_t i) { return shares[i] * heights[around_[i]]; };
+  // The sample at the point's left, mostly the latest one, comes last: its height is waited for.
+  const double predicted = ((part(2) + part(3)) + (part(4) + part(6))) + ((part(5) + part(7)) + part(0)) + part(1);
+  if (!(std::abs(predicted) < kGreatestDifference)) [[unlikely]]
+    return predict_slowly();
+  const double above = predicted + (kGreatestDifference + 0.5);
+  const auto whole = static_cast<std::int64_t>(above);
+  const double rest = above - static_cast<double>(whole);
+  if (rest < kDoubt || rest > 1 - kDoubt) [[unlikely]]
+    return predict_slowly();
+  return whole - kGreatestDifference;
+}
+
+// Calls visit(weight, dx, dy, height) for the samples about the next point.
+template <class Visit>
+void HeightPredictor::for_each_sample(const Visit& visit) const {
+  const std::size_t j = next_ % kBatch;
+  for (std::size_t i = 0; i < kSamples; ++i) {
+    auto [dx, dy] = kBucketsAround[i];
+    if (on_lattice()) {
+      if ((there_[j] >> i & 1) == 0) continue;
+    } else {
+      if (sample_x_[i][j] == kNone) continue;
+      dx = (sample_x_[i][j] - x_[j]) >> offset_shift_, dy = (sample_y_[i][j] - y_[j]) >> offset_shift_;
+    }
+    visit(weight_of(dx, dy), dx, dy, heights_[bucket_[j] + static_cast<std::size_t>(around_[i])]);
+  }
+}
+
+std::int64_t HeightPredictor::predict_slowly() const {
+  PlaneMoments<double> plane;
+  HeightMoments heights;
+  constexpr double greatest = kGreatestDifference;
+  for_each_sample([&](double weight, double dx, double dy, double height) {
+    plane.add(weight, dx, dy);
+    heights.add(weight, dx, dy, std::clamp(height - static_cast<double>(last_), -greatest, greatest));
+  });
+  if (plane.w == 0) return last_;
+  const double above = std::clamp(PredictionPlane<double>(plane).intercept(heights), -2 * greatest, 2 * greatest);
+  const double positive = above + 2 * greatest + 0.5;
+  return last_ + static_cast<std::int64_t>(positive) - 2 * kGreatestDifference;
+}
+
+void HeightPredictor::add(std::int64_t z) {
+  last_ = z;
+  moderate_ = moderate_ && std::abs(z) <= kModerateHeight;
+  heights_[bucket_[next_ % kBatch]] = static_cast<double>(z);
+  if (++next_ % kBatch == 0 && next_ < positions_.size()) begin_batch();
 }
 
 }  // namespace itin

@@ -1,61 +1,76 @@
-// Predicts the height of a block's next point from those before it: a weighted least-squares plane through the latest
-// points of the surrounding buckets, with the slope damped.
+// Predicts the heights of a block's points, each from those before it.
 //
-// Encoder and decoder must come to the same number to the last bit on every machine. All sums are integers that
-// binary64 holds exactly; the operations after them are IEEE 754, each rounded to nearest (never compile with
-// contraction or fast-math). FORMAT.md repeats this arithmetic.
+// What a sample's height counts for depends on positions alone, so that is found for many points at once. A prediction
+// then takes one sum of products, which is good to far less than a thousandth of a step. Where a thousandth could make
+// it another whole number, FORMAT.md's own arithmetic decides, whose operations wait for each other.
 #pragma once
 
-#include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <vector>
+
+#include "store/prediction_plane.hpp"
 
 namespace itin {
 
+/// A position within a block: on the block's lattice where there is one, else in grid units.
+struct LocalPosition {
+  std::uint32_t x, y;
+};
+
 class HeightPredictor {
  public:
-  /// Local positions lie in [0, width) x [0, height); `count` of them will come.
-  HeightPredictor(std::uint32_t width, std::uint32_t height, std::size_t count);
+  /// `positions` of at least one point, in the order of coding.
+  explicit HeightPredictor(std::vector<LocalPosition> positions);
 
-  /// Precondition: at least one point was added.
-  std::int64_t predict(std::uint32_t x, std::uint32_t y) const;
-  /// |z| <= 2^33
-  void add(std::uint32_t x, std::uint32_t y, std::int64_t z);
+  /// The next point's height. Precondition: at least one was added.
+  std::int64_t predict() const;
+  /// The next point's height; |z| <= 2^33.
+  void add(std::int64_t z);
 
  private:
-  struct Sample {
-    std::uint32_t x, y;
-    std::int64_t z;
+  static constexpr std::size_t kSamples = kBucketsAround.size();
+  static constexpr std::size_t kBatch = 32;
+  template <class T>
+  using OfBatch = std::array<T, kBatch>;
+  using Shares = std::array<double, kSamples>;
+  static constexpr std::int32_t kNone = -1;
+  struct Spot {
+    std::int32_t x = kNone, y = kNone;
   };
-  std::size_t bucket(std::uint32_t x, std::uint32_t y) const {
-    return ((y >> shift_) + kMargin) * stride_ + (x >> shift_) + kMargin;
-  }
 
-  // Where buckets are single positions, their heights are all that is kept.
+  // Whether buckets are single positions, which tell where their samples are.
   bool on_lattice() const { return shift_ == 0; }
+  void begin_batch();
+  void look_around_on_lattice(std::size_t count);
+  void look_around(std::size_t count);
+  void find_shares(std::size_t count);
+  template <class Visit>
+  void for_each_sample(const Visit& visit) const;
+  // By FORMAT.md's own arithmetic.
+  std::int64_t predict_slowly() const;
 
-  // A bucket's latest sample; null where it has none.
-  const Sample* latest(std::size_t bucket) const {
-    const std::uint16_t number = latest_[bucket];
-    return number == 0 ? nullptr : &samples_[number - 1U];
-  }
-  std::int64_t above_last(std::int64_t z) const { return std::clamp(z - last_, -kHeightLimit, kHeightLimit); }
-  // Above the last sample's height; 0 where no sample is near.
-  double offset_on_lattice(std::uint32_t x, std::uint32_t y) const;
-  double offset_among(std::uint32_t x, std::uint32_t y) const;
-
-  static constexpr std::int64_t kHeightLimit = std::int64_t{1} << 20;  ///< keeps every sum below 2^53
-  static constexpr std::int64_t kNoHeight = std::numeric_limits<std::int64_t>::min();
-  static constexpr std::size_t kMargin = 2;
-  int shift_ = 0;         ///< log2 of a bucket's side
-  int offset_shift_ = 0;  ///< brings differences of positions below 32
+  std::vector<LocalPosition> positions_;  // from the corner of their extent
+  std::size_t next_ = 0;
+  std::int64_t last_ = 0;  // the latest height
+  bool moderate_ = true;   // all heights so far
+  int shift_ = 0;          // log2 of a bucket's side
+  int offset_shift_ = 0;   // brings differences of positions below 32
   std::size_t stride_ = 0;
-  std::int64_t last_ = 0;  ///< height of the latest sample
-  std::vector<Sample> samples_;
-  std::vector<std::uint16_t> latest_;  ///< by bucket: index of its latest sample plus 1, or 0
-  std::vector<std::int64_t> heights_;  ///< on a lattice, by bucket; kNoHeight where none has come
+  std::array<std::ptrdiff_t, kSamples> around_{};  // kBucketsAround, by number
+  // By bucket, of its latest sample:
+  std::vector<double> heights_;        // 0 where there is none
+  std::vector<Spot> spots_;            // empty on a lattice
+  std::vector<std::uint8_t> samples_;  // on a lattice: which of the buckets around have one, as bits
+
+  // By point of a batch, with the buckets as they are before it comes:
+  OfBatch<std::size_t> bucket_{};
+  OfBatch<std::int32_t> x_{}, y_{};
+  OfBatch<std::uint8_t> there_{};                                        // on a lattice: as samples_
+  std::array<OfBatch<std::int32_t>, kSamples> sample_x_{}, sample_y_{};  // else; kNone where there is no sample
+  OfBatch<Shares> shares_{};                                             // else; 0 where there is no sample
+  OfBatch<bool> alone_{};                                                // whether no sample is around
 };
 
 }  // namespace itin
