@@ -271,20 +271,25 @@ std::optional<double> BinnedHeights::height_amid_square(double column, double ro
       units);
 }
 
-bool BinnedHeights::all_unread(Point2 north_west, Point2 south_east) const {
+BinnedHeights::Expanse BinnedHeights::expanse(Point2 north_west, Point2 south_east) const {
+  if (lattice_ == nullptr) return Expanse::kVarious;
+  const auto tile_at = [](double bin, std::int64_t bins) {
+    return static_cast<std::uint32_t>(std::clamp(bin, 0.0, static_cast<double>(bins - 1))) / LatticeTin::kSide;
+  };
   const double west = column_at(north_west.x), north = row_at(north_west.y), east = column_at(south_east.x),
                south = row_at(south_east.y);
-  if (lattice_ == nullptr || west < 0 || north < 0 || east >= static_cast<double>(columns()) ||
-      south >= static_cast<double>(rows()))
-    return false;
-  const auto tile_at = [](double bin) { return static_cast<std::uint32_t>(bin) / LatticeTin::kSide; };
-  for (std::uint32_t row = tile_at(north); row <= tile_at(south); ++row) {
-    for (std::uint32_t column = tile_at(west); column <= tile_at(east); ++column) {
+  bool bare = true,
+       unread = west >= 0 && north >= 0 && east < static_cast<double>(columns()) && south < static_cast<double>(rows());
+  // A position on a tile's side also belongs to the tile beyond.
+  for (std::uint32_t row = tile_at(north - kSlack, rows()); row <= tile_at(south + kSlack, rows()); ++row) {
+    for (std::uint32_t column = tile_at(west - kSlack, columns()); column <= tile_at(east + kSlack, columns());
+         ++column) {
       const LatticeTin::Tile& tile = lattice_->tiles[row * lattice_->tile_columns() + column];
-      if (tile.ground != LatticeTin::Ground::kWhole || tile.heights) return false;
+      bare = bare && tile.ground == LatticeTin::Ground::kNone;
+      unread = unread && tile.ground == LatticeTin::Ground::kWhole && !tile.heights;
     }
   }
-  return true;
+  return bare ? Expanse::kAllBare : unread ? Expanse::kAllUnread : Expanse::kVarious;
 }
 
 /// Whether a bin that has not been read has ground at a position.

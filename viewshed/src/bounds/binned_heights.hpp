@@ -75,8 +75,9 @@ class BinnedHeights : public BinBounds {
   bool partition() const { return lattice_ != nullptr; }
   /// The surface's height at a position, if it is there; grid units. kUnread where it has not been read.
   std::optional<double> height_at(Point2 units) const;
-  /// Whether there is ground at every position between two corners, and none of it has been read.
-  bool all_unread(Point2 north_west, Point2 south_east) const;
+  /// At all positions between two corners: no ground, ground of which none has been read, or what is not told.
+  enum class Expanse : std::uint8_t { kAllBare, kAllUnread, kVarious };
+  Expanse expanse(Point2 north_west, Point2 south_east) const;
 
  private:
   BinnedHeights(const Tin& tin, std::optional<LatticeTin> lattice, double cell_area);

@@ -150,11 +150,13 @@ void FullSurface::find_ground(std::span<const Tile> parts, TileWork& work) const
                north = static_cast<std::size_t>(part.row - work.tile.row);
     const std::size_t east = west + static_cast<std::size_t>(part.columns),
                       south = north + static_cast<std::size_t>(part.rows);
-    const bool unread = heights_->all_unread({at.x[west], at.y[north]}, {at.x[east - 1], at.y[south - 1]});
-    work.unread = work.unread && unread;
+    using Expanse = BinnedHeights::Expanse;
+    const Expanse expanse = heights_->expanse({at.x[west], at.y[north]}, {at.x[east - 1], at.y[south - 1]});
+    work.unread = work.unread && expanse == Expanse::kAllUnread;
+    if (expanse == Expanse::kAllBare) continue;
     for (std::size_t r = north; r < south; ++r) {
       for (std::size_t c = west; c < east; ++c) {
-        const auto height = unread ? kUnread : heights_->height_at({at.x[c], at.y[r]});
+        const auto height = expanse == Expanse::kAllUnread ? kUnread : heights_->height_at({at.x[c], at.y[r]});
         if (height) work.ground[r * Tile::kSide + c] = *height;
       }
     }
