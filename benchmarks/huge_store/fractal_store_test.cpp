@@ -20,6 +20,7 @@
 #include "huge_store/square.hpp"
 #include "store/store_rows.hpp"
 #include "support/raster_file.hpp"
+#include "support/row_bytes.hpp"
 #include "support/sound_store.hpp"
 #include "support/temporary_directory.hpp"
 
@@ -130,7 +131,7 @@ std::vector<std::pair<std::uint64_t, std::vector<std::uint8_t>>> rows_of(const s
   const StoreRows rows(path);
   std::vector<std::pair<std::uint64_t, std::vector<std::uint8_t>>> result;
   for (const BlobKind kind : {BlobKind::Directory, BlobKind::Block})
-    rows.for_each_key(kind, [&](std::uint64_t key) { result.emplace_back(key, rows.read(kind, key)); });
+    rows.for_each_key(kind, [&](std::uint64_t key) { result.emplace_back(key, test::bytes_of(rows, kind, key)); });
   return result;
 }
 

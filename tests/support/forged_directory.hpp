@@ -9,6 +9,7 @@
 #include "store/store_format.hpp"
 #include "store/store_rows.hpp"
 #include "support/forged_rows.hpp"
+#include "support/row_bytes.hpp"
 
 namespace itin::test {
 
@@ -19,11 +20,11 @@ inline void forge_directory(const std::string& path, int tree, const std::functi
   std::vector<Row> rows;
   {
     const StoreRows store(path);
-    ChunkList list = decode_chunk_list(store.read(BlobKind::Directory, format::kChunkListKey));
+    ChunkList list = decode_chunk_list(bytes_of(store, BlobKind::Directory, format::kChunkListKey));
     std::vector<ChunkEntry> entries;
     for (const ChunkEntry& entry : list.at(tree)) {
       old_keys.push_back(format::key(tree, entry.code));
-      DirectoryChunk chunk = decode_chunk(store.read(BlobKind::Directory, old_keys.back()), tree, entry);
+      DirectoryChunk chunk = decode_chunk(bytes_of(store, BlobKind::Directory, old_keys.back()), tree, entry);
       change(chunk);
       if (chunk.empty()) continue;
       entries.push_back(entry_of(chunk));

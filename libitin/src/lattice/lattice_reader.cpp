@@ -116,7 +116,7 @@ bool LatticeReader::Work::find_lattice(Heights heights, std::uint64_t most_posts
                          [](const Leaf& a, const Leaf& b) { return a.points > b.points; });
   PostSpacing posts;
   for (const Leaf& leaf : fullest) {
-    const auto block = index_.block(leaf);
+    const auto block = index_.unordered_block(leaf);
     for (const GridPoint& p : block->points)
       if (window_.bounds().contains(p.x, p.y)) posts.add(p);
   }
@@ -202,7 +202,7 @@ bool LatticeReader::Work::place_all(const std::vector<Group>& groups, std::size_
 }
 
 bool LatticeReader::Work::place(const Leaf& leaf, Heights heights) {
-  const auto block = heights == Heights::kNone ? index_.block(leaf) : index_.block_once(leaf);
+  const auto block = heights == Heights::kNone ? index_.unordered_block(leaf) : index_.block_once(leaf);
   return for_each_post(*block, [&](const LatticePlace& place, std::int32_t z) {
     if (heights == Heights::kAll) {
       set_height(place, z);
@@ -322,7 +322,7 @@ void LatticeReader::Work::read_leaves(std::span<const std::uint32_t> leaves, Pro
     for (std::size_t i = task * kLeavesATask; i < std::min(leaves.size(), (task + 1) * kLeavesATask); ++i) {
       const Leaf& leaf = leaves_[leaves[i]];
       // Wide ones are asked for time and again.
-      const auto block = bounds_well(leaf) ? index_.block_once(leaf) : index_.block(leaf);
+      const auto block = bounds_well(leaf) ? index_.block_once(leaf) : index_.unordered_block(leaf);
       for (const GridPoint& p : block->points) {
         const auto place = place_of(lattice_, p);
         if (place && place->post) set_height(*place, p.z);

@@ -131,10 +131,4 @@ std::string Statement::text(int column) const {
   return data ? std::string(data, static_cast<std::size_t>(sqlite3_column_bytes(handle_.get(), column))) : "";
 }
 
-std::vector<std::uint8_t> Statement::blob(int column) const {
-  const auto* data = static_cast<const std::uint8_t*>(sqlite3_column_blob(handle_.get(), column));
-  const auto size = static_cast<std::size_t>(sqlite3_column_bytes(handle_.get(), column));
-  return data ? std::vector<std::uint8_t>(data, data + size) : std::vector<std::uint8_t>();
-}
-
 }  // namespace itin

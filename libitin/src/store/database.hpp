@@ -30,6 +30,7 @@ class Database {
 
  private:
   friend class Statement;
+  friend class BlobColumn;
   struct Closer {
     void operator()(sqlite3* db) const;
   };
@@ -54,7 +55,6 @@ class Statement {
 
   std::int64_t integer(int column) const;
   std::string text(int column) const;
-  std::vector<std::uint8_t> blob(int column) const;
 
  private:
   friend class Database;
@@ -65,18 +65,6 @@ class Statement {
 
   Database* database_;
   std::unique_ptr<sqlite3_stmt, Finalizer> handle_;
-};
-
-/// Resets a statement when it ends, by an exception too.
-class StatementReset {
- public:
-  explicit StatementReset(Statement& statement) : statement_(statement) {}
-  ~StatementReset() { statement_.reset(); }
-  StatementReset(const StatementReset&) = delete;
-  StatementReset& operator=(const StatementReset&) = delete;
-
- private:
-  Statement& statement_;
 };
 
 }  // namespace itin

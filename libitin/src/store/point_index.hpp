@@ -33,9 +33,10 @@ struct Leaf {
   std::uint16_t theme = 0;  ///< whose vertices, 0 for terrain; a theme's vertices are there at every level
 };
 
-/// A leaf's points, in ascending Morton order.
+/// A leaf's points.
 struct Block {
-  std::vector<GridPoint> points;
+  std::vector<GridPoint> points;  ///< in ascending Morton order
+  bool in_order = true;           ///< else points may be in any order, and `sources` are not theirs one by one
   PointSources sources;
   std::vector<std::uint8_t> levels;   ///< per point, or empty when all have the leaf's level
   std::uint16_t standing = 0;         ///< the theme whose features they belong to; 0 for all but standing themes'
@@ -99,8 +100,10 @@ class PointIndex {
   /// of all themes included.
   virtual void leaves(int finest, const GridBox& box, std::vector<Leaf>& out) const = 0;
   virtual std::shared_ptr<const Block> block(const Leaf& leaf) const = 0;
-  /// The block with its points in any order, for callers who will not ask again: it need not be cached.
-  virtual std::shared_ptr<const Block> block_once(const Leaf& leaf) const { return block(leaf); }
+  /// As block(), its points in any order.
+  virtual std::shared_ptr<const Block> unordered_block(const Leaf& leaf) const { return block(leaf); }
+  /// As unordered_block(), for callers who will not ask again: it need not be cached.
+  virtual std::shared_ptr<const Block> block_once(const Leaf& leaf) const { return unordered_block(leaf); }
   /// As block_once(), but only the positions in plan count: the heights may be anything.
   virtual std::shared_ptr<const Block> plan_once(const Leaf& leaf) const { return block_once(leaf); }
 

@@ -163,12 +163,22 @@ void StoreFile::leaves_of(int tree, const GridBox& box, std::vector<Leaf>& out) 
   for_each_leaf(tree, box, [&](const Leaf& leaf) { out.push_back(leaf); });
 }
 
-std::shared_ptr<const Block> StoreFile::block(const Leaf& leaf) const {
+std::shared_ptr<const Block> StoreFile::block(const Leaf& leaf, BlockOrder order) const {
   const std::uint64_t key = cache_key(BlobKind::Block, leaf.key);
-  if (auto cached = cache_.find(key)) return std::static_pointer_cast<const Block>(std::move(cached));
-  auto block = std::make_shared<const Block>(read_block(leaf));
+  const auto cached = std::static_pointer_cast<const Block>(cache_.find(key));
+  if (cached && (cached->in_order || order == BlockOrder::kAny)) return cached;
+  if (cached) cache_.erase(key);
+  auto block = std::make_shared<const Block>(read_block(leaf, order));
   cache_.insert(key, block, block->bytes());
   return block;
+}
+
+std::shared_ptr<const Block> StoreFile::block(const Leaf& leaf) const {
+  return block(leaf, BlockOrder::kMorton);
+}
+
+std::shared_ptr<const Block> StoreFile::unordered_block(const Leaf& leaf) const {
+  return block(leaf, BlockOrder::kAny);
 }
 
 std::shared_ptr<const Block> StoreFile::block_once(const Leaf& leaf) const {

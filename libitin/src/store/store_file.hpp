@@ -31,6 +31,7 @@ class StoreFile final : public PointIndex {
   GridBox bounds() const override { return metadata_.bounds; }
   void leaves(int finest, const GridBox& box, std::vector<Leaf>& out) const override;
   std::shared_ptr<const Block> block(const Leaf& leaf) const override;
+  std::shared_ptr<const Block> unordered_block(const Leaf& leaf) const override;
   std::shared_ptr<const Block> block_once(const Leaf& leaf) const override;
   std::shared_ptr<const Block> plan_once(const Leaf& leaf) const override;
   std::optional<BlockLattice> lattice_of(const Leaf& leaf) const override;
@@ -81,6 +82,7 @@ class StoreFile final : public PointIndex {
   /// of chunks that skip(chunk) is true of.
   template <typename Visit, typename Skip = decltype(kSkipNone)>
   void for_each_leaf(int tree, const GridBox& box, const Visit& visit, const Skip& skip = kSkipNone) const;
+  std::shared_ptr<const Block> block(const Leaf& leaf, BlockOrder order) const;
   bool has_segment_features(std::uint16_t theme) const;
   std::shared_ptr<const DirectoryChunk> chunk(int tree, const ChunkEntry& entry) const;
   std::span<const std::uint8_t> items_of(std::uint64_t key, std::span<const std::uint8_t> bytes) const;

@@ -9,6 +9,10 @@
 
 #include <fmt/format.h>
 
+#include "store/byte_stream.hpp"
+#include "store/database.hpp"
+#include "store/store_format.hpp"
+
 namespace itin {
 
 namespace {
@@ -66,41 +70,41 @@ int checked_version(const std::string& path, std::uint64_t file_bytes) {
 
 }  // namespace
 
-const char* table_name(BlobKind kind) {
-  return kind == BlobKind::Block ? "block" : "directory";
-}
-
 struct StoreRows::Connection {
   explicit Connection(const std::string& path)
-      : database(Database::open(path)),
-        block(database.prepare("SELECT data FROM block WHERE key = ?")),
-        directory(database.prepare("SELECT data FROM directory WHERE key = ?")) {}
+      : database(Database::open(path)), blocks(database, BlobKind::Block), directory(database, BlobKind::Directory) {}
   Database database;
-  Statement block, directory;
+  BlobColumn blocks, directory;
 };
 
 // Gives its connection back when it ends.
 class StoreRows::Lease {
  public:
   explicit Lease(const StoreRows& rows) : rows_(rows) {
-    {
-      const std::lock_guard lock(rows_.mutex_);
-      if (!rows_.idle_.empty()) {
-        connection_ = std::move(rows_.idle_.back());
-        rows_.idle_.pop_back();
-      }
+    for (std::size_t i = 0; i < rows_.idle_.size() && !connection_; ++i) {
+      auto& idle = slot(i);
+      if (idle.load(std::memory_order_relaxed) != nullptr) connection_.reset(idle.exchange(nullptr));
     }
     if (!connection_) connection_ = rows_.connect();
   }
   ~Lease() {
-    const std::lock_guard lock(rows_.mutex_);
-    rows_.idle_.push_back(std::move(connection_));
+    for (std::size_t i = 0; i < rows_.idle_.size() && connection_; ++i) {
+      Connection* none = nullptr;
+      if (slot(i).compare_exchange_strong(none, connection_.get())) (void)connection_.release();
+    }
   }
   Lease(const Lease&) = delete;
   Lease& operator=(const Lease&) = delete;
   Connection* operator->() const { return connection_.get(); }
 
  private:
+  // The slots in the order in which this thread tries them.
+  std::atomic<Connection*>& slot(std::size_t i) const {
+    static std::atomic<std::size_t> threads = 0;
+    thread_local const std::size_t first = threads++;
+    return rows_.idle_[(first + i) % rows_.idle_.size()].connection;
+  }
+
   const StoreRows& rows_;
   std::unique_ptr<Connection> connection_;
 };
@@ -112,10 +116,12 @@ StoreRows::StoreRows(const std::string& path) : path_(path) {
   file_bytes_ = static_cast<std::uint64_t>(status.st_size);
   device_ = status.st_dev, inode_ = status.st_ino;
   version_ = checked_version(path, file_bytes_);
-  idle_.push_back(connect());
+  idle_.front().connection = connect().release();
 }
 
-StoreRows::~StoreRows() = default;
+StoreRows::~StoreRows() {
+  for (Slot& slot : idle_) std::unique_ptr<Connection>(slot.connection.load());
+}
 
 // An import replaces the whole file under its name. Two connections of one Store must not read two different stores;
 // the first connection keeps the old file, and with it its inode number, alive.
@@ -128,22 +134,18 @@ std::unique_ptr<StoreRows::Connection> StoreRows::connect() const {
   return connection;
 }
 
-std::vector<std::uint8_t> StoreRows::read(BlobKind kind, std::uint64_t key) const {
-  const std::string place = format::place(table_name(kind), key);
-  std::vector<std::uint8_t> sealed;
-  {
-    const Lease connection(*this);
-    Statement& statement = kind == BlobKind::Block ? connection->block : connection->directory;
-    const StatementReset reset(statement);
-    statement.bind(1, static_cast<std::int64_t>(key));
-    if (!statement.step(place)) throw CorruptStore(path_, place, "is missing; restore a copy or import again");
-    sealed = statement.blob(0);
-  }
+void StoreRows::read(BlobKind kind, std::uint64_t key, const std::function<void(Bytes)>& visit) const {
+  const auto damaged = [&](const std::string& how) {
+    return CorruptStore(path_, format::place(table_name(kind), key), how);
+  };
+  const Lease connection(*this);
+  BlobColumn& blobs = kind == BlobKind::Block ? connection->blocks : connection->directory;
+  const auto sealed = blobs.read(key);
+  if (!sealed) throw damaged("is missing; restore a copy or import again");
   try {
-    const auto bytes = unseal(kind, key, sealed);
-    return {bytes.begin(), bytes.end()};
+    visit(unseal(kind, key, *sealed));
   } catch (const DecodeError& e) {
-    throw CorruptStore(path_, place, e.what());
+    throw damaged(e.what());
   }
 }
 

@@ -1,19 +1,20 @@
 // The rows of an open store file, read from any thread: a pool of connections, one thread at a time on each.
 #pragma once
 
+#include <array>
+#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <memory>
-#include <mutex>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include <itin/error.hpp>
 
-#include "store/byte_stream.hpp"
-#include "store/database.hpp"
+#include "store/blob_column.hpp"
 #include "store/seal.hpp"
-#include "store/store_format.hpp"
 
 namespace itin {
 
@@ -27,8 +28,10 @@ class StoreRows {
   std::uint64_t file_bytes() const { return file_bytes_; }
   int version() const { return version_; }
 
-  /// The unsealed bytes of a row. Throws CorruptStore where it is missing or damaged.
-  std::vector<std::uint8_t> read(BlobKind kind, std::uint64_t key) const;
+  using Bytes = std::span<const std::uint8_t>;
+  /// Calls visit(bytes) with the unsealed bytes of a row, which are there as long as it runs. Throws CorruptStore where
+  /// the row is missing or damaged, and for a DecodeError of `visit`.
+  void read(BlobKind kind, std::uint64_t key, const std::function<void(Bytes)>& visit) const;
   std::string read_metadata() const;
   /// The keys of all rows of a table, ascending. Throws CorruptStore.
   void for_each_key(BlobKind kind, const std::function<void(std::uint64_t)>& visit) const;
@@ -44,22 +47,19 @@ class StoreRows {
   std::uint64_t file_bytes_ = 0;
   int version_ = 0;
   std::uint64_t device_ = 0, inode_ = 0;
-  mutable std::mutex mutex_;
-  mutable std::vector<std::unique_ptr<Connection>> idle_;
+  // Connections that no thread uses, each where its last user looks first. Slots are cache lines apart.
+  struct alignas(64) Slot {
+    std::atomic<Connection*> connection = nullptr;
+  };
+  mutable std::array<Slot, 32> idle_;
 };
 
-/// "block" or "directory".
-const char* table_name(BlobKind kind);
-
-/// Reads a row and runs `decode` on its bytes, naming the place of what it throws.
+/// What `decode` makes of a row's bytes; throws as StoreRows::read().
 template <typename Decode>
 auto decoded(const StoreRows& rows, BlobKind kind, std::uint64_t key, const Decode& decode) {
-  const std::vector<std::uint8_t> bytes = rows.read(kind, key);
-  try {
-    return decode(bytes);
-  } catch (const DecodeError& e) {
-    throw CorruptStore(rows.path(), format::place(table_name(kind), key), e.what());
-  }
+  std::optional<decltype(decode(StoreRows::Bytes()))> result;
+  rows.read(kind, key, [&](StoreRows::Bytes bytes) { result.emplace(decode(bytes)); });
+  return *std::move(result);
 }
 
 }  // namespace itin

@@ -28,6 +28,9 @@ class RaisedIndex final : public PointIndex {
   GridBox bounds() const override { return base_.bounds(); }
   void leaves(int finest, const GridBox& box, std::vector<Leaf>& out) const override { base_.leaves(finest, box, out); }
   std::shared_ptr<const Block> block(const Leaf& leaf) const override;
+  std::shared_ptr<const Block> unordered_block(const Leaf& leaf) const override {
+    return any_ ? block(leaf) : base_.unordered_block(leaf);
+  }
   std::shared_ptr<const Block> block_once(const Leaf& leaf) const override {
     return any_ ? block(leaf) : base_.block_once(leaf);
   }

@@ -21,6 +21,7 @@
 #include "store/store_file.hpp"
 #include "store/store_writer.hpp"
 #include "support/forged_rows.hpp"
+#include "support/row_bytes.hpp"
 #include "support/seed.hpp"
 #include "support/temporary_directory.hpp"
 #include "triangulate/raised_index.hpp"
@@ -266,7 +267,7 @@ TEST_F(ClusteredStore, BitsUnderAFittingSealNameTheirPlace) {
   });
   ASSERT_GE(keys.size(), 2U);
   for (const std::uint64_t key : keys) {
-    const std::vector<std::uint8_t> whole = rows.read(BlobKind::Block, key);
+    const std::vector<std::uint8_t> whole = test::bytes_of(rows, BlobKind::Block, key);
     for (int i = 0; i < 60; ++i) {
       std::vector<std::uint8_t> bytes = whole;
       bytes[i % 2 == 0 ? random_() % 40 : random_() % bytes.size()] ^= static_cast<std::uint8_t>(1U << random_() % 8);

@@ -15,6 +15,7 @@
 #include "store/store_file.hpp"
 #include "store/store_writer.hpp"
 #include "support/forged_rows.hpp"
+#include "support/row_bytes.hpp"
 #include "support/seed.hpp"
 #include "support/temporary_directory.hpp"
 
@@ -96,7 +97,9 @@ class FeatureDamage : public testing::Test {
     });
     return keys;
   }
-  std::vector<std::uint8_t> bytes_of(std::uint64_t key) const { return StoreRows(path_).read(BlobKind::Block, key); }
+  std::vector<std::uint8_t> bytes_of(std::uint64_t key) const {
+    return test::bytes_of(StoreRows(path_), BlobKind::Block, key);
+  }
   void forge(std::uint64_t key, const std::vector<std::uint8_t>& bytes) {
     test::forge_row(path_, BlobKind::Block, key, bytes);
   }

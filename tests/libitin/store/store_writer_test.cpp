@@ -143,7 +143,8 @@ TEST_F(StoreWriterTest, OpenStoreNeverMixesOldAndNew) {
   NoProgress progress;
   EXPECT_TRUE(check(store, progress).empty());  // on the connection that it has
   rows.for_each_key(BlobKind::Block, [&](std::uint64_t key) {
-    EXPECT_THROW(rows.read(BlobKind::Block, key), FileError);  // a second connection would see the new file
+    EXPECT_THROW(rows.read(BlobKind::Block, key, [](auto) {}),
+                 FileError);  // a second connection would see the new file
   });
 }
 
