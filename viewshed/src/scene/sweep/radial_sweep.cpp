@@ -258,6 +258,12 @@ class RadialSweep::Task {
   template <class Sight>
   bool clears(const Quadrant& quadrant, std::size_t slab, const Cell& cell, Sight& sight) const {
     const double slope = cell.across / cell.along, minor = quadrant.minor();
+    const double drop = view_.sector_axis_.drop * (1 + slope * slope);
+    // How high the line is less what curvature bends within a bin; it rises where the sight is raised.
+    const auto height = [&](double along) {
+      return sight.at_axis() + sight.slope() * along + drop * along * along - std::max(drop, 0.0) -
+             view_.sector_axis_.margin;
+    };
     for (std::size_t i = 0; i < Quadrant::kRun; ++i) {
       const double begin = std::max(0.0, quadrant.begin(slab) + static_cast<double>(i));
       const double end = std::min(quadrant.begin(slab) + static_cast<double>(i + 1), cell.along);
@@ -265,11 +271,14 @@ class RadialSweep::Task {
       const double low = minor + slope * (slope < 0 ? end : begin), high = minor + slope * (slope < 0 ? begin : end);
       const auto first = static_cast<std::int64_t>(std::max(0.0, low - BinnedHeights::kSlack));
       const auto last = std::min(quadrant.lines() - 1, static_cast<std::int64_t>(high + BinnedHeights::kSlack));
+      const double lowest = std::min(height(begin), height(end));
       for (std::int64_t line = first; line <= last; ++line) {
+        const RasterGrid::Cell bin = quadrant.bin(slab, i, line);
+        if (!bins_.holds(bin) || bins_.lies_below(bin, lowest)) continue;
         Stretch within{begin, end, slope};
         if (line > first) within.limit((static_cast<double>(line) - minor) / slope, slope > 0);
         if (line < last) within.limit((static_cast<double>(line + 1) - minor) / slope, slope < 0);
-        if (!clears(quadrant, quadrant.bin(slab, i, line), within, sight)) return false;
+        if (!clears(quadrant, bin, within, height, sight)) return false;
       }
     }
     return true;
@@ -288,17 +297,10 @@ class RadialSweep::Task {
     }
   };
 
-  template <class Sight>
-  bool clears(const Quadrant& quadrant, const RasterGrid::Cell& bin, const Stretch& stretch, Sight& sight) const {
-    if (!bins_.holds(bin)) return true;
-    const double drop = view_.sector_axis_.drop * (1 + stretch.slope * stretch.slope);
-    // Less what curvature bends between the ends.
-    const auto height = [&](double along) {
-      return sight.at_axis() + sight.slope() * along + drop * along * along - std::max(drop, 0.0) -
-             view_.sector_axis_.margin;
-    };
+  template <class Height, class Sight>
+  bool clears(const Quadrant& quadrant, const RasterGrid::Cell& bin, const Stretch& stretch, const Height& height,
+              Sight& sight) const {
     const double near = height(stretch.begin), far = height(stretch.end);
-    if (bins_.lies_below(bin, std::min(near, far))) return true;
     const BinnedHeights::UpperPlane upper_plane = bins_.upper_plane(bin);
     const auto plane_at = [&](double along) {
       const Point2 p = quadrant.position(along, stretch.slope * along);
