@@ -3,8 +3,10 @@
 #include "scene/reveal.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <random>
 
@@ -15,6 +17,8 @@
 #include <viewshed/surface.hpp>
 #include <viewshed/viewshed.hpp>
 
+#include "bounds/binned_heights.hpp"
+#include "bounds/surface_heights.hpp"
 #include "compute/lattice_sectors.hpp"
 #include "support/full_detail.hpp"
 #include "support/raster_file.hpp"
@@ -124,6 +128,42 @@ TEST_F(Reveal, ChangesNothingAndLeavesOutWhatNobodySees) {
       }
     }
   }
+}
+
+TEST_F(Reveal, WhatIsToldOfABoxHoldsAllOverIt) {
+  // Ground reaches up to the sides of tiles without any: the lattice begins one post before the data.
+  make_of([](int c, int r) {
+    constexpr int tile_side = LatticeTin::kSide;
+    const auto missing = [](int at) { return at + 1 > 2 * tile_side && at + 1 < 5 * tile_side; };
+    return missing(c) && missing(r) ? NAN : 100.0 + (7 * c + 13 * r) % 50;
+  });
+  const Surface unread = surface(Heights::kNone);
+  const LatticeTin& lattice = unread.lattice->lattice();
+  const BinnedHeights heights(lattice);
+  using Expanse = BinnedHeights::Expanse;
+  std::map<Expanse, int> found;
+  // Corners on the sides of tiles, on posts and anywhere, beyond the data, too.
+  const std::int64_t spacing = lattice.spacing, tile = spacing * LatticeTin::kSide;
+  const auto somewhere = [&](double at) {
+    const std::int64_t step = std::array{tile, spacing, std::int64_t{1}}[random_() % 3];
+    std::uniform_int_distribution<std::int64_t> steps(-2 * tile / step, (kSide * spacing + 2 * tile) / step);
+    return at + static_cast<double>(steps(random_) * step);
+  };
+  for (int i = 0; i < 20000; ++i) {
+    const Point2 from{somewhere(lattice.west), lattice.north - somewhere(0)};
+    const double side = std::array<double, 4>{0, 1, 40.0 * static_cast<double>(spacing),
+                                              2.0 * static_cast<double>(tile)}[random_() % 4];
+    const Point2 to{from.x + side, from.y - side};
+    const Expanse expanse = heights.expanse(from, to);
+    ++found[expanse];
+    if (expanse == Expanse::kVarious) continue;
+    for (const double x : {from.x, (from.x + to.x) / 2, to.x})
+      for (const double y : {from.y, (from.y + to.y) / 2, to.y})
+        ASSERT_EQ(heights.height_at({x, y}), expanse == Expanse::kAllUnread ? std::optional(kUnread) : std::nullopt);
+  }
+  EXPECT_GT(found[Expanse::kAllBare], 100);
+  EXPECT_GT(found[Expanse::kAllUnread], 100);
+  EXPECT_GT(found[Expanse::kVarious], 100);
 }
 
 TEST_F(Reveal, GroundHidesThoughTargetsWithinItAreHidden) {

@@ -18,7 +18,8 @@ std::vector<std::uint8_t> encode_block(const Cell& cell, std::span<const GridPoi
 /// The order of a decoded block's points: strictly ascending by Morton code, as everywhere, or as they are coded.
 enum class BlockOrder : std::uint8_t { kMorton, kAny };
 
-/// Whatever the bytes, returns a block of `cell`, no position twice, or throws DecodeError. About 50 ns per point.
+/// Whatever the bytes, returns a block of `cell`, no position twice, or throws DecodeError. A point of a full lattice
+/// takes about 20 ns and others 35, and 13 more where they are sorted.
 Block decode_block(const Cell& cell, std::span<const std::uint8_t> bytes, BlockOrder order = BlockOrder::kMorton);
 
 /// Its points at height 0, without sources, in any order. Throws DecodeError as far as that needs them. About 6 ns a

@@ -20,6 +20,9 @@ inline constexpr std::array<BucketOffset, 8> kBucketsAround = {
 
 /// A sample's weight is this, divided by 1 more than the square of its distance, rounded down.
 inline constexpr int kGreatestWeight = 65536;
+constexpr int weight_at(int dx, int dy) {
+  return kGreatestWeight / (dx * dx + dy * dy + 1);
+}
 
 /// Weighted sums over the samples' offsets from the point.
 template <class Number>

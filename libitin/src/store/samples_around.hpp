@@ -1,0 +1,92 @@
+// The samples around points as they come, one batch of points after another: the latest of each bucket around.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "store/bucket_grid.hpp"
+#include "store/prediction_plane.hpp"
+
+namespace itin {
+
+inline constexpr std::size_t kSamplesAround = kBucketsAround.size();
+/// By number of kBucketsAround: what the height of a bucket's sample counts for in the prediction; 0 where it has none.
+using Shares = std::array<double, kSamplesAround>;
+
+inline constexpr std::size_t kPointsOfBatch = 32;
+template <class T>
+using OfBatch = std::array<T, kPointsOfBatch>;
+
+/// Some points that come next, and their buckets.
+struct PointBatch {
+  std::span<const LocalPosition> points;
+  OfBatch<std::size_t> buckets;
+};
+
+/// In one of the buckets around a point.
+struct SampleAround {
+  bool there = false;
+  std::int32_t dx = 0, dy = 0;  ///< from the point, in steps whose number stays below 26
+};
+
+// Both kinds refer to the buckets, which hold no samples at first.
+
+/// Where buckets are single positions.
+class LatticeSamples {
+ public:
+  explicit LatticeSamples(const BucketGrid& buckets) : buckets_(&buckets), around_(buckets.count()) {}
+
+  /// Looks around each point before it becomes its bucket's sample. The shares are null where no sample is around, else
+  /// there until the next call.
+  void look(const PointBatch& batch, OfBatch<const Shares*>& shares);
+  /// In the i-th of kBucketsAround of the latest batch's point j.
+  SampleAround sample(std::size_t j, std::size_t i) const {
+    return {(there_[j] >> i & 1) != 0, kBucketsAround[i].x, kBucketsAround[i].y};
+  }
+
+ private:
+  const BucketGrid* buckets_;
+  std::vector<std::uint8_t> around_;  // by bucket: which of those around have a sample, as bits
+  OfBatch<std::uint8_t> there_{};     // that of each point's bucket
+};
+
+/// Where buckets are wider.
+class ScatteredSamples {
+ public:
+  explicit ScatteredSamples(const BucketGrid& buckets);
+
+  /// As those of LatticeSamples.
+  void look(const PointBatch& batch, OfBatch<const Shares*>& shares);
+  SampleAround sample(std::size_t j, std::size_t i) const {
+    return {sample_x_[i][j] != kNone, (sample_x_[i][j] - x_[j]) >> offset_shift_,
+            (sample_y_[i][j] - y_[j]) >> offset_shift_};
+  }
+
+ private:
+  static constexpr std::int32_t kNone = -1;
+  struct Position {
+    std::int32_t x = kNone, y = kNone;
+  };
+  // Finds those of four points from `first` on.
+  void find_shares(std::size_t first, OfBatch<const Shares*>& shares);
+
+  const BucketGrid* buckets_;
+  int offset_shift_;               // brings differences of positions below 26
+  std::vector<Position> samples_;  // by bucket
+  OfBatch<std::int32_t> x_{}, y_{};
+  std::array<OfBatch<std::int32_t>, kSamplesAround> sample_x_{}, sample_y_{};  // kNone where there is none
+  OfBatch<Shares> shares_{};
+};
+
+using SamplesAround = std::variant<LatticeSamples, ScatteredSamples>;
+inline SamplesAround samples_around(const BucketGrid& buckets) {
+  if (buckets.shift() == 0) return SamplesAround(std::in_place_type<LatticeSamples>, buckets);
+  return SamplesAround(std::in_place_type<ScatteredSamples>, buckets);
+}
+
+}  // namespace itin
