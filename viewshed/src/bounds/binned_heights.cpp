@@ -287,9 +287,10 @@ BinnedHeights::Expanse BinnedHeights::expanse(Point2 north_west, Point2 south_ea
       const LatticeTin::Tile& tile = lattice_->tiles[row * lattice_->tile_columns() + column];
       bare = bare && tile.ground == LatticeTin::Ground::kNone;
       unread = unread && tile.ground == LatticeTin::Ground::kWhole && !tile.heights;
+      if (!bare && !unread) return Expanse::kVarious;
     }
   }
-  return bare ? Expanse::kAllBare : unread ? Expanse::kAllUnread : Expanse::kVarious;
+  return bare ? Expanse::kAllBare : Expanse::kAllUnread;
 }
 
 /// Whether a bin that has not been read has ground at a position.
