@@ -2,12 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
+#include <optional>
+#include <utility>
 
 #include <itin/box_of.hpp>
 #include <itin/detail.hpp>
+#include <itin/sort_unique.hpp>
 
 #include "pyramid/gap_rule.hpp"
+#include "pyramid/whole_lattice.hpp"
+#include "triangulate/read_once.hpp"
 #include "triangulate/region.hpp"
 
 namespace itin {
@@ -81,14 +87,82 @@ GroundEdges ground_edges(const RegionMesh& region, const GapRule& gaps, const Gr
   return edges;
 }
 
-std::vector<Candidacy> candidacy_of(const RegionMesh& region, const GroundEdges& edges, const GridBox& box) {
+/// What a box and the squares that meet it have, if the full surface there is a lattice without gaps and all of it is
+/// ground.
+struct WholeGround {
+  std::vector<SelectedVertex> posts;  ///< in ascending Morton order
+  GroundEdges edges;
+};
+
+/// In ascending Morton order.
+std::vector<SelectedVertex> points_in(const PointIndex& index, const GridBox& box) {
+  std::vector<SelectedVertex> points;
+  std::vector<Leaf> leaves;
+  index.leaves(0, box, leaves);
+  for (const Leaf& leaf : leaves) {
+    const auto block = index.block(leaf);
+    for (std::size_t k = 0; k < block->points.size(); ++k) {
+      const GridPoint& p = block->points[k];
+      if (box.contains(p.x, p.y)) points.push_back({p, block->sources[k], level_of(leaf, *block, k)});
+    }
+  }
+  return points;
+}
+
+/// Whether all triangles of the lattice are ground, as the sources of all posts bridge all of their edges.
+bool is_all_ground(const WholeLattice& lattice, const std::vector<SelectedVertex>& posts, const GapRule& gaps) {
+  const Position first = lattice.position({0, 0}), next = lattice.position({1, 1});
+  const double x = static_cast<double>(next.x) - first.x, y = static_cast<double>(next.y) - first.y;
+  std::vector<std::uint16_t> sources;
+  for (const SelectedVertex& v : posts)
+    if (sources.empty() || sources.back() != v.source) sources.push_back(v.source);
+  sort_unique(sources);
+  return std::all_of(sources.begin(), sources.end(), [&](std::uint16_t source) {
+    return gaps.bridges(source, x, 0) && gaps.bridges(source, 0, y) && gaps.bridges(source, x, -y);
+  });
+}
+
+/// Along those sides of the lattice where all ground ends, with the ground to the left.
+std::vector<GroundEdges::Edge> edges_of(const WholeLattice& lattice, const GridBox& all) {
+  using Place = WholeLattice::Place;
+  std::vector<GroundEdges::Edge> edges;
+  const auto add = [&](Place from, Place to) {
+    const Position a = lattice.position(from), b = lattice.position(to);
+    edges.push_back({{a.x, a.y, b.x, b.y}, std::min(code_of(a), code_of(b))});
+  };
+  const GridBox own = lattice.bounds();
+  const std::int64_t east = lattice.columns() - 1, north = lattice.rows() - 1;
+  for (std::int64_t c = 0; c < east; ++c) {
+    if (own.ymin == all.ymin) add({c, 0}, {c + 1, 0});
+    if (own.ymax == all.ymax) add({c + 1, north}, {c, north});
+  }
+  for (std::int64_t r = 0; r < north; ++r) {
+    if (own.xmin == all.xmin) add({0, r + 1}, {0, r});
+    if (own.xmax == all.xmax) add({east, r}, {east, r + 1});
+  }
+  return edges;
+}
+
+/// The index must have no segments.
+std::optional<WholeGround> whole_ground(const WorkingIndex& index, const GridBox& box, const GapRule& gaps) {
+  const ReadOnce points(index);
+  const auto lattice = WholeLattice::about(points, box);
+  if (!lattice) return std::nullopt;
+  WholeGround ground{points_in(points, lattice->bounds()), {edges_of(*lattice, index.bounds()), {}}};
+  if (!is_all_ground(*lattice, ground.posts, gaps)) return std::nullopt;
+  ground.edges.touched.assign(ground.posts.size(), 1);
+  return ground;
+}
+
+std::vector<Candidacy> candidacy_of(const std::vector<SelectedVertex>& vertices, const GroundEdges& edges,
+                                    const GridBox& box) {
   std::vector<Segment> segments;
   for (const GroundEdges::Edge& edge : edges.segments) segments.push_back(edge.segment);
   const std::vector<std::uint64_t> corners = corners_of(segments);
   std::vector<Candidacy> candidacy;
-  for (std::uint32_t v = 0; v < region.vertices.size(); ++v) {
-    const bool free = edges.touched[v] && lies_in(box, region.vertices[v]);
-    const bool corner = free && std::binary_search(corners.begin(), corners.end(), code_of(region.vertices[v]));
+  for (std::size_t v = 0; v < vertices.size(); ++v) {
+    const bool free = edges.touched[v] && lies_in(box, vertices[v]);
+    const bool corner = free && std::binary_search(corners.begin(), corners.end(), code_of(vertices[v]));
     candidacy.push_back(corner ? Candidacy::kCorner : free ? Candidacy::kFree : Candidacy::kNone);
   }
   return candidacy;
@@ -96,11 +170,11 @@ std::vector<Candidacy> candidacy_of(const RegionMesh& region, const GroundEdges&
 
 /// Points that no ground meets, or no triangle at all: fewer than three, or all in line.
 std::vector<std::uint64_t> isolated_of(const std::vector<RawPoint>& points, const TileSurvey& survey) {
-  std::vector<std::uint64_t> grounded, isolated;
+  std::vector<std::uint64_t> codes, grounded, isolated;
+  for (const RawPoint& p : points) codes.push_back(p.code);
   for (std::size_t v = 0; v < survey.candidacy.size(); ++v)
     if (survey.candidacy[v] != Candidacy::kNone) grounded.push_back(code_of(survey.surface.vertices[v]));
-  for (const RawPoint& p : points)
-    if (!std::binary_search(grounded.begin(), grounded.end(), p.code)) isolated.push_back(p.code);
+  std::set_difference(codes.begin(), codes.end(), grounded.begin(), grounded.end(), std::back_inserter(isolated));
   return isolated;
 }
 
@@ -127,18 +201,25 @@ TileSurvey survey_tile(const WorkingIndex& index, const CurveRange& tile,
   std::erase_if(own, [&](const RawPoint& p) {
     return p.level == kDropped || (ground_points != nullptr && !ground_points->sources().contains(p.source));
   });
-  const Selection everything(Detail::tolerance(0), {0.0}, Grid{});
   const GridBox points = box_of(own, [](const RawPoint& p) { return position_of(p.code); });
   if (points.empty()) return survey;
   const double margin = fringe(points, tile.count);
   const GridBox box = widened(points, margin);
   survey.verge = widened(points, margin / 2);
-  survey.surface = ground_points == nullptr ? triangulate_region(index, everything, box)
-                                            : triangulate_region(*ground_points, everything, box);
-  const GroundEdges edges = ground_edges(survey.surface, GapRule(gap_bases), box);
+  const GapRule gaps(gap_bases);
+  GroundEdges edges;
+  if (auto whole = ground_points == nullptr ? whole_ground(index, box, gaps) : std::nullopt) {
+    survey.surface.vertices = std::move(whole->posts);
+    edges = std::move(whole->edges);
+  } else {
+    const Selection everything(Detail::tolerance(0), {0.0}, Grid{});
+    survey.surface = ground_points == nullptr ? triangulate_region(index, everything, box)
+                                              : triangulate_region(*ground_points, everything, box);
+    edges = ground_edges(survey.surface, gaps, box);
+  }
   for (const auto& [segment, owner] : edges.segments)
     if (tile.cell.contains(owner)) survey.outline.push_back(segment);
-  survey.candidacy = candidacy_of(survey.surface, edges, box);
+  survey.candidacy = candidacy_of(survey.surface.vertices, edges, box);
   survey.isolated = isolated_of(own, survey);
   return survey;
 }

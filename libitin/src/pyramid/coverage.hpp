@@ -21,7 +21,8 @@ std::vector<std::array<double, 4>> gap_bases_of(const std::vector<SourceInfo>& s
 
 /// The full surface about one tile, and what its own points have of the coverage.
 struct TileSurvey {
-  RegionMesh surface;                   ///< every triangle about the tile's points, ground or not
+  /// Every triangle about the tile's points, ground or not; only vertices where these are a lattice without gaps.
+  RegionMesh surface;
   GridBox verge;                        ///< the tile's points and half the fringe seen around them
   std::vector<Candidacy> candidacy;     ///< per vertex: corners of the outline are kCorner, isolated points kNone
   std::vector<Segment> outline;         ///< edges with ground to the left, each in one tile only

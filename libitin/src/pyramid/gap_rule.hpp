@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <vector>
 
 #include "triangulate/apex.hpp"
@@ -17,8 +18,10 @@ class GapRule {
 
   bool bridges(const SelectedVertex& p, const SelectedVertex& q) const {
     const double x = static_cast<double>(q.point.x) - p.point.x, y = static_cast<double>(q.point.y) - p.point.y;
-    return within(bases_[p.source], x, y) || (p.source != q.source && within(bases_[q.source], x, y));
+    return bridges(p.source, x, y) || (p.source != q.source && bridges(q.source, x, y));
   }
+  /// Whether the source bridges this way from any of its points, grid units.
+  bool bridges(std::uint16_t source, double x, double y) const { return within(bases_[source], x, y); }
   bool ground(const SelectedVertex& a, const SelectedVertex& b, const SelectedVertex& c) const {
     return bridges(a, b) && bridges(b, c) && bridges(c, a);
   }

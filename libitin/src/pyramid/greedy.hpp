@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -26,5 +27,12 @@ enum class Candidacy : std::uint8_t {
 /// `tolerances` in grid units, ascending, the first one 0. Ties go to the first vertex in order. O(n log n) expected.
 std::vector<std::uint8_t> greedy_levels(const RegionMesh& fine, std::span<const Candidacy> candidacy,
                                         std::span<const double> tolerances);
+
+/// The levels where the full surface is the Delaunay triangulation of these vertices and all candidates are posts of a
+/// lattice; nothing where they are not. Edges of the full surface that are no sides of the lattice's triangles, as
+/// beside gaps, are passed over. In a third of the time, and without the triangles.
+std::optional<std::vector<std::uint8_t>> greedy_levels_of_lattice(std::span<const SelectedVertex> vertices,
+                                                                  std::span<const Candidacy> candidacy,
+                                                                  std::span<const double> tolerances);
 
 }  // namespace itin

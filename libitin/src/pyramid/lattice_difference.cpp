@@ -35,7 +35,7 @@ bool LatticeDifference::compare(const RegionMesh& coarse, std::int32_t allowed) 
     compare_posts(mesh.triangles[t]);
     for (unsigned i = 0; i < 3; ++i) {
       const std::uint32_t n = mesh.neighbours[t][i];
-      if (n == kNoTriangle || t < n) cross_lines(mesh.triangles[t][(i + 1) % 3], mesh.triangles[t][(i + 2) % 3]);
+      if (n == kNoTriangle || t < n) compare_crossings(mesh.triangles[t][(i + 1) % 3], mesh.triangles[t][(i + 2) % 3]);
     }
   }
   if (std::find(at_post_.begin(), at_post_.end(), kUnknown) != at_post_.end()) return false;
@@ -106,67 +106,30 @@ void LatticeDifference::compare_posts(const std::array<std::uint32_t, 3>& face) 
   if (worst.found()) failures_.worst_of_faces.push_back(worst.code());
 }
 
-/// Calls edge_at(line, place) for each of the lattice's lines in [least, greatest] that lies strictly between `from`
-/// and `to`, and which a coarse edge from `start` on the first to `end` on the last crosses between two posts: at
-/// place.first plus place.second. Adds the difference to what it returns.
-template <class EdgeAt>
-void LatticeDifference::cross_family(std::int64_t from, std::int64_t to, std::int64_t start, std::int64_t end,
-                                     std::int64_t least, std::int64_t greatest, double from_z, double to_z,
-                                     const EdgeAt& edge_at) {
-  if (from > to) std::swap(from, to), std::swap(start, end), std::swap(from_z, to_z);
-  const std::int64_t lines = to - from;
-  for (std::int64_t line = std::max(from + 1, least); line <= std::min(to - 1, greatest); ++line) {
-    const std::int64_t across = (end - start) * (line - from), whole = floor_divide(across, lines),
-                       rest = across - whole * lines;
-    if (rest == 0) continue;  // at a post
-    const double part = static_cast<double>(rest) / static_cast<double>(lines);
-    const double z = from_z + static_cast<double>(line - from) / static_cast<double>(lines) * (to_z - from_z);
-    edge_at(line, start + whole, part, z);
-  }
-}
-
-void LatticeDifference::cross_lines(std::uint32_t from, std::uint32_t to) {
+void LatticeDifference::compare_crossings(std::uint32_t from, std::uint32_t to) {
   const Corner &a = corners_[from], &b = corners_[to];
-  const std::int64_t columns = posts_.columns(), rows = posts_.rows();
-  const auto za = static_cast<double>(a.z), zb = static_cast<double>(b.z);
-  const auto between = [](double p, double q, double part) { return p + part * (q - p); };
-  const auto fails = [&](double above) { return std::abs(above) + kRounding > allowed_; };
-  // Columns: the side to the left of one square and to the right of another.
-  cross_family(
-      a.column, b.column, a.row, b.row, 0, columns - 1, za, zb,
-      [&](std::int64_t column, std::int64_t row, double part, double z) {
-        if (row < 0 || row >= rows - 1) return;
-        const double above = between(height(column, row), height(column, row + 1), part) - z;
-        if (column < columns - 1) lower_left_[post(column, row)].add(above);
-        if (column > 0) upper_right_[post(column - 1, row)].add(above);
-        if (fails(above))
-          note_failure(from, to, {{column, row}, {column, row + 1}, {column + 1, row}, {column - 1, row + 1}}, above);
-      });
-  cross_family(
-      a.row, b.row, a.column, b.column, 0, rows - 1, za, zb,
-      [&](std::int64_t row, std::int64_t column, double part, double z) {
-        if (column < 0 || column >= columns - 1) return;
-        const double above = between(height(column, row), height(column + 1, row), part) - z;
-        if (row < rows - 1) lower_left_[post(column, row)].add(above);
-        if (row > 0) upper_right_[post(column, row - 1)].add(above);
-        if (fails(above))
-          note_failure(from, to, {{column, row}, {column + 1, row}, {column, row + 1}, {column + 1, row - 1}}, above);
-      });
-  // Diagonals, by the sum of column and row.
-  cross_family(
-      a.column + a.row, b.column + b.row, a.column, b.column, 1, columns + rows - 3, za, zb,
-      [&](std::int64_t sum, std::int64_t column, double part, double z) {
-        const std::int64_t row = sum - column - 1;
-        if (column < 0 || column >= columns - 1 || row < 0 || row >= rows - 1) return;
-        const double above = between(height(column, row + 1), height(column + 1, row), part) - z;
-        lower_left_[post(column, row)].add(above);
-        upper_right_[post(column, row)].add(above);
-        if (fails(above))
-          note_failure(from, to, {{column, row + 1}, {column + 1, row}, {column, row}, {column + 1, row + 1}}, above);
-      });
+  const auto between = [](std::int64_t p, std::int64_t q, double part) {
+    return static_cast<double>(p) + part * static_cast<double>(q - p);
+  };
+  const auto height_at = [&](Place post) { return height(post.column, post.row); };
+  for_each_crossing({a.column, a.row}, {b.column, b.row}, posts_.columns(), posts_.rows(),
+                    [&](const LatticeSide& side, double part, double along) {
+                      const double above =
+                          between(height_at(side.u), height_at(side.v), part) - between(a.z, b.z, along);
+                      if (is_square(side.lower_left))
+                        lower_left_[post(side.lower_left.column, side.lower_left.row)].add(above);
+                      if (is_square(side.upper_right))
+                        upper_right_[post(side.upper_right.column, side.upper_right.row)].add(above);
+                      if (std::abs(above) + kRounding > allowed_) note_failure(from, to, side, above);
+                    });
 }
 
-void LatticeDifference::note_failure(std::uint32_t from, std::uint32_t to, const Side& side, double above) {
+bool LatticeDifference::is_square(Place lower_left) const {
+  return lower_left.column >= 0 && lower_left.column < posts_.columns() - 1 && lower_left.row >= 0 &&
+         lower_left.row < posts_.rows() - 1;
+}
+
+void LatticeDifference::note_failure(std::uint32_t from, std::uint32_t to, const LatticeSide& side, double above) {
   if (is_left_out(side.u) || is_left_out(side.v)) return;  // so is their only triangle
   std::tie(from, to) = std::minmax({from, to});
   const Corner &p = corners_[from], &q = corners_[to];

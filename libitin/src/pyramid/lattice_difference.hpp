@@ -40,10 +40,6 @@ class LatticeDifference {
   struct Corner {
     std::int64_t column, row, z;
   };
-  /// A side of the lattice's triangles: its ends, and the other corners of the triangles at it.
-  struct Side {
-    Place u, v, left, right;
-  };
   struct Range {
     double lo = std::numeric_limits<double>::infinity(), hi = -std::numeric_limits<double>::infinity();
     void add(double difference) {
@@ -55,12 +51,10 @@ class LatticeDifference {
   bool place(const RegionMesh& coarse);
   bool fits(const RegionMesh& coarse) const;
   void compare_posts(const std::array<std::uint32_t, 3>& face);
-  void cross_lines(std::uint32_t from, std::uint32_t to);
-  template <class EdgeAt>
-  void cross_family(std::int64_t from, std::int64_t to, std::int64_t start, std::int64_t end, std::int64_t least,
-                    std::int64_t greatest, double from_z, double to_z, const EdgeAt& edge_at);
-  void note_failure(std::uint32_t from, std::uint32_t to, const Side& side, double above);
+  void compare_crossings(std::uint32_t from, std::uint32_t to);
+  void note_failure(std::uint32_t from, std::uint32_t to, const LatticeSide& side, double above);
   bool is_left_out(Place post) const;
+  bool is_square(Place lower_left) const;
   void leave_out_corners();
 
   std::int32_t height(std::int64_t column, std::int64_t row) const {

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include <itin/parallel.hpp>
 
@@ -19,10 +20,19 @@ struct TileProposal {
   std::vector<LevelRaise> beyond;  ///< points across the border
 };
 
+/// Rasters without lines need no walks from triangle to triangle.
+std::vector<std::uint8_t> levels_of(const TileSurvey& survey, std::span<const double> tolerances) {
+  if (survey.surface.lines.empty()) {
+    if (auto levels = greedy_levels_of_lattice(survey.surface.vertices, survey.candidacy, tolerances))
+      return std::move(*levels);
+  }
+  return greedy_levels(survey.surface, survey.candidacy, tolerances);
+}
+
 TileProposal propose(WorkingIndex& index, const CurveRange& tile, TileSurvey survey,
                      std::span<const double> tolerances) {
   const std::vector<SelectedVertex>& vertices = survey.surface.vertices;
-  const std::vector<std::uint8_t> levels = greedy_levels(survey.surface, survey.candidacy, tolerances);
+  const std::vector<std::uint8_t> levels = levels_of(survey, tolerances);
   TileProposal proposal{{std::move(survey.outline), std::move(survey.isolated)}, {}};
   std::vector<RawPoint> points = index.read(tile);
   auto p = points.begin();

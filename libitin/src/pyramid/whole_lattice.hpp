@@ -3,8 +3,7 @@
 //
 //   if (const auto posts = WholeLattice::about(index, box)) posts->height(column, row)
 //
-// Rasters are lattices. A square between four posts is two triangles, on either side of the diagonal from lower right
-// to upper left (triangulate/lattice_squares.hpp).
+// Rasters are lattices, and their squares two triangles each (lattice_crossings.hpp).
 #pragma once
 
 #include <cstdint>
@@ -12,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "pyramid/lattice_crossings.hpp"
 #include "store/point_index.hpp"
 
 namespace itin {
@@ -34,10 +34,7 @@ class WholeLattice {
   GridBox bounds() const;
   std::pair<std::int32_t, std::int32_t> height_range() const { return range_; }
 
-  /// Columns and rows from the lower left post, beyond the outermost ones as well.
-  struct Place {
-    std::int64_t column = 0, row = 0;
-  };
+  using Place = LatticePlace;  ///< beyond the outermost posts as well
   Position position(Place place) const;
   /// Nothing for a position off the lattice.
   std::optional<Place> place(Position p) const;

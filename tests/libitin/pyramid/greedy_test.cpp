@@ -1,0 +1,214 @@
+// Every level that greedy insertion proposes keeps to its tolerance, and a lattice's levels are as good as those that
+// are found triangle by triangle.
+#include "pyramid/greedy.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <optional>
+#include <random>
+#include <tuple>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <itin/detail.hpp>
+
+#include "pyramid/coverage.hpp"
+#include "pyramid/overlay.hpp"
+#include "support/points.hpp"
+#include "support/raster_file.hpp"
+#include "support/seed.hpp"
+
+namespace itin {
+namespace {
+
+const std::vector<double> kGreedyTolerances{0, 20, 80, 400};
+
+Selection greedy_level(std::size_t k) {
+  return {Detail::tolerance(kGreedyTolerances[k]), kGreedyTolerances, Grid{}};
+}
+
+class Greedy : public testing::Test {
+ protected:
+  using Height = std::function<std::int32_t(std::int32_t, std::int32_t)>;
+  using Levels = std::vector<std::uint8_t>;
+  static constexpr std::int32_t kColumns = 45, kRows = 37;
+
+  std::int32_t draw(std::int32_t low, std::int32_t high) {
+    return std::uniform_int_distribution<std::int32_t>(low, high)(random_);
+  }
+
+  /// Posts from the lower left one on, whose position is {west, south}.
+  std::vector<test::LevelPoint> posts(const Height& height, double share = 1) {
+    std::vector<test::LevelPoint> points;
+    for (std::int32_t r = 0; r < kRows; ++r) {
+      for (std::int32_t c = 0; c < kColumns; ++c) {
+        if (draw(1, 1000) <= 1000 * share)
+          points.push_back({{west_ + c * step_x_, south_ + r * step_y_, height(c, r)}, 0});
+      }
+    }
+    return points;
+  }
+
+  /// Hills of some kind, rough enough for all levels.
+  Height hills() {
+    const double u = draw(5, 30) / 10.0, v = draw(5, 30) / 10.0;
+    return [=, this](std::int32_t c, std::int32_t r) {
+      return static_cast<std::int32_t>(900 * std::sin(c / u / 4) * std::cos(r / v / 3)) + draw(-60, 60);
+    };
+  }
+
+  static RegionMesh surface(test::TestIndex& index, std::size_t level) {
+    return triangulate_region(*index, greedy_level(level), index->bounds());
+  }
+  /// Every vertex may get a level.
+  static std::vector<Candidacy> all_of(const RegionMesh& fine) {
+    return std::vector<Candidacy>(fine.vertices.size(), Candidacy::kFree);
+  }
+
+  /// Whether two posts are ends of a side of the lattice's triangles.
+  bool is_side(Position p, Position q) const {
+    const std::int64_t x = (std::int64_t{q.x} - p.x) / step_x_, y = (std::int64_t{q.y} - p.y) / step_y_;
+    const auto is = [&](std::int64_t dx, std::int64_t dy) { return (x == dx && y == dy) || (x == -dx && y == -dy); };
+    return is(1, 0) || is(0, 1) || is(1, -1);
+  }
+
+  /// Where `sides_only`, what other edges of the full surface say does not count.
+  void expect_kept(const RegionMesh& fine, const Levels& levels, bool sides_only = false) {
+    std::vector<test::LevelPoint> points;
+    for (std::size_t v = 0; v < levels.size(); ++v) points.push_back({fine.vertices[v].point, levels[v]});
+    test::TestIndex index(points, static_cast<int>(kGreedyTolerances.size()), 64);
+    const FineEdges edges(fine);
+    for (std::size_t k = 1; k < kGreedyTolerances.size(); ++k) {
+      const auto failures =
+          difference(fine, edges, surface(index, k), static_cast<std::int32_t>(kGreedyTolerances[k])).failures;
+      ASSERT_TRUE(failures.worst_of_faces.empty()) << "level " << k;
+      const auto counts = [&](const FailingCrossing& c) {
+        return !sides_only || is_side(position_of(c.vertices[0]), position_of(c.vertices[1]));
+      };
+      ASSERT_TRUE(std::none_of(failures.crossings.begin(), failures.crossings.end(), counts)) << "level " << k;
+    }
+  }
+
+  /// How many vertices level k has.
+  static double size_of_level(const Levels& levels, std::uint8_t k) {
+    return static_cast<double>(std::count_if(levels.begin(), levels.end(), [&](std::uint8_t l) { return l >= k; }));
+  }
+
+  static std::vector<std::tuple<std::uint64_t, std::int32_t, Candidacy>> candidates(const TileSurvey& survey) {
+    std::vector<std::tuple<std::uint64_t, std::int32_t, Candidacy>> result;
+    for (std::size_t v = 0; v < survey.candidacy.size(); ++v) {
+      const SelectedVertex& vertex = survey.surface.vertices[v];
+      if (survey.candidacy[v] != Candidacy::kNone)
+        result.emplace_back(code_of(vertex), vertex.point.z, survey.candidacy[v]);
+    }
+    return result;
+  }
+  static std::vector<Segment> sorted(std::vector<Segment> segments) {
+    std::sort(segments.begin(), segments.end());
+    return segments;
+  }
+
+  std::mt19937 random_{test::seed()};
+  std::int32_t west_ = -4321, south_ = 987, step_x_ = 50, step_y_ = 50;
+};
+
+TEST_F(Greedy, KeepsToTolerancesOverScatteredPoints) {
+  using test::Pattern;
+  for (const Pattern pattern : {Pattern::kRandom, Pattern::kClusters, Pattern::kTurnedLattice, Pattern::kCocircular}) {
+    std::vector<test::LevelPoint> points;
+    for (const GridPoint& p : test::make_points(pattern, 900, random_)) points.push_back({p, 0});
+    test::TestIndex index(points, 1, 64);
+    const RegionMesh fine = surface(index, 0);
+    expect_kept(fine, greedy_levels(fine, all_of(fine), kGreedyTolerances));
+  }
+}
+
+TEST_F(Greedy, KeepsToTolerancesOverLattices) {
+  const test::CardiffTerrain terrain;
+  const std::vector<Height> grounds{
+      hills(), [&](std::int32_t c, std::int32_t r) { return static_cast<std::int32_t>(100 * terrain(c + 90, r + 80)); },
+      [](std::int32_t c, std::int32_t r) { return 7 * c - 5 * r; }, [](auto, auto) { return 12; }};
+  for (const Height& height : grounds) {
+    step_x_ = draw(1, 60), step_y_ = draw(1, 60);
+    test::TestIndex index(posts(height), 1, 64);
+    const RegionMesh fine = surface(index, 0);
+    ASSERT_EQ(fine.vertices.size(), kColumns * kRows);
+    const auto of_lattice = greedy_levels_of_lattice(fine.vertices, all_of(fine), kGreedyTolerances);
+    ASSERT_TRUE(of_lattice);
+    expect_kept(fine, *of_lattice);
+    const Levels of_mesh = greedy_levels(fine, all_of(fine), kGreedyTolerances);
+    expect_kept(fine, of_mesh);
+    for (const std::uint8_t k : {1, 2, 3})
+      EXPECT_NEAR(size_of_level(*of_lattice, k), size_of_level(of_mesh, k), 10 + 0.1 * size_of_level(of_mesh, k));
+  }
+}
+
+TEST_F(Greedy, KeepsToTolerancesAtPostsAndSidesOfLatticesWithGaps) {
+  for (const double share : {0.99, 0.9, 0.8}) {
+    step_y_ = draw(20, 90);
+    test::TestIndex index(posts(hills(), share), 1, 64);
+    const RegionMesh fine = surface(index, 0);
+    const auto levels = greedy_levels_of_lattice(fine.vertices, all_of(fine), kGreedyTolerances);
+    ASSERT_TRUE(levels);
+    EXPECT_GT(size_of_level(*levels, 1), size_of_level(*levels, 3));
+    expect_kept(fine, *levels, true);
+  }
+}
+
+TEST_F(Greedy, KeepsLevelsThatAreGiven) {
+  std::vector<test::LevelPoint> points = posts([](auto, auto) { return 0; });
+  for (test::LevelPoint& p : points) p.level = draw(0, 40) == 0 ? draw(1, 3) : 0;
+  test::TestIndex index(points, static_cast<int>(kGreedyTolerances.size()), 64);
+  const RegionMesh fine = surface(index, 0);
+  const auto levels = greedy_levels_of_lattice(fine.vertices, all_of(fine), kGreedyTolerances);
+  ASSERT_TRUE(levels);
+  ASSERT_EQ(*levels, greedy_levels(fine, all_of(fine), kGreedyTolerances));
+  for (std::size_t v = 0; v < levels->size(); ++v) EXPECT_GE((*levels)[v], fine.vertices[v].level);
+  EXPECT_GT(size_of_level(*levels, 1), 8);
+}
+
+TEST_F(Greedy, TakesScatteredPointsForNoLattice) {
+  std::vector<test::LevelPoint> points = posts(hills());
+  points.push_back({{west_ + 1, south_ + 1, 0}, 0});
+  test::TestIndex index(points, 1, 64);
+  const RegionMesh fine = surface(index, 0);
+  EXPECT_FALSE(greedy_levels_of_lattice(fine.vertices, all_of(fine), kGreedyTolerances));
+  // What is no candidate does not matter.
+  std::vector<Candidacy> candidacy = all_of(fine);
+  for (std::size_t v = 0; v < candidacy.size(); ++v)
+    if (fine.vertices[v].point.x == west_ + 1) candidacy[v] = Candidacy::kNone;
+  EXPECT_TRUE(greedy_levels_of_lattice(fine.vertices, candidacy, kGreedyTolerances));
+  // Nor does it help to lie on a lattice that is mostly empty.
+  test::TestIndex sparse(posts(hills(), 0.3), 1, 64);
+  const RegionMesh few = surface(sparse, 0);
+  EXPECT_FALSE(greedy_levels_of_lattice(few.vertices, all_of(few), kGreedyTolerances));
+}
+
+/// A tile of a lattice without gaps is surveyed without triangles; its points, ground and corners are the same.
+TEST_F(Greedy, SurveysOfLatticesAreThoseOfTriangles) {
+  int without_triangles = 0;
+  for (const double share : {1.0, 0.9995, 0.9}) {
+    step_x_ = draw(20, 60), step_y_ = draw(20, 60);
+    for (const double gap : {step_x_ * 1.5, step_x_ * 0.9}) {  // all squares are ground, or none
+      test::TestIndex index(posts(hills(), share), 1, 64);
+      const Sources all{0};
+      const SourceIndex by_triangles(*index, all);
+      const std::vector<std::array<double, 4>> bases{{gap, 0, 0, 1.5 * step_y_}};
+      for (const CurveRange& tile : index->tiles(300)) {
+        const TileSurvey fast = survey_tile(*index, tile, bases),
+                         slow = survey_tile(*index, tile, bases, &by_triangles);
+        without_triangles += fast.surface.mesh.triangles.empty() && !fast.surface.vertices.empty();
+        ASSERT_EQ(candidates(fast), candidates(slow));
+        ASSERT_EQ(sorted(fast.outline), sorted(slow.outline));
+        ASSERT_EQ(fast.isolated, slow.isolated);
+        ASSERT_EQ(fast.verge, slow.verge);
+      }
+    }
+  }
+  EXPECT_GT(without_triangles, 5);
+}
+
+}  // namespace
+}  // namespace itin
