@@ -5,15 +5,13 @@
 #include <iterator>
 #include <map>
 #include <optional>
-#include <utility>
+#include <set>
 
 #include <itin/box_of.hpp>
 #include <itin/detail.hpp>
-#include <itin/sort_unique.hpp>
 
 #include "pyramid/gap_rule.hpp"
-#include "pyramid/whole_lattice.hpp"
-#include "triangulate/read_once.hpp"
+#include "pyramid/ground_edges.hpp"
 #include "triangulate/region.hpp"
 
 namespace itin {
@@ -22,11 +20,6 @@ namespace {
 
 /// Mean spacings. A wider fringe leaves less to mend along the tiles' borders, and costs more here.
 constexpr double kFringe = 16;
-
-Segment segment(const RegionMesh& region, std::uint32_t from, std::uint32_t to) {
-  const GridPoint &a = region.vertices[from].point, &b = region.vertices[to].point;
-  return {a.x, a.y, b.x, b.y};
-}
 
 /// Ends of the straight runs, ascending.
 std::vector<std::uint64_t> corners_of(const std::vector<Segment>& edges) {
@@ -52,48 +45,6 @@ double fringe(const GridBox& box, std::size_t points) {
   return std::ceil(kFringe * std::sqrt(area / static_cast<double>(points)));
 }
 
-bool lies_in(const GridBox& box, const SelectedVertex& v) {
-  return box.contains(v.point.x, v.point.y);
-}
-
-/// Where the ground of a surface ends, as far as all triangles about it are known.
-struct GroundEdges {
-  struct Edge {
-    Segment segment;
-    std::uint64_t owner;  ///< it belongs to the tile of this one of its ends, the first on the curve
-  };
-  std::vector<Edge> segments;
-  std::vector<std::uint8_t> touched;  ///< vertices that ground meets
-};
-
-GroundEdges ground_edges(const RegionMesh& region, const GapRule& gaps, const GridBox& box) {
-  std::vector<std::uint8_t> ground;
-  for (const auto& [a, b, c] : region.mesh.triangles)
-    ground.push_back(gaps.ground(region.vertices[a], region.vertices[b], region.vertices[c]));
-  GroundEdges edges{{}, std::vector<std::uint8_t>(region.vertices.size(), 0)};
-  for (std::size_t t = 0; t < ground.size(); ++t) {
-    if (!ground[t]) continue;
-    for (int i = 0; i < 3; ++i) {
-      edges.touched[region.mesh.triangles[t][i]] = 1;
-      const std::uint32_t n = region.mesh.neighbours[t][i];
-      if (n != kNoTriangle && ground[n]) continue;
-      const std::uint32_t from = region.mesh.triangles[t][(i + 1) % 3], to = region.mesh.triangles[t][(i + 2) % 3];
-      // All triangles at a vertex in the box are known, so its edges are; farther away some neighbours are missing.
-      if (!lies_in(box, region.vertices[from]) && !lies_in(box, region.vertices[to])) continue;
-      const std::uint64_t owner = std::min(code_of(region.vertices[from]), code_of(region.vertices[to]));
-      edges.segments.push_back({segment(region, from, to), owner});
-    }
-  }
-  return edges;
-}
-
-/// What a box and the squares that meet it have, if the full surface there is a lattice without gaps and all of it is
-/// ground.
-struct WholeGround {
-  std::vector<SelectedVertex> posts;  ///< in ascending Morton order
-  GroundEdges edges;
-};
-
 /// In ascending Morton order.
 std::vector<SelectedVertex> points_in(const PointIndex& index, const GridBox& box) {
   std::vector<SelectedVertex> points;
@@ -109,59 +60,29 @@ std::vector<SelectedVertex> points_in(const PointIndex& index, const GridBox& bo
   return points;
 }
 
-/// Whether all triangles of the lattice are ground, as the sources of all posts bridge all of their edges.
-bool is_all_ground(const WholeLattice& lattice, const std::vector<SelectedVertex>& posts, const GapRule& gaps) {
-  const Position first = lattice.position({0, 0}), next = lattice.position({1, 1});
-  const double x = static_cast<double>(next.x) - first.x, y = static_cast<double>(next.y) - first.y;
-  std::vector<std::uint16_t> sources;
-  for (const SelectedVertex& v : posts)
-    if (sources.empty() || sources.back() != v.source) sources.push_back(v.source);
-  sort_unique(sources);
-  return std::all_of(sources.begin(), sources.end(), [&](std::uint16_t source) {
-    return gaps.bridges(source, x, 0) && gaps.bridges(source, 0, y) && gaps.bridges(source, x, -y);
-  });
+/// Nothing where there are not only posts of one lattice, whose squares are the ground.
+std::optional<GroundEdges> survey_lattice(const PointIndex& points, const GridBox& box, double reach,
+                                          const GapRule& gaps, TileSurvey& survey) {
+  // No source that bridges a step reaches less far, and what lies two steps away does not change any square.
+  survey.surface.vertices = points_in(points, widened(box, 2 * reach));
+  survey.posts = LatticePosts::of(survey.surface.vertices);
+  return survey.posts ? ground_edges(survey.surface.vertices, *survey.posts, gaps, box) : std::nullopt;
 }
 
-/// Along those sides of the lattice where all ground ends, with the ground to the left.
-std::vector<GroundEdges::Edge> edges_of(const WholeLattice& lattice, const GridBox& all) {
-  using Place = WholeLattice::Place;
-  std::vector<GroundEdges::Edge> edges;
-  const auto add = [&](Place from, Place to) {
-    const Position a = lattice.position(from), b = lattice.position(to);
-    edges.push_back({{a.x, a.y, b.x, b.y}, std::min(code_of(a), code_of(b))});
-  };
-  const GridBox own = lattice.bounds();
-  const std::int64_t east = lattice.columns() - 1, north = lattice.rows() - 1;
-  for (std::int64_t c = 0; c < east; ++c) {
-    if (own.ymin == all.ymin) add({c, 0}, {c + 1, 0});
-    if (own.ymax == all.ymax) add({c + 1, north}, {c, north});
-  }
-  for (std::int64_t r = 0; r < north; ++r) {
-    if (own.xmin == all.xmin) add({0, r + 1}, {0, r});
-    if (own.xmax == all.xmax) add({east, r}, {east, r + 1});
-  }
-  return edges;
-}
-
-/// The index must have no segments.
-std::optional<WholeGround> whole_ground(const WorkingIndex& index, const GridBox& box, const GapRule& gaps) {
-  const ReadOnce points(index);
-  const auto lattice = WholeLattice::about(points, box);
-  if (!lattice) return std::nullopt;
-  WholeGround ground{points_in(points, lattice->bounds()), {edges_of(*lattice, index.bounds()), {}}};
-  if (!is_all_ground(*lattice, ground.posts, gaps)) return std::nullopt;
-  ground.edges.touched.assign(ground.posts.size(), 1);
-  return ground;
+GroundEdges survey_triangles(const PointIndex& points, const GridBox& box, const GapRule& gaps, TileSurvey& survey) {
+  survey.surface = triangulate_region(points, Selection(Detail::tolerance(0), {0.0}, Grid{}), box);
+  survey.posts = LatticePosts::of(survey.surface.vertices);
+  return ground_edges(survey.surface, gaps, box);
 }
 
 std::vector<Candidacy> candidacy_of(const std::vector<SelectedVertex>& vertices, const GroundEdges& edges,
                                     const GridBox& box) {
   std::vector<Segment> segments;
-  for (const GroundEdges::Edge& edge : edges.segments) segments.push_back(edge.segment);
+  for (const GroundEdges::Edge& edge : edges.edges) segments.push_back(edge.segment);
   const std::vector<std::uint64_t> corners = corners_of(segments);
   std::vector<Candidacy> candidacy;
   for (std::size_t v = 0; v < vertices.size(); ++v) {
-    const bool free = edges.touched[v] && lies_in(box, vertices[v]);
+    const bool free = edges.touched[v] && box.contains(vertices[v].point.x, vertices[v].point.y);
     const bool corner = free && std::binary_search(corners.begin(), corners.end(), code_of(vertices[v]));
     candidacy.push_back(corner ? Candidacy::kCorner : free ? Candidacy::kFree : Candidacy::kNone);
   }
@@ -207,19 +128,17 @@ TileSurvey survey_tile(const WorkingIndex& index, const CurveRange& tile,
   const GridBox box = widened(points, margin);
   survey.verge = widened(points, margin / 2);
   const GapRule gaps(gap_bases);
-  GroundEdges edges;
-  if (auto whole = ground_points == nullptr ? whole_ground(index, box, gaps) : std::nullopt) {
-    survey.surface.vertices = std::move(whole->posts);
-    edges = std::move(whole->edges);
-  } else {
-    const Selection everything(Detail::tolerance(0), {0.0}, Grid{});
-    survey.surface = ground_points == nullptr ? triangulate_region(index, everything, box)
-                                              : triangulate_region(*ground_points, everything, box);
-    edges = ground_edges(survey.surface, gaps, box);
-  }
-  for (const auto& [segment, owner] : edges.segments)
+  std::set<std::uint16_t> sources;
+  for (const RawPoint& p : own) sources.insert(p.source);
+  const double reach = gaps.reach(sources);
+  const PointIndex& ground = ground_points == nullptr ? static_cast<const PointIndex&>(index) : *ground_points;
+  // Ground that reaches farther does not consist of a lattice's squares, or has few of them.
+  std::optional<GroundEdges> edges;
+  if (2 * reach <= margin) edges = survey_lattice(ground, box, reach, gaps, survey);
+  if (!edges) edges = survey_triangles(ground, box, gaps, survey);
+  for (const auto& [segment, owner] : edges->edges)
     if (tile.cell.contains(owner)) survey.outline.push_back(segment);
-  survey.candidacy = candidacy_of(survey.surface.vertices, edges, box);
+  survey.candidacy = candidacy_of(survey.surface.vertices, *edges, box);
   survey.isolated = isolated_of(own, survey);
   return survey;
 }
@@ -238,6 +157,7 @@ TileSurvey survey_surface(const WorkingIndex& index, const CurveRange& tile) {
   survey.surface = triangulate_region(index, selection, box);
   for (const SelectedVertex& v : survey.surface.vertices)
     survey.candidacy.push_back(box.contains(v.point.x, v.point.y) ? Candidacy::kFree : Candidacy::kNone);
+  if (survey.surface.lines.empty()) survey.posts = LatticePosts::of(survey.surface.vertices);
   return survey;
 }
 

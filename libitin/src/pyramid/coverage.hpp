@@ -5,11 +5,13 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include <itin/store.hpp>
 
 #include "pyramid/greedy.hpp"
+#include "pyramid/lattice_posts.hpp"
 #include "pyramid/source_index.hpp"
 #include "pyramid/working_index.hpp"
 #include "triangulate/region.hpp"
@@ -21,8 +23,9 @@ std::vector<std::array<double, 4>> gap_bases_of(const std::vector<SourceInfo>& s
 
 /// The full surface about one tile, and what its own points have of the coverage.
 struct TileSurvey {
-  /// Every triangle about the tile's points, ground or not; only vertices where these are a lattice without gaps.
+  /// Every triangle about the tile's points, ground or not; perhaps no triangles where these are posts of a lattice.
   RegionMesh surface;
+  std::optional<LatticePosts> posts;    ///< its vertices, where they are those of a lattice, and no lines are there
   GridBox verge;                        ///< the tile's points and half the fringe seen around them
   std::vector<Candidacy> candidacy;     ///< per vertex: corners of the outline are kCorner, isolated points kNone
   std::vector<Segment> outline;         ///< edges with ground to the left, each in one tile only

@@ -20,8 +20,12 @@ class GapRule {
     const double x = static_cast<double>(q.point.x) - p.point.x, y = static_cast<double>(q.point.y) - p.point.y;
     return bridges(p.source, x, y) || (p.source != q.source && bridges(q.source, x, y));
   }
-  /// Whether the source bridges this way from any of its points, grid units.
-  bool bridges(std::uint16_t source, double x, double y) const { return within(bases_[source], x, y); }
+  /// Whether this source bridges the sides and diagonals of squares of a lattice with these steps, and nothing longer.
+  bool bridges_squares_alone(std::uint16_t source, double x, double y) const {
+    const auto& [ux, uy, vx, vy] = bases_[source];
+    return bridges(source, x, y) && bridges(source, x, -y) && bridges(source, x, 0) && bridges(source, 0, y) &&
+           std::abs(ux) + std::abs(vx) < 2 * x && std::abs(uy) + std::abs(vy) < 2 * y;
+  }
   bool ground(const SelectedVertex& a, const SelectedVertex& b, const SelectedVertex& c) const {
     return bridges(a, b) && bridges(b, c) && bridges(c, a);
   }
@@ -37,6 +41,7 @@ class GapRule {
   }
 
  private:
+  bool bridges(std::uint16_t source, double x, double y) const { return within(bases_[source], x, y); }
   /// e = a u + b v with |a| <= 1 and |b| <= 1, by Cramer's rule without the division.
   static bool within(const std::array<double, 4>& basis, double x, double y) {
     const auto& [ux, uy, vx, vy] = basis;

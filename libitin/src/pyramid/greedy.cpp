@@ -53,12 +53,10 @@ std::vector<std::uint8_t> greedy_levels(const RegionMesh& fine, std::span<const 
   return levels_over(ground, fine.vertices, candidacy, tolerances);
 }
 
-std::optional<std::vector<std::uint8_t>> greedy_levels_of_lattice(std::span<const SelectedVertex> vertices,
-                                                                  std::span<const Candidacy> candidacy,
-                                                                  std::span<const double> tolerances) {
-  auto ground = LatticeGround::of(vertices, candidacy);
-  if (!ground) return std::nullopt;
-  return levels_over(*ground, vertices, candidacy, tolerances);
+std::vector<std::uint8_t> greedy_levels(std::span<const SelectedVertex> vertices, const LatticePosts& posts,
+                                        std::span<const Candidacy> candidacy, std::span<const double> tolerances) {
+  LatticeGround ground(vertices, posts, candidacy);
+  return levels_over(ground, vertices, candidacy, tolerances);
 }
 
 }  // namespace itin

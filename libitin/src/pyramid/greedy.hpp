@@ -2,10 +2,10 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <vector>
 
+#include "pyramid/lattice_posts.hpp"
 #include "triangulate/region.hpp"
 
 namespace itin {
@@ -28,11 +28,10 @@ enum class Candidacy : std::uint8_t {
 std::vector<std::uint8_t> greedy_levels(const RegionMesh& fine, std::span<const Candidacy> candidacy,
                                         std::span<const double> tolerances);
 
-/// The levels where the full surface is the Delaunay triangulation of these vertices and all candidates are posts of a
-/// lattice; nothing where they are not. Edges of the full surface that are no sides of the lattice's triangles, as
-/// beside gaps, are passed over. In a third of the time, and without the triangles.
-std::optional<std::vector<std::uint8_t>> greedy_levels_of_lattice(std::span<const SelectedVertex> vertices,
-                                                                  std::span<const Candidacy> candidacy,
-                                                                  std::span<const double> tolerances);
+/// The levels where the full surface is the Delaunay triangulation of these vertices, which are posts of a lattice.
+/// Needs no triangles. Edges of the full surface that are no sides of the lattice's triangles, as beside gaps, are
+/// passed over.
+std::vector<std::uint8_t> greedy_levels(std::span<const SelectedVertex> vertices, const LatticePosts& posts,
+                                        std::span<const Candidacy> candidacy, std::span<const double> tolerances);
 
 }  // namespace itin

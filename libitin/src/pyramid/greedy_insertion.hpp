@@ -31,9 +31,6 @@
 
 namespace itin {
 
-/// In place of the number of a vertex.
-inline constexpr std::uint32_t kNoVertex = 0xffffffff;
-
 struct CoarseFaceInfo {
   std::uint32_t first = kNoVertex;  ///< of the vertices that lie in the face, where the ground lists these
   std::uint32_t version = 0;        ///< counts the face's reincarnations, to recognise stale proposals

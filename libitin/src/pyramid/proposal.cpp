@@ -4,7 +4,6 @@
 #include <atomic>
 #include <cmath>
 #include <optional>
-#include <utility>
 
 #include <itin/parallel.hpp>
 
@@ -20,13 +19,9 @@ struct TileProposal {
   std::vector<LevelRaise> beyond;  ///< points across the border
 };
 
-/// Rasters without lines need no walks from triangle to triangle.
 std::vector<std::uint8_t> levels_of(const TileSurvey& survey, std::span<const double> tolerances) {
-  if (survey.surface.lines.empty()) {
-    if (auto levels = greedy_levels_of_lattice(survey.surface.vertices, survey.candidacy, tolerances))
-      return std::move(*levels);
-  }
-  return greedy_levels(survey.surface, survey.candidacy, tolerances);
+  return survey.posts ? greedy_levels(survey.surface.vertices, *survey.posts, survey.candidacy, tolerances)
+                      : greedy_levels(survey.surface, survey.candidacy, tolerances);
 }
 
 TileProposal propose(WorkingIndex& index, const CurveRange& tile, TileSurvey survey,

@@ -1,13 +1,14 @@
-// Every level that greedy insertion proposes keeps to its tolerance, and a lattice's levels are as good as those that
-// are found triangle by triangle.
+// Every level that greedy insertion proposes keeps to its tolerance, and a lattice's levels and ground are those that
+// are found triangle by triangle, or as good.
 #include "pyramid/greedy.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
-#include <optional>
 #include <random>
-#include <tuple>
+#include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -15,7 +16,9 @@
 #include <itin/detail.hpp>
 
 #include "pyramid/coverage.hpp"
+#include "pyramid/ground_edges.hpp"
 #include "pyramid/overlay.hpp"
+#include "support/covered_index.hpp"
 #include "support/points.hpp"
 #include "support/raster_file.hpp"
 #include "support/seed.hpp"
@@ -91,23 +94,22 @@ class Greedy : public testing::Test {
     }
   }
 
+  static Levels levels_of_posts(const RegionMesh& fine) {
+    const auto posts = LatticePosts::of(fine.vertices);
+    if (!posts) throw std::logic_error("no lattice");
+    return greedy_levels(fine.vertices, *posts, all_of(fine), kGreedyTolerances);
+  }
+
   /// How many vertices level k has.
   static double size_of_level(const Levels& levels, std::uint8_t k) {
     return static_cast<double>(std::count_if(levels.begin(), levels.end(), [&](std::uint8_t l) { return l >= k; }));
   }
 
-  static std::vector<std::tuple<std::uint64_t, std::int32_t, Candidacy>> candidates(const TileSurvey& survey) {
-    std::vector<std::tuple<std::uint64_t, std::int32_t, Candidacy>> result;
-    for (std::size_t v = 0; v < survey.candidacy.size(); ++v) {
-      const SelectedVertex& vertex = survey.surface.vertices[v];
-      if (survey.candidacy[v] != Candidacy::kNone)
-        result.emplace_back(code_of(vertex), vertex.point.z, survey.candidacy[v]);
-    }
-    return result;
-  }
-  static std::vector<Segment> sorted(std::vector<Segment> segments) {
-    std::sort(segments.begin(), segments.end());
-    return segments;
+  static std::vector<std::pair<Segment, std::uint64_t>> sorted(const GroundEdges& ground) {
+    std::vector<std::pair<Segment, std::uint64_t>> edges;
+    for (const auto& [segment, owner] : ground.edges) edges.emplace_back(segment, owner);
+    std::sort(edges.begin(), edges.end());
+    return edges;
   }
 
   std::mt19937 random_{test::seed()};
@@ -135,13 +137,12 @@ TEST_F(Greedy, KeepsToTolerancesOverLattices) {
     test::TestIndex index(posts(height), 1, 64);
     const RegionMesh fine = surface(index, 0);
     ASSERT_EQ(fine.vertices.size(), kColumns * kRows);
-    const auto of_lattice = greedy_levels_of_lattice(fine.vertices, all_of(fine), kGreedyTolerances);
-    ASSERT_TRUE(of_lattice);
-    expect_kept(fine, *of_lattice);
+    const Levels of_lattice = levels_of_posts(fine);
+    expect_kept(fine, of_lattice);
     const Levels of_mesh = greedy_levels(fine, all_of(fine), kGreedyTolerances);
     expect_kept(fine, of_mesh);
     for (const std::uint8_t k : {1, 2, 3})
-      EXPECT_NEAR(size_of_level(*of_lattice, k), size_of_level(of_mesh, k), 10 + 0.1 * size_of_level(of_mesh, k));
+      EXPECT_NEAR(size_of_level(of_lattice, k), size_of_level(of_mesh, k), 10 + 0.1 * size_of_level(of_mesh, k));
   }
 }
 
@@ -150,10 +151,9 @@ TEST_F(Greedy, KeepsToTolerancesAtPostsAndSidesOfLatticesWithGaps) {
     step_y_ = draw(20, 90);
     test::TestIndex index(posts(hills(), share), 1, 64);
     const RegionMesh fine = surface(index, 0);
-    const auto levels = greedy_levels_of_lattice(fine.vertices, all_of(fine), kGreedyTolerances);
-    ASSERT_TRUE(levels);
-    EXPECT_GT(size_of_level(*levels, 1), size_of_level(*levels, 3));
-    expect_kept(fine, *levels, true);
+    const Levels levels = levels_of_posts(fine);
+    EXPECT_GT(size_of_level(levels, 1), size_of_level(levels, 3));
+    expect_kept(fine, levels, true);
   }
 }
 
@@ -162,52 +162,78 @@ TEST_F(Greedy, KeepsLevelsThatAreGiven) {
   for (test::LevelPoint& p : points) p.level = draw(0, 40) == 0 ? draw(1, 3) : 0;
   test::TestIndex index(points, static_cast<int>(kGreedyTolerances.size()), 64);
   const RegionMesh fine = surface(index, 0);
-  const auto levels = greedy_levels_of_lattice(fine.vertices, all_of(fine), kGreedyTolerances);
-  ASSERT_TRUE(levels);
-  ASSERT_EQ(*levels, greedy_levels(fine, all_of(fine), kGreedyTolerances));
-  for (std::size_t v = 0; v < levels->size(); ++v) EXPECT_GE((*levels)[v], fine.vertices[v].level);
-  EXPECT_GT(size_of_level(*levels, 1), 8);
+  const Levels levels = levels_of_posts(fine);
+  ASSERT_EQ(levels, greedy_levels(fine, all_of(fine), kGreedyTolerances));
+  for (std::size_t v = 0; v < levels.size(); ++v) EXPECT_GE(levels[v], fine.vertices[v].level);
+  EXPECT_GT(size_of_level(levels, 1), 8);
 }
 
 TEST_F(Greedy, TakesScatteredPointsForNoLattice) {
-  std::vector<test::LevelPoint> points = posts(hills());
+  const auto are_posts = [](const std::vector<test::LevelPoint>& points) {
+    std::vector<SelectedVertex> vertices;
+    for (const test::LevelPoint& p : points) vertices.push_back({p.point});
+    return LatticePosts::of(vertices).has_value();
+  };
+  std::vector<test::LevelPoint> points = posts(hills(), 0.9);
+  EXPECT_TRUE(are_posts(points));
   points.push_back({{west_ + 1, south_ + 1, 0}, 0});
-  test::TestIndex index(points, 1, 64);
-  const RegionMesh fine = surface(index, 0);
-  EXPECT_FALSE(greedy_levels_of_lattice(fine.vertices, all_of(fine), kGreedyTolerances));
-  // What is no candidate does not matter.
-  std::vector<Candidacy> candidacy = all_of(fine);
-  for (std::size_t v = 0; v < candidacy.size(); ++v)
-    if (fine.vertices[v].point.x == west_ + 1) candidacy[v] = Candidacy::kNone;
-  EXPECT_TRUE(greedy_levels_of_lattice(fine.vertices, candidacy, kGreedyTolerances));
-  // Nor does it help to lie on a lattice that is mostly empty.
-  test::TestIndex sparse(posts(hills(), 0.3), 1, 64);
-  const RegionMesh few = surface(sparse, 0);
-  EXPECT_FALSE(greedy_levels_of_lattice(few.vertices, all_of(few), kGreedyTolerances));
+  EXPECT_FALSE(are_posts(points));
+  EXPECT_FALSE(are_posts(posts(hills(), 0.3)));  // mostly empty
+  EXPECT_FALSE(are_posts({}));
+  EXPECT_TRUE(are_posts({points[0]}));
 }
 
-/// A tile of a lattice without gaps is surveyed without triangles; its points, ground and corners are the same.
-TEST_F(Greedy, SurveysOfLatticesAreThoseOfTriangles) {
-  int without_triangles = 0;
-  for (const double share : {1.0, 0.9995, 0.9}) {
+/// Ground of a lattice ends where that of its triangles does.
+TEST_F(Greedy, GroundOfPostsIsThatOfTriangles) {
+  const std::vector<double> shares{1, 0.999, 0.9, 0.8};
+  for (const double share : shares) {
     step_x_ = draw(20, 60), step_y_ = draw(20, 60);
-    for (const double gap : {step_x_ * 1.5, step_x_ * 0.9}) {  // all squares are ground, or none
-      test::TestIndex index(posts(hills(), share), 1, 64);
-      const Sources all{0};
-      const SourceIndex by_triangles(*index, all);
-      const std::vector<std::array<double, 4>> bases{{gap, 0, 0, 1.5 * step_y_}};
-      for (const CurveRange& tile : index->tiles(300)) {
-        const TileSurvey fast = survey_tile(*index, tile, bases),
-                         slow = survey_tile(*index, tile, bases, &by_triangles);
-        without_triangles += fast.surface.mesh.triangles.empty() && !fast.surface.vertices.empty();
-        ASSERT_EQ(candidates(fast), candidates(slow));
-        ASSERT_EQ(sorted(fast.outline), sorted(slow.outline));
-        ASSERT_EQ(fast.isolated, slow.isolated);
-        ASSERT_EQ(fast.verge, slow.verge);
-      }
+    std::vector<GridPoint> points;
+    for (const test::LevelPoint& p : posts(hills(), share)) points.push_back(p.point);
+    test::cut_holes(points, 1.2 * step_x_, random_);
+    std::vector<test::LevelPoint> with_levels;
+    for (const GridPoint& p : points) with_levels.push_back({p, 0});
+    test::TestIndex index(with_levels, 1, 64);
+    const RegionMesh fine = surface(index, 0);
+    const auto posts = LatticePosts::of(fine.vertices);
+    ASSERT_TRUE(posts);
+    const auto bases = [&](double columns, double rows) {
+      return std::vector<std::array<double, 4>>{{columns * step_x_, 0, 0, rows * step_y_}};
+    };
+    const GridBox all = index->bounds();
+    const GridBox some{all.xmin + 7 * step_x_, all.ymin + draw(0, 9) * step_y_, all.xmax - 11 * step_x_, all.ymax};
+    for (const GridBox& box : {all, some}) {
+      const auto of_posts = ground_edges(fine.vertices, *posts, GapRule(bases(1.5, 1.5)), box);
+      ASSERT_TRUE(of_posts);
+      const GroundEdges of_triangles = ground_edges(fine, GapRule(bases(1.5, 1.5)), box);
+      ASSERT_EQ(sorted(*of_posts), sorted(of_triangles));
+      ASSERT_EQ(of_posts->touched, of_triangles.touched);
     }
+    // Other triangles than halves of squares are ground, too, or these are not.
+    for (const auto& [columns, rows] : {std::pair{0.9, 1.5}, {1.5, 0.9}, {2.0, 1.5}, {1.5, 3.0}})
+      EXPECT_FALSE(ground_edges(fine.vertices, *posts, GapRule(bases(columns, rows)), all));
   }
-  EXPECT_GT(without_triangles, 5);
+}
+
+/// Neither the way in which a tile is surveyed nor where tiles end changes what is ground.
+TEST_F(Greedy, TilesOfLatticesMakeTheGroundOfAll) {
+  for (const double share : {1.0, 0.9}) {
+    test::TestIndex index(posts(hills(), share), 1, 64);
+    const RegionMesh fine = surface(index, 0);
+    const std::vector<std::array<double, 4>> bases{{1.5 * step_x_, 0, 0, 1.5 * step_y_}};
+    std::vector<Segment> outline, expected;
+    int without_triangles = 0;
+    for (const CurveRange& tile : index->tiles(300)) {
+      const TileSurvey survey = survey_tile(*index, tile, bases);
+      outline.insert(outline.end(), survey.outline.begin(), survey.outline.end());
+      without_triangles += survey.posts.has_value() && survey.surface.mesh.triangles.empty();
+    }
+    EXPECT_GT(without_triangles, 4);
+    for (const auto& edge : ground_edges(fine, GapRule(bases), index->bounds()).edges) expected.push_back(edge.segment);
+    std::sort(outline.begin(), outline.end());
+    std::sort(expected.begin(), expected.end());
+    ASSERT_EQ(outline, expected);
+  }
 }
 
 }  // namespace

@@ -1,0 +1,32 @@
+// Where the ground of a surface ends: the edges of its ground triangles (gap_rule.hpp) with nothing beyond.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "pyramid/gap_rule.hpp"
+#include "pyramid/lattice_posts.hpp"
+#include "triangulate/region.hpp"
+
+namespace itin {
+
+struct GroundEdges {
+  struct Edge {
+    Segment segment;      ///< with the ground to its left
+    std::uint64_t owner;  ///< it belongs to the tile of this one of its ends, the first on the curve
+  };
+  std::vector<Edge> edges;
+  std::vector<std::uint8_t> touched;  ///< vertices that ground meets
+};
+
+/// Those with an end in the box. The surface has all triangles about vertices there.
+GroundEdges ground_edges(const RegionMesh& surface, const GapRule& gaps, const GridBox& box);
+
+/// As above, for the Delaunay triangulation of these vertices, which are posts of a lattice: all points within two of
+/// its steps about the box. Nothing where other triangles may be ground than halves of the lattice's squares.
+std::optional<GroundEdges> ground_edges(std::span<const SelectedVertex> vertices, const LatticePosts& posts,
+                                        const GapRule& gaps, const GridBox& box);
+
+}  // namespace itin
