@@ -1,5 +1,7 @@
 #include "pyramid/greedy.hpp"
 
+#include <algorithm>
+#include <array>
 #include <utility>
 
 #include <itin/convex_hull.hpp>
@@ -13,7 +15,20 @@ namespace itin {
 namespace {
 
 std::vector<std::uint32_t> hull_of(std::span<const SelectedVertex> vertices, std::vector<std::uint32_t> candidates) {
+  if (candidates.empty()) return candidates;
   const auto at = [&](std::uint32_t v) { return vertices[v].position(); };
+  // Nothing within the outermost ones along both diagonals is on the hull (Akl and Toussaint 1978): most of a raster.
+  const auto sum = [&](std::uint32_t v) { return std::int64_t{at(v).x} + at(v).y; };
+  const auto difference = [&](std::uint32_t v) { return std::int64_t{at(v).x} - at(v).y; };
+  const auto by = [](const auto& key) { return [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); }; };
+  const auto [south_west, north_east] = std::minmax_element(candidates.begin(), candidates.end(), by(sum));
+  const auto [north_west, south_east] = std::minmax_element(candidates.begin(), candidates.end(), by(difference));
+  const std::array<Position, 4> outermost{at(*south_west), at(*south_east), at(*north_east), at(*north_west)};
+  std::erase_if(candidates, [&](std::uint32_t v) {
+    for (std::size_t i = 0; i < 4; ++i)
+      if (orientation(outermost[i], outermost[(i + 1) % 4], at(v)) <= 0) return false;
+    return true;
+  });
   return convex_hull(
       std::move(candidates), [&](std::uint32_t a, std::uint32_t b) { return at(a) < at(b); },
       [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) { return orientation(at(a), at(b), at(c)) > 0; });
