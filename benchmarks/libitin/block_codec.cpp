@@ -11,6 +11,7 @@
 #include <benchmark/benchmark.h>
 
 #include "geometry/cell.hpp"
+#include "libitin/hills.hpp"
 
 namespace itin {
 namespace {
@@ -20,17 +21,6 @@ struct Sample {
   std::vector<GridPoint> points;
   std::vector<std::uint16_t> sources;
 };
-
-// Octaves of waves whose height falls with their length, as in hills; metres.
-double height(double x, double y) {
-  double z = 0;
-  for (int octave = 0; octave < 7; ++octave) {
-    const double length = 4000.0 / (1 << octave), turn = 1.3 * octave;
-    const double along = x * std::cos(turn) + y * std::sin(turn), across = y * std::cos(turn) - x * std::sin(turn);
-    z += length / 20 * std::sin(along * 6.283 / length) * std::cos(across * 4.4 / length + octave);
-  }
-  return z;
-}
 
 std::vector<Sample> sample(bool lattice) {
   std::mt19937_64 random(1);
@@ -52,7 +42,7 @@ std::vector<Sample> sample(bool lattice) {
     codes.erase(std::unique(codes.begin(), codes.end()), codes.end());
     for (const std::uint64_t code : codes) {
       GridPoint p{morton_x(code), morton_y(code), 0};
-      const double z = height(p.x * 0.01, p.y * 0.01);
+      const double z = hill_height(p.x * 0.01, p.y * 0.01);
       p.z = lattice ? 10 * static_cast<std::int32_t>(std::lround(z * 10))
                     : static_cast<std::int32_t>(std::lround(z * 100)) + static_cast<std::int32_t>(random() % 9);
       s.points.push_back(p);
