@@ -61,9 +61,12 @@ void ChosenClusters::segments(std::uint16_t theme, const GridBox& box, std::vect
   if (coarsest == kWhole) return file_.segments_of(tree, box, out);
   std::vector<Leaf> leaves;
   file_.leaves_of(tree, box, leaves);
-  for (const Leaf& leaf : leaves)
-    for (const Segment& s : *segments_of(leaf, coarsest))
+  for (const Leaf& leaf : leaves) {
+    // We hold them: where another thread was first, the cache keeps its own.
+    const std::shared_ptr<const std::vector<Segment>> there = segments_of(leaf, coarsest);
+    for (const Segment& s : *there)
       if (extent_of(s).meets(box)) out.push_back(s);
+  }
 }
 
 }  // namespace itin

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <optional>
 #include <random>
+#include <thread>
 
 #include <gtest/gtest.h>
 
@@ -23,6 +24,7 @@
 #include "support/sound_store.hpp"
 #include "support/temporary_directory.hpp"
 #include "support/vector_file.hpp"
+#include "triangulate/chosen_clusters.hpp"
 
 namespace itin {
 namespace {
@@ -40,6 +42,17 @@ struct House {
 class RingFeatures : public testing::Test {
  protected:
   std::string path(const std::string& name) const { return directory_.file(name); }
+  void import_alexandria() const {
+    const std::string data = std::string(ITIN_SOURCE_DIR) + "/scripts/demo-data/";
+    NoProgress progress;
+    ImportOptions options;
+    options.sources = {data + "alexandria-dtm.tif"};
+    import_terrain(path("s.itin"), options, progress);
+    options.sources = {data + "alexandria-buildings.geojson"};
+    options.kind = ThemeKind::Buildings;
+    options.height_field = "HEIGHT";
+    import_lines(path("s.itin"), options, progress);
+  }
   double in(double low, double high) { return low + (high - low) * static_cast<double>(random_() % 100001) / 100000; }
 
   /// 600 m of ground from (300000, 199400).
@@ -253,15 +266,8 @@ std::map<std::int64_t, std::vector<Point2>> buildings_in(const Store& store, con
 }
 
 TEST_F(RingFeatures, OfAlexandriaAreThoseOfEachRingsTolerance) {
-  const std::string data = std::string(ITIN_SOURCE_DIR) + "/scripts/demo-data/";
   NoProgress progress;
-  ImportOptions options;
-  options.sources = {data + "alexandria-dtm.tif"};
-  import_terrain(path("s.itin"), options, progress);
-  options.sources = {data + "alexandria-buildings.geojson"};
-  options.kind = ThemeKind::Buildings;
-  options.height_field = "HEIGHT";
-  import_lines(path("s.itin"), options, progress);
+  import_alexandria();
   const Store store(path("s.itin"));
   test::expect_sound(store);
   const auto all = buildings_in(store, surface(store, Detail::tolerance(0)));
@@ -285,6 +291,31 @@ TEST_F(RingFeatures, OfAlexandriaAreThoseOfEachRingsTolerance) {
           triangles_of(triangulate(store, Window::disc({x, y}, 20), detail, progress, ThemeChoice::all()));
       EXPECT_TRUE(std::includes(whole.begin(), whole.end(), part.begin(), part.end()));
     }
+  }
+}
+
+/// Threads that are the first to ask for a leaf, at the same time, have what one alone has.
+TEST_F(RingFeatures, SegmentsAreThoseOfOneThreadForManyAtOnce) {
+  import_alexandria();
+  const Store store(path("s.itin"));
+  const Selection selection =
+      selection_of(store.metadata(), Detail::rings({321700, 4297700}, {{150, 0}, {225, 32}}), ThemeChoice::all());
+  const GridBox all = store.points().bounds();
+  const auto segments = [&](const ChosenClusters& chosen) {
+    std::vector<Segment> found;
+    for (std::size_t part = 0; part < store.metadata().parts.size(); ++part)
+      chosen.segments(static_cast<std::uint16_t>(store.metadata().themes.size() + part + 1), all, found);
+    return found;
+  };
+  const std::vector<Segment> expected = segments(ChosenClusters(store, selection));
+  ASSERT_GT(expected.size(), 1000U);
+  for (int round = 0; round < 40; ++round) {
+    const ChosenClusters chosen(store, selection);
+    std::array<std::vector<Segment>, 4> found;
+    std::vector<std::thread> threads;
+    for (auto& f : found) threads.emplace_back([&] { f = segments(chosen); });
+    for (std::thread& t : threads) t.join();
+    for (const auto& f : found) ASSERT_EQ(f, expected);
   }
 }
 
