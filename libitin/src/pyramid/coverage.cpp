@@ -5,7 +5,6 @@
 #include <iterator>
 #include <map>
 #include <optional>
-#include <set>
 
 #include <itin/box_of.hpp>
 #include <itin/detail.hpp>
@@ -128,9 +127,7 @@ TileSurvey survey_tile(const WorkingIndex& index, const CurveRange& tile,
   const GridBox box = widened(points, margin);
   survey.verge = widened(points, margin / 2);
   const GapRule gaps(gap_bases);
-  std::set<std::uint16_t> sources;
-  for (const RawPoint& p : own) sources.insert(p.source);
-  const double reach = gaps.reach(sources);
+  const double reach = gaps.reach(sources_of(own));
   const PointIndex& ground = ground_points == nullptr ? static_cast<const PointIndex&>(index) : *ground_points;
   // Ground that reaches farther does not consist of a lattice's squares, or has few of them.
   std::optional<GroundEdges> edges;

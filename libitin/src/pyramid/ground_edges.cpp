@@ -4,7 +4,7 @@
 #include <array>
 #include <utility>
 
-#include <itin/sort_unique.hpp>
+#include "pyramid/source_index.hpp"
 
 namespace itin {
 
@@ -89,14 +89,6 @@ class LatticeSurvey {
   EdgeList edges_;
 };
 
-std::vector<std::uint16_t> sources_of(std::span<const SelectedVertex> vertices) {
-  std::vector<std::uint16_t> sources;
-  for (const SelectedVertex& v : vertices)
-    if (sources.empty() || sources.back() != v.source) sources.push_back(v.source);
-  sort_unique(sources);
-  return sources;
-}
-
 }  // namespace
 
 GroundEdges ground_edges(const RegionMesh& surface, const GapRule& gaps, const GridBox& box) {
@@ -118,7 +110,7 @@ GroundEdges ground_edges(const RegionMesh& surface, const GapRule& gaps, const G
 
 std::optional<GroundEdges> ground_edges(std::span<const SelectedVertex> vertices, const LatticePosts& posts,
                                         const GapRule& gaps, const GridBox& box) {
-  const std::vector<std::uint16_t> sources = sources_of(vertices);
+  const Sources sources = sources_of(vertices);
   const auto x = static_cast<double>(posts.step_x()), y = static_cast<double>(posts.step_y());
   const bool squares_alone = std::all_of(
       sources.begin(), sources.end(), [&](std::uint16_t source) { return gaps.bridges_squares_alone(source, x, y); });

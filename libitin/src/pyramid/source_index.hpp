@@ -12,6 +12,16 @@ namespace itin {
 
 using Sources = std::set<std::uint16_t>;
 
+/// Those that any of the points is of. Points of one source mostly follow each other.
+template <class Points>
+Sources sources_of(const Points& points) {
+  Sources sources;
+  auto latest = sources.end();
+  for (const auto& p : points)
+    if (latest == sources.end() || *latest != p.source) latest = sources.insert(p.source).first;
+  return sources;
+}
+
 /// Knows which leaves hold such points, so that searches pass over all others: O(points) to make.
 class SourceIndex final : public PointIndex {
  public:

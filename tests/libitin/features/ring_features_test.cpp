@@ -17,6 +17,7 @@
 #include <itin/triangulate.hpp>
 
 #include "features/terrain_heights.hpp"
+#include "support/alexandria.hpp"
 #include "support/corner_triangles.hpp"
 #include "support/houses.hpp"
 #include "support/raster_file.hpp"
@@ -42,17 +43,6 @@ struct House {
 class RingFeatures : public testing::Test {
  protected:
   std::string path(const std::string& name) const { return directory_.file(name); }
-  void import_alexandria() const {
-    const std::string data = std::string(ITIN_SOURCE_DIR) + "/scripts/demo-data/";
-    NoProgress progress;
-    ImportOptions options;
-    options.sources = {data + "alexandria-dtm.tif"};
-    import_terrain(path("s.itin"), options, progress);
-    options.sources = {data + "alexandria-buildings.geojson"};
-    options.kind = ThemeKind::Buildings;
-    options.height_field = "HEIGHT";
-    import_lines(path("s.itin"), options, progress);
-  }
   double in(double low, double high) { return low + (high - low) * static_cast<double>(random_() % 100001) / 100000; }
 
   /// 600 m of ground from (300000, 199400).
@@ -267,7 +257,7 @@ std::map<std::int64_t, std::vector<Point2>> buildings_in(const Store& store, con
 
 TEST_F(RingFeatures, OfAlexandriaAreThoseOfEachRingsTolerance) {
   NoProgress progress;
-  import_alexandria();
+  test::import_alexandria(path("s.itin"));
   const Store store(path("s.itin"));
   test::expect_sound(store);
   const auto all = buildings_in(store, surface(store, Detail::tolerance(0)));
@@ -296,7 +286,7 @@ TEST_F(RingFeatures, OfAlexandriaAreThoseOfEachRingsTolerance) {
 
 /// Threads that are the first to ask for a leaf, at the same time, have what one alone has.
 TEST_F(RingFeatures, SegmentsAreThoseOfOneThreadForManyAtOnce) {
-  import_alexandria();
+  test::import_alexandria(path("s.itin"));
   const Store store(path("s.itin"));
   const Selection selection =
       selection_of(store.metadata(), Detail::rings({321700, 4297700}, {{150, 0}, {225, 32}}), ThemeChoice::all());
