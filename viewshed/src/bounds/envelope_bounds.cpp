@@ -19,6 +19,11 @@ RasterGrid bins_over_box(const Box& box, double bin) {
   return bins_over({box.xmin, box.ymax}, box.width(), box.height(), bin);
 }
 
+/// More than the step to the next float, and finite.
+float past_rounding(float z) {
+  return std::min(std::abs(z) * 0x1p-22F, std::numeric_limits<float>::max()) + std::numeric_limits<float>::min();
+}
+
 }  // namespace
 
 double side_of_bins(const Tin& level, const Box& box) {
@@ -92,8 +97,8 @@ void EnvelopeBounds::settle(const Tin& tin, const std::vector<BoundaryEdge>& out
     for (std::int64_t column = 0; column < columns(); ++column) {
       const std::size_t bin = grid_.index({column, static_cast<std::int64_t>(row)});
       float &low = low_[bin], &high = high_[bin];
-      low = low == kFloatInfinity ? -kFloatInfinity : std::nextafter(low, -kFloatInfinity);
-      if (high != -kFloatInfinity) high = std::nextafter(high, kFloatInfinity);
+      low = low == kFloatInfinity ? -kFloatInfinity : low - past_rounding(low);
+      high += past_rounding(high);
     }
   });
 }

@@ -18,13 +18,12 @@ class BlockJudge::BlockWork final : public TileJudge::Work {
         number_(tile),
         tile_(tile_at(judge.grid_, judge.tiles_, tile)),
         centres_(judge.surface_.bounds().units(), judge.grid_, tile_),
-        all_(all_of(tile_)),
-        covered_(judge.surface_.bounds().covers(box_of(all_))) {}
+        all_(all_of(tile_)) {}
 
   std::uint64_t judge(std::size_t, TileValues<Verdict>& values) override {
     const TileValues<Verdict> asked = values;
     hide(all_, asked, values);
-    if (!is_simple()) settle(asked, values);
+    settle(all_, asked, values);
     if (judge_.nearby_ != nullptr) take_nearby(asked, values);
     return 0;
   }
@@ -47,41 +46,55 @@ class BlockJudge::BlockWork final : public TileJudge::Work {
 
   BinBox box_of(const CellBlock& block) const { return box_about(block, centres_, judge_.surface_.bounds()); }
 
+  static void decide(const CellBlock& block, Verdict verdict, const TileValues<Verdict>& asked,
+                     TileValues<Verdict>& values) {
+    for_each_cell(block, [&](std::size_t cell) {
+      if (asked[cell] == Verdict::kUndecided) values[cell] = verdict;
+    });
+  }
+
   /// Hides the block where that is certain, else what it can of its quarters, down to about a bin.
   void hide(const CellBlock& block, const TileValues<Verdict>& asked, TileValues<Verdict>& values) const {
     const BinBox box = box_of(block);
     const double metres = judge_.surface_.bounds().units().resolution;
     const double highest = judge_.surface_.bounds().highest(box) + judge_.surface_.rises().over(tile_, block);
     if (highest == -kInfinity) return;
-    if (judge_.horizon_.hides(box, judge_.eye_.target(highest * metres) / metres)) {
-      for_each_cell(block, [&](std::size_t cell) {
-        values[cell] = asked[cell] == Verdict::kUndecided ? Verdict::kHidden : asked[cell];
-      });
-      return;
-    }
+    if (judge_.horizon_.hides(box, judge_.eye_.target(highest * metres) / metres))
+      return decide(block, Verdict::kHidden, asked, values);
     if (std::max(box.east - box.west, box.south - box.north) <= kSmallest) return;
     for_each_quarter(block, [&](const CellBlock& quarter) { hide(quarter, asked, values); });
   }
 
   /// Whether every cell has ground and is in view, and none has a rule of its own.
-  bool is_simple() const {
+  bool is_simple(const CellBlock& block) const {
     const Eye& eye = judge_.eye_;
-    const double west = centres_.x[0] - eye.units.x, east = centres_.x[all_.column_end - 1] - eye.units.x,
-                 north = centres_.y[0] - eye.units.y, south = centres_.y[all_.row_end - 1] - eye.units.y;
+    if (eye.target_absolute || judge_.shadow_) return false;
+    const double west = centres_.x[block.column] - eye.units.x, east = centres_.x[block.column_end - 1] - eye.units.x,
+                 north = centres_.y[block.row] - eye.units.y, south = centres_.y[block.row_end - 1] - eye.units.y;
     const double x = std::max({west, -east, 0.0}), y = std::max({south, -north, 0.0});
     const double far_x = std::max(-west, east), far_y = std::max(north, -south);
     const double metres = judge_.surface_.bounds().units().resolution * judge_.surface_.bounds().units().resolution;
-    // The eye's own place lies in no such tile.
-    return covered_ && !eye.target_absolute && !judge_.shadow_ && x + y > 1 &&
-           eye.view.holds((x * x + y * y) * metres * (1 - 1e-9), (far_x * far_x + far_y * far_y) * metres * (1 + 1e-9));
+    // The eye's own place lies in no such block.
+    return x + y > 1 &&
+           eye.view.holds((x * x + y * y) * metres * (1 - 1e-9),
+                          (far_x * far_x + far_y * far_y) * metres * (1 + 1e-9)) &&
+           judge_.surface_.bounds().covers(box_of(block));
   }
 
-  /// Each cell's own rules.
-  void settle(const TileValues<Verdict>& asked, TileValues<Verdict>& values) {
+  /// Each cell's own rules, in blocks that have any.
+  void settle(const CellBlock& block, const TileValues<Verdict>& asked, TileValues<Verdict>& values) {
+    if (is_simple(block)) return;
+    if (judge_.surface_.bounds().highest(box_of(block)) == -kFloatInfinity)
+      return decide(block, Verdict::kOutside, asked, values);
+    if (block.side() > kSettled)
+      return for_each_quarter(block, [&](const CellBlock& quarter) { settle(quarter, asked, values); });
     const Heights& heights = this->heights();
-    for_each_cell(tile_, [&](std::size_t cell, RasterGrid::Cell place) {
+    for_each_cell(block, [&](std::size_t cell) {
+      const auto row = static_cast<std::int64_t>(cell) / Tile::kSide,
+                 column = static_cast<std::int64_t>(cell) % Tile::kSide;
       if (asked[cell] == Verdict::kUndecided)
-        values[cell] = settled(judge_.grid_.centre(place.column, place.row), cell, heights, values[cell]);
+        values[cell] =
+            settled(judge_.grid_.centre(tile_.column + column, tile_.row + row), cell, heights, values[cell]);
     });
   }
   Verdict settled(Point2 centre, std::size_t cell, const Heights& heights, Verdict known) const {
@@ -118,14 +131,14 @@ class BlockJudge::BlockWork final : public TileJudge::Work {
     return *heights_;
   }
 
-  static constexpr double kSmallest = 0.5;  ///< bins: what lies closer together shares nearly all that is known
+  static constexpr double kSmallest = 1.5;    ///< bins: what lies closer together shares nearly all that is known
+  static constexpr std::size_t kSettled = 8;  ///< cells along a block that is settled cell by cell
 
   const BlockJudge& judge_;
   std::size_t number_;
   Tile tile_;
   TileCentres centres_;
   CellBlock all_;
-  bool covered_;  ///< there is ground at every cell
   std::unique_ptr<Heights> heights_;
   TileValues<double> low_, high_;
 };
