@@ -2,7 +2,9 @@
 // several eyes say of a cell, made one.
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -177,6 +179,52 @@ TEST_F(Judges, AModeKeepsTheVerdictsOfAllEyes) {
       EXPECT_EQ(result.count[grid_.index(at)], outside ? kCountOutside : seen_by[cell]);
     });
   }
+}
+
+/// Lattices and scattered points, each with a gap and with cells beyond the ground, looked at near and far.
+TEST(HiddenTiles, HaveNoCellThatIsAnythingElse) {
+  constexpr int kPosts = 129;
+  constexpr double kSpacing = 20;
+  std::mt19937 random(test::seed());
+  std::uniform_real_distribution<double> share(0.2, 0.8);
+  std::size_t hidden = 0, others = 0;
+  for (int round = 0; round < 24; ++round) {
+    const std::vector<double> heights = test::fractal_heights(kPosts, 150, 0.6, random());
+    const double gap_column = share(random) * kPosts, gap_row = share(random) * kPosts;
+    Tin tin = test::lattice_tin(kPosts, kPosts, kSpacing, [&](std::int32_t c, std::int32_t r) {
+      const bool in_gap = std::hypot(c - gap_column, r - gap_row) < 5;
+      return in_gap ? std::numeric_limits<double>::quiet_NaN() : heights[static_cast<std::size_t>(r * kPosts + c)];
+    });
+    if (round % 2 == 0) tin.vertices[tin.vertices.size() / 2].x += 1;  // no lattice any more
+    Request request;
+    request.target_height = 2;
+    request.target_absolute = round % 4 == 3;
+    if (request.target_absolute) request.target_height = 20;
+    if (round % 3 == 0) request.radius = 900;
+    const Box box = tin.bounds();
+    request.observers.push_back(
+        {"", {box.xmin + share(random) * box.width(), box.ymin + share(random) * box.height()}, 3, false});
+    const RasterGrid grid({box.xmin - 400, box.ymax + 400}, 5, 5, 680, 680);
+    const RasterGrid tiles = grid_of_tiles(grid);
+    const FullSurface surface(tin, nullptr, request.earth, grid, tiles);
+    const auto ground = surface.height(request.observers.front().position);
+    if (!ground) continue;
+    const Eye eye = eye_of(tin.grid, request, request.observers.front(), ground);
+    const ExactJudge judge(surface, EyeView{eye, surface.view_from(eye)});
+    for (std::size_t tile = 0; tile < tiles.cell_count(); ++tile) {
+      const bool all = judge.hides(0, tile);
+      ++(all ? hidden : others);
+      if (!all) continue;
+      TileValues<Verdict> values;
+      values.fill(Verdict::kUndecided);
+      judge.begin(tile)->judge(0, values);
+      for_each_cell(tile_at(grid, tiles, tile), [&](std::size_t cell, RasterGrid::Cell) {
+        EXPECT_EQ(values[cell], Verdict::kHidden) << "round " << round << ", tile " << tile << ", cell " << cell;
+      });
+    }
+  }
+  EXPECT_GT(hidden, 20U);
+  EXPECT_GT(others, hidden / 4);
 }
 
 TEST(Verdicts, TheFirstOfVisibleUndecidedHiddenAndOutsideCounts) {

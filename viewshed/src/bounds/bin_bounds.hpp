@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 
 #include <itin/geometry.hpp>
 #include <itin/grid_units.hpp>
@@ -15,6 +16,7 @@
 #include <itin/tin.hpp>
 
 #include "bounds/run_bounds.hpp"
+#include "line/infinity.hpp"
 
 namespace itin::viewshed {
 
@@ -72,6 +74,9 @@ class BinBounds : public BinGrid {
 
   /// Rounded outwards. Unread ground counts as bare.
   const RunBounds& runs() const { return runs_; }
+  /// No part of the surface within a box is higher, grid units; nothing where it may not be there throughout. Rounded
+  /// outwards to whole runs.
+  std::optional<float> highest_where_covered(const BinBox& box) const;
   /// The surface's greatest absolute height, grid units.
   double greatest_magnitude() const { return greatest_magnitude_; }
 
@@ -82,5 +87,23 @@ class BinBounds : public BinGrid {
   RunBounds runs_;
   double greatest_magnitude_ = 0;
 };
+
+inline std::optional<float> BinBounds::highest_where_covered(const BinBox& box) const {
+  constexpr double kHair = 1e-6;
+  const auto west = static_cast<std::int64_t>(std::floor(box.west - kHair)),
+             east = static_cast<std::int64_t>(std::floor(box.east + kHair)),
+             north = static_cast<std::int64_t>(std::floor(box.north - kHair)),
+             south = static_cast<std::int64_t>(std::floor(box.south + kHair));
+  if (west < 0 || north < 0 || east >= columns() || south >= rows()) return std::nullopt;
+  const RunBounds::Lines lines = runs_.eastwards();
+  float highest = -kFloatInfinity;
+  for (std::int64_t row = north; row <= south; ++row) {
+    for (std::int64_t run = west / RunBounds::kRun; run <= east / RunBounds::kRun; ++run) {
+      if (lines.low(run, row) == -kFloatInfinity) return std::nullopt;
+      highest = std::max(highest, lines.high(run, row));
+    }
+  }
+  return highest;
+}
 
 }  // namespace itin::viewshed

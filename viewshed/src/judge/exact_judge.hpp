@@ -55,6 +55,10 @@ class ExactJudge final : public TileJudge {
   std::unique_ptr<TileWork> begin_exactly(std::size_t tile) const;
   /// Only cells in these parts of the tile are asked about.
   std::unique_ptr<TileWork> begin_exactly(std::size_t tile, std::span<const Tile> parts) const;
+  /// FullSurface::hides().
+  bool hides(std::size_t eye, std::size_t tile) const {
+    return surface_.hides(views_[eye].eye, views_[eye].view, tile);
+  }
   const Eye& eye(std::size_t number) const override { return views_[number].eye; }
   const FullSurface& surface() const { return surface_; }
 

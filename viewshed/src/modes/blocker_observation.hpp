@@ -14,6 +14,7 @@ class BlockerObservation final : public Observation {
   explicit BlockerObservation(BlockerTable& table);
 
   bool open(const CellView& view) const override { return verdicts().open(view.cell); }
+  bool asks_of_the_hidden() const override { return true; }
   std::uint64_t observe(const TileView& tile) override;
 
  private:

@@ -11,6 +11,7 @@ class LeastHeightObservation final : public Observation {
   LeastHeightObservation();
 
   bool open(const CellView& view) const override;
+  bool asks_of_the_hidden() const override { return true; }
   std::uint64_t observe(const TileView& tile) override;
 
  private:

@@ -11,6 +11,7 @@ namespace itin::viewshed {
 class LossObservation final : public Observation {
  public:
   explicit LossObservation(NoData nodata);
+  bool asks_of_the_hidden() const override { return true; }
 
  private:
   void qualify(const TileView& tile, TileValues<Verdict>& values) override;

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "line/infinity.hpp"
+#include "line/tile_parts.hpp"
 #include "modes/blocker_observation.hpp"
 #include "modes/least_height_observation.hpp"
 #include "modes/loss_observation.hpp"
@@ -111,6 +112,13 @@ class NearestObserver final : public Observation {
 };
 
 }  // namespace
+
+std::uint64_t Observation::hide(const Tile& tile, std::span<const Tile> parts) {
+  for (const Tile& part : parts)
+    for_each_cell(part,
+                  [&](std::size_t, RasterGrid::Cell place) { verdicts_.add(tile.cell(place), Verdict::kHidden); });
+  return cell_count(parts);
+}
 
 std::uint64_t Observation::observe(const TileView& tile) {
   const FullSurface::TileWork& cells = tile.cells();

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include <viewshed/viewshed.hpp>
@@ -71,6 +72,10 @@ class Observation {
     verdicts_.add(view.cell, verdict);
     if (verdict == Verdict::kVisible) keep(view);
   }
+  /// Whether it asks more of a hidden target than that it is hidden.
+  virtual bool asks_of_the_hidden() const { return false; }
+  /// Adds that all cells of these parts of the tile are hidden. Returns how many they are.
+  std::uint64_t hide(const Tile& tile, std::span<const Tile> parts);
   /// Adds what the observer sees of every cell that is open. Returns how many sight lines that took.
   virtual std::uint64_t observe(const TileView& tile);
   /// Counts the cells, and writes them to their places in the result.

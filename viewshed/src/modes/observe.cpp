@@ -13,6 +13,11 @@ struct TileTally {
   std::uint64_t lines = 0;
 };
 
+/// Whether nothing of a tile is seen, which is all that is asked then.
+bool is_hidden(const ExactJudge& judge, std::size_t eye, std::size_t tile, const Observation& observation) {
+  return !observation.asks_of_the_hidden() && judge.hides(eye, tile);
+}
+
 /// Eyes whose views are in memory at a time: a tile's ground is found anew for each group.
 constexpr std::size_t kGroup = 256;
 
@@ -62,8 +67,15 @@ class AllEyes {
     std::unique_ptr<Observation>& observation = kept_[tile];
     if (!observation) observation = observations_.of_tile();
     if (const std::vector<std::uint32_t> eyes = eyes_near(cells); !eyes.empty()) {
-      const auto work = judge.begin_exactly(tile);
-      for (const std::uint32_t i : eyes) tallies_[tile].lines += observation->observe({*work, i - first_, i, studies_});
+      std::unique_ptr<ExactJudge::TileWork> work;
+      for (const std::uint32_t i : eyes) {
+        if (is_hidden(judge, i - first_, tile, *observation)) {
+          tallies_[tile].lines += observation->hide(cells, {&cells, 1});
+          continue;
+        }
+        if (!work) work = judge.begin_exactly(tile);
+        tallies_[tile].lines += observation->observe({*work, i - first_, i, studies_});
+      }
     }
     if (end_ < eyes_.size()) return;
     observation->store(cells, result_, tallies_[tile].cells);
@@ -107,9 +119,15 @@ std::uint64_t observe(const ExactJudge& judge, std::uint32_t observer, std::span
                       Stage& stage) {
   std::atomic<std::uint64_t> lines = 0;
   stage.for_each(cells.size(), [&](std::size_t i) {
-    const auto work = judge.begin_exactly(cells[i].tile, cells[i].parts);
-    lines += observations[cells[i].tile]->observe({*work, 0, observer, studies});
-    return cell_count(cells[i].parts);
+    const auto& [tile, parts] = cells[i];
+    Observation& observation = *observations[tile];
+    if (is_hidden(judge, 0, tile, observation)) {
+      lines += observation.hide(tile_at(judge.surface().grid(), judge.surface().tiles(), tile), parts);
+    } else {
+      const auto work = judge.begin_exactly(tile, parts);
+      lines += observation.observe({*work, 0, observer, studies});
+    }
+    return cell_count(parts);
   });
   return lines;
 }

@@ -13,6 +13,7 @@ class ProbabilityObservation final : public Observation {
   /// Observes one tile.
   explicit ProbabilityObservation(NoData nodata);
 
+  bool asks_of_the_hidden() const override { return true; }
   std::uint64_t observe(const TileView& tile) override;
 
  private:

@@ -85,6 +85,14 @@ std::unique_ptr<FullSurface::TileWork> FullSurface::begin(std::size_t tile, std:
   return work;
 }
 
+bool FullSurface::hides(const Eye& eye, const RadialSweep::View& view, std::size_t tile) const {
+  // Targets on the ground below another surface may not lie below its bounds.
+  if (targets_on_ != surface_ || rays_) return false;
+  if (!MapView{eye.position, eye.view}.holds(box_of_centres(grid_, tile_at(grid_, tiles_, tile)))) return false;
+  const auto highest = heights_->highest_where_covered(cells_[tile]);
+  return highest && view.hides(cells_[tile], eye.target(*highest * units().resolution) / units().resolution);
+}
+
 std::uint64_t FullSurface::judge(const Eye& eye, const RadialSweep::View& view, TileValues<Verdict>& values,
                                  TileWork& work) const {
   raise_targets(eye, values, work);

@@ -91,6 +91,10 @@ class FullSurface {
   /// After heights of tiles of the lattice have been read: they count from now on.
   void add(std::span<const std::uint32_t> tiles) { heights_->add(tiles); }
 
+  /// Whether a tile is certainly hidden from an eye, which looks at all of it, and has ground at every cell: told by
+  /// bounds, so that no height of it needs to be known.
+  bool hides(const Eye& eye, const RadialSweep::View& view, std::size_t tile) const;
+
   /// Verdict::kUndecided cells become Verdict::kVisible, Verdict::kHidden, or Verdict::kOutside where there is no
   /// ground or the eye does not look. Returns how many sight lines that took.
   std::uint64_t judge(const Eye& eye, const RadialSweep::View& view, TileValues<Verdict>& values, TileWork& work) const;
