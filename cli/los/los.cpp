@@ -108,7 +108,7 @@ class LosVerb final : public Verb {
       if (heights_[0] < 0 || heights_[1] < 0) throw InputError("--heights: a height must not be negative");
     } else {
       if (!heights_text_.empty())
-        throw InputError("--heights is of use with --profile-csv; give heights in --from, --to");
+        throw InputError("--heights works only with --profile-csv; give heights in --from, --to");
       line_.validate(radio_.object() ? std::optional(radio_.object()->tip_m) : std::nullopt);
     }
     links_.require_none();

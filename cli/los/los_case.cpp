@@ -65,9 +65,10 @@ std::string text_of_findings(const profile::LosReport& report, const profile::Li
   for (const profile::CriterionResult& c : found.criteria)
     text += fmt::format("K = {}, {:g} F1: {}\n", factor_text(c.criterion, c.k), c.criterion.fraction, outcome_text(c));
   for (const profile::NamedHeights& r : found.required) {
-    text += fmt::format("for {}: first end {}, second end {}, both {}\n", r.name,
-                        profile::required_text(r.heights.from_alone_m), profile::required_text(r.heights.to_alone_m),
-                        profile::required_text(r.heights.both_equal_m));
+    text +=
+        fmt::format("heights needed for {}: {} at the first end alone, or {} at the second end alone, or {} at both\n",
+                    r.name, profile::required_text(r.heights.from_alone_m),
+                    profile::required_text(r.heights.to_alone_m), profile::required_text(r.heights.both_equal_m));
   }
   return text;
 }

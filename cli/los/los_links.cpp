@@ -71,8 +71,8 @@ void LosLinks::validate(const std::optional<profile::TallObject>& object) {
 
 void LosLinks::require_none() const {
   if (!outputs_.empty())
-    throw InputError(fmt::format("-o '{}' is of use with --links; for one line give --report", outputs_.front()));
-  if (!height_text_.empty()) throw InputError("--link-height is of use with --links only");
+    throw InputError(fmt::format("-o '{}' works only with --links; for one line give --report", outputs_.front()));
+  if (!height_text_.empty()) throw InputError("--link-height works only with --links");
 }
 
 Document LosLinks::parameters() const {

@@ -60,7 +60,7 @@ void LosReports::declare(CLI::App& app) {
 }
 
 void LosReports::validate(bool has_positions) {
-  if (!table_spacing_text_.empty() && paths_.empty()) throw InputError("--table-spacing is of use with --report only");
+  if (!table_spacing_text_.empty() && paths_.empty()) throw InputError("--table-spacing works only with --report");
   if (table_spacing_text_ == "none") {
     table_spacing_m_ = 0;
   } else if (!table_spacing_text_.empty()) {

@@ -38,12 +38,9 @@ void LosStoreOptions::declare(CLI::App& app) {
   app.add_option("--target-on", to_on_, "What the second end stands on: ground (default) or surface")
       ->type_name("ground|surface");
   in_crs_.declare(app);
-  detail_.declare(app);
+  detail_.declare(app, "--from");
   themes_.declare(app);
-  nodata_.declare(
-      app,
-      "What ground without data does to the sight line: unknown (default) leaves it undecided, unless known "
-      "ground hides it");
+  nodata_.declare(app);
   memory_.declare(app, kKeptOfTheStore);
 }
 

@@ -6,13 +6,15 @@
 
 namespace itin::cli {
 
-void DetailOptions::declare(CLI::App& app) {
+void DetailOptions::declare(CLI::App& app, const std::string& rings_about) {
   app.add_option("--tolerance", tolerance_text_,
                  "Vertical tolerance of the surface; 0: every stored point (default: 0)")
       ->type_name("METRES");
-  app.add_option("--rings", rings_text_,
-                 "Tolerances that grow with the distance, nearest ring first; features are thinned with the terrain")
-      ->type_name("RADIUS:TOLERANCE,...");
+  CLI::Option* const rings = app.add_option("--rings", rings_text_,
+                                            "Tolerances that grow with the distance from " + rings_about +
+                                                ", nearest ring first; features are thinned with the terrain")
+                                 ->type_name("RADIUS:TOLERANCE,...");
+  if (rings_about.empty()) rings->group("");
 }
 
 void DetailOptions::validate() {

@@ -15,7 +15,8 @@ namespace itin::cli {
 
 class DetailOptions {
  public:
-  void declare(CLI::App& app);
+  /// `rings_about`: where rings lie, such as "the observer". Empty: the verb refuses them, and its help has none.
+  void declare(CLI::App& app, const std::string& rings_about);
   /// Throws InputError.
   void validate();
   bool has_rings() const { return !rings_.empty(); }

@@ -25,7 +25,8 @@ class MemoryOption {
 
 /// The help of verbs that read along lines.
 inline constexpr const char* kKeptOfTheStore =
-    "Memory for what is kept of the store (default: what helps, below 1G); it changes the speed only";
+    "Memory for what is kept of the store, for example 100M; the result does not depend on it (default: as much as "
+    "helps, less than 1G)";
 
 /// What is kept of a store's blocks: at most a quarter of the memory, where that is bounded.
 StoreOptions cache_within(std::optional<std::uint64_t> memory_bytes);

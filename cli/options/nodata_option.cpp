@@ -5,7 +5,10 @@
 namespace itin::cli {
 
 void NoDataOption::declare(CLI::App& app) {
-  declare(app, "What ground without data does to sight lines (default: unknown)");
+  declare(
+      app,
+      "What ground without data does to a sight line: unknown (default) leaves it undecided unless known ground hides "
+      "it, block hides the target, clear lets it pass");
 }
 
 void NoDataOption::declare(CLI::App& app, const std::string& help) {

@@ -22,7 +22,7 @@ void ObserverOptions::declare(CLI::App& app) {
   app.add_option("--where", sites_.where, "Only observers that this SQL condition holds for")->type_name("SQL");
   app.add_option("--height-field", sites_.height_field, "The field of that file that holds h")->type_name("FIELD");
   app.add_option("--name-field", sites_.name_field, "The field of that file that holds names")->type_name("FIELD");
-  app.add_option("--observer-height", height_text_, "h of observers that have none of their own (default: 2)")
+  app.add_option("--observer-height", height_text_, "Height h of observers that have none of their own (default: 2)")
       ->type_name("METRES");
   app.add_flag("--absolute-heights", absolute_heights_, "Every h is an elevation, not a height above the surface");
   app.add_option("--observer-on", observer_on_, "ground (default), or the surface with the roofs and tops of --themes")
@@ -38,13 +38,13 @@ void ObserverOptions::validate() {
     throw InputError("--observer and --observers exclude each other; give all observers in one way");
   if (sites_.path.empty()) {
     const auto refuse = [](const std::string& value, const char* option) {
-      if (!value.empty()) throw InputError(fmt::format("{} is of use with --observers only", option));
+      if (!value.empty()) throw InputError(fmt::format("{} works only with --observers", option));
     };
     refuse(sites_.layer, "--layer");
     refuse(sites_.where, "--where");
     refuse(sites_.height_field, "--height-field");
     refuse(sites_.name_field, "--name-field");
-    if (views_.given()) throw InputError("fields of observers are of use with --observers only");
+    if (views_.given()) throw InputError("fields of observers work only with --observers");
   }
   views_.validate();
   if (views_.arcgis() && !sites_.height_field.empty())

@@ -16,7 +16,7 @@ void SheetOptions::declare(CLI::App& app) {
   papers_option_ = "--sheets";
   app.add_option(papers_option_, papers_text_,
                  "Maps on paper, to scale, with title block, legend, grid references and sources, as PDF and PNG on "
-                 "A3, A1 or both; for viewpoints, sheets of wirelines besides (default: none)")
+                 "A3, A1 or both (default: none)")
       ->type_name("A3,A1");
   declare_title_block(app);
 }
@@ -26,13 +26,13 @@ void SheetOptions::declare_file(CLI::App& app) {
                         "A map on paper, to scale, with title block, legend, grid references and sources (.pdf, .png)")
              ->type_name("FILE"));
   papers_option_ = "--paper";
-  app.add_option(papers_option_, papers_text_, "Its size (default: A3)")->type_name("A3|A1");
+  app.add_option(papers_option_, papers_text_, "Paper size of --sheet (default: A3)")->type_name("A3|A1");
   declare_title_block(app);
 }
 
 void SheetOptions::declare_title_block(CLI::App& app) {
   app.add_option("--sheet-scale", scale_text_,
-                 "Their scale's number, 100000 for 1:100,000 (default: the largest usual one that shows all)")
+                 "Scale of the maps on paper: 100000 for 1:100,000 (default: the largest usual one that shows all)")
       ->type_name("NUMBER");
   reads(app.add_option("--basemap", basemap_,
                        "A georeferenced picture below these maps, in place of the shaded relief (.tif, ...)")
@@ -44,8 +44,8 @@ void SheetOptions::declare_title_block(CLI::App& app) {
 void SheetOptions::validate() {
   if (date_.empty()) date_ = day_of_run();
   if (!file_.empty() && papers_text_.empty()) papers_text_ = "A3";
-  if (!basemap_.empty() && papers_text_.empty()) throw InputError("--basemap is of use with a sheet only");
-  if (!scale_text_.empty() && papers_text_.empty()) throw InputError("--sheet-scale is of use with a sheet only");
+  if (!basemap_.empty() && papers_text_.empty()) throw InputError("--basemap works only with a sheet");
+  if (!scale_text_.empty() && papers_text_.empty()) throw InputError("--sheet-scale works only with a sheet");
   if (!file_.empty()) profile::require_sheet_format(file_);
   if (!scale_text_.empty()) scale_ = parse_number("--sheet-scale", scale_text_, Range::kPositive);
   if (papers_text_.empty()) return;

@@ -25,7 +25,8 @@ void require_curved(const Earth& earth) {
 
 void WaveOptions::declare(CLI::App& app, const std::string& frequency_help) {
   app.add_option("--frequency", frequency_text_, frequency_help)->type_name("GHZ");
-  app.add_option("--polarisation", polarisation_text_, "Of the wave, horizontal or vertical (default: h)")
+  app.add_option("--polarisation", polarisation_text_,
+                 "Polarisation of the radio wave, horizontal or vertical (default: h)")
       ->type_name("h|v");
   app.add_option("--over-sea", over_sea_text_, "Share of the path that is over sea, 0 to 1 (default: 0)")
       ->type_name("FRACTION");
@@ -33,7 +34,7 @@ void WaveOptions::declare(CLI::App& app, const std::string& frequency_help) {
 
 void WaveOptions::validate() {
   if (frequency_text_.empty()) {
-    if (is_detailed()) throw InputError("--polarisation and --over-sea are of use with --frequency only");
+    if (is_detailed()) throw InputError("--polarisation and --over-sea work only with --frequency");
     return;
   }
   wave_.emplace();

@@ -35,8 +35,7 @@ void PlacementOptions::validate() {
   if (!given_) {
     for (const char* option : {"--hub-height", "--rotor-diameter", "--tip-height", "--minimise", "--rotor-spacing",
                                "--wind-from", "--dwellings", "--setback", "--farm"})
-      if (app_->get_option(option)->count() > 0)
-        throw InputError(fmt::format("{}: is of use with --turbines only", option));
+      if (app_->get_option(option)->count() > 0) throw InputError(fmt::format("{} works only with --turbines", option));
     return;
   }
   refuse_others();
@@ -59,12 +58,12 @@ void PlacementOptions::refuse_others() const {
        {"--height-field", "--cost-field", "--mast-height", "--mast-cost", "--observer-on", "--frequency", "--fresnel",
         "--budget", "--share", "--k-cover", "--intervisible", "--hub", "--exact-final"})
     if (app_->get_option(option)->count() > 0)
-      throw InputError(fmt::format("{}: is of no use with --turbines; leave it out", option));
+      throw InputError(fmt::format("{} cannot be combined with --turbines; leave it out", option));
 }
 
 void PlacementOptions::validate_spacing() {
   if (spacing_text_.empty()) {
-    if (!wind_text_.empty()) throw InputError("--wind-from is of use with --rotor-spacing AxB only");
+    if (!wind_text_.empty()) throw InputError("--wind-from works only with --rotor-spacing AxB");
     return;
   }
   const std::size_t cross = spacing_text_.find('x');

@@ -249,7 +249,9 @@ class SiteVerb final : public Verb {
   }
 
   std::string text(const SiteResult& site, std::size_t files) const {
-    std::string text;
+    const bool places_turbines = options_.placement.given();
+    std::string text = fmt::format("{:<16} {:>12} {:>12}  {:>7}  {:<11} {}\n", places_turbines ? "turbine" : "site",
+                                   "easting", "northing", places_turbines ? "height" : "mast", "adds", "together");
     for (const viewshed::ChosenSite& chosen : site.choice.chosen) {
       const viewshed::SitePosition& place = site.place_of(chosen);
       text +=
@@ -257,9 +259,12 @@ class SiteVerb final : public Verb {
                       place.position.y, place.height, site.in_metric(chosen.gain), site.in_metric(chosen.cumulative));
     }
     text += outcome(site);
-    text += fmt::format(
-        "{}, {}, {} surveyed more closely; {} left out\n", counted(site.inputs.candidates.size(), "candidate"),
-        counted(site.inputs.options.size(), "option"), grouped(site.refined()), grouped(site.inputs.rejected.size()));
+    const std::size_t candidates = site.inputs.candidates.size(), options = site.inputs.options.size();
+    text += counted(candidates, "candidate");
+    if (options != candidates) text += fmt::format(", {} with their masts", counted(options, "option"));
+    text += site.all_exact() ? ", all surveyed exactly"
+                             : fmt::format(", {} surveyed more closely", grouped(site.refined()));
+    text += fmt::format("; {} left out\n", grouped(site.inputs.rejected.size()));
     if (options_.hub) text += routes_text(site);
     return text + fmt::format("{}: {}; open report.html\n", options_.directory, counted(files, "file"));
   }

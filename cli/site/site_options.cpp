@@ -59,7 +59,7 @@ void SiteOptions::declare_candidates(CLI::App& app) {
   app.add_option("--mast-height", mast_height_text_, "Height of the masts, or several to choose from (default: 20)")
       ->type_name("H[,H...]");
   app.add_option("--mast-cost", mast_cost_text_,
-                 "What each of these costs, besides the place (default: 1, with --cost-field 0)")
+                 "Cost of each mast height, added to the cost of the place (default: 1, with --cost-field 0)")
       ->type_name("C[,C...]");
   app.add_option("--observer-on", observer_on_,
                  "Masts stand on the ground (default), or on the roofs of --themes, which are then proposed, too")
@@ -83,7 +83,8 @@ void SiteOptions::declare_demand(CLI::App& app) {
          "--frequency", frequency_text_,
          "Serve only what is in sight with its first Fresnel zone clear at this frequency; links are judged so, too")
       ->type_name("GHZ");
-  app.add_option("--fresnel", fresnel_text_, "Share of that zone's radius that must be clear, 0 to 1 (default: 0.6)")
+  app.add_option("--fresnel", fresnel_text_,
+                 "Share of the first Fresnel zone's radius that must be clear, 0 to 1 (default: 0.6)")
       ->type_name("FRACTION");
   app.add_option(
          "--radius", radius_text_,
@@ -114,20 +115,29 @@ void SiteOptions::declare_choice(CLI::App& app) {
       "Chosen sites reach each other by links between them and existing ones; sites may be chosen as relays alone");
   app.add_option("--hub", hub_text_, "Chosen sites reach this place by such links (implies --intervisible)")
       ->type_name("x,y[,h]");
-  app.add_option("--exact-final", exact_final_text_, "The chosen sites' coverage is exact (default: on)")
+  app.add_option(
+         "--exact-final", exact_final_text_,
+         "on (default): the coverage of the chosen sites is exact; off: it may be told by bounds, and no sites are "
+         "exchanged")
       ->type_name("on|off");
   app.add_option("--swap", swap_text_, "Exchange chosen sites for better ones after the first selection (default: on)")
       ->type_name("on|off");
 }
 
 void SiteOptions::declare_work(CLI::App& app) {
-  app.add_option("--tolerance", tolerance_text_, "Detail of the first estimate of all candidates (default: by size)")
+  app.add_option(
+         "--tolerance", tolerance_text_,
+         "Tolerance of the terrain for the first estimate of all candidates; the choice is made on exact coverage "
+         "all the same (default: by size)")
       ->type_name("METRES");
   themes.declare(app);
   earth.declare(app);
-  nodata.declare(app);
+  nodata.declare(app, kPassesIfUnknown);
   engine.declare(app);
-  memory.declare(app, "Memory for surfaces, what every site serves, and maps; it changes the speed only (default: 1G)");
+  memory.declare(
+      app,
+      "Memory to work in, for example 2G. What exceeds it is read in parts; the result does not depend on it "
+      "(default: 1G)");
   sheets.declare(app);
   app.add_flag("--resume", resume, "Go on where a run with the same parameters was killed");
   policy.declare(app);
@@ -146,14 +156,14 @@ void SiteOptions::validate() {
 
 void SiteOptions::validate_candidates() {
   if (candidates.path.empty() == search_area.empty())
-    throw InputError("give candidates by --candidates FILE, or by --search-area AREA --spacing METRES");
+    throw InputError("give either --candidates FILE, or --search-area AREA --spacing METRES");
   spacing = number("--spacing", spacing_text_, Range::kPositive);
-  if (search_area.empty() && spacing) throw InputError("--spacing is of use with --search-area only");
+  if (search_area.empty() && spacing) throw InputError("--spacing works only with --search-area");
   if (!search_area.empty() && !spacing) throw InputError("--search-area: give --spacing METRES too");
   if (candidates.path.empty()) {
     for (const std::string* text :
          {&candidates.layer, &candidates.where, &candidates.name_field, &candidates.height_field, &cost_field})
-      if (!text->empty()) throw InputError("--layer, --where and fields are of use with --candidates only");
+      if (!text->empty()) throw InputError("--layer, --where and fields work only with --candidates");
   }
   on_surface = parse_choice("--observer-on", observer_on_, {"ground", "surface"}) == 1;
 }
@@ -191,7 +201,7 @@ void SiteOptions::validate_demand() {
   if (cell.value_or(0) > radius)
     throw InputError(fmt::format("--cell '{}': larger than the radius; give a smaller one", cell_text_));
   if (demand == "cells" && !weight_field.empty())
-    throw InputError("--weight-field is of use with points only: give them by --demand FILE");
+    throw InputError("--weight-field works only with points: give them by --demand FILE");
 }
 
 void SiteOptions::validate_links() {

@@ -69,8 +69,7 @@ std::string times_surveyed(const SiteResult& r) {
   const std::string all =
       counted(candidates, "candidate") +
       (options == candidates ? "" : fmt::format(", {} with their masts", counted(options, "option")));
-  if (r.options.placement.sums_heights() || r.coverage.last_stage() == 0)
-    return fmt::format("Surveyed exactly: {}.", all);
+  if (r.all_exact()) return fmt::format("Surveyed exactly: {}.", all);
   return fmt::format(
       "Estimated: {}. Surveyed more closely: {} of them. For the others that was not needed: {}, so exact "
       "coverage of all would have led to the same choice.",

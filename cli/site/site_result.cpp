@@ -127,12 +127,12 @@ std::string SiteResult::reason(std::size_t option) const {
                                      : "ruled out at every step: by spacing, links, cost, or another mast at its place";
   const double unit = measure.in_metric(1);
   if (options.placement.given())
-    return fmt::format("at step {} it would add {} {:.10g}; the one taken adds {:.10g}", margin->step + 1,
-                       exact ? "exactly" : "at least", margin->upper * unit, margin->chosen * unit);
-  return fmt::format("at step {} it would add {} {:.10g}{}; the one taken adds {:.10g}", margin->step + 1,
-                     exact ? "exactly" : "at most", margin->upper * unit,
-                     options.budget         ? " for each unit of cost"
-                     : options.intervisible ? " for each site on its way"
+    return fmt::format("at step {} of the first selection it would have added {} {:.10g}; the one taken added {:.10g}",
+                       margin->step + 1, exact ? "exactly" : "at least", margin->upper * unit, margin->chosen * unit);
+  return fmt::format("at step {} of the first selection it would have added {} {:.10g}{}; the one taken added {:.10g}",
+                     margin->step + 1, exact ? "exactly" : "at most", margin->upper * unit,
+                     options.budget         ? " per unit of cost"
+                     : options.intervisible ? " per site, with the relays that it needs"
                                             : "",
                      margin->chosen * unit);
 }

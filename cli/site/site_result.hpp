@@ -53,6 +53,8 @@ struct SiteResult {
   double served() const;
   double served_percent() const;
   std::size_t refined() const;
+  /// Whether every option was surveyed exactly from the first, and none by bounds.
+  bool all_exact() const { return options.placement.sums_heights() || coverage.last_stage() == 0; }
   /// Whether no choice within the goal is better.
   bool is_best() const { return choice.lower_bound == choice.upper_bound; }
   /// Why an option is not part of the choice, in words.

@@ -60,7 +60,8 @@ class ImportVerb final : public Verb {
     app.add_option("--base-field", options_.base_field, "Buildings: the field of the base's elevation")
         ->type_name("FIELD");
     app.add_option("--base", base_,
-                   "Buildings: what heights count from: minimum (default), mean or maximum of the terrain under the "
+                   "Buildings: the ground height from which their heights are measured: minimum (default), mean or "
+                   "maximum of the terrain under the "
                    "footprint; terrain-following is as mean; CityJSON's own floors count unless this is given. Walls "
                    "reach down to the terrain, and where it rises above a roof, the roof follows it")
         ->type_name("RULE");
@@ -71,9 +72,10 @@ class ImportVerb final : public Verb {
     app.add_option("--roof", roof_, "Buildings: flat (default), gabled, hipped or skeleton")->type_name("KIND");
     app.add_option("--thickness", thickness_, "Of walls and hedges that are given as lines (default: 0.3)")
         ->type_name("METRES");
-    app.add_option("--wall-offset", wall_offset_,
-                   "Of all features of a theme that stands: how far within its outline a feature has its full height; "
-                   "walls lean inwards by that much (default: 0.05, or two steps of --resolution)")
+    app.add_option(
+           "--wall-offset", wall_offset_,
+           "How far within its outline a feature reaches its full height, as its walls lean inwards by that much: one "
+           "value for all features of a theme (default: 0.05, or two steps of --resolution)")
         ->type_name("METRES");
     app.add_option("--height-step", height_step_,
                    "Rasters of buildings, vegetation or a surface: cells stand a multiple of this above the terrain, "
@@ -142,8 +144,10 @@ class ImportVerb final : public Verb {
         ->type_name("T,T...");
     app.add_option("--resolution", resolution_, "Grid of a new store's coordinates (default: 0.01)")
         ->type_name("METRES");
-    memory_.declare(app,
-                    "Memory to work in; the result never depends on it, and what needs more is refused (default: 4G)");
+    memory_.declare(
+        app,
+        "Memory to work in, for example 2G. The result does not depend on it, and what needs more is refused "
+        "(default: 4G)");
   }
 
   void validate() override {
@@ -295,7 +299,7 @@ class ImportVerb final : public Verb {
     mention(report.replaced, "point", "replaced");
     mention(report.made_room, "piece", "of lines replaced by finer ground");
     mention(report.isolated, "isolated point", "left out");
-    mention(report.refused, "feature", "that cannot stand");
+    mention(report.refused, "feature", "left out by this and earlier imports");
     mention(report.crossings, "crossing", "resolved");
     mention(report.left_out, "segment", "of lines left out beyond the ground");
     text += flat_text(report) + cells_text(report);

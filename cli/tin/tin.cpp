@@ -50,9 +50,9 @@ class TinVerb final : public Verb {
                    "attributes; those of the terrain simplified to the tolerance (.gpkg or .geojson)")
         ->type_name("THEME,...")
         ->delimiter(',');
-    detail_.declare(app);
+    detail_.declare(app, "the middle of the window (the centre of a disc, the apex of a wedge)");
     themes_.declare(app);
-    memory_.declare(app, "Memory to work in; a window that needs more is refused (default: no limit)");
+    memory_.declare(app, "Memory to work in, for example 2G; a window that needs more is refused (default: no limit)");
     policy_.declare(app);
   }
 

@@ -83,9 +83,9 @@ void HorizonOutput::validate() {
   if (!step_text_.empty()) step_deg_ = parse_number("--horizon-step", step_text_, Range::kPositive);
   viewshed::require_whole_turn(step_deg_);
   if (paths_.empty() && !(sites_.path + step_text_).empty())
-    throw InputError("--horizon-targets and --horizon-step are of use with --horizon FILE only");
+    throw InputError("--horizon-targets and --horizon-step work only with --horizon FILE");
   if (sites_.path.empty() && !(sites_.name_field + sites_.height_field).empty())
-    throw InputError("--horizon-name-field and --horizon-height-field are of use with --horizon-targets only");
+    throw InputError("--horizon-name-field and --horizon-height-field work only with --horizon-targets");
 }
 
 std::vector<viewshed::HorizonTarget> HorizonOutput::targets(const viewshed::Request& request,

@@ -12,6 +12,7 @@
 #include <itin/gdal_ready.hpp>
 #include <itin/sources_in.hpp>
 #include <itin/store.hpp>
+#include <viewshed/area_text.hpp>
 #include <viewshed/documents.hpp>
 #include <viewshed/missing_ground.hpp>
 #include <viewshed/viewshed.hpp>
@@ -78,15 +79,15 @@ class ViewshedVerb final : public Verb {
     features_.declare(app);
     app.add_option(
            "--mode", mode_text_,
-           "visible (to any observer; the default); count (how many see it); certified (certainly visible, "
+           "visible (to any observer; the default); count (how many observers see it); certified (certainly visible, "
            "certainly hidden, or undecided at this tolerance); which (one bit for each observer, in UInt32 bands of "
-           "32); angle (elevation angle of the sight line, degrees, the greatest of several observers; of an "
-           "observer's own place -90 or 90, or 0 of the eye); "
+           "32); angle (elevation angle of the sight line, degrees, the greatest of several observers; at an "
+           "observer's own place -90 or 90, and 0 at the height of its eye); "
            "nearest (two bands: distance and number of the nearest visible observer); blocker (two bands: theme and "
            "feature of what first hides the cell from the nearest observer, none where the target itself is below the "
            "ground); height (the least height above the "
-           "ground at which a target is seen, metres, no value where none is); probability (two bands: of being "
-           "visible, with --vertical-error, and visible as the heights are)")
+           "ground at which a target is seen, metres, no value where none is); probability (two bands: the "
+           "probability of being visible under --vertical-error, and 1 or 0 for the heights as stored)")
         ->type_name("MODE");
     observers_.declare(app);
     declare_targets(app);
@@ -96,7 +97,7 @@ class ViewshedVerb final : public Verb {
                    "L: errors x apart are correlated as exp(-x / L) (default: 0, independent)")
         ->type_name("METRES");
     radio_.declare(app);
-    detail_.declare(app);
+    detail_.declare(app, "the observer");
     themes_.declare(app);
     earth_.declare(app);
     nodata_.declare(app);
@@ -104,8 +105,8 @@ class ViewshedVerb final : public Verb {
     app.add_flag("--precise", precise_, "Exact for the full surface: the same as --tolerance 0");
     memory_.declare(
         app,
-        "Memory to work in (default: 1G). What exceeds it is read in segments: it changes the speed only, and "
-        "too little is refused");
+        "Memory to work in, for example 2G. What exceeds it is read in parts; the result does not depend on it, and "
+        "too little is refused (default: 1G)");
   }
 
   void validate() override {
@@ -180,7 +181,7 @@ class ViewshedVerb final : public Verb {
                                            described(sources, metadata)};
     Result result;
     result.warnings = computed.result.warnings;
-    if (const auto warning = missing.warning("the area in view")) result.warnings.push_back(in_options(*warning));
+    if (const auto warning = missing.warning("the area looked at")) result.warnings.push_back(in_options(*warning));
     warn_of_scale(metadata, result.warnings);
     if (radio_.is_given()) earth_.warn_of_light(result.warnings);
     outputs_.write(store, computed, context, result.warnings, progress);
@@ -215,7 +216,7 @@ class ViewshedVerb final : public Verb {
   }
 
   void declare_targets(CLI::App& app) {
-    app.add_option("--target-height", target_height_text_, "h of the targets, one in every cell (default: 0)")
+    app.add_option("--target-height", target_height_text_, "Height h of the targets, one in every cell (default: 0)")
         ->type_name("METRES");
     app.add_option("--target-on", target_on_, "ground (default), or the surface with the roofs and tops of --themes")
         ->type_name("ground|surface");
@@ -279,8 +280,7 @@ class ViewshedVerb final : public Verb {
     const bool wanted = request_.mode == viewshed::Mode::kProbability;
     if (wanted != !sigma_text_.empty())
       throw InputError("--mode probability and --vertical-error METRES need each other; give both");
-    if (!wanted && !correlation_text_.empty())
-      throw InputError("--error-correlation is of use with --vertical-error only");
+    if (!wanted && !correlation_text_.empty()) throw InputError("--error-correlation works only with --vertical-error");
     viewshed::VerticalError& error = request_.vertical_error;
     if (wanted) error.sigma = parse_number("--vertical-error", sigma_text_, Range::kPositive);
     if (!correlation_text_.empty())
@@ -339,14 +339,15 @@ class ViewshedVerb final : public Verb {
     } else {
       if (radio_.is_given()) text += radio_text(result);
       if (result.request.mode != viewshed::Mode::kFresnel)
-        text +=
-            fmt::format("visible: {} of {} ({:.1f} %), {:.2f} km2\n", grouped(cells.visible), counted(decided, "cell"),
-                        share, static_cast<double>(cells.visible) * result.grid.cell_area() / 1e6);
+        text += fmt::format("visible{}: {} of {} ({:.1f} %), {}\n",
+                            result.request.mode == viewshed::Mode::kProbability ? " if all heights are exact" : "",
+                            grouped(cells.visible), counted(decided, cells.undecided > 0 ? "decided cell" : "cell"),
+                            share, viewshed::area_text(static_cast<double>(cells.visible) * result.grid.cell_area()));
       if (cells.undecided > 0)
         text += fmt::format("undecided: {}, across ground without data; --nodata block or clear decides them\n",
                             counted(cells.undecided, "cell"));
     }
-    if (missing.share() > 0) text += fmt::format("no ground data: {} of the area in view\n", missing.text());
+    if (missing.share() > 0) text += fmt::format("no ground data: {} of the area looked at\n", missing.text());
     text += fmt::format("{}, {}; {}\n", counted(result.statistics.triangles, "triangle"),
                         counted(result.statistics.lines, "line"), earth_.earth().convention());
     return text;

@@ -107,10 +107,13 @@ void ViewshedOutputs::write(const Store& store, viewshed::ViewshedWithSurface& c
     viewshed::MapOptions options;
     options.sources = context.sources;
     options.no_data = no_data;
-    options.outside = "Outside the field of view";
+    options.outside = "Beyond the radius or the field of view";
     options.title = title_of(computed.result);
-    if (context.missing.share() > 0)
-      options.no_data_text += fmt::format(": {} of the area in view", context.missing.text());
+    if (context.missing.without_ground > 0) {
+      options.no_data_text += fmt::format(": {} of the area looked at", context.missing.text());
+    } else if (context.missing.share() > 0) {
+      options.beyond_text = "Beyond the ground data: " + context.missing.text();
+    }
     map = viewshed::draw_map(*computed.surface, computed.result, progress, options);
     warnings.insert(warnings.end(), map->warnings.begin(), map->warnings.end());
   }

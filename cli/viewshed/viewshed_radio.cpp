@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <itin/error.hpp>
+#include <viewshed/area_text.hpp>
 #include <viewshed/documents.hpp>
 
 #include "output/store_document.hpp"
@@ -18,13 +19,14 @@ double percent(std::uint64_t part, std::uint64_t all) {
 std::string zone_text(const viewshed::Result& result) {
   const viewshed::CellCounts& cells = result.cells;
   const std::uint64_t decided = cells.visible + cells.zone_cut + cells.hidden;
-  const double km2 = result.grid.cell_area() / 1e6;
+  const auto area = [&](std::uint64_t count) {
+    return viewshed::area_text(static_cast<double>(count) * result.grid.cell_area());
+  };
   return fmt::format(
-      "in sight with {:g} F1 clear: {} of {} ({:.1f} %), {:.2f} km2; in sight with the zone cut: {} ({:.1f} %), {:.2f} "
-      "km2\n",
-      result.request.fresnel.fraction, grouped(cells.visible), counted(decided, "cell"),
-      percent(cells.visible, decided), static_cast<double>(cells.visible) * km2, grouped(cells.zone_cut),
-      percent(cells.zone_cut, decided), static_cast<double>(cells.zone_cut) * km2);
+      "in sight with {:g} F1 clear: {} of {} ({:.1f} %), {}; in sight with the zone cut: {} ({:.1f} %), {}\n",
+      result.request.fresnel.fraction, grouped(cells.visible),
+      counted(decided, cells.undecided > 0 ? "decided cell" : "cell"), percent(cells.visible, decided),
+      area(cells.visible), grouped(cells.zone_cut), percent(cells.zone_cut, decided), area(cells.zone_cut));
 }
 
 std::string loss_text(const viewshed::Result& result) {
@@ -45,7 +47,8 @@ void ViewshedRadio::declare(CLI::App& app) {
   wave_.declare(app,
                 "Tell in sight with the first Fresnel zone clear at this frequency (1) from in sight with the zone cut "
                 "(3): GHz, or 7500MHz");
-  app.add_option("--fresnel", fresnel_text_, "Share of that zone's radius that must be clear, 0 to 1 (default: 0.6)")
+  app.add_option("--fresnel", fresnel_text_,
+                 "Share of the first Fresnel zone's radius that must be clear, 0 to 1 (default: 0.6)")
       ->type_name("FRACTION");
   app.add_flag("--loss", loss_,
                "With --frequency, what a radio path to each cell loses instead, dB, in two bands: diffraction "
@@ -59,7 +62,7 @@ void ViewshedRadio::validate() {
   if (!wave_.has_frequency() && loss_) throw InputError("--loss needs a --frequency: losses depend on it");
   if (loss_ && !fresnel_text_.empty())
     throw InputError("--loss and --fresnel exclude each other: a loss is of the whole path; give one of them");
-  if (!loss_ && wave_.is_detailed()) throw InputError("--polarisation and --over-sea are of use with --loss only");
+  if (!loss_ && wave_.is_detailed()) throw InputError("--polarisation and --over-sea work only with --loss");
   if (!fresnel_text_.empty()) fraction_ = parse_fresnel(fresnel_text_);
 }
 

@@ -53,25 +53,27 @@ class VisibilityVerb final : public Verb {
                "ground without data alone could hide it. Its QGIS style is written beside it (.qml)")
             ->type_name("FILE")
             ->required());
-    app.add_option("--cell", cell_text_, "Distance of observers: the size of the raster's cells")
+    app.add_option("--cell", cell_text_, "Distance between observers, which is the size of the raster's cells")
         ->type_name("METRES")
         ->required();
     app.add_option("--radius", radius_text_, "How far observers look")->type_name("METRES")->required();
-    app.add_option("--observer-height", height_text_, "h of observers above the ground (default: 2)")
+    app.add_option("--observer-height", height_text_, "Height of observers above the ground (default: 2)")
         ->type_name("METRES");
-    app.add_option("--target-height", target_text_, "h of targets above the ground (default: 0)")->type_name("METRES");
+    app.add_option("--target-height", target_text_, "Height of targets above the ground (default: 0)")
+        ->type_name("METRES");
     app.add_option("--targets", targets_text_,
                    "Targets at random for every observer; four times as many halve the standard error (default: 128)")
         ->type_name("N");
     sheet_.declare_file(app);
     window_.declare(app);
-    detail_.declare(app);
+    detail_.declare(app, "");
     themes_.declare(app);
     earth_.declare(app);
     nodata_.declare(app);
-    memory_.declare(app,
-                    "Memory to work in, block by block of observers where it does not hold all ground at once; the "
-                    "result never depends on it (default: 1G)");
+    memory_.declare(
+        app,
+        "Memory to work in, for example 2G. What exceeds it is read in parts; the result does not depend on it "
+        "(default: 1G)");
     policy_.declare(app);
   }
 
@@ -150,11 +152,12 @@ class VisibilityVerb final : public Verb {
                               {"blocks_read", index.retrieval.blocks_read},
                               {"triangles", index.triangles},
                               {"lines", index.lines}};
-    result.text =
-        fmt::format("{}: {}\nseen on average by {}: {:.2f} % (+- {:.2f}) of the ground within {:g} m\n{}{}, {}; {}\n",
-                    output_, readable_bytes(std::filesystem::file_size(output_)), counted(index.observers, "observer"),
-                    100 * index.mean, 100 * index.mean_error, request_.radius, undecided_in_words(index),
-                    counted(index.triangles, "triangle"), counted(index.lines, "line"), earth_.earth().convention());
+    result.text = fmt::format(
+        "{}: {}\non average, one of {} sees {:.2f} % (standard error {:.2f}) of the ground within {:g} m\n{}{}, {}; "
+        "{}\n",
+        output_, readable_bytes(std::filesystem::file_size(output_)), counted(index.observers, "observer"),
+        100 * index.mean, 100 * index.mean_error, request_.radius, undecided_in_words(index),
+        counted(index.triangles, "triangle"), counted(index.lines, "line"), earth_.earth().convention());
     return result;
   }
 

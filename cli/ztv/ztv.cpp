@@ -77,13 +77,14 @@ class ZtvVerb final : public Verb {
     route_.declare(app);
     radio_.declare(app);
     sheets_.declare(app);
-    detail_.declare(app);
+    detail_.declare(app, "");
     themes_.declare(app);
     earth_.declare(app);
-    nodata_.declare(app);
-    memory_.declare(app,
-                    "Memory to work in, in parts where it does not hold all at once; the result never depends on it "
-                    "(default: no limit)");
+    nodata_.declare(app, kPassesIfUnknown);
+    memory_.declare(
+        app,
+        "Memory to work in, for example 2G. What exceeds it is read in parts; the result does not depend on it "
+        "(default: no limit)");
     policy_.declare(app);
   }
 
@@ -311,9 +312,9 @@ class ZtvVerb final : public Verb {
 
   /// Puts the result of areas() into words.
   static std::string seen_from(const Document& areas) {
-    std::string text = fmt::format("from {:.1f} km2", areas["any_tip_seen"].get<double>());
+    std::string text = fmt::format("from {:.1f} km²", areas["any_tip_seen"].get<double>());
     if (!areas["any_hub_seen"].is_null())
-      text += fmt::format(", a hub from {:.1f} km2", areas["any_hub_seen"].get<double>());
+      text += fmt::format(", a hub from {:.1f} km²", areas["any_hub_seen"].get<double>());
     return text;
   }
 
@@ -341,9 +342,9 @@ class ZtvVerb final : public Verb {
 
   std::string text(const Zone& zone) const {
     const Document bare = areas(zone, zone.bare);
-    std::string text = fmt::format("{}: {} of {}; a blade tip is visible {}, of the {:.1f} km2 studied\n", output_,
-                                   zone.request.turbines.size(), counted(list_.rows, "turbine"), seen_from(bare),
-                                   bare["studied"].get<double>());
+    std::string text = fmt::format(
+        "{}: {} of {}; a blade tip is visible {}, of the {:.1f} km² that have terrain data\n", output_,
+        zone.request.turbines.size(), counted(list_.rows, "turbine"), seen_from(bare), bare["studied"].get<double>());
     if (zone.screened) text += fmt::format("screened: a blade tip {}\n", seen_from(areas(zone, *zone.screened)));
     if (missing_.share() > 0) text += fmt::format("no ground data: {} of the study area\n", missing_.text());
     text += fmt::format("{}, {}; {}\n", counted(zone.statistics.triangles, "triangle"),

@@ -111,7 +111,7 @@ std::string nodata_in_words(viewshed::NoData rule) {
 std::string missing_in_words(const viewshed::MissingGround& missing, viewshed::NoData rule) {
   if (missing.share() == 0) return "The terrain data cover the whole study area: all places within the radii.";
   return fmt::format(
-      "{} of the study area, {:.1f} km2 within the radii, has no terrain data. Nothing is known of places there; they "
+      "{} of the study area, {:.1f} km² within the radii, has no terrain data. Nothing is known of places there; they "
       "are no part of the areas and percentages given, which are of the area with data. Where sight lines cross ground "
       "without data, it {}.",
       missing.text(), missing.study_m2() / 1e6, nodata_in_words(rule));
@@ -131,8 +131,7 @@ std::string refraction_in_words(const Earth& earth) {
   return fmt::format(
       "The Earth's curvature and atmospheric refraction are allowed for: drop = d^2 (1 - k) / (2 R), with a refraction "
       "coefficient k = {:g}, where k is the ratio of the Earth's radius to that of the sight line, and R = {:g} km; "
-      "{}. Guidance that states a coefficient in the form (1 - 2 k) means half as much by it: 0.075 there is k = 0.15 "
-      "here.",
+      "{}. Where guidance has the form (1 - 2 k), its coefficient must be doubled: 0.075 there is k = 0.15 here.",
       earth.refraction, earth.radius / 1000, drops);
 }
 
@@ -155,8 +154,10 @@ std::string methods_text(const viewshed::Zone& zone, const StoreMetadata& metada
   paragraph("Curvature and refraction", refraction_in_words(request.earth));
   paragraph(
       "Visibility",
-      "For every observer and turbine the lowest point of the turbine's axis is found that a straight line from the "
-      "eye reaches without passing below the surface. The result is exact for the surface: it follows from the "
+      "For every observer the lowest visible point of each turbine's axis is found: the lowest one that a straight "
+      "line "
+      "from the eye reaches without passing below the surface. The result is exact for the surface: it follows from "
+      "the "
       "triangles themselves, without a step size; a line that touches the surface counts as clear. The blade tip is "
       "visible where this point is no higher than the tip, the hub likewise; the visible height is the part of the "
       "turbine above this point. Rotors are taken to face the observer. Haze, light and the acuity of the eye are not "

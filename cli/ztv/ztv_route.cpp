@@ -163,13 +163,14 @@ void RouteOptions::declare(CLI::App& app) {
                        "Roads or paths from a vector file of lines: tables and charts of the hubs and tips visible "
                        "along each")
             ->type_name("FILE"));
-  app.add_option("--every", every_text_, "Distance of the places on a route that are looked from (default: 100)")
+  app.add_option("--every", every_text_,
+                 "Distance between the places along a route from which turbines are looked for (default: 100)")
       ->type_name("METRES");
 }
 
 void RouteOptions::validate() {
   if (every_text_.empty()) return;
-  if (!given()) throw InputError("--every is of use with --route only");
+  if (!given()) throw InputError("--every works only with --route");
   every_ = parse_radius("--every", every_text_);
 }
 

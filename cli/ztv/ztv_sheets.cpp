@@ -10,6 +10,7 @@
 #include <itin/output_file.hpp>
 #include <itin/parallel.hpp>
 #include <itin/sources_in.hpp>
+#include <viewshed/area_text.hpp>
 #include <viewshed/result_map.hpp>
 #include <viewshed/zone_maps.hpp>
 
@@ -138,20 +139,15 @@ std::vector<MapObjects> objects_of(const Zone& zone, const ZtvSheetFacts& facts)
   return objects;
 }
 
-/// Three figures, or whole km2 where there are more.
-std::string readable_area(double km2) {
-  return km2 >= 100 ? fmt::format("{:.0f}", km2) : fmt::format("{:.3g}", km2);
-}
-
 viewshed::ResultMap classes_of(const Zone& zone, const ZoneMap& map) {
   viewshed::ResultMap result;
   std::uint64_t all = 0;
   for (const ZoneMap::Class& c : map.classes) all += c.cells;
   for (const ZoneMap::Class& c : map.classes) {
-    const double km2 = static_cast<double>(c.cells) * zone.grid.cell_area() / 1e6;
     result.keys.push_back(
         {viewshed::over_relief(c.colour),
-         fmt::format("{}: {} km² ({:.1f} %)", c.label, readable_area(km2),
+         fmt::format("{}: {} ({:.1f} %)", c.label,
+                     viewshed::area_text(static_cast<double>(c.cells) * zone.grid.cell_area()),
                      100.0 * static_cast<double>(c.cells) / static_cast<double>(std::max<std::uint64_t>(1, all)))});
   }
   for (const std::uint8_t c : map.class_of_cell)
@@ -219,7 +215,7 @@ std::vector<viewshed::ZoneFile> write_ztv_sheets(const std::string& folder, cons
     return ResultSheet{zone.grid,
                        study_area(zone),
                        classes_of(zone, map),
-                       map.heading + ", and share of the study area",
+                       map.heading + ", and share of the area that has terrain data",
                        [&](Point2 p) { return beyond_study_area(zone, p) <= 0; },
                        objects,
                        title_block(store.metadata(), zone, map, facts)};

@@ -140,7 +140,7 @@ void ViewpointOptions::validate(const InCrs& in_crs, const SheetOptions& sheets)
       {!wirelines_text_.empty(), "--wirelines"},    {no_wirelines_, "--no-wirelines"},
       {choice_.hidden_dashed, "--wireline-hidden"}};
   for (const auto& [is_given, option] : options)
-    if (is_given && !given()) throw InputError(fmt::format("{} is of use with --viewpoints only", option));
+    if (is_given && !given()) throw InputError(fmt::format("{} works only with --viewpoints", option));
   if (no_wirelines_ && !wirelines_text_.empty()) throw InputError("--wirelines and --no-wirelines exclude each other");
   if (!field_text_.empty()) choice_.least_width_deg = parse_number("--wireline-field", field_text_, Range::kPositive);
   if (choice_.least_width_deg > 360) throw InputError("--wireline-field: give at most 360 degrees");

@@ -173,6 +173,7 @@ LinkTable table_of(const std::string& text) {
 
 TEST(LinkTable, TakesItsColumnsByNameWhereItHasThemAll) {
   for (const char* text : {"id,x1,y1,h1,x2,y2,h2\n\"a, \"\"b\"\"\",1,2,3,4,5,6\n", "\"a, \"\"b\"\"\",1,2,3,4,5,6",
+                           "\n \nid,x1,y1,h1,x2,y2,h2\n\"a, \"\"b\"\"\",1,2,3,4,5,6\n",
                            "name,e,n,h,e,n,h\r\n\"a, \"\"b\"\"\", 1,2 ,3,4,5,6\r\n\r\n",
                            "\xEF\xBB\xBFH2,y2,X2,note,h1,y1,x1,id\n6,5,4,\"x,y\",3,2,1,\"a, \"\"b\"\"\"\n"}) {
     const LinkTable table = table_of(text);

@@ -284,7 +284,14 @@ void StorePass::count(const PyramidReport& pyramid, const ThemeLines& lines) {
   for (std::size_t s = 0; s < sources_.size(); ++s) {
     sources_[s].vertices = pyramid.vertices_of_source[s];
     report_.vertices += sources_[s].vertices;
-    if (is_sea(sources_[s])) report_.sea += sources_[s].vertices;
+    if (!is_sea(sources_[s])) continue;
+    report_.sea += sources_[s].vertices;
+    if (sources_[s].vertices == 0 && s >= imported_sources(base_).size())
+      report_.warnings.push_back(fmt::format("`sea_level` filled nothing: there is ground all over {}",
+                                             options_.sea_area.empty()
+                                                 ? "the box about the sources; give `sea_area` for "
+                                                   "sea beyond them"
+                                                 : "`sea_area`"));
   }
   require_ground(report_, options_);
 }

@@ -109,8 +109,8 @@ class WirelinePage {
                    {.size = 8, .colour = kInk, .align = Align::kCentre, .turn_deg = 90});
     drawing_->text(
         {frame_.xmin, frame_.ymax + 44},
-        fmt::format("Cylindrical, to scale: one degree is {:.1f} mm across and up; seen as in nature from "
-                    "{:.0f} mm. {:g} degrees are shown.",
+        fmt::format("Cylindrical, to scale: one degree is {:.1f} mm across and up; at a viewing distance of "
+                    "{:.0f} mm it matches the view in nature. {:g} degrees are shown.",
                     kPerDegree / kMillimetre, kPerDegree * kDegreesPerRadian / kMillimetre, query_.width_deg),
         {.size = 8, .colour = kFaint});
   }

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <optional>
 #include <sstream>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -142,12 +143,13 @@ class TableReader {
   void read() {
     std::string line;
     std::size_t row = 0;
+    bool first = true;  // of the lines that are not blank
     for (std::size_t number = 1; std::getline(file_, line); ++number) {
       if (number == 1 && line.starts_with(kUtf8Mark)) line.erase(0, 3);
       if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
-      if (number == 1) separator_ = separator_of(line);
+      if (first) separator_ = separator_of(line);
       const std::vector<std::string> cells = cells_of(line, separator_);
-      if (number == 1) {
+      if (std::exchange(first, false)) {
         const bool header = is_header(cells, separator_);
         understand(header ? cells : std::vector<std::string>());
         if (header) continue;

@@ -44,11 +44,12 @@ class Sea : public testing::Test {
   static double height(int c, int r, double sea) {
     return is_bay(c, r) ? sea : land(kWhole.xmin + (c + 0.5) * kWhole.step, kWhole.ymax - (r + 0.5) * kWhole.step);
   }
-  void import(const std::string& store, const std::vector<std::string>& sources, const ImportOptions& of = {}) const {
+  ImportReport import(const std::string& store, const std::vector<std::string>& sources,
+                      const ImportOptions& of = {}) const {
     ImportOptions options = of;
     for (const std::string& source : sources) options.sources.push_back(path(source));
     NoProgress progress;
-    import_terrain(path(store), options, progress);
+    return import_terrain(path(store), options, progress);
   }
   Tin surface(const std::string& store, double tolerance = 0) const {
     NoProgress progress;
@@ -133,6 +134,15 @@ TEST_F(Sea, StaysWithinItsArea) {
   EXPECT_TRUE(height_on(tin, {302050, 199000}));
   EXPECT_FALSE(height_on(tin, {302200, 199000}));
   EXPECT_FALSE(height_on(tin, {300620, 199600}));  // the bay
+}
+
+TEST_F(Sea, ThatFillsNothingIsTold) {
+  write("land.tif", 20, 40, NAN);
+  const ImportReport report = import("land.itin", {"land.tif"}, with_sea());
+  EXPECT_EQ(report.sea, 0U);
+  EXPECT_THAT(report.warnings, testing::Contains(testing::HasSubstr("`sea_level` filled nothing")));
+  write("bay.tif", 0, 20, NAN);
+  EXPECT_THAT(import("bay.itin", {"bay.tif"}, with_sea()).warnings, testing::IsEmpty());
 }
 
 TEST_F(Sea, WrongCalls) {

@@ -23,10 +23,11 @@ struct MapOptions {
   std::string subtitle;                             ///< empty: observer and target heights, radius, refraction
   std::string seen = "Visible", unseen = "Hidden";  ///< in the legend, where cells are one of the two
   std::string observers = {};                       ///< what the legend calls them; empty: "Observers"
-  std::string counts = "Seen by observers";         ///< heads the scale of Mode::kCount
+  std::string counts = "Number of observers that see the place";  ///< heads the scale of Mode::kCount
   std::string outside = "Outside the field of view, or no data";
   std::vector<std::uint8_t> no_data = {};  ///< of the result's cells: 1 to stripe those without ground; or none
   std::string no_data_text = "No ground data";
+  std::string beyond_text = {};           ///< a line of the legend about what lies beyond the map; or none
   std::vector<std::string> sources = {};  ///< lines below the legend; more than six are counted
   int map_pixels = 1600;                  ///< of the longer side of the map proper, 200 to 16000
 };

@@ -21,7 +21,7 @@ Document viewshed_document(const StoreMetadata& metadata, const Result& result);
 /// none), number and cells; what hides most first.
 Document blockers_document(const Store& store, const Result& result);
 
-/// Adds to such a document how much of the area in view has no ground: `no_data` among `cells` and `area_m2`,
+/// Adds to such a document how much of the area looked at has no ground: `no_data` among `cells` and `area_m2`,
 /// `beyond_the_data`, and `share_without_data`.
 void add_missing_ground(const MissingGround& missing, Document& document);
 

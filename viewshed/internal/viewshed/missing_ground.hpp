@@ -32,7 +32,7 @@ struct MissingGround {
   double missing_m2() const { return static_cast<double>(without_ground + beyond) * cell_area; }
   /// The share: "12.3 %", "less than 0.1 %".
   std::string percent() const;
-  /// "12.3 % (4.6 km2)".
+  /// "12.3 % (4.6 km²)".
   std::string text() const;
   /// Says what share of `area` it is, and what decides; nothing where that is less than a thousandth, or the area is
   /// wherever there is ground.

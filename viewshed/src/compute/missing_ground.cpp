@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <viewshed/area_text.hpp>
 #include <viewshed/missing_ground.hpp>
 
 #include "bounds/pixel_heights.hpp"
@@ -54,14 +55,15 @@ std::string MissingGround::percent() const {
 }
 
 std::string MissingGround::text() const {
-  return fmt::format("{} ({:.3g} km2)", percent(), missing_m2() / 1e6);
+  return fmt::format("{} ({})", percent(), area_text(missing_m2()));
 }
 
 std::optional<std::string> MissingGround::warning(const std::string& area) const {
   if (share() < 0.001 || !bounded) return std::nullopt;
   return fmt::format(
       "{} of {} has no ground data: nothing is known of places there. `nodata` says what it does to sight lines that "
-      "cross it; import a larger source, or, where it is the sea, import with `sea_level`",
+      "cross it; import a larger source, or, where it is the sea, import with `sea_level`, and beyond the sources with "
+      "`sea_area`",
       text(), area);
 }
 

@@ -7,6 +7,7 @@
 #include <itin/error.hpp>
 #include <itin/parallel.hpp>
 #include <itin/round_length.hpp>
+#include <viewshed/area_text.hpp>
 #include <viewshed/map_image.hpp>
 #include <viewshed/surface.hpp>
 
@@ -33,11 +34,6 @@ constexpr double kOutsideFade = 0.6;  ///< how far ground outside the field of v
 
 std::string length_text(double metres) {
   return metres >= 1000 ? fmt::format("{:.10g} km", metres / 1000) : fmt::format("{:.10g} m", metres);
-}
-
-std::string area_text(double square_metres) {
-  if (square_metres >= 1e5) return fmt::format("{:.4g} sq km", square_metres / 1e6);
-  return fmt::format("{:.0f} sq m", square_metres);
 }
 
 void require_possible(const MapOptions& options) {
@@ -126,7 +122,8 @@ class MapDrawing {
 
   /// Rows of the legend beyond the three that there is always room for.
   int further_rows() const {
-    return std::max(0, static_cast<int>(overlay_.keys().size()) + (has_outside_ ? 1 : 0) + (has_void_ ? 1 : 0) - 3);
+    return std::max(0, static_cast<int>(overlay_.keys().size()) + (has_outside_ ? 1 : 0) + (has_void_ ? 1 : 0) +
+                           (options_.beyond_text.empty() ? 0 : 1) - 3);
   }
 
   /// The mean of what a pixel's samples show.
@@ -225,7 +222,7 @@ class MapDrawing {
       return fmt::format("{} {:g} m {}", absolute ? " at" : "", metres, absolute ? "elevation" : "above ground");
     };
     if (alike) text += height(first.height, first.absolute);
-    text += ", target" + height(r.target_height, r.target_absolute);
+    if (r.mode != Mode::kHeight) text += ", target" + height(r.target_height, r.target_absolute);
     if (r.radius) text += ", within " + length_text(*r.radius);
     text += fmt::format("; cells of {}", length_text(result_.grid.cell_width()));
     return text;
@@ -269,9 +266,11 @@ class MapDrawing {
     letters_.draw(canvas_, length_text(length), {x0 + pixels, baseline}, unit_, kInk, Align::kCentre);
   }
 
+  int y_of_row(int row) const { return top_ + height_ + unit_ + row * key_height(); }
+
   /// A patch of the map's colours over level ground, and what it means.
   void draw_key(int row, const std::vector<Tint>& tints, double fade, const std::string& text) {
-    const int x = left_, y = top_ + height_ + unit_ + row * key_height();
+    const int x = left_, y = y_of_row(row);
     const int width = 2 * unit_, height = 5 * unit_ / 4, bands = static_cast<int>(tints.size());
     canvas_.fill_rectangle(x, y, width, height, {kLevelGrey, kLevelGrey, kLevelGrey});
     canvas_.fill_rectangle(x, y, width, height, kMapPaper, fade);
@@ -285,7 +284,7 @@ class MapDrawing {
   }
 
   void draw_void_key(int row) {
-    const int x = left_, y = top_ + height_ + unit_ + row * key_height();
+    const int x = left_, y = y_of_row(row);
     const int width = 2 * unit_, height = 5 * unit_ / 4;
     for (int i = 0; i < width; ++i)
       for (int j = 0; j < height; ++j) draw_void(x + i, y + j);
@@ -303,7 +302,10 @@ class MapDrawing {
     int row = 0;
     for (const MapOverlay::Key& key : overlay_.keys()) draw_key(row++, key.tints, 0, share_text(key.text, key.cells));
     if (has_outside_) draw_key(row++, {}, kOutsideFade, options_.outside);
-    if (has_void_) draw_void_key(row);
+    if (has_void_) draw_void_key(row++);
+    if (!options_.beyond_text.empty())
+      letters_.draw(canvas_, options_.beyond_text, {static_cast<double>(left_), y_of_row(row) + 1.05 * unit_},
+                    fitting_size(options_.beyond_text, width_ * 2 / 5 - unit_, unit_), kInk);
     const double y = top_ + height_ + 6.9 * unit_ + further_rows() * key_height();
     draw_mark({left_ + 1.0 * unit_, y});
     const char* observers = result_.request.observers.size() == 1 ? "Observer" : "Observers";
@@ -324,7 +326,7 @@ class MapDrawing {
   /// The overlay's steps side by side, in the middle of the lower margin.
   void draw_scale() {
     const std::vector<MapOverlay::Step>& steps = overlay_.scale();
-    const int x0 = left_ + width_ * 2 / 5, y = top_ + height_ + unit_, step = 3 * unit_;
+    const int x0 = left_ + width_ * 2 / 5, y = top_ + height_ + unit_, step = 4 * unit_;
     letters_.draw(canvas_, overlay_.scale_title(), {static_cast<double>(x0), y + 1.0 * unit_}, unit_, kInk);
     for (std::size_t i = 0; i < steps.size(); ++i) {
       const Tint& tint = steps[i].tint;

@@ -15,6 +15,7 @@
 
 #include "line/infinity.hpp"
 #include "modes/feature_names.hpp"
+#include "turbines/value_bands.hpp"
 
 namespace itin::viewshed {
 
@@ -39,6 +40,10 @@ double round_step(double v) {
   for (const double step : {1.0, 2.0, 5.0})
     if (step * decade >= v * (1 - 1e-9)) return step * decade;
   return 10 * decade;
+}
+
+std::string range_text(double from, double to) {
+  return fmt::format("{:.10g}–{:.10g}", from, to);
 }
 
 struct Extremes {
@@ -158,16 +163,31 @@ void MapOverlay::scale_counts(const std::string& title) {
 }
 
 void MapOverlay::scale_angles() {
-  title_ = "Elevation angle, up to degrees";
-  const Extremes e = extremes_of(result_.angle_deg);
-  if (e.empty()) return;
-  // The least width that does with so many steps; where a multiple of it falls badly, one more is needed.
-  double width = round_step(std::max((e.most - e.least) / kSteps, 0.01));
-  if (std::floor(e.most / width) - std::floor(e.least / width) >= kSteps) width = round_step(1.01 * width);
-  const int first = static_cast<int>(std::floor(e.least / width)), last = static_cast<int>(std::floor(e.most / width));
-  for (int i = first; i <= last; ++i)
-    add_step((i + 1) * width, {kSeenColour, opacity_of(i - first, last - first + 1)},
-             fmt::format("{:.6g}", (i + 1) * width));
+  title_ = "Elevation angle, degrees";
+  std::vector<float> angles;
+  // An observer's own place lies straight below it.
+  for (const float degrees : result_.angle_deg)
+    if (std::abs(degrees) < 90) angles.push_back(degrees);
+  if (angles.empty()) return;
+  std::sort(angles.begin(), angles.end());
+  const auto at = [&](double share) {
+    return static_cast<double>(angles[static_cast<std::size_t>(share * static_cast<double>(angles.size() - 1))]);
+  };
+  // Round angles that part the cells into about as many each: most lie near the horizon.
+  const double width = round_step(std::max((at(0.9) - at(0.1)) / (2 * kSteps), 0.01));
+  std::vector<double> limits;
+  for (int i = 1; i < kSteps; ++i) {
+    const double limit = std::round(at(static_cast<double>(i) / kSteps) / width) * width + 0.0;  // no -0
+    if (limits.empty() || limit > limits.back() + width / 2) limits.push_back(limit);
+  }
+  const int steps = static_cast<int>(limits.size()) + 1;
+  for (int i = 0; i < steps; ++i) {
+    const auto limit = [&](int l) { return fmt::format("{:.6g}", limits[static_cast<std::size_t>(l)]); };
+    add_step(i + 1 < steps ? limits[static_cast<std::size_t>(i)] : kInfinity, {kSeenColour, opacity_of(i, steps)},
+             i == 0           ? "up to " + limit(0)
+             : i + 1 == steps ? "> " + limit(i - 1)
+                              : limit(i - 1) + " to " + limit(i));
+  }
 }
 
 void MapOverlay::scale_observers() {
@@ -179,17 +199,17 @@ void MapOverlay::scale_observers() {
 }
 
 void MapOverlay::scale_distances() {
-  title_ = "Nearest visible observer, up to metres";
+  title_ = "Distance of the nearest visible observer, metres";
   const Extremes e = extremes_of(result_.distance_m);
   if (e.empty()) return;
   const double width = round_step(std::max(e.most / kSteps, 1.0));
   const int steps = std::max(1, static_cast<int>(std::ceil(e.most / width)));
   for (int i = 0; i < steps; ++i)
-    add_step((i + 1) * width, {kSeenColour, opacity_of(steps - 1 - i, steps)}, fmt::format("{:.10g}", (i + 1) * width));
+    add_step((i + 1) * width, {kSeenColour, opacity_of(steps - 1 - i, steps)}, range_text(i * width, (i + 1) * width));
 }
 
 void MapOverlay::scale_blockers() {
-  title_ = "Hidden by";
+  title_ = "Visible, or hidden by";
   blockers_ = result_.blocker_theme;
   sort_unique(blockers_);
   std::erase(blockers_, kNoBlocker);
@@ -203,7 +223,7 @@ void MapOverlay::scale_blockers() {
 }
 
 void MapOverlay::scale_heights() {
-  title_ = "Seen from this height up, metres";
+  title_ = "Least height at which a target is seen, metres";
   std::vector<float> heights;
   for (const float h : result_.least_height_m)
     if (h > 0 && std::isfinite(h)) heights.push_back(h);
@@ -222,23 +242,34 @@ void MapOverlay::scale_heights() {
     add_step(most, {kSeenColour, steps == 1 ? kOpacity : 0.08 + 0.77 * step / (steps - 1)}, std::move(text));
   };
   add(0, "0");
-  for (const double limit : limits) add(limit, fmt::format("{:.10g}", limit));
+  double from = 0;
+  for (const double limit : limits) {
+    add(limit, range_text(from, limit));
+    from = limit;
+  }
   if (!limits.empty()) add(kInfinity, fmt::format("> {:.10g}", limits.back()));
 }
 
 void MapOverlay::scale_probabilities() {
-  title_ = "Probability of being visible, up to percent";
-  for (const int percent : {5, 25, 50, 75, 95, 100})
-    add_step(percent / 100.0, {kSeenColour, percent == 5 ? 0 : 0.85 * (percent - 5) / 95}, fmt::format("{}", percent));
+  title_ = "Probability of being visible, percent";
+  int from = 0;
+  for (const int percent : {5, 25, 50, 75, 95, 100}) {
+    add_step(percent / 100.0, {kSeenColour, percent == 5 ? 0 : 0.85 * (percent - 5) / 95}, range_text(from, percent));
+    from = percent;
+  }
 }
 
 void MapOverlay::scale_losses() {
-  title_ = "Diffraction loss, up to dB";
+  title_ = "Diffraction loss, dB";
   // Amber is for the undecided.
-  constexpr std::array<std::pair<int, Rgba>, 5> kSteps{
-      {{0, kPalette[0]}, {6, kPalette[4]}, {15, kPalette[2]}, {30, kPalette[6]}, {50, kPalette[5]}}};
-  for (const auto& [most, colour] : kSteps) add_step(most, {colour, kOpacity}, fmt::format("{}", most));
-  add_step(kInfinity, {kPalette[3], kOpacity}, fmt::format("> {}", kSteps.back().first));
+  constexpr std::array<Rgba, kLossLimitsDb.size()> kColours{{kPalette[4], kPalette[2], kPalette[6], kPalette[5]}};
+  add_step(0, {kPalette[0], kOpacity}, "0");
+  double from = 0;
+  for (std::size_t i = 0; i < kLossLimitsDb.size(); ++i) {
+    add_step(kLossLimitsDb[i], {kColours[i], kOpacity}, range_text(from, kLossLimitsDb[i]));
+    from = kLossLimitsDb[i];
+  }
+  add_step(kInfinity, {kPalette[3], kOpacity}, fmt::format("> {:.10g}", from));
 }
 
 void MapOverlay::make_keys(const MapOptions& options) {

@@ -1,8 +1,21 @@
+#include <vector>
+
 #include <viewshed/qgis_styles.hpp>
 
 #include "turbines/value_bands.hpp"
 
 namespace itin::viewshed {
+
+namespace {
+
+/// Where nothing is lost there is a colour, too: only cells without a loss have none.
+std::vector<ValueBand> loss_bands() {
+  std::vector<ValueBand> bands = limit_bands({kLossLimitsDb.begin(), kLossLimitsDb.end()}, "dB");
+  bands.front() = {0, "0 dB", {0, 114, 178}};
+  return bands;
+}
+
+}  // namespace
 
 std::string qgis_style(const Request& request) {
   switch (request.mode) {
@@ -11,7 +24,7 @@ std::string qgis_style(const Request& request) {
     case Mode::kProbability:
       return banded_style(limit_bands({0.05, 0.25, 0.5, 0.75, 0.95}, "of the surfaces"));
     case Mode::kLoss:
-      return banded_style(limit_bands({3, 6, 10, 20, 30, 40, 60}, "dB"));
+      return banded_style(loss_bands());
     case Mode::kVisible:
     case Mode::kFresnel:
     case Mode::kWhich:

@@ -14,7 +14,7 @@
 namespace itin::viewshed {
 
 inline constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-inline constexpr const char* kNoValue = "no value outside every turbine's radius and where there is no ground";
+inline constexpr const char* kNoValue = "no value (beyond every turbine's radius, or no ground data)";
 
 inline RasterDescription with_nodata(double value) {
   RasterDescription description;

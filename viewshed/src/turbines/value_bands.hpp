@@ -1,6 +1,7 @@
 // Bands of values, as maps and tables show them.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -21,6 +22,8 @@ struct ValueBand {
 std::vector<ValueBand> count_bands(std::size_t most, std::vector<std::size_t> limits = {});
 /// 0 (clear of colour), then between the limits, the last open. `unit` as in "10 - 25 m".
 std::vector<ValueBand> limit_bands(const std::vector<double>& limits, const std::string& unit);
+/// What parts diffraction losses, from slight to beyond use; dB.
+inline constexpr std::array<double, 4> kLossLimitsDb{6, 15, 30, 50};
 /// Those of shares of the ground, 0 to 1.
 std::vector<ValueBand> share_bands();
 /// The band that holds a value: the first whose limit it does not exceed.

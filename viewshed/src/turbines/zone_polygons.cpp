@@ -39,7 +39,8 @@ std::vector<ZoneFile> write_zone_polygons(const std::string& folder, const Zone&
   std::vector<ZoneFile> files;
   const std::size_t farms = farms_of(zone).size();
   const auto write_all = [&](const Visibility& v, const std::string& suffix) {
-    files.push_back({"tip-count" + suffix + ".gpkg", "where a band of turbines has its tips seen: polygons, m2"});
+    files.push_back({"tip-count" + suffix + ".gpkg",
+                     "polygons of the areas from which tips are seen, by bands of their number, with the area in m2"});
     write_bands(folder + "/" + files.back().name, "tip-count", zone, v.tip_count, options);
     if (knows_hubs(zone)) {
       files.push_back({"hub-count" + suffix + ".gpkg", "where a band of turbines has its hubs seen: polygons, m2"});

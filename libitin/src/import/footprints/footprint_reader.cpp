@@ -87,6 +87,7 @@ class FootprintLayer {
     try {
       if (!linear || !add_rings(*linear, footprint))
         return pass_over(footprint.name, std::string("is a ") + geometry->getGeometryName());
+      if (footprint.rings.empty()) return pass_over(footprint.name, "has no length");
     } catch (const InputError& error) {
       return pass_over(footprint.name, error.what());
     } catch (const OverlayError& error) {
