@@ -101,7 +101,7 @@ class LosVerb final : public Verb {
   void validate_line() {
     if (store_.empty() == profile_csv_.empty()) throw InputError("give a STORE with --from and --to, or --profile-csv");
     if (store_.empty()) {
-      if (line_.given()) throw InputError("--from and --to need a STORE; with --profile-csv give --heights h1,h2");
+      line_.require_none();
       if (heights_text_.empty()) throw InputError("--profile-csv needs --heights h1,h2");
       heights_ = parse_tuple("--heights", heights_text_, 2, "h1,h2");
       for (const double height : heights_) require_height(height, "--heights");

@@ -131,7 +131,7 @@ LosLinks::Survey LosLinks::run(const Store& store, const LinkTable& table, const
   }
   if (counts.error > 0)
     result.failure =
-        fmt::format("{}: {} of {} could not be computed; see the column message; the first: {}", outputs_.front(),
+        fmt::format("{}: {} of {} could not be computed; see the column message; one of them: {}", outputs_.front(),
                     counts.error, counted(all, "link"), first_error(table, results, metadata));
   return survey;
 }

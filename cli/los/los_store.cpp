@@ -26,6 +26,7 @@ std::vector<std::string> warnings_about(const profile::LosReport& report) {
 }  // namespace
 
 void LosStoreOptions::declare(CLI::App& app) {
+  app_ = &app;
   app.add_option(
          "--from", from_text_,
          "The first end; h is 2 where not given. For x,y also degrees with N, S, E or W, or an OS grid reference")
@@ -42,6 +43,13 @@ void LosStoreOptions::declare(CLI::App& app) {
   themes_.declare(app);
   nodata_.declare(app);
   memory_.declare(app, kKeptOfTheStore);
+}
+
+void LosStoreOptions::require_none() const {
+  if (given()) throw InputError("--from and --to need a STORE; with --profile-csv give --heights h1,h2");
+  for (const char* option : {"--absolute-heights", "--observer-on", "--target-on", "--in-crs", "--tolerance", "--rings",
+                             "--themes", "--nodata", "--memory"})
+    if (app_->get_option(option)->count() > 0) throw InputError(fmt::format("{} works only with a STORE", option));
 }
 
 void LosStoreOptions::validate(std::optional<double> object_tip_m) {

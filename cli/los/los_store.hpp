@@ -25,6 +25,8 @@ class LosStoreOptions {
  public:
   void declare(CLI::App& app);
   bool given() const { return !from_text_.empty() || !to_text_.empty(); }
+  /// Without a store. Throws InputError where one of the options is given.
+  void require_none() const;
   /// Throws InputError. `object_tip_m`: the height of what stands at --to, where it does not say.
   void validate(std::optional<double> object_tip_m);
   /// For links, which bring their own ends: everything but --from and --to. Throws InputError.
@@ -57,6 +59,7 @@ class LosStoreOptions {
  private:
   void validate_choices();
 
+  CLI::App* app_ = nullptr;
   std::string from_text_, to_text_;
   std::string from_on_ = "ground", to_on_ = "ground";
   bool absolute_heights_ = false;

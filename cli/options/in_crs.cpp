@@ -2,7 +2,10 @@
 
 #include <memory>
 
+#include <fmt/format.h>
+
 #include <itin/coordinates.hpp>
+#include <itin/error.hpp>
 
 namespace itin::cli {
 
@@ -14,7 +17,12 @@ void InCrs::declare(CLI::App& app) {
 
 std::function<Point2(Point2)> InCrs::transform_to(const std::string& wkt) const {
   if (crs.empty()) return [](Point2 p) { return p; };
-  const auto transform = std::make_shared<CoordinateTransform>(crs, wkt);
+  std::shared_ptr<const CoordinateTransform> transform;
+  try {
+    transform = std::make_shared<CoordinateTransform>(crs, wkt);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("--in-crs '{}': {}", crs, error.what()));
+  }
   return [transform](Point2 p) { return (*transform)(p); };
 }
 

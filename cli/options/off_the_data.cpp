@@ -15,10 +15,11 @@ namespace {
 
 constexpr const char* kLonLat = "EPSG:4326";
 
-/// In the store's CRS; nothing where it has no place in it.
+/// In the store's CRS; nothing where it has no place in it. Throws InputError for an unknown CRS.
 std::optional<Point2> transformed(Point2 p, const InCrs& in_crs, const StoreMetadata& metadata) {
+  const auto transform = in_crs.transform_to(metadata.crs_wkt);
   try {
-    return in_crs.transform_to(metadata.crs_wkt)(p);
+    return transform(p);
   } catch (const InputError&) {
     return std::nullopt;
   }

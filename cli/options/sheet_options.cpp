@@ -1,6 +1,7 @@
 #include "options/sheet_options.hpp"
 
 #include <sstream>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -42,10 +43,13 @@ void SheetOptions::declare_title_block(CLI::App& app) {
 }
 
 void SheetOptions::validate() {
-  if (date_.empty()) date_ = day_of_run();
+  const bool alone = papers_option_ == "--paper" && file_.empty();
+  if (alone && !papers_text_.empty()) throw InputError("--paper works only with --sheet");
   if (!file_.empty() && papers_text_.empty()) papers_text_ = "A3";
-  if (!basemap_.empty() && papers_text_.empty()) throw InputError("--basemap works only with a sheet");
-  if (!scale_text_.empty() && papers_text_.empty()) throw InputError("--sheet-scale works only with a sheet");
+  for (const auto& [option, text] : {std::pair("--basemap", &basemap_), std::pair("--sheet-scale", &scale_text_),
+                                     std::pair("--project", &project_), std::pair("--date", &date_)})
+    if (!text->empty() && papers_text_.empty()) throw InputError(fmt::format("{} works only with a sheet", option));
+  if (date_.empty()) date_ = day_of_run();
   if (!file_.empty()) profile::require_sheet_format(file_);
   if (!scale_text_.empty()) scale_ = parse_number("--sheet-scale", scale_text_, Range::kPositive);
   if (papers_text_.empty()) return;

@@ -9,6 +9,9 @@
 #include <itin/raster_values.hpp>
 #include <itin/sites.hpp>
 
+#include "options/off_the_data.hpp"
+#include "output/store_document.hpp"
+
 namespace itin::cli {
 
 namespace {
@@ -94,6 +97,9 @@ class DemandReader {
     inputs_.total = inputs_.demand.total();
     const std::size_t on_ground = viewshed::with_ground(store_, inputs_.targets, progress_).size();
     inputs_.demand_without_ground = points.size() - on_ground;
+    if (on_ground == 0 && !options_.placement.given())
+      throw InputError(fmt::format("{}: none of its {} has ground data below it; the data is {}", query.path,
+                                   counted(points.size(), "point"), extent_of(store_.metadata())));
   }
 
   /// Neighbours next to each other, in strips to and fro: their sight lines are judged together.

@@ -125,6 +125,8 @@ std::string SiteResult::reason(std::size_t option) const {
   if (!margin)
     return options.placement.given() ? "ruled out at every step by the spacing"
                                      : "ruled out at every step: by spacing, links, cost, or another mast at its place";
+  if (margin->taken)
+    return fmt::format("taken at step {} of the first selection, and replaced by a better choice", margin->step + 1);
   const double unit = measure.in_metric(1);
   if (options.placement.given())
     return fmt::format("at step {} of the first selection it would have added {} {:.10g}; the one taken added {:.10g}",

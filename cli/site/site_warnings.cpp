@@ -46,11 +46,19 @@ void warn_of_reach(const SiteResult& site, const StoreMetadata& metadata, std::v
 
 void warn_of_too_few(const SiteResult& site, std::vector<std::string>& warnings) {
   const SiteOptions& options = site.options;
-  if (options.count && site.choice.chosen.size() < *options.count)
+  const bool short_of_share = options.share && site.inputs.demand.in_metric(site.choice.value + site.choice.existing) <
+                                                   *options.share * site.inputs.demand.in_metric(site.inputs.total);
+  const bool share_reached = options.share && !short_of_share;
+  if (options.count && site.choice.chosen.size() < *options.count && !share_reached)
     warnings.push_back(fmt::format("{} chosen, not {}: no other site that may be chosen serves anything more",
                                    counted(site.choice.chosen.size(), "site"), *options.count));
-  if (options.share && site.inputs.demand.in_metric(site.choice.value + site.choice.existing) <
-                           *options.share * site.inputs.demand.in_metric(site.inputs.total))
+  const std::size_t serving = site.choice.chosen.size() + site.inputs.existing();
+  if (serving < static_cast<std::size_t>(options.cover))
+    warnings.push_back(fmt::format("nothing counts as served: --k-cover asks for {} sites, and there {} {}",
+                                   options.cover, serving == 1 ? "is" : "are", serving));
+  if (options.budget && site.choice.chosen.empty())
+    warnings.emplace_back("nothing is chosen: no site that serves anything costs as little as --budget");
+  if (short_of_share)
     warnings.emplace_back(
         "the share asked for is not reached: no further site that may be chosen serves anything more");
 }

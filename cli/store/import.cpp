@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <itin/coordinates.hpp>
+#include <itin/height_limit.hpp>
 #include <itin/import.hpp>
 
 #include "options/memory_option.hpp"
@@ -248,6 +249,7 @@ class ImportVerb final : public Verb {
     if (!std::is_sorted(tolerances.begin(), tolerances.end(), std::less_equal<>())) {
       throw InputError(fmt::format("--levels '{}': expected growing tolerances", levels_));
     }
+    for (const double tolerance : tolerances) require_height(tolerance, "--levels");
     return tolerances;
   }
 

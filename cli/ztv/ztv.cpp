@@ -150,6 +150,11 @@ class ZtvVerb final : public Verb {
       list_.bad.push_back({m.number, list_.features[m.number - 1], m.message});
     sources_ = sources_in(store, zone.grid.bounds(), request_.themes.value_or(ThemeChoice::none()));
     missing_ = viewshed::missing_ground(zone);
+    if (missing_.study_m2() == 0)
+      throw InputError(
+          fmt::format("{}: none of the cells lies within the radius of a turbine; move them there, or give a "
+                      "larger --radius",
+                      like_.empty() ? "--cell" : "--like " + like_));
     ZtvFolder folder(output_, policy_);
     cli::Result result;
     result.document = document(zone, metadata);

@@ -28,6 +28,8 @@ namespace {
 
 using viewshed::Zone;
 
+constexpr double kMostPlaces = 100000;
+
 struct RoutePlace {
   double distance = 0;
   Point2 position;
@@ -36,6 +38,10 @@ struct RoutePlace {
 /// One in the middle of every stretch of `every` metres, or of as many equal ones as are needed.
 /// `at` are the corners' distances along the route.
 std::vector<RoutePlace> places_along(const std::vector<Point2>& corners, const std::vector<double>& at, double every) {
+  if (at.back() / every > kMostPlaces)
+    throw InputError(
+        fmt::format("--every {:g}: a route of {:.0f} m would have more than {:g} places; give a greater distance",
+                    every, at.back(), kMostPlaces));
   const auto count = static_cast<std::size_t>(std::max(1.0, std::ceil(at.back() / every - 1e-9)));
   std::vector<RoutePlace> places;
   std::size_t side = 0;

@@ -34,7 +34,9 @@ std::string what_became(const ImportReport& report, const ImportOptions& options
 
 void require_points(ImportReport& report, const ImportOptions& options, bool may_be_void) {
   if (report.read > 0 || report.read_features > 0) return;
-  const std::string why = what_became(report, options);
+  std::string why = what_became(report, options);
+  // They tell why heights and places were not taken.
+  for (const std::string& warning : report.warnings) why += "; " + warning;
   if (report.filtered > 0 || !may_be_void) throw InputError("nothing to import: " + why);
   report.warnings.push_back("nothing was added: " + why);
 }
@@ -42,8 +44,8 @@ void require_points(ImportReport& report, const ImportOptions& options, bool may
 void require_ground(const ImportReport& report, const ImportOptions& options) {
   if (report.vertices > 0) return;
   throw InputError(
-      fmt::format("nothing to import: {} read, but no three of them span ground: they lie on one line, or "
-                  "too far apart{}",
+      fmt::format("nothing to import: {} read, but no three of them span ground: they lie on one line, too far "
+                  "apart, or nearer to each other than `resolution`{}",
                   report.read == 1 ? "1 point was" : fmt::format("{} points were", report.read),
                   options.max_gap > 0 ? "; give a larger `max_gap`" : ""));
 }

@@ -69,8 +69,8 @@ void check_resolution(const ImportOptions& options, const Store* existing) {
 
 /// Names stand in lists with commas, beside `all` and `none`.
 void require_theme_name(const std::string& name) {
-  if (name == "all" || name == "none" || name.find(',') != std::string::npos)
-    throw InputError(fmt::format("theme '{}': choose a name without commas, other than all and none", name));
+  if (name == "all" || name == "none" || name == "terrain" || name.find(',') != std::string::npos)
+    throw InputError(fmt::format("theme '{}': choose a name without commas, other than all, none and terrain", name));
 }
 
 /// Reports the changes from `before` to `now`.

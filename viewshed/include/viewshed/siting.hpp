@@ -125,6 +125,7 @@ struct Margin {
   double upper = 0;  ///< the best gain that its bounds allowed it (the least for kLeast), a unit of cost under a budget
   double chosen = 0;  ///< that of the one taken instead
   std::size_t step = 0;
+  bool taken = false;  ///< it was taken itself, and replaced afterwards if it is not among the chosen
 };
 
 /// 1 where the option could have been taken as well, less the farther it was from that.

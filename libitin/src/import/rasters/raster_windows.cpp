@@ -54,10 +54,10 @@ void require_small_blocks(GDALDataset& dataset, const std::string& path, std::ui
   if (bytes <= memory_bytes / kBlockShare) return;
   int columns = 0, rows = 0;
   band.GetBlockSize(&columns, &rows);
-  throw InputError(
-      fmt::format("{}: is stored in blocks of {} by {} posts, {} MB each, which is too much for {} MB of memory; "
-                  "rewrite it with gdal_translate -co TILED=YES, or give more memory",
-                  path, columns, rows, bytes >> 20, memory_bytes >> 20));
+  throw InputError(fmt::format(
+      "{}: is stored in blocks of {} by {} posts, {:.1f} MB each, which is too much for {:.1f} MB of memory; "
+      "rewrite it with gdal_translate -co TILED=YES, or give more memory",
+      path, columns, rows, static_cast<double>(bytes) / (1 << 20), static_cast<double>(memory_bytes) / (1 << 20)));
 }
 
 [[noreturn]] void refuse_vast(const HeightBand& band) {

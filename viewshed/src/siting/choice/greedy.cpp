@@ -170,13 +170,16 @@ class Greedy {
       if (b.option == taken.option) continue;
       const Margin now{.upper = std::abs(b.upper), .chosen = std::abs(taken.lower), .step = chosen_.size()};
       std::optional<Margin>& margin = closest_[b.option];
+      if (margin && margin->taken) continue;
       if (!margin || closeness(now, problem_.goal.objective) > closeness(*margin, problem_.goal.objective))
         margin = now;
     }
   }
 
   void take(const Bid& next) {
+    const double gain = std::abs(next.lower);
     for (const std::size_t option : ways_.to(next.option)) {
+      closest_[option] = {.upper = gain, .chosen = gain, .step = chosen_.size(), .taken = true};
       if (problem_.goal.exact_chosen || problem_.goal.wanted) problem_.refine_fully(option);
       chosen_.push_back(option);
       if (room_) room_->take(option);
