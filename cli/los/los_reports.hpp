@@ -39,7 +39,7 @@ class LosReports {
     std::size_t link;  ///< its place among the links
     std::vector<std::string> paths;
   };
-  /// One a link, in order. Throws InputError where two files would be one, FileError where one
+  /// One per link, in order. Throws InputError where two files would be one, FileError where one
   /// cannot be written.
   std::vector<Job> jobs(const std::vector<profile::Link>& links, OutputPolicy& policy) const;
   /// Writes the reports in parallel and lists them in `result`, in the links' order. A report that cannot be written is

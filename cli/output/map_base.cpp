@@ -19,7 +19,7 @@ namespace itin::cli {
 namespace {
 
 constexpr double kPixel = 0.00025;    ///< metres on paper
-constexpr std::int64_t kCoarser = 3;  ///< pixels a side, whose mean contours follow
+constexpr std::int64_t kCoarser = 3;  ///< pixels per side, whose mean contours follow
 constexpr Rgba kContour{150, 105, 60, 150};
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 

@@ -20,7 +20,7 @@ namespace {
 /// When the first signal came, in milliseconds of the monotonic clock; 0 before it.
 std::atomic<long long> first_signal{0};
 static_assert(std::atomic<long long>::is_always_lock_free, "a signal handler may only touch lock-free atomics");
-/// Posted with it.
+/// Posted when first_signal is set.
 sem_t signalled;
 /// Set by the thread that ends the program, be it by itself or not.
 std::atomic<bool> ending{false};
@@ -28,7 +28,8 @@ std::atomic<bool> ending{false};
 /// The time that a call has to stop and clean up. Less than a second, for the system takes back gigabytes no faster
 /// than that.
 constexpr std::chrono::milliseconds kTimeToStop{750};
-/// timeout(1) and terminals tell the process and then its group: repetitions this soon are no second wish.
+/// timeout(1) and terminals tell the process and then its group: repetitions within this time are no second
+/// interruption.
 constexpr long long kPatience = 1000;
 
 extern "C" void note_interruption(int) {

@@ -9,7 +9,7 @@
 namespace itin::cli {
 
 /// The name that is nearest to `given` in letters left out, added, exchanged or swapped with their neighbour, or that
-/// `given` begins; nothing where none is near. The first of several. O(length^2) a name.
+/// `given` begins; nothing where none is near. The first of several. O(length^2) per name.
 std::optional<std::string> likely_meant(std::string_view given, const std::vector<std::string>& names);
 
 /// "; did you mean NAME?", or nothing.

@@ -120,7 +120,7 @@ void print(const std::string& text) {
   if (!std::cout) throw FileError("standard output", "could not be written; check the disk or pipe behind it");
 }
 
-/// Most often an unset variable of a script's: it must not stand for the default.
+/// Refuses an empty value, which an unset variable of a script gives: it must not silently mean the default.
 void require_values(const CLI::App& verb) {
   for (const CLI::Option* option : verb.get_options()) {
     const std::vector<std::string>& values = option->results();

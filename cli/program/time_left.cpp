@@ -8,7 +8,7 @@ namespace itin::cli {
 
 namespace {
 
-/// Less of a call tells nothing: it may go twenty times as fast as the rest, or slower.
+/// Too early to estimate: the first twentieth of a call may run many times faster or slower than the rest.
 constexpr double kLeastDone = 0.05;
 constexpr std::chrono::seconds kLeastTime{2};
 

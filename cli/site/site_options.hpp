@@ -60,7 +60,8 @@ class SiteOptions {
   std::string cost_field;
   std::string search_area;
   std::optional<double> spacing;
-  std::vector<Mast> masts;  ///< none where a height field is given; of turbines one, as high as what is looked for
+  std::vector<Mast>
+      masts;  ///< none where a height field is given; with --turbines one, of the height of the tip or hub
   PlacementOptions placement;
   bool on_surface = false;
   InCrs in_crs;
@@ -72,8 +73,8 @@ class SiteOptions {
   double radius = 10000;
   std::optional<double> cell;
   double cell_size() const { return cell.value_or(50); }
-  std::optional<double> frequency_ghz;  ///< served is what is in sight, and with a frequency clear by this much:
-  double fresnel = 0.6;                 ///< fraction of the first Fresnel zone
+  std::optional<double> frequency_ghz;  ///< nothing: what is in sight is served
+  double fresnel = 0.6;                 ///< fraction of the first Fresnel zone that must be clear, with a frequency
   // The choice.
   std::optional<std::size_t> count;
   std::optional<double> budget, share;

@@ -120,7 +120,7 @@ class TinVerb final : public Verb {
 
   /// Throws InputError where the memory does not hold the triangulation of so many points, and what is made of it.
   void require_memory(std::uint64_t points) const {
-    constexpr std::uint64_t kMesh = 180, kTopology = 300;  ///< bytes a point at the peak, measured
+    constexpr std::uint64_t kMesh = 180, kTopology = 300;  ///< bytes per point at the peak, measured
     constexpr std::uint64_t kPicture = std::uint64_t{160} << 20;
     const std::uint64_t needed = points * (kind_ ? kTopology : kMesh) + (picture_.path().empty() ? 0 : kPicture);
     const std::optional<std::uint64_t> given = memory_.bytes();

@@ -53,7 +53,7 @@ struct ImportOptions {
   std::string base_field;        ///< elevation of the base
   std::optional<BaseRule> base;  ///< of buildings without base_field; default: minimum, or the floors of CityJSON
   std::optional<RoofKind> roof;  ///< default: flat
-  /// Of buildings; default: walls down to the terrain.
+  /// How buildings meet the terrain; default: walls down to it.
   std::optional<Foundation> foundation;
   std::optional<double> thickness;  ///< metres; of what stands on lines; default: 0.3
   /// Metres, from two grid steps to 10: how far within its outline a feature's walls reach their full height. One for
@@ -73,7 +73,7 @@ struct ImportOptions {
   std::string source_note;            ///< product, date and licence of the sources, for reports; default: the
                                       ///< copyright that a raster states
   bool repair = true;                 ///< import_lines() of contours: infer points where their triangles are flat
-  /// Of rasters: ground that is missing within the box about them, voids included, is level ground at this elevation,
+  /// For rasters: ground that is missing within the box about them, voids included, is level ground at this elevation,
   /// metres, on their datum: the sea. Any other ground takes its place, whenever it is imported. Nothing: it is
   /// missing.
   std::optional<double> sea_level;

@@ -29,7 +29,7 @@ struct RegionDescription {
   bool overwrite = false;
 };
 
-/// Writes a GeoPackage with one multipolygon a class that has cells, in the order of the classes: fields `value`,
+/// Writes a GeoPackage with one multipolygon per class that has cells, in the order of the classes: fields `value`,
 /// `class` (its name) and `area_m2` (that of its cells). Outlines follow the cells' edges; cells that meet at a corner
 /// alone are apart. A second table, `layer_styles`, has QGIS open it in the classes' colours. Precondition:
 /// values.size() == grid.cell_count(). Equal calls write equal bytes. Throws FileError if the file exists and may not

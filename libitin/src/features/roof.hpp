@@ -24,9 +24,9 @@ namespace itin {
 
 /// Heights of a roof, grid units above the grid's zero.
 ///
-/// With eaves and ridge the slope follows from both. With the ridge alone (the total height), it is the pitch, and the
-/// eaves lie accordingly lower, but never below half way between base and ridge: there the roof gets flatter. With the
-/// eaves alone it is the pitch, and the ridge is where it ends up.
+/// Eaves and ridge together determine the slope. If only the ridge is given (the total height), the pitch determines
+/// the eaves, which lie at least half way up from the base; a roof that would begin lower gets flatter. If only the
+/// eaves are given, the pitch determines the ridge.
 struct RoofHeights {
   double base = 0;
   std::optional<double> eaves;

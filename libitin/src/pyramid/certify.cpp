@@ -24,7 +24,7 @@ constexpr std::uint32_t kFirstCell = 1 << 15;
 /// under it has to be made anew, so it is no larger than it must be.
 constexpr double kLevelPoints = 128;
 constexpr std::uint32_t kLeastCell = 1 << 11, kGreatestCell = 1 << 15;
-/// From so many lines a leaf on, to look at everything again takes no longer than to find what they changed.
+/// From this many lines per leaf on, verifying everything again takes no longer than finding what the lines changed.
 constexpr double kManyLines = 0.25;
 
 /// Which levels of which leaves must be verified again.

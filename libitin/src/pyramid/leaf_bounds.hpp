@@ -1,4 +1,4 @@
-// What every level of a pyramid differs from the full surface, leaf by leaf.
+// How far each level of a pyramid differs from the full surface, leaf by leaf.
 #pragma once
 
 #include <cstdint>

@@ -74,7 +74,7 @@ void raise_settled(WorkingIndex& index, const std::vector<CurveRange>& tiles, co
   index.promote(std::move(raises));
 }
 
-/// Proposes for all tiles, wave by wave, what `survey(tile)` sees of each.
+/// Proposes levels for all tiles, one wave after another; `survey(tile)` gives the surface about a tile.
 template <class Survey>
 std::vector<TileProposal> propose_in_waves(WorkingIndex& index, const std::vector<CurveRange>& tiles,
                                            std::span<const double> tolerances, Progress& progress,

@@ -2,7 +2,7 @@
 //
 //   PointSorter sorter(directory, memory_bytes);
 //   sorter.add({code_of(p), p.z, source});           // any order
-//   SortedPoints points = sorter.finish(ranks_of_sources, progress);   // sorted, one point a position
+//   SortedPoints points = sorter.finish(ranks_of_sources, progress);   // sorted, one point per position
 #pragma once
 
 #include <cstdint>

@@ -30,8 +30,8 @@ struct LevelRaise {
   int level;
 };
 
-/// Reading is safe from any thread. Levels may be changed, through write(), for disjoint ranges at the same time, but
-/// not while others read those ranges, or levels other than 0 of any.
+/// Any thread may read. Several threads may call write() at once, each for ranges of its own; meanwhile nobody may read
+/// those ranges, and of other ranges only level 0.
 class WorkingIndex final : public PointIndex {
  public:
   WorkingIndex(SortedPoints& points, int level_count, std::uint32_t leaf_capacity);
@@ -57,9 +57,10 @@ class WorkingIndex final : public PointIndex {
 
   std::vector<RawPoint> read(const CurveRange& range) const;
   void write(const CurveRange& range, std::span<const RawPoint> points);
-  /// Leaves these points out of the surface, in any order, also twice; returns how many they are. Not thread-safe.
+  /// Leaves these points out of the surface; codes may come in any order and may repeat. Returns how many they are. Not
+  /// thread-safe.
   std::uint64_t drop(std::vector<std::uint64_t> codes);
-  /// Raises these points' levels, in any order, also twice; there may be no such point. Not thread-safe.
+  /// Raises these points' levels; they may come in any order and may repeat, and need not exist. Not thread-safe.
   void promote(std::vector<LevelRaise> raises);
 
   /// From now on a leaf's points of level 1 and coarser are a block of their own where coarse levels are read, and are

@@ -36,7 +36,7 @@ struct ApexFrame {
     return dot * r / static_cast<double>(doubled_area(a, b, c));
   }
 
-  /// Whether (x, y) may lie inside or on the circle lambda: surely false only when it does not. A distant centre
+  /// Never false for a point inside or on the circle of lambda; it may be true for one just outside. A distant centre
   /// cancels nothing, as |p - centre|^2 - radius^2 is taken relative to m.
   bool inside(double lambda, double x, double y) const {
     const double dx = x - mx, dy = y - my, square = dx * dx + dy * dy;
@@ -44,7 +44,7 @@ struct ApexFrame {
     return square - r * r - 2 * lambda * (dx * nx + dy * ny) <= error;
   }
 
-  /// Surely false only when no point of the box is inside or on the circle and left of ab.
+  /// Never false where a point of the box is inside or on the circle and left of ab; it may be true elsewhere.
   bool cap_meets(double lambda, const GridBox& box) const {
     const double cx = mx + lambda * nx, cy = my + lambda * ny;
     // One unit of slack absorbs the rounding of centre and corners.

@@ -33,7 +33,7 @@ class ChosenClusters {
   static constexpr int kWhole = -1;
   /// The coarsest level of a part of which the query may have some clusters without others; kWhole for all else.
   int coarsest(std::uint16_t theme) const { return coarsest_[theme]; }
-  std::vector<bool> there(const LeafClusters& clusters, std::size_t items, int coarsest) const;
+  std::vector<bool> chosen_items(const LeafClusters& clusters, std::size_t items, int coarsest) const;
   std::shared_ptr<const std::vector<Segment>> segments_of(const Leaf& leaf, int coarsest) const;
 
   const StoreFile& file_;

@@ -169,7 +169,7 @@ struct LosReport : LineFindings {
   std::vector<std::string> themes;                         ///< names by ProfilePoint::theme; 0 is the terrain
   std::vector<ThemeKind> theme_kinds;                      ///< by ProfilePoint::theme - 1; over a store alone
   std::map<std::pair<std::uint16_t, std::int64_t>, FeatureAt> features;  ///< by theme and feature
-  /// Of the rows of the printed profile; nothing: about 30 of them; 0: no such table.
+  /// Metres between the rows of the printed profile; nothing: about 30 rows; 0: no such table.
   std::optional<double> table_spacing_m;
 
   // Known for a line over a store alone:

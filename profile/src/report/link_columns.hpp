@@ -20,7 +20,7 @@ struct LinkRow {
   std::string message;                 ///< of an error
   const std::vector<std::string>* others = nullptr;
   std::optional<Geodesic> geodesic;  ///< between the ends on WGS 84
-  /// Of magnetic north at the ends, on the survey's day.
+  /// The declination of magnetic north at the ends, on the survey's day.
   std::optional<double> from_declination_deg = {}, to_declination_deg = {};
 
   /// Null where the link could not be computed.

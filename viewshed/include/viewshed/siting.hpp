@@ -24,11 +24,14 @@
 // along), and the same swaps follow. Both look only at lower bounds until an option comes first, so that one which may
 // serve much is never refined.
 //
-// The bound from below shares out the weight of each element among the options that serve it, by multipliers u of the
-// options: one that serves it pays u / Z, where Z is the sum of the greatest u that one choice could bring together
-// there. No choice pays more for an element than its weight, so that the options of the least payment, one of each
-// group that excludes each other, pay no more than the least choice serves. This is a Lagrangian bound; raising u of
-// the options that pay least tightens it. Branch and bound follows for as long as a second or so: first the node of the
+// The bound from below is a Lagrangian one:
+// 1. Each option has a multiplier u.
+// 2. For each element that it serves an option pays weight * u / Z, where Z is the greatest sum of multipliers that
+//    the options of one choice which serve the element can have.
+// 3. So no choice pays more for an element than its weight, and none pays more in all than it serves.
+// 4. The options that pay least, one of each group that excludes each other, therefore pay no more than the least
+//    choice serves. Raising u of those that pay least tightens the bound.
+// Branch and bound follows for as long as a second or so: first the node of the
 // least bound, at an option where the payments are most wrong. Where it ends before that, as it mostly does among some
 // hundreds of options, the choice is proved to be the least; otherwise the bound of the best open node is what is
 // proved.

@@ -11,7 +11,7 @@
 
 namespace itin::viewshed {
 
-/// 8-bit samples, row by row from the top: one a pixel is grey, three are red, green and blue, the fourth is alpha.
+/// 8-bit samples, row by row from the top: one per pixel is grey, three are red, green and blue, the fourth is alpha.
 struct Picture {
   std::uint8_t* samples;
   int width, height, channels;

@@ -44,13 +44,13 @@ double greatest_reach(const Request& request, const Box& data) {
 
 /// Where to look: to the sky, or at a target.
 struct Direction {
-  double turn = 0;  ///< degrees clockwise from the first
+  double clockwise = 0;  ///< degrees from the first
   std::size_t index = 0;
   bool target = false;
 };
 using Directions = std::span<const Direction>;
 
-/// A horizon on its way: one stretch of its directions after another is looked at.
+/// A horizon that is being computed, one run of consecutive directions after another.
 class Survey {
  public:
   /// `ground` is what is below the targets, metres. Request and eye must outlive it.
@@ -63,7 +63,7 @@ class Survey {
     add_points(static_cast<std::size_t>(std::lround(360 / options.step_deg)));
     for (std::size_t i = 0; i < options.targets.size(); ++i) add_target(options.targets[i], ground[i]);
     std::stable_sort(directions_.begin(), directions_.end(),
-                     [](const Direction& a, const Direction& b) { return a.turn < b.turn; });
+                     [](const Direction& a, const Direction& b) { return a.clockwise < b.clockwise; });
   }
 
   /// All of them, clockwise.
@@ -96,9 +96,9 @@ class Survey {
   Horizon result() && { return std::move(result_); }
 
  private:
-  void add_points(std::size_t turn) {
+  void add_points(std::size_t count) {
     for (std::size_t i = 0; i < turn; ++i) {
-      const double degrees = 360.0 * static_cast<double>(i) / static_cast<double>(turn);
+      const double degrees = 360.0 * static_cast<double>(i) / static_cast<double>(count);
       const double azimuth = std::fmod(start_ + degrees + 360, 360);
       if (!eye_.view.faces(azimuth)) continue;
       directions_.push_back({degrees, result_.points.size(), false});

@@ -2,8 +2,8 @@
 // of it.
 //
 //   const SampledSurface surface(retrieved, earth, lines_expected);
-//   SampledSurface::Work work;                             // one a thread
-//   const unsigned hidden = surface.hidden(lines, work);   // one bit a line, as SightLine has it
+//   SampledSurface::Work work;                             // one per thread
+//   const unsigned hidden = surface.hidden(lines, work);   // one bit per line, as SightLine has it
 #pragma once
 
 #include <cstdint>

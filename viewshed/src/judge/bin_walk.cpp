@@ -40,7 +40,7 @@ class Crossing {
 
 }  // namespace
 
-/// Over ground that curvature bends; columns and rows are those of bins.
+/// A sight line over the bins, with heights that allow for the Earth's curvature; columns and rows are those of bins.
 struct BinWalk::Line {
   double column, row, columns, rows;  ///< where it begins, and how far it goes
   double from_z, rise, bulge;

@@ -17,7 +17,7 @@ namespace itin::viewshed {
 
 class BinWalk {
  public:
-  /// The bins must be complete, and outlive it. `drop`: grid units for a squared grid unit.
+  /// The bins must be complete, and outlive it. `drop`: grid units per squared grid unit.
   BinWalk(const SurfaceBins& bins, double drop);
 
   /// Ends are in grid units. kUndecided where bins leave it open. What lies beside all bins hides nothing. Cost: one

@@ -1,7 +1,7 @@
 // Which sight lines leave so much of the first Fresnel zone clear.
 //
 //   const ClearZone zone(lower, &upper, earth, {.wavelength = 0.06, .fraction = 0.6});
-//   unsigned cut = zone.certainly_cut(to_highest_targets);        // whatever the full surface is: one bit a line
+//   unsigned cut = zone.certainly_cut(to_highest_targets);        // whatever the full surface is: one bit per line
 //   unsigned clear = zone.certainly_clear(to_lowest_targets);
 //
 // Ground that rises above the line lowered by the fraction of the zone's radius cuts the zone. Lowered so, and over the

@@ -80,7 +80,7 @@ class EnvelopeScene {
   std::optional<TriangleBins> ground_bins;  ///< of the bare ground, where the envelope has it
   NoData rule;                              ///< of missing ground
   bool exact;                               ///< both surfaces are the full one, of level 0
-  double drop;                              ///< by curvature, grid units for a squared grid unit
+  double drop;                              ///< by curvature, grid units per squared grid unit
 
  private:
   /// The upper surface's height, grid units; -infinity where there is none.

@@ -6,8 +6,8 @@
 //   for (std::uint32_t vertex : ...) use(errors.from(), errors.to(), errors.of(vertex));
 //
 // Vertices' errors are normal, of standard deviation 1, and correlated as exp(-x / L). Each is drawn given those of
-// both ends and of the two vertices asked for before it. For L = 0, and a line's edges in order, that is all there is
-// to know; for others next to all, as exp(-x / L) is nearly a Markov process.
+// both ends and of the two vertices asked for before it. With L = 0, and with the edges in their order along the line,
+// this is exact; otherwise it is close, as exp(-x / L) is nearly a Markov process.
 #pragma once
 
 #include <array>

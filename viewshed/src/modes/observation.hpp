@@ -103,7 +103,7 @@ class Observation {
   Verdicts verdicts_;
 };
 
-/// Makes the Observations of a request's mode. The request must outlive it, and it must outlive them.
+/// Makes the Observations of a request's mode. The request must outlive this, and this must outlive them.
 class Observations {
  public:
   explicit Observations(const Request& request) : request_(request) {}

@@ -7,7 +7,7 @@
 
 namespace itin::viewshed {
 
-/// Grid units up a grid unit along, at the steepest.
+/// Grid units up per grid unit along, at the steepest.
 double slope_of(const GridPoint& a, const GridPoint& b, const GridPoint& c);
 
 /// How far beside its line a ray from one of these eyes, metres, may run: the greatest delta(l) of scene.hpp, in grid
@@ -15,8 +15,8 @@ double slope_of(const GridPoint& a, const GridPoint& b, const GridPoint& c);
 double greatest_drift(const std::vector<Point2>& eyes, const Tin& tin);
 
 /// Raises the surface by what it may rise within delta(l) of a place for lines from these eyes, metres: a ray that
-/// clears it clears the surface as it was, though it runs beside its line. Twice, for the slopes of triangles next to a
-/// vertex's own. Without eyes it stays as it is.
+/// clears it clears the surface as it was, though it runs beside its line. It is raised twice, since raising it changes
+/// the slopes of neighbouring triangles. Without eyes it stays as it is.
 void raise_against_drift(const std::vector<Point2>& eyes, Tin& tin);
 
 }  // namespace itin::viewshed

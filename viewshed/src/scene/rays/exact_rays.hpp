@@ -1,8 +1,8 @@
 // Sight lines against a full surface by Embree, decided exactly.
 //
 //   const ExactRays rays(tin, earth, {observer});
-//   ExactRays::Work work;                                   // one a thread
-//   const unsigned hidden = rays.hidden(lines, work);       // one bit a line, as SightLine has it
+//   ExactRays::Work work;                                   // one per thread
+//   const unsigned hidden = rays.hidden(lines, work);       // one bit per line, as SightLine has it
 //
 // Two scenes hold the surface between them. A ray whose ends are raised by more than single precision can err, and
 // which hits a triangle that hides the line in double precision, is hidden (scene.hpp). One whose ends are lowered by

@@ -3,7 +3,7 @@
 //   Scene scene(tin, earth);
 //   SightLines lines;                       // up to 16, as close together as possible
 //   Occluder occluder;                      // kept from packet to packet
-//   unsigned hidden = scene.hidden(lines, occluder);  // one bit a line
+//   unsigned hidden = scene.hidden(lines, occluder);  // one bit per line
 //
 // Accuracy. Rays are cast in single precision about the Tin's centre with both ends raised by
 //     e(l) = sag + u (4 Z + 16 l),    u = 2^-24,

@@ -3,7 +3,7 @@
 //
 //   RadialSweep sweep(earth, bins);
 //   const RadialSweep::View view = sweep.view_of(axis);       // for all tiles
-//   RadialSweep::Heights heights;                             // grid units, one a cell
+//   RadialSweep::Heights heights;                             // grid units, one per cell
 //   sweep.run(view, eyes, scratch, heights);
 //
 // Method. Horizons of far ground are computed once for all tiles (horizon_hierarchy.hpp). The tile is cut into sectors
