@@ -14,6 +14,7 @@
 #include <itin/store.hpp>
 #include <viewshed/area_text.hpp>
 #include <viewshed/documents.hpp>
+#include <viewshed/exact_cost.hpp>
 #include <viewshed/missing_ground.hpp>
 #include <viewshed/viewshed.hpp>
 
@@ -204,6 +205,8 @@ class ViewshedVerb final : public Verb {
       result.document["blockers"] = viewshed::blockers_document(store, computed.result);
     if (!targets.empty()) result.document["horizon_targets"] = targets;
     result.text = text(computed.result, missing);
+    if (!certified_ && viewshed::exact_costs_no_more(store, computed.result.request))
+      result.text += "the exact answer takes no longer over this raster: leave out --tolerance\n";
     return result;
   }
 

@@ -97,7 +97,7 @@ class Survey {
 
  private:
   void add_points(std::size_t count) {
-    for (std::size_t i = 0; i < turn; ++i) {
+    for (std::size_t i = 0; i < count; ++i) {
       const double degrees = 360.0 * static_cast<double>(i) / static_cast<double>(count);
       const double azimuth = std::fmod(start_ + degrees + 360, 360);
       if (!eye_.view.faces(azimuth)) continue;

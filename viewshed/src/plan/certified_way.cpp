@@ -2,6 +2,7 @@
 
 #include <itin/lattice_reader.hpp>
 #include <itin/level_choice.hpp>
+#include <viewshed/exact_cost.hpp>
 #include <viewshed/surface.hpp>
 
 #include "request/request.hpp"
@@ -16,6 +17,8 @@ constexpr std::uint64_t kLeastShare = 2;
 /// Costs as those of exact answers over so many posts: of a point that is triangulated; of bounds, blocks and finer
 /// levels about the observer.
 constexpr std::uint64_t kPostsPerPoint = 40, kPostsPerBlocks = 2500000;
+/// Likewise, of a point that is triangulated for a viewshed at a tolerance, where most of the ground is hidden.
+constexpr std::uint64_t kPostsPerPlainPoint = 16;
 /// Bounds know nothing of features, and decide far less among them: then they must be cheaper by this factor.
 constexpr std::uint64_t kFeaturesFactor = 4;
 /// More take over a gigabyte: larger levels are looked at in sectors, where they leave out nearly everything.
@@ -39,6 +42,15 @@ CertifiedWay certified_way(const Store& store, const Request& request) {
   if (cost >= kPostsPerPoint * all) return CertifiedWay::kExactly;
   return cost < all || features || !may_be_lattice(store, request, all) ? CertifiedWay::kByBlocks
                                                                         : CertifiedWay::kExactly;
+}
+
+bool exact_costs_no_more(const Store& store, const Request& request) {
+  const double tolerance = request.detail.coarsest();
+  if (tolerance == 0 || request.detail.rings().size() > 1 || has_raised_features(store, request)) return false;
+  const Box box = box_of_window(store, request);
+  const std::uint64_t points = store.points_about(level_within(store.metadata(), tolerance), box),
+                      all = store.points_about(0, box);
+  return kPostsPerPlainPoint * points >= all && may_be_lattice(store, request, all);
 }
 
 }  // namespace itin::viewshed

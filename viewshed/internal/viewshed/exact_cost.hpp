@@ -1,0 +1,14 @@
+// What a viewshed at a tolerance costs beside the exact one.
+#pragma once
+
+#include <itin/store.hpp>
+#include <viewshed/viewshed.hpp>
+
+namespace itin::viewshed {
+
+/// Whether the exact answer is expected to take no longer than one at the request's tolerance: over a lattice, whose
+/// posts need no triangles, unless the tolerance leaves but a few of them. Reads the store's directory and a few
+/// blocks. False for a request of the exact answer, of rings or with features.
+bool exact_costs_no_more(const Store& store, const Request& request);
+
+}  // namespace itin::viewshed
