@@ -133,7 +133,7 @@ void run_verb(Verb& verb, CLI::App& options, const Everywhere& everywhere) {
   const auto start = std::chrono::steady_clock::now();
   verb.complete();
   require_values(options);
-  CallFiles{options};  // throws where one of them would be lost
+  static_cast<void>(CallFiles(options));  // throws where one of them would be lost
   everywhere.apply();
   verb.validate();
   require_threads();
