@@ -60,8 +60,7 @@ class SiteOptions {
   std::string cost_field;
   std::string search_area;
   std::optional<double> spacing;
-  std::vector<Mast>
-      masts;  ///< none where a height field is given; with --turbines one, of the height of the tip or hub
+  std::vector<Mast> masts;  ///< none with a height field; with --turbines one, as high as the tip or the hub
   PlacementOptions placement;
   bool on_surface = false;
   InCrs in_crs;

@@ -28,7 +28,7 @@ std::uint64_t count_conflicts(std::span<const GridEdge> edges, std::uint64_t mos
 constexpr std::uint64_t most_conflicts(std::size_t edges) {
   return std::max<std::uint64_t>(20'000, 2 * std::uint64_t{edges});
 }
-/// Counting stops at so many conflicts.
+/// Counting stops at this many conflicts.
 inline constexpr std::uint64_t kCountedConflicts = 5'000'000;
 
 }  // namespace itin

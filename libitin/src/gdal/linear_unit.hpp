@@ -17,7 +17,7 @@ std::optional<LinearUnit> linear_unit(int epsg_code);
 /// Upper and lower case, underscores, hyphens and brackets about the name do not matter: "ft", "US_survey_foot", "[m]".
 std::optional<LinearUnit> linear_unit(const std::string& name);
 
-/// The name of a unit of so many metres; `otherwise` where it is unknown.
+/// The name of a unit of `metres`; `otherwise` where it is unknown.
 std::string unit_name(double metres, const std::string& otherwise);
 
 }  // namespace itin

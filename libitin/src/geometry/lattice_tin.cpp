@@ -13,7 +13,7 @@ namespace itin {
 namespace {
 
 constexpr std::size_t kChunk = 1 << 14;
-/// At least one in so many cells of a lattice must have ground.
+/// A Tin counts as a lattice only if at least one in this many of the lattice's cells has ground.
 constexpr std::int64_t kEmptiest = 4;
 
 /// The half of the box that the triangle is; 0 where it is none.

@@ -97,8 +97,8 @@ Additions plan_additions(const ImportOptions& options, const Store* store, Progr
   return additions;
 }
 
-/// Features are raised at most so many times. After that, few vertices that they give to lines of the ground are left,
-/// within a grid step or two of others.
+/// Features are raised at most this many times. After that, few vertices that they give to lines of the ground are
+/// left, within a grid step or two of others.
 constexpr int kMostRaised = 3;
 
 /// Whether a store's ground, which may be null, is that of its terrain and lines alone, as they were imported: nothing

@@ -45,7 +45,7 @@ struct SetAsideList {
   }
 };
 
-/// Both of them at most so many in a block.
+/// A block has at most this many of each.
 inline constexpr std::size_t kSetAsideInBlock = 4096;
 
 /// As encode_block(), of any cell.

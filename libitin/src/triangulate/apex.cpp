@@ -18,7 +18,8 @@ namespace {
 constexpr std::ptrdiff_t kNearSegments = 16;
 /// For less it is not worth sorting segments by direction.
 constexpr std::size_t kFewSegments = 64, kFewQuestions = 4;
-/// A circle is wide when its centre is more than so many times half the edge's length away. Less wide ones come first.
+/// A circle is wide when its centre is farther away than this many times half the edge's length. Less wide ones come
+/// first.
 constexpr double kWide = 4;
 
 double width(const GridBox& b) {

@@ -26,7 +26,7 @@ namespace {
 
 /// The box is this many mean point spacings wider than the region: most circumdiscs of the region's triangles fit in.
 constexpr double kMargin = 4;
-/// After so many rounds of mending the box may grow.
+/// After this many rounds of mending the box may grow.
 constexpr int kPatience = 32;
 /// A box is not made to have more points than so many times those of the region (large regions: kLargeGrowth times and
 /// kManyPoints), and a few.

@@ -30,7 +30,7 @@ class SurfaceBins final : public BinGrid {
 
   static constexpr std::uint64_t kBytesPerBin = 12, kBytesPerDivided = sizeof(Parts);
 
-  /// Square bins of this side over a box, metres, of which so many are divided at most.
+  /// Square bins of this side over a box, metres. At most `most_divided` of them are divided into parts.
   SurfaceBins(const Grid& units, const Box& box, double side, std::size_t most_divided);
 
   /// Tiles of bins (line/cell_tiles.hpp), as the cells of a grid.

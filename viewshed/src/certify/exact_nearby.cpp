@@ -15,7 +15,7 @@ namespace itin::viewshed {
 
 namespace {
 
-/// As far as about so many points of the full surface lie, and no more than this share of them.
+/// What is decided exactly about an observer has about this many points of the full surface, and at most this share.
 constexpr double kPointsNearby = 32000, kShareNearby = 1.0 / 64;
 
 }  // namespace

@@ -41,7 +41,7 @@ constexpr double kBytesPerUnreadPost = 0.5;
 constexpr double kFirstShareSeen = 0.25;
 /// Its share of the time, about.
 constexpr double kCoarseSurface = 0.05;
-/// The surface that maps are drawn over has at most so many points.
+/// The surface that maps are drawn over has at most this many points.
 constexpr std::uint64_t kCoarsePoints = 200000;
 
 class LatticeSectors {

@@ -62,6 +62,17 @@ Extremes extremes_of(const std::vector<float>& values) {
   return e;
 }
 
+/// Those that are kept, ascending; of many values about a million, which tell as much.
+template <class Keep>
+std::vector<float> sorted_sample(const std::vector<float>& values, const Keep& keep) {
+  std::vector<float> sample;
+  const std::size_t step = values.size() / 1000000 + 1;
+  for (std::size_t i = 0; i < values.size(); i += step)
+    if (keep(values[i])) sample.push_back(values[i]);
+  std::sort(sample.begin(), sample.end());
+  return sample;
+}
+
 }  // namespace
 
 MapOverlay::MapOverlay(const Result& result, const MapOptions& options) : result_(result) {
@@ -164,12 +175,10 @@ void MapOverlay::scale_counts(const std::string& title) {
 
 void MapOverlay::scale_angles() {
   title_ = "Elevation angle, degrees";
-  std::vector<float> angles;
   // An observer's own place lies straight below it.
-  for (const float degrees : result_.angle_deg)
-    if (std::abs(degrees) < 90) angles.push_back(degrees);
+  const std::vector<float> angles =
+      sorted_sample(result_.angle_deg, [](float degrees) { return std::abs(degrees) < 90; });
   if (angles.empty()) return;
-  std::sort(angles.begin(), angles.end());
   const auto at = [&](double share) {
     return static_cast<double>(angles[static_cast<std::size_t>(share * static_cast<double>(angles.size() - 1))]);
   };
@@ -224,10 +233,8 @@ void MapOverlay::scale_blockers() {
 
 void MapOverlay::scale_heights() {
   title_ = "Least height at which a target is seen, metres";
-  std::vector<float> heights;
-  for (const float h : result_.least_height_m)
-    if (h > 0 && std::isfinite(h)) heights.push_back(h);
-  std::sort(heights.begin(), heights.end());
+  const std::vector<float> heights =
+      sorted_sample(result_.least_height_m, [](float h) { return h > 0 && std::isfinite(h); });
   // Round heights that part the hidden cells into about as many each.
   std::vector<double> limits;
   for (const double share : {0.2, 0.45, 0.7}) {

@@ -21,7 +21,7 @@ struct IndexSegment {
   Window window;  ///< holds every sight line of their observers
 };
 
-/// Whether a surface of about so many points fits, over which so many lines are asked about.
+/// Whether a surface of about `points` points fits into the memory, where `lines` sight lines are tested over it.
 using SurfaceFits = std::function<bool(std::uint64_t points, std::uint64_t lines)>;
 
 /// Takes the cells that lie in the area, halved until the ground about each block fits. Throws InputError where the

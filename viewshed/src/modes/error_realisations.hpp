@@ -1,11 +1,11 @@
-// Normal errors in many simulated worlds, to count in how many of them something holds.
+// Normal errors in many realisations, to count in how many of them something holds.
 //
-//   const ErrorRealisations worlds;
-//   const std::span<const float, ErrorRealisations::kCount> errors = worlds.of(vertex);  // errors[w]: in world w
+//   const ErrorRealisations realisations;
+//   const std::span<const float, ErrorRealisations::kCount> errors = realisations.of(vertex);  // of each realisation
 //
-// A Latin hypercube: in its kCount worlds everything takes each of as many equally probable values once, in an order
-// of its own, so that shares vary less than those of independent draws (McKay, Beckman and Conover 1979). The orders
-// are a table's rows, each begun anywhere: two things have the same one by a chance of 1 in 131,072.
+// A Latin hypercube: in its kCount realisations everything takes each of as many equally probable values once, in an
+// order of its own, so that shares vary less than those of independent draws (McKay, Beckman and Conover 1979). The
+// orders are a table's rows, each begun anywhere: two things have the same one by a chance of 1 in 131,072.
 #pragma once
 
 #include <cstddef>

@@ -51,8 +51,8 @@ Regression regress(std::size_t count, const Covariances& among, const std::array
 
 }  // namespace
 
-ErrorsAlongLine::ErrorsAlongLine(const Tin& tin, double correlation, const ErrorRealisations& worlds)
-    : tin_(tin), correlation_(correlation), worlds_(worlds) {}
+ErrorsAlongLine::ErrorsAlongLine(const Tin& tin, double correlation, const ErrorRealisations& realisations)
+    : tin_(tin), correlation_(correlation), realisations_(realisations) {}
 
 void ErrorsAlongLine::begin(const ErrorSum& from, const ErrorSum& to) {
   // Until now they are those of no vertex, that is, of a place that does not err.
@@ -108,7 +108,7 @@ void ErrorsAlongLine::draw(Drawn& out, std::uint64_t number, std::span<const Dra
   if (given.size() < 2) with[given.size()] = variance;
   out.with_ends = {with[0], with[1]};
 
-  const auto own = worlds_.of(number);
+  const auto own = realisations_.of(number);
   const auto deviation = static_cast<float>(on.deviation);
   Errors errors;  // not out's, so that the compiler knows that none of them overlap
   for (std::size_t w = 0; w < errors.size(); ++w) errors[w] = deviation * own[w];

@@ -1,7 +1,8 @@
-// The errors of the heights that a sight line meets, in many worlds: drawn along the line, one vertex after another.
+// The errors of the heights that a sight line meets, in many realisations: drawn along the line, one vertex after
+// another.
 //
-//   const ErrorRealisations worlds;
-//   ErrorsAlongLine errors(tin, correlation, worlds);   // for many lines
+//   const ErrorRealisations realisations;
+//   ErrorsAlongLine errors(tin, correlation, realisations);   // for many lines
 //   errors.begin(under_the_eye, under_the_target);
 //   for (std::uint32_t vertex : ...) use(errors.from(), errors.to(), errors.of(vertex));
 //
@@ -33,10 +34,10 @@ struct ErrorSum {
 /// For one thread. 10 kB.
 class ErrorsAlongLine {
  public:
-  using Errors = std::array<float, ErrorRealisations::kCount>;  ///< one per world
+  using Errors = std::array<float, ErrorRealisations::kCount>;  ///< one per realisation
 
   /// `correlation`: L in grid units. All must outlive it.
-  ErrorsAlongLine(const Tin& tin, double correlation, const ErrorRealisations& worlds);
+  ErrorsAlongLine(const Tin& tin, double correlation, const ErrorRealisations& realisations);
 
   /// A line between places whose heights have these errors. Values of the eye are reused where the line before began at
   /// it.
@@ -61,7 +62,7 @@ class ErrorsAlongLine {
 
   const Tin& tin_;
   double correlation_;
-  const ErrorRealisations& worlds_;
+  const ErrorRealisations& realisations_;
   std::array<Drawn, 2> ends_;
   std::array<Drawn, 3> vertices_;
   std::uint32_t clock_ = 0;

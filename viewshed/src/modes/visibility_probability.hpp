@@ -8,12 +8,12 @@
 // apart have the correlation exp(-x / L), none for L = 0. Between vertices errors are as heights are, linear over each
 // triangle. Ends of a line that stand on the surface move with it; those at a given elevation do not.
 //
-// Method. Share of simulated worlds (error_realisations.hpp) in which the line passes above every edge that it crosses,
+// Method. Share of realisations (error_realisations.hpp) in which the line passes above every edge that it crosses,
 // their errors drawn along it (errors_along_line.hpp). So the probability is joint: that of the whole line, not of its
 // worst place. The Earth's bulge within a single triangle is left out.
 //
-// Accuracy. The share's standard error is at most 0.022, that of independent draws; the same worlds serve all lines,
-// so that neighbours err alike.
+// Accuracy. The share's standard error is at most 0.022, that of independent draws; the same realisations serve all
+// lines, so that neighbours err alike.
 #pragma once
 
 #include <array>
@@ -51,8 +51,8 @@ class VisibilityProbability {
   Odds of_line(const Line& line, Scratch& scratch) const;
 
  private:
-  /// Standard deviations: what lies farther below a line hides it in no world, and what rises farther above it hides it
-  /// in all worlds but at most one.
+  /// Standard deviations: what lies farther below a line hides it in no realisation, and what rises farther above it
+  /// hides it in all realisations but at most one.
   static constexpr double kSure = 4, kHidden = 3.1;
   static constexpr std::size_t kCrossingsPerCount = 8;
 
@@ -83,14 +83,14 @@ class VisibilityProbability {
   double sigma_;        ///< grid units
   double correlation_;  ///< L in grid units
   HeightPyramid pyramid_;
-  ErrorRealisations worlds_;
+  ErrorRealisations realisations_;
 };
 
 /// Memory to use again, for one thread; fastest for lines from one eye to neighbours.
 class VisibilityProbability::Scratch {
  public:
   /// For lines of those odds, which must outlive it.
-  explicit Scratch(const VisibilityProbability& odds) : errors_(odds.tin_, odds.correlation_, odds.worlds_) {}
+  explicit Scratch(const VisibilityProbability& odds) : errors_(odds.tin_, odds.correlation_, odds.realisations_) {}
 
  private:
   friend class VisibilityProbability;

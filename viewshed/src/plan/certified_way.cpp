@@ -17,7 +17,7 @@ constexpr std::uint64_t kLeastShare = 2;
 /// Costs as those of exact answers over so many posts: of a point that is triangulated; of bounds, blocks and finer
 /// levels about the observer.
 constexpr std::uint64_t kPostsPerPoint = 40, kPostsPerBlocks = 2500000;
-/// Likewise, of a point that is triangulated for a viewshed at a tolerance, where most of the ground is hidden.
+/// A point that is triangulated for a viewshed at a tolerance costs as much, where most of the ground is hidden.
 constexpr std::uint64_t kPostsPerPlainPoint = 16;
 /// Bounds know nothing of features, and decide far less among them: then they must be cheaper by this factor.
 constexpr std::uint64_t kFeaturesFactor = 4;

@@ -8,7 +8,8 @@
 
 namespace itin::viewshed {
 
-/// A sector takes one part of so many; the rest is for the store's cache, and for what is freed but not given back.
+/// A sector takes one part in this many of the memory; the rest is for the store's cache, and for what is freed but not
+/// given back.
 inline constexpr std::uint64_t kSectorShare = 2;
 
 /// Whether the request can be answered over the posts of a lattice alone: at full detail, in a mode that asks no more

@@ -77,7 +77,7 @@ double default_cell_size(const Box& box) {
   return 10 * decade;
 }
 
-/// A GeoTIFF can have at most so many bands.
+/// A GeoTIFF can have at most this many bands.
 constexpr std::size_t kMostBands = 65535;
 
 /// Every 32 observers take a band.

@@ -33,7 +33,7 @@ Window::Polygon part_of(const Request& request, const Observer& observer) {
           {}};
 }
 
-/// From so many observers on, those that stand within half a radius of each other share a part of the window.
+/// From this many observers on, those that stand within half a radius of each other share a part of the window.
 constexpr std::size_t kCrowd = 256;
 
 /// Observers of about the same radius in the same square of a grid, whose side is about half of it.

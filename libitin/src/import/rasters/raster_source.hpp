@@ -13,7 +13,7 @@ class GDALDataset;
 
 namespace itin {
 
-/// Ground reaches across so many steps between posts: a missing post leaves a hole, a diagonal does not.
+/// Ground reaches across this many steps between posts: a missing post leaves a hole, a diagonal does not.
 inline constexpr double kGapSteps = 1.5;
 
 /// WKT 2; empty where the raster does not say its CRS.

@@ -55,7 +55,7 @@ void require_small_blocks(GDALDataset& dataset, const std::string& path, std::ui
   int columns = 0, rows = 0;
   band.GetBlockSize(&columns, &rows);
   throw InputError(fmt::format(
-      "{}: is stored in blocks of {} by {} posts, {:.1f} MB each, which is too much for {:.1f} MB of memory; "
+      "{}: is stored in blocks of {} by {} posts, {:.4g} MB each, which is too much for {:.4g} MB of memory; "
       "rewrite it with gdal_translate -co TILED=YES, or give more memory",
       path, columns, rows, static_cast<double>(bytes) / (1 << 20), static_cast<double>(memory_bytes) / (1 << 20)));
 }

@@ -18,7 +18,7 @@ namespace {
 
 /// Peak memory per point: of an envelope, and of a surface that is swept.
 constexpr std::uint64_t kBytesPerRayPoint = 1200, kBytesPerSweptPoint = 400;
-/// A surface with its themes has about so many times the points of the bare one.
+/// A surface with its themes has about this many times the points of the bare one.
 constexpr std::uint64_t kThemedPoints = 3;
 /// The first pass reads at most one in so many of the full surface's points: fewer where a second pass is cheap, since
 /// the memory holds the full surface for all of them.
