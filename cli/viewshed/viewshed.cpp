@@ -183,6 +183,10 @@ class ViewshedVerb final : public Verb {
     Result result;
     result.warnings = computed.result.warnings;
     if (const auto warning = missing.warning("the area looked at")) result.warnings.push_back(in_options(*warning));
+    if (computed.result.cells.in_view() == 0)
+      result.warnings.emplace_back(
+          "no cell has its centre in view of an observer and on ground data: check --cell, --radius and the field of "
+          "view");
     warn_of_scale(metadata, result.warnings);
     if (radio_.is_given()) earth_.warn_of_light(result.warnings);
     outputs_.write(store, computed, context, result.warnings, progress);
