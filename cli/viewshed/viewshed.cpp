@@ -339,6 +339,8 @@ class ViewshedVerb final : public Verb {
       text += fmt::format("certainly visible: {}; certainly hidden: {}; undecided: {} ({:.1f} % decided)\n",
                           counted(cells.visible, "cell"), grouped(cells.hidden), grouped(cells.undecided),
                           viewshed::decided_percent(cells));
+      if (result.decided_exactly)
+        text += "decided exactly, over every stored point: this tolerance would cost no less\n";
       if (cells.undecided > 0)
         text +=
             "undecided at this tolerance, or across ground without data: --mode visible decides the former, "

@@ -177,6 +177,7 @@ struct Result {
   /// kHeight and kProbability), and in certified results what the level leaves open.
   std::vector<Verdict> visible;
   bool certified = false;              ///< made by compute_certified(): verdicts at a level are certain
+  bool decided_exactly = false;        ///< a certified one over the full surface, where the level is no cheaper
   std::vector<std::uint16_t> count;    ///< kCount: how many certainly see the cell, or kCountOutside
   std::vector<std::uint32_t> which;    ///< kWhich: see observer_bit()
   std::vector<float> angle_deg;        ///< kAngle, of the line after curvature and refraction; NaN where none sees

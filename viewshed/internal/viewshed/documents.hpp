@@ -14,7 +14,8 @@ double decided_percent(const CellCounts& cells);
 /// How many of the cells in view have no loss, in mode kLoss.
 std::uint64_t cells_without_loss(const Result& result);
 
-/// `crs`, `surface`, `refraction`, `grid`, `cells`, `area_m2`, of a certified one `decided_percent`, and `statistics`.
+/// `crs`, `surface`, `refraction`, `grid`, `cells`, `area_m2`, of a certified one `decided_percent` and
+/// `decided_exactly`, and `statistics`.
 Document viewshed_document(const StoreMetadata& metadata, const Result& result);
 
 /// Mode kBlocker: the features that hide cells, with their theme, name and id by their source (null where it gives

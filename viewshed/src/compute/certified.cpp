@@ -23,7 +23,7 @@ ViewshedWithSurface decide_exactly(const Store& store, const Request& request, c
   exact.detail = Detail::tolerance(0);
   ViewshedWithSurface computed = compute_with_surface(store, exact, options, progress);
   computed.result.request = request;
-  computed.result.certified = true;
+  computed.result.certified = computed.result.decided_exactly = true;
   return computed;
 }
 

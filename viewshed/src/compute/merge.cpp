@@ -31,6 +31,7 @@ class Merge::Rasters {
     result_.request = plan.request();
     result_.grid = plan.grid();
     result_.certified = plan.certainty() == Certainty::kCertified;
+    result_.decided_exactly = result_.certified && plan.decides_exactly();
     result_.ground_m.resize(plan.request().observers.size());
     Observation::prepare(result_);
     if (plan.request().mode == Mode::kBlocker) result_.blocker_feature.resize(plan.grid().cell_count());

@@ -31,6 +31,7 @@ void require_surface_of(const Plan& plan, const Store& store, const Detail& deta
 Result as_planned(const Plan& plan, std::size_t segment, Result result) {
   result.request = plan.request_of(segment);
   result.certified = plan.certainty() == Certainty::kCertified;
+  result.decided_exactly = result.certified && plan.decides_exactly();
   return result;
 }
 

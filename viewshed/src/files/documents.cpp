@@ -80,7 +80,10 @@ Document viewshed_document(const StoreMetadata& metadata, const Result& result) 
   document["grid"] = grid_document(result.grid);
   document["cells"] = of_verdicts(result, [](std::uint64_t cells) { return cells; });
   document["area_m2"] = of_verdicts(result, [&](std::uint64_t cells) { return static_cast<double>(cells) * area; });
-  if (result.certified) document["decided_percent"] = decided_percent(result.cells);
+  if (result.certified) {
+    document["decided_percent"] = decided_percent(result.cells);
+    document["decided_exactly"] = result.decided_exactly;
+  }
   document["statistics"] = statistics_document(result.statistics);
   return document;
 }
