@@ -342,9 +342,10 @@ class ViewshedVerb final : public Verb {
       if (result.decided_exactly)
         text += "decided exactly, over every stored point: this tolerance would cost no less\n";
       if (cells.undecided > 0)
-        text +=
-            "undecided at this tolerance, or across ground without data: --mode visible decides the former, "
-            "--nodata block or clear the latter\n";
+        text += result.decided_exactly
+                    ? "undecided across ground without data alone: --nodata block or clear decides that\n"
+                    : "undecided at this tolerance, or across ground without data: --mode visible decides the former, "
+                      "--nodata block or clear the latter\n";
     } else {
       if (radio_.is_given()) text += radio_text(result);
       if (result.request.mode != viewshed::Mode::kFresnel)
