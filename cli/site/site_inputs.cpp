@@ -156,18 +156,20 @@ class InputReader {
 
   ThemeChoice ground_themes() const { return options_.on_surface ? options_.themes.choice() : ThemeChoice::none(); }
 
-  void require_any_candidate_on_the_data() const {
+  std::vector<Point2> candidate_positions() const {
     std::vector<Point2> positions;
     for (const Candidate& candidate : inputs_.candidates) positions.push_back(candidate.position);
-    require_any_on_the_data(options_.candidates.path + ": the first candidate", positions, options_.in_crs,
+    return positions;
+  }
+
+  void require_any_candidate_on_the_data() const {
+    require_any_on_the_data(options_.candidates.path + ": the first candidate", candidate_positions(), options_.in_crs,
                             store_.metadata());
   }
 
   /// Candidates onto their ground, each with every mast.
   void stand() {
-    std::vector<Point2> positions;
-    for (const Candidate& candidate : inputs_.candidates) positions.push_back(candidate.position);
-    const auto ground = viewshed::ground_under(store_, positions, ground_themes(), progress_);
+    const auto ground = viewshed::ground_under(store_, candidate_positions(), ground_themes(), progress_);
     std::vector<Candidate> kept;
     for (std::size_t i = 0; i < ground.size(); ++i) {
       const Candidate& candidate = inputs_.candidates[i];

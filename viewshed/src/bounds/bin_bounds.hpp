@@ -25,6 +25,18 @@ struct BinBox {
   double west = 0, north = 0, east = 0, south = 0;
 };
 
+struct BinRange {
+  std::int64_t west, east, north, south;  ///< inclusive; empty when west > east or north > south
+};
+
+/// The bin of `count` that a position lies in: -1 before the first, `count` after the last. Rounds down without a call
+/// of std::floor().
+inline std::int64_t bin_at(double v, std::int64_t count) {
+  const double clamped = std::clamp(v, -1.0, static_cast<double>(count));
+  const auto whole = static_cast<std::int64_t>(clamped);
+  return whole - (clamped < static_cast<double>(whole) ? 1 : 0);
+}
+
 /// Square bins of this side, metres, over a box of this size and half a bin more all around, so that its edges lie
 /// inside.
 inline RasterGrid bins_over(Point2 north_west, double width, double height, double bin) {
@@ -50,6 +62,13 @@ class BinGrid {
   BinBox in_bins(const Box& metres) const {
     return {column_at(easting_in_units(units_, metres.xmin)), row_at(northing_in_units(units_, metres.ymax)),
             column_at(easting_in_units(units_, metres.xmax)), row_at(northing_in_units(units_, metres.ymin))};
+  }
+
+  /// Those that a box meets, or nearly meets; -1, or the number of columns or rows, where it reaches beyond them.
+  BinRange bins_about(const BinBox& box) const {
+    constexpr double kHair = 1e-6;
+    return {bin_at(box.west - kHair, columns()), bin_at(box.east + kHair, columns()), bin_at(box.north - kHair, rows()),
+            bin_at(box.south + kHair, rows())};
   }
 
   /// At least as far from a position as any of the surface; grid units.
@@ -89,11 +108,7 @@ class BinBounds : public BinGrid {
 };
 
 inline std::optional<float> BinBounds::highest_where_covered(const BinBox& box) const {
-  constexpr double kHair = 1e-6;
-  const auto west = static_cast<std::int64_t>(std::floor(box.west - kHair)),
-             east = static_cast<std::int64_t>(std::floor(box.east + kHair)),
-             north = static_cast<std::int64_t>(std::floor(box.north - kHair)),
-             south = static_cast<std::int64_t>(std::floor(box.south + kHair));
+  const auto [west, east, north, south] = bins_about(box);
   if (west < 0 || north < 0 || east >= columns() || south >= rows()) return std::nullopt;
   const RunBounds::Lines lines = runs_.eastwards();
   float highest = -kFloatInfinity;

@@ -19,11 +19,6 @@ RasterGrid bins_over_box(const Box& box, double bin) {
   return bins_over({box.xmin, box.ymax}, box.width(), box.height(), bin);
 }
 
-/// More than the step to the next float, and finite.
-float past_rounding(float z) {
-  return std::min(std::abs(z) * 0x1p-22F, std::numeric_limits<float>::max()) + std::numeric_limits<float>::min();
-}
-
 }  // namespace
 
 double side_of_bins(const Tin& level, const Box& box) {
@@ -97,8 +92,8 @@ void EnvelopeBounds::settle(const Tin& tin, const std::vector<BoundaryEdge>& out
     for (std::int64_t column = 0; column < columns(); ++column) {
       const std::size_t bin = grid_.index({column, static_cast<std::int64_t>(row)});
       float &low = low_[bin], &high = high_[bin];
-      low = low == kFloatInfinity ? -kFloatInfinity : low - past_rounding(low);
-      high += past_rounding(high);
+      low = low == kFloatInfinity ? -kFloatInfinity : std::nextafter(low, -kFloatInfinity);
+      if (high != -kFloatInfinity) high = std::nextafter(high, kFloatInfinity);
     }
   });
 }
@@ -112,14 +107,8 @@ void EnvelopeBounds::bound_runs() {
   parallel_for(runs_.tile_count(), [&](std::size_t tile) { runs_.bound<float>(tile, range_of, same, same); });
 }
 
-BinRange EnvelopeBounds::bins_of(const BinBox& box) const {
-  constexpr double kHair = 1e-6;
-  return {bin_at(box.west - kHair, columns()), bin_at(box.east + kHair, columns()), bin_at(box.north - kHair, rows()),
-          bin_at(box.south + kHair, rows())};
-}
-
 float EnvelopeBounds::highest(const BinBox& box) const {
-  const BinRange bins = bins_of(box);
+  const BinRange bins = bins_about(box);
   const auto first = std::max<std::int64_t>(0, bins.west), end = std::min(bins.east + 1, columns());
   float highest = -kFloatInfinity;
   for (auto row = std::max<std::int64_t>(0, bins.north); row <= std::min(bins.south, rows() - 1); ++row) {
@@ -130,7 +119,7 @@ float EnvelopeBounds::highest(const BinBox& box) const {
 }
 
 bool EnvelopeBounds::covers(const BinBox& box) const {
-  const BinRange bins = bins_of(box);
+  const BinRange bins = bins_about(box);
   if (bins.west < 0 || bins.north < 0 || bins.east >= columns() || bins.south >= rows()) return false;
   for (auto row = bins.north; row <= bins.south; ++row) {
     const float* const of_row = low_.data() + row * columns();

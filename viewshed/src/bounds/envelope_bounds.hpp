@@ -38,7 +38,6 @@ class EnvelopeBounds final : public BinBounds {
 
  private:
   double slack() const;
-  BinRange bins_of(const BinBox& box) const;
   void bound(const Tin& lower, const Tin& upper);
   void bound_triangle(const Tin& lower, const Tin& upper, const VerticesInBins& vertices, std::uint32_t triangle,
                       const BinRange& within);

@@ -16,13 +16,10 @@
 #include <itin/raster.hpp>
 #include <itin/tin.hpp>
 
+#include "bounds/bin_bounds.hpp"
 #include "line/infinity.hpp"
 
 namespace itin::viewshed {
-
-struct BinRange {
-  std::int64_t west, east, north, south;  ///< inclusive; empty when west > east or north > south
-};
 
 /// Where a surface's vertices lie in a grid, which must both outlive it: columns and rows from the grid's north-west
 /// corner, give or take some 1e-9.
@@ -49,14 +46,6 @@ class VerticesInBins {
   std::int64_t columns_, rows_;
   double west_, north_, columns_per_unit_, rows_per_unit_;
 };
-
-/// The bin of `count` that a position lies in: -1 before the first, `count` after the last. Rounds down without a call
-/// of std::floor().
-inline std::int64_t bin_at(double v, std::int64_t count) {
-  const double clamped = std::clamp(v, -1.0, static_cast<double>(count));
-  const auto whole = static_cast<std::int64_t>(clamped);
-  return whole - (clamped < static_cast<double>(whole) ? 1 : 0);
-}
 
 class TriangleInBins {
  public:
