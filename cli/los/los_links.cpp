@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <future>
-#include <utility>
 
 #include <fmt/format.h>
 
@@ -110,10 +109,7 @@ LosLinks::Survey LosLinks::run(const Store& store, const LinkTable& table, const
   for (const LinkResult& r : results) survey.computed.push_back(r.found.has_value());
   Result& result = survey.result;
   result.document = profile::links_document(metadata, table, results, query);
-  const Document refraction = std::exchange(result.document["refraction"], nullptr);
-  result.document.erase("refraction");
   result.document["outputs"] = outputs_;
-  result.document["refraction"] = refraction;
   const profile::LinkCounts counts = profile::counts_of(table, results);
   const auto gaps = std::count_if(results.begin(), results.end(), [](const LinkResult& r) { return r.gap_m > 0; });
   const std::size_t all = results.size() + table.bad.size();

@@ -7,6 +7,7 @@
 
 #include "options/off_the_data.hpp"
 #include "output/store_document.hpp"
+#include "program/unusable_options.hpp"
 
 namespace itin::cli {
 
@@ -47,9 +48,10 @@ void LosStoreOptions::declare(CLI::App& app) {
 
 void LosStoreOptions::require_none() const {
   if (given()) throw InputError("--from and --to need a STORE; with --profile-csv give --heights h1,h2");
-  for (const char* option : {"--absolute-heights", "--observer-on", "--target-on", "--in-crs", "--tolerance", "--rings",
-                             "--themes", "--nodata", "--memory"})
-    if (app_->get_option(option)->count() > 0) throw InputError(fmt::format("{} works only with a STORE", option));
+  require_not_given(*app_,
+                    {"--absolute-heights", "--observer-on", "--target-on", "--in-crs", "--tolerance", "--rings",
+                     "--themes", "--nodata", "--memory"},
+                    "works only with a STORE");
 }
 
 void LosStoreOptions::validate(std::optional<double> object_tip_m) {

@@ -7,6 +7,7 @@
 #include <itin/error.hpp>
 
 #include "program/call_files.hpp"
+#include "program/unusable_options.hpp"
 #include "program/values.hpp"
 
 namespace itin::cli {
@@ -33,9 +34,10 @@ void PlacementOptions::declare(CLI::App& app) {
 
 void PlacementOptions::validate() {
   if (!given_) {
-    for (const char* option : {"--hub-height", "--rotor-diameter", "--tip-height", "--minimise", "--rotor-spacing",
-                               "--wind-from", "--dwellings", "--setback", "--farm"})
-      if (app_->get_option(option)->count() > 0) throw InputError(fmt::format("{} works only with --turbines", option));
+    require_not_given(*app_,
+                      {"--hub-height", "--rotor-diameter", "--tip-height", "--minimise", "--rotor-spacing",
+                       "--wind-from", "--dwellings", "--setback", "--farm"},
+                      "works only with --turbines");
     return;
   }
   refuse_others();
@@ -54,11 +56,10 @@ void PlacementOptions::validate() {
 
 void PlacementOptions::refuse_others() const {
   if (app_->get_option("--count")->count() == 0) throw InputError("--turbines: give their number by --count K");
-  for (const char* option :
-       {"--height-field", "--cost-field", "--mast-height", "--mast-cost", "--observer-on", "--frequency", "--fresnel",
-        "--budget", "--share", "--k-cover", "--intervisible", "--hub", "--exact-final"})
-    if (app_->get_option(option)->count() > 0)
-      throw InputError(fmt::format("{} cannot be combined with --turbines; leave it out", option));
+  require_not_given(*app_,
+                    {"--height-field", "--cost-field", "--mast-height", "--mast-cost", "--observer-on", "--frequency",
+                     "--fresnel", "--budget", "--share", "--k-cover", "--intervisible", "--hub", "--exact-final"},
+                    "cannot be combined with --turbines; leave it out");
 }
 
 void PlacementOptions::validate_spacing() {

@@ -99,6 +99,9 @@ struct LinkResult {
   std::optional<Reflection> reflection;
   std::optional<VisibleHeight> visible;
   std::string message;  ///< of an error
+  // What was read for this link; what links share is counted where it was read first:
+  RetrievalStatistics statistics;
+  std::uint64_t triangles = 0;  ///< crossed by the line
 };
 
 /// One result per link, in order, whatever the number of threads. Links over one area share the tiles that are read and

@@ -56,15 +56,24 @@ void require_ground_at_ends(const Profile& profile, const Link& link) {
   throw InputError(fmt::format("no ground under its {} end, {:.10g} {:.10g}", first ? "first" : "second", p.x, p.y));
 }
 
-/// `along(bare)` is the link's profile over the surface, or over the ground without what stands on it.
+/// `along(bare)` is the link's cross-section over the surface, or over the ground without what stands on it.
 template <class Along>
 LinkResult survey(const Store& store, const LinkQuery& query, const Link& link, const Along& along) {
-  Sections sections{along(false), {}};
+  const CrossSection section = along(false);
+  RetrievalStatistics statistics = section.statistics;
+  Sections sections{from_section(section), {}};
   require_ground_at_ends(sections.surface, link);
-  if (query.themes.includes_raised(store.metadata().themes)) sections.ground = along(true);
+  if (query.themes.includes_raised(store.metadata().themes)) {
+    const CrossSection bare = along(true);
+    statistics += bare.statistics;
+    sections.ground = from_section(bare);
+  }
   LosQuery own = los_query(link, query);
   own.clearance_error_m = clearance_error(store, query.detail, query.themes, link.from, link.to);
-  return result_of(sections, own);
+  LinkResult result = result_of(sections, own);
+  result.statistics = statistics;
+  result.triangles = section.triangles;
+  return result;
 }
 
 /// Many links over one surface.
@@ -80,8 +89,7 @@ class Surfaces {
   LinkResult survey(const Link& link) const {
     return profile::survey(store_, query_, link, [&](bool bare) {
       const std::optional<SectionSurface>& over = bare ? ground_ : surface_;
-      return from_section(over ? over->between(link.from, link.to)
-                               : cross_section(store_, link.from, link.to, query_.detail));
+      return over ? over->between(link.from, link.to) : cross_section(store_, link.from, link.to, query_.detail);
     });
   }
 
@@ -154,8 +162,7 @@ LosQuery los_query(const Link& link, const LinkQuery& all) {
 
 LinkResult survey_link(const Store& store, const Link& link, const LinkQuery& query) {
   return survey(store, query, link, [&](bool bare) {
-    return from_section(
-        cross_section(store, link.from, link.to, query.detail, bare ? ThemeChoice::none() : query.themes));
+    return cross_section(store, link.from, link.to, query.detail, bare ? ThemeChoice::none() : query.themes);
   });
 }
 

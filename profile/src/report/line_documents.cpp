@@ -49,14 +49,22 @@ LinkCounts counts_of(const LinkTable& table, const std::vector<LinkResult>& resu
 Document links_document(const StoreMetadata& metadata, const LinkTable& table, const std::vector<LinkResult>& results,
                         const LinkQuery& query) {
   const LinkCounts counts = counts_of(table, results);
-  return {{"crs", crs_identifier(metadata.crs_wkt)},
-          {"surface", surface_document(metadata, query.detail, query.themes)},
-          {"refraction", earth_document(query.earth)},
-          {"links",
-           {{"visible", counts.visible},
-            {"hidden", counts.hidden},
-            {"undecided", counts.undecided},
-            {"error", counts.error}}}};
+  RetrievalStatistics read;
+  std::uint64_t triangles = 0;
+  for (const LinkResult& r : results) {
+    read += r.statistics;
+    triangles += r.triangles;
+  }
+  return {
+      {"crs", crs_identifier(metadata.crs_wkt)},
+      {"surface", surface_document(metadata, query.detail, query.themes)},
+      {"refraction", earth_document(query.earth)},
+      {"links",
+       {{"visible", counts.visible},
+        {"hidden", counts.hidden},
+        {"undecided", counts.undecided},
+        {"error", counts.error}}},
+      {"statistics", {{"points_read", read.points_read}, {"blocks_read", read.blocks_read}, {"triangles", triangles}}}};
 }
 
 std::string json_of(const StoreMetadata& metadata, const ThemeChoice& themes,

@@ -142,7 +142,9 @@ std::string json_of(const Result& result, const StoreMetadata& metadata) {
 
 std::string json_of(const Horizon& horizon, const Request& request, const StoreMetadata& metadata) {
   const Observer& observer = request.observers.front();
-  return result_text({{"observer",
+  return result_text({{"crs", crs_identifier(metadata.crs_wkt)},
+                      {"surface", surface_document(metadata, request.detail, request.themes)},
+                      {"observer",
                        {{"name", observer.name},
                         {"x", observer.position.x},
                         {"y", observer.position.y},

@@ -55,6 +55,7 @@ Metadata metadata_of(const Result& result) {
                  {"nodata_rule", nodata_text(r.nodata)},
                  {"refraction", r.earth.convention()},
                  {"cells", "decided at their centres"}};
+  if (result.certified) items.emplace_back("decided_exactly", result.decided_exactly ? "yes" : "no");
   if (r.observers.front().absolute) items.emplace_back("observer_heights", "elevations");
   add_of_observers(r.target_absolute ? "target_elevation_m" : "target_height_m", r, &Observer::target_height,
                    std::optional(r.target_height), items);
