@@ -25,6 +25,38 @@ void require_view(const viewshed::Observer& observer, const std::string& where) 
     refuse("azimuths", *observer.azimuth, "for the whole circle leave them empty");
 }
 
+/// What a field holds of one observer.
+struct FieldValue {
+  const std::string& where;
+  const std::string& field;
+  double value = 0;
+
+  [[noreturn]] void refuse(const std::string& expected) const {
+    throw InputError(fmt::format("{}: field '{}' holds {:.10g}: expected {}", where, field, value, expected));
+  }
+  /// The value, a height or an elevation.
+  double elevation() const {
+    require_height(value, fmt::format("{}: field '{}'", where, field));
+    return value;
+  }
+  /// `metres`, which the value stands for.
+  double distance(double metres) const {
+    if (metres > kFarthest) refuse(fmt::format("at most {:.0f} metres", kFarthest));
+    if (metres < 0) refuse("0 or a positive number of metres");
+    return metres;
+  }
+  /// The value, from -most to most.
+  double angle(int most) const {
+    if (std::abs(value) > most) refuse(fmt::format("degrees from {} to {}", -most, most));
+    return value;
+  }
+};
+
+/// A range of which one end is given is open to the other.
+viewshed::AngleRange& range_of(std::optional<viewshed::AngleRange>& angles, viewshed::AngleRange all) {
+  return angles ? *angles : angles.emplace(all);
+}
+
 }  // namespace
 
 void ViewFields::declare(CLI::App& app) {
@@ -81,58 +113,41 @@ std::vector<NumberField> ViewFields::numbers() const {
 
 void ViewFields::fill(viewshed::Observer& observer, const std::vector<std::optional<double>>& numbers,
                       const std::string& where) const {
-  const auto refuse = [&](const Field& field, double value, const std::string& expected) {
-    throw InputError(fmt::format("{}: field '{}' holds {:.10g}: expected {}", where, field.name, value, expected));
-  };
-  const auto angle = [&](const Field& field, double value, double most) {
-    if (std::abs(value) > most)
-      refuse(field, value, most == 90 ? "degrees from -90 to 90" : "degrees from -360 to 360");
-    return value;
-  };
-  // A range of which one end is given is open to the other.
-  const auto range = [](std::optional<viewshed::AngleRange>& angles,
-                        viewshed::AngleRange all) -> viewshed::AngleRange& {
-    return angles ? *angles : angles.emplace(all);
-  };
   std::optional<double> spot;
   for (std::size_t i = 0; i < fields_.size(); ++i) {
-    const Field& field = fields_[i];
     if (!numbers[i]) continue;
     const double value = *numbers[i];
-    if (field.role == Role::kHeight || field.role == Role::kSpot || field.role == Role::kTargetHeight)
-      require_height(value, fmt::format("{}: field '{}'", where, field.name));
-    switch (field.role) {
+    const FieldValue field{where, fields_[i].name, value};
+    switch (fields_[i].role) {
       case Role::kHeight:
-        if (value < 0) refuse(field, value, "0 or a positive number of metres");
-        observer.height = value;
+        observer.height = field.elevation();
+        if (value < 0) field.refuse("0 or a positive number of metres");
         break;
       case Role::kSpot:
-        spot = value;
+        spot = field.elevation();
         break;
       case Role::kTargetHeight:
-        observer.target_height = value;
+        observer.target_height = field.elevation();
         break;
+      // ArcGIS writes horizontal distances with a minus sign.
       case Role::kRadius:
-      case Role::kMinRadius: {
-        // ArcGIS writes horizontal distances with a minus sign.
-        const double metres = arcgis_ ? std::abs(value) : value;
-        if (field.role == Role::kRadius && !(metres > 0)) refuse(field, value, "a positive number of metres");
-        if (metres > kFarthest) refuse(field, value, fmt::format("at most {:.0f} metres", kFarthest));
-        if (metres < 0) refuse(field, value, "0 or a positive number of metres");
-        (field.role == Role::kRadius ? observer.radius : observer.min_radius) = metres;
+        if (value == 0 || (value < 0 && !arcgis_)) field.refuse("a positive number of metres");
+        observer.radius = field.distance(arcgis_ ? std::abs(value) : value);
         break;
-      }
+      case Role::kMinRadius:
+        observer.min_radius = field.distance(arcgis_ ? std::abs(value) : value);
+        break;
       case Role::kAzimuthFrom:
-        range(observer.azimuth, {0, 360}).from = angle(field, value, 360);
+        range_of(observer.azimuth, {0, 360}).from = field.angle(360);
         break;
       case Role::kAzimuthTo:
-        range(observer.azimuth, {0, 360}).to = angle(field, value, 360);
+        range_of(observer.azimuth, {0, 360}).to = field.angle(360);
         break;
       case Role::kElevationFrom:
-        range(observer.elevation, {-90, 90}).from = angle(field, value, 90);
+        range_of(observer.elevation, {-90, 90}).from = field.angle(90);
         break;
       case Role::kElevationTo:
-        range(observer.elevation, {-90, 90}).to = angle(field, value, 90);
+        range_of(observer.elevation, {-90, 90}).to = field.angle(90);
         break;
     }
   }

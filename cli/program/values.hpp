@@ -46,7 +46,7 @@ std::vector<double> parse_numbers(std::string_view option, std::string_view text
 /// Heights in metres, separated by commas, at least one.
 std::vector<double> parse_heights(std::string_view option, std::string_view text, Range range = Range::kAny);
 
-/// Exactly `names.size()` numbers separated by commas; `shape` is the expected form, for instance "x,y,r".
+/// Exactly `count` numbers separated by commas; `shape` is the expected form, for instance "x,y,r".
 std::vector<double> parse_tuple(std::string_view option, std::string_view text, std::size_t count,
                                 std::string_view shape);
 

@@ -12,6 +12,7 @@
 #include <itin/output_file.hpp>
 #include <itin/sources_in.hpp>
 #include <itin/store.hpp>
+#include <viewshed/documents.hpp>
 #include <viewshed/site_coverage.hpp>
 #include <viewshed/siting.hpp>
 
@@ -22,6 +23,7 @@
 #include "output/output_path.hpp"
 #include "output/store_document.hpp"
 #include "program/verb.hpp"
+#include "site/site_checkpoint.hpp"
 #include "site/site_inputs.hpp"
 #include "site/site_links.hpp"
 #include "site/site_maps.hpp"
@@ -33,7 +35,6 @@
 #include "site/site_tables.hpp"
 #include "site/site_warnings.hpp"
 #include "site/site_wording.hpp"
-#include "site/site_work.hpp"
 #include "site/visible_heights.hpp"
 
 namespace itin::cli {
@@ -75,9 +76,9 @@ class SiteVerb final : public Verb {
     viewshed::Demand shown;
     if (heights) shown = viewshed::Demand(summed_visible_heights(store, options_, inputs, progress));
     viewshed::SiteCoverage coverage(store, site_survey(options_, inputs), progress);
-    SiteWork work(options_.path("site.work"), key(), options_.resume, inputs.positions.size(), coverage);
+    SiteCheckpoint checkpoint(options_.path("site.work"), key(), options_.resume, inputs.positions.size(), coverage);
     coverage.on_refined = [&](std::size_t option, int stage, const viewshed::CoverageBounds& bounds) {
-      work.add(option, stage, bounds);
+      checkpoint.add(option, stage, bounds);
     };
     SiteResult site{options_, inputs, coverage, heights ? shown : inputs.demand, {}, {}, {}, {}, {}};
     site.choice = heights ? choose_by_heights(inputs, coverage, shown, goal, progress)
@@ -88,9 +89,9 @@ class SiteVerb final : public Verb {
     site.ground_m = site_grounds(store, inputs, site.choice, progress);
     site.rasters = site_rasters(store, options_, inputs, coverage, site.choice, progress);
     Result result = write(store, site, progress);
-    if (work.restored() > 0)
-      result.text += fmt::format("taken over from an earlier run: {}\n", counted(work.restored(), "result"));
-    work.remove();
+    if (checkpoint.restored() > 0)
+      result.text += fmt::format("taken over from an earlier run: {}\n", counted(checkpoint.restored(), "result"));
+    checkpoint.remove();
     return result;
   }
 
@@ -228,11 +229,7 @@ class SiteVerb final : public Verb {
     Document given = options_.given();
     given["inputs"] = inputs_document_;
     write_file(options_.path("parameters.json"), json_text(given, 2) + "\n", policy_.overwrite);
-    const viewshed::Statistics& statistics = site.coverage.statistics();
-    result.document["statistics"] = {{"points_read", statistics.retrieval.points_read},
-                                     {"blocks_read", statistics.retrieval.blocks_read},
-                                     {"triangles", statistics.triangles},
-                                     {"lines", statistics.lines}};
+    result.document["statistics"] = viewshed::statistics_document(site.coverage.statistics());
     result.text = text(site, result.document["outputs"].size());
     return result;
   }

@@ -28,7 +28,7 @@ struct Barred {
 
 struct SiteInputs {
   std::vector<Candidate> candidates;
-  // Options are a candidate with a mast, in order; existing sites follow in `stands`.
+  // Options are a candidate with a mast, in order; existing sites follow in `positions`.
   std::vector<viewshed::SiteOption> options;
   std::vector<viewshed::SitePosition> positions;
   viewshed::SiteTargets targets;

@@ -26,129 +26,11 @@ class ImportVerb final : public Verb {
   std::string summary() const override { return "Create a store from terrain, or add terrain and lines to it"; }
 
   void declare(CLI::App& app) override {
-    writes(app.add_option("STORE", store_, "The store, created if there is none")->required());
-    reads(app.add_option("SOURCE", options_.sources, "Rasters, point files, LAS, or layers of lines and polygons")
-              ->required());
-    app.add_option(
-           "--kind", kind_,
-           "What the sources are: terrain (default); contours, breaklines or water, which are lines with heights "
-           "and become part of the terrain; roads, which are lines on it; buildings, terraces, walls or vegetation, "
-           "which stand on it where they have heights (--height-field, --height, CityJSON, rasters of heights above "
-           "the ground), and else are lines on it (a building has one base; terraces, walls and vegetation follow the "
-           "terrain); surface, a raster of a digital surface model, which stands where it is "
-           "above the terrain")
-        ->type_name("KIND");
-    app.add_option("--theme", options_.theme, "Name of the lines' theme (default: the kind)")->type_name("NAME");
-    app.add_option("--crs", options_.crs,
-                   "CRS of the sources, in place of what they say themselves; a part that it lacks, horizontal or "
-                   "vertical, stays theirs")
-        ->type_name("CRS");
-    app.add_option(
-           "--to-crs", options_.to_crs,
-           "CRS of a new store: projected, in metres, with lengths true to 0.5 % where the sources lie (default: their "
-           "own if it is such a one, else their UTM zone)")
-        ->type_name("CRS");
-    app.add_option("--z-field", options_.z_field,
-                   "The field or column that holds heights, of points and of lines that are part of the terrain")
-        ->type_name("FIELD");
-    app.add_option("--height-field", options_.height_field,
-                   "Buildings, walls, vegetation: the field of their height above the base, in the unit of the CRS's "
-                   "heights (metres or feet)")
-        ->type_name("FIELD");
-    app.add_option("--height", height_, "Height of those that have none in the fields")->type_name("METRES");
-    app.add_option("--eaves-field", options_.eaves_field, "Buildings: the field of the eaves' height above the base")
-        ->type_name("FIELD");
-    app.add_option("--base-field", options_.base_field, "Buildings: the field of the base's elevation")
-        ->type_name("FIELD");
-    app.add_option("--base", base_,
-                   "Buildings: the ground height from which their heights are measured: minimum (default), mean or "
-                   "maximum of the terrain under the "
-                   "footprint; terrain-following is as mean; CityJSON's own floors count unless this is given. Walls "
-                   "reach down to the terrain, and where it rises above a roof, the roof follows it")
-        ->type_name("RULE");
-    app.add_option("--foundation", foundation_,
-                   "Buildings: walls, down to the terrain (default), or flat: the outline lies at the base, and the "
-                   "ground slopes to it from the terrain's next vertices, cut away where it is higher")
-        ->type_name("KIND");
-    app.add_option("--roof", roof_, "Buildings: flat (default), gabled, hipped or skeleton")->type_name("KIND");
-    app.add_option("--thickness", thickness_, "Of walls and hedges that are given as lines (default: 0.3)")
-        ->type_name("METRES");
-    app.add_option(
-           "--wall-offset", wall_offset_,
-           "How far within its outline a feature reaches its full height, as its walls lean inwards by that much: one "
-           "value for all features of a theme (default: 0.05, or two steps of --resolution)")
-        ->type_name("METRES");
-    app.add_option("--height-step", height_step_,
-                   "Rasters of buildings, vegetation or a surface: cells stand a multiple of this above the terrain, "
-                   "and those of equal height together are a feature; more features take more memory (default: 2)")
-        ->type_name("METRES");
-    app.add_option("--height-threshold", height_threshold_,
-                   "Such rasters: cells that are lower do not stand (default: 2)")
-        ->type_name("METRES");
-    app.add_option("--height-rounding", height_rounding_,
-                   "Such rasters: to the nearest step (default), up, never lower than the raster, or down, never "
-                   "higher")
-        ->type_name("WAY");
-    app.add_option("--id-field", options_.id_field,
-                   "Lines, footprints and CityJSON: the field of a feature's id, for exports and reports (default: the "
-                   "source's own number or key for it)")
-        ->type_name("FIELD");
-    app.add_option("--name-field", options_.name_field,
-                   "Lines, footprints and CityJSON: the field of a feature's name, for exports, reports and messages")
-        ->type_name("FIELD");
-    app.add_option(
-           "--attributes", attributes_,
-           "Lines, footprints and CityJSON: the fields that the store keeps for exports: all (default; numbers, texts, "
-           "dates and times), none, or names")
-        ->type_name("all|none|FIELD,...")
-        ->delimiter(',');
-    app.add_option("--layer", options_.layer, "Vector files: the layer to read")->type_name("NAME");
-    app.add_option("--where", options_.where, "Vector files: only features that this SQL condition holds for")
-        ->type_name("SQL");
-    app.add_option("--band", band_, "The band of rasters that holds heights (default: their only one)")->type_name("N");
-    app.add_option("--class", classes_, "LAS: only these classes (default: all but noise, 7 and 18)")
-        ->type_name("C,C...");
-    app.add_option("--max-gap", max_gap_,
-                   "Scattered points and contours: no ground across wider gaps (default: 100 times their mean spacing)")
-        ->type_name("METRES");
-    app.add_flag("--allow-mixed-vertical", options_.allow_mixed_vertical,
-                 "Take heights as they are, though sources refer to different vertical datums");
-    app.add_flag(
-        "--no-repair", no_repair_,
-        "Contours: infer no points where the triangles of a contour would be flat, in the whole store, whatever "
-        "other imports say");
-    app.add_flag(
-        "--replace", options_.replace,
-        "Take the place of terrain that is no finer, and of lines with heights, within the sources' coverage, in "
-        "whatever order they come");
-    app.add_flag(
-        "--stay", options_.stay,
-        "Contours, breaklines and water: stay within the coverage of terrain that was imported with --replace, "
-        "where such lines make room otherwise, in whatever order they come");
-    app.add_option("--sea-level", sea_level_,
-                   "Rasters: fill ground that is missing within the box about the sources, voids included, with the "
-                   "level sea at this elevation on their datum. Any other ground takes its place, whenever it is "
-                   "imported")
-        ->type_name("METRES");
-    reads(app.add_option(
-                 "--sea-area", options_.sea_area,
-                 "Fill only within these polygons, well-known text or a vector file, and all of them, also beyond the "
-                 "sources (default: the box about the sources)")
-              ->type_name("WKT|FILE"));
-    app.add_option("--source-note", options_.source_note,
-                   "Product, date and licence of these sources, for the reports of lines over them (default: the "
-                   "copyright that a GeoTIFF states)")
-        ->type_name("TEXT");
-    app.add_option("--levels", levels_,
-                   "Tolerances of a new store's levels (default: those of 0.5,1,2,4,8,16,32 that are no less than "
-                   "--resolution)")
-        ->type_name("T,T...");
-    app.add_option("--resolution", resolution_, "Grid of a new store's coordinates (default: 0.01)")
-        ->type_name("METRES");
-    memory_.declare(
-        app,
-        "Memory to work in, for example 2G. The result does not depend on it, and what needs more is refused "
-        "(default: 4G)");
+    declare_sources(app);
+    declare_raised(app);
+    declare_features(app);
+    declare_terrain(app);
+    declare_store(app);
   }
 
   void validate() override {
@@ -226,6 +108,149 @@ class ImportVerb final : public Verb {
   }
 
  private:
+  /// What is imported, and what its numbers mean.
+  void declare_sources(CLI::App& app) {
+    writes(app.add_option("STORE", store_, "The store, created if there is none")->required());
+    reads(app.add_option("SOURCE", options_.sources, "Rasters, point files, LAS, or layers of lines and polygons")
+              ->required());
+    app.add_option(
+           "--kind", kind_,
+           "What the sources are: terrain (default); contours, breaklines or water, which are lines with heights "
+           "and become part of the terrain; roads, which are lines on it; buildings, terraces, walls or vegetation, "
+           "which stand on it where they have heights (--height-field, --height, CityJSON, rasters of heights above "
+           "the ground), and else are lines on it (a building has one base; terraces, walls and vegetation follow the "
+           "terrain); surface, a raster of a digital surface model, which stands where it is "
+           "above the terrain")
+        ->type_name("KIND");
+    app.add_option("--theme", options_.theme, "Name of the lines' theme (default: the kind)")->type_name("NAME");
+    app.add_option("--crs", options_.crs,
+                   "CRS of the sources, in place of what they say themselves; a part that it lacks, horizontal or "
+                   "vertical, stays theirs")
+        ->type_name("CRS");
+    app.add_option(
+           "--to-crs", options_.to_crs,
+           "CRS of a new store: projected, in metres, with lengths true to 0.5 % where the sources lie (default: their "
+           "own if it is such a one, else their UTM zone)")
+        ->type_name("CRS");
+    app.add_option("--z-field", options_.z_field,
+                   "The field or column that holds heights, of points and of lines that are part of the terrain")
+        ->type_name("FIELD");
+    app.add_option("--layer", options_.layer, "Vector files: the layer to read")->type_name("NAME");
+    app.add_option("--where", options_.where, "Vector files: only features that this SQL condition holds for")
+        ->type_name("SQL");
+    app.add_option("--source-note", options_.source_note,
+                   "Product, date and licence of these sources, for the reports of lines over them (default: the "
+                   "copyright that a GeoTIFF states)")
+        ->type_name("TEXT");
+  }
+
+  /// What stands on the terrain, and how high.
+  void declare_raised(CLI::App& app) {
+    app.add_option("--height-field", options_.height_field,
+                   "Buildings, walls, vegetation: the field of their height above the base, in the unit of the CRS's "
+                   "heights (metres or feet)")
+        ->type_name("FIELD");
+    app.add_option("--height", height_, "Height of those that have none in the fields")->type_name("METRES");
+    app.add_option("--eaves-field", options_.eaves_field, "Buildings: the field of the eaves' height above the base")
+        ->type_name("FIELD");
+    app.add_option("--base-field", options_.base_field, "Buildings: the field of the base's elevation")
+        ->type_name("FIELD");
+    app.add_option("--base", base_,
+                   "Buildings: the ground height from which their heights are measured: minimum (default), mean or "
+                   "maximum of the terrain under the "
+                   "footprint; terrain-following is as mean; CityJSON's own floors count unless this is given. Walls "
+                   "reach down to the terrain, and where it rises above a roof, the roof follows it")
+        ->type_name("RULE");
+    app.add_option("--foundation", foundation_,
+                   "Buildings: walls, down to the terrain (default), or flat: the outline lies at the base, and the "
+                   "ground slopes to it from the terrain's next vertices, cut away where it is higher")
+        ->type_name("KIND");
+    app.add_option("--roof", roof_, "Buildings: flat (default), gabled, hipped or skeleton")->type_name("KIND");
+    app.add_option("--thickness", thickness_, "Of walls and hedges that are given as lines (default: 0.3)")
+        ->type_name("METRES");
+    app.add_option(
+           "--wall-offset", wall_offset_,
+           "How far within its outline a feature reaches its full height, as its walls lean inwards by that much: one "
+           "value for all features of a theme (default: 0.05, or two steps of --resolution)")
+        ->type_name("METRES");
+    app.add_option("--height-step", height_step_,
+                   "Rasters of buildings, vegetation or a surface: cells stand a multiple of this above the terrain, "
+                   "and those of equal height together are a feature; more features take more memory (default: 2)")
+        ->type_name("METRES");
+    app.add_option("--height-threshold", height_threshold_,
+                   "Such rasters: cells that are lower do not stand (default: 2)")
+        ->type_name("METRES");
+    app.add_option("--height-rounding", height_rounding_,
+                   "Such rasters: to the nearest step (default), up, never lower than the raster, or down, never "
+                   "higher")
+        ->type_name("WAY");
+  }
+
+  /// What the store keeps of lines and footprints besides their shape.
+  void declare_features(CLI::App& app) {
+    app.add_option("--id-field", options_.id_field,
+                   "Lines, footprints and CityJSON: the field of a feature's id, for exports and reports (default: the "
+                   "source's own number or key for it)")
+        ->type_name("FIELD");
+    app.add_option("--name-field", options_.name_field,
+                   "Lines, footprints and CityJSON: the field of a feature's name, for exports, reports and messages")
+        ->type_name("FIELD");
+    app.add_option(
+           "--attributes", attributes_,
+           "Lines, footprints and CityJSON: the fields that the store keeps for exports: all (default; numbers, texts, "
+           "dates and times), none, or names")
+        ->type_name("all|none|FIELD,...")
+        ->delimiter(',');
+  }
+
+  /// Which points are ground, and where ground is.
+  void declare_terrain(CLI::App& app) {
+    app.add_option("--band", band_, "The band of rasters that holds heights (default: their only one)")->type_name("N");
+    app.add_option("--class", classes_, "LAS: only these classes (default: all but noise, 7 and 18)")
+        ->type_name("C,C...");
+    app.add_option("--max-gap", max_gap_,
+                   "Scattered points and contours: no ground across wider gaps (default: 100 times their mean spacing)")
+        ->type_name("METRES");
+    app.add_flag("--allow-mixed-vertical", options_.allow_mixed_vertical,
+                 "Take heights as they are, though sources refer to different vertical datums");
+    app.add_flag(
+        "--no-repair", no_repair_,
+        "Contours: infer no points where the triangles of a contour would be flat, in the whole store, whatever "
+        "other imports say");
+    app.add_flag(
+        "--replace", options_.replace,
+        "Take the place of terrain that is no finer, and of lines with heights, within the sources' coverage, in "
+        "whatever order they come");
+    app.add_flag(
+        "--stay", options_.stay,
+        "Contours, breaklines and water: stay within the coverage of terrain that was imported with --replace, "
+        "where such lines make room otherwise, in whatever order they come");
+    app.add_option("--sea-level", sea_level_,
+                   "Rasters: fill ground that is missing within the box about the sources, voids included, with the "
+                   "level sea at this elevation on their datum. Any other ground takes its place, whenever it is "
+                   "imported")
+        ->type_name("METRES");
+    reads(app.add_option(
+                 "--sea-area", options_.sea_area,
+                 "Fill only within these polygons, well-known text or a vector file, and all of them, also beyond the "
+                 "sources (default: the box about the sources)")
+              ->type_name("WKT|FILE"));
+  }
+
+  /// What a new store is like, and the memory to work in.
+  void declare_store(CLI::App& app) {
+    app.add_option("--levels", levels_,
+                   "Tolerances of a new store's levels (default: those of 0.5,1,2,4,8,16,32 that are no less than "
+                   "--resolution)")
+        ->type_name("T,T...");
+    app.add_option("--resolution", resolution_, "Grid of a new store's coordinates (default: 0.01)")
+        ->type_name("METRES");
+    memory_.declare(
+        app,
+        "Memory to work in, for example 2G. The result does not depend on it, and what needs more is refused "
+        "(default: 4G)");
+  }
+
   void validate_raised() {
     if (!height_.empty()) options_.height = parse_height("--height", height_, Range::kPositive);
     if (!thickness_.empty()) options_.thickness = parse_number("--thickness", thickness_, Range::kPositive);

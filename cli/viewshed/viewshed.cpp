@@ -12,7 +12,6 @@
 #include <itin/gdal_ready.hpp>
 #include <itin/sources_in.hpp>
 #include <itin/store.hpp>
-#include <viewshed/area_text.hpp>
 #include <viewshed/documents.hpp>
 #include <viewshed/exact_cost.hpp>
 #include <viewshed/missing_ground.hpp>
@@ -36,36 +35,12 @@
 #include "viewshed/viewshed_outputs.hpp"
 #include "viewshed/viewshed_radio.hpp"
 #include "viewshed/viewshed_sheet.hpp"
+#include "viewshed/viewshed_targets.hpp"
+#include "viewshed/viewshed_text.hpp"
 
 namespace itin::cli {
 
 namespace {
-
-std::optional<viewshed::AngleRange> parse_angles(std::string_view option, const std::string& text, double least,
-                                                 double most) {
-  if (text.empty()) return std::nullopt;
-  const std::vector<double> v = parse_tuple(option, text, 2, "from,to");
-  for (const double angle : v) {
-    if (angle < least || angle > most) {
-      throw InputError(fmt::format("{} '{}': expected degrees from {} to {}", option, text, least, most));
-    }
-  }
-  return viewshed::AngleRange{v[0], v[1]};
-}
-
-std::optional<viewshed::AngleRange> parse_azimuths(const std::string& text) {
-  const auto range = parse_angles("--azimuth", text, -360, 360);
-  if (range && range->from == range->to)
-    throw InputError(fmt::format("--azimuth '{}': from and to are the same; for the whole circle leave it out", text));
-  return range;
-}
-
-std::optional<viewshed::AngleRange> parse_elevations(const std::string& text) {
-  const auto range = parse_angles("--elevation", text, -90, 90);
-  if (range && range->from >= range->to)
-    throw InputError(fmt::format("--elevation '{}': expected from,to with from < to", text));
-  return range;
-}
 
 class ViewshedVerb final : public Verb {
  public:
@@ -91,7 +66,7 @@ class ViewshedVerb final : public Verb {
            "probability of being visible under --vertical-error, and 1 or 0 for the heights as stored)")
         ->type_name("MODE");
     observers_.declare(app);
-    declare_targets(app);
+    targets_.declare(app);
     app.add_option("--vertical-error", sigma_text_, "Standard deviation of heights, for --mode probability")
         ->type_name("METRES");
     app.add_option("--error-correlation", correlation_text_,
@@ -116,7 +91,7 @@ class ViewshedVerb final : public Verb {
     sheet_.validate();
     outputs_.validate(other_outputs());
     observers_.validate();
-    validate_targets();
+    targets_.validate(observers_, request_);
     detail_.validate();
     themes_.validate();
     request_.themes = themes_.choice();
@@ -135,23 +110,13 @@ class ViewshedVerb final : public Verb {
     Document parameters{{"store", store_}, {"observers", observers_document(request_.observers)}};
     parameters["mode"] = mode_name();
     parameters["precise"] = precise_;
-    parameters[request_.target_absolute ? "target_elevation_m" : "target_height_m"] = request_.target_height;
-    if (request_.radius) parameters["radius_m"] = *request_.radius;
-    if (request_.min_radius > 0) parameters["min_radius_m"] = request_.min_radius;
-    const auto angles = [&](const char* name, const std::optional<viewshed::AngleRange>& range) {
-      if (range) parameters[name] = {range->from, range->to};
-    };
-    angles("azimuth_deg", request_.azimuth);
-    angles("elevation_deg", request_.elevation);
+    parameters.update(targets_.parameters(request_));
     if (request_.mode == viewshed::Mode::kProbability) {
       parameters["vertical_error_m"] = request_.vertical_error.sigma;
       parameters["error_correlation_m"] = request_.vertical_error.correlation_length;
     }
     parameters.update(radio_.parameters());
-    if (request_.cell_size) parameters["cell_m"] = *request_.cell_size;
-    if (!like_.empty()) parameters["like"] = like_;
     parameters["observer_on"] = request_.observers_on_surface ? "surface" : "ground";
-    parameters["target_on"] = target_on_;
     parameters.update(detail_.parameters());
     parameters.update(themes_.parameters());
     parameters["nodata"] = nodata_.text();
@@ -177,7 +142,7 @@ class ViewshedVerb final : public Verb {
                                            {{"mode", mode_name()},
                                             {"precise", precise_ ? "yes" : "no"},
                                             {"observer_on", request_.observers_on_surface ? "surface" : "ground"},
-                                            {"target_on", target_on_}},
+                                            {"target_on", targets_.on()}},
                                            missing,
                                            described(sources, metadata)};
     Result result;
@@ -220,49 +185,6 @@ class ViewshedVerb final : public Verb {
     for (const std::string& path : features_.paths()) paths.push_back(path);
     if (!sheet_.file().empty()) paths.push_back(sheet_.file());
     return paths;
-  }
-
-  void declare_targets(CLI::App& app) {
-    app.add_option("--target-height", target_height_text_, "Height h of the targets, one in every cell (default: 0)")
-        ->type_name("METRES");
-    app.add_option("--target-on", target_on_, "ground (default), or the surface with the roofs and tops of --themes")
-        ->type_name("ground|surface");
-    app.add_option("--radius", radius_text_, "How far to look (default: as far as there is ground)")
-        ->type_name("METRES");
-    app.add_option("--min-radius", min_radius_text_, "Leave out what is nearer (default: 0)")->type_name("METRES");
-    app.add_option("--azimuth", azimuth_text_, "The field of view, degrees clockwise from grid north")
-        ->type_name("FROM,TO");
-    app.add_option("--elevation", elevation_text_, "The field of view, degrees above the horizontal")
-        ->type_name("FROM,TO");
-    app.add_option("--cell", cell_text_,
-                   "Size of the raster's cells (default: a round size for at most 2048 cells on a side)")
-        ->type_name("METRES");
-    reads(app.add_option("--like", like_, "Take the cells of this raster")->type_name("FILE"));
-  }
-
-  void validate_targets() {
-    if (!target_height_text_.empty()) request_.target_height = parse_height("--target-height", target_height_text_);
-    request_.target_absolute = observers_.absolute_heights();
-    if (!request_.target_absolute && request_.target_height < 0) {
-      throw InputError("--target-height: a height must not be negative; for an elevation give --absolute-heights");
-    }
-    parse_choice("--target-on", target_on_, {"ground", "surface"});
-    request_.targets_on_surface = target_on_ == "surface";
-    request_.observers_on_surface = observers_.on_surface();
-    if (!radius_text_.empty()) request_.radius = parse_radius("--radius", radius_text_);
-    if (!min_radius_text_.empty()) {
-      request_.min_radius = parse_number("--min-radius", min_radius_text_, Range::kNotNegative);
-    }
-    if (request_.radius && request_.min_radius >= *request_.radius) {
-      throw InputError("--min-radius: must be less than --radius");
-    }
-    request_.azimuth = parse_azimuths(azimuth_text_);
-    request_.elevation = parse_elevations(elevation_text_);
-    if (!cell_text_.empty() && !like_.empty()) throw InputError("--cell and --like exclude each other");
-    if (!cell_text_.empty()) request_.cell_size = parse_number("--cell", cell_text_, Range::kPositive);
-    if (request_.cell_size && request_.radius && *request_.cell_size > *request_.radius) {
-      throw InputError(fmt::format("--cell '{}': larger than the radius", cell_text_));
-    }
   }
 
   /// Those of viewshed::Mode; radio's come last, and have options of their own.
@@ -324,53 +246,23 @@ class ViewshedVerb final : public Verb {
       throw InputError("--rings lie about one observer; for several give --tolerance");
     }
     request_.detail = detail_.detail(request_.observers.front().position);
-    if (!like_.empty()) request_.grid = raster_grid_like(like_, metadata.crs_wkt);
+    targets_.complete(metadata, request_);
   }
 
   std::string text(const viewshed::Result& result, const viewshed::MissingGround& missing) const {
-    const viewshed::CellCounts& cells = result.cells;
-    const std::uint64_t decided = cells.visible + cells.hidden;
-    const double share = decided == 0 ? 0 : 100.0 * static_cast<double>(cells.visible) / static_cast<double>(decided);
     std::string text;
-    for (const std::string& path : outputs_.paths()) {
+    for (const std::string& path : outputs_.paths())
       text += fmt::format("{}: {}\n", path, readable_bytes(std::filesystem::file_size(path)));
-    }
-    if (certified_) {
-      text += fmt::format("certainly visible: {}; certainly hidden: {}; undecided: {} ({:.1f} % decided)\n",
-                          counted(cells.visible, "cell"), grouped(cells.hidden), grouped(cells.undecided),
-                          viewshed::decided_percent(cells));
-      if (result.decided_exactly)
-        text += "decided exactly, over every stored point: this tolerance would cost no less\n";
-      if (cells.undecided > 0)
-        text += result.decided_exactly
-                    ? "undecided across ground without data alone: --nodata block or clear decides that\n"
-                    : "undecided at this tolerance, or across ground without data: --mode visible decides the former, "
-                      "--nodata block or clear the latter\n";
-    } else {
-      if (radio_.is_given()) text += radio_text(result);
-      if (result.request.mode != viewshed::Mode::kFresnel)
-        text += fmt::format("visible{}: {} of {} ({:.1f} %), {}\n",
-                            result.request.mode == viewshed::Mode::kProbability ? " if all heights are exact" : "",
-                            grouped(cells.visible), counted(decided, cells.undecided > 0 ? "decided cell" : "cell"),
-                            share, viewshed::area_text(static_cast<double>(cells.visible) * result.grid.cell_area()));
-      if (cells.undecided > 0)
-        text += fmt::format("undecided: {}, across ground without data; --nodata block or clear decides them\n",
-                            counted(cells.undecided, "cell"));
-    }
-    if (missing.share() > 0) text += fmt::format("no ground data: {} of the area looked at\n", missing.text());
-    text += fmt::format("{}, {}; {}\n", counted(result.statistics.triangles, "triangle"),
-                        counted(result.statistics.lines, "line"), earth_.earth().convention());
-    return text;
+    return text + viewshed_text(result, missing);
   }
 
-  std::string store_, mode_text_, like_;
+  std::string store_, mode_text_;
   MemoryOption memory_;
   std::string sigma_text_, correlation_text_;
-  std::string target_height_text_, radius_text_, min_radius_text_, azimuth_text_, elevation_text_, cell_text_;
-  std::string target_on_ = "ground";
   bool certified_ = false, precise_ = false;
   viewshed::ComputeOptions compute_options_;
   ObserverOptions observers_;
+  ViewshedTargets targets_;
   DetailOptions detail_;
   ThemeOptions themes_;
   EarthOptions earth_;

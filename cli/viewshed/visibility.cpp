@@ -14,6 +14,7 @@
 #include <itin/output_file.hpp>
 #include <itin/sources_in.hpp>
 #include <itin/store.hpp>
+#include <viewshed/documents.hpp>
 #include <viewshed/qgis_styles.hpp>
 #include <viewshed/visibility_index.hpp>
 
@@ -148,10 +149,7 @@ class VisibilityVerb final : public Verb {
     document["mean_share_undecided"] = index.mean_undecided;
     document["outputs"] = {output_, style_beside(output_)};
     if (!sheet_.file().empty()) document["outputs"].push_back(sheet_.file());
-    document["statistics"] = {{"points_read", index.retrieval.points_read},
-                              {"blocks_read", index.retrieval.blocks_read},
-                              {"triangles", index.triangles},
-                              {"lines", index.lines}};
+    document["statistics"] = viewshed::statistics_document({index.retrieval, index.triangles, index.lines});
     result.text = fmt::format(
         "{}: {}\non average, one of {} sees {:.2f} % (standard error {:.2f}) of the ground within {:g} m\n{}{}, {}; "
         "{}\n",

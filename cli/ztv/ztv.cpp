@@ -16,6 +16,7 @@
 #include <itin/output_file.hpp>
 #include <itin/sources_in.hpp>
 #include <itin/store.hpp>
+#include <viewshed/documents.hpp>
 #include <viewshed/missing_ground.hpp>
 #include <viewshed/turbines.hpp>
 #include <viewshed/zone_files.hpp>
@@ -279,10 +280,7 @@ class ZtvVerb final : public Verb {
     document["surface"] = surface(metadata);
     document["sources"] = sources_document(sources_);
     document["refraction"] = earth_document(earth_.earth());
-    document["grid"] = {{"bounds", box_document(zone.grid.bounds())},
-                        {"columns", zone.grid.columns()},
-                        {"rows", zone.grid.rows()},
-                        {"cell_m", {zone.grid.cell_width(), zone.grid.cell_height()}}};
+    document["grid"] = viewshed::grid_document(zone.grid);
     document["turbines"] = bad_rows_document(turbines_.path(), list_.rows, zone.request.turbines.size(), list_.bad);
     document["turbines"]["sha256"] = list_.sha256;
     document["farms"] = viewshed::farms_of(zone);
@@ -292,14 +290,10 @@ class ZtvVerb final : public Verb {
     document["area_km2"]["bare"] = areas(zone, zone.bare);
     if (zone.screened) document["area_km2"]["screened"] = areas(zone, *zone.screened);
     document.update(radio_.document(zone));
-    const viewshed::ZoneStatistics& statistics = zone.statistics;
-    document["statistics"] = {{"points_read", statistics.retrieval.points_read},
-                              {"blocks_read", statistics.retrieval.blocks_read},
-                              {"triangles", statistics.triangles},
-                              {"lines", statistics.lines},
-                              {"retrieval_seconds", statistics.retrieval_seconds},
-                              {"scene_seconds", statistics.scene_seconds},
-                              {"lines_seconds", statistics.lines_seconds}};
+    document["statistics"] = viewshed::statistics_document(zone.statistics);
+    document["statistics"].update({{"retrieval_seconds", zone.statistics.retrieval_seconds},
+                                   {"scene_seconds", zone.statistics.scene_seconds},
+                                   {"lines_seconds", zone.statistics.lines_seconds}});
     return document;
   }
 

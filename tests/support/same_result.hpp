@@ -20,6 +20,8 @@ inline bool same_values(const std::vector<float>& a, const std::vector<float>& b
 /// But for the statistics, and for what they were asked to do it with.
 inline void expect_same_result(const viewshed::Result& expected, const viewshed::Result& found) {
   EXPECT_TRUE(found.grid == expected.grid);
+  EXPECT_EQ(found.certified, expected.certified);
+  EXPECT_EQ(found.decided_exactly, expected.decided_exactly);
   EXPECT_TRUE(found.visible == expected.visible);
   EXPECT_TRUE(found.count == expected.count);
   EXPECT_TRUE(found.which == expected.which);

@@ -108,7 +108,7 @@ Tin hills() {
 }
 
 bool sees(const Result& result, std::size_t cell, std::size_t observer) {
-  const ObserverBit bit = observer_bit(observer);
+  const RasterBit bit = raster_bit(observer);
   return (result.which[bit.grid * result.grid.cell_count() + cell] & bit.mask) != 0;
 }
 

@@ -43,7 +43,9 @@ class Plans : public testing::Test {
       if (i % 3 == 0) {
         const std::string path = stores_->file("segment");
         write_segment(path, plan, i, result);
-        result = read_segment(path, plan, i);
+        const Result read = read_segment(path, plan, i);
+        test::expect_same_result(result, read);
+        result = read;
       }
       merge.add(i, result);
     }

@@ -50,7 +50,7 @@ std::size_t cell_at(const Zone& zone, double dx, double dy) {
 }
 
 bool sees(const Zone& zone, std::size_t cell, std::size_t number) {
-  const TurbineBit bit = turbine_bit(number);
+  const RasterBit bit = turbine_bit(number);
   return (zone.bare.turbines[bit.grid * zone.grid.cell_count() + cell] & bit.mask) != 0;
 }
 
@@ -388,7 +388,7 @@ TEST(FarmCombinations, NameTheFarmsSeenHoweverMany) {
       for (const std::string& farm : names) {
         bool seen = false;
         for (const Turbine& t : zone.request.turbines) {
-          const TurbineBit bit = turbine_bit(t.number);
+          const RasterBit bit = turbine_bit(t.number);
           seen =
               seen || (t.farm == farm && (zone.bare.turbines[bit.grid * zone.grid.cell_count() + i] & bit.mask) != 0);
         }

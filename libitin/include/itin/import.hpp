@@ -136,12 +136,12 @@ ImportReport import_terrain(const std::string& store_path, const ImportOptions& 
 /// the last one. They depend on the terrain and the lines that were imported alone, and are inferred anew whenever such
 /// are added.
 ///
-/// Buildings, vegetation and walls with heights stand on the ground (stands()): queries that choose their theme see
-/// roofs and tops, in place of what lies under them. They need ground all under them, others are refused, with a
-/// warning. At full detail they only raise the surface: outside of footprints it stays what it is, within it is nowhere
-/// lower, but for rounding to the grid. Buildings on flat foundations bend the ground about them as well, within its
-/// triangles that an outline crosses. The store keeps their footprints, and stands them up again whenever its terrain
-/// changes.
+/// Buildings, vegetation and walls with heights stand on the ground (builds_features()): queries that choose their
+/// theme see roofs and tops, in place of what lies under them. They need ground all under them, others are refused,
+/// with a warning. At full detail they only raise the surface: outside of footprints it stays what it is, within it is
+/// nowhere lower, but for rounding to the grid. Buildings on flat foundations bend the ground about them as well,
+/// within its triangles that an outline crosses. The store keeps their footprints, and stands them up again whenever
+/// its terrain changes.
 ///
 /// Rasters stand as well: of heights above the ground (canopies, buildings), or of a surface, whose heights above the
 /// ground are its elevations less those of the terrain under the middles of cells. A cell stands as high above the

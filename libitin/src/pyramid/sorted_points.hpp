@@ -29,7 +29,7 @@ struct CoveredPoint {
   std::uint16_t line = 0;
 };
 
-/// A temporary file of RawPoints in ascending order of code, all codes distinct; removed with the object.
+/// A temporary file of points in ascending order of code, all codes distinct; removed with the object.
 /// Reading is safe from any thread; writing is safe for disjoint ranges.
 class SortedPoints {
  public:

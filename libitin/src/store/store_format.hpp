@@ -37,7 +37,6 @@ inline constexpr const char* kSchema =
 /// kFirstEdgeTree; theme 0 is the coverage outline, which has no vertices of its own.
 inline constexpr int kMaxLevels = 64;
 inline constexpr int kFirstEdgeTree = 1024;
-inline constexpr int kCoverageTree = kFirstEdgeTree;
 inline constexpr int kLastTree = 2046;
 inline constexpr int kMaxThemes = 900;  ///< and parts of themes, which are numbered after them
 /// The footprints of standing themes as they were imported; blocks without a directory.

@@ -1,4 +1,4 @@
-// Third vertices of constrained Delaunay triangles, straight from the quadtrees (design.md, "Apex and cross-section").
+// Third vertices of constrained Delaunay triangles, straight from the quadtrees.
 //
 //   ApexSearch search(index, selection);
 //   std::optional<SelectedVertex> c = search.apex(a, b);   // abc is a triangle of the global triangulation

@@ -1,7 +1,7 @@
 // Line drawings as SVG, PDF or PNG.
 //
 //   Drawing drawing(Drawing::format_of("chart.pdf"), 800, 400);
-//   drawing.polyline({{10, 10}, {100, 50}}, {kBlack, 1.5});
+//   drawing.polyline({{10, 10}, {100, 50}}, {kInk, 1.5});
 //   drawing.text({100, 60}, "Caerphilly", {.size = 10, .align = Align::kCentre});
 //   write(drawing.finish());
 //

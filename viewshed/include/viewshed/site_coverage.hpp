@@ -73,8 +73,8 @@ struct SiteSurvey {
   std::uint64_t memory_bytes = std::uint64_t{1} << 30;
 };
 
-/// The grid of the contract: over what lies within the radius of a site, and the data. Throws InputError if there is
-/// none.
+/// Over what lies within the radius of a site, and the data; cell edges lie on multiples of the cell size. Throws
+/// InputError if there is no such ground.
 RasterGrid grid_of_reach(const Store& store, const std::vector<SitePosition>& positions, double radius,
                          double cell_size);
 

@@ -79,12 +79,8 @@ struct Visibility {
 };
 
 /// Where Visibility::turbines keeps turbine `number` (from 1).
-struct TurbineBit {
-  std::size_t grid = 0;
-  std::uint32_t mask = 0;
-};
-constexpr TurbineBit turbine_bit(std::size_t number) {
-  return {(number - 1) / 32, std::uint32_t{1} << ((number - 1) % 32)};
+constexpr RasterBit turbine_bit(std::size_t number) {
+  return raster_bit(number - 1);
 }
 
 /// A turbine that could not be placed.
@@ -101,13 +97,6 @@ struct RadarView {
   std::vector<double> turbine_m;  ///< what is seen of each turbine of the request, from its tip down; 0: hidden
 };
 
-struct ZoneStatistics {
-  RetrievalStatistics retrieval;
-  std::uint64_t triangles = 0;
-  std::uint64_t lines = 0;  ///< of sight: pairs of eye and turbine
-  double retrieval_seconds = 0, scene_seconds = 0, lines_seconds = 0;
-};
-
 struct Zone {
   ZoneRequest request;           ///< without the misplaced turbines
   std::vector<double> ground_m;  ///< under each turbine of it
@@ -118,7 +107,7 @@ struct Zone {
   std::optional<Visibility> screened;  ///< with the themes' features standing on the ground, where asked for
   std::optional<RadarView> radar;
   std::vector<std::string> warnings;
-  ZoneStatistics statistics;
+  Statistics statistics;  ///< its lines: pairs of eye and turbine
 };
 
 /// On given surfaces; `screened` may be null, and must cover what `ground` does. Turbines without ground become

@@ -18,6 +18,7 @@
 // in double precision. Ground that rises less than a micrometre above a sight line grazes it.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -168,6 +169,20 @@ struct Statistics {
   double retrieval_seconds = 0;
   double scene_seconds = 0;
   double lines_seconds = 0;
+
+  /// A surface of so many triangles, or posts, that was retrieved besides.
+  void add_retrieval(const RetrievalStatistics& read, std::uint64_t of_triangles, double seconds) {
+    retrieval += read;
+    triangles += of_triangles;
+    retrieval_seconds += seconds;
+  }
+  Statistics& operator+=(const Statistics& s) {
+    add_retrieval(s.retrieval, s.triangles, s.retrieval_seconds);
+    lines += s.lines;
+    scene_seconds += s.scene_seconds;
+    lines_seconds += s.lines_seconds;
+    return *this;
+  }
 };
 
 struct Result {
@@ -179,7 +194,7 @@ struct Result {
   bool certified = false;              ///< made by compute_certified(): verdicts at a level are certain
   bool decided_exactly = false;        ///< a certified one over the full surface, where the level is no cheaper
   std::vector<std::uint16_t> count;    ///< kCount: how many certainly see the cell, or kCountOutside
-  std::vector<std::uint32_t> which;    ///< kWhich: see observer_bit()
+  std::vector<std::uint32_t> which;    ///< kWhich: the set of observers, see raster_bit()
   std::vector<float> angle_deg;        ///< kAngle, of the line after curvature and refraction; NaN where none sees
   std::vector<std::uint32_t> nearest;  ///< kNearest: the observer's number from 1 in their order; 0 where none sees
   std::vector<float> distance_m;       ///< kNearest, horizontally; NaN where none sees
@@ -211,17 +226,18 @@ struct Result {
   Statistics statistics;
 };
 
-/// Where kWhich keeps whether observer `number` (from 0) sees a cell: grids of 32-bit words, one for every 32
-/// observers, one grid after the other.
-struct ObserverBit {
+/// Where a raster of sets keeps whether thing `number` (from 0) is in the set of a cell: grids of 32-bit words, one for
+/// every 32 things, one grid after the other.
+struct RasterBit {
   std::size_t grid = 0;
   std::uint32_t mask = 0;
 };
-constexpr ObserverBit observer_bit(std::size_t number) {
+constexpr RasterBit raster_bit(std::size_t number) {
   return {number / 32, std::uint32_t{1} << (number % 32)};
 }
-constexpr std::size_t which_grids(std::size_t observers) {
-  return (observers + 31) / 32;
+/// How many grids a raster of sets of `count` things has.
+constexpr std::size_t bit_grids(std::size_t count) {
+  return (count + 31) / 32;
 }
 
 /// On a given surface. The Tin must hold every triangle that sight lines cross; where it ends there is no data.
@@ -283,7 +299,7 @@ ViewshedWithSurface compute_with_surface(const Store& store, const Request& requ
 ViewshedWithSurface compute_certified(const Store& store, const Request& request, const ComputeOptions& options,
                                       Progress& progress);
 
-/// The result alone, in the memory of ComputeOptions.
+/// compute_with_surface() with default options, without the surface.
 Result compute(const Store& store, const Request& request, Progress& progress);
 
 /// The request for one of its observers alone, on the cells of all.

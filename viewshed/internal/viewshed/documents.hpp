@@ -1,4 +1,5 @@
-// Viewsheds and horizons as JSON documents, in the names that stay.
+// Viewsheds and horizons as JSON documents, in the names that stay; and the parts that documents of other results
+// share.
 #pragma once
 
 #include <itin/document.hpp>
@@ -7,6 +8,12 @@
 #include <viewshed/viewshed.hpp>
 
 namespace itin::viewshed {
+
+/// `grid`: `bounds`, `columns`, `rows`, `cell_m`.
+Document grid_document(const RasterGrid& grid);
+
+/// `statistics`: what was read, and how many sight lines were decided; without the times.
+Document statistics_document(const Statistics& statistics);
 
 /// How many of the cells within fields of view are decided.
 double decided_percent(const CellCounts& cells);

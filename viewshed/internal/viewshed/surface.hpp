@@ -36,7 +36,7 @@ struct Surface {
 
 /// Every lattice, however large.
 inline constexpr std::uint64_t kAnyLattice = std::uint64_t{1} << 31;
-/// A lattice that is swept takes this much.
+/// Bytes that a lattice takes while it is swept.
 inline constexpr std::uint64_t kBytesPerPost = 9;
 
 /// Holds all data of the store, metres.

@@ -8,7 +8,7 @@
 #include <viewshed/surface.hpp>
 
 #include "certify/certified_cells.hpp"
-#include "certify/exact_nearby.hpp"
+#include "certify/surroundings.hpp"
 #include "judge/block_judge.hpp"
 #include "line/tile_parts.hpp"
 #include "progress/stage.hpp"
@@ -43,9 +43,7 @@ ViewshedWithSurface certify_by_blocks(const Store& store, const Request& request
   wanted.observers.clear();  // of rays, and none is cast
   CallProgress call(progress);
   Envelope envelope = envelop(store, wanted, call.step(0.4));
-  result.statistics.retrieval = envelope.lower.statistics;
-  result.statistics.triangles = envelope.lower.triangles.size();
-  result.statistics.retrieval_seconds = watch.lap();
+  result.statistics.add_retrieval(envelope.lower.statistics, envelope.lower.triangles.size(), watch.lap());
 
   result.grid = cells_of(request, extent_of(store));
   const RasterGrid tiles = grid_of_tiles(result.grid);
@@ -61,7 +59,7 @@ ViewshedWithSurface certify_by_blocks(const Store& store, const Request& request
     bounded.bound_for(eyes[i]);
     const auto nearby = surroundings.decide(request.observers[i], result.statistics, progress);
     const BlockJudge judge(bounded, request, result.grid, tiles, eyes[i], nearby ? &*nearby : nullptr);
-    cells.judge(judge, 1, tiles_in_reach(eyes[i], result.grid, tiles));
+    cells.judge(judge, tiles_in_reach(eyes[i], result.grid, tiles));
     stage.advance_to((i + 1) * count);
   }
   cells.store(result);

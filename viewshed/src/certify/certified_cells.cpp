@@ -6,16 +6,16 @@
 
 namespace itin::viewshed {
 
-void CertifiedCells::judge(const TileJudge& judge, std::size_t eyes, std::span<const PartsOfTile> cells) {
+void CertifiedCells::judge(const TileJudge& judge, std::span<const PartsOfTile> cells) {
   std::atomic<std::uint64_t> lines = 0;
   stage_.for_each(cells.size(), [&](std::size_t i) {
-    lines += this->judge(judge, eyes, cells[i]);
-    return eyes * cell_count(cells[i].parts);
+    lines += this->judge(judge, cells[i]);
+    return cell_count(cells[i].parts);
   });
   lines_ += lines;
 }
 
-std::uint64_t CertifiedCells::judge(const TileJudge& judge, std::size_t eyes, const PartsOfTile& cells) {
+std::uint64_t CertifiedCells::judge(const TileJudge& judge, const PartsOfTile& cells) {
   const Tile tile = tile_at(grid_, tiles_, cells.tile);
   Verdicts& verdicts = verdicts_[cells.tile];
   const auto open = [&](std::size_t, TileValues<Verdict>& values) {
@@ -27,7 +27,7 @@ std::uint64_t CertifiedCells::judge(const TileJudge& judge, std::size_t eyes, co
     });
     return count > 0;
   };
-  return judge_tile(judge, cells.tile, eyes, open,
+  return judge_tile(judge, cells.tile, 1, open,
                     [&](std::size_t, const TileValues<Verdict>& values, auto&) { verdicts.add(values); });
 }
 

@@ -1,7 +1,8 @@
-// The verdicts of all eyes together on the cells, judged one group of eyes and cells after another.
+// The verdicts of all eyes together on the cells, judged for one eye after another.
 //
 //   CertifiedCells cells(grid, tiles, stage);
-//   cells.judge(EnvelopeJudge(scene, grid, tiles, eyes), eyes.size(), by_tile(parts, tiles));
+//   for (const Eye& eye : eyes)
+//     cells.judge(BlockJudge(envelope, request, grid, tiles, eye, nullptr), all_cells(grid, tiles, within));
 //   cells.store(result);
 #pragma once
 
@@ -24,14 +25,15 @@ class CertifiedCells {
   CertifiedCells(const RasterGrid& grid, const RasterGrid& tiles, Stage& stage)
       : grid_(grid), tiles_(tiles), stage_(stage), verdicts_(tiles.cell_count()) {}
 
-  /// A cell that one eye certainly sees is not judged for the others. Throws Cancelled.
-  void judge(const TileJudge& judge, std::size_t eyes, std::span<const PartsOfTile> cells);
+  /// Judges for the first eye of `judge`. A cell that an eye certainly saw before is not judged again. Throws
+  /// Cancelled.
+  void judge(const TileJudge& judge, std::span<const PartsOfTile> cells);
 
   /// Adds the counts and the sight lines to the result's.
   void store(Result& result) const;
 
  private:
-  std::uint64_t judge(const TileJudge& judge, std::size_t eyes, const PartsOfTile& cells);
+  std::uint64_t judge(const TileJudge& judge, const PartsOfTile& cells);
 
   const RasterGrid& grid_;
   const RasterGrid& tiles_;

@@ -9,7 +9,7 @@
 #include <viewshed/surface.hpp>
 
 #include "certify/certified_cells.hpp"
-#include "certify/exact_nearby.hpp"
+#include "certify/surroundings.hpp"
 #include "judge/block_judge.hpp"
 #include "line/hulls.hpp"
 #include "line/infinity.hpp"
@@ -85,14 +85,12 @@ class CertifiedSectors {
 
   void judge(const Eye& eye, Envelope envelope, const Box& box, std::span<const Tile> parts) {
     Result& result = computed_.result;
-    result.statistics.retrieval += envelope.lower.statistics;
-    result.statistics.triangles += envelope.lower.triangles.size();
-    result.statistics.retrieval_seconds += watch_.lap();
+    result.statistics.add_retrieval(envelope.lower.statistics, envelope.lower.triangles.size(), watch_.lap());
     BoundedEnvelope bounded(std::move(envelope), tiles_, rises_);
     bounded.bound(intersection(box, bounded.envelope().lower.bounds()));
     const BlockJudge judge(bounded, request_, result.grid, tiles_, eye, nearby_ ? &*nearby_ : nullptr);
     result.statistics.scene_seconds += watch_.lap();
-    cells_->judge(judge, 1, by_tile(parts, tiles_));
+    cells_->judge(judge, by_tile(parts, tiles_));
     result.statistics.lines_seconds += watch_.lap();
   }
 

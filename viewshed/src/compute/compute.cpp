@@ -1,4 +1,6 @@
-// The one ladder: how much of a store's surface is read at once, under a memory budget.
+// How much of a store's surface is read at once, under a memory budget.
+#include "compute/compute.hpp"
+
 #include <algorithm>
 #include <utility>
 
@@ -21,6 +23,10 @@ namespace {
 
 /// Fewer points are read in less time than it takes to look at what is hidden.
 constexpr std::uint64_t kPointsWorthALook = 500000;
+
+/// A sector takes one part in this many of the memory; the rest is for the store's cache, and for what is freed but not
+/// given back.
+constexpr std::uint64_t kSectorShare = 2;
 
 /// Whether an irregular surface is large, and little of it may be seen.
 bool may_be_mostly_hidden(const Store& store, const Request& request, std::uint64_t points) {

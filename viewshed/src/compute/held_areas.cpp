@@ -47,10 +47,10 @@ HeldAreas::HeldAreas(const Store& store, const Detail& detail, const ThemeChoice
       options_(options),
       is_full_(level_within(store.metadata(), detail.coarsest()) == 0) {}
 
-std::shared_ptr<const HeldSurface> HeldAreas::get(const Box& whole, const Box& part, bool triangles,
+std::shared_ptr<const HeldSurface> HeldAreas::get(const Box& whole, const Box& part, SurfaceForm needed,
                                                   CallProgress& call) {
   for (;;) {
-    const Claim claimed = claim(whole, part, triangles);
+    const Claim claimed = claim(whole, part, needed);
     if (!claimed.area) return nullptr;
     if (claimed.to_read) return read(claimed.area, call);
     // Where another thread's reading fails or is cancelled, this one tries.
@@ -58,31 +58,31 @@ std::shared_ptr<const HeldSurface> HeldAreas::get(const Box& whole, const Box& p
   }
 }
 
-HeldAreas::Claim HeldAreas::claim(const Box& whole, const Box& part, bool triangles) {
+HeldAreas::Claim HeldAreas::claim(const Box& whole, const Box& part, SurfaceForm needed) {
   const std::lock_guard lock(mutex_);
-  if (auto held = find(part, triangles)) return {std::move(held), false};
-  auto area = area_about(whole, triangles);
-  if (!area) area = area_about(part, triangles);
+  if (auto held = find(part, needed)) return {std::move(held), false};
+  auto area = area_about(whole, needed);
+  if (!area) area = area_about(part, needed);
   if (area) add(area);
   return {area, true};
 }
 
-std::shared_ptr<HeldAreas::Area> HeldAreas::find(const Box& box, bool triangles) {
+std::shared_ptr<HeldAreas::Area> HeldAreas::find(const Box& box, SurfaceForm needed) {
   const auto found = std::find_if(areas_.begin(), areas_.end(), [&](const auto& area) {
-    return intersection(area->box, box) == box && (area->form == Form::kTriangles || !triangles);
+    return intersection(area->box, box) == box && (area->form == needed || area->form == SurfaceForm::kTriangles);
   });
   if (found == areas_.end()) return nullptr;
   areas_.splice(areas_.begin(), areas_, found);
   return *found;
 }
 
-std::shared_ptr<HeldAreas::Area> HeldAreas::area_about(const Box& box, bool triangles) const {
+std::shared_ptr<HeldAreas::Area> HeldAreas::area_about(const Box& box, SurfaceForm needed) const {
   const double side = side_for(box);
   for (const Box& area : {squares_about(box, side, side), squares_about(box, side, 0), box}) {
     const bool posts =
-        !triangles && options_.lattices && is_full_ &&
+        needed == SurfaceForm::kPosts && options_.lattices && is_full_ &&
         LatticeReader::may_open(store_, Window::box(area), themes_, options_.memory_bytes / kBytesPerPost);
-    const Form form = posts ? Form::kPosts : Form::kTriangles;
+    const SurfaceForm form = posts ? SurfaceForm::kPosts : SurfaceForm::kTriangles;
     const std::uint64_t bytes = bytes_held(store_, detail_, area, form);
     if (bytes <= options_.memory_bytes) return std::make_shared<Area>(Area{.box = area, .form = form, .bytes = bytes});
   }
@@ -107,7 +107,7 @@ HeldAreas::Surface HeldAreas::read(const std::shared_ptr<Area>& area, CallProgre
     // wait for this very area.
     const ThreadLimit own(thread_count());
     ComputeOptions options = options_;
-    options.lattices = area->form == Form::kPosts;
+    options.lattices = area->form == SurfaceForm::kPosts;
     auto surface =
         std::make_shared<const HeldSurface>(store_, area->box, detail_, themes_, options, call.step(kReadingArea));
     call.step(1);

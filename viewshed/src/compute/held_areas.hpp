@@ -21,9 +21,9 @@ class HeldAreas {
  public:
   HeldAreas(const Store& store, const Detail& detail, const ThemeChoice& themes, const ComputeOptions& options);
 
-  /// A surface over all of `whole`, or over `part` of it, where the memory does not hold that; null where it does not
-  /// hold the part either. Reading is a step of the call. Throws what reading throws.
-  std::shared_ptr<const HeldSurface> get(const Box& whole, const Box& part, bool triangles, CallProgress& call);
+  /// A surface over all of `whole`, of triangles where they are needed, or over `part` of it, where the memory does not
+  /// hold that; null where it does not hold the part either. Reading is a step of the call. Throws what reading throws.
+  std::shared_ptr<const HeldSurface> get(const Box& whole, const Box& part, SurfaceForm needed, CallProgress& call);
   /// Those that running calls use end with them.
   void drop_all();
 
@@ -34,7 +34,7 @@ class HeldAreas {
   using Surface = std::shared_ptr<const HeldSurface>;
   struct Area {
     Box box;
-    Form form;
+    SurfaceForm form;
     std::uint64_t bytes;           ///< about
     std::promise<Surface> read{};  ///< null where reading failed
     std::shared_future<Surface> surface = read.get_future().share();
@@ -44,9 +44,9 @@ class HeldAreas {
     bool to_read = false;        ///< by whoever claims it
   };
 
-  Claim claim(const Box& whole, const Box& part, bool triangles);
-  std::shared_ptr<Area> find(const Box& box, bool triangles);
-  std::shared_ptr<Area> area_about(const Box& box, bool triangles) const;
+  Claim claim(const Box& whole, const Box& part, SurfaceForm needed);
+  std::shared_ptr<Area> find(const Box& box, SurfaceForm needed);
+  std::shared_ptr<Area> area_about(const Box& box, SurfaceForm needed) const;
   void add(std::shared_ptr<Area> area);
   Surface read(const std::shared_ptr<Area>& area, CallProgress& call);
   void give_up(Area& area);

@@ -14,6 +14,7 @@
 #include "compute/surface_in_memory.hpp"
 #include "modes/feature_names.hpp"
 #include "plan/memory.hpp"
+#include "plan/planned_result.hpp"
 #include "request/request.hpp"
 #include "request/request_window.hpp"
 #include "window/retrieval.hpp"
@@ -54,8 +55,8 @@ class HeldSurface::Impl {
 
   std::uint64_t bytes() const {
     const std::lock_guard lock(listing_);
-    return (posts_ ? bytes_held(store_, detail_, area_, Form::kPosts) : 0) +
-           (triangles_ ? bytes_held(store_, detail_, area_, Form::kTriangles) : 0);
+    return (posts_ ? bytes_held(store_, detail_, area_, SurfaceForm::kPosts) : 0) +
+           (triangles_ ? bytes_held(store_, detail_, area_, SurfaceForm::kTriangles) : 0);
   }
 
   bool covers(const Request& request) const {
@@ -96,7 +97,7 @@ class HeldSurface::Impl {
   }
 
   void require_memory(std::uint64_t memory) const {
-    const std::uint64_t needed = bytes_held(store_, detail_, area_, Form::kTriangles);
+    const std::uint64_t needed = bytes_held(store_, detail_, area_, SurfaceForm::kTriangles);
     if (needed > memory)
       throw InputError(fmt::format("the surface takes about {:.0f} MB: give more `memory_bytes`, or a smaller area",
                                    static_cast<double>(needed) / 1e6));

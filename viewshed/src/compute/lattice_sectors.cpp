@@ -157,9 +157,7 @@ class LatticeSectors {
     Revealed revealed = reveal(eye, reader, surface, static_cast<std::uint64_t>(std::max(0.0, tiles)), reading_);
     // A bin less, against rounding.
     const double reach = (revealed.reach - 1) * reader.lattice().spacing * reader.lattice().grid.resolution;
-    result.statistics.retrieval += reader.lattice().statistics;
-    result.statistics.triangles += reader.lattice().triangle_count();
-    result.statistics.retrieval_seconds += watch_.lap();
+    result.statistics.add_retrieval(reader.lattice().statistics, reader.lattice().triangle_count(), watch_.lap());
     std::vector<Tile> decided;
     std::copy_if(parts.begin(), parts.end(), std::back_inserter(decided),
                  [&](const Tile& part) { return sectors.within(reach, part); });

@@ -10,10 +10,11 @@
 #include <viewshed/plan.hpp>
 
 #include "compute/certified.hpp"
-#include "compute/store_viewshed.hpp"
+#include "compute/compute.hpp"
 #include "line/cell_tiles.hpp"
 #include "modes/blocker_table.hpp"
 #include "modes/observation.hpp"
+#include "plan/planned_result.hpp"
 
 namespace itin::viewshed {
 
@@ -30,8 +31,7 @@ class Merge::Rasters {
   explicit Rasters(const Plan& plan) : plan_(plan), added_(plan.segments().size()) {
     result_.request = plan.request();
     result_.grid = plan.grid();
-    result_.certified = plan.certainty() == Certainty::kCertified;
-    result_.decided_exactly = result_.certified && plan.decides_exactly();
+    add_certainty(plan, result_);
     result_.ground_m.resize(plan.request().observers.size());
     Observation::prepare(result_);
     if (plan.request().mode == Mode::kBlocker) result_.blocker_feature.resize(plan.grid().cell_count());
@@ -53,7 +53,7 @@ class Merge::Rasters {
     result_.crosses_voids = result_.crosses_voids || part.crosses_voids;
     result_.theme_names = part.theme_names;
     result_.cells += part.cells;
-    add_statistics(part.statistics);
+    result_.statistics += part.statistics;
   }
 
   std::vector<std::size_t> missing() const {
@@ -117,7 +117,7 @@ class Merge::Rasters {
   /// Observers have other bits in the whole than among the segment's.
   void add_bits(const Segment& segment, const Result& part) {
     for (std::size_t i = 0; i < segment.observers.size(); ++i) {
-      const ObserverBit from = observer_bit(i), to = observer_bit(segment.observers[i]);
+      const RasterBit from = raster_bit(i), to = raster_bit(segment.observers[i]);
       const std::size_t from_grid = from.grid * part.grid.cell_count(), to_grid = to.grid * result_.grid.cell_count();
       for (std::int64_t row = 0; row < segment.rows; ++row) {
         for (std::int64_t column = 0; column < segment.columns; ++column) {
@@ -127,16 +127,6 @@ class Merge::Rasters {
         }
       }
     }
-  }
-
-  void add_statistics(const Statistics& part) {
-    Statistics& sum = result_.statistics;
-    sum.retrieval += part.retrieval;
-    sum.triangles += part.triangles;
-    sum.lines += part.lines;
-    sum.retrieval_seconds += part.retrieval_seconds;
-    sum.scene_seconds += part.scene_seconds;
-    sum.lines_seconds += part.lines_seconds;
   }
 
   const Plan& plan_;

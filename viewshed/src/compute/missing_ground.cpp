@@ -85,8 +85,7 @@ MissingGround missing_ground(const Store& store, const Result& result, Progress&
   missing.without_ground = count_without_ground(store, result, progress);
   missing.with_ground = result.cells.in_view();
   missing.beyond = static_cast<std::uint64_t>(cells_beyond(request, grid).count());
-  missing.bounded = request.grid || std::all_of(request.observers.begin(), request.observers.end(),
-                                                [&](const Observer& o) { return radius_of(request, o).has_value(); });
+  missing.bounded = request.grid || all_bounded(request);
   return missing;
 }
 

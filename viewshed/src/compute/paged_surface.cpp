@@ -3,9 +3,10 @@
 #include <itin/call_progress.hpp>
 #include <viewshed/held_surface.hpp>
 
+#include "compute/compute.hpp"
 #include "compute/held_areas.hpp"
 #include "compute/planned_surface.hpp"
-#include "compute/store_viewshed.hpp"
+#include "plan/planned_result.hpp"
 #include "request/request.hpp"
 #include "request/request_window.hpp"
 
@@ -30,8 +31,9 @@ class PagedSurface::Impl {
     if (!under.empty()) {  // else the store's result says so
       Box under_whole = area_under(store_, whole);
       under_whole.extend(under);
-      const bool triangles = needs_triangles(request) || casts_rays(request);
-      if (const auto surface = areas_.get(under_whole, under, triangles, call)) return surface->compute(request, call);
+      const SurfaceForm needed =
+          needs_triangles(request) || casts_rays(request) ? SurfaceForm::kTriangles : SurfaceForm::kPosts;
+      if (const auto surface = areas_.get(under_whole, under, needed, call)) return surface->compute(request, call);
       areas_.drop_all();
     }
     return compute_result(store_, request, options_, call);

@@ -1,7 +1,6 @@
 #include "compute/planned_surface.hpp"
 
 #include <algorithm>
-#include <utility>
 
 #include <itin/error.hpp>
 
@@ -26,13 +25,6 @@ void require_surface_of(const Plan& plan, const Store& store, const Detail& deta
   const std::vector<ThemeInfo>& all = store.metadata().themes;
   if (themes.names(all) != plan.request().themes.names(all))
     throw InputError("the surface that is held has other `themes` than the plan");
-}
-
-Result as_planned(const Plan& plan, std::size_t segment, Result result) {
-  result.request = plan.request_of(segment);
-  result.certified = plan.certainty() == Certainty::kCertified;
-  result.decided_exactly = result.certified && plan.decides_exactly();
-  return result;
 }
 
 }  // namespace itin::viewshed

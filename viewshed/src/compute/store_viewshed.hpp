@@ -1,5 +1,4 @@
-// Viewsheds over what is retrieved of a store at once: the first two rungs of compute_with_surface()'s ladder; and the
-// whole ladder where its result alone is wanted.
+// Viewsheds over what is retrieved of a store at once: the first two rungs of compute_with_surface()'s ladder.
 #pragma once
 
 #include <cstdint>
@@ -14,9 +13,6 @@ namespace itin::viewshed {
 /// Nothing where the surface is no lattice of at most so many posts. Precondition: takes_a_lattice().
 std::optional<ViewshedWithSurface> compute_over_lattice(const Store& store, const Request& request,
                                                         std::uint64_t most_posts, Progress& progress);
-
-/// What compute_with_surface() answers, where the surface itself is not wanted.
-Result compute_result(const Store& store, const Request& request, ComputeOptions options, Progress& progress);
 
 /// Takes every surface, mode and detail.
 ViewshedWithSurface compute_over_tin(const Store& store, const Request& request, Progress& progress);

@@ -116,9 +116,7 @@ class TinSegments {
     if (features_ && way_ == CoarseWay::kRays) wanted.enclosed = request_.themes;
     Envelope envelope = envelop(store_, wanted, progress_);
     Result& result = computed_.result;
-    result.statistics.retrieval += envelope.lower.statistics;
-    result.statistics.triangles += envelope.lower.triangles.size();
-    result.statistics.retrieval_seconds += watch_.lap();
+    result.statistics.add_retrieval(envelope.lower.statistics, envelope.lower.triangles.size(), watch_.lap());
     result.grid = cells_of(request_, extent_of(store_));
     tiles_ = grid_of_tiles(result.grid);
     rim_ = rim_of(envelope.lower, envelope.outline);

@@ -24,20 +24,6 @@ Document of_verdicts(const Result& result, const auto& value) {
   return document;
 }
 
-Document grid_document(const RasterGrid& grid) {
-  return {{"bounds", box_document(grid.bounds())},
-          {"columns", grid.columns()},
-          {"rows", grid.rows()},
-          {"cell_m", {grid.cell_width(), grid.cell_height()}}};
-}
-
-Document statistics_document(const Statistics& statistics) {
-  return {{"points_read", statistics.retrieval.points_read},
-          {"blocks_read", statistics.retrieval.blocks_read},
-          {"triangles", statistics.triangles},
-          {"lines", statistics.lines}};
-}
-
 Document sky_line_document(const Horizon& horizon, const StoreMetadata& metadata) {
   Document points = Document::array();
   for (const HorizonPoint& p : horizon.points) {
@@ -57,6 +43,20 @@ Document sky_line_document(const Horizon& horizon, const StoreMetadata& metadata
 }
 
 }  // namespace
+
+Document grid_document(const RasterGrid& grid) {
+  return {{"bounds", box_document(grid.bounds())},
+          {"columns", grid.columns()},
+          {"rows", grid.rows()},
+          {"cell_m", {grid.cell_width(), grid.cell_height()}}};
+}
+
+Document statistics_document(const Statistics& statistics) {
+  return {{"points_read", statistics.retrieval.points_read},
+          {"blocks_read", statistics.retrieval.blocks_read},
+          {"triangles", statistics.triangles},
+          {"lines", statistics.lines}};
+}
 
 double decided_percent(const CellCounts& cells) {
   const std::uint64_t decided = cells.visible + cells.hidden, all = decided + cells.undecided;

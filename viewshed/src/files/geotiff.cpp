@@ -134,9 +134,9 @@ class Writer {
 
   void bits() {
     const std::vector<Observer>& observers = result_.request.observers;
-    std::vector<std::string> bands(which_grids(observers.size()));
+    std::vector<std::string> bands(bit_grids(observers.size()));
     for (std::size_t i = 0; i < observers.size(); ++i) {
-      std::string& band = bands[observer_bit(i).grid];
+      std::string& band = bands[raster_bit(i).grid];
       if (!band.empty()) band += ", ";
       const std::string& name = observers[i].name;
       band += fmt::format("bit {}: {}", i % 32, name.empty() ? std::to_string(i + 1) : name);

@@ -1,12 +1,15 @@
 // The result of a plan's segment as a file, from one runner to another.
 #include <cstring>
 #include <type_traits>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include <itin/error.hpp>
 #include <itin/packed_file.hpp>
 #include <viewshed/plan.hpp>
+
+#include "plan/planned_result.hpp"
 
 namespace itin::viewshed {
 
@@ -131,9 +134,8 @@ Result read_segment(const std::string& path, const Plan& plan, std::size_t segme
   Result result;
   exchange(reader, result);
   reader.expect_end();
-  result.request = plan.request_of(segment);
+  result = as_planned(plan, segment, std::move(result));
   result.grid = *result.request.grid;
-  result.certified = plan.certainty() == Certainty::kCertified;
   return result;
 }
 

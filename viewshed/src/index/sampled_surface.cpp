@@ -40,8 +40,8 @@ std::vector<RimEdge> SampledSurface::rim() const {
   return surface_.lattice ? surface_.lattice->lattice().rim() : rim_of(surface_.tin, boundary_edges(surface_.tin));
 }
 
-unsigned SampledSurface::hidden(const SightLines& lines, Work& work) const {
-  unsigned result = rays_ ? rays_->hidden(lines, work.occluder) : 0;
+unsigned SampledSurface::hidden(const SightLines& lines, Scratch& scratch) const {
+  unsigned result = rays_ ? rays_->hidden(lines, scratch.occluder) : 0;
   for_each_bit(lines.active & ~result, [&](unsigned i) {
     if (hidden({lines.from_x[i], lines.from_y[i], lines.from_z[i]}, {lines.to_x[i], lines.to_y[i], lines.to_z[i]}))
       result |= 1U << i;

@@ -2,8 +2,8 @@
 // of it.
 //
 //   const SampledSurface surface(retrieved, earth, lines_expected);
-//   SampledSurface::Work work;                             // one per thread
-//   const unsigned hidden = surface.hidden(lines, work);   // one bit per line, as SightLine has it
+//   SampledSurface::Scratch scratch;                             // one per thread
+//   const unsigned hidden = surface.hidden(lines, scratch);   // one bit per line, as SightLine has it
 #pragma once
 
 #include <cstdint>
@@ -34,11 +34,11 @@ class SampledSurface {
   /// Where it ends.
   std::vector<RimEdge> rim() const;
 
-  struct Work {
+  struct Scratch {
     Occluder occluder;
   };
   /// One bit per line: 1 hidden. Ends of active lines differ horizontally. Safe for concurrent use.
-  unsigned hidden(const SightLines& lines, Work& work) const;
+  unsigned hidden(const SightLines& lines, Scratch& scratch) const;
 
  private:
   bool hidden(const Point3& from, const Point3& to) const;

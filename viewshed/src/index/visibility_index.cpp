@@ -16,6 +16,7 @@
 #include "index/index_plan.hpp"
 #include "index/sampled_surface.hpp"
 #include "index/visibility_sampler.hpp"
+#include "plan/memory.hpp"
 #include "progress/stage.hpp"
 
 namespace itin::viewshed {
@@ -55,8 +56,7 @@ class IndexWork {
     index_.share.assign(index_.grid.cell_count(), kNoShare);
     index_.standard_error.assign(index_.grid.cell_count(), kNoShare);
     index_.undecided.assign(index_.grid.cell_count(), kNoShare);
-    const std::uint64_t rasters = std::min(request.memory_bytes, kBytesPerCell * index_.grid.cell_count());
-    memory_ = std::max(request.memory_bytes / 4, request.memory_bytes - rasters);
+    memory_ = memory_beside(kBytesPerCell * index_.grid.cell_count(), request.memory_bytes);
   }
 
   /// Where all ground under a segment is posts of a lattice, there is room for far more of them.

@@ -82,7 +82,7 @@ VisibilitySampler::Tally VisibilitySampler::observe(Point2 eye, double elevation
   const Point3 from{easting_in_units(units, eye.x), northing_in_units(units, eye.y), elevation / units.resolution};
   Random random(seed);
   const VoidShadow behind_voids(rim_near(from), from);
-  SampledSurface::Work work;
+  SampledSurface::Scratch scratch;
   Tally tally;
   while (tally.asked < targets_.count) {
     Packet packet;
@@ -102,7 +102,7 @@ VisibilitySampler::Tally VisibilitySampler::observe(Point2 eye, double elevation
       lines.to_z[i] = (*height + targets_.height) / units.resolution;
       if (!same_place(lines.to_x[i] - from.x, lines.to_y[i] - from.y)) lines.active |= 1U << i;
     }
-    unsigned hidden = surface_.hidden(packet.lines, work), undecided = 0;
+    unsigned hidden = surface_.hidden(packet.lines, scratch), undecided = 0;
     for_each_bit(packet.lines.active & ~hidden, [&](unsigned i) {
       if (!behind_voids.holds(packet.lines.to_x[i], packet.lines.to_y[i])) return;
       (rule_ == NoData::kBlock ? hidden : undecided) |= 1U << i;

@@ -45,11 +45,11 @@ class ObserverCount final : public Observation {
 
 class ObserverBits final : public Observation {
  public:
-  explicit ObserverBits(std::size_t observers) : grids_(which_grids(observers)) {}
+  explicit ObserverBits(std::size_t observers) : grids_(bit_grids(observers)) {}
 
  private:
   void keep(const CellView& view) override {
-    const ObserverBit bit = observer_bit(view.observer);
+    const RasterBit bit = raster_bit(view.observer);
     std::vector<std::uint32_t>& row = rows_[view.cell / Tile::kSide];
     const std::size_t words = view.cell % Tile::kSide * grids_;
     if (row.size() <= words) row.resize(words + grids_);
@@ -165,7 +165,7 @@ void Observation::prepare(Result& result) {
   result.visible.resize(cells);
   const Mode mode = result.request.mode;
   if (mode == Mode::kCount) result.count.resize(cells);
-  if (mode == Mode::kWhich) result.which.resize(cells * which_grids(result.request.observers.size()));
+  if (mode == Mode::kWhich) result.which.resize(cells * bit_grids(result.request.observers.size()));
   if (mode == Mode::kAngle) result.angle_deg.resize(cells);
   if (mode == Mode::kBlocker) result.blocker.resize(cells);
   if (mode == Mode::kProbability) result.probability.resize(cells);

@@ -21,7 +21,7 @@ std::uint64_t bytes_per_cell(const Request& request) {
     case Mode::kCount:
       return kVerdict + 4;
     case Mode::kWhich:
-      return kVerdict + 8 * which_grids(request.observers.size());
+      return kVerdict + 8 * bit_grids(request.observers.size());
     case Mode::kAngle:
     case Mode::kHeight:
     case Mode::kProbability:
@@ -61,14 +61,16 @@ std::uint64_t points_about(const Store& store, const Detail& detail, const Box& 
   return points;
 }
 
-std::uint64_t bytes_held(const Store& store, const Detail& detail, const Box& area, Form form) {
-  return points_about(store, detail, area) * (form == Form::kPosts ? kBytesPerPost : bytes_per_point(Request()));
+std::uint64_t bytes_held(const Store& store, const Detail& detail, const Box& area, SurfaceForm form) {
+  return points_about(store, detail, area) * (form == SurfaceForm::kPosts ? kBytesPerPost : bytes_per_point(Request()));
+}
+
+std::uint64_t memory_beside(std::uint64_t raster_bytes, std::uint64_t memory) {
+  return std::max(memory / 4, memory - std::min(memory, raster_bytes));
 }
 
 std::uint64_t memory_beside_rasters(std::uint64_t memory, const Store& store, const Request& request) {
-  const std::uint64_t cells = cells_of(request, extent_of(store)).cell_count();
-  const std::uint64_t rasters = std::min(memory, bytes_per_cell(request) * cells);
-  return std::max(memory / 4, memory - rasters);
+  return memory_beside(bytes_per_cell(request) * cells_of(request, extent_of(store)).cell_count(), memory);
 }
 
 }  // namespace itin::viewshed

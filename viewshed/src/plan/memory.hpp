@@ -8,10 +8,6 @@
 
 namespace itin::viewshed {
 
-/// A sector takes one part in this many of the memory; the rest is for the store's cache, and for what is freed but not
-/// given back.
-inline constexpr std::uint64_t kSectorShare = 2;
-
 /// Whether the request can be answered over the posts of a lattice alone: at full detail, in a mode that asks no more
 /// than sight lines, by the sweep.
 bool takes_a_lattice(const Store& store, const Request& request);
@@ -24,11 +20,14 @@ std::uint64_t bytes_per_point(const Request& request);
 std::uint64_t points_about(const Store& store, const Detail& detail, const Box& box);
 
 /// A surface is held as triangles, or as the posts of a lattice.
-enum class Form : std::uint8_t { kTriangles, kPosts };
+enum class SurfaceForm : std::uint8_t { kTriangles, kPosts };
 /// What holding a surface takes, about, and the memory to retrieve it in.
-std::uint64_t bytes_held(const Store& store, const Detail& detail, const Box& area, Form form);
+std::uint64_t bytes_held(const Store& store, const Detail& detail, const Box& area, SurfaceForm form);
 
-/// Returns what the rasters leave of the memory, or a quarter of it.
+/// What rasters of so many bytes leave of the memory, or a quarter of it.
+std::uint64_t memory_beside(std::uint64_t raster_bytes, std::uint64_t memory);
+
+/// What the request's rasters leave of the memory, or a quarter of it.
 std::uint64_t memory_beside_rasters(std::uint64_t memory, const Store& store, const Request& request);
 
 }  // namespace itin::viewshed

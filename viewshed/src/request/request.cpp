@@ -82,7 +82,7 @@ constexpr std::size_t kMostBands = 65535;
 
 /// Every 32 observers take a band.
 void validate_bands(const Request& request) {
-  const std::size_t bands = request.mode == Mode::kWhich ? which_grids(request.observers.size()) : 1;
+  const std::size_t bands = request.mode == Mode::kWhich ? bit_grids(request.observers.size()) : 1;
   if (bands > kMostBands)
     throw InputError(
         fmt::format("{} observers take {} bands to tell apart, and a raster has at most {}: give at most {} observers, "
@@ -91,7 +91,7 @@ void validate_bands(const Request& request) {
 }
 
 RasterGrid with_room_for_bands(const Request& request, RasterGrid grid) {
-  const std::size_t bands = request.mode == Mode::kWhich ? which_grids(request.observers.size()) : 1;
+  const std::size_t bands = request.mode == Mode::kWhich ? bit_grids(request.observers.size()) : 1;
   const auto most = static_cast<std::size_t>(RasterGrid::kMaxCells);
   if (grid.cell_count() > most / bands)
     throw InputError(

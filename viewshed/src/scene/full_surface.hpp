@@ -70,7 +70,7 @@ class FullSurface {
     TileValues<double> targets;  ///< of the last eye's lines; kNoSurface where none was needed
     RadialSweep::Heights seen;
     RadialSweep::Scratch scratch;
-    ExactRays::Work rays;
+    ExactRays::Scratch rays;
     Point3 target(std::size_t cell) const {
       const Point2 p = centres.at(cell);
       return {p.x, p.y, targets[cell]};

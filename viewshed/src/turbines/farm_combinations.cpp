@@ -20,12 +20,12 @@ using FarmSet = std::vector<std::uint32_t>;
 /// Tells which farms are seen from a cell.
 class FarmSets {
  public:
-  explicit FarmSets(const Zone& zone) : zone_(zone), names_(farms_of(zone)), words_((names_.size() + 31) / 32) {
+  explicit FarmSets(const Zone& zone) : zone_(zone), names_(farms_of(zone)), words_(bit_grids(names_.size())) {
     // Each farm has the words of its turbines' bits.
     masks_.assign(names_.size(), std::vector<std::uint32_t>(zone.words));
     for (const Turbine& t : zone.request.turbines) {
       const auto farm = static_cast<std::size_t>(std::find(names_.begin(), names_.end(), t.farm) - names_.begin());
-      const TurbineBit bit = turbine_bit(t.number);
+      const RasterBit bit = turbine_bit(t.number);
       masks_[farm][bit.grid] |= bit.mask;
     }
   }
@@ -36,14 +36,14 @@ class FarmSets {
     for (std::size_t w = 0; w < zone_.words; ++w) {
       const std::uint32_t seen = visibility.turbines[w * zone_.grid.cell_count() + cell];
       for (std::size_t f = 0; seen != 0 && f < names_.size(); ++f)
-        if ((seen & masks_[f][w]) != 0) farms[f / 32] |= std::uint32_t{1} << f % 32;
+        if ((seen & masks_[f][w]) != 0) farms[raster_bit(f).grid] |= raster_bit(f).mask;
     }
     return farms;
   }
   std::string name(const FarmSet& farms) const {
     std::string name;
     for (std::size_t f = 0; f < names_.size(); ++f) {
-      if ((farms[f / 32] >> f % 32 & 1) == 0) continue;
+      if ((farms[raster_bit(f).grid] & raster_bit(f).mask) == 0) continue;
       if (!name.empty()) name += " + ";
       name += names_[f].empty() ? "(no farm)" : names_[f];
     }
@@ -63,7 +63,7 @@ bool has_value(const Visibility& visibility, std::size_t cell) {
 
 /// Those of the whole zone, bare or screened, in an order of their own: none is the first.
 std::vector<FarmSet> sets_present(const Zone& zone, const FarmSets& sets) {
-  std::set<FarmSet> present{FarmSet((sets.names().size() + 31) / 32)};
+  std::set<FarmSet> present{FarmSet(bit_grids(sets.names().size()))};
   const auto add = [&](const Visibility& visibility) {
     FarmSet last;  // neighbours mostly see the same farms
     for (std::size_t cell = 0; cell < visibility.tip_count.size(); ++cell) {

@@ -85,7 +85,7 @@ class OpenLines::TileWork {
     }
     const Zone& zone = lines_.zone_;
     const Turbine& turbine = zone.request.turbines[turbine_];
-    const TurbineBit bit = turbine_bit(turbine.number);
+    const RasterBit bit = turbine_bit(turbine.number);
     for_each_eye(block, [&](std::size_t cell, const Point3& eye) {
       const RasterGrid::Cell at{place_->tile.column + static_cast<std::int64_t>(cell % Tile::kSide),
                                 place_->tile.row + static_cast<std::int64_t>(cell / Tile::kSide)};

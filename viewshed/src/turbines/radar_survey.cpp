@@ -9,6 +9,9 @@ namespace itin::viewshed {
 
 namespace {
 
+/// Lines are tested up to this height above the ground, metres.
+constexpr double kRadarCeiling = 1000;
+
 Eye eye_of_radar(const Grid& units, std::optional<double> ground_m, const ZoneRequest& zone) {
   Request request;
   request.earth = zone.earth;

@@ -16,9 +16,6 @@
 
 namespace itin::viewshed {
 
-/// Lines are tested up to this height above the ground, metres.
-inline constexpr double kRadarCeiling = 1000;
-
 class RadarSurvey {
  public:
   /// `ground_m` is under the zone's radar. The zone must outlive it. Throws InputError where there is none.

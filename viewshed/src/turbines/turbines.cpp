@@ -109,10 +109,8 @@ class PartReader {
   std::unique_ptr<OwnedSurface> ground(const ZonePart& part) { return read(part.window, ThemeChoice::none()); }
 
   std::unique_ptr<OwnedSurface> take(Surface surface) {
-    ZoneStatistics& statistics = zone_.statistics;
-    statistics.retrieval_seconds += watch_.lap();
-    statistics.retrieval += surface.statistics();
-    statistics.triangles += surface.triangle_count();
+    Statistics& statistics = zone_.statistics;
+    statistics.add_retrieval(surface.statistics(), surface.triangle_count(), watch_.lap());
     auto owned =
         std::make_unique<OwnedSurface>(std::move(surface), std::nullopt, zone_.request.earth, zone_.grid, tiles_);
     statistics.scene_seconds += watch_.lap();

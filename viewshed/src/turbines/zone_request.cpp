@@ -112,9 +112,7 @@ Zone lay_out(const ZoneRequest& request, const Box& coverage,
   zone.request = request;
   place_turbines(ground, zone);
   zone.grid = grid_of(zone.request, coverage);
-  std::size_t last = 0;
-  for (const Turbine& t : zone.request.turbines) last = std::max(last, turbine_bit(t.number).grid);
-  zone.words = last + 1;
+  for (const Turbine& t : zone.request.turbines) zone.words = std::max(zone.words, bit_grids(t.number));
   zone.bare = nothing_seen(zone);
   return zone;
 }

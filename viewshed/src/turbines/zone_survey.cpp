@@ -112,7 +112,7 @@ std::uint64_t ZoneSurvey::decide(std::size_t tile, const Screen& screen, const V
 
 /// Other eyes are taken out.
 void ZoneSurvey::take_open_lines(std::size_t turbine, const Visibility& open, TileWork& work) const {
-  const TurbineBit bit = turbine_bit(zone_.request.turbines[turbine].number);
+  const RasterBit bit = turbine_bit(zone_.request.turbines[turbine].number);
   const std::uint32_t* const bits = open.turbines.data() + bit.grid * zone_.grid.cell_count();
   for_each_cell(work.tile, [&](std::size_t cell, RasterGrid::Cell place) {
     work.open[cell] = (bits[zone_.grid.index(place)] & bit.mask) != 0;
@@ -152,7 +152,7 @@ void ZoneSurvey::record(std::size_t turbine, std::size_t cell, double distance, 
   const double resolution = ground_.units().resolution;
   ++work.tips[cell];
   if (least <= axis.hub) ++work.hubs[cell];
-  const TurbineBit bit = turbine_bit(zone_.request.turbines[turbine].number);
+  const RasterBit bit = turbine_bit(zone_.request.turbines[turbine].number);
   work.seen[bit.grid][cell] |= bit.mask;
   const double eye = work.ground[cell] * resolution + zone_.request.observer_height;
   const double angle =
@@ -188,7 +188,7 @@ void ZoneSurvey::store_horizon(const TileWork& work, std::size_t from_cell, std:
                                Visibility& result, std::vector<Arc>& arcs) const {
   arcs.clear();
   for (const Turbine& t : zone_.request.turbines) {
-    const TurbineBit bit = turbine_bit(t.number);
+    const RasterBit bit = turbine_bit(t.number);
     if ((work.seen[bit.grid][from_cell] & bit.mask) == 0) continue;
     const Point2 towards = same_place(ground_.units(), eye, t.position) ? eye : t.position;
     arcs.push_back(rotor_arc(eye, towards, t.rotor_diameter.value_or(0)));

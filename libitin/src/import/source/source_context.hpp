@@ -33,7 +33,7 @@ class OpenedFile {
  public:
   virtual ~OpenedFile() = default;
   virtual const std::string& path() const = 0;
-  /// --crs, else as found in the file. Throws InputError where there is neither: see missing_crs().
+  /// --crs, else as found in the file. Throws InputError where there is neither.
   virtual Crs crs() const = 0;
   /// A position amid the file's points, in its own CRS.
   virtual Point2 centre() const = 0;

@@ -44,8 +44,8 @@ ExactRays::ExactRays(const Tin& surface, const Earth& earth, const std::vector<P
       surface_(surface, earth),
       upper_(upper_tin_, {}, greatest_drift(eyes, upper_tin_), earth) {}
 
-unsigned ExactRays::hidden(const SightLines& lines, Work& work) const {
-  const unsigned hidden = surface_.hidden(lines, work.occluder);
+unsigned ExactRays::hidden(const SightLines& lines, Scratch& scratch) const {
+  const unsigned hidden = surface_.hidden(lines, scratch.occluder);
   SightLines open = lines;
   open.active &= ~hidden;
   if (open.active == 0) return hidden;

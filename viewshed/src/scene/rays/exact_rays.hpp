@@ -1,8 +1,8 @@
 // Sight lines against a full surface by Embree, decided exactly.
 //
 //   const ExactRays rays(tin, earth, {observer});
-//   ExactRays::Work work;                                   // one per thread
-//   const unsigned hidden = rays.hidden(lines, work);       // one bit per line, as SightLine has it
+//   ExactRays::Scratch scratch;                                   // one per thread
+//   const unsigned hidden = rays.hidden(lines, scratch);       // one bit per line, as SightLine has it
 //
 // Two scenes hold the surface between them. A ray whose ends are raised by more than single precision can err, and
 // which hits a triangle that hides the line in double precision, is hidden (scene.hpp). One whose ends are lowered by
@@ -34,11 +34,11 @@ class ExactRays {
   /// Throws std::bad_alloc.
   ExactRays(const Tin& surface, const Earth& earth, const std::vector<Point2>& eyes);
 
-  struct Work {
+  struct Scratch {
     Occluder occluder;
   };
   /// One bit per line: 1 hidden. Lines start at one eye, and their ends differ horizontally. Safe for concurrent use.
-  unsigned hidden(const SightLines& lines, Work& work) const;
+  unsigned hidden(const SightLines& lines, Scratch& scratch) const;
 
  private:
   /// The raised surface at a place in grid units, or -infinity where there is none.

@@ -1,4 +1,4 @@
-#include "certify/exact_nearby.hpp"
+#include "certify/surroundings.hpp"
 
 #include <algorithm>
 #include <cmath>

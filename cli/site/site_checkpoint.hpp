@@ -11,12 +11,12 @@ namespace itin::cli {
 
 /// Records of an option's bounds, one after the other, each with a checksum: a record cut short by a kill is as if it
 /// had never been.
-class SiteWork {
+class SiteCheckpoint {
  public:
   /// `key` tells runs apart. With `resume` what an earlier run of the same key found is put back into `coverage`;
   /// otherwise, and for other keys, the file begins anew. Throws FileError.
-  SiteWork(std::string path, const std::string& key, bool resume, std::size_t options,
-           viewshed::SiteCoverage& coverage);
+  SiteCheckpoint(std::string path, const std::string& key, bool resume, std::size_t options,
+                 viewshed::SiteCoverage& coverage);
 
   /// How many records were put back.
   std::size_t restored() const { return restored_; }

@@ -1,3 +1,5 @@
+#include "compute/surface_in_memory.hpp"
+
 #include <algorithm>
 #include <utility>
 
@@ -6,7 +8,6 @@
 #include <viewshed/viewshed.hpp>
 
 #include "bounds/surface_heights.hpp"
-#include "compute/surface_in_memory.hpp"
 #include "modes/observe.hpp"
 #include "progress/stopwatch.hpp"
 #include "request/eye.hpp"

@@ -1,4 +1,4 @@
-#include "site/site_work.hpp"
+#include "site/site_checkpoint.hpp"
 
 #include <cstring>
 #include <filesystem>
@@ -94,8 +94,8 @@ std::size_t restore(const std::string& bytes, std::size_t from, std::size_t opti
 
 }  // namespace
 
-SiteWork::SiteWork(std::string path, const std::string& key, bool resume, std::size_t options,
-                   viewshed::SiteCoverage& coverage)
+SiteCheckpoint::SiteCheckpoint(std::string path, const std::string& key, bool resume, std::size_t options,
+                               viewshed::SiteCoverage& coverage)
     : path_(std::move(path)) {
   const std::string head = header(key);
   std::size_t keep = 0;
@@ -112,7 +112,7 @@ SiteWork::SiteWork(std::string path, const std::string& key, bool resume, std::s
   if (!written) throw FileError(path_, "cannot be written; it keeps what --resume needs");
 }
 
-void SiteWork::add(std::size_t option, int stage, const CoverageBounds& bounds) {
+void SiteCheckpoint::add(std::size_t option, int stage, const CoverageBounds& bounds) {
   std::string record;
   put(record, option), put(record, static_cast<std::uint64_t>(stage)), put(record, bounds.exact ? 1 : 0);
   put(record, bounds.certain), put(record, bounds.possible);
@@ -123,7 +123,7 @@ void SiteWork::add(std::size_t option, int stage, const CoverageBounds& bounds) 
     throw FileError(path_, "cannot be written; is the disk full?");
 }
 
-void SiteWork::remove() {
+void SiteCheckpoint::remove() {
   file_.reset();
   std::error_code ignored;
   std::filesystem::remove(path_, ignored);

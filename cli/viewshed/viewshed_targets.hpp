@@ -1,0 +1,33 @@
+// The options of `itin viewshed` that say which cells are looked at, and where in a cell the target is.
+#pragma once
+
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include <itin/store.hpp>
+#include <viewshed/viewshed.hpp>
+
+#include "options/observer_options.hpp"
+#include "program/verb.hpp"
+
+namespace itin::cli {
+
+class ViewshedTargets {
+ public:
+  void declare(CLI::App& app);
+  /// Fills the request's targets and its field of view. Throws InputError.
+  void validate(const ObserverOptions& observers, viewshed::Request& request);
+  /// Fills in the cells of --like. Throws InputError, FileError.
+  void complete(const StoreMetadata& metadata, viewshed::Request& request) const;
+  /// "ground" or "surface".
+  const std::string& on() const { return on_; }
+  /// How the request came to its targets.
+  Document parameters(const viewshed::Request& request) const;
+
+ private:
+  std::string height_text_, radius_text_, min_radius_text_, azimuth_text_, elevation_text_, cell_text_, like_;
+  std::string on_ = "ground";
+};
+
+}  // namespace itin::cli
