@@ -117,10 +117,12 @@ std::string text_of(const profile::LosReport& report) {
     text += fmt::format("reflection point at {:.1f} m; reflected path {}\n", report.reflection->distance_m,
                         screen_text(report));
   if (report.visible) {
-    text +=
-        fmt::format("{:.1f} m of the object at the second end are seen ({:.0f} %), {:.1f} m up to its hub ({:.0f} %)\n",
-                    report.visible->tip_visible_m, 100 * report.visible->tip_fraction, report.visible->hub_visible_m,
-                    100 * report.visible->hub_fraction);
+    const profile::VisibleHeight& seen = *report.visible;
+    text += fmt::format("{:.1f} m of the object at the second end are seen ({:.0f} %)", seen.tip.visible_m,
+                        100 * seen.tip.fraction);
+    if (seen.hub)
+      text += fmt::format(", {:.1f} m up to its hub ({:.0f} %)", seen.hub->visible_m, 100 * seen.hub->fraction);
+    text += "\n";
   }
   return text + report.query.earth.convention() + "\n";
 }

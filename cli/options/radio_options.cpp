@@ -16,7 +16,7 @@ profile::TallObject parse_object(const std::string& text) {
   if (heights.size() > 2 || heights.front() > heights.back()) {
     throw InputError(fmt::format("--visible-height '{}': expected TIP, or HUB,TIP with the hub below the tip", text));
   }
-  return {heights.front(), heights.back()};
+  return {heights.size() > 1 ? std::optional(heights.front()) : std::nullopt, heights.back()};
 }
 
 }  // namespace
@@ -56,7 +56,10 @@ Document RadioOptions::parameters() const {
       parameters["criteria"].push_back({{"k", c.fade ? Document("ke") : Document(c.k)}, {"fraction", c.fraction}});
     }
   }
-  if (object_) parameters["visible_height_m"] = {{"hub", object_->hub_m}, {"tip", object_->tip_m}};
+  if (object_) {
+    parameters["visible_height_m"] = {{"tip", object_->tip_m}};
+    if (object_->hub_m) parameters["visible_height_m"]["hub"] = *object_->hub_m;
+  }
   return parameters;
 }
 

@@ -131,7 +131,7 @@ void ViewFields::fill(viewshed::Observer& observer, const std::vector<std::optio
         break;
       // ArcGIS writes horizontal distances with a minus sign.
       case Role::kRadius:
-        if (value == 0 || (value < 0 && !arcgis_)) field.refuse("a positive number of metres");
+        if (!(std::abs(value) > 0) || (value < 0 && !arcgis_)) field.refuse("a positive number of metres");
         observer.radius = field.distance(arcgis_ ? std::abs(value) : value);
         break;
       case Role::kMinRadius:

@@ -152,14 +152,16 @@ TEST(RequiredHeights, AreNoneWhereNoHeightHelps) {
 TEST(VisibleHeight, OfATurbineBehindARidge) {
   // From 2 m the line over the ridge (30 m at 2 km) rises 14 m a km: 72 m at 5 km.
   const Profile profile = even_profile(1000, {0, 0, 30, 0, 0, 0});
-  const VisibleHeight seen = visible_height(profile, 2, 80, 125, Earth::flat());
+  const VisibleHeight seen = visible_height(profile, 2, {80, 125}, Earth::flat());
   EXPECT_NEAR(seen.from_m, 72, 1e-9);
-  EXPECT_NEAR(seen.hub_visible_m, 8, 1e-9);
-  EXPECT_NEAR(seen.hub_fraction, 0.1, 1e-9);
-  EXPECT_NEAR(seen.tip_visible_m, 53, 1e-9);
-  EXPECT_NEAR(seen.tip_fraction, 53.0 / 125, 1e-9);
-  const VisibleHeight hidden = visible_height(profile, 2, 40, 60, Earth::flat());
-  EXPECT_EQ(hidden.tip_visible_m, 0);
+  ASSERT_TRUE(seen.hub);
+  EXPECT_NEAR(seen.hub->visible_m, 8, 1e-9);
+  EXPECT_NEAR(seen.hub->fraction, 0.1, 1e-9);
+  EXPECT_NEAR(seen.tip.visible_m, 53, 1e-9);
+  EXPECT_NEAR(seen.tip.fraction, 53.0 / 125, 1e-9);
+  const VisibleHeight hidden = visible_height(profile, 2, {{}, 60}, Earth::flat());
+  EXPECT_FALSE(hidden.hub);
+  EXPECT_EQ(hidden.tip.visible_m, 0);
   EXPECT_EQ(hidden.from_m, 60);
 }
 

@@ -111,6 +111,22 @@ TEST(Reflection, IsScreenedByWhatStandsInItsWay) {
   EXPECT_FALSE(reflection(with_wall(ground, 1000, 4.99), {30, 30}, earth_of_km(kFlatEarth), &ground)->screen);
 }
 
+TEST(Reflection, IsScreenedWhereItsPlaceHidesTheDirectPath) {
+  const Profile ground = level(4000, 20);
+  const auto hidden = reflection(with_wall(ground, 1999.5, 12.5), {30, 30}, earth_of_km(kFlatEarth), &ground);
+  ASSERT_TRUE(hidden && hidden->screen);
+  EXPECT_NEAR(hidden->distance_m, 2000, 1e-9);
+  EXPECT_NEAR(hidden->screen->distance_m, 2000, 1e-9);
+  EXPECT_NEAR(hidden->screen_depth_m, 2.5, 1e-9) << "above the direct path, at 30 m";
+  const auto seen = reflection(with_wall(ground, 1999.5, 9.5), {30, 30}, earth_of_km(kFlatEarth), &ground);
+  ASSERT_TRUE(seen);
+  EXPECT_FALSE(seen->screen) << "the path is reflected by the wall's top";
+  // Over the effective Earth the ground rises by 2000^2 / (2 * 8500000) = 0.235 m in the middle.
+  const auto grazed = reflection(with_wall(ground, 1999.5, 9.9), {30, 30}, earth_of_km(8500), &ground);
+  ASSERT_TRUE(grazed && grazed->screen);
+  EXPECT_NEAR(grazed->screen_depth_m, 9.9 + 2000.0 * 2000 / 17e6 - 10, 1e-6);
+}
+
 TEST(Reflection, IsUnknownWithoutData) {
   Profile profile = level(4000, 20);
   profile.points.insert(profile.points.begin() + 1, {{1500, 1500, 0, 20}, {2500, 2500, 0, 20}});

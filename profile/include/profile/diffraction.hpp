@@ -109,8 +109,9 @@ struct Reflection {
   std::uint16_t theme = 0;         ///< of it
   double grazing_deg = 0;          ///< angle between the path and the ground
   double longer_by_m = 0;          ///< than the direct path
-  /// Where the profile rises highest above the two straight lines from the antennas to the ground there; nothing where
-  /// it does not, and where ground_m is nothing.
+  /// The place itself, where what stands there rises above the direct path; else where the profile rises highest above
+  /// the two straight lines from the antennas to the ground there; nothing where it does not, and where ground_m is
+  /// nothing.
   std::optional<ProfilePoint> screen;
   double screen_depth_m = 0;  ///< by how much; 0 without a screen
 };

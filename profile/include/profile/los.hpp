@@ -79,19 +79,14 @@ struct NamedHeights {
   std::vector<HeightPair> curve;  ///< ascending in from_m, descending in to_m
 };
 
-/// The tall object at the second end, such as a wind turbine.
-struct TallObject {
-  double hub_m = 0, tip_m = 0;  ///< above its ground
-};
-
 struct LosQuery {
   double from_height_m = 0, to_height_m = 0;  ///< above what the ends stand on
   /// Whether an end within a raised feature stands on it, or else on the ground under it.
   bool from_on_surface = false, to_on_surface = false;
   Earth earth;
   std::optional<RadioPath> radio;
-  std::vector<Criterion> criteria;  ///< with fraction > 0 only if there is a frequency
-  std::optional<TallObject> object;
+  std::vector<Criterion> criteria;   ///< with fraction > 0 only if there is a frequency
+  std::optional<TallObject> object;  ///< at the second end
   /// How far the clearance over the full surface may lie from the one on this profile, metres: the width of the
   /// surface's certified error. A clearance nearer to 0 leaves the verdict undecided.
   double clearance_error_m = 0;

@@ -53,17 +53,27 @@ std::vector<HeightPair> height_curve(const Profile& profile, const PlannedHeight
                                      const Requirement& requirement, const std::optional<double>& both_equal_m,
                                      const std::optional<EndGrounds>& grounds = {});
 
-/// The visible part of an upright object at the second end, seen from an antenna or eye at the first.
-struct VisibleHeight {
-  double from_m = 0;         ///< above the object's ground: below this it is hidden
-  double hub_visible_m = 0;  ///< seen of the part up to the hub
-  double tip_visible_m = 0;  ///< seen of the part up to the tip
-  double hub_fraction = 0;   ///< of the hub's height
-  double tip_fraction = 0;   ///< of the tip's height
+/// A tall upright object, such as a wind turbine.
+struct TallObject {
+  std::optional<double> hub_m;  ///< above its ground, no higher than the tip; nothing: it has none
+  double tip_m = 0;             ///< above its ground
 };
 
-/// `eye_m` above the ground at the first end; hub <= tip above the ground at the second.
-VisibleHeight visible_height(const Profile& profile, double eye_m, double hub_m, double tip_m, const Earth& earth,
+/// A part of an object that reaches from its ground up to some height.
+struct VisiblePart {
+  double visible_m = 0;  ///< seen of it, from its top down
+  double fraction = 0;   ///< of its height
+};
+
+/// The visible part of an object at the second end, seen from an antenna or eye at the first.
+struct VisibleHeight {
+  double from_m = 0;               ///< above the object's ground: below this it is hidden
+  VisiblePart tip;                 ///< up to the tip
+  std::optional<VisiblePart> hub;  ///< up to the hub, where there is one
+};
+
+/// `eye_m` above the ground at the first end.
+VisibleHeight visible_height(const Profile& profile, double eye_m, const TallObject& object, const Earth& earth,
                              const std::optional<EndGrounds>& grounds = {});
 
 }  // namespace itin::profile

@@ -43,8 +43,8 @@ LinkResult result_of(const Sections& sections, const LosQuery& query) {
   result.losses = losses_over(sections.surface, antennas, query, under);
   if (query.radio) result.reflection = reflection(sections.surface, antennas, *query.radio, under);
   if (query.object) {
-    result.visible = visible_height(sections.surface, query.from_height_m, query.object->hub_m, query.object->tip_m,
-                                    query.earth, result.stands_on);
+    result.visible =
+        visible_height(sections.surface, query.from_height_m, *query.object, query.earth, result.stands_on);
   }
   return result;
 }

@@ -113,8 +113,7 @@ LosReport analyse(Profile profile, const LosQuery& query, Profile ground) {
   if (query.radio) report.reflection = reflection(report.profile, report.antennas, *query.radio, under);
   describe_ends(report);
   if (query.object) {
-    report.visible = visible_height(report.profile, query.from_height_m, query.object->hub_m, query.object->tip_m,
-                                    query.earth, report.stands_on);
+    report.visible = visible_height(report.profile, query.from_height_m, *query.object, query.earth, report.stands_on);
   }
   return report;
 }

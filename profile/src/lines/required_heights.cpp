@@ -222,18 +222,20 @@ std::vector<HeightPair> height_curve(const Profile& profile, const PlannedHeight
   return curve;
 }
 
-VisibleHeight visible_height(const Profile& profile, double eye_m, double hub_m, double tip_m, const Earth& earth,
+VisibleHeight visible_height(const Profile& profile, double eye_m, const TallObject& object, const Earth& earth,
                              const std::optional<EndGrounds>& grounds) {
   VisibleHeight seen;
   if (profile.has_length()) {
     const auto least = HeightDemand(profile, Requirement{earth}, grounds.value_or(ends_of(profile))).to_alone(eye_m);
-    seen.from_m = least ? *least : tip_m;
+    seen.from_m = least ? *least : object.tip_m;
   }
-  seen.from_m = std::min(seen.from_m, tip_m);
-  seen.hub_visible_m = std::max(hub_m - seen.from_m, 0.0);
-  seen.tip_visible_m = std::max(tip_m - seen.from_m, 0.0);
-  seen.hub_fraction = hub_m > 0 ? seen.hub_visible_m / hub_m : 0;
-  seen.tip_fraction = tip_m > 0 ? seen.tip_visible_m / tip_m : 0;
+  seen.from_m = std::min(seen.from_m, object.tip_m);
+  const auto up_to = [&](double top_m) {
+    const double visible_m = std::max(top_m - seen.from_m, 0.0);
+    return VisiblePart{visible_m, top_m > 0 ? visible_m / top_m : 0};
+  };
+  seen.tip = up_to(object.tip_m);
+  if (object.hub_m) seen.hub = up_to(*object.hub_m);
   return seen;
 }
 

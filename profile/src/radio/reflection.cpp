@@ -41,11 +41,19 @@ ProfilePoint place_at(const Profile& profile, double distance_m, double ground_m
   return place;
 }
 
-/// What rises highest above the two legs of the reflected path.
+/// What rises highest above the two legs of the reflected path; or the place itself, where the direct path meets it.
 void find_screen(const Profile& profile, const Antennas& antennas, const RadioPath& path, const ProfilePoint& place,
                  Reflection& found) {
   Earth earth;
   earth.effective_factor = path.effective_earth_km * 1000 / earth.radius;
+  const double along = place.distance_m, rest = profile.length_m - along,
+               direct_m = (antennas.from_m * rest + antennas.to_m * along) / profile.length_m -
+                          earth.drop_coefficient() * along * rest;
+  if (place.ground_m - direct_m > kGrazing) {
+    found.screen = place;
+    found.screen_depth_m = place.ground_m - direct_m;
+    return;
+  }
   for (const bool before : {true, false}) {
     const Antennas leg = before ? Antennas{antennas.from_m, place.ground_m} : Antennas{place.ground_m, antennas.to_m};
     const std::optional<LineClearance> least = line_clearance(part_of(profile, place, before), leg, earth);

@@ -115,14 +115,20 @@ class ColumnList {
     of_result("ld_db", [](const LinkResult& r) { return r.losses ? Value(r.losses->ld_db) : Value(); });
   }
   void add_object() {
-    const auto seen = [&](const char* name, double VisibleHeight::*member) {
-      of_result(name, [member](const LinkResult& r) { return r.visible ? Value((*r.visible).*member) : Value(); });
+    using Part = std::function<std::optional<VisiblePart>(const VisibleHeight&)>;
+    const auto part = [&](const std::string& name, const Part& of) {
+      const auto add = [&](const char* what, double VisiblePart::*member) {
+        of_result(name + what, [of, member](const LinkResult& r) {
+          const std::optional<VisiblePart> seen = r.visible ? of(*r.visible) : std::nullopt;
+          return seen ? Value((*seen).*member) : Value();
+        });
+      };
+      add("_visible_m", &VisiblePart::visible_m);
+      add("_fraction", &VisiblePart::fraction);
     };
-    seen("hidden_below_m", &VisibleHeight::from_m);
-    seen("hub_visible_m", &VisibleHeight::hub_visible_m);
-    seen("hub_fraction", &VisibleHeight::hub_fraction);
-    seen("tip_visible_m", &VisibleHeight::tip_visible_m);
-    seen("tip_fraction", &VisibleHeight::tip_fraction);
+    of_result("hidden_below_m", [](const LinkResult& r) { return r.visible ? Value(r.visible->from_m) : Value(); });
+    part("hub", [](const VisibleHeight& seen) { return seen.hub; });
+    part("tip", [](const VisibleHeight& seen) { return std::optional(seen.tip); });
   }
   void add_ends() {
     of_result(

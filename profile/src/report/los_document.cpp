@@ -168,11 +168,12 @@ Document cover_document(const LosReport& report) {
 
 Document visible_document(const LosReport& report) {
   const VisibleHeight& seen = *report.visible;
-  return {{"hub_m", report.query.object->hub_m},
+  const auto part = [](const VisiblePart& p) { return Document{{"visible_m", p.visible_m}, {"fraction", p.fraction}}; };
+  return {{"hub_m", number_or_null(report.query.object->hub_m)},
           {"tip_m", report.query.object->tip_m},
           {"hidden_below_m", seen.from_m},
-          {"hub", {{"visible_m", seen.hub_visible_m}, {"fraction", seen.hub_fraction}}},
-          {"tip", {{"visible_m", seen.tip_visible_m}, {"fraction", seen.tip_fraction}}}};
+          {"hub", seen.hub ? part(*seen.hub) : Document(nullptr)},
+          {"tip", part(seen.tip)}};
 }
 
 Document findings_document(const LosReport& report, const LineFindings& found) {

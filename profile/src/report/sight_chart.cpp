@@ -286,8 +286,10 @@ class SightChart {
     const double from = report_.visible->from_m;
     drawing_.rectangle({left, up(from), right, up(0)}, kUnseen);
     drawing_.rectangle({left, up(object.tip_m), right, up(from)}, kChartSeen);
-    const Point2 hub[] = {{left - 3, up(object.hub_m)}, {right, up(object.hub_m)}};
-    if (object.hub_m < object.tip_m) drawing_.polyline(hub, {kReportInk, 0.8, {}});
+    if (object.hub_m) {
+      const Point2 hub[] = {{left - 3, up(*object.hub_m)}, {right, up(*object.hub_m)}};
+      drawing_.polyline(hub, {kReportInk, 0.8, {}});
+    }
     if (from >= object.tip_m) return;
     const Point2 lowest[] = {at(0, report_.antennas.from_m), {left, up(from)}};
     drawing_.polyline(lowest, {kChartSeen, 0.9, {4, 2}});

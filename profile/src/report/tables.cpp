@@ -123,14 +123,18 @@ Table geometry_table(const LosReport& report) {
 Table object_table(const LosReport& report) {
   const VisibleHeight& seen = *report.visible;
   const TallObject& object = *report.query.object;
-  return {"What is seen of the object at the second end",
-          {},
-          {{"Hidden below", fmt::format("{:.2f} m above its {}", seen.from_m, base_name(report.query.to_on_surface))},
-           {fmt::format("Up to the hub, {:g} m", object.hub_m),
-            fmt::format("{:.2f} m, {:.0f} %", seen.hub_visible_m, 100 * seen.hub_fraction)},
-           {fmt::format("Up to the tip, {:g} m", object.tip_m),
-            fmt::format("{:.2f} m, {:.0f} %", seen.tip_visible_m, 100 * seen.tip_fraction)}},
-          report.profile.gaps.empty() ? "" : "Only known ground is counted; ground without data may hide more."};
+  const auto row = [](const char* top, double height_m, const VisiblePart& part) {
+    return std::vector<std::string>{fmt::format("Up to the {}, {:g} m", top, height_m),
+                                    fmt::format("{:.2f} m, {:.0f} %", part.visible_m, 100 * part.fraction)};
+  };
+  Table table{
+      "What is seen of the object at the second end",
+      {},
+      {{"Hidden below", fmt::format("{:.2f} m above its {}", seen.from_m, base_name(report.query.to_on_surface))}},
+      report.profile.gaps.empty() ? "" : "Only known ground is counted; ground without data may hide more."};
+  if (seen.hub) table.rows.push_back(row("hub", *object.hub_m, *seen.hub));
+  table.rows.push_back(row("tip", object.tip_m, seen.tip));
+  return table;
 }
 
 }  // namespace

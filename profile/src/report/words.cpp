@@ -62,6 +62,9 @@ std::string screen_text(const LosReport& report) {
   const Reflection& r = *report.reflection;
   if (!r.ground_m) return "unknown: there is no data at the point";
   if (!r.screen) return report.profile.gaps.empty() ? "clear" : "clear over known ground";
+  if (r.screen->distance_m == r.distance_m)
+    return fmt::format("screened: {} at the point rises {:.2f} m above the direct path",
+                       cause_of(report, r.screen->theme), r.screen_depth_m);
   return fmt::format("screened by {} at {}, {:.2f} m above it", cause_of(report, r.screen->theme),
                      distance_text(r.screen->distance_m), r.screen_depth_m);
 }
