@@ -34,9 +34,9 @@ class ExactJudge final : public TileJudge {
   ExactJudge(const FullSurface& surface, EyeView view);
 
   /// With what modes ask about a tile's ground and its lines besides.
-  class TileWork final : public Work {
+  class ExactWork final : public Work {
    public:
-    TileWork(const ExactJudge& judge, std::unique_ptr<FullSurface::TileWork> of)
+    ExactWork(const ExactJudge& judge, std::unique_ptr<FullSurface::TileWork> of)
         : cells(*of), judge_(judge), cells_(std::move(of)) {}
 
     std::uint64_t judge(std::size_t eye, TileValues<Verdict>& values) override;
@@ -52,9 +52,9 @@ class ExactJudge final : public TileJudge {
   };
 
   std::unique_ptr<Work> begin(std::size_t tile) const override { return begin_exactly(tile); }
-  std::unique_ptr<TileWork> begin_exactly(std::size_t tile) const;
+  std::unique_ptr<ExactWork> begin_exactly(std::size_t tile) const;
   /// Only cells in these parts of the tile are asked about.
-  std::unique_ptr<TileWork> begin_exactly(std::size_t tile, std::span<const Tile> parts) const;
+  std::unique_ptr<ExactWork> begin_exactly(std::size_t tile, std::span<const Tile> parts) const;
   /// FullSurface::hides().
   bool hides(std::size_t eye, std::size_t tile) const {
     return surface_.hides(views_[eye].eye, views_[eye].view, tile);

@@ -36,7 +36,7 @@ struct CellView {
 
 /// One observer's view of the cells of a tile.
 struct TileView {
-  ExactJudge::TileWork& work;
+  ExactJudge::ExactWork& work;
   std::size_t number;                        ///< of the eye, in the judge
   std::uint32_t observer;                    ///< from 0
   const TriangleStudies* studies = nullptr;  ///< of the surface, where the mode needs them
