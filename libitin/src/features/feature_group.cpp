@@ -295,17 +295,17 @@ GroupMesh build_group(std::vector<PreparedFeature> features, double offset, cons
       mesh.refused = std::move(refused);
       return mesh;
     }
-    std::vector<PreparedFeature> standing;
+    std::vector<PreparedFeature> kept;
     for (std::uint32_t f = 0; f < features.size(); ++f) {
       const auto objection = objections.find(f);
       if (objection == objections.end()) {
-        standing.push_back(std::move(features[f]));
+        kept.push_back(std::move(features[f]));
       } else {
         refusals.push_back({features[f].number, objection->second});
         refused.push_back(features[f].number);
       }
     }
-    features = std::move(standing);
+    features = std::move(kept);
   }
 }
 

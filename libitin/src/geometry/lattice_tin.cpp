@@ -206,7 +206,7 @@ void set_heights(const Tin& tin, LatticeTin& lattice) {
 
 std::optional<LatticeTin> lattice_of(const Tin& tin) {
   const std::size_t count = tin.triangles.size();
-  if (count == 0 || !tin.standing.empty()) return std::nullopt;
+  if (count == 0 || !tin.raised_theme.empty()) return std::nullopt;
   std::optional<LatticeTin> lattice = lattice_about(tin);
   if (!lattice) return std::nullopt;
   std::atomic<bool> odd = false;

@@ -103,7 +103,7 @@ constexpr int kMostRaised = 3;
 
 /// Whether a store's ground, which may be null, is that of its terrain and lines alone, as they were imported: nothing
 /// that stands has cut any.
-bool may_stand_on(const Store* store) {
+bool has_uncut_ground(const Store* store) {
   if (store == nullptr) return false;
   const std::vector<ThemeInfo>& themes = store->metadata().themes;
   const auto raised = [](const ThemeInfo& theme) { return theme.is_raised(); };
@@ -120,7 +120,7 @@ void write_in_turns(Target target, const Store* existing, Additions additions, c
                     ImportReport& report, CallProgress& call) {
   const bool raises = !additions.footprints.empty() || has_raised(existing);
   const Store* base = existing;
-  const Store* ground = may_stand_on(base) && !additions.footprints.empty() ? base : nullptr;
+  const Store* ground = has_uncut_ground(base) && !additions.footprints.empty() ? base : nullptr;
   std::deque<Unfinished> passing;  // stores for the time of this import only
   std::optional<Store> before;
   RaisedFeatures raised;
@@ -194,7 +194,7 @@ ImportReport import_lines(const std::string& store_path, const ImportOptions& op
                                  store_path, name_of(*options.kind)));
   }
   ImportReport report = import_sources(store_path, lines, progress);
-  if (may_stand(*options.kind) && !builds_features(options)) {
+  if (may_be_raised(*options.kind) && !builds_features(options)) {
     report.warnings.push_back(
         fmt::format("{} without heights are outlines on the ground; to make them stand, give "
                     "`height_field` or `height`, and another `theme`",

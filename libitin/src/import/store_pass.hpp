@@ -53,7 +53,7 @@ class StorePass {
   /// All must outlive it. Counts into the report.
   StorePass(const Target& target, const PassSources& of, const ImportOptions& options, ImportReport& report);
 
-  /// Standing features are raised on the ground, and cut its lines there. Returns false where features need another
+  /// Features with heights are raised on the ground, and cut its lines there. Returns false where features need another
   /// turn, on the ground of the passing store that was written instead, which has no points at other levels: this one
   /// has other ground than they were raised on, or they were not.
   bool run(RaisedFeatures& raised, Progress& progress);
