@@ -55,7 +55,7 @@ class GroupBuilder {
     add_masks();
     add_tops(patches);
     if (!objections_.empty()) return objections_;
-    settle();
+    ensure_planar();
     if (terrain_) lay_on_terrain();
     return objections_;
   }
@@ -208,7 +208,7 @@ class GroupBuilder {
   }
 
   /// The promise of planarity, kept by construction in all but the narrowest places.
-  void settle() {
+  void ensure_planar() {
     std::vector<GridEdge> edges;
     for (const PlacedSegment& s : mesh_.segments) edges.push_back(edge_in_plan(s));
     const auto found = conflicts(edges);

@@ -101,7 +101,7 @@ class SnapRounding {
       round(s, hot);
     }
     stop_if_asked();
-    settle_heights();
+    choose_heights();
     stop_if_asked();
     split_at_vertices();
     stop_if_asked();
@@ -178,7 +178,7 @@ class SnapRounding {
   }
 
   /// The heights that count, one per position.
-  void settle_heights() {
+  void choose_heights() {
     std::sort(heights_.begin(), heights_.end());
     heights_.erase(std::unique(heights_.begin(), heights_.end(),
                                [](const Height& a, const Height& b) { return a.code == b.code; }),

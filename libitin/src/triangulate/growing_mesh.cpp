@@ -26,7 +26,7 @@ const Edge* find(const std::vector<Edge>& edges, std::uint32_t from, std::uint32
 void GrowingMesh::start(PlaneMesh mesh) {
   mesh_ = std::move(mesh);
   mesh_.constrained.assign(mesh_.triangles.size(), 0);
-  settled_.assign(mesh_.triangles.size(), 0);
+  proved_.assign(mesh_.triangles.size(), 0);
   changed_.clear();
   some_triangle_.assign(vertices_.size(), kNoTriangle);
   for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
@@ -175,7 +175,7 @@ void GrowingMesh::replace() {
     const std::uint32_t t = place_for(k);
     mesh_.triangles[t] = filling_[k];
     mesh_.constrained[t] = 0;
-    settled_[t] = 0;
+    proved_[t] = 0;
     changed_.push_back(t);
     for (int i = 0; i < 3; ++i) {
       some_triangle_[corner(t, i)] = t;
@@ -199,7 +199,7 @@ std::uint32_t GrowingMesh::place_for(std::size_t number) {
   mesh_.triangles.emplace_back();
   mesh_.neighbours.emplace_back();
   mesh_.constrained.push_back(0);
-  settled_.push_back(0);
+  proved_.push_back(0);
   return static_cast<std::uint32_t>(mesh_.triangles.size() - 1);
 }
 

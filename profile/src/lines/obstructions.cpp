@@ -54,7 +54,7 @@ class Gathering {
   }
 
   /// The verdict is the clearance's; obstructions thinner than its rounding error follow it.
-  std::vector<Obstruction> settled(const LineClearance& least) {
+  std::vector<Obstruction> finish(const LineClearance& least) {
     std::erase_if(found_, [](const Obstruction& o) { return o.depth_m <= kGrazing; });
     if (least.clearance_m < -kGrazing && found_.empty()) {
       const ProfilePoint& p = least.critical;
@@ -79,7 +79,7 @@ std::vector<Obstruction> obstructions(const Profile& profile, const Antennas& an
   for_each_piece(profile, antennas, earth.drop_coefficient(), [&](const ClearancePiece& piece, std::size_t i) {
     if (const auto cut = cut_part(piece)) gathering.add(piece, i, cut->first, cut->second);
   });
-  return gathering.settled(least);
+  return gathering.finish(least);
 }
 
 }  // namespace itin::profile

@@ -26,7 +26,7 @@ std::uint64_t LeastHeightObservation::observe(const TileView& tile) {
   });
   tile.work.surface().raise_from(tile.from().view, {lowest_, wanted_}, cells);
   tile.for_each_cell([&](const CellView& view) {
-    if (!std::isnan(cells.targets[view.cell]) && !std::isnan(cells.seen[view.cell])) settle(tile, view);
+    if (!std::isnan(cells.targets[view.cell]) && !std::isnan(cells.seen[view.cell])) record(tile, view);
   });
   return lines;
 }
@@ -52,7 +52,7 @@ bool LeastHeightObservation::raise(const TileView& tile, const CellView& view) {
   return true;
 }
 
-void LeastHeightObservation::settle(const TileView& tile, const CellView& view) {
+void LeastHeightObservation::record(const TileView& tile, const CellView& view) {
   const FullSurface::TileWork& cells = tile.cells();
   const Point3 highest = cells.target(view.cell);
   if (const auto& shadow = tile.from().shadow; shadow && shadow->holds(highest.x, highest.y)) return;

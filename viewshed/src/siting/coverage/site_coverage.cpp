@@ -143,7 +143,7 @@ class SiteCoverage::Impl {
     if (look.binned || look.level > 0 || !looks_.whole_fits())
       own = surfaces_.survey_of(group, look, call.step(kReadingFirst));
     const GroupSurvey& survey = own ? *own : surfaces_.whole(look, call.step(kReadingFirst));
-    // Few at a time: a run that is killed goes on from what has been settled.
+    // Few at a time: a run that is killed goes on from what has been recorded.
     for (std::size_t first = 0; first < options.size(); first += kJudgedTogether) {
       const auto begin = options.begin() + static_cast<std::ptrdiff_t>(first);
       const auto count = static_cast<std::ptrdiff_t>(std::min(kJudgedTogether, options.size() - first));
@@ -162,7 +162,7 @@ class SiteCoverage::Impl {
     for (std::size_t i = 0; i < options.size(); ++i) {
       if (looks_.themed() && !look.themed) after[i].certain = {}, after[i].exact = false;  // features may hide it
       if (survey_.fresnel && !looks_.judges_zones(look.level)) after[i].certain = {};      // or its zone is cut
-      settle(options[i], stage, std::exchange(after[i], {}));
+      record_bounds(options[i], stage, std::exchange(after[i], {}));
     }
     statistics_.lines_seconds += watch.lap();
     warn_of_voids(options, survey);
@@ -177,7 +177,7 @@ class SiteCoverage::Impl {
     if (crossed) warnings_.emplace_back(kVoidsWarning);
   }
 
-  void settle(std::size_t option, int stage, const CoverageBounds& bounds) {
+  void record_bounds(std::size_t option, int stage, const CoverageBounds& bounds) {
     restore(option, stage, bounds);
     if (on_refined != nullptr && *on_refined) (*on_refined)(option, stage, states_[option].bounds);
   }
