@@ -212,11 +212,11 @@ class GreedyInsertion {
     ground_.take(conflicts_, v);
     vertices_[v] =
         triangulation_.star_hole(position(v), boundary_.begin(), boundary_.end(), conflicts_.begin(), conflicts_.end());
-    look_at_star(vertices_[v]);
+    update_star(vertices_[v]);
     return vertices_[v]->face();
   }
 
-  void look_at_star(Vertex centre) {
+  void update_star(Vertex centre) {
     star_.clear();
     auto face = triangulation_.incident_faces(centre), end = face;
     do {
