@@ -37,8 +37,8 @@ double distance_to_segment(Point2 p, const GridPoint& from, const GridPoint& to)
 }
 
 bool strictly_inside(const GridPoint& a, const GridPoint& b, const GridPoint& c, Position p) {
-  const int turn = orientation(a, b, c);
-  return orientation(a, b, p) == turn && orientation(b, c, p) == turn && orientation(c, a, p) == turn;
+  const int side = orientation(a, b, c);
+  return orientation(a, b, p) == side && orientation(b, c, p) == side && orientation(c, a, p) == side;
 }
 
 /// Heights are relative to the region's.

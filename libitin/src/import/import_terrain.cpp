@@ -116,20 +116,20 @@ bool has_raised(const Store* store) {
 }
 
 /// Raised features need their ground finished first, and give vertices to lines of the ground where they cross them.
-void write_in_turns(Target target, const Store* existing, Additions additions, const ImportOptions& options,
-                    ImportReport& report, CallProgress& call) {
+void write_in_passes(Target target, const Store* existing, Additions additions, const ImportOptions& options,
+                     ImportReport& report, CallProgress& call) {
   const bool raises = !additions.footprints.empty() || has_raised(existing);
   const Store* base = existing;
   const Store* ground = has_uncut_ground(base) && !additions.footprints.empty() ? base : nullptr;
-  std::deque<Unfinished> passing;  // stores for the time of this import only
+  std::deque<Unfinished> interim;  // stores for the time of this import only
   std::optional<Store> before;
   RaisedFeatures raised;
   for (int raisings = 0;;) {
     raisings += ground != nullptr ? 1 : 0;
-    passing.emplace_back(fmt::format("{}.ground{}", target.path, passing.size()));
-    target.passing = passing.back().path(), target.last = raisings == kMostRaised;
+    interim.emplace_back(fmt::format("{}.ground{}", target.path, interim.size()));
+    target.interim = interim.back().path(), target.last = raisings == kMostRaised;
     if (StorePass(target, {base, ground, additions}, options, report).run(raised, call.step(raises ? 0.5 : 1))) break;
-    base = ground = &before.emplace(passing.back().path());
+    base = ground = &before.emplace(interim.back().path());
     additions = Additions{plan_nothing(base->metadata()), {}};
   }
   report.features += raised.features;
@@ -165,7 +165,7 @@ ImportReport import_sources(const std::string& store_path, const ImportOptions& 
 
   const SetAsideCounts before = counts_of(store);
   StoreWriter writer(std::move(file), additions.plan.crs_wkt, additions.plan.grid, tolerances);
-  write_in_turns({writer, store_path, tolerances}, store, std::move(additions), options, report, call);
+  write_in_passes({writer, store_path, tolerances}, store, std::move(additions), options, report, call);
 
   const Store written(store_path);
   report_counts(before, counts_of(&written), report);

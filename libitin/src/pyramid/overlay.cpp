@@ -136,14 +136,14 @@ class CoarseWalk {
 
   /// Through the triangles that hang together about u.
   std::optional<Exit> leave_fan(Position u, std::uint32_t start, Position v) const {
-    for (const int turn : {1, 2}) {  // counterclockwise, and clockwise from where a border stopped that
+    for (const int step : {1, 2}) {  // counterclockwise, and clockwise from where a border stopped that
       std::uint32_t t = start;
       do {
         const int i = corner_at(t, u);
         const Position p = corner(t, next(i)), q = corner(t, previous(i));
         if (orientation(u, p, v) >= 0 && orientation(u, v, q) >= 0)
           return Exit{t, orientation(p, q, v) >= 0 ? kStays : i};
-        t = mesh_.neighbours[t][(i + turn) % 3];
+        t = mesh_.neighbours[t][(i + step) % 3];
       } while (t != kNoTriangle && t != start);
     }
     return std::nullopt;

@@ -101,7 +101,7 @@ class GrowingMesh {
   std::vector<std::uint8_t> proved_;
   std::vector<std::uint32_t> changed_;  ///< some of them more than once
   std::uint32_t last_ = 0;              ///< a triangle near the last change
-  std::uint32_t turn_ = 0;
+  std::uint32_t random_ = 0;
   // Buffers for the part that is being replaced, kept for their memory.
   std::vector<std::uint32_t> cavity_, left_, right_;
   std::vector<Side> rim_;
