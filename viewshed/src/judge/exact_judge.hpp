@@ -36,7 +36,7 @@ class ExactJudge final : public TileJudge {
   /// With what modes ask about a tile's ground and its lines besides.
   class ExactWork final : public Work {
    public:
-    ExactWork(const ExactJudge& judge, std::unique_ptr<FullSurface::TileWork> of)
+    ExactWork(const ExactJudge& judge, std::unique_ptr<FullSurface::TileCells> of)
         : cells(*of), judge_(judge), cells_(std::move(of)) {}
 
     std::uint64_t judge(std::size_t eye, TileValues<Verdict>& values) override;
@@ -44,11 +44,11 @@ class ExactJudge final : public TileJudge {
     const FullSurface& surface() const { return judge_.surface_; }
     const EyeView& view(std::size_t eye) const { return judge_.views_[eye]; }
 
-    FullSurface::TileWork& cells;
+    FullSurface::TileCells& cells;
 
    private:
     const ExactJudge& judge_;
-    std::unique_ptr<FullSurface::TileWork> cells_;
+    std::unique_ptr<FullSurface::TileCells> cells_;
   };
 
   std::unique_ptr<Work> begin(std::size_t tile) const override { return begin_exactly(tile); }

@@ -43,7 +43,7 @@ struct TileView {
 
   const EyeView& from() const { return work.view(number); }
   const Eye& eye() const { return from().eye; }
-  FullSurface::TileWork& cells() const { return work.cells; }
+  FullSurface::TileCells& cells() const { return work.cells; }
   double resolution() const { return work.surface().units().resolution; }
 
   /// Calls visit(view) for every cell that has ground; the views are of the ground.

@@ -125,7 +125,7 @@ class OpenLines::TileMarker {
   }
 
   const OpenLines& lines_;
-  const std::unique_ptr<FullSurface::TileWork> place_;
+  const std::unique_ptr<FullSurface::TileCells> place_;
   double height_;  ///< of eyes, grid units
   Visibility& open_;
   std::size_t turbine_ = 0;

@@ -27,7 +27,7 @@ struct ZoneSurvey::TileSightings {
     open.fill(true);
     for (auto& word : seen) word.fill(0);
   }
-  const std::unique_ptr<FullSurface::TileWork> place;  ///< its targets are eyes, seen of the turbine at hand
+  const std::unique_ptr<FullSurface::TileCells> place;  ///< its targets are eyes, seen of the turbine at hand
   const Tile& tile;
   const TileCentres& centres;
   const TileValues<double>& ground;  ///< grid units
