@@ -23,7 +23,7 @@ bool is_text(const std::string& path);
 struct ProfileOutput {
   const StoreMetadata& metadata;
   const std::vector<SurfaceProfile>& profiles;
-  const profile::Profile& ground;  ///< for charts and text: the first without standing features; may be empty
+  const profile::Profile& ground;  ///< for charts and text: the first without raised features; may be empty
   Document document;               ///< the whole, for .json
   std::string title;               ///< of charts
   std::vector<double> corners_m;   ///< of charts: where along the line it turns

@@ -31,9 +31,9 @@ class PlacementOptions {
   Minimised minimised() const { return minimised_; }
   bool sums_heights() const { return given_ && minimised_ == Minimised::kHeight; }
   /// Above the ground, of what is looked for: the tip or the hub.
-  double height_looked_for() const { return minimised_ == Minimised::kHubs ? hub_height() : tip_height(); }
+  double minimised_height() const { return minimised_ == Minimised::kHubs ? hub_height() : tip_height(); }
   /// "the tip" or "the hub".
-  const char* part_looked_for() const { return minimised_ == Minimised::kHubs ? "the hub" : "the tip"; }
+  const char* minimised_part() const { return minimised_ == Minimised::kHubs ? "the hub" : "the tip"; }
   const std::optional<viewshed::TurbineSpacing>& spacing() const { return spacing_; }
   double setback() const { return setback_; }
 

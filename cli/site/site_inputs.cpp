@@ -34,9 +34,9 @@ class InputReader {
     leave_out_forbidden();
     leave_out_near_dwellings();
     leave_out_near(existing);
-    stand();
+    place_on_ground();
     if (inputs_.options.empty()) throw InputError(nothing_left());
-    stand_existing(existing);
+    place_existing(existing);
     read_site_demand(store_, options_, inputs_, progress_);
     return std::move(inputs_);
   }
@@ -168,7 +168,7 @@ class InputReader {
   }
 
   /// Candidates onto their ground, each with every mast.
-  void stand() {
+  void place_on_ground() {
     const auto ground = viewshed::ground_under(store_, candidate_positions(), ground_themes(), progress_);
     std::vector<Candidate> kept;
     for (std::size_t i = 0; i < ground.size(); ++i) {
@@ -204,7 +204,7 @@ class InputReader {
     return sites;
   }
 
-  void stand_existing(const std::vector<Site>& sites) {
+  void place_existing(const std::vector<Site>& sites) {
     std::vector<Point2> positions;
     for (const Site& site : sites) positions.push_back(site.position);
     const auto ground = viewshed::ground_under(store_, positions, ground_themes(), progress_);

@@ -172,7 +172,7 @@ void SiteOptions::validate_masts() {
   if (!candidates.height_field.empty() && !mast_height_text_.empty())
     throw InputError("--height-field and --mast-height exclude each other");
   if (placement.given()) {
-    masts = {{placement.height_looked_for(), 1}};
+    masts = {{placement.minimised_height(), 1}};
     return;
   }
   const std::vector<double> heights = mast_height_text_.empty()
@@ -236,7 +236,7 @@ std::string SiteOptions::meaning_of_served() const {
            "over the demand with its weights; what one place sees of several turbines counts for each";
   if (placement.given())
     return fmt::format("To be least: the demand that has a clear line of sight to {} of at least one turbine",
-                       placement.part_looked_for());
+                       placement.minimised_part());
   if (!frequency_ghz) return "A target is served if it has a clear line of sight to a site";
   return fmt::format(
       "A target is served if it has a clear line of sight to a site that leaves at least {:g} of the first Fresnel "

@@ -65,7 +65,7 @@ std::string least_in_words(const SiteResult& r) {
                         r.inputs.existing() == 1 ? "an existing one is seen" : "existing ones are seen")
           : "";
   return fmt::format(
-      "{} of a turbine is seen from {:.10g} of a demand of {:.10g} ({:.1f} %){}; {}", placement.part_looked_for(),
+      "{} of a turbine is seen from {:.10g} of a demand of {:.10g} ({:.1f} %){}; {}", placement.minimised_part(),
       r.in_metric(r.choice.value), r.in_metric(r.inputs.total),
       r.inputs.total == 0 ? 0 : 100 * static_cast<double>(r.choice.value) / static_cast<double>(r.inputs.total),
       existing, proved);

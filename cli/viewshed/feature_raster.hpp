@@ -1,4 +1,4 @@
-// `--features FILE`: which standing theme is under each cell of a viewshed.
+// `--features FILE`: which raised theme is under each cell of a viewshed.
 #pragma once
 
 #include <string>

@@ -30,13 +30,12 @@ Sight sight_to(const SectionSurface& surface, const Viewpoint& from, const Turbi
   sight.azimuth = grid_azimuth_deg(from.position, foot);
   sight.gaps = !section.gaps.empty();
   const profile::Profile profile = profile::from_section(section);
-  const double hub = turbine.hub_height.value_or(turbine.tip_height);
-  const auto seen = profile::visible_height(profile, from.height, hub, turbine.tip_height, request.earth,
-                                            profile::EndGrounds{from.ground, ground});
+  const auto seen = profile::visible_height(profile, from.height, {turbine.hub_height, turbine.tip_height},
+                                            request.earth, profile::EndGrounds{from.ground, ground});
   const bool blocked = sight.gaps && request.nodata == NoData::kBlock;
   sight.least = blocked ? turbine.tip_height : std::max(0.0, seen.from_m);
   sight.visible = turbine.tip_height - sight.least;
-  sight.tip = !blocked && seen.tip_visible_m > 0;
+  sight.tip = !blocked && seen.tip.visible_m > 0;
   if (turbine.hub_height) sight.hub = sight.tip && sight.least <= *turbine.hub_height;
   const double eye = from.ground + from.height;
   const auto angle = [&](double height) {

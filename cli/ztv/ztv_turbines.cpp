@@ -94,9 +94,9 @@ viewshed::Turbine TurbineOptions::turbine_of(const SiteRow& row) const {
   TurbineSize size{number_in_row("its hub_height", row.values[kHub]),
                    number_in_row("its rotor_diameter", row.values[kRotor]),
                    number_in_row("its tip_height", row.values[kTip])};
-  // Options fill in what the row leaves open, not what two of its own values settle.
-  const bool settled = (size.hub && size.rotor) || (size.tip && (size.hub || size.rotor));
-  if (!settled) {
+  // Options fill in what the row leaves open, not what follows from two of its own values.
+  const bool is_complete = (size.hub && size.rotor) || (size.tip && (size.hub || size.rotor));
+  if (!is_complete) {
     const TurbineSize& otherwise = size_.size();
     if (!size.hub) size.hub = otherwise.hub;
     if (!size.rotor && !(size.hub && size.tip)) size.rotor = otherwise.rotor;

@@ -90,7 +90,7 @@ class Trial:
         self.folder = f"{ROOT}/build/fuzz/{seed}"
         shutil.rmtree(self.folder, ignore_errors=True)
         os.makedirs(self.folder)
-        self.store, self.standing, self.faults, self.corners = self.path("s.itin"), [], [], []
+        self.store, self.raised, self.faults, self.corners = self.path("s.itin"), [], [], []
         r = self.random
         self.step, self.posts = r.choice([1, 2, 5, 10, 50]), r.choice([33, 50, 80, 120])
         self.side = self.step * self.posts
@@ -186,7 +186,7 @@ class Trial:
         except Refusal as refusal:
             self.log("refused:", refusal)
         else:
-            self.standing += [what] if what in ("buildings", "vegetation", "walls") else []
+            self.raised += [what] if what in ("buildings", "vegetation", "walls") else []
 
     def corners_in(self, path):
         """Of walls, houses and other lines the corners and the middles between them."""
@@ -203,7 +203,7 @@ class Trial:
 
     def shared_options(self):
         r = self.random
-        themes = r.choice(["none", "all"] + self.standing)
+        themes = r.choice(["none", "all"] + self.raised)
         return ["--themes", themes, "--nodata", r.choice(["clear", "block"]), "--refraction", r.choice([0, 0.13, 0.25])]
 
     def cell_size(self):

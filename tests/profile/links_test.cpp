@@ -107,7 +107,7 @@ class Links : public testing::Test {
       if (i < 10) expect_same(*survey_link(*store_, links[i], query).found, expected);
       ASSERT_EQ(results[i].visible.has_value(), expected.visible.has_value());
       if (expected.visible) {
-        EXPECT_EQ(results[i].visible->tip_visible_m, expected.visible->tip_visible_m);
+        EXPECT_EQ(results[i].visible->tip.visible_m, expected.visible->tip.visible_m);
       }
     }
     undecided_ = std::count_if(results.begin(), results.end(), [](const LinkResult& r) {

@@ -95,9 +95,9 @@ TEST(BlockerMode, NamesTheThemeAndMissingGround) {
   Tin tin = test::lattice_tin(41, 41, 10, [](std::int32_t c, std::int32_t) {
     return c > 28 && c < 32 ? std::nan("") : c == 20 ? 120.0 : 100.0;
   });
-  tin.standing.resize(tin.vertices.size());
+  tin.raised_theme.resize(tin.vertices.size());
   for (std::size_t v = 0; v < tin.vertices.size(); ++v)
-    tin.standing[v] = tin.vertices[v].z * tin.grid.resolution > 110 ? 3 : 0;
+    tin.raised_theme[v] = tin.vertices[v].z * tin.grid.resolution > 110 ? 3 : 0;
   Request request;
   request.mode = Mode::kBlocker;
   request.observers = {{"", {kCorner.x + 105, kCorner.y + 205}, 2}};
@@ -130,9 +130,9 @@ TEST(BlockerMode, IsCancelledWhileItNamesFeatures) {
 TEST(BlockerMode, OfSeveralObserversThatOfTheNearest) {
   Tin tin =
       test::lattice_tin(41, 41, 10, [](std::int32_t c, std::int32_t) { return c == 20 || c == 30 ? 120.0 : 100.0; });
-  tin.standing.resize(tin.vertices.size());
+  tin.raised_theme.resize(tin.vertices.size());
   for (std::size_t v = 0; v < tin.vertices.size(); ++v)
-    if (tin.vertices[v].z * tin.grid.resolution > 110) tin.standing[v] = tin.vertices[v].x > 25000 ? 2 : 1;
+    if (tin.vertices[v].z * tin.grid.resolution > 110) tin.raised_theme[v] = tin.vertices[v].x > 25000 ? 2 : 1;
   Request request;
   request.mode = Mode::kBlocker;
   request.observers = {{"far", {kCorner.x + 55, kCorner.y + 205}, 2}, {"near", {kCorner.x + 385, kCorner.y + 205}, 2}};

@@ -33,9 +33,9 @@ TEST(ObliqueView, HidesWhatIsBehindAWall) {
   // A ridge 40 m high runs across; from the south, 30 degrees up, it hides some of the ground north of it.
   const auto ridge = [](auto, auto r) { return r == 10 ? 40.0 : 0.0; };
   Tin tin = test::lattice_tin(21, 21, 10, ridge);
-  tin.standing.assign(tin.vertices.size(), 0);
+  tin.raised_theme.assign(tin.vertices.size(), 0);
   // Ground just north of the ridge is painted as a theme's.
-  for (std::size_t v = 0; v < tin.vertices.size(); ++v) tin.standing[v] = tin.vertices[v].y / 1000 == 12 ? 3 : 0;
+  for (std::size_t v = 0; v < tin.vertices.size(); ++v) tin.raised_theme[v] = tin.vertices[v].y / 1000 == 12 ? 3 : 0;
   const auto colours = [](const viewshed::MapImage& image) {
     std::set<std::array<int, 3>> found;
     for (int y = 0; y < 200; ++y)
@@ -48,7 +48,7 @@ TEST(ObliqueView, HidesWhatIsBehindAWall) {
 
 TEST(ObliqueView, HasAColourForEachKindOfTheme) {
   Tin tin = test::lattice_tin(5, 5, 10, [](auto, auto) { return 5.0; });
-  tin.standing.assign(tin.vertices.size(), 2);
+  tin.raised_theme.assign(tin.vertices.size(), 2);
   const auto drawn = [&](ThemeKind kind) {
     return pixel(viewshed::draw_oblique(tin, {.elevation = 90, .pixels = 400, .kinds = {ThemeKind::Water, kind}}), 0.5,
                  0.5);

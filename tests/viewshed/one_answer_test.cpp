@@ -53,8 +53,8 @@ class OneAnswer : public testing::Test {
     query.from_height_m = eye.height, query.to_height_m = request.target_height;
     query.from_on_surface = request.observers_on_surface, query.to_on_surface = request.targets_on_surface;
     query.earth = request.earth;
-    const bool standing = request.themes.includes_raised(store.metadata().themes);
-    return profile::analyse(along(request.themes), query, standing ? along(ThemeChoice::none()) : profile::Profile{});
+    const bool raised = request.themes.includes_raised(store.metadata().themes);
+    return profile::analyse(along(request.themes), query, raised ? along(ThemeChoice::none()) : profile::Profile{});
   }
 
   Agreement ask_again(const Store& store, const Result& result, int wanted) {

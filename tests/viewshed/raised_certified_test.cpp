@@ -70,7 +70,7 @@ class RaisedCertified : public testing::Test {
     store_.emplace(path());
     surface_ = triangulate(*store_, Window::all(), Detail::tolerance(0), progress, ThemeChoice::all());
     ground_ = triangulate(*store_, Window::all(), Detail::tolerance(0), progress);
-    ASSERT_FALSE(surface_.standing.empty());
+    ASSERT_FALSE(surface_.raised_theme.empty());
   }
 
   std::string path() { return directory_.file("s.itin"); }

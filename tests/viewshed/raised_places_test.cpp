@@ -116,7 +116,7 @@ class RaisedPlace : public testing::Test {
     store_.emplace(file("s.itin"));
     surface_ = triangulate(*store_, Window::all(), Detail::tolerance(0), progress_, ThemeChoice::all());
     ground_ = triangulate(*store_, Window::all(), Detail::tolerance(0), progress_);
-    ASSERT_FALSE(surface_.standing.empty());
+    ASSERT_FALSE(surface_.raised_theme.empty());
     area_ = ground_.bounds();
   }
 

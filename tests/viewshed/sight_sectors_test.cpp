@@ -63,7 +63,7 @@ class Sectors : public testing::Test {
           }
         }
       }
-      sectors.settle(sector, far);
+      sectors.remove_decided(sector, far);
     }
   }
 

@@ -126,8 +126,8 @@ class VisibilityIndexTest : public testing::Test {
     query.from_height_m = index.height, query.to_height_m = index.target_height;
     query.earth = index.earth;
     query.nodata = index.nodata;
-    const bool standing = index.themes.includes_raised(store.metadata().themes);
-    switch (profile::analyse(along(index.themes), query, standing ? along(ThemeChoice::none()) : profile::Profile{})
+    const bool raised = index.themes.includes_raised(store.metadata().themes);
+    switch (profile::analyse(along(index.themes), query, raised ? along(ThemeChoice::none()) : profile::Profile{})
                 .verdict) {
       case profile::SightVerdict::kVisible:
         return Verdict::kVisible;

@@ -30,7 +30,7 @@ struct FeatureAt {
 /// "Town Hall (id 42)", or the name alone where that tells the id.
 std::string title_of(const FeatureAt& feature);
 
-/// The feature of a standing theme (its number from 1) whose footprint holds each place, or is nearest to it within a
+/// The feature of a raised theme (its number from 1) whose footprint holds each place, or is nearest to it within a
 /// metre, for footprints are moved a little when they are made to fit together. Where several do, the first one
 /// imported counts. Cost: reads all footprints of the theme, a block of 256 at a time, about a microsecond each. Throws
 /// CorruptStore, Cancelled.
@@ -38,7 +38,7 @@ std::vector<std::optional<FeatureAt>> features_at(const Store& store, std::uint1
                                                   const std::vector<Point2>& places,
                                                   const Progress& progress = NoProgress());
 
-/// The features of a standing theme of these numbers; nothing for one that it does not have. Cost: reads the blocks of
+/// The features of a raised theme of these numbers; nothing for one that it does not have. Cost: reads the blocks of
 /// 256 that they are in. Throws CorruptStore.
 std::vector<std::optional<FeatureAt>> features_numbered(const Store& store, std::uint16_t theme,
                                                         const std::vector<std::int64_t>& numbers);

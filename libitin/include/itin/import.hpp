@@ -9,7 +9,7 @@
 // that stands, are a function of the set of sources and their options, whatever the order and the portions in which
 // they were imported: a store keeps what it leaves out, cuts or moves as it came, and every
 // import begins with all of it. The order shows in the numbers of sources and features, and in what the first import
-// settles for a store: CRS, grid and levels. Stores of format 3 and older have kept nothing: what earlier imports made
+// chooses for a store: CRS, grid and levels. Stores of format 3 and older have kept nothing: what earlier imports made
 // of their sources counts as what was imported. Adding rebuilds the pyramid of the whole store; it takes as long as
 // importing everything anew.
 #pragma once

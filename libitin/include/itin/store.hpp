@@ -68,7 +68,7 @@ struct StoreMetadata {
   std::vector<LevelInfo> levels;    ///< level 0 (tolerance 0) first, then coarser and coarser
   std::vector<SourceInfo> sources;  ///< also the import history, in order
   std::vector<ThemeInfo> themes;    ///< those of the terrain first, then by name
-  std::vector<ThemePart> parts;     ///< of standing themes, in their order, then the finest first
+  std::vector<ThemePart> parts;     ///< of raised themes, in their order, then the finest first
   bool has_foundations = false;     ///< some buildings stand on flat foundations, which may cut into the ground
   std::uint64_t vertices = 0;
 };

@@ -38,9 +38,9 @@ ThemeKind theme_kind(std::string_view name);
 constexpr bool is_terrain(ThemeKind kind) {
   return kind == ThemeKind::Contours || kind == ThemeKind::Breaklines || kind == ThemeKind::Water;
 }
-/// Whether features of this kind stand on the ground where they have heights. Each building has one base; terraces
+/// Whether features of this kind are raised on the ground where they have heights. Each building has one base; terraces
 /// (rows of houses that climb a slope), walls and vegetation follow the ground at their height above it.
-constexpr bool may_stand(ThemeKind kind) {
+constexpr bool may_be_raised(ThemeKind kind) {
   return kind == ThemeKind::Buildings || kind == ThemeKind::Terraces || kind == ThemeKind::Walls ||
          kind == ThemeKind::Vegetation || kind == ThemeKind::Surface;
 }
@@ -93,7 +93,7 @@ struct ThemeInfo {
   bool is_raised() const { return footprint_blocks > 0; }
 };
 
-/// Those features of a standing theme that are there at the same tolerances: whole buildings, or none of them.
+/// Those features of a raised theme that are there at the same tolerances: whole buildings, or none of them.
 struct ThemePart {
   std::uint16_t theme = 0;  ///< its number, from 1
   int coarsest = 0;         ///< it is there at this level and finer ones
@@ -103,7 +103,7 @@ struct ThemePart {
   friend bool operator==(const ThemePart&, const ThemePart&) = default;
 };
 
-/// Whether the standing theme a takes the ground of b where both are chosen: buildings come before walls, and those
+/// Whether the raised theme a takes the ground of b where both are chosen: buildings come before walls, and those
 /// before vegetation, and that before surfaces; among equals the name decides.
 bool comes_before(const ThemeInfo& a, const ThemeInfo& b);
 

@@ -48,9 +48,9 @@ struct Tin {
   std::vector<std::uint16_t> sources;  ///< per vertex: index into StoreMetadata::sources
   std::vector<Triangle> triangles;
   RetrievalStatistics statistics;
-  /// Per vertex: the theme (from 1) of the standing feature that it is part of, off the feature's outline; 0: none.
+  /// Per vertex: the theme (from 1) of the raised feature that it is part of, off the feature's outline; 0: none.
   /// Empty where no vertex is.
-  std::vector<std::uint16_t> standing;
+  std::vector<std::uint16_t> raised_theme;
   std::vector<LineEdge> lines;  ///< those of every theme present, ascending; an edge that themes share comes for each
 
   /// The corners of a triangle, counterclockwise.
@@ -59,7 +59,7 @@ struct Tin {
     return {vertices[a], vertices[b], vertices[c]};
   }
   Point3 point(std::uint32_t vertex) const { return grid.point(vertices[vertex]); }
-  /// The theme (from 1) of the standing feature that the triangle is part of; 0 for ground.
+  /// The theme (from 1) of the raised feature that the triangle is part of; 0 for ground.
   std::uint16_t theme(const Triangle& t) const;
   VertexId id(std::uint32_t vertex) const;
   /// The smallest box of all vertices, metres.

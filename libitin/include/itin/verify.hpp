@@ -17,20 +17,20 @@
 namespace itin {
 
 struct VerifyOptions {
-  /// How many tiles of the ground, and of each part of a standing theme, are verified: about so many, evenly spread
+  /// How many tiles of the ground, and of each part of a raised theme, are verified: about so many, evenly spread
   /// along the Morton curve. 0: all of them.
   std::size_t sample = 0;
 };
 
 struct Verification {
   std::vector<Damage> damage;        ///< empty where every promise holds
-  std::uint64_t tiles = 0;           ///< of the ground, and of the standing features on it
+  std::uint64_t tiles = 0;           ///< of the ground, and of the raised features on it
   std::uint64_t tiles_verified = 0;  ///< all, or the sample
 };
 
 /// Verifies for every level and index cell that there is a certificate wherever there is ground, and that
 /// T_k + lo <= T_0 <= T_k + hi all over the cell, to a thousandth of a grid step; and that what the directory says of
-/// levels agrees with its cells. For every cell of every part of a standing theme: that no feature of that part rises
+/// levels agrees with its cells. For every cell of every part of a raised theme: that no feature of that part rises
 /// higher above T_0 within the cell than the cell says, to two grid steps, for the ground under features is rounded.
 ///
 /// The store must be sound by check(). Memory: the surfaces of a tile of some 32,000 vertices per thread. Cost: what

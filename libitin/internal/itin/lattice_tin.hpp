@@ -154,7 +154,7 @@ struct LatticeTin {
   template <class Visit>
   void for_each_tile_of(std::uint32_t column, std::uint32_t row, const Visit& visit) const;
   /// Classifies the ground of a tile whose halves are set, and drops the halves where the class says it all.
-  void settle(std::uint32_t tile);
+  void classify_tile(std::uint32_t tile);
 
  private:
   struct Square {

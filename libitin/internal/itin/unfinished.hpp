@@ -32,7 +32,7 @@ class Unfinished {
   /// process begins or finishes meanwhile.
   template <class PutInPlace>
   void finish(const PutInPlace& put_in_place) {
-    const Turn turn;
+    const Lock lock;
     put_in_place();
     keep();
   }
@@ -41,11 +41,11 @@ class Unfinished {
   friend void remove_unfinished();
 
   /// While one lives, no other thread begins, finishes or removes anything.
-  struct Turn {
-    Turn();
-    ~Turn();
-    Turn(const Turn&) = delete;
-    Turn& operator=(const Turn&) = delete;
+  struct Lock {
+    Lock();
+    ~Lock();
+    Lock(const Lock&) = delete;
+    Lock& operator=(const Lock&) = delete;
   };
 
   void keep();

@@ -26,21 +26,21 @@ AllUnfinished& all() {
 
 }  // namespace
 
-Unfinished::Turn::Turn() {
+Unfinished::Lock::Lock() {
   all().mutex.lock();
 }
 
-Unfinished::Turn::~Turn() {
+Unfinished::Lock::~Lock() {
   all().mutex.unlock();
 }
 
 Unfinished::Unfinished(std::string path, Kind kind) : path_(std::move(path)), kind_(kind) {
-  const Turn turn;
+  const Lock lock;
   place_ = all().list.insert(all().list.begin(), this);
 }
 
 Unfinished::~Unfinished() {
-  const Turn turn;
+  const Lock lock;
   if (finished_) return;
   remove();
   keep();

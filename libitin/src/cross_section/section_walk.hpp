@@ -13,7 +13,7 @@
 
 namespace itin {
 
-/// A vertex of the triangulation, and the theme of the standing feature that it is part of, off the feature's outline.
+/// A vertex of the triangulation, and the theme of the raised feature that it is part of, off the feature's outline.
 struct SectionVertex : GridPoint {
   std::uint16_t theme = 0;  ///< 0: none
 };

@@ -48,7 +48,7 @@ Tin part_of(const Tin& tin, const std::vector<std::uint32_t>& triangles) {
     number[v] = static_cast<std::uint32_t>(part.vertices.size());
     part.vertices.push_back(tin.vertices[v]);
     part.sources.push_back(tin.sources[v]);
-    if (!tin.standing.empty()) part.standing.push_back(tin.standing[v]);
+    if (!tin.raised_theme.empty()) part.raised_theme.push_back(tin.raised_theme[v]);
   }
   std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;
   for (const std::uint32_t t : triangles) {

@@ -16,7 +16,7 @@ void write_feature(const Tin& tin, std::size_t triangle, const std::vector<std::
   file.print(R"({{"type":"Feature","id":{},"properties":{{"vertex_a":{},"vertex_b":{},"vertex_c":{},)", triangle,
              tin.id(a), tin.id(b), tin.id(c));
   file.print(R"("source_a":{},"source_b":{},"source_c":{})", tin.sources[a], tin.sources[b], tin.sources[c]);
-  if (!tin.standing.empty()) file.print(R"(,"theme":{})", themes[tin.theme(tin.triangles[triangle])]);
+  if (!tin.raised_theme.empty()) file.print(R"(,"theme":{})", themes[tin.theme(tin.triangles[triangle])]);
   file.write("},");
   file.write(R"("geometry":{"type":"Polygon","coordinates":[[)");
   const char* separator = "";

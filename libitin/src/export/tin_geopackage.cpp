@@ -27,12 +27,12 @@ void add_next(GeoPackage& package, OGRLayer& layer, OGRFeature& feature) {
 void write_triangles(const Tin& tin, const TinExportOptions& options, GeoPackage& package, StepProgress& steps) {
   OGRLayer& layer = add_layer(package, "triangles", wkbPolygon25D, true, {"vertex_a", "vertex_b", "vertex_c"},
                               {"source_a", "source_b", "source_c"});
-  if (!tin.standing.empty()) package.add_field(layer, "theme", OFTString);
+  if (!tin.raised_theme.empty()) package.add_field(layer, "theme", OFTString);
   OGRFeature feature(layer.GetLayerDefn());
   for (const Triangle& t : tin.triangles) {
     if (const std::uint16_t theme = tin.theme(t); theme != 0) {
       feature.SetField(6, theme_name(options, theme).c_str());
-    } else if (!tin.standing.empty()) {
+    } else if (!tin.raised_theme.empty()) {
       feature.SetFieldNull(6);
     }
     auto ring = std::make_unique<OGRLinearRing>();

@@ -13,7 +13,7 @@ void write_ply(const Tin& tin, const PendingFile& output, const TinExportOptions
   for (const char* axis : {"x", "y", "z"}) file.print("property double {}\n", axis);
   file.print("property uint id_high\nproperty uint id_low\nproperty ushort source\n");
   file.print("element face {}\nproperty list uchar int vertex_indices\n", tin.triangles.size());
-  if (!tin.standing.empty()) file.print("property ushort theme\n");
+  if (!tin.raised_theme.empty()) file.print("property ushort theme\n");
   if (!tin.lines.empty()) {
     for (std::size_t t = 0; t < options.theme_names.size(); ++t)
       file.print("comment theme {} {}\n", t + 1, on_one_line(options.theme_names[t]));
@@ -37,7 +37,7 @@ void write_ply(const Tin& tin, const PendingFile& output, const TinExportOptions
   for (const Triangle& t : tin.triangles) {
     file.little_endian(std::uint8_t{3});
     for (const std::uint32_t v : t) file.little_endian(v);
-    if (!tin.standing.empty()) file.little_endian(tin.theme(t));
+    if (!tin.raised_theme.empty()) file.little_endian(tin.theme(t));
     steps.step();
   }
   for (const LineEdge& e : tin.lines) {

@@ -92,8 +92,8 @@ class PatchCutter {
   /// not come to that corner again.
   EdgeOfCell after(const EdgeOfCell& e, std::uint32_t patch) const {
     const EdgeOfCell end = e.at_its_end();
-    for (const int turn : {3, 0}) {
-      if (patch_of(end.turned(turn)) == patch) return end.turned(turn);
+    for (const int quarters : {3, 0}) {
+      if (patch_of(end.turned(quarters)) == patch) return end.turned(quarters);
     }
     return end.turned(1);
   }

@@ -55,7 +55,7 @@ class GroupBuilder {
     add_masks();
     add_tops(patches);
     if (!objections_.empty()) return objections_;
-    settle();
+    ensure_planar();
     if (terrain_) lay_on_terrain();
     return objections_;
   }
@@ -208,7 +208,7 @@ class GroupBuilder {
   }
 
   /// The promise of planarity, kept by construction in all but the narrowest places.
-  void settle() {
+  void ensure_planar() {
     std::vector<GridEdge> edges;
     for (const PlacedSegment& s : mesh_.segments) edges.push_back(edge_in_plan(s));
     const auto found = conflicts(edges);
@@ -295,17 +295,17 @@ GroupMesh build_group(std::vector<PreparedFeature> features, double offset, cons
       mesh.refused = std::move(refused);
       return mesh;
     }
-    std::vector<PreparedFeature> standing;
+    std::vector<PreparedFeature> kept;
     for (std::uint32_t f = 0; f < features.size(); ++f) {
       const auto objection = objections.find(f);
       if (objection == objections.end()) {
-        standing.push_back(std::move(features[f]));
+        kept.push_back(std::move(features[f]));
       } else {
         refusals.push_back({features[f].number, objection->second});
         refused.push_back(features[f].number);
       }
     }
-    features = std::move(standing);
+    features = std::move(kept);
   }
 }
 

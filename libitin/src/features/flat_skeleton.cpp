@@ -37,8 +37,8 @@ double distance_to_segment(Point2 p, const GridPoint& from, const GridPoint& to)
 }
 
 bool strictly_inside(const GridPoint& a, const GridPoint& b, const GridPoint& c, Position p) {
-  const int turn = orientation(a, b, c);
-  return orientation(a, b, p) == turn && orientation(b, c, p) == turn && orientation(c, a, p) == turn;
+  const int side = orientation(a, b, c);
+  return orientation(a, b, p) == side && orientation(b, c, p) == side && orientation(c, a, p) == side;
 }
 
 /// Heights are relative to the region's.
@@ -88,7 +88,7 @@ class Skeleton {
   Skeleton(const FlatTriangles& flat, const FlatTriangles::Region& region)
       : flat_(flat), base_(flat.triangles()[region.front()].corners[0].z) {
     for (const std::uint32_t t : region) add(t);
-    look_around(region);
+    measure_surroundings(region);
   }
 
   std::vector<GridPoint> run() {
@@ -189,7 +189,7 @@ class Skeleton {
     return node;
   }
 
-  void look_around(const FlatTriangles::Region& region) {
+  void measure_surroundings(const FlatTriangles::Region& region) {
     double length = 0, slope = 0;
     for (const std::uint32_t t : region) {
       for (std::size_t i = 0; i < 3; ++i) {

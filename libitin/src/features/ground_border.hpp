@@ -1,4 +1,4 @@
-// The border of the ground that standing features change: edges of the full surface that no feature of their theme
+// The border of the ground that raised features change: edges of the full surface that no feature of their theme
 // cuts. Where that theme is there alone nothing may cut them, or the triangles beyond would change. Where another
 // theme's lines cross such an edge, it makes way for them when they are there.
 //
@@ -23,7 +23,7 @@
 
 namespace itin {
 
-/// Triangles of the full surface that standing features change, by their edges.
+/// Triangles of the full surface that raised features change, by their edges.
 struct ChangedGround {
   std::vector<GridEdge> pieces;  ///< of edges between them, or nearly, that stay: cut where the features' lines cross
   std::vector<GridEdge> inner;   ///< edges between them or under roofs, whole, the lesser end first

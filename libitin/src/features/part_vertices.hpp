@@ -1,4 +1,4 @@
-// The heights of a standing part's vertices after its lines were made planar with all others: crossings have given it
+// The heights of a raised part's vertices after its lines were made planar with all others: crossings have given it
 // new ones.
 #pragma once
 

@@ -189,9 +189,9 @@ Side side_of(const GridPolygon& polygon, Position p) {
   bool inside = false, border = false;
   for_each_edge(polygon, [&](Position a, Position b) {
     if (b < a) std::swap(a, b);
-    const int turn = orientation(a, b, p);
-    border |= turn == 0 && p >= a && p <= b;  // collinear: the order by x, then y, is that along the line
-    if ((a.y > p.y) != (b.y > p.y)) inside ^= (b.y > a.y) == (turn > 0);
+    const int side = orientation(a, b, p);
+    border |= side == 0 && p >= a && p <= b;  // collinear: the order by x, then y, is that along the line
+    if ((a.y > p.y) != (b.y > p.y)) inside ^= (b.y > a.y) == (side > 0);
   });
   return border ? Side::border : inside ? Side::inside : Side::outside;
 }

@@ -97,11 +97,11 @@ class SnapRounding {
     stop_if_asked();
     const SortedPositions hot(std::move(hot_));
     for (const OwnedSegment& s : segments_) {
-      look_up();
+      check_cancelled();
       round(s, hot);
     }
     stop_if_asked();
-    settle_heights();
+    choose_heights();
     stop_if_asked();
     split_at_vertices();
     stop_if_asked();
@@ -109,8 +109,8 @@ class SnapRounding {
   }
 
  private:
-  /// Whether to go on: costs next to nothing.
-  void look_up() {
+  /// Asks now and then only: costs next to nothing.
+  void check_cancelled() {
     if (progress_ != nullptr && ++steps_ % 1024 == 0) progress_->throw_if_cancelled();
   }
 
@@ -129,7 +129,7 @@ class SnapRounding {
     }
     std::set<std::pair<Segment, Segment>> crossing;
     for_each_edge_leaf(std::move(plain), [&](const Cell&, const std::vector<Segment>& near) {
-      look_up();
+      check_cancelled();
       // Ascending by ax, and ax <= bx: what begins right of s's end does not meet it.
       for (std::size_t i = 0; i < near.size(); ++i) {
         for (std::size_t j = i + 1; j < near.size() && near[j].ax <= near[i].bx; ++j) {
@@ -178,7 +178,7 @@ class SnapRounding {
   }
 
   /// The heights that count, one per position.
-  void settle_heights() {
+  void choose_heights() {
     std::sort(heights_.begin(), heights_.end());
     heights_.erase(std::unique(heights_.begin(), heights_.end(),
                                [](const Height& a, const Height& b) { return a.code == b.code; }),
@@ -198,7 +198,7 @@ class SnapRounding {
     const SortedPositions vertices(std::move(ends));
     const std::vector<Piece> whole = std::exchange(pieces_, {});
     for (const Piece& piece : whole) {
-      look_up();
+      check_cancelled();
       std::vector<Position> way{piece.from, piece.to};
       vertices.along(piece.from, piece.to, [&](Position p) {
         if (p != piece.from && p != piece.to && on_segment(piece.from, piece.to, p)) way.push_back(p);

@@ -15,7 +15,7 @@ namespace {
 
 /// +1 where p lies left of the line from a to b, 0 on it, -1 right of it.
 template <class Place>
-int turn(const Place& a, const Place& b, const Place& p) {
+int side_of_line(const Place& a, const Place& b, const Place& p) {
   const Int128 area = Int128{b.x - a.x} * (p.y - a.y) - Int128{b.y - a.y} * (p.x - a.x);
   return (area > 0) - (area < 0);
 }
@@ -24,14 +24,14 @@ int turn(const Place& a, const Place& b, const Place& p) {
 template <class Place>
 bool right_of(Place a, Place b, const Place& p) {
   if (b.y < a.y) std::swap(a, b);
-  return turn(a, b, p) <= 0;
+  return side_of_line(a, b, p) <= 0;
 }
 
 /// Whether p is above an edge that passes over or under what lies next to it to the right.
 template <class Place>
 bool above(Place a, Place b, const Place& p) {
   if (b.x < a.x) std::swap(a, b);
-  const int side = turn(a, b, p);
+  const int side = side_of_line(a, b, p);
   return side > 0 || (side == 0 && b.y <= a.y);
 }
 

@@ -82,11 +82,11 @@ std::vector<PartyWall> party_walls(const FeatureMesh& mesh, const MaskIndex& mas
   return walls;
 }
 
-class Standing {
+class ThemeRaiser {
  public:
   /// `is_patch` by footprint, or empty.
-  Standing(const Store& ground, std::span<const StoredFootprint> footprints, std::vector<bool> is_patch,
-           double wall_offset, std::uint64_t memory_bytes)
+  ThemeRaiser(const Store& ground, std::span<const StoredFootprint> footprints, std::vector<bool> is_patch,
+              double wall_offset, std::uint64_t memory_bytes)
       : ground_(ground),
         footprints_(footprints),
         is_patch_(std::move(is_patch)),
@@ -356,12 +356,13 @@ double default_wall_offset(const Grid& grid) {
   return std::max(0.05, 2 * grid.resolution);
 }
 
-RaisedFeatureTheme stand(const Store& ground, std::span<const StoredFootprint> footprints, double wall_offset,
-                         std::uint64_t memory_bytes, Progress& progress) {
+RaisedFeatureTheme raise_theme(const Store& ground, std::span<const StoredFootprint> footprints, double wall_offset,
+                               std::uint64_t memory_bytes, Progress& progress) {
   CellFeatures made = with_patches(ground, footprints, memory_bytes, progress);
-  RaisedFeatureTheme theme = Standing(ground, made.any ? std::span<const StoredFootprint>(made.footprints) : footprints,
-                                      std::move(made.is_patch), wall_offset, memory_bytes)
-                                 .run(progress);
+  RaisedFeatureTheme theme =
+      ThemeRaiser(ground, made.any ? std::span<const StoredFootprint>(made.footprints) : footprints,
+                  std::move(made.is_patch), wall_offset, memory_bytes)
+          .run(progress);
   theme.reports.insert(theme.reports.begin(), made.reports.begin(), made.reports.end());
   return theme;
 }

@@ -1,4 +1,4 @@
-// Standing features on a store's ground: from footprints to what a store keeps of them, part by part.
+// Raised features on a store's ground: from footprints to what a store keeps of them, part by part.
 //
 // A cluster of touching features is kept or dropped as a whole, so that no query sees half of it: it is kept as long
 // as the longer side of the box about it is at least the lateral tolerance. A part holds the clusters that are kept up
@@ -56,7 +56,7 @@ double default_wall_offset(const Grid& grid);
 /// `wall_offset` in metres. Footprints that reach beyond the ground are refused. Reads the ground in pieces of about a
 /// square kilometre; memory follows these and the features. Throws InputError where the ground about features that hang
 /// together takes more than `memory_bytes`, Cancelled, and what triangulate() throws.
-RaisedFeatureTheme stand(const Store& ground, std::span<const StoredFootprint> footprints, double wall_offset,
-                         std::uint64_t memory_bytes, Progress& progress);
+RaisedFeatureTheme raise_theme(const Store& ground, std::span<const StoredFootprint> footprints, double wall_offset,
+                               std::uint64_t memory_bytes, Progress& progress);
 
 }  // namespace itin

@@ -71,9 +71,9 @@ Geodesic geodesic(Point2 from, Point2 to, const Ellipsoid& ellipsoid) {
   for (int i = 0; i < 100; ++i) {
     const Arc arc = arc_for(r, lambda);
     const double next = next_lambda(arc, difference, ellipsoid.flattening);
-    const bool settled = std::abs(next - lambda) < 1e-13;
+    const bool converged = std::abs(next - lambda) < 1e-13;
     lambda = next;
-    if (!settled) continue;
+    if (!converged) continue;
     const double sine = std::sin(lambda), cosine = std::cos(lambda);
     return {length_of(arc_for(r, lambda), ellipsoid),
             azimuth(r.cos_u2 * sine, r.cos_u1 * r.sin_u2 - r.sin_u1 * r.cos_u2 * cosine),

@@ -46,7 +46,7 @@ std::uint64_t count_of(std::uint8_t halves) {
 
 }  // namespace
 
-void LatticeTin::settle(std::uint32_t tile) {
+void LatticeTin::classify_tile(std::uint32_t tile) {
   Tile& t = tiles[tile];
   const auto all = [&](std::uint8_t halves) {
     return std::all_of(t.halves->begin(), t.halves->end(), [&](std::uint8_t cell) { return cell == halves; });
@@ -206,7 +206,7 @@ void set_heights(const Tin& tin, LatticeTin& lattice) {
 
 std::optional<LatticeTin> lattice_of(const Tin& tin) {
   const std::size_t count = tin.triangles.size();
-  if (count == 0 || !tin.standing.empty()) return std::nullopt;
+  if (count == 0 || !tin.raised_theme.empty()) return std::nullopt;
   std::optional<LatticeTin> lattice = lattice_about(tin);
   if (!lattice) return std::nullopt;
   std::atomic<bool> odd = false;
@@ -216,7 +216,7 @@ std::optional<LatticeTin> lattice_of(const Tin& tin) {
   });
   if (odd) return std::nullopt;
   set_heights(tin, *lattice);
-  for (std::uint32_t t = 0; t < lattice->tiles.size(); ++t) lattice->settle(t);
+  for (std::uint32_t t = 0; t < lattice->tiles.size(); ++t) lattice->classify_tile(t);
   return lattice;
 }
 

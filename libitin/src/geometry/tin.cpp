@@ -10,10 +10,10 @@ VertexId Tin::id(std::uint32_t vertex) const {
 }
 
 std::uint16_t Tin::theme(const Triangle& t) const {
-  if (standing.empty()) return 0;
+  if (raised_theme.empty()) return 0;
   // Outlines are lines, so all corners off them lie within one and the same feature or its neighbours' walls.
   for (const std::uint32_t v : t)
-    if (standing[v] != 0) return standing[v];
+    if (raised_theme[v] != 0) return raised_theme[v];
   return 0;
 }
 

@@ -40,17 +40,17 @@ struct Edge {
   double xmax() const { return std::max(a.x, b.x); }
 };
 
-/// Sign of the turn a, b, c; 0 also where rounding could have decided it.
-int certain_turn(Point2 a, Point2 b, Point2 c) {
+/// 1 where c lies left of ab, -1 right of it, 0 on it and where rounding could have decided it.
+int certain_side(Point2 a, Point2 b, Point2 c) {
   const double left = (b.x - a.x) * (c.y - a.y), right = (b.y - a.y) * (c.x - a.x);
-  const double turn = left - right;
-  if (std::abs(turn) <= kOrientationError * (std::abs(left) + std::abs(right))) return 0;
-  return turn > 0 ? 1 : -1;
+  const double side = left - right;
+  if (std::abs(side) <= kOrientationError * (std::abs(left) + std::abs(right))) return 0;
+  return side > 0 ? 1 : -1;
 }
 
 bool certainly_cross(const Edge& e, const Edge& f) {
-  return certain_turn(e.a, e.b, f.a) * certain_turn(e.a, e.b, f.b) < 0 &&
-         certain_turn(f.a, f.b, e.a) * certain_turn(f.a, f.b, e.b) < 0;
+  return certain_side(e.a, e.b, f.a) * certain_side(e.a, e.b, f.b) < 0 &&
+         certain_side(f.a, f.b, e.a) * certain_side(f.a, f.b, e.b) < 0;
 }
 
 void append_edges(const Window::Ring& ring, std::vector<Edge>& edges) {

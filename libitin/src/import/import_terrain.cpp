@@ -103,7 +103,7 @@ constexpr int kMostRaised = 3;
 
 /// Whether a store's ground, which may be null, is that of its terrain and lines alone, as they were imported: nothing
 /// that stands has cut any.
-bool may_stand_on(const Store* store) {
+bool has_uncut_ground(const Store* store) {
   if (store == nullptr) return false;
   const std::vector<ThemeInfo>& themes = store->metadata().themes;
   const auto raised = [](const ThemeInfo& theme) { return theme.is_raised(); };
@@ -116,20 +116,20 @@ bool has_raised(const Store* store) {
 }
 
 /// Raised features need their ground finished first, and give vertices to lines of the ground where they cross them.
-void write_in_turns(Target target, const Store* existing, Additions additions, const ImportOptions& options,
-                    ImportReport& report, CallProgress& call) {
+void write_in_passes(Target target, const Store* existing, Additions additions, const ImportOptions& options,
+                     ImportReport& report, CallProgress& call) {
   const bool raises = !additions.footprints.empty() || has_raised(existing);
   const Store* base = existing;
-  const Store* ground = may_stand_on(base) && !additions.footprints.empty() ? base : nullptr;
-  std::deque<Unfinished> passing;  // stores for the time of this import only
+  const Store* ground = has_uncut_ground(base) && !additions.footprints.empty() ? base : nullptr;
+  std::deque<Unfinished> interim;  // stores for the time of this import only
   std::optional<Store> before;
   RaisedFeatures raised;
   for (int raisings = 0;;) {
     raisings += ground != nullptr ? 1 : 0;
-    passing.emplace_back(fmt::format("{}.ground{}", target.path, passing.size()));
-    target.passing = passing.back().path(), target.last = raisings == kMostRaised;
+    interim.emplace_back(fmt::format("{}.ground{}", target.path, interim.size()));
+    target.interim = interim.back().path(), target.last = raisings == kMostRaised;
     if (StorePass(target, {base, ground, additions}, options, report).run(raised, call.step(raises ? 0.5 : 1))) break;
-    base = ground = &before.emplace(passing.back().path());
+    base = ground = &before.emplace(interim.back().path());
     additions = Additions{plan_nothing(base->metadata()), {}};
   }
   report.features += raised.features;
@@ -165,7 +165,7 @@ ImportReport import_sources(const std::string& store_path, const ImportOptions& 
 
   const SetAsideCounts before = counts_of(store);
   StoreWriter writer(std::move(file), additions.plan.crs_wkt, additions.plan.grid, tolerances);
-  write_in_turns({writer, store_path, tolerances}, store, std::move(additions), options, report, call);
+  write_in_passes({writer, store_path, tolerances}, store, std::move(additions), options, report, call);
 
   const Store written(store_path);
   report_counts(before, counts_of(&written), report);
@@ -194,7 +194,7 @@ ImportReport import_lines(const std::string& store_path, const ImportOptions& op
                                  store_path, name_of(*options.kind)));
   }
   ImportReport report = import_sources(store_path, lines, progress);
-  if (may_stand(*options.kind) && !builds_features(options)) {
+  if (may_be_raised(*options.kind) && !builds_features(options)) {
     report.warnings.push_back(
         fmt::format("{} without heights are outlines on the ground; to make them stand, give "
                     "`height_field` or `height`, and another `theme`",

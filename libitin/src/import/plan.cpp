@@ -97,16 +97,16 @@ struct StoreCrs {
   std::string why = {};  ///< it was chosen, though the source's own is metric
 };
 
-StoreCrs settle_crs(const ImportOptions& options, const StoreMetadata* existing, const OpenedFile& first) {
+StoreCrs choose_crs(const ImportOptions& options, const StoreMetadata* existing, const OpenedFile& first) {
   if (existing) {
-    const StoreCrs settled{parse_crs(existing->crs_wkt, "the store's CRS")};
+    const StoreCrs fixed{parse_crs(existing->crs_wkt, "the store's CRS")};
     if (!options.to_crs.empty() &&
-        !PointTransform(metric_crs(options.to_crs, "`to_crs`").wkt, settled.crs.wkt, "`to_crs`").identity())
+        !PointTransform(metric_crs(options.to_crs, "`to_crs`").wkt, fixed.crs.wkt, "`to_crs`").identity())
       throw InputError(
           fmt::format("`to_crs` {}: the store's CRS is {} already; leave the option out, or import into a "
                       "new store",
-                      options.to_crs, settled.crs.name));
-    return settled;
+                      options.to_crs, fixed.crs.name));
+    return fixed;
   }
   if (!options.to_crs.empty()) return {metric_crs(options.to_crs, "`to_crs`")};
   const Crs crs = first.crs();
@@ -125,7 +125,7 @@ void check_vertical_datums(const OpenedFiles& opened, const ImportOptions& optio
   for (const OpenedFile* file : opened) datums.add(file->crs(), file->path());
 }
 
-Grid settle_grid(const ImportOptions& options, const StoreMetadata* existing, const OpenedFile& first, const Crs& crs) {
+Grid choose_grid(const ImportOptions& options, const StoreMetadata* existing, const OpenedFile& first, const Crs& crs) {
   if (existing) return existing->grid;
   if (!(options.resolution >= kFinestResolution && options.resolution <= kCoarsestResolution))
     throw InputError(fmt::format("`resolution` {}: give {} to {} metres", options.resolution, kFinestResolution,
@@ -203,14 +203,14 @@ ImportPlan plan_import(const ImportOptions& options, const StoreMetadata* existi
   for (const auto& file : points) opened.push_back(file.get());
   for (const auto& file : plan.lines) opened.push_back(file.get());
   if (!options.allow_mixed_vertical) check_vertical_datums(opened, options, existing);
-  const auto [crs, chosen, why] = settle_crs(options, existing, *opened.front());
+  const auto [crs, chosen, why] = choose_crs(options, existing, *opened.front());
   if (!why.empty()) plan.warnings.push_back(why);
   plan.scale = std::make_unique<TrueScale>(crs, existing != nullptr);
   for (const OpenedFile* file : opened) plan.scale->require(*file);
   plan.crs_wkt = crs.wkt;
   plan.crs_name = crs.name;
   plan.crs_chosen = chosen;
-  plan.grid = settle_grid(options, existing, *opened.front(), crs);
+  plan.grid = choose_grid(options, existing, *opened.front(), crs);
   for (const OpenedFile* file : opened) {
     std::vector<std::string> warnings = file->warnings();
     std::move(warnings.begin(), warnings.end(), std::back_inserter(plan.warnings));

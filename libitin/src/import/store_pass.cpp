@@ -92,7 +92,7 @@ StorePass::StorePass(const Target& target, const PassSources& of, const ImportOp
       repair_(will_repair(options, of.base)),
       sources_(imported_sources(of.base)),
       replacing_(replacing_lines()),
-      points_(directory_of(target.passing), options.memory_bytes / 2, replacing_),
+      points_(directory_of(target.interim), options.memory_bytes / 2, replacing_),
       collection_(of.ground == nullptr ? LinesAs::imported : LinesAs::laid, options.memory_bytes) {
   require_numbers();
 }
@@ -107,9 +107,9 @@ bool StorePass::run(RaisedFeatures& raised, Progress& progress) {
   add_line_vertices(lines);
   const bool done =
       target_.last || !collection_.is_raised() || (ground_ != nullptr && !collection_.changes_terrain(lines));
-  std::optional<StoreWriter> passing;
-  if (!done) passing.emplace(target_.passing, additions_.plan.crs_wkt, additions_.plan.grid, target_.tolerances);
-  StoreWriter& writer = done ? target_.writer : *passing;
+  std::optional<StoreWriter> interim;
+  if (!done) interim.emplace(target_.interim, additions_.plan.crs_wkt, additions_.plan.grid, target_.tolerances);
+  StoreWriter& writer = done ? target_.writer : *interim;
   const PyramidReport pyramid =
       build(lines, done ? target_.tolerances : std::vector<double>{0.0}, writer, call.step(1));
   set_aside(pyramid, lines, writer);

@@ -1,6 +1,6 @@
-// One turn of an import: a store is written of all that another one holds and of what is added to it.
+// One pass of an import: a store is written of all that another one holds and of what is added to it.
 //
-//   const Target target{writer, path, tolerances, passing};
+//   const Target target{writer, path, tolerances, interim};
 //   const bool done = StorePass(target, {base, ground, additions}, options, report).run(raised, progress);
 #pragma once
 
@@ -28,7 +28,7 @@ struct Additions {
   ImportPlan plan;
   std::vector<FootprintFile> footprints;
 
-  /// As in every turn after the first.
+  /// As in every pass after the first.
   bool empty() const { return plan.sources.empty() && plan.lines.empty() && footprints.empty(); }
 };
 
@@ -37,7 +37,7 @@ struct Target {
   StoreWriter& writer;
   std::string path;
   std::vector<double> tolerances;
-  std::string passing = {};  ///< the path of what comes before it
+  std::string interim = {};  ///< the path of what comes before it
   bool last = false;         ///< it goes where it is to go, whatever
 };
 
@@ -53,8 +53,8 @@ class StorePass {
   /// All must outlive it. Counts into the report.
   StorePass(const Target& target, const PassSources& of, const ImportOptions& options, ImportReport& report);
 
-  /// Standing features are raised on the ground, and cut its lines there. Returns false where features need another
-  /// turn, on the ground of the passing store that was written instead, which has no points at other levels: this one
+  /// Features with heights are raised on the ground, and cut its lines there. Returns false where features need another
+  /// pass, on the ground of the interim store that was written instead, which has no points at other levels: this one
   /// has other ground than they were raised on, or they were not.
   bool run(RaisedFeatures& raised, Progress& progress);
 

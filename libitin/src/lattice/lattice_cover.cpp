@@ -291,7 +291,7 @@ void LatticeCover::cut(std::uint32_t tile) {
     });
     halves &= static_cast<std::uint8_t>(~out);
   }
-  lattice_.settle(tile);
+  lattice_.classify_tile(tile);
 }
 
 }  // namespace itin

@@ -3,11 +3,12 @@
 //   GreedyInsertion<MeshGround> greedy(ground, candidacy, tolerances);
 //
 // A ground knows the full surface and its vertices, by number, and says how far a coarse face or edge is off it:
-//   point(v), size()                        the vertices
-//   begin(triangulation, open)              before the first face is looked at
-//   take(faces, v), settle(centre, faces)   faces make way for the star about vertex v; settle() sees the star's
-//   worst_point(face)                       the open vertex in the face that is farthest off it
-//   compare_edge(a, b, worst)               offers worst what would break up edge ab where it crosses full edges
+//   point(v), size()                the vertices
+//   begin(triangulation, open)      before the first face is looked at
+//   take(faces, v)                  these make way for the star about vertex v
+//   assign_to_star(centre, faces)   that star's, which share the vertices of those that made way
+//   worst_point(face)               the open vertex in the face that is farthest off it
+//   compare_edge(a, b, worst)       offers worst what would break up edge ab where it crosses full edges
 // Include only where CGAL may appear.
 #pragma once
 
@@ -211,11 +212,11 @@ class GreedyInsertion {
     ground_.take(conflicts_, v);
     vertices_[v] =
         triangulation_.star_hole(position(v), boundary_.begin(), boundary_.end(), conflicts_.begin(), conflicts_.end());
-    look_at_star(vertices_[v]);
+    update_star(vertices_[v]);
     return vertices_[v]->face();
   }
 
-  void look_at_star(Vertex centre) {
+  void update_star(Vertex centre) {
     star_.clear();
     auto face = triangulation_.incident_faces(centre), end = face;
     do {
@@ -225,7 +226,7 @@ class GreedyInsertion {
       star_.push_back({face, face->vertex(CoarseTriangulation::ccw(i))->point(),
                        face->vertex(CoarseTriangulation::cw(i))->point()});
     } while (++face != end);
-    ground_.settle(centre->point(), star_);
+    ground_.assign_to_star(centre->point(), star_);
     for (const StarFace& s : star_) propose_worst_point(s.face);
     auto neighbour = triangulation_.incident_vertices(centre), last = neighbour;
     do {

@@ -41,8 +41,8 @@ class LatticeSurvey {
   GroundEdges run() {
     for (std::int64_t row = 0; row < posts_.rows(); ++row) {
       for (std::int64_t column = 0; column < posts_.columns(); ++column) {
-        look_at_square(column, row);
-        look_at_sides(column, row);
+        add_edges_of_square(column, row);
+        add_edges_of_sides(column, row);
       }
     }
     return edges_.take();
@@ -59,7 +59,7 @@ class LatticeSurvey {
   }
 
   /// With one post missing, ground ends between its neighbours.
-  void look_at_square(std::int64_t column, std::int64_t row) {
+  void add_edges_of_square(std::int64_t column, std::int64_t row) {
     const std::array<std::uint32_t, 4> corners = square(column, row);
     if (!is_ground(corners)) return;
     for (std::size_t i = 0; i < 4; ++i) {
@@ -71,16 +71,16 @@ class LatticeSurvey {
   }
 
   /// Ground ends along the side to the east, or to the north, of this post, if it lies on one side only.
-  void look_at_sides(std::int64_t column, std::int64_t row) {
+  void add_edges_of_sides(std::int64_t column, std::int64_t row) {
     const std::uint32_t own = posts_.vertex({column, row}), east = posts_.vertex({column + 1, row}),
                         north = posts_.vertex({column, row + 1});
     if (own == kNoVertex) return;
     const bool ground = is_ground(square(column, row));
-    if (east != kNoVertex) look_at_side(own, east, ground, is_ground(square(column, row - 1)));
-    if (north != kNoVertex) look_at_side(own, north, is_ground(square(column - 1, row)), ground);
+    if (east != kNoVertex) add_edge_of_side(own, east, ground, is_ground(square(column, row - 1)));
+    if (north != kNoVertex) add_edge_of_side(own, north, is_ground(square(column - 1, row)), ground);
   }
 
-  void look_at_side(std::uint32_t from, std::uint32_t to, bool left, bool right) {
+  void add_edge_of_side(std::uint32_t from, std::uint32_t to, bool left, bool right) {
     if (left && !right) edges_.add(from, to);
     if (right && !left) edges_.add(to, from);
   }

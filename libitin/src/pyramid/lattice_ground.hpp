@@ -29,7 +29,7 @@ class LatticeGround {
 
   void begin(const CoarseTriangulation&, std::span<const std::uint32_t>) {}
   void take(std::span<const CoarseFace>, std::uint32_t) {}
-  void settle(const TraitsPoint&, std::span<const StarFace>) {}
+  void assign_to_star(const TraitsPoint&, std::span<const StarFace>) {}
 
   WorstPoint worst_point(CoarseFace face) const;
 

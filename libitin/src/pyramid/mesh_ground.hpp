@@ -38,7 +38,7 @@ class MeshGround {
   }
 
   /// Gives every homeless vertex to the face of the star that holds it.
-  void settle(const TraitsPoint& centre, std::span<const StarFace> star) {
+  void assign_to_star(const TraitsPoint& centre, std::span<const StarFace> star) {
     std::size_t at = 0;
     for (const std::uint32_t q : homeless_) {
       const TraitsPoint p = position(q);

@@ -136,14 +136,14 @@ class CoarseWalk {
 
   /// Through the triangles that hang together about u.
   std::optional<Exit> leave_fan(Position u, std::uint32_t start, Position v) const {
-    for (const int turn : {1, 2}) {  // counterclockwise, and clockwise from where a border stopped that
+    for (const int step : {1, 2}) {  // counterclockwise, and clockwise from where a border stopped that
       std::uint32_t t = start;
       do {
         const int i = corner_at(t, u);
         const Position p = corner(t, next(i)), q = corner(t, previous(i));
         if (orientation(u, p, v) >= 0 && orientation(u, v, q) >= 0)
           return Exit{t, orientation(p, q, v) >= 0 ? kStays : i};
-        t = mesh_.neighbours[t][(i + turn) % 3];
+        t = mesh_.neighbours[t][(i + step) % 3];
       } while (t != kNoTriangle && t != start);
     }
     return std::nullopt;
@@ -209,19 +209,19 @@ class DifferenceSweep {
       const std::uint64_t code = code_of(fine_.vertices[v]);
       while (c < coarse_.vertices.size() && code_of(coarse_.vertices[c]) < code) ++c;
       if (c == coarse_.vertices.size() || code_of(coarse_.vertices[c]) != code) continue;
-      settle(v, some_face[c]);
+      place_vertex(v, some_face[c]);
       is_coarse_vertex_[v] = 1;
     }
   }
 
-  void settle(std::uint32_t v, std::uint32_t face) {
+  void place_vertex(std::uint32_t v, std::uint32_t face) {
     face_[v] = face;
     at_vertex_[v] = above_plane(coarse_, face, fine_.vertices[v].point);
   }
 
   void locate(std::uint32_t v) {
     for (std::uint32_t t = 0; t < coarse_.mesh.triangles.size(); ++t) {
-      if (walk_.contains(t, fine_.vertices[v].position())) return settle(v, t);
+      if (walk_.contains(t, fine_.vertices[v].position())) return place_vertex(v, t);
     }
     throw Error("the coarse surface does not cover the full one");
   }
@@ -259,7 +259,7 @@ class DifferenceSweep {
                                            range.add(d);
                                            if (d.size() > allowed_) note(e, std::minmax(p, q), d.size());
                                          });
-    if (face_[v] == kNoTriangle) settle(v, end);
+    if (face_[v] == kNoTriangle) place_vertex(v, end);
     range.add(at_vertex_[u]);
     range.add(at_vertex_[v]);
   }

@@ -184,7 +184,7 @@ WrittenParts write_parts(const ThemeLines& lines, const WorkingIndex& index, con
     for (const Segment& s : segments) {
       const bool lower = s.theme <= lines.themes() || parts[s.theme - lines.themes() - 1].rank() > parts[i].rank();
       if (s.theme == kCoverage || !lower) continue;
-      const bool ground = s.theme <= lines.themes() && lines.standing[s.theme - std::size_t{1}];
+      const bool ground = s.theme <= lines.themes() && lines.raised[s.theme - std::size_t{1}];
       if (ground ? !parts[i].hides_end(s) : !parts[i].covers(s)) continue;
       masked.push_back({s.ax, s.ay, s.bx, s.by, number, format::kMaskedSegment, format::kMaskedSegment, s.theme});
       parts[i].add_masked(masked.back(), ground);

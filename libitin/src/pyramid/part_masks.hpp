@@ -1,4 +1,4 @@
-// The vertices and lines that make way for the standing features above them.
+// The vertices and lines that make way for the raised features above them.
 #pragma once
 
 #include <cstdint>

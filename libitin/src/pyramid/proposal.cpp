@@ -63,13 +63,13 @@ std::vector<std::vector<std::size_t>> waves(const std::vector<CurveRange>& tiles
   return result;
 }
 
-/// Raises points of tiles that had their turn; the others are still free to choose.
-void raise_settled(WorkingIndex& index, const std::vector<CurveRange>& tiles, const std::vector<std::uint8_t>& settled,
-                   std::vector<LevelRaise> raises) {
+/// Raises points of tiles whose levels have been proposed; the others are still free to choose.
+void raise_in_proposed(WorkingIndex& index, const std::vector<CurveRange>& tiles,
+                       const std::vector<std::uint8_t>& proposed, std::vector<LevelRaise> raises) {
   std::erase_if(raises, [&](const LevelRaise& raise) {
     const auto after = std::upper_bound(tiles.begin(), tiles.end(), raise.code,
                                         [](std::uint64_t code, const CurveRange& t) { return code < t.cell.code; });
-    return !settled[static_cast<std::size_t>(after - tiles.begin()) - 1];
+    return !proposed[static_cast<std::size_t>(after - tiles.begin()) - 1];
   });
   index.promote(std::move(raises));
 }
@@ -80,7 +80,7 @@ std::vector<TileProposal> propose_in_waves(WorkingIndex& index, const std::vecto
                                            std::span<const double> tolerances, Progress& progress,
                                            const Survey& survey) {
   std::vector<TileProposal> proposals(tiles.size());
-  std::vector<std::uint8_t> settled(tiles.size(), 0);
+  std::vector<std::uint8_t> proposed(tiles.size(), 0);
   std::atomic<std::size_t> done = 0;
   for (const std::vector<std::size_t>& wave : waves(tiles)) {
     parallel_for(wave.size(), [&](std::size_t i) {
@@ -89,8 +89,8 @@ std::vector<TileProposal> propose_in_waves(WorkingIndex& index, const std::vecto
       proposals[wave[i]] = propose(index, tile, survey(tile), tolerances);
       progress.report("choosing the levels", static_cast<double>(++done) / static_cast<double>(tiles.size()));
     });
-    for (const std::size_t tile : wave) raise_settled(index, tiles, settled, proposals[tile].beyond);
-    for (const std::size_t tile : wave) settled[tile] = 1;
+    for (const std::size_t tile : wave) raise_in_proposed(index, tiles, proposed, proposals[tile].beyond);
+    for (const std::size_t tile : wave) proposed[tile] = 1;
   }
   return proposals;
 }

@@ -48,7 +48,7 @@ std::optional<LineHierarchy> generalised(const PlacedLines& placed, const std::v
   }
   const auto height = [&](Position p) { return find_by_code(lines.lines.vertices, code_of(p))->z; };
   std::vector<Segment> whole = placed.features;
-  whole.insert(whole.end(), placed.standing.begin(), placed.standing.end());
+  whole.insert(whole.end(), placed.raised.begin(), placed.raised.end());
   return LineHierarchy(placed.terrain, whole, nodes, height, by_level);
 }
 
@@ -106,7 +106,7 @@ void count_lines(const PlacedLines& placed, std::size_t themes, PyramidReport& r
   std::vector<std::vector<std::uint64_t>> ends(themes);
   report.segments.assign(themes, 0);
   report.left_out = placed.left_out;
-  for (const std::vector<Segment>* segments : {&placed.terrain, &placed.features, &placed.standing}) {
+  for (const std::vector<Segment>* segments : {&placed.terrain, &placed.features, &placed.raised}) {
     for (const Segment& s : *segments) {
       report.segments[s.theme - std::size_t{1}] += 1;
       ends[s.theme - std::size_t{1}].push_back(code_of(s.a()));
@@ -227,7 +227,7 @@ class PyramidBuild {
 
   /// 4. The terrain's lines at all levels.
   void generalise() {
-    placed_.standing = raised_segments(lines_);
+    placed_.raised = raised_segments(lines_);
     placed_.ground = ground_segments(lines_);
     hierarchy_ = generalised(placed_, outline_, lines_, units_);
     set_lines();
@@ -317,7 +317,7 @@ class PyramidBuild {
     const std::vector<GridPoint> draped = write_draped();
     count_lines(placed_, lines_.themes() + lines_.parts.size(), report_);
     std::vector<Segment> segments = index_->all_segments();
-    for (const std::vector<Segment>* const more : {&placed_.features, &placed_.standing, &placed_.ground})
+    for (const std::vector<Segment>* const more : {&placed_.features, &placed_.raised, &placed_.ground})
       append(segments, *more);
     const WrittenParts parts = write_parts(lines_, *index_, tiles_, draped, segments, writer_, progress_);
     for (std::size_t p = 0; p < lines_.parts.size(); ++p) {

@@ -17,7 +17,7 @@
 
 namespace itin {
 
-/// A part of a standing theme, its lines in one plane with all others.
+/// A part of a raised theme, its lines in one plane with all others.
 struct PlacedPart {
   ThemePart part;
   int rank = 0;  ///< it takes the ground of those with a greater one
@@ -34,12 +34,12 @@ struct ThemeVertex {
   friend auto operator<=>(const ThemeVertex&, const ThemeVertex&) = default;
 };
 
-/// The lines of all themes; owner i is theme i + 1. The parts of standing themes are numbered after the themes.
+/// The lines of all themes; owner i is theme i + 1. The parts of raised themes are numbered after the themes.
 struct ThemeLines {
   PlanarLines lines;
   std::vector<bool> terrain;           ///< by theme: whether they are part of the full surface
   std::vector<ThemeKind> kinds;        ///< by theme
-  std::vector<bool> standing;          ///< by theme: whether its features are parts, and its own lines keep the ground
+  std::vector<bool> raised;            ///< by theme: whether its features are parts, and its own lines keep the ground
   std::vector<std::uint16_t> sources;  ///< by vertex: where it comes from
   std::vector<PlacedPart> parts;
   /// Ascending: the ends of what keeps the ground, all vertices of the full surface or of the theme's parts.
@@ -49,9 +49,9 @@ struct ThemeLines {
   std::size_t themes() const { return terrain.size(); }
   bool is_raised(const PlanarEdge& e) const { return e.owner >= themes(); }
   /// Whether it is an edge of the full surface about features: it changes nothing where these are not there.
-  bool keeps_ground(const PlanarEdge& e) const { return !is_raised(e) && standing[e.owner]; }
+  bool keeps_ground(const PlanarEdge& e) const { return !is_raised(e) && raised[e.owner]; }
   /// Whether it is a line on the ground.
-  bool lies(const PlanarEdge& e) const { return !is_raised(e) && !standing[e.owner]; }
+  bool lies(const PlanarEdge& e) const { return !is_raised(e) && !raised[e.owner]; }
   /// The numbers of the vertices of the terrain's lines, ascending: points of the full surface.
   std::vector<std::uint32_t> terrain_vertices() const;
   /// Whether no line lies on the ground.
@@ -66,7 +66,7 @@ struct PlacedLines {
   std::vector<Segment> features;            ///< on it
   std::vector<SegmentFeature> of_features;  ///< of the first two: which features they are of; ascending
   std::vector<std::uint64_t> feature_ends;  ///< ascending Morton codes: where a theme's line goes on as another feature
-  std::vector<Segment> standing;            ///< of parts
+  std::vector<Segment> raised;              ///< of parts
   std::vector<Segment> ground;              ///< edges of the full surface about these, at level 0
   std::vector<std::uint64_t> ends;          ///< of the first two, ascending Morton codes
   std::vector<std::uint64_t> on_outline;    ///< of these, those on it
@@ -76,10 +76,10 @@ struct PlacedLines {
 
 /// An edge of a part as a segment.
 Segment raised_segment(const PlanarEdge& edge, const ThemeLines& lines);
-/// The segments of the parts of standing themes, which lie on the ground already.
+/// The segments of the parts of raised themes, which lie on the ground already.
 std::vector<Segment> raised_segments(const ThemeLines& lines);
 Segment segment_of(const BorderEdge& border);
-/// The segments that keep the ground about standing features.
+/// The segments that keep the ground about raised features.
 std::vector<Segment> ground_segments(const ThemeLines& lines);
 /// Vertices that this has got from crossing other lines, ascending. They may be vertices of the full surface.
 std::vector<ThemeVertex> crossings_of_ground(const ThemeLines& lines);

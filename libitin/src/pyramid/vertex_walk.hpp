@@ -63,19 +63,19 @@ class VertexWalk {
   /// and the one before has been looked at already.
   Start leave(std::uint32_t u, Position from, Position to) const {
     const auto side = [&](std::uint32_t v) { return orientation(from, to, positions_[v]); };
-    for (const int turn : {1, 2}) {
+    for (const int step : {1, 2}) {
       std::uint32_t t = some_triangle_[u];
-      int known = side(mesh_.triangles[t][(corner_at(t, u) + turn) % 3]);
+      int known = side(mesh_.triangles[t][(corner_at(t, u) + step) % 3]);
       do {
         const int i = corner_at(t, u);
         const std::uint32_t next = mesh_.triangles[t][(i + 1) % 3], previous = mesh_.triangles[t][(i + 2) % 3];
-        const int found = side(turn == 1 ? previous : next);
-        const int of_next = turn == 1 ? known : found, of_previous = turn == 1 ? found : known;
+        const int found = side(step == 1 ? previous : next);
+        const int of_next = step == 1 ? known : found, of_previous = step == 1 ? found : known;
         if (of_next == 0 && ahead(from, positions_[next], to)) return {next, t, 0};
         if (of_previous == 0 && ahead(from, positions_[previous], to)) return {previous, t, 0};
         if (of_next < 0 && of_previous > 0) return {kNoTriangle, t, i};
         known = found;
-        t = mesh_.neighbours[t][(i + turn) % 3];
+        t = mesh_.neighbours[t][(i + step) % 3];
       } while (t != kNoTriangle && t != some_triangle_[u]);
     }
     throw Error("a walk left the mesh");

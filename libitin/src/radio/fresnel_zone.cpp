@@ -66,9 +66,9 @@ bool LeastFraction::is_greater_along(const ClearancePiece& p) const {
 void LeastFraction::consider_inside(const ClearancePiece& p) {
   if (is_greater_along(p)) return;
   const Cubic cubic{-p.square, 1.5 * p.square, p.linear / 2 + p.constant, -p.constant / 2};
-  const std::array<double, 2> turns = stationary_points(cubic, p.from);
-  const std::array<double, 4> bounds = {p.from, std::clamp(turns[0], p.from, p.to), std::clamp(turns[1], p.from, p.to),
-                                        p.to};
+  const std::array<double, 2> stationary = stationary_points(cubic, p.from);
+  const std::array<double, 4> bounds = {p.from, std::clamp(stationary[0], p.from, p.to),
+                                        std::clamp(stationary[1], p.from, p.to), p.to};
   for (std::size_t i = 0; i + 1 < bounds.size(); ++i) {
     const auto root = root_between(cubic, bounds[i], bounds[i + 1]);
     if (root) consider(*root, p.at(*root));

@@ -1,4 +1,4 @@
-// Footprints as they were imported, kept so that standing features can be built again when the terrain under them
+// Footprints as they were imported, kept so that raised features can be built again when the terrain under them
 // changes. See libitin/FORMAT.md, "Footprint block".
 #pragma once
 

@@ -33,7 +33,7 @@ HeightPredictor::HeightPredictor(std::vector<LocalPosition> positions)
 void HeightPredictor::begin_batch() {
   batch_.points = std::span(positions_).subspan(next_, std::min(kPointsOfBatch, positions_.size() - next_));
   for (std::size_t j = 0; j < batch_.points.size(); ++j) batch_.buckets[j] = buckets_.at(batch_.points[j]);
-  std::visit([this](auto& samples) { samples.look(batch_, shares_); }, samples_);
+  std::visit([this](auto& samples) { samples.find_shares_around(batch_, shares_); }, samples_);
 }
 
 std::int64_t HeightPredictor::predict() const {

@@ -39,12 +39,12 @@ struct Block {
   bool in_order = true;           ///< else points may be in any order, and `sources` are not theirs one by one
   PointSources sources;
   std::vector<std::uint8_t> levels;   ///< per point, or empty when all have the leaf's level
-  std::uint16_t standing = 0;         ///< the theme whose features they belong to; 0 for all but standing themes'
+  std::uint16_t raised_theme = 0;     ///< the theme whose features they belong to; 0 for all but raised themes'
   std::vector<std::uint8_t> outline;  ///< of those per point: whether it lies between a feature and the ground
 
   /// The theme within whose features the point lies, off their outlines; 0 for none.
   std::uint16_t theme(std::size_t k) const {
-    return static_cast<std::uint16_t>(standing != 0 && outline[k] == 0 ? standing : 0);
+    return static_cast<std::uint16_t>(raised_theme != 0 && outline[k] == 0 ? raised_theme : 0);
   }
   /// The memory it takes.
   std::size_t bytes() const {

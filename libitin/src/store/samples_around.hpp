@@ -41,9 +41,9 @@ class LatticeSamples {
  public:
   explicit LatticeSamples(const BucketGrid& buckets) : buckets_(&buckets), around_(buckets.count()) {}
 
-  /// Looks around each point before it becomes its bucket's sample. The shares are null where no sample is around, else
-  /// there until the next call.
-  void look(const PointBatch& batch, OfBatch<const Shares*>& shares);
+  /// Finds the shares of the samples around each point before it becomes its bucket's sample. They are null where no
+  /// sample is around, else there until the next call.
+  void find_shares_around(const PointBatch& batch, OfBatch<const Shares*>& shares);
   /// In the i-th of kBucketsAround of the latest batch's point j.
   SampleAround sample(std::size_t j, std::size_t i) const {
     return {(there_[j] >> i & 1) != 0, kBucketsAround[i].x, kBucketsAround[i].y};
@@ -61,7 +61,7 @@ class ScatteredSamples {
   explicit ScatteredSamples(const BucketGrid& buckets);
 
   /// As those of LatticeSamples.
-  void look(const PointBatch& batch, OfBatch<const Shares*>& shares);
+  void find_shares_around(const PointBatch& batch, OfBatch<const Shares*>& shares);
   SampleAround sample(std::size_t j, std::size_t i) const {
     return {sample_x_[i][j] != kNone, (sample_x_[i][j] - x_[j]) >> offset_shift_,
             (sample_y_[i][j] - y_[j]) >> offset_shift_};

@@ -39,7 +39,7 @@ inline constexpr int kMaxLevels = 64;
 inline constexpr int kFirstEdgeTree = 1024;
 inline constexpr int kLastTree = 2046;
 inline constexpr int kMaxThemes = 900;  ///< and parts of themes, which are numbered after them
-/// The footprints of standing themes as they were imported; blocks without a directory.
+/// The footprints of raised themes as they were imported; blocks without a directory.
 inline constexpr int kFootprintTree = 2046;
 /// Imported points and lines that are not in the surface (set_aside.hpp); blocks without a directory but for one list.
 inline constexpr int kSetAsideTree = 2045;

@@ -3,7 +3,7 @@
 //   StoreWriter writer(path, crs_wkt, grid, tolerances);
 //   for each level, finest first: for each leaf in Morton order: writer.add_leaf(...);
 //   for each theme with vertices of its own, ascending: writer.add_theme_vertices(...);
-//   for each part of a standing theme, ascending: writer.add_part_vertices(...);
+//   for each part of a raised theme, ascending: writer.add_part_vertices(...);
 //   writer.add_segments(segments);
 //   for each cell and then each theme of what is not in the surface as it came: writer.set_aside(...);
 //   for each theme: writer.add_footprints(theme, footprints);
@@ -67,7 +67,7 @@ class StoreWriter {
   /// The vertices that are not part of the full surface, but of this theme's lines on it; in Morton order.
   void add_theme_vertices(std::uint16_t theme, std::span<const GridPoint> points,
                           std::span<const std::uint16_t> sources);
-  /// The vertices of a part of a standing theme; parts are numbered after the themes. Points with format::kMask as
+  /// The vertices of a part of a raised theme; parts are numbered after the themes. Points with format::kMask as
   /// their source are no vertices. Each cell takes the greatest of the reaches that it meets; cells without points are
   /// written too where it is above 0. `clusters` has every point, or is empty.
   void add_part_vertices(std::uint16_t part, std::span<const GridPoint> points, std::span<const std::uint16_t> sources,

@@ -15,18 +15,18 @@ class Around {
   Around(const GridPoint& centre, const GridPoint& start) : centre_(centre), start_(start) {}
   bool operator()(const GridPoint& p, const GridPoint& q) const {
     const bool p_behind = behind(p), q_behind = behind(q);
-    return p_behind != q_behind ? q_behind : turn(p, q) > 0;
+    return p_behind != q_behind ? q_behind : side_of(p, q) > 0;
   }
 
  private:
-  std::int64_t turn(const GridPoint& p, const GridPoint& q) const { return doubled_area(centre_, p, q); }
+  std::int64_t side_of(const GridPoint& p, const GridPoint& q) const { return doubled_area(centre_, p, q); }
   std::int64_t along(const GridPoint& p) const {
     return std::int64_t{p.x - centre_.x} * (start_.x - centre_.x) +
            std::int64_t{p.y - centre_.y} * (start_.y - centre_.y);
   }
   /// Half a turn or more from the start.
   bool behind(const GridPoint& p) const {
-    const std::int64_t side = turn(start_, p);
+    const std::int64_t side = side_of(start_, p);
     return side < 0 || (side == 0 && along(p) < 0);
   }
 

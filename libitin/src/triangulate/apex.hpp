@@ -33,7 +33,7 @@ struct SelectedVertex {
   GridPoint point;
   std::uint16_t source = 0;
   std::uint8_t level = 0;
-  std::uint16_t theme = 0;  ///< within whose standing features it lies, off their outlines; 0: none
+  std::uint16_t theme = 0;  ///< within whose raised features it lies, off their outlines; 0: none
 
   Position position() const { return {point.x, point.y}; }
 };

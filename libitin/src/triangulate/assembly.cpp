@@ -88,13 +88,13 @@ class Assembly {
     });
     tin_.vertices.resize(codes_.size());
     tin_.sources.resize(codes_.size());
-    if (any) tin_.standing.resize(codes_.size());
+    if (any) tin_.raised_theme.resize(codes_.size());
     const auto place = [&](std::size_t r, std::size_t v) {
       const SelectedVertex& vertex = regions_[r].vertices[v];
       const std::uint32_t number = parts_[r].numbers[v];
       tin_.vertices[number] = vertex.point;
       tin_.sources[number] = vertex.source;
-      if (any) tin_.standing[number] = vertex.theme;
+      if (any) tin_.raised_theme[number] = vertex.theme;
     };
     parallel_for(parts_.size(), [&](std::size_t r) {
       number_vertices(parts_[r]);

@@ -26,7 +26,7 @@ const Edge* find(const std::vector<Edge>& edges, std::uint32_t from, std::uint32
 void GrowingMesh::start(PlaneMesh mesh) {
   mesh_ = std::move(mesh);
   mesh_.constrained.assign(mesh_.triangles.size(), 0);
-  settled_.assign(mesh_.triangles.size(), 0);
+  proved_.assign(mesh_.triangles.size(), 0);
   changed_.clear();
   some_triangle_.assign(vertices_.size(), kNoTriangle);
   for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
@@ -73,10 +73,10 @@ void GrowingMesh::insert(std::uint32_t vertex) {
 /// in circles, as the triangulation is constrained.
 GrowingMesh::Place GrowingMesh::locate(Position p) {
   for (std::uint32_t t = last_;;) {
-    turn_ = turn_ * 1664525 + 1013904223;
+    random_ = random_ * 1664525 + 1013904223;
     int edge = kInside;
     for (unsigned k = 0; k < 3 && edge == kInside; ++k) {
-      const int i = static_cast<int>(((turn_ >> 16) + k) % 3);
+      const int i = static_cast<int>(((random_ >> 16) + k) % 3);
       if (orientation(at_corner(t, i + 1), at_corner(t, i + 2), p) < 0) edge = i;
     }
     if (edge == kInside || mesh_.neighbours[t][edge] == kNoTriangle) return {t, edge};
@@ -124,15 +124,15 @@ void GrowingMesh::take_beyond_hull(const Place& place, std::uint32_t vertex) {
     return true;
   };
   see(place.triangle, place.beyond);
-  for (const int turn : {1, 2}) {  // counterclockwise along the hull, and clockwise
+  for (const int step : {1, 2}) {  // counterclockwise along the hull, and clockwise
     std::uint32_t t = place.triangle;
     int i = place.beyond;
     do {
-      const std::uint32_t pivot = corner(t, i + 3 - turn);
-      for (i = (i + turn) % 3; mesh_.neighbours[t][i] != kNoTriangle;) {
+      const std::uint32_t pivot = corner(t, i + 3 - step);
+      for (i = (i + step) % 3; mesh_.neighbours[t][i] != kNoTriangle;) {
         t = mesh_.neighbours[t][i];
         for (i = 0; corner(t, i) != pivot;) ++i;
-        i = (i + 3 - turn) % 3;
+        i = (i + 3 - step) % 3;
       }
     } while (see(t, i));
   }
@@ -175,7 +175,7 @@ void GrowingMesh::replace() {
     const std::uint32_t t = place_for(k);
     mesh_.triangles[t] = filling_[k];
     mesh_.constrained[t] = 0;
-    settled_[t] = 0;
+    proved_[t] = 0;
     changed_.push_back(t);
     for (int i = 0; i < 3; ++i) {
       some_triangle_[corner(t, i)] = t;
@@ -199,7 +199,7 @@ std::uint32_t GrowingMesh::place_for(std::size_t number) {
   mesh_.triangles.emplace_back();
   mesh_.neighbours.emplace_back();
   mesh_.constrained.push_back(0);
-  settled_.push_back(0);
+  proved_.push_back(0);
   return static_cast<std::uint32_t>(mesh_.triangles.size() - 1);
 }
 
@@ -213,7 +213,7 @@ SegmentEdge GrowingMesh::edge_towards(std::uint32_t at, std::uint32_t to) const 
            0;
   };
   const std::uint32_t start = some_triangle_[at];
-  for (const int turn : {1, 2}) {  // counterclockwise, and clockwise from where the hull stopped that
+  for (const int step : {1, 2}) {  // counterclockwise, and clockwise from where the hull stopped that
     std::uint32_t t = start;
     do {
       int i = 0;
@@ -223,7 +223,7 @@ SegmentEdge GrowingMesh::edge_towards(std::uint32_t at, std::uint32_t to) const 
       if (right_side == 0 && ahead(position(right))) return {at, right, t, mesh_.neighbours[t][(i + 2) % 3]};
       if (left_side == 0 && ahead(position(left))) return {at, left, mesh_.neighbours[t][(i + 1) % 3], t};
       if (right_side < 0 && left_side > 0) return {at, at, t, kNoTriangle};
-      t = mesh_.neighbours[t][(i + turn) % 3];
+      t = mesh_.neighbours[t][(i + step) % 3];
     } while (t != kNoTriangle && t != start);
   }
   throw Error("a constraint leads out of the triangulation");

@@ -46,9 +46,9 @@ class GrowingMesh {
   /// Appends the edges that a segment laid earlier is made of.
   void edges_of(std::uint32_t from, std::uint32_t to, std::uint16_t theme, std::vector<SegmentEdge>& edges) const;
 
-  /// A mark on a triangle that is gone when the triangle changes.
-  bool settled(std::uint32_t triangle) const { return settled_[triangle] != 0; }
-  void settle(std::uint32_t triangle) { settled_[triangle] = 1; }
+  /// Whether a triangle needs no more proof: a mark that is gone when the triangle changes.
+  bool is_proved(std::uint32_t triangle) const { return proved_[triangle] != 0; }
+  void mark_proved(std::uint32_t triangle) { proved_[triangle] = 1; }
   /// The triangles that are new or others than before since start() and since this was asked last, ascending.
   std::vector<std::uint32_t> take_changed();
 
@@ -98,10 +98,10 @@ class GrowingMesh {
   const std::vector<SelectedVertex>& vertices_;
   PlaneMesh mesh_;
   std::vector<std::uint32_t> some_triangle_;  ///< by vertex
-  std::vector<std::uint8_t> settled_;
+  std::vector<std::uint8_t> proved_;
   std::vector<std::uint32_t> changed_;  ///< some of them more than once
   std::uint32_t last_ = 0;              ///< a triangle near the last change
-  std::uint32_t turn_ = 0;
+  std::uint32_t random_ = 0;
   // Buffers for the part that is being replaced, kept for their memory.
   std::vector<std::uint32_t> cavity_, left_, right_;
   std::vector<Side> rim_;

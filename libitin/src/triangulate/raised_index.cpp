@@ -55,7 +55,7 @@ std::shared_ptr<const Block> RaisedIndex::block(const Leaf& leaf) const {
   const std::vector<std::uint64_t> masked = masks(leaf.cell.box(), rank(leaf.theme));
   if (masked.empty() && !is_part(leaf.theme)) return whole;
   auto rest = std::make_shared<Block>();
-  rest->standing = is_part(leaf.theme) ? themes_of_parts_[leaf.theme - themes_ - 1] : std::uint16_t{0};
+  rest->raised_theme = is_part(leaf.theme) ? themes_of_parts_[leaf.theme - themes_ - 1] : std::uint16_t{0};
   for (std::size_t k = 0; k < whole->points.size(); ++k) {
     const GridPoint& p = whole->points[k];
     if (is_part(leaf.theme) && whole->sources[k] == format::kMask) continue;

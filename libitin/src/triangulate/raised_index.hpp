@@ -1,4 +1,4 @@
-// A store's vertices and lines with the chosen standing features among them, and without what makes way for these.
+// A store's vertices and lines with the chosen raised features among them, and without what makes way for these.
 //
 //   const RaisedIndex index(store, selection);     // then as any PointIndex, with the same selection
 //

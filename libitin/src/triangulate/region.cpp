@@ -315,10 +315,10 @@ class RegionTriangulation {
         std::any_of(constraints_.begin(), constraints_.end(), [](const Constraint& c) { return c.theme != kCoverage; });
     Enclosure enclosure(mesh(), read_.vertices(), known_, index_.bounds());
     for (const std::uint32_t t : open_) {
-      if (ground_[t] != Ground::kYes || grown_.settled(t)) continue;
+      if (ground_[t] != Ground::kYes || grown_.is_proved(t)) continue;
       if (t < squares_.triangle_count() || circumdisc_in(corner(t, 0), corner(t, 1), corner(t, 2), bare_beyond_) ||
           !in_region(t) || (lines && enclosure.holds(t))) {
-        grown_.settle(t);
+        grown_.mark_proved(t);
       } else if (lines) {
         enclosure.add_missing(missing);
       }
@@ -348,8 +348,8 @@ class RegionTriangulation {
     std::vector<std::uint32_t> still_open;
     for (const std::uint32_t t : open_) {
       if (ground_[t] != Ground::kYes) continue;
-      if (!grown_.settled(t)) prove(t, intruders, fresh);
-      if (seek_beyond_hull(t, intruders) || !grown_.settled(t)) still_open.push_back(t);
+      if (!grown_.is_proved(t)) prove(t, intruders, fresh);
+      if (seek_beyond_hull(t, intruders) || !grown_.is_proved(t)) still_open.push_back(t);
     }
     open_ = std::move(still_open);
     for (const SegmentEdge& edge : outline_) {
@@ -381,7 +381,7 @@ class RegionTriangulation {
     if (found) {
       intruders.push_back(*found);
     } else {
-      grown_.settle(t);
+      grown_.mark_proved(t);
     }
   }
 
@@ -446,7 +446,7 @@ class RegionTriangulation {
   std::uint64_t most_known_ = 0;  ///< points that may still be read into known_
   std::vector<Constraint> constraints_;
   LatticeSquares squares_;  ///< of the points read at first
-  GrowingMesh grown_;       ///< settled: a triangle that needs no more proof
+  GrowingMesh grown_;       ///< proved: a triangle that needs no more proof
   std::vector<Ground> ground_;
   std::vector<SegmentEdge> outline_;
   bool outline_changed_ = true;  ///< since all triangles were marked

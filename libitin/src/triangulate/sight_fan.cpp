@@ -30,14 +30,14 @@ SightFan::SightFan(Position a, Position b, Position eye, std::span<const Segment
 }
 
 /// Grows from 0 along ab to 2 against it, over directions to the left.
-double SightFan::turn(double x, double y) const {
+double SightFan::pseudo_angle(double x, double y) const {
   const double along = x * along_x_ + y * along_y_, aside = std::max(0.0, y * along_x_ - x * along_y_);
   const double sum = std::abs(along) + aside;
   return sum > 0 ? 1 - along / sum : 1;
 }
 
-std::uint32_t SightFan::sector(double turn) const {
-  return static_cast<std::uint32_t>(std::clamp(turn / 2 * count_, 0.0, count_ - 1.0));
+std::uint32_t SightFan::sector(double angle) const {
+  return static_cast<std::uint32_t>(std::clamp(angle / 2 * count_, 0.0, count_ - 1.0));
 }
 
 /// From `first` up to, not including, `last`; none where the segment begins at the eye and so blocks nothing.
@@ -46,7 +46,8 @@ SightFan::Sectors SightFan::sectors_of(const Segment& s) const {
   const double qx = static_cast<double>(s.bx) - eye_.x, qy = static_cast<double>(s.by) - eye_.y;
   if ((px == 0 && py == 0) || (qx == 0 && qy == 0)) return {0, 0};
   const double p_aside = py * along_x_ - px * along_y_, q_aside = qy * along_x_ - qx * along_y_;
-  double low = std::min(turn(px, py), turn(qx, qy)), high = std::max(turn(px, py), turn(qx, qy));
+  double low = std::min(pseudo_angle(px, py), pseudo_angle(qx, qy)),
+         high = std::max(pseudo_angle(px, py), pseudo_angle(qx, qy));
   // Cut off where it comes from the right of ab: by what side of the eye it passes.
   if (p_aside < 1 || q_aside < 1) {
     const double side = (px * qy - py * qx) * (p_aside < q_aside ? 1 : -1);
@@ -58,7 +59,8 @@ SightFan::Sectors SightFan::sectors_of(const Segment& s) const {
 }
 
 bool SightFan::blocked(Position c) const {
-  const auto near = in_sector_.in(sector(turn(static_cast<double>(c.x) - eye_.x, static_cast<double>(c.y) - eye_.y)));
+  const auto near =
+      in_sector_.in(sector(pseudo_angle(static_cast<double>(c.x) - eye_.x, static_cast<double>(c.y) - eye_.y)));
   return std::any_of(near.begin(), near.end(), [&](std::uint32_t i) { return crosses(segments_[i], eye_, c); });
 }
 

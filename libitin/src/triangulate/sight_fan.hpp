@@ -26,9 +26,9 @@ class SightFan {
   struct Sectors {
     std::uint32_t first, last;
   };
-  double turn(double x, double y) const;
+  double pseudo_angle(double x, double y) const;
   Sectors sectors_of(const Segment& s) const;
-  std::uint32_t sector(double turn) const;
+  std::uint32_t sector(double angle) const;
 
   Position eye_;
   double along_x_, along_y_;  ///< the unit vector from a to b

@@ -76,7 +76,7 @@ class TilePlan {
   std::vector<Cell> cells_;
 };
 
-/// Lines of a part become its theme's. Lines that only keep the ground about standing features are dropped.
+/// Lines of a part become its theme's. Lines that only keep the ground about raised features are dropped.
 void name_themes(Tin& tin, const StoreMetadata& metadata) {
   if (metadata.parts.empty()) return;
   std::erase_if(tin.lines, [&](const LineEdge& e) {

@@ -32,7 +32,7 @@ PartHeights::PartHeights(const Store& store, std::size_t part)
       tree_(tree_of(store, part)),
       ground_(selection_of(store.metadata(), Detail::tolerance(0), ThemeChoice::none())),
       selection_(selection_of(store.metadata(), Detail::tolerance(0), ThemeChoice::parse(theme_.name))),
-      standing_(store, selection_),
+      raised_(store, selection_),
       founded_(store.metadata().has_foundations) {
   const std::vector<ThemePart>& parts = store.metadata().parts;
   for (std::size_t other = 0; other < parts.size(); ++other)
@@ -104,7 +104,7 @@ std::vector<Leaf> PartHeights::leaves_about(const GridBox& box) const {
 }
 
 std::vector<FalseCell> PartHeights::higher_in(const Cell& tile) const {
-  const RegionMesh raised = triangulate_region(standing_, selection_, square_of(tile));
+  const RegionMesh raised = triangulate_region(raised_, selection_, square_of(tile));
   const std::vector<std::uint32_t> features = features_of(raised, square_of(tile));
   if (features.empty()) return {};
   GridBox box;

@@ -11,7 +11,7 @@
 
 namespace itin {
 
-/// The features of one part of a standing theme, among those of the whole theme. Safe for concurrent use.
+/// The features of one part of a raised theme, among those of the whole theme. Safe for concurrent use.
 class PartHeights {
  public:
   /// `part` from 0. Refers to the store, which must outlive it.
@@ -35,7 +35,7 @@ class PartHeights {
   const ThemeInfo& theme_;
   int tree_;
   Selection ground_, selection_;
-  RaisedIndex standing_;
+  RaisedIndex raised_;
   bool founded_;                  ///< some foundations may bend the ground about them, and cut into it
   std::vector<int> other_trees_;  ///< of the theme's other parts
 };

@@ -108,7 +108,7 @@ struct StoreLine {
 
 /// One end of a line, as far as it is known: a profile from a file has no positions.
 struct LosEnd {
-  double ground_m = 0;              ///< elevation of the ground without standing features
+  double ground_m = 0;              ///< elevation of the ground without raised features
   std::optional<double> surface_m;  ///< elevation with them, where they are known
   bool on_surface = false;          ///< whether height_m counts from that
   double height_m = 0;              ///< of the antenna
@@ -145,7 +145,7 @@ struct LineFindings {
 /// The findings are about all that stands on the ground, clutter included.
 struct LosReport : LineFindings {
   LosQuery query;
-  Profile profile;                   ///< with standing features, of which clutter is one
+  Profile profile;                   ///< with raised features, of which clutter is one
   Profile ground;                    ///< without them; no points where the profile has none either
   std::optional<LineFindings> bare;  ///< over the ground without the profile's clutter, where it has any
   EndGrounds stands_on;              ///< elevations of what the ends stand on
@@ -176,7 +176,7 @@ struct LosReport : LineFindings {
 /// The elevation under each end: of the surface or of the ground, as the query says.
 EndGrounds stands_on(const Profile& profile, const Profile& ground, const LosQuery& query);
 
-/// `ground`: the same line without standing features, for a profile that has them. The clutter of a profile without
+/// `ground`: the same line without raised features, for a profile that has them. The clutter of a profile without
 /// `ground` stands on it, but nearer to an end than kClutterFreeM. Throws InputError where there is no
 /// ground at an end, a height is negative, or a criterion asks for a part of the Fresnel zone without a frequency. O(n)
 /// but for logarithmic factors.

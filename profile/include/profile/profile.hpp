@@ -50,7 +50,7 @@ struct Profile {
   std::uint16_t theme_between(std::size_t i) const;
 };
 
-/// A stretch of one standing theme, from point `first` to point `last`.
+/// A stretch of one raised theme, from point `first` to point `last`.
 struct FeatureRun {
   std::size_t first = 0, last = 0;
   std::uint16_t theme = 0;

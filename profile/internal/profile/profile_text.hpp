@@ -4,7 +4,7 @@
 //
 //   1.250000	231.40	12.00	T      distance km, ground m, height of what stands there m, its kind
 //
-// The ground is the one without standing features. The kind is T for vegetation, B for anything else that stands there,
+// The ground is the one without raised features. The kind is T for vegetation, B for anything else that stands there,
 // N for nothing. Distances ascend strictly: at a vertical face the higher side is kept. Pathloss converts text files of
 // distances and elevations (its manual, Terrain Data), and programs for P.452 and P.530 read such columns; which of
 // them take the third and fourth as they stand here has not been tried.
@@ -18,7 +18,7 @@
 
 namespace itin::profile {
 
-/// `ground`: the line without standing features; no points where nothing stands on it. `kinds`: of the surface's
+/// `ground`: the line without raised features; no points where nothing stands on it. `kinds`: of the surface's
 /// themes, by ProfilePoint::theme - 1; a theme beyond them is no vegetation. Precondition: as require_profile_text()
 /// says.
 std::string profile_text(const Profile& surface, const Profile& ground, const std::vector<ThemeKind>& kinds);

@@ -159,7 +159,7 @@ class ChartPage {
     drawing_.text({(frame_.xmin + frame_.xmax) / 2, frame_.ymax + 30}, in_km_ ? "distance, km" : "distance, m",
                   {.colour = kInk, .align = Align::kCentre});
     drawing_.text({16, (frame_.ymin + frame_.ymax) / 2}, "elevation, m",
-                  {.colour = kInk, .align = Align::kCentre, .turn_deg = 90});
+                  {.colour = kInk, .align = Align::kCentre, .rotation_deg = 90});
     const double across = (x_.high - x_.low) * unit() / (x_.to - x_.from), up = (y_.high - y_.low) / (y_.from - y_.to);
     drawing_.text({frame_.xmax, frame_.ymax + 30}, fmt::format("vertical exaggeration {:.3g}", across / up),
                   {.size = 8, .colour = kFaint, .align = Align::kRight});

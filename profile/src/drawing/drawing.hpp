@@ -38,8 +38,8 @@ struct Lettering {
   Colour colour;
   Align align = Align::kLeft;
   bool bold = false;
-  double turn_deg = 0;  ///< counterclockwise about the anchor
-  double rim = 0;       ///< width of a white edge that keeps what is below from the letters
+  double rotation_deg = 0;  ///< counterclockwise about the anchor
+  double rim = 0;           ///< width of a white edge that keeps what is below from the letters
 };
 inline constexpr Colour kRim{1, 1, 1, 0.85};
 

@@ -178,7 +178,7 @@ class PanoramaPage {
       draw_mark(at, place->visible);
       const std::string text = place->name + ", " + rounded_distance(place->distance_m);
       drawing_.text({label + 2, frame_.ymin - 10}, text,
-                    {.size = 8, .colour = place->visible ? kInk : kFaint, .turn_deg = 50});
+                    {.size = 8, .colour = place->visible ? kInk : kFaint, .rotation_deg = 50});
     }
   }
 

@@ -65,7 +65,7 @@ class RoutePage {
     drawing_.text({(frame_.xmin + frame_.xmax) / 2, frame_.ymax + 27}, "distance along the route, km",
                   {.size = 8, .colour = kInk, .align = Align::kCentre});
     drawing_.text({16, (frame_.ymin + frame_.ymax) / 2}, "turbines visible",
-                  {.size = 8, .colour = kInk, .align = Align::kCentre, .turn_deg = 90});
+                  {.size = 8, .colour = kInk, .align = Align::kCentre, .rotation_deg = 90});
   }
 
   void draw_legend() {

@@ -77,8 +77,8 @@ class SvgSurface final : public Surface {
     if (lettering.align != Align::kLeft)
       svg_ += fmt::format(" text-anchor=\"{}\"", lettering.align == Align::kCentre ? "middle" : "end");
     if (lettering.bold) svg_ += " font-weight=\"bold\"";
-    if (lettering.turn_deg != 0)
-      svg_ += fmt::format(" transform=\"rotate({} {} {})\"", coordinate(-lettering.turn_deg), x, y);
+    if (lettering.rotation_deg != 0)
+      svg_ += fmt::format(" transform=\"rotate({} {} {})\"", coordinate(-lettering.rotation_deg), x, y);
     if (lettering.rim > 0)
       svg_ += fmt::format("{} stroke-width=\"{}\" paint-order=\"stroke\"", painted("stroke", kRim),
                           coordinate(2 * lettering.rim));

@@ -106,7 +106,7 @@ class WirelinePage {
     drawing_->text({(frame_.xmin + frame_.xmax) / 2, frame_.ymax + 28}, "azimuth from grid north, degrees",
                    {.size = 8, .colour = kInk, .align = Align::kCentre});
     drawing_->text({14, (frame_.ymin + frame_.ymax) / 2}, "elevation, degrees",
-                   {.size = 8, .colour = kInk, .align = Align::kCentre, .turn_deg = 90});
+                   {.size = 8, .colour = kInk, .align = Align::kCentre, .rotation_deg = 90});
     drawing_->text(
         {frame_.xmin, frame_.ymax + 44},
         fmt::format("Cylindrical, to scale: one degree is {:.1f} mm across and up; at a viewing distance of "

@@ -189,9 +189,9 @@ void WirelineScene::draw_turbine(Drawing& drawing, const PlacedTurbine& placed, 
   }
   const double hub = *t.hub_m, radius = t.tip_m - hub;
   drawing.polyline(std::array{point(0, 0), point(0, hub)}, stroke);
-  const auto on_rim = [&](double turn) { return point(radius * std::sin(turn), hub + radius * std::cos(turn)); };
-  for (const double turn : {0.0, 2.0, 4.0})
-    drawing.polyline(std::array{point(0, hub), on_rim(turn * std::numbers::pi / 3 + t.blade_deg / kDegreesPerRadian)},
+  const auto on_rim = [&](double angle) { return point(radius * std::sin(angle), hub + radius * std::cos(angle)); };
+  for (const double sixths : {0.0, 2.0, 4.0})
+    drawing.polyline(std::array{point(0, hub), on_rim(sixths * std::numbers::pi / 3 + t.blade_deg / kDegreesPerRadian)},
                      stroke);
   if (dashed) return;
   std::vector<Point2> circle;

@@ -80,10 +80,10 @@ LinkResult survey(const Store& store, const LinkQuery& query, const Link& link, 
 class Surfaces {
  public:
   Surfaces(const Store& store, const LinkQuery& query, const std::vector<Link>& links) : store_(store), query_(query) {
-    const bool standing = query.themes.includes_raised(store.metadata().themes);
-    if (standing || sharing_pays(store, query.detail, links))
+    const bool has_raised = query.themes.includes_raised(store.metadata().themes);
+    if (has_raised || sharing_pays(store, query.detail, links))
       surface_.emplace(store, query.detail, query.themes, query.sections);
-    if (standing) ground_.emplace(store, query.detail, ThemeChoice::none(), query.sections);
+    if (has_raised) ground_.emplace(store, query.detail, ThemeChoice::none(), query.sections);
   }
 
   LinkResult survey(const Link& link) const {

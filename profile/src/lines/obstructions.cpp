@@ -16,8 +16,8 @@ namespace {
 std::optional<std::pair<double, double>> cut_part(const ClearancePiece& p) {
   const bool at_from = p.at(p.from) < 0, at_to = p.at(p.to) < 0;
   if (at_from && at_to) return std::pair{p.from, p.to};  // convex: negative all between
-  const double turn = p.least_within(p.from, p.to);
-  if (p.at(turn) >= 0) return std::nullopt;
+  const double lowest_at = p.least_within(p.from, p.to);
+  if (p.at(lowest_at) >= 0) return std::nullopt;
   const auto border = [&](double outside, double inside) {
     for (double middle = (outside + inside) / 2; middle != outside && middle != inside;
          middle = (outside + inside) / 2) {
@@ -25,7 +25,7 @@ std::optional<std::pair<double, double>> cut_part(const ClearancePiece& p) {
     }
     return inside;
   };
-  return std::pair{at_from ? p.from : border(p.from, turn), at_to ? p.to : border(p.to, turn)};
+  return std::pair{at_from ? p.from : border(p.from, lowest_at), at_to ? p.to : border(p.to, lowest_at)};
 }
 
 /// Gathers the parts of a profile that are cut off.
@@ -34,13 +34,13 @@ class Gathering {
   explicit Gathering(const Profile& profile) : profile_(profile) {}
 
   void add(const ClearancePiece& piece, std::size_t i, double from, double to) {
-    const double turn = piece.least_within(from, to), scale = profile_.length_m, depth = -piece.at(turn);
+    const double lowest_at = piece.least_within(from, to), scale = profile_.length_m, depth = -piece.at(lowest_at);
     const bool goes_on = !found_.empty() && from == piece.from && last_ == i && last_open_;
     if (!goes_on) found_.push_back({from * scale, to * scale, 0, 0, 0, 0, -1});
     Obstruction& o = found_.back();
     o.to_m = to * scale;
     if (depth > o.depth_m) {
-      const ProfilePoint p = ground_between(profile_, i, turn * scale);
+      const ProfilePoint p = ground_between(profile_, i, lowest_at * scale);
       o.peak_at_m = p.distance_m, o.peak_m = p.ground_m, o.depth_m = depth;
       o.theme = p.theme, o.feature = p.feature;
     }
@@ -54,7 +54,7 @@ class Gathering {
   }
 
   /// The verdict is the clearance's; obstructions thinner than its rounding error follow it.
-  std::vector<Obstruction> settled(const LineClearance& least) {
+  std::vector<Obstruction> finish(const LineClearance& least) {
     std::erase_if(found_, [](const Obstruction& o) { return o.depth_m <= kGrazing; });
     if (least.clearance_m < -kGrazing && found_.empty()) {
       const ProfilePoint& p = least.critical;
@@ -79,7 +79,7 @@ std::vector<Obstruction> obstructions(const Profile& profile, const Antennas& an
   for_each_piece(profile, antennas, earth.drop_coefficient(), [&](const ClearancePiece& piece, std::size_t i) {
     if (const auto cut = cut_part(piece)) gathering.add(piece, i, cut->first, cut->second);
   });
-  return gathering.settled(least);
+  return gathering.finish(least);
 }
 
 }  // namespace itin::profile

@@ -20,7 +20,7 @@ Pages::Pages(int count) : drawing_(Drawing::Format::kPdf, kWidth, kHeight), coun
   number();
 }
 
-void Pages::turn() {
+void Pages::begin_page() {
   drawing_.new_page();
   ++page_;
   number();

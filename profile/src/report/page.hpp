@@ -24,8 +24,8 @@ class Pages {
   explicit Pages(int count);
 
   Drawing& drawing() { return drawing_; }
-  /// Begins another one.
-  void turn();
+  /// Goes on to another one.
+  void begin_page();
   /// So far.
   int count() const { return page_; }
 

@@ -44,7 +44,7 @@ constexpr double kBelowTitle = 62;
 void draw_fade_page(Pages& pages, const LosReport& report) {
   const CriterionResult* fade = worst_fade(report);
   if (fade == nullptr) return;
-  pages.turn();
+  pages.begin_page();
   Drawing& drawing = pages.drawing();
   draw_title(drawing, report.title);
   const double top = draw_headline(drawing, fade_line(*fade)) + 12;
@@ -74,7 +74,7 @@ class TablePages {
   std::size_t shorter() const { return columns_[0].y() < columns_[1].y() ? 0 : 1; }
 
   void begin_page() {
-    pages_.turn();
+    pages_.begin_page();
     draw_title(drawing_, report_.title);
     columns_.clear();
     for (const std::size_t i : {0U, 1U}) columns_.emplace_back(drawing_, left_of(i), kHalf, kBelowTitle);
@@ -98,7 +98,7 @@ void draw_profile_pages(Pages& pages, const LosReport& report) {
   const std::optional<Table> whole = profile_table(report);
   if (!whole) return;
   for (auto row = whole->rows.begin(); row != whole->rows.end();) {
-    pages.turn();
+    pages.begin_page();
     draw_title(pages.drawing(), report.title);
     PageColumn column(pages.drawing(), kMargin, kWidth - 2 * kMargin, kBelowTitle);
     const bool first = row == whole->rows.begin();

@@ -59,14 +59,14 @@ class Path {
     line.push_back(ray(o.to_m));
     return line;
   }
-  /// A line along the surface of the first Fresnel zone, `turn` radians about the ray from the right.
-  std::vector<Point3> zone_line(double turn) const {
+  /// A line along the surface of the first Fresnel zone, `angle` radians about the ray from the right.
+  std::vector<Point3> zone_line(double angle) const {
     const double wavelength = wavelength_m(report_.query.radio->frequency_ghz), length = report_.profile.length_m;
     std::vector<Point3> line;
     for (int i = 0; i <= kRayParts; ++i) {
       const double d = length * (1 - std::cos(std::numbers::pi * i / kRayParts)) / 2;
       const double radius = fresnel_radius_m(d, length - d, wavelength);
-      line.push_back(ray(d, radius * std::cos(turn), radius * std::sin(turn)));
+      line.push_back(ray(d, radius * std::cos(angle), radius * std::sin(angle)));
     }
     return line;
   }

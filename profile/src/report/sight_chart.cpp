@@ -343,7 +343,7 @@ class SightChart {
   double length_, drop_, wavelength_;
   double worst_drop_ = 0, worst_k_ = 0;
   Profile dense_;
-  Profile ground_;  ///< dense, too; without standing features
+  Profile ground_;  ///< dense, too; without raised features
   ChartFrame frame_;
   std::set<std::uint16_t> themes_;
 };

@@ -52,9 +52,9 @@ void draw_symbol(Drawing& drawing, SheetSymbol symbol, Point2 at, double size, c
     const Point2 hub{at.x, at.y - 0.45 * size};
     const auto blades = [&](const Stroke& stroke) {
       drawing.polyline(std::array{at, hub}, stroke);
-      for (const double turn : {0.0, 2.0, 4.0}) {
-        const double a = turn * std::numbers::pi / 3, r = 0.5 * size;
-        drawing.polyline(std::array{hub, Point2{hub.x + r * std::sin(a), hub.y - r * std::cos(a)}}, stroke);
+      for (const double sixths : {0.0, 2.0, 4.0}) {
+        const double angle = sixths * std::numbers::pi / 3, r = 0.5 * size;
+        drawing.polyline(std::array{hub, Point2{hub.x + r * std::sin(angle), hub.y - r * std::cos(angle)}}, stroke);
       }
     };
     blades({{1, 1, 1, 0.9}, 0.34 * size, {}});
@@ -196,7 +196,7 @@ void MapFrame::draw_grid(const std::string& crs_wkt) {
     drawing_.polyline(std::array{Point2{frame.xmin, py}, Point2{frame.xmin + tick, py}}, fine);
     drawing_.polyline(std::array{Point2{frame.xmax, py}, Point2{frame.xmax - tick, py}}, fine);
     Lettering turned = outside;
-    turned.turn_deg = 90;
+    turned.rotation_deg = 90;
     drawing_.text({frame.xmin - 3, py}, label(y), turned);
     drawing_.text({frame.xmax + 3 + 0.75 * outside.size, py}, label(y), turned);
     for (double x = first(ground_.xmin); x <= ground_.xmax; x += step) {

@@ -57,7 +57,9 @@ struct Whole {
   Whole(const Store& store, const Detail& detail, const ThemeChoice& choice) {
     NoProgress progress;
     const Tin tin = triangulate(store, Window::all(), detail, progress, choice);
-    const auto theme = [&](std::uint32_t v) { return tin.standing.empty() ? std::uint16_t{0} : tin.standing[v]; };
+    const auto theme = [&](std::uint32_t v) {
+      return tin.raised_theme.empty() ? std::uint16_t{0} : tin.raised_theme[v];
+    };
     const auto corner = [&](std::uint32_t v) { return test::ThemedPoint{tin.vertices[v], theme(v)}; };
     for (const auto& [a, b, c] : tin.triangles) triangles.push_back({corner(a), corner(b), corner(c)});
     for (std::uint32_t v = 0; v < tin.vertices.size(); ++v) {

@@ -1,4 +1,4 @@
-// Standing features only raise the surface: nowhere is it lower than the bare terrain, and outside of footprints it is
+// Raised features only raise the surface: nowhere is it lower than the bare terrain, and outside of footprints it is
 // the bare terrain. On random footprints over rough ground; raised_theme_test.cpp looks at real ones.
 #include <cmath>
 #include <gmock/gmock.h>

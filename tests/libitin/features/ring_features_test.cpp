@@ -194,7 +194,7 @@ TEST_F(RingFeatures, OfOneToleranceAreThatTolerance) {
     const Tin ringed = surface(store, Detail::rings({300300, 199700}, {{100, tolerance}, {200, tolerance}}));
     EXPECT_EQ(ringed.vertices, plain.vertices);
     EXPECT_EQ(ringed.triangles, plain.triangles);
-    EXPECT_EQ(ringed.standing, plain.standing);
+    EXPECT_EQ(ringed.raised_theme, plain.raised_theme);
     EXPECT_EQ(ringed.lines, plain.lines);
   }
 }

@@ -21,7 +21,7 @@ class FormatVersion : public testing::Test {
     test::write_lines(directory_.file("rows.geojson"), {test::box(300100, 199800, 300140, 199820, 7)});
   }
 
-  int of(ThemeKind kind, bool standing, bool attributes) {
+  int of(ThemeKind kind, bool raised, bool attributes) {
     const std::string path = directory_.file(std::to_string(++stores_) + ".itin");
     ImportOptions ground, rows;
     NoProgress progress;
@@ -31,7 +31,7 @@ class FormatVersion : public testing::Test {
     rows.sources = {directory_.file("rows.geojson")};
     rows.kind = kind;
     rows.theme = "rows";
-    if (standing) rows.height_field = "h";
+    if (raised) rows.height_field = "h";
     if (!attributes) rows.attributes.emplace();
     rows.foundation = foundation_;
     import_lines(path, rows, progress);

@@ -123,15 +123,15 @@ class ImportOrder : public testing::Test {
     return {options.theme + " raster", options};
   }
 
-  Source lines(ThemeKind kind, const std::string& theme, const std::vector<LineFeature>& features, bool standing) {
+  Source lines(ThemeKind kind, const std::string& theme, const std::vector<LineFeature>& features, bool raised) {
     const std::string file = path(theme + std::to_string(files_++) + ".geojson");
     test::write_lines(file, features);
     ImportOptions options;
     options.sources = {file};
     options.kind = kind;
     options.theme = theme;
-    if (standing) options.height_field = "h";
-    if (standing && kind == ThemeKind::Buildings && chance(2)) options.foundation = Foundation::flat;
+    if (raised) options.height_field = "h";
+    if (raised && kind == ThemeKind::Buildings && chance(2)) options.foundation = Foundation::flat;
     options.stay = is_terrain(kind) && chance(3);
     return {theme + (options.stay ? " staying" : ""), options};
   }

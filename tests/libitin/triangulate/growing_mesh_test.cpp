@@ -118,7 +118,7 @@ TEST(GrowingMesh, TellsWhichTrianglesChanged) {
   delaunay.insert(positions);
   GrowingMesh grown(vertices);
   grown.start(delaunay.mesh());
-  for (std::uint32_t t = 0; t < grown.mesh().triangles.size(); ++t) grown.settle(t);
+  for (std::uint32_t t = 0; t < grown.mesh().triangles.size(); ++t) grown.mark_proved(t);
   EXPECT_TRUE(grown.take_changed().empty());
   vertices.push_back({{3, 3, 0}, 0, 0, 0});
   grown.insert(7);
@@ -127,7 +127,7 @@ TEST(GrowingMesh, TellsWhichTrianglesChanged) {
   for (std::uint32_t t = 0; t < grown.mesh().triangles.size(); ++t) {
     const auto& corners = grown.mesh().triangles[t];
     const bool has_it = std::find(corners.begin(), corners.end(), 7U) != corners.end();
-    EXPECT_EQ(grown.settled(t), !has_it);
+    EXPECT_EQ(grown.is_proved(t), !has_it);
     EXPECT_EQ(std::count(changed.begin(), changed.end(), t), has_it ? 1 : 0);
   }
   EXPECT_TRUE(grown.take_changed().empty());

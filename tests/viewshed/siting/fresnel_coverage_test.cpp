@@ -114,11 +114,11 @@ class FresnelSites : public ::testing::Test {
   }
   std::vector<DemandSet> all_served() {
     std::vector<DemandSet> sets;
-    const bool standing = survey_.themes.includes_raised(store_->metadata().themes);
+    const bool raised = survey_.themes.includes_raised(store_->metadata().themes);
     for (std::size_t i = 0; i < survey_.positions.size(); ++i) {
       sets.push_back(served(i, survey_.themes));
       // Sites keep to what the bare terrain allows, also where a house's edge lowers the ground beside it by a hair.
-      if (standing && !survey_.targets.on_surface)
+      if (raised && !survey_.targets.on_surface)
         sets.back() = intersection(sets.back(), served(i, ThemeChoice::none()));
     }
     return sets;

@@ -36,7 +36,7 @@ struct SkyPoint {
   double elevation_deg = 0;
   double distance_m = 0;    ///< horizontal
   Point3 position;          ///< on the surface; of several places the nearest
-  std::uint16_t theme = 0;  ///< of the standing feature there; 0: terrain
+  std::uint16_t theme = 0;  ///< of the raised feature there; 0: terrain
   bool data_edge = false;   ///< the ground ends there: what lies behind, unknown, may rise higher
 };
 

@@ -12,9 +12,9 @@
 //   const std::size_t cells = coverage.bounds(0).certain.size();  // certainly served by the first
 //
 // Exact means every triangle of the full surface in double precision, as compute(). Themes that stand on the ground
-// count from the first look on: where the memory holds the surface with them, it is exact at once; else bounds come
+// count from the first stage on: where the memory holds the surface with them, it is exact at once; else bounds come
 // from how low and how high that surface is within squares. With a `tolerance` the bare terrain of that level comes
-// first: features only raise it, so that what it hides for a target on the ground needs no further look. (Where flat
+// first: features only raise it, so that what it hides for a target on the ground needs no further stage. (Where flat
 // foundations cut into it, the surface with its features comes first all the same.)
 //
 // With a FresnelCriterion the zone is judged over the same surfaces, after the line (over coarse ones only where the
@@ -68,7 +68,7 @@ struct SiteSurvey {
   std::optional<FresnelCriterion> fresnel;
   // Change the speed, never what is exact.
   Engine engine = Engine::kAuto;    ///< of cells at full detail; points are decided by rays
-  std::optional<double> tolerance;  ///< of the first look; none: chosen by the number of points
+  std::optional<double> tolerance;  ///< of the first stage; none: chosen by the number of points
   /// For surfaces, and for what is known of what each site serves.
   std::uint64_t memory_bytes = std::uint64_t{1} << 30;
 };
@@ -108,7 +108,7 @@ class SiteCoverage final : public Coverage {
   /// Frees the memory of the surfaces. They are read again where options are refined after this.
   void release_surfaces();
 
-  /// How often an option was refined after the first look, and how often that can be at most.
+  /// How often an option was refined after the first stage, and how often that can be at most.
   int stage(std::size_t option) const;
   int last_stage() const;
   /// The bounds of an option after the first pass.
@@ -117,7 +117,7 @@ class SiteCoverage final : public Coverage {
   std::string stage_name(int stage) const;
   /// Puts back what an earlier run had found. Precondition: it is of the same survey.
   void restore(std::size_t option, int stage, const CoverageBounds& bounds);
-  /// Is told of every option looked at again, after each look.
+  /// Is told of every option looked at again, after each stage.
   std::function<void(std::size_t option, int stage, const CoverageBounds& bounds)> on_refined;
 
   const Statistics& statistics() const;

@@ -71,15 +71,15 @@ class Coverage {
   virtual void refine(std::span<const std::size_t> options) = 0;
 };
 
-/// Links among sites, which are numbered: the options first, behind them those that stand already. Keeps what it has
+/// Links among sites, which are numbered: the options first, behind them those that exist already. Keeps what it has
 /// learned of them. Not for concurrent use.
 class LinkNetwork {
  public:
   /// Says which of `others` a site has links with. A link has no direction; each pair is asked about once at most.
   using Linked = std::function<std::vector<std::size_t>(std::size_t site, std::span<const std::size_t> others)>;
-  /// `hub` is one of the sites that stand: every chosen site must reach it by chosen and standing sites. Without a hub
+  /// `hub` is one of the existing sites: every chosen site must reach it by chosen and existing sites. Without a hub
   /// the chosen ones must reach each other so.
-  LinkNetwork(std::size_t options, std::size_t standing, std::optional<std::size_t> hub, Linked linked);
+  LinkNetwork(std::size_t options, std::size_t existing, std::optional<std::size_t> hub, Linked linked);
 
   std::size_t options() const { return options_; }
   std::size_t sites() const { return sites_; }

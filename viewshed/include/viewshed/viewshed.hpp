@@ -9,7 +9,7 @@
 //   viewshed::write_geotiff("out.tif", result, {.crs_wkt = store.metadata().crs_wkt});
 //   const viewshed::Result certain = viewshed::compute_certified(store, request, {}, progress).result;
 //
-// Both ends of a sight line stand on the surface queried: on its ground, that is, without the standing features of the
+// Both ends of a sight line stand on the surface queried: on its ground, that is, without the raised features of the
 // chosen themes, unless the request says on top of these. A cell is decided by its centre (cx, cy): the target is at
 // T(cx, cy) + target_height, so one on the ground within a building is hidden. A sight line that grazes the surface
 // sees (law 4).
@@ -122,7 +122,7 @@ struct Request {
   Earth earth;
   Detail detail = Detail::tolerance(0);      ///< of the surface; not used with a Tin
   ThemeChoice themes = ThemeChoice::none();  ///< likewise
-  // Both ends stand on the ground without standing features, or on the surface with them. Without a ground of its own,
+  // Both ends stand on the ground without raised features, or on the surface with them. Without a ground of its own,
   // compute() takes the surface for both.
   bool observers_on_surface = false;
   bool targets_on_surface = false;
@@ -214,7 +214,7 @@ struct Result {
   std::vector<float> probability;
   /// kLoss, dB: delta-Bullington diffraction by ITU-R P.526 (profile/diffraction.hpp), and the loss in free space along
   /// the slant line, of the observer for whom their sum is least. NaN outside; at an observer's own place; where a
-  /// standing feature holds an end; and where a line crosses ground without data, unless NoData::kClear lets it pass or
+  /// raised feature holds an end; and where a line crosses ground without data, unless NoData::kClear lets it pass or
   /// NoData::kBlock leaves that observer out.
   std::vector<float> loss_db;
   std::vector<float> free_space_db;

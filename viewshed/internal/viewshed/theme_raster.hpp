@@ -1,4 +1,4 @@
-// Which standing theme is under each cell of a raster.
+// Which raised theme is under each cell of a raster.
 #pragma once
 
 #include <cstdint>

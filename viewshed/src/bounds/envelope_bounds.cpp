@@ -38,7 +38,8 @@ EnvelopeBounds::EnvelopeBounds(const Tin& lower, const Tin& upper, const std::ve
     for (const GridPoint& v : tin->vertices) lowest = std::min(lowest, v.z), highest = std::max(highest, v.z);
   greatest_magnitude_ = std::max(-static_cast<double>(lowest), static_cast<double>(highest));
   bound(lower, upper);
-  settle(lower, outline);
+  lower_along_outline(lower, outline);
+  round_outwards();
   bound_runs();
 }
 
@@ -78,8 +79,8 @@ void EnvelopeBounds::bound_triangle(const Tin& lower, const Tin& upper, const Ve
 }
 
 /// A bin that a triangle meets and the outline does not is covered throughout; elsewhere nothing is known of how low
-/// the ground is. What has been rounded to the nearest float before is rounded outwards now.
-void EnvelopeBounds::settle(const Tin& tin, const std::vector<BoundaryEdge>& outline) {
+/// the ground is.
+void EnvelopeBounds::lower_along_outline(const Tin& tin, const std::vector<BoundaryEdge>& outline) {
   const VerticesInBins vertices(tin, grid_);
   for (const BoundaryEdge& edge : outline) {
     const TriangleInBins in_bins(vertices, {edge.from, edge.to, edge.to}, slack());
@@ -88,6 +89,11 @@ void EnvelopeBounds::settle(const Tin& tin, const std::vector<BoundaryEdge>& out
       for (std::int64_t column = first; column <= last; ++column) low_[grid_.index({column, row})] = -kFloatInfinity;
     }
   }
+}
+
+/// What has been rounded to the nearest float before is rounded outwards now. Nothing is known of how low the ground is
+/// in bins that no triangle meets.
+void EnvelopeBounds::round_outwards() {
   parallel_for(static_cast<std::size_t>(rows()), [&](std::size_t row) {
     for (std::int64_t column = 0; column < columns(); ++column) {
       const std::size_t bin = grid_.index({column, static_cast<std::int64_t>(row)});

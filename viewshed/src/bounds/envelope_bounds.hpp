@@ -41,7 +41,8 @@ class EnvelopeBounds final : public BinBounds {
   void bound(const Tin& lower, const Tin& upper);
   void bound_triangle(const Tin& lower, const Tin& upper, const VerticesInBins& vertices, std::uint32_t triangle,
                       const BinRange& within);
-  void settle(const Tin& tin, const std::vector<BoundaryEdge>& outline);
+  void lower_along_outline(const Tin& tin, const std::vector<BoundaryEdge>& outline);
+  void round_outwards();
   void bound_runs();
 
   std::vector<float> low_, high_;  ///< of each bin

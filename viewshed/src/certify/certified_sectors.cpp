@@ -67,7 +67,7 @@ class CertifiedSectors {
       const SightSectors::Sector sector = sectors.next(
           [&](const std::vector<Point2>& hull) { return area_of(hull) * points_per_square_metre_ <= most_points_; });
       judge(eye, envelop(store_, within(sector.hull, eye, whole_), reading_), box_about(sector.hull), sector.parts);
-      sectors.settle(sector, kInfinity);
+      sectors.remove_decided(sector, kInfinity);
     }
   }
 

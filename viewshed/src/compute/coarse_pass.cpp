@@ -47,7 +47,7 @@ class Nothing final : public CoarsePass {
  public:
   explicit Nothing(const Over& over) : over_(over) {}
 
-  Left look(const Eye& eye, TileVerdicts& verdicts, Stage&) override {
+  Left decide(const Eye& eye, TileVerdicts& verdicts, Stage&) override {
     return {under_lines(over_, eye, verdicts), shadow_of(eye, over_.rim, over_.result)};
   }
 
@@ -60,7 +60,7 @@ class Blocks final : public CoarsePass {
  public:
   Blocks(Envelope envelope, const Over& over) : over_(over), bounded_(std::move(envelope), over.tiles, no_rises_) {}
 
-  Left look(const Eye& eye, TileVerdicts& verdicts, Stage& stage) override {
+  Left decide(const Eye& eye, TileVerdicts& verdicts, Stage& stage) override {
     bounded_.bound_for(eye);
     const BlockJudge judge(bounded_, over_.request, over_.result.grid, over_.tiles, eye, nullptr);
     const std::uint64_t lines = judge_undecided(judge, all_of(verdicts), verdicts, stage);
@@ -79,7 +79,7 @@ class Rays final : public CoarsePass {
   Rays(Envelope envelope, const Over& over)
       : over_(over), scene_(std::move(envelope), over.request, over.tiles, missing_ground_rule(over.request)) {}
 
-  Left look(const Eye& eye, TileVerdicts& verdicts, Stage& stage) override {
+  Left decide(const Eye& eye, TileVerdicts& verdicts, Stage& stage) override {
     std::vector<TileSet> needed(verdicts.size());
     const EnvelopeJudge judge(scene_, over_.result.grid, over_.tiles, {eye},
                               [&](std::size_t tile, const EnvelopePacket& packet) {

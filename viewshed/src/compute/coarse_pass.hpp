@@ -2,7 +2,7 @@
 // which ground the others need.
 //
 //   const auto pass = make_coarse_pass(way, std::move(envelope), {request, ground, rim, tiles, result});
-//   const CoarsePass::Left left = pass->look(eye, verdicts, stage);
+//   const CoarsePass::Left left = pass->decide(eye, verdicts, stage);
 #pragma once
 
 #include <cstdint>
@@ -59,7 +59,7 @@ class CoarsePass {
   CoarsePass& operator=(const CoarsePass&) = delete;
 
   /// Cells that are Verdict::kUndecided are asked about.
-  virtual Left look(const Eye& eye, TileVerdicts& verdicts, Stage& stage) = 0;
+  virtual Left decide(const Eye& eye, TileVerdicts& verdicts, Stage& stage) = 0;
 };
 
 /// `envelope` encloses the full surface or, for kBlocks, the request's.

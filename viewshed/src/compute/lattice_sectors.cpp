@@ -111,7 +111,7 @@ class LatticeSectors {
           learn(reader->lattice(), std::isinf(reach));
         }
       }
-      sectors.settle(sector, reach);
+      sectors.remove_decided(sector, reach);
     }
     stage_->advance_to((observer + 1) * computed_.result.grid.cell_count());
     return true;

@@ -35,9 +35,9 @@ void leave_out_ground(const Tin& coverage, const RasterGrid& grid, std::vector<s
 std::uint64_t count_without_ground(const Store& store, const Result& result, Progress& progress) {
   if (!bounds_elevations(result.request)) {
     const std::vector<MapView> views = views_of(result.request);
-    const bool looks_at_all =
+    const bool one_view_holds_all =
         std::any_of(views.begin(), views.end(), [&](const MapView& view) { return view.holds(result.grid.bounds()); });
-    return looks_at_all ? result.cells.outside : for_each_outside(result, [](RasterGrid::Cell) {});
+    return one_view_holds_all ? result.cells.outside : for_each_outside(result, [](RasterGrid::Cell) {});
   }
   const std::vector<std::uint8_t> cells = cells_without_ground(store, result, progress);
   return static_cast<std::uint64_t>(std::count(cells.begin(), cells.end(), 1));

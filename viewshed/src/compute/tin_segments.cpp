@@ -130,7 +130,7 @@ class TinSegments {
   void observe_from(const Eye& eye, std::uint32_t observer) {
     Result& result = computed_.result;
     TileVerdicts verdicts = asked(eye, observer);
-    const CoarsePass::Left left = pass_->look(eye, verdicts, *stage_);
+    const CoarsePass::Left left = pass_->decide(eye, verdicts, *stage_);
     result.statistics.lines += left.lines;
     // The memory is free for the segments, when no other observer needs it.
     if (observer + 1 == request_.observers.size()) pass_.reset();

@@ -75,8 +75,8 @@ class Survey {
     return {eye_.position.x + reach_ * std::sin(azimuth), eye_.position.y + reach_ * std::cos(azimuth)};
   }
 
-  /// Looks in these directions over the surface under all their lines.
-  void look(const Tin& surface, Directions directions, Stage& stage) {
+  /// Casts the lines in these directions over the surface under all of them.
+  void cast(const Tin& surface, Directions directions, Stage& stage) {
     const Panorama panorama(surface, request_.earth, eye_, reach_);
     std::optional<FirstBlocker> blockers;
     if (std::any_of(directions.begin(), directions.end(), [](const Direction& d) { return d.target; }))
@@ -172,7 +172,7 @@ Horizon horizon(const Tin& surface, const Tin& ground, const Request& request, c
     below.push_back(height_on(request.targets_on_surface ? surface : ground, target));
   Survey survey(request, options, surface.grid, eye, greatest_reach(request, surface.bounds()), below);
   Stage stage("horizon", survey.directions().size(), progress);
-  survey.look(surface, survey.directions(), stage);
+  survey.cast(surface, survey.directions(), stage);
   return std::move(survey).result();
 }
 
@@ -198,7 +198,7 @@ Horizon horizon(const Store& store, const Request& request, const HorizonOptions
         },
         [&](const TileSet& tiles) { return ground.points(tiles) <= most; });
     const Tin surface = triangulate(store, ground.window(run.sum), request.detail, quiet, request.themes);
-    survey.look(surface, left.first(run.count), stage);
+    survey.cast(surface, left.first(run.count), stage);
     left = left.subspan(run.count);
   }
   return std::move(survey).result();

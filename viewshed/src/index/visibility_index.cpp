@@ -48,7 +48,7 @@ class IndexWork {
   IndexWork(const Store& store, const IndexRequest& request, Progress& progress)
       : store_(store),
         request_(request),
-        stands_(request.themes.includes_raised(store.metadata().themes)),
+        has_raised_(request.themes.includes_raised(store.metadata().themes)),
         progress_(progress),
         quiet_(progress) {
     index_.grid =
@@ -85,7 +85,7 @@ class IndexWork {
   /// `all`: the cells are those of the whole index.
   void sample_triangles(const CellRectangle& cells, bool all) {
     const auto parts = plan(cells, [&](std::uint64_t points, std::uint64_t lines) {
-      const std::uint64_t ground = stands_ ? SampledSurface::bytes(points, 0) : 0;
+      const std::uint64_t ground = has_raised_ ? SampledSurface::bytes(points, 0) : 0;
       return SampledSurface::bytes(points, lines) + ground <= memory_;
     });
     const bool at_once = all && parts.size() == 1;
@@ -96,7 +96,7 @@ class IndexWork {
     };
     for (const IndexSegment& part : parts)
       sample(part, triangulated(part, request_.themes),
-             stands_ ? std::optional(triangulated(part, ThemeChoice::none())) : std::nullopt);
+             has_raised_ ? std::optional(triangulated(part, ThemeChoice::none())) : std::nullopt);
   }
 
   /// Targets and eyes stand on the bare ground where that is another surface.
@@ -159,7 +159,7 @@ class IndexWork {
 
   const Store& store_;
   const IndexRequest& request_;
-  bool stands_;  ///< something, on the ground
+  bool has_raised_;  ///< whether the request names raised themes
   CallProgress progress_;
   SilentProgress quiet_;
   std::uint64_t memory_ = 0;  ///< bytes, without the rasters

@@ -6,9 +6,9 @@
 
 namespace itin::viewshed {
 
-class BinJudge::TileWork final : public TileJudge::Work {
+class BinJudge::BinWork final : public TileJudge::Work {
  public:
-  TileWork(const BinJudge& judge, std::size_t tile)
+  BinWork(const BinJudge& judge, std::size_t tile)
       : judge_(judge), tile_(tile_at(judge.grid_, judge.tiles_, tile)), centres_(judge.units_, judge.grid_, tile_) {}
 
   std::uint64_t judge(std::size_t eye, TileValues<Verdict>& values) override {
@@ -46,7 +46,7 @@ BinJudge::BinJudge(const BinWalk& walk, const Grid& units, const RasterGrid& gri
     : walk_(walk), units_(units), grid_(grid), tiles_(tiles), ground_(ground), eyes_(std::move(eyes)) {}
 
 std::unique_ptr<TileJudge::Work> BinJudge::begin(std::size_t tile) const {
-  return std::make_unique<TileWork>(*this, tile);
+  return std::make_unique<BinWork>(*this, tile);
 }
 
 Verdict verdict_by_bins(const BinWalk& walk, const Eye& eye, double resolution, Point2 centre, Point2 place,

@@ -23,7 +23,7 @@ class BinJudge final : public TileJudge {
   const Eye& eye(std::size_t number) const override { return eyes_[number]; }
 
  private:
-  class TileWork;
+  class BinWork;
 
   const BinWalk& walk_;
   const Grid& units_;

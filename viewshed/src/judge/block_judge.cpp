@@ -23,7 +23,7 @@ class BlockJudge::BlockWork final : public TileJudge::Work {
   std::uint64_t judge(std::size_t, TileValues<Verdict>& values) override {
     const TileValues<Verdict> asked = values;
     hide(all_, asked, values);
-    settle(all_, asked, values);
+    judge_cells(all_, asked, values);
     if (judge_.nearby_ != nullptr) take_nearby(asked, values);
     return 0;
   }
@@ -82,22 +82,22 @@ class BlockJudge::BlockWork final : public TileJudge::Work {
   }
 
   /// Each cell's own rules, in blocks that have any.
-  void settle(const CellBlock& block, const TileValues<Verdict>& asked, TileValues<Verdict>& values) {
+  void judge_cells(const CellBlock& block, const TileValues<Verdict>& asked, TileValues<Verdict>& values) {
     if (is_simple(block)) return;
     if (judge_.surface_.bounds().highest(box_of(block)) == -kFloatInfinity)
       return decide(block, Verdict::kOutside, asked, values);
-    if (block.side() > kSettled)
-      return for_each_quarter(block, [&](const CellBlock& quarter) { settle(quarter, asked, values); });
+    if (block.side() > kCellByCell)
+      return for_each_quarter(block, [&](const CellBlock& quarter) { judge_cells(quarter, asked, values); });
     const Heights& heights = this->heights();
     for_each_cell(block, [&](std::size_t cell) {
       const auto row = static_cast<std::int64_t>(cell) / Tile::kSide,
                  column = static_cast<std::int64_t>(cell) % Tile::kSide;
       if (asked[cell] == Verdict::kUndecided)
         values[cell] =
-            settled(judge_.grid_.centre(tile_.column + column, tile_.row + row), cell, heights, values[cell]);
+            verdict_of_cell(judge_.grid_.centre(tile_.column + column, tile_.row + row), cell, heights, values[cell]);
     });
   }
-  Verdict settled(Point2 centre, std::size_t cell, const Heights& heights, Verdict known) const {
+  Verdict verdict_of_cell(Point2 centre, std::size_t cell, const Heights& heights, Verdict known) const {
     const double metres = judge_.surface_.bounds().units().resolution;
     const Point2 place = centres_.at(cell);
     const BoundedTarget target =
@@ -131,8 +131,8 @@ class BlockJudge::BlockWork final : public TileJudge::Work {
     return *heights_;
   }
 
-  static constexpr double kSmallest = 1.5;    ///< bins: what lies closer together shares nearly all that is known
-  static constexpr std::size_t kSettled = 8;  ///< cells along a block that is settled cell by cell
+  static constexpr double kSmallest = 1.5;       ///< bins: what lies closer together shares nearly all that is known
+  static constexpr std::size_t kCellByCell = 8;  ///< cells along a block that is judged cell by cell
 
   const BlockJudge& judge_;
   std::size_t number_;

@@ -38,9 +38,9 @@ BlockValues highest_by_block(const TileValues<double>& heights, const Tile& tile
 
 }  // namespace
 
-class EnvelopeJudge::TileWork final : public TileJudge::Work {
+class EnvelopeJudge::EnvelopeWork final : public TileJudge::Work {
  public:
-  TileWork(const EnvelopeJudge& judge, std::size_t number)
+  EnvelopeWork(const EnvelopeJudge& judge, std::size_t number)
       : judge_(judge),
         scene_(judge.scene_),
         number_(number),
@@ -207,7 +207,7 @@ EnvelopeJudge::EnvelopeJudge(const EnvelopeScene& scene, const RasterGrid& grid,
 }
 
 std::unique_ptr<TileJudge::Work> EnvelopeJudge::begin(std::size_t tile) const {
-  return std::make_unique<TileWork>(*this, tile);
+  return std::make_unique<EnvelopeWork>(*this, tile);
 }
 
 }  // namespace itin::viewshed

@@ -24,7 +24,7 @@ class EnvelopeJudge final : public TileJudge {
   const EnvelopeScene::View& view(std::size_t number) const { return *views_[number]; }
 
  private:
-  class TileWork;
+  class EnvelopeWork;
 
   const EnvelopeScene& scene_;
   const RasterGrid& grid_;

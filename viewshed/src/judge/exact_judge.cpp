@@ -8,15 +8,15 @@ ExactJudge::ExactJudge(const FullSurface& surface, std::vector<EyeView> views)
 ExactJudge::ExactJudge(const FullSurface& surface, EyeView view)
     : ExactJudge(surface, make_views(1, [&](std::size_t) { return std::move(view); })) {}
 
-std::unique_ptr<ExactJudge::TileWork> ExactJudge::begin_exactly(std::size_t tile) const {
-  return std::make_unique<TileWork>(*this, surface_.begin(tile));
+std::unique_ptr<ExactJudge::ExactWork> ExactJudge::begin_exactly(std::size_t tile) const {
+  return std::make_unique<ExactWork>(*this, surface_.begin(tile));
 }
 
-std::unique_ptr<ExactJudge::TileWork> ExactJudge::begin_exactly(std::size_t tile, std::span<const Tile> parts) const {
-  return std::make_unique<TileWork>(*this, surface_.begin(tile, parts));
+std::unique_ptr<ExactJudge::ExactWork> ExactJudge::begin_exactly(std::size_t tile, std::span<const Tile> parts) const {
+  return std::make_unique<ExactWork>(*this, surface_.begin(tile, parts));
 }
 
-std::uint64_t ExactJudge::TileWork::judge(std::size_t eye, TileValues<Verdict>& values) {
+std::uint64_t ExactJudge::ExactWork::judge(std::size_t eye, TileValues<Verdict>& values) {
   const EyeView& from = view(eye);
   const std::uint64_t lines = surface().judge(from.eye, from.view, values, cells);
   if (from.shadow) from.shadow->apply_to(cells.centres, values);

@@ -34,9 +34,9 @@ class ExactJudge final : public TileJudge {
   ExactJudge(const FullSurface& surface, EyeView view);
 
   /// With what modes ask about a tile's ground and its lines besides.
-  class TileWork final : public Work {
+  class ExactWork final : public Work {
    public:
-    TileWork(const ExactJudge& judge, std::unique_ptr<FullSurface::TileWork> of)
+    ExactWork(const ExactJudge& judge, std::unique_ptr<FullSurface::TileCells> of)
         : cells(*of), judge_(judge), cells_(std::move(of)) {}
 
     std::uint64_t judge(std::size_t eye, TileValues<Verdict>& values) override;
@@ -44,17 +44,17 @@ class ExactJudge final : public TileJudge {
     const FullSurface& surface() const { return judge_.surface_; }
     const EyeView& view(std::size_t eye) const { return judge_.views_[eye]; }
 
-    FullSurface::TileWork& cells;
+    FullSurface::TileCells& cells;
 
    private:
     const ExactJudge& judge_;
-    std::unique_ptr<FullSurface::TileWork> cells_;
+    std::unique_ptr<FullSurface::TileCells> cells_;
   };
 
   std::unique_ptr<Work> begin(std::size_t tile) const override { return begin_exactly(tile); }
-  std::unique_ptr<TileWork> begin_exactly(std::size_t tile) const;
+  std::unique_ptr<ExactWork> begin_exactly(std::size_t tile) const;
   /// Only cells in these parts of the tile are asked about.
-  std::unique_ptr<TileWork> begin_exactly(std::size_t tile, std::span<const Tile> parts) const;
+  std::unique_ptr<ExactWork> begin_exactly(std::size_t tile, std::span<const Tile> parts) const;
   /// FullSurface::hides().
   bool hides(std::size_t eye, std::size_t tile) const {
     return surface_.hides(views_[eye].eye, views_[eye].view, tile);

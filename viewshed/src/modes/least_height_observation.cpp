@@ -18,7 +18,7 @@ bool LeastHeightObservation::open(const CellView& view) const {
 }
 
 std::uint64_t LeastHeightObservation::observe(const TileView& tile) {
-  FullSurface::TileWork& cells = tile.cells();
+  FullSurface::TileCells& cells = tile.cells();
   cells.targets.fill(kNoSurface);
   std::uint64_t lines = 0;
   tile.for_each_cell([&](const CellView& view) {
@@ -26,7 +26,7 @@ std::uint64_t LeastHeightObservation::observe(const TileView& tile) {
   });
   tile.work.surface().raise_from(tile.from().view, {lowest_, wanted_}, cells);
   tile.for_each_cell([&](const CellView& view) {
-    if (!std::isnan(cells.targets[view.cell]) && !std::isnan(cells.seen[view.cell])) settle(tile, view);
+    if (!std::isnan(cells.targets[view.cell]) && !std::isnan(cells.seen[view.cell])) record(tile, view);
   });
   return lines;
 }
@@ -34,7 +34,7 @@ std::uint64_t LeastHeightObservation::observe(const TileView& tile) {
 /// Where its line may end, if it needs one.
 bool LeastHeightObservation::raise(const TileView& tile, const CellView& view) {
   const Eye& eye = tile.eye();
-  FullSurface::TileWork& cells = tile.cells();
+  FullSurface::TileCells& cells = tile.cells();
   if (eye.view.contains(view.dx, view.dy, view.dz, kSky) == false) return false;
   verdicts().add(view.cell, Verdict::kHidden);
   const double resolution = tile.resolution(), ground = cells.ground[view.cell];
@@ -52,8 +52,8 @@ bool LeastHeightObservation::raise(const TileView& tile, const CellView& view) {
   return true;
 }
 
-void LeastHeightObservation::settle(const TileView& tile, const CellView& view) {
-  const FullSurface::TileWork& cells = tile.cells();
+void LeastHeightObservation::record(const TileView& tile, const CellView& view) {
+  const FullSurface::TileCells& cells = tile.cells();
   const Point3 highest = cells.target(view.cell);
   if (const auto& shadow = tile.from().shadow; shadow && shadow->holds(highest.x, highest.y)) return;
   // At the eye's own place nothing hides.

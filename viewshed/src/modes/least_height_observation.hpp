@@ -17,7 +17,7 @@ class LeastHeightObservation final : public Observation {
  private:
   void store_row(std::size_t cell, std::size_t columns, std::size_t place, Result& result) const override;
   bool raise(const TileView& tile, const CellView& view);
-  void settle(const TileView& tile, const CellView& view);
+  void record(const TileView& tile, const CellView& view);
 
   TileValues<double> least_;  ///< metres above the ground; infinity where no height is seen
   // These two belong to the last observer's lines, grid units.

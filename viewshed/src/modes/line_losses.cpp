@@ -19,7 +19,7 @@ Point2 metres(const Grid& grid, const Point3& units) {
 }
 
 /// As seen from the line's other end.
-void turn_round(double length_m, Pieces& pieces) {
+void mirror(double length_m, Pieces& pieces) {
   std::reverse(pieces.begin(), pieces.end());
   for (auto& [from, to] : pieces) {
     std::swap(from, to);
@@ -64,7 +64,7 @@ LineLosses::Outcome LineLosses::of_line(const Line& line, Scratch& scratch) cons
   const double length = section.length();
   const auto profile = [&](const SurfacePieces& over, double most_m, std::vector<PathPoint>& points) {
     over.along(section, scratch.pieces_);
-    if (section.is_mirrored()) turn_round(length, scratch.pieces_);
+    if (section.is_mirrored()) mirror(length, scratch.pieces_);
     return chain(scratch.pieces_, most_m, points);
   };
   Outcome outcome;

@@ -34,7 +34,7 @@ class LineLosses {
     double free_space_db = 0;
   };
   struct Outcome {
-    std::optional<Loss> loss;   ///< over known ground; nothing where an end is within a standing feature
+    std::optional<Loss> loss;   ///< over known ground; nothing where an end is within a raised feature
     bool over_missing = false;  ///< the line crosses ground without data
   };
   class Scratch;

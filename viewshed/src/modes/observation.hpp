@@ -36,14 +36,14 @@ struct CellView {
 
 /// One observer's view of the cells of a tile.
 struct TileView {
-  ExactJudge::TileWork& work;
+  ExactJudge::ExactWork& work;
   std::size_t number;                        ///< of the eye, in the judge
   std::uint32_t observer;                    ///< from 0
   const TriangleStudies* studies = nullptr;  ///< of the surface, where the mode needs them
 
   const EyeView& from() const { return work.view(number); }
   const Eye& eye() const { return from().eye; }
-  FullSurface::TileWork& cells() const { return work.cells; }
+  FullSurface::TileCells& cells() const { return work.cells; }
   double resolution() const { return work.surface().units().resolution; }
 
   /// Calls visit(view) for every cell that has ground; the views are of the ground.

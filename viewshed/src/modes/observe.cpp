@@ -67,7 +67,7 @@ class AllEyes {
     std::unique_ptr<Observation>& observation = kept_[tile];
     if (!observation) observation = observations_.of_tile();
     if (const std::vector<std::uint32_t> eyes = eyes_near(cells); !eyes.empty()) {
-      std::unique_ptr<ExactJudge::TileWork> work;
+      std::unique_ptr<ExactJudge::ExactWork> work;
       for (const std::uint32_t i : eyes) {
         if (is_hidden(judge, i - first_, tile, *observation)) {
           tallies_[tile].lines += observation->hide(cells, {&cells, 1});

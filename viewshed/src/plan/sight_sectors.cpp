@@ -64,7 +64,7 @@ bool SightSectors::within(double reach, const Tile& part) const {
                    eye_.position.y - box.ymin}) < reach;
 }
 
-void SightSectors::settle(const Sector& sector, double reach) {
+void SightSectors::remove_decided(const Sector& sector, double reach) {
   const std::size_t count = sector.parts.size(), after = parts_.size() - count;
   const auto decided = [&](const Tile& part) { return within(reach, part); };
   parts_.erase(std::remove_if(parts_.begin() + static_cast<std::ptrdiff_t>(after), parts_.end(), decided),

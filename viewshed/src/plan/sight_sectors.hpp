@@ -4,7 +4,7 @@
 //   while (!sectors.empty()) {
 //     const SightSectors::Sector sector = sectors.next([&](const std::vector<Point2>& hull) { return ...; });
 //     const double reach = ...                    // look at all its cells that are not farther away
-//     sectors.settle(sector, reach);
+//     sectors.remove_decided(sector, reach);
 //   }
 //
 // A sector is the hull of the eye and of cells next to each other in azimuth, so that it holds all sight lines to them.
@@ -35,13 +35,13 @@ class SightSectors {
     std::vector<Point2> hull;     ///< counterclockwise, metres
   };
   using Fits = std::function<bool(const std::vector<Point2>& hull)>;
-  /// The widest one whose hull fits, or else the narrowest. Valid until settle().
+  /// The widest one whose hull fits, or else the narrowest. Valid until remove_decided().
   Sector next(const Fits& fits) const;
   /// Whether all cells of a part are nearer to the eye than so many metres, along columns and rows.
   bool within(double reach, const Tile& part) const;
   /// The sector's parts within that reach have been decided. The rest of it will come in narrower ones. Throws
   /// InputError where it is but a single cell.
-  void settle(const Sector& sector, double reach);
+  void remove_decided(const Sector& sector, double reach);
 
  private:
   void divide_next();

@@ -27,7 +27,7 @@ bool casts_rays(const Request& request);
 bool needs_triangles(const Request& request);
 /// Whether a line that only ground without data could hide stays undecided in the request's mode.
 bool leaves_open(const Request& request);
-/// Whether the request's mode asks about the ground under standing features, too, all along its lines.
+/// Whether the request's mode asks about the ground under raised features, too, all along its lines.
 bool needs_bare_lines(const Request& request);
 /// Where the observers stand, metres.
 std::vector<Point2> positions_of(const Request& request);

@@ -70,13 +70,13 @@ std::optional<double> FullSurface::height(Point2 position) const {
   return height ? std::optional(*height * units().resolution) : std::nullopt;
 }
 
-std::unique_ptr<FullSurface::TileWork> FullSurface::begin(std::size_t tile) const {
+std::unique_ptr<FullSurface::TileCells> FullSurface::begin(std::size_t tile) const {
   const Tile whole = tile_at(grid_, tiles_, tile);
   return begin(tile, {&whole, 1});
 }
 
-std::unique_ptr<FullSurface::TileWork> FullSurface::begin(std::size_t tile, std::span<const Tile> parts) const {
-  auto work = std::make_unique<TileWork>(units(), grid_, tile_at(grid_, tiles_, tile));
+std::unique_ptr<FullSurface::TileCells> FullSurface::begin(std::size_t tile, std::span<const Tile> parts) const {
+  auto work = std::make_unique<TileCells>(units(), grid_, tile_at(grid_, tiles_, tile));
   if (of_tiles_) {
     scan_convert(*targets_on_, of_tiles_->triangles(tile), work->tile, work->centres, work->ground);
   } else {
@@ -94,7 +94,7 @@ bool FullSurface::hides(const Eye& eye, const RadialSweep::View& view, std::size
 }
 
 std::uint64_t FullSurface::judge(const Eye& eye, const RadialSweep::View& view, TileValues<Verdict>& values,
-                                 TileWork& work) const {
+                                 TileCells& work) const {
   raise_targets(eye, values, work);
   if (rays_) {
     cast_rays_to_targets(eye, work);
@@ -111,7 +111,7 @@ std::uint64_t FullSurface::judge(const Eye& eye, const RadialSweep::View& view, 
 }
 
 /// As RadialSweep::decide(): `work.seen` of a target is the eye's height, or no number where it is hidden.
-void FullSurface::cast_rays_to_targets(const Eye& eye, TileWork& work) const {
+void FullSurface::cast_rays_to_targets(const Eye& eye, TileCells& work) const {
   const auto rows = static_cast<std::size_t>(work.tile.rows), columns = static_cast<std::size_t>(work.tile.columns);
   SightLines lines;
   lines.start_at(eye.units);
@@ -141,7 +141,7 @@ void FullSurface::cast_rays(const Earth& earth, const std::vector<Point2>& eyes)
 
 double FullSurface::raise_from(const RadialSweep::View& view, Point2 position, double lowest, double highest) const {
   const RasterGrid around({position.x - 0.5, position.y + 0.5}, 1, 1, 1, 1);
-  const auto work = std::make_unique<TileWork>(units(), around, Tile{0, 0, 1, 1});
+  const auto work = std::make_unique<TileCells>(units(), around, Tile{0, 0, 1, 1});
   work->centres.x[0] = easting_in_units(units(), position.x);
   work->centres.y[0] = northing_in_units(units(), position.y);
   work->ground[0] = lowest, work->targets[0] = highest;
@@ -149,7 +149,7 @@ double FullSurface::raise_from(const RadialSweep::View& view, Point2 position, d
   return work->seen[0];
 }
 
-void FullSurface::find_ground(std::span<const Tile> parts, TileWork& work) const {
+void FullSurface::find_ground(std::span<const Tile> parts, TileCells& work) const {
   const TileCentres& at = work.centres;
   work.ground.fill(kNoSurface);
   work.unread = true;
@@ -172,7 +172,7 @@ void FullSurface::find_ground(std::span<const Tile> parts, TileWork& work) const
 }
 
 /// Where undecided cells have their targets; those that need no line are decided.
-void FullSurface::raise_targets(const Eye& eye, TileValues<Verdict>& values, TileWork& work) const {
+void FullSurface::raise_targets(const Eye& eye, TileValues<Verdict>& values, TileCells& work) const {
   const double resolution = units().resolution, metre = 1 / resolution, grazing = kGrazing / resolution;
   work.targets.fill(kNoSurface);
   for_each_offset(eye, grid_, work.tile, work.centres, [&](std::size_t cell, const Point2& offset) {

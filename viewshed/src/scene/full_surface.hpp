@@ -61,8 +61,8 @@ class FullSurface {
   const std::vector<RimEdge>& rim() const { return heights_->rim(); }
 
   /// Holds what a tile's cells share between eyes, for one thread.
-  struct TileWork {
-    TileWork(const Grid& units, const RasterGrid& grid, const Tile& t) : tile(t), centres(units, grid, t) {}
+  struct TileCells {
+    TileCells(const Grid& units, const RasterGrid& grid, const Tile& t) : tile(t), centres(units, grid, t) {}
     Tile tile;
     TileCentres centres;
     TileValues<double> ground;   ///< grid units; kNoSurface where none is, kUnread where no eye sees it
@@ -76,9 +76,9 @@ class FullSurface {
       return {p.x, p.y, targets[cell]};
     }
   };
-  std::unique_ptr<TileWork> begin(std::size_t tile) const;
+  std::unique_ptr<TileCells> begin(std::size_t tile) const;
   /// Only cells in these parts of the tile are asked about: others may have no ground.
-  std::unique_ptr<TileWork> begin(std::size_t tile, std::span<const Tile> parts) const;
+  std::unique_ptr<TileCells> begin(std::size_t tile, std::span<const Tile> parts) const;
 
   /// Holds what all tiles share of an eye; rays share nothing.
   RadialSweep::View view_from(const Eye& eye) const {
@@ -97,10 +97,11 @@ class FullSurface {
 
   /// Verdict::kUndecided cells become Verdict::kVisible, Verdict::kHidden, or Verdict::kOutside where there is no
   /// ground or the eye does not look. Returns how many sight lines that took.
-  std::uint64_t judge(const Eye& eye, const RadialSweep::View& view, TileValues<Verdict>& values, TileWork& work) const;
+  std::uint64_t judge(const Eye& eye, const RadialSweep::View& view, TileValues<Verdict>& values,
+                      TileCells& work) const;
 
   /// RadialSweep::raise_from() up to work.targets; the heights are work.seen.
-  void raise_from(const RadialSweep::View& view, const RadialSweep::Lowest& lowest, TileWork& work) const {
+  void raise_from(const RadialSweep::View& view, const RadialSweep::Lowest& lowest, TileCells& work) const {
     sweep_.raise_from(view, {work.tile, work.centres, work.targets}, lowest, work.scratch, work.seen);
   }
   /// Raises to a single place, given in metres; heights are in grid units.
@@ -110,9 +111,9 @@ class FullSurface {
   RadialSweep::Axis axis_of(const Eye& eye) const {
     return sweep_.axis_at(eye.units, eye.view.farthest() / units().resolution + 1);
   }
-  void raise_targets(const Eye& eye, TileValues<Verdict>& values, TileWork& work) const;
-  void cast_rays_to_targets(const Eye& eye, TileWork& work) const;
-  void find_ground(std::span<const Tile> parts, TileWork& work) const;
+  void raise_targets(const Eye& eye, TileValues<Verdict>& values, TileCells& work) const;
+  void cast_rays_to_targets(const Eye& eye, TileCells& work) const;
+  void find_ground(std::span<const Tile> parts, TileCells& work) const;
   std::vector<BinBox> boxes_of_tiles() const;
 
   const Tin* surface_ = nullptr;     ///< what hides, where that is a Tin

@@ -43,9 +43,9 @@ bool may_tell_open_lines(const Store& store, const ZoneRequest& request) {
 }
 
 /// The lines of one tile to one turbine after another.
-class OpenLines::TileWork {
+class OpenLines::TileMarker {
  public:
-  TileWork(const OpenLines& lines, const FullSurface& ground, std::size_t tile, Visibility& open)
+  TileMarker(const OpenLines& lines, const FullSurface& ground, std::size_t tile, Visibility& open)
       : lines_(lines),
         place_(ground.begin(tile)),
         height_(lines.zone_.request.observer_height / lines.units_.resolution),
@@ -125,7 +125,7 @@ class OpenLines::TileWork {
   }
 
   const OpenLines& lines_;
-  const std::unique_ptr<FullSurface::TileWork> place_;
+  const std::unique_ptr<FullSurface::TileCells> place_;
   double height_;  ///< of eyes, grid units
   Visibility& open_;
   std::size_t turbine_ = 0;
@@ -186,7 +186,7 @@ std::optional<Window> OpenLines::mark(const FullSurface& ground, std::span<const
   std::vector<TileSet> needed(tiles.size());
   for_each_step(tiles.size(), "open lines", progress, [&](std::size_t i) {
     needed[i] = TileSet(tiles_->count());
-    std::make_unique<TileWork>(*this, ground, tiles[i], open)->run(needed[i]);
+    std::make_unique<TileMarker>(*this, ground, tiles[i], open)->run(needed[i]);
   });
   TileSet all(tiles_->count());
   for (const TileSet& some : needed) all |= some;

@@ -44,7 +44,7 @@ class OpenLines {
   const RetrievalStatistics& retrieval() const { return retrieval_; }
 
  private:
-  class TileWork;
+  class TileMarker;
 
   void bound(const Store& store, const Window& window, Progress& progress);
   void view_turbines();

@@ -18,8 +18,8 @@
 namespace itin::viewshed {
 
 /// Holds what is known of a tile's cells so far.
-struct ZoneSurvey::TileWork {
-  TileWork(const FullSurface& surface, std::size_t number, std::size_t words)
+struct ZoneSurvey::TileSightings {
+  TileSightings(const FullSurface& surface, std::size_t number, std::size_t words)
       : place(surface.begin(number)), tile(place->tile), centres(place->centres), ground(place->ground), seen(words) {
     hubs.fill(kCountOutside), tips.fill(kCountOutside);
     height.fill(0), angle.fill(0), angle_sum.fill(0);
@@ -27,7 +27,7 @@ struct ZoneSurvey::TileWork {
     open.fill(true);
     for (auto& word : seen) word.fill(0);
   }
-  const std::unique_ptr<FullSurface::TileWork> place;  ///< its targets are eyes, seen of the turbine at hand
+  const std::unique_ptr<FullSurface::TileCells> place;  ///< its targets are eyes, seen of the turbine at hand
   const Tile& tile;
   const TileCentres& centres;
   const TileValues<double>& ground;  ///< grid units
@@ -96,7 +96,7 @@ std::uint64_t ZoneSurvey::decide(std::size_t tile, const Screen& screen, const V
   for (std::size_t k = 0; k < axes_.size(); ++k)
     if (in_reach(axes_[k], place)) near.push_back(k);
   if (near.empty()) return 0;
-  const auto work = std::make_unique<TileWork>(ground_, tile, zone_.words);
+  const auto work = std::make_unique<TileSightings>(ground_, tile, zone_.words);
   const double eye_height = zone_.request.observer_height / ground_.units().resolution;
   for (std::size_t i = 0; i < work->ground.size(); ++i) work->eyes[i] = work->ground[i] + eye_height;
   work->place->targets = work->eyes;
@@ -111,7 +111,7 @@ std::uint64_t ZoneSurvey::decide(std::size_t tile, const Screen& screen, const V
 }
 
 /// Other eyes are taken out.
-void ZoneSurvey::take_open_lines(std::size_t turbine, const Visibility& open, TileWork& work) const {
+void ZoneSurvey::take_open_lines(std::size_t turbine, const Visibility& open, TileSightings& work) const {
   const RasterBit bit = turbine_bit(zone_.request.turbines[turbine].number);
   const std::uint32_t* const bits = open.turbines.data() + bit.grid * zone_.grid.cell_count();
   for_each_cell(work.tile, [&](std::size_t cell, RasterGrid::Cell place) {
@@ -126,7 +126,7 @@ bool ZoneSurvey::in_reach(const Axis& axis, const Tile& tile) const {
 }
 
 void ZoneSurvey::observe(std::size_t turbine, const Screen& screen, const RadialSweep::View& view,
-                         TileWork& work) const {
+                         TileSightings& work) const {
   const Axis& axis = axes_[turbine];
   screen.sweep.run(view, {work.tile, work.centres, work.place->targets}, work.place->scratch, work.place->seen);
   for_each_cell(work.tile, [&](std::size_t cell, RasterGrid::Cell place) {
@@ -147,7 +147,8 @@ void ZoneSurvey::observe(std::size_t turbine, const Screen& screen, const Radial
 }
 
 /// The turbine is seen from the cell, down to `least` grid units of elevation.
-void ZoneSurvey::record(std::size_t turbine, std::size_t cell, double distance, double least, TileWork& work) const {
+void ZoneSurvey::record(std::size_t turbine, std::size_t cell, double distance, double least,
+                        TileSightings& work) const {
   const Axis& axis = axes_[turbine];
   const double resolution = ground_.units().resolution;
   ++work.tips[cell];
@@ -163,7 +164,7 @@ void ZoneSurvey::record(std::size_t turbine, std::size_t cell, double distance, 
   work.nearest[cell] = std::min(work.nearest[cell], distance);
 }
 
-void ZoneSurvey::store(const TileWork& work, Visibility& result) const {
+void ZoneSurvey::store(const TileSightings& work, Visibility& result) const {
   const double all = static_cast<double>(zone_.request.turbines.size());
   std::vector<Arc> arcs;
   for_each_cell(work.tile, [&](std::size_t from, RasterGrid::Cell place) {
@@ -184,7 +185,7 @@ void ZoneSurvey::store(const TileWork& work, Visibility& result) const {
   });
 }
 
-void ZoneSurvey::store_horizon(const TileWork& work, std::size_t from_cell, std::size_t to_cell, Point2 eye,
+void ZoneSurvey::store_horizon(const TileSightings& work, std::size_t from_cell, std::size_t to_cell, Point2 eye,
                                Visibility& result, std::vector<Arc>& arcs) const {
   arcs.clear();
   for (const Turbine& t : zone_.request.turbines) {

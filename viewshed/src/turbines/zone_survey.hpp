@@ -39,7 +39,7 @@ class ZoneSurvey {
     Point2 position;
     double radius_squared = 0;  ///< metres squared
   };
-  struct TileWork;
+  struct TileSightings;
 
   /// The turbines over a surface.
   using Views = std::vector<std::optional<RadialSweep::View>>;
@@ -49,12 +49,12 @@ class ZoneSurvey {
                        std::vector<double>& sums) const;
   void add_sums(const std::vector<std::vector<double>>& of_tiles, Visibility& result) const;
   bool in_reach(const Axis& axis, const Tile& tile) const;
-  void observe(std::size_t turbine, const Screen& screen, const RadialSweep::View& view, TileWork& work) const;
-  void take_open_lines(std::size_t turbine, const Visibility& open, TileWork& work) const;
-  void record(std::size_t turbine, std::size_t cell, double distance, double least, TileWork& work) const;
-  void store(const TileWork& work, Visibility& result) const;
-  void store_horizon(const TileWork& work, std::size_t from_cell, std::size_t to_cell, Point2 eye, Visibility& result,
-                     std::vector<Arc>& arcs) const;
+  void observe(std::size_t turbine, const Screen& screen, const RadialSweep::View& view, TileSightings& work) const;
+  void take_open_lines(std::size_t turbine, const Visibility& open, TileSightings& work) const;
+  void record(std::size_t turbine, std::size_t cell, double distance, double least, TileSightings& work) const;
+  void store(const TileSightings& work, Visibility& result) const;
+  void store_horizon(const TileSightings& work, std::size_t from_cell, std::size_t to_cell, Point2 eye,
+                     Visibility& result, std::vector<Arc>& arcs) const;
 
   const FullSurface& ground_;
   const Zone& zone_;

@@ -293,13 +293,13 @@ class CityModel {
   }
 
   bool same_plane(const SurfacePlane& a, const SurfacePlane& b, Index shared) const {
-    double turn = 0;
-    for (std::size_t i = 0; i < 3; ++i) turn = std::max(turn, std::abs(a.normal[i] - b.normal[i]));
+    double deviation = 0;
+    for (std::size_t i = 0; i < 3; ++i) deviation = std::max(deviation, std::abs(a.normal[i] - b.normal[i]));
     const Point3& p = vertices_[shared];
     const auto off = [&](const SurfacePlane& s) {
       return std::abs(s.normal[0] * p.x + s.normal[1] * p.y + s.normal[2] * p.z - s.offset);
     };
-    return turn < kSameDirection && off(a) < kSamePlace && off(b) < kSamePlace;
+    return deviation < kSameDirection && off(a) < kSamePlace && off(b) < kSamePlace;
   }
 
   template <class Visit>

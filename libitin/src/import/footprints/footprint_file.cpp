@@ -138,7 +138,7 @@ std::string why_empty(const std::vector<std::string>& warnings) {
 
 bool builds_features(const ImportOptions& options) {
   if (options.kind == ThemeKind::Surface) return true;
-  if (!options.kind || !may_stand(*options.kind)) return false;
+  if (!options.kind || !may_be_raised(*options.kind)) return false;
   return options.height || !options.height_field.empty() || !options.eaves_field.empty() ||
          std::any_of(options.sources.begin(), options.sources.end(),
                      [&](const std::string& path) { return is_city_json(path) || is_height_raster(path, options); });

@@ -10,7 +10,7 @@
 
 namespace itin {
 
-/// Settles the CRS (options.crs, else the reader's) and what the heights mean by source_heights().
+/// Chooses the CRS (options.crs, else the reader's) and what the heights mean by source_heights().
 ///
 /// After reading, SourceInfo::spacing is the mean point spacing: the square root of bounding-box area over number; for
 /// points nearly on a line, its length over their number. The gap is options.max_gap, or 100 times the spacing.

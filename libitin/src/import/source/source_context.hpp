@@ -1,4 +1,4 @@
-// Import in two steps: a source is opened to learn its CRS and centre; once the store's CRS and grid are settled by the
+// Import in two steps: a source is opened to learn its CRS and centre; once the store's CRS and grid are chosen by the
 // first one, it is bound to them and becomes a TerrainSource.
 //
 //   std::unique_ptr<SourceFile> open_raster_source(const std::string& path, const ImportOptions&);

@@ -53,7 +53,7 @@ struct ImportPlan {
   std::vector<std::string> warnings;
 };
 
-/// Opens all sources and settles CRS and grid; `existing` (may be null) fixes both. Nothing is written. A new store has
+/// Opens all sources and chooses CRS and grid; `existing` (may be null) fixes both. Nothing is written. A new store has
 /// the CRS of options.to_crs, else that of the first source if it is metric and lengths in it are true there, else the
 /// UTM zone there. Lengths must be true in it wherever the sources say that they lie.
 /// The grid's origin is the centre of the first source, rounded to a multiple of 2^29 resolutions in each axis: (0, 0)

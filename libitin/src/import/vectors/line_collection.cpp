@@ -267,15 +267,15 @@ void LineCollection::raise(const Store& ground, RaisedFeatures& report, Progress
     CollectedTheme& theme = themes_[t];
     if (theme.footprints.empty()) continue;
     const double wall_offset = theme.info.wall_offset.value_or(default_wall_offset(ground.metadata().grid));
-    RaisedFeatureTheme standing =
-        stand(ground, in_order_of_content(theme.footprints), wall_offset, memory_bytes_, progress);
-    theme.info.features = standing.built;
-    report.features += standing.built;
-    report.refused += standing.refused;
-    report.themes.push_back({theme.info.name, standing.built, std::move(standing.reports)});
-    for (RaisedPart& part : standing.parts) parts_.push_back({t, std::move(part)});
-    for (const auto& [a, b] : standing.ground.pieces) keep({{a.x, a.y, 0}, {b.x, b.y, 0}, t});
-    theme.changed = std::move(standing.ground);
+    RaisedFeatureTheme raised =
+        raise_theme(ground, in_order_of_content(theme.footprints), wall_offset, memory_bytes_, progress);
+    theme.info.features = raised.built;
+    report.features += raised.built;
+    report.refused += raised.refused;
+    report.themes.push_back({theme.info.name, raised.built, std::move(raised.reports)});
+    for (RaisedPart& part : raised.parts) parts_.push_back({t, std::move(part)});
+    for (const auto& [a, b] : raised.ground.pieces) keep({{a.x, a.y, 0}, {b.x, b.y, 0}, t});
+    theme.changed = std::move(raised.ground);
   }
 }
 
@@ -378,7 +378,7 @@ void LineCollection::put_in_order(ThemeLines& result) {
     themes.push_back(std::move(themes_[order[i]]));
     result.terrain.push_back(is_terrain(themes.back().info.kind));
     result.kinds.push_back(themes.back().info.kind);
-    result.standing.push_back(themes.back().raised);
+    result.raised.push_back(themes.back().raised);
   }
   for (ThemeVertex& end : ground_ends_) end.theme = number[end.theme];
   for (OwnedSegment& s : segments_) s.owner = number[s.owner];

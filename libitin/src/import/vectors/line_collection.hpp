@@ -66,13 +66,13 @@ class LineCollection {
   bool take_vertex(const GridPoint& p, std::uint16_t source, bool of_terrain);
   void take_set_aside(const StoreRows& rows);
 
-  /// Standing themes' footprints, whose lines are not taken over, but made again; and the records of all features.
+  /// Raised themes' footprints, whose lines are not taken over, but made again; and the records of all features.
   void take_features(const Store& store);
 
   /// The number of a theme, which is made if there is none of the name. Throws InputError where one has another kind,
   /// or is raised where the other is not.
   std::uint32_t theme(const std::string& name, ThemeKind kind, bool raised);
-  /// Where the walls of a standing theme reach their height. Throws InputError for an offset out of range, and for
+  /// Where the walls of a raised theme reach their height. Throws InputError for an offset out of range, and for
   /// another one than the theme's footprints so far have.
   void offset_walls(std::uint32_t theme, double metres, const Grid& grid);
   /// A line of a feature of the theme, by its number, or of kNoFeature.
@@ -87,7 +87,7 @@ class LineCollection {
   void add_footprint(std::uint32_t theme, StoredFootprint footprint, std::optional<FeatureRecord> record = {});
   /// Whether any theme is raised.
   bool is_raised() const;
-  /// Builds all standing themes on a store's ground. Throws InputError where that takes more than the memory.
+  /// Builds all raised themes on a store's ground. Throws InputError where that takes more than the memory.
   void raise(const Store& ground, RaisedFeatures& report, Progress& progress);
 
   /// Puts the themes in order and the lines of all of them into one plane. `ground` as in raise(), if it was called.

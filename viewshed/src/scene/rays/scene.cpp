@@ -77,20 +77,20 @@ class Scene::Impl {
     if (drop_ < 0) return 0;
     const ExactLines exact = exact_lines(lines, std::make_index_sequence<SightLines::kSize>());
     unsigned result = 0, open = lines.active;
-    const auto settle = [&](unsigned group, const Occluder& by) {
+    const auto hide_group = [&](unsigned group, const Occluder& by) {
       const unsigned four = 0xfU << 4 * group;
       if ((open & four) == 0 || hidden_by_one(by, exact, four) != four) return;
       result |= 1U << group;
       open &= ~four;
       occluder = by;
     };
-    for (unsigned group = 0; group < SightLines::kSize / 4; ++group) settle(group, occluder);
+    for (unsigned group = 0; group < SightLines::kSize / 4; ++group) hide_group(group, occluder);
     if (open == 0) return result;
     HiddenPacket packet;
     cast(lines, open, exact, packet);
     for (unsigned i = 0; i < SightLines::kSize; ++i) {
       const unsigned group = i / 4;
-      if ((packet.by_triangle >> 4 * group & 0xfU) == 0xfU) settle(group, {packet.by[i]});
+      if ((packet.by_triangle >> 4 * group & 0xfU) == 0xfU) hide_group(group, {packet.by[i]});
     }
     return result;
   }

@@ -67,17 +67,17 @@ class AxisSight : public RaisedEnd {
  public:
   AxisSight(const SightLine& from_eye, double base, const SweptEnd& eye, double margin)
       : RaisedEnd(from_eye, std::min(base, from_eye.to_z()), from_eye.to_z(), margin), eye_(eye) {
-    turn();
+    update_slope();
   }
 
   double at_axis() const { return least(); }
   double slope() const { return slope_; }
   bool clears(std::uint32_t triangle, const Corners& corners) {
-    return RaisedEnd::clears(triangle, corners, [this] { turn(); });
+    return RaisedEnd::clears(triangle, corners, [this] { update_slope(); });
   }
 
  private:
-  void turn() { slope_ = (line().from().z - eye_.drop - least()) / eye_.along; }
+  void update_slope() { slope_ = (line().from().z - eye_.drop - least()) / eye_.along; }
 
   SweptEnd eye_;
   double slope_ = 0;
@@ -118,17 +118,17 @@ class HeightSight : public RaisedEnd {
       : RaisedEnd(to_lowest, std::max(range.lowest, std::min(range.hidden_below, range.highest)), range.highest,
                   margin),
         end_(end) {
-    turn();
+    update_slope();
   }
 
   double at_axis() const { return line().from().z; }
   double slope() const { return slope_; }
   bool clears(std::uint32_t triangle, const Corners& corners) {
-    return RaisedEnd::clears(triangle, corners, [this] { turn(); });
+    return RaisedEnd::clears(triangle, corners, [this] { update_slope(); });
   }
 
  private:
-  void turn() { slope_ = (least() - end_.drop - at_axis()) / end_.along; }
+  void update_slope() { slope_ = (least() - end_.drop - at_axis()) / end_.along; }
 
   SweptEnd end_;
   double slope_ = 0;

@@ -35,15 +35,15 @@ void follow_links(LinkNetwork& network, std::size_t source, std::vector<std::siz
   }
 }
 
-std::vector<std::size_t> standing_sites(const LinkNetwork& network) {
+std::vector<std::size_t> existing_sites(const LinkNetwork& network) {
   std::vector<std::size_t> sites;
   for (std::size_t site = network.options(); site < network.sites(); ++site) sites.push_back(site);
   return sites;
 }
 
-/// Whether the source reaches all of the options by them and by sites that stand.
+/// Whether the source reaches all of the options by them and by existing sites.
 bool all_reached(LinkNetwork& network, std::size_t source, std::span<const std::size_t> options) {
-  std::vector<std::size_t> sites = standing_sites(network);
+  std::vector<std::size_t> sites = existing_sites(network);
   sites.insert(sites.end(), options.begin(), options.end());
   std::erase(sites, source);
   std::size_t missing = options.size() - static_cast<std::size_t>(std::count(options.begin(), options.end(), source));
@@ -78,7 +78,7 @@ class WaySearch {
     const std::size_t source = network.hub() ? *network.hub() : chosen_.front();
     ways_.resize(network.sites());
     is_free_.assign(network.sites(), false);
-    std::vector<std::size_t> unreached = standing_sites(network);
+    std::vector<std::size_t> unreached = existing_sites(network);
     unreached.insert(unreached.end(), chosen_.begin(), chosen_.end());
     for (const std::size_t site : unreached) is_free_[site] = true;
     if (!way_.relaxed) std::erase_if(candidates_, [&](std::size_t o) { return !rules_.may_join(o, chosen_); });

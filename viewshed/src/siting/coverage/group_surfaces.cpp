@@ -22,33 +22,34 @@ constexpr double kReadingGroup = 0.2;
 
 }  // namespace
 
-GroupSurfaces::GroupSurfaces(const Store& store, const SiteSurvey& survey, const Looks& looks, Statistics& statistics)
-    : store_(store), survey_(survey), looks_(looks), statistics_(statistics) {
-  if (survey_.targets.on_surface && looks_.themed())
+GroupSurfaces::GroupSurfaces(const Store& store, const SiteSurvey& survey, const SurveyStages& stages,
+                             Statistics& statistics)
+    : store_(store), survey_(survey), stages_(stages), statistics_(statistics) {
+  if (survey_.targets.on_surface && stages_.themed())
     raise_ = store.greatest_feature_height(survey_.themes, reach_of(survey_));
 }
 
 bool GroupSurfaces::read_whole_lattice(Progress& progress) {
-  if (looks_.themed() || survey_.fresnel || !survey_.targets.grid || looks_.casts_rays()) return false;
+  if (stages_.themed() || survey_.fresnel || !survey_.targets.grid || stages_.casts_rays()) return false;
   Stopwatch watch;
-  const std::uint64_t memory = looks_.memory();
+  const std::uint64_t memory = stages_.memory();
   whole_lattice_ = retrieve_lattice(store_, window_about(survey_, all_options(survey_)), Detail::tolerance(0),
                                     ThemeChoice::none(), LatticeReader::Heights::kAll,
-                                    (memory - std::min(memory, looks_.sets() / 2)) / kBytesPerPost, progress);
+                                    (memory - std::min(memory, stages_.sets() / 2)) / kBytesPerPost, progress);
   statistics_.retrieval_seconds += watch.lap();
   return whole_lattice_.has_value();
 }
 
-std::unique_ptr<GroupSurvey> GroupSurfaces::survey_of(const std::vector<std::size_t>& group, const Look& look,
-                                                      Progress& progress) {
-  if (look.binned) return binned(progress);
-  return looks_.judges_cells_exactly(look.level) ? exact_cells(group, look.themed, progress)
-                                                 : enveloped(group, look, progress);
+std::unique_ptr<GroupSurvey> GroupSurfaces::survey_of(const std::vector<std::size_t>& group,
+                                                      const StageSurface& surface, Progress& progress) {
+  if (surface.binned()) return binned(progress);
+  return stages_.judges_cells_exactly(surface.level) ? exact_cells(group, surface.themed(), progress)
+                                                     : enveloped(group, surface, progress);
 }
 
-const GroupSurvey& GroupSurfaces::whole(const Look& look, Progress& progress) {
-  std::unique_ptr<GroupSurvey>& whole = whole_[look.themed ? 1 : 0];
-  if (!whole) whole = survey_of(all_options(survey_), look, progress);
+const GroupSurvey& GroupSurfaces::whole(const StageSurface& surface, Progress& progress) {
+  std::unique_ptr<GroupSurvey>& whole = whole_[surface.themed() ? 1 : 0];
+  if (!whole) whole = survey_of(all_options(survey_), surface, progress);
   return *whole;
 }
 
@@ -66,7 +67,7 @@ Request GroupSurfaces::request_of(std::span<const std::size_t> options, bool the
 /// About all sites, whatever the group.
 std::unique_ptr<GroupSurvey> GroupSurfaces::binned(Progress& progress) {
   Stopwatch watch;
-  auto survey = survey_by_bins(store_, survey_, looks_.memory(), statistics_, progress);
+  auto survey = survey_by_bins(store_, survey_, stages_.memory(), statistics_, progress);
   statistics_.retrieval_seconds += watch.lap();
   return survey;
 }
@@ -78,7 +79,7 @@ std::unique_ptr<GroupSurvey> GroupSurfaces::exact_cells(const std::vector<std::s
   const Window window = window_about(survey_, group);
   const Detail full = Detail::tolerance(0);
   // Zones are cut by triangles one by one.
-  const std::uint64_t most_posts = survey_.fresnel || looks_.casts_rays() ? 0 : kAnyLattice;
+  const std::uint64_t most_posts = survey_.fresnel || stages_.casts_rays() ? 0 : kAnyLattice;
   Surface surface = whole_lattice_
                         ? std::move(*std::exchange(whole_lattice_, std::nullopt))
                         : retrieve_surface(store_, window, full, themed ? survey_.themes : ThemeChoice::none(),
@@ -91,19 +92,19 @@ std::unique_ptr<GroupSurvey> GroupSurfaces::exact_cells(const std::vector<std::s
   }
   statistics_.retrieval_seconds += watch.lap();
   std::vector<Point2> eyes_of_rays;
-  if (looks_.casts_rays())
+  if (stages_.casts_rays())
     for (const std::size_t option : group) eyes_of_rays.push_back(survey_.positions[option].position);
   auto survey = survey_cells_exactly(survey_, std::move(surface), std::move(bare_ground), eyes_of_rays);
   statistics_.scene_seconds += watch.lap();
   return survey;
 }
 
-std::unique_ptr<GroupSurvey> GroupSurfaces::enveloped(const std::vector<std::size_t>& group, const Look& look,
-                                                      Progress& progress) {
+std::unique_ptr<GroupSurvey> GroupSurfaces::enveloped(const std::vector<std::size_t>& group,
+                                                      const StageSurface& surface, Progress& progress) {
   Stopwatch watch;
-  const Request request = request_of(group, look.themed);
-  EnvelopeRequest read = what_to_read(group, look.level);
-  if (look.themed) {
+  const Request request = request_of(group, surface.themed());
+  EnvelopeRequest read = what_to_read(group, surface.level);
+  if (surface.themed()) {
     read.themes = survey_.themes;
     if (!survey_.targets.on_surface) read.bare_ground = read.window;
   }
@@ -111,7 +112,7 @@ std::unique_ptr<GroupSurvey> GroupSurfaces::enveloped(const std::vector<std::siz
   count(envelope.lower.statistics, envelope.lower.triangles.size());
   statistics_.retrieval_seconds += watch.lap();
   const auto survey = survey_.targets.grid ? survey_cells : survey_points;
-  auto result = survey(survey_, request, std::move(envelope), looks_.judges_zones(look.level));
+  auto result = survey(survey_, request, std::move(envelope), stages_.judges_zones(surface.level));
   statistics_.scene_seconds += watch.lap();
   return result;
 }

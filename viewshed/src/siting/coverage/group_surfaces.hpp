@@ -1,4 +1,4 @@
-// The surfaces over which groups of sites are judged, read when a look asks for them.
+// The surfaces over which groups of sites are judged, read when a stage asks for them.
 #pragma once
 
 #include <array>
@@ -13,40 +13,42 @@
 #include <viewshed/surface.hpp>
 
 #include "siting/coverage/group_survey.hpp"
-#include "siting/coverage/looks.hpp"
+#include "siting/coverage/survey_stages.hpp"
 
 namespace itin::viewshed {
 
 class GroupSurfaces {
  public:
   /// All must outlive it. Counts into the statistics.
-  GroupSurfaces(const Store& store, const SiteSurvey& survey, const Looks& looks, Statistics& statistics);
+  GroupSurfaces(const Store& store, const SiteSurvey& survey, const SurveyStages& stages, Statistics& statistics);
 
   /// Tries to read the full surface about all sites as a lattice, which takes little memory; but whether it is one is
   /// known only then.
   bool read_whole_lattice(Progress& progress);
 
-  /// The survey of a group over the surface that the look asks for. Throws as triangulate() does.
-  std::unique_ptr<GroupSurvey> survey_of(const std::vector<std::size_t>& group, const Look& look, Progress& progress);
+  /// The survey of a group over the surface of a stage. Throws as triangulate() does.
+  std::unique_ptr<GroupSurvey> survey_of(const std::vector<std::size_t>& group, const StageSurface& surface,
+                                         Progress& progress);
   /// That over the full surface about all sites, which is kept. Precondition: the memory holds it.
-  const GroupSurvey& whole(const Look& look, Progress& progress);
+  const GroupSurvey& whole(const StageSurface& surface, Progress& progress);
   /// Lets go of what is kept.
   void release();
 
-  /// The request of some sites at a look. Targets on roofs are seen from afar as some so high above the bare ground may
-  /// be.
+  /// The request of some sites, over a surface with the themes or without. Without them targets on roofs are seen from
+  /// afar as some so high above the bare ground may be.
   Request request_of(std::span<const std::size_t> options, bool themed) const;
 
  private:
   std::unique_ptr<GroupSurvey> binned(Progress& progress);
   std::unique_ptr<GroupSurvey> exact_cells(const std::vector<std::size_t>& group, bool themed, Progress& progress);
-  std::unique_ptr<GroupSurvey> enveloped(const std::vector<std::size_t>& group, const Look& look, Progress& progress);
+  std::unique_ptr<GroupSurvey> enveloped(const std::vector<std::size_t>& group, const StageSurface& surface,
+                                         Progress& progress);
   EnvelopeRequest what_to_read(const std::vector<std::size_t>& group, int level) const;
   void count(const RetrievalStatistics& retrieval, std::size_t triangles);
 
   const Store& store_;
   const SiteSurvey& survey_;
-  const Looks& looks_;
+  const SurveyStages& stages_;
   Statistics& statistics_;
   double raise_ = 0;                                   ///< metres: of targets on what stands, over the bare ground
   std::optional<Surface> whole_lattice_;               ///< until it is looked at

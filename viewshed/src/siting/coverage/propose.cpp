@@ -51,7 +51,7 @@ std::vector<bool> summits(const Tin& tin) {
 }
 
 bool is_raised(const Tin& tin, std::uint32_t vertex) {
-  return !tin.standing.empty() && tin.standing[vertex] != 0;
+  return !tin.raised_theme.empty() && tin.raised_theme[vertex] != 0;
 }
 
 /// Vertices of the ground that nothing stands on, nor beside where these are the surface's own.

@@ -75,7 +75,7 @@ double blocks_in_reach(const SiteTargets& targets, double radius) {
 
 }  // namespace
 
-/// Bounds from above and from below, now and after the first look.
+/// Bounds from above and from below, now and after the first stage.
 std::uint64_t bytes_of_coverage(const SiteSurvey& survey) {
   constexpr double kSets = 4;
   const double of_set = sizeof(DemandSet::Block) * std::ceil(blocks_in_reach(survey.targets, survey.radius));

@@ -14,8 +14,8 @@
 #include "request/void_shadow.hpp"
 #include "siting/coverage/demand_blocks.hpp"
 #include "siting/coverage/group_surfaces.hpp"
-#include "siting/coverage/looks.hpp"
 #include "siting/coverage/site_window.hpp"
+#include "siting/coverage/survey_stages.hpp"
 
 namespace itin::viewshed {
 
@@ -58,9 +58,9 @@ class SiteCoverage::Impl {
       : units_(store.metadata().grid),
         survey_(with_positions(std::move(survey))),
         progress_(progress),
-        looks_(store, survey_),
-        surfaces_(store, survey_, looks_, statistics_) {
-    looks_.choose(looks_.whole_fits_as_triangles() || surfaces_.read_whole_lattice(progress_));
+        stages_(store, survey_),
+        surfaces_(store, survey_, stages_, statistics_) {
+    stages_.choose(stages_.whole_fits_as_triangles() || surfaces_.read_whole_lattice(progress_));
     states_.resize(survey_.positions.size());
     parallel_for(states_.size(), [&](std::size_t i) {
       const CoverageBounds reach{{}, within_reach(survey_.targets, survey_.positions[i].position, survey_.radius)};
@@ -72,7 +72,7 @@ class SiteCoverage::Impl {
   /// Over the surfaces of all options, group by group, so that what is found does not depend on what was found before.
   void explore() {
     CallProgress call(progress_);
-    const auto together = looks_.groups(all_options(survey_), looks_.at(0));
+    const auto together = stages_.groups(all_options(survey_), stages_.at(0));
     std::size_t left = together.size();
     for (const std::vector<std::size_t>& group : together) {
       call.step(1 / static_cast<double>(left--));
@@ -86,7 +86,7 @@ class SiteCoverage::Impl {
 
   /// Each option's next stage.
   void refine(std::span<const std::size_t> options) {
-    std::vector<std::vector<std::size_t>> at_stage(static_cast<std::size_t>(looks_.last_stage()) + 1);
+    std::vector<std::vector<std::size_t>> at_stage(static_cast<std::size_t>(stages_.last_stage()) + 1);
     for (const std::size_t option : options) {
       if (!states_[option].bounds.exact)
         at_stage[static_cast<std::size_t>(states_[option].stage + 1)].push_back(option);
@@ -100,10 +100,10 @@ class SiteCoverage::Impl {
 
   struct State {
     CoverageBounds bounds, first;
-    int stage = -1;  ///< of the last look
+    int stage = -1;  ///< the last one
   };
   const State& state(std::size_t option) const { return states_[option]; }
-  const Looks& looks() const { return looks_; }
+  const SurveyStages& stages() const { return stages_; }
 
   void restore(std::size_t option, int stage, const CoverageBounds& bounds) {
     if (stage == 0) states_[option].first = CoverageBounds(bounds);
@@ -127,7 +127,7 @@ class SiteCoverage::Impl {
   void judge(const std::vector<std::size_t>& options, Progress& progress) {
     const int stage = states_[options.front()].stage + 1;
     CallProgress call(progress);
-    const auto together = looks_.groups(options, looks_.at(stage));
+    const auto together = stages_.groups(options, stages_.at(stage));
     std::size_t left = together.size();
     for (const std::vector<std::size_t>& group : together)
       judge_group(group, group, stage, call.step(1 / static_cast<double>(left--)));
@@ -138,12 +138,12 @@ class SiteCoverage::Impl {
   void judge_group(const std::vector<std::size_t>& options, const std::vector<std::size_t>& group, int stage,
                    Progress& progress) {
     CallProgress call(progress);
-    const Look& look = looks_.at(stage);
+    const StageSurface& surface = stages_.at(stage);
     std::unique_ptr<GroupSurvey> own;
-    if (look.binned || look.level > 0 || !looks_.whole_fits())
-      own = surfaces_.survey_of(group, look, call.step(kReadingFirst));
-    const GroupSurvey& survey = own ? *own : surfaces_.whole(look, call.step(kReadingFirst));
-    // Few at a time: a run that is killed goes on from what has been settled.
+    if (surface.binned() || surface.level > 0 || !stages_.whole_fits())
+      own = surfaces_.survey_of(group, surface, call.step(kReadingFirst));
+    const GroupSurvey& survey = own ? *own : surfaces_.whole(surface, call.step(kReadingFirst));
+    // Few at a time: a run that is killed goes on from what has been recorded.
     for (std::size_t first = 0; first < options.size(); first += kJudgedTogether) {
       const auto begin = options.begin() + static_cast<std::ptrdiff_t>(first);
       const auto count = static_cast<std::ptrdiff_t>(std::min(kJudgedTogether, options.size() - first));
@@ -153,16 +153,16 @@ class SiteCoverage::Impl {
   }
 
   void judge_some(const std::vector<std::size_t>& options, const GroupSurvey& survey, int stage, Progress& progress) {
-    const Look& look = looks_.at(stage);
+    const StageSurface& surface = stages_.at(stage);
     Stopwatch watch;
     std::vector<const CoverageBounds*> before;
     for (const std::size_t option : options) before.push_back(&states_[option].bounds);
     std::vector<CoverageBounds> after =
-        survey.judge({surfaces_.request_of(options, look.themed), options, before}, progress, statistics_);
+        survey.judge({surfaces_.request_of(options, surface.themed()), options, before}, progress, statistics_);
     for (std::size_t i = 0; i < options.size(); ++i) {
-      if (looks_.themed() && !look.themed) after[i].certain = {}, after[i].exact = false;  // features may hide it
-      if (survey_.fresnel && !looks_.judges_zones(look.level)) after[i].certain = {};      // or its zone is cut
-      settle(options[i], stage, std::exchange(after[i], {}));
+      if (stages_.themed() && !surface.themed()) after[i].certain = {}, after[i].exact = false;  // features may hide it
+      if (survey_.fresnel && !stages_.judges_zones(surface.level)) after[i].certain = {};        // or its zone is cut
+      record_bounds(options[i], stage, std::exchange(after[i], {}));
     }
     statistics_.lines_seconds += watch.lap();
     warn_of_voids(options, survey);
@@ -177,7 +177,7 @@ class SiteCoverage::Impl {
     if (crossed) warnings_.emplace_back(kVoidsWarning);
   }
 
-  void settle(std::size_t option, int stage, const CoverageBounds& bounds) {
+  void record_bounds(std::size_t option, int stage, const CoverageBounds& bounds) {
     restore(option, stage, bounds);
     if (on_refined != nullptr && *on_refined) (*on_refined)(option, stage, states_[option].bounds);
   }
@@ -186,7 +186,7 @@ class SiteCoverage::Impl {
   const SiteSurvey survey_;
   Progress& progress_;
   Statistics statistics_;
-  Looks looks_;
+  SurveyStages stages_;
   GroupSurfaces surfaces_;
   std::vector<State> states_;
   std::vector<std::string> warnings_;
@@ -214,13 +214,13 @@ int SiteCoverage::stage(std::size_t option) const {
   return impl_->state(option).stage;
 }
 int SiteCoverage::last_stage() const {
-  return impl_->looks().last_stage();
+  return impl_->stages().last_stage();
 }
 const CoverageBounds& SiteCoverage::first_bounds(std::size_t option) const {
   return impl_->state(option).first;
 }
 std::string SiteCoverage::stage_name(int stage) const {
-  return impl_->looks().name(stage);
+  return impl_->stages().name(stage);
 }
 void SiteCoverage::restore(std::size_t option, int stage, const CoverageBounds& bounds) {
   impl_->restore(option, stage, bounds);

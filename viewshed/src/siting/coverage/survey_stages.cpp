@@ -1,4 +1,4 @@
-#include "siting/coverage/looks.hpp"
+#include "siting/coverage/survey_stages.hpp"
 
 #include <algorithm>
 
@@ -23,7 +23,7 @@ constexpr std::uint64_t kThemedPoints = 3;
 /// The first pass reads at most one in so many of the full surface's points: fewer where a second pass is cheap, since
 /// the memory holds the full surface for all of them.
 constexpr std::uint64_t kFirstShare = 2, kFirstShareOfWhole = 8;
-/// No coarse look at so few points: the full surface is as fast.
+/// No coarse stage for so few points: the full surface is as fast.
 constexpr std::uint64_t kFewPoints = 40000;
 
 std::uint64_t required_sets(const SiteSurvey& survey) {
@@ -37,7 +37,7 @@ std::uint64_t required_sets(const SiteSurvey& survey) {
 
 }  // namespace
 
-Looks::Looks(const Store& store, const SiteSurvey& survey)
+SurveyStages::SurveyStages(const Store& store, const SiteSurvey& survey)
     : store_(store),
       survey_(survey),
       themed_(survey.themes.includes_raised(store.metadata().themes)),
@@ -46,18 +46,18 @@ Looks::Looks(const Store& store, const SiteSurvey& survey)
       points_(store.points_about(0, reach_)),
       cut_(!feature_cuts(store, survey.themes, reach_).empty()) {}
 
-bool Looks::whole_fits_as_triangles() const {
+bool SurveyStages::whole_fits_as_triangles() const {
   return fits(points_ * (themed_ ? kThemedPoints : 1), survey_.positions.size(), 0);
 }
 
-void Looks::choose(bool whole_fits) {
+void SurveyStages::choose(bool whole_fits) {
   whole_fits_ = whole_fits;
   stages_.clear();
   // Foundations cut into the ground: what the bare one hides may be seen.
   if (themed_ && (!survey_.tolerance || cut_)) {
     // Over a surface in memory, a site is judged exactly in the time that its bounds would take.
-    if (!whole_fits_) stages_.push_back({.themed = true, .binned = true});
-    stages_.push_back({.themed = true});
+    if (!whole_fits_) stages_.push_back({.kind = StageSurface::Kind::kBins});
+    stages_.push_back({.kind = StageSurface::Kind::kThemed});
     return;
   }
   // To look at cells exactly takes no longer than to look at them coarsely.
@@ -68,33 +68,34 @@ void Looks::choose(bool whole_fits) {
                         : finest_level_of(store_, reach_, points_ / (whole_fits_ ? kFirstShareOfWhole : kFirstShare));
   stages_.push_back({.level = first});
   if (first > 0) stages_.push_back({});
-  if (themed_) stages_.push_back({.themed = true});
+  if (themed_) stages_.push_back({.kind = StageSurface::Kind::kThemed});
 }
 
-std::string Looks::name(int stage) const {
+std::string SurveyStages::name(int stage) const {
   if (stage < 0) return "radius alone";
-  const Look& look = at(stage);
-  if (look.binned) return "bounds, with themes";
-  if (look.themed) return "exact, with themes";
-  if (look.level == 0) return themed_ ? "exact, bare terrain" : "exact";
-  return fmt::format("tolerance {:g} m", store_.metadata().levels[static_cast<std::size_t>(look.level)].tolerance);
+  const StageSurface& surface = at(stage);
+  if (surface.binned()) return "bounds, with themes";
+  if (surface.themed()) return "exact, with themes";
+  if (surface.level == 0) return themed_ ? "exact, bare terrain" : "exact";
+  return fmt::format("tolerance {:g} m", store_.metadata().levels[static_cast<std::size_t>(surface.level)].tolerance);
 }
 
 /// Whether so many options can be looked at together over a surface of so many points.
-bool Looks::fits(std::uint64_t points, std::size_t options, int level) const {
+bool SurveyStages::fits(std::uint64_t points, std::size_t options, int level) const {
   const bool swept = judges_cells_exactly(level) && !casts_rays();
   // Judging them makes bounds anew, which mostly hold half of what is within reach.
   const std::uint64_t sets = sets_ / survey_.positions.size() * options / 2;
   return points * (swept ? kBytesPerSweptPoint : kBytesPerRayPoint) + sets <= memory();
 }
 
-std::uint64_t Looks::points_of(Options options, int level) const {
+std::uint64_t SurveyStages::points_of(Options options, int level) const {
   return store_.points_about(level, reach_of(survey_, options));
 }
 
-std::vector<std::vector<std::size_t>> Looks::groups(std::vector<std::size_t> options, const Look& look) const {
-  if (look.binned) return {std::move(options)};
-  const int level = look.level;
+std::vector<std::vector<std::size_t>> SurveyStages::groups(std::vector<std::size_t> options,
+                                                           const StageSurface& surface) const {
+  if (surface.binned()) return {std::move(options)};
+  const int level = surface.level;
   const auto fit_or_is_one = [&](Options some) {
     return some.size() < 2 || fits(points_of(some, level), some.size(), level);
   };
@@ -106,7 +107,7 @@ std::vector<std::vector<std::size_t>> Looks::groups(std::vector<std::size_t> opt
 }
 
 /// Those in the west and in the east, or in the south and in the north.
-std::pair<Looks::Options, Looks::Options> Looks::halves_across(Options options) const {
+std::pair<SurveyStages::Options, SurveyStages::Options> SurveyStages::halves_across(Options options) const {
   Box box;
   for (const std::size_t option : options) box.extend(survey_.positions[option].position);
   std::sort(options.begin(), options.end(), [&](std::size_t a, std::size_t b) {

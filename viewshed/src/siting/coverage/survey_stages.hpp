@@ -1,4 +1,4 @@
-// How sites are looked at under a memory: in stages, from coarse to exact, and at each stage which of them together.
+// How sites are surveyed under a memory: in stages, from coarse to exact, and at each stage which of them together.
 #pragma once
 
 #include <cstddef>
@@ -13,24 +13,31 @@
 
 namespace itin::viewshed {
 
-/// What a stage judges over: the bare terrain of a level, or the full surface with the themes; or bins of this.
-struct Look {
-  int level = 0;
-  bool themed = false;
-  bool binned = false;
+/// What a stage judges over.
+struct StageSurface {
+  enum class Kind : std::uint8_t {
+    kBareLevel,  ///< the bare terrain of a level
+    kThemed,     ///< the full surface with the themes
+    kBins        ///< bins of this
+  };
+  Kind kind = Kind::kBareLevel;
+  int level = 0;  ///< of the bare terrain; 0 with the themes
+
+  bool themed() const { return kind != Kind::kBareLevel; }
+  bool binned() const { return kind == Kind::kBins; }
 };
 
-class Looks {
+class SurveyStages {
  public:
   /// Both must outlive it. Throws InputError where what is known of the sites takes too much of the memory.
-  Looks(const Store& store, const SiteSurvey& survey);
+  SurveyStages(const Store& store, const SiteSurvey& survey);
 
   /// Whether raised features count.
   bool themed() const { return themed_; }
   bool casts_rays() const { return survey_.engine == Engine::kRays; }
   /// Cells are judged over the full surface at its own level; everything else over envelopes.
   bool judges_cells_exactly(int level) const { return level == 0 && survey_.targets.grid; }
-  /// Over coarse surfaces zones take as long as over the full one, which is looked at next, if the memory holds it.
+  /// Over coarse surfaces zones take as long as over the full one, which comes next, if the memory holds it.
   bool judges_zones(int level) const { return survey_.fresnel && (level == 0 || !whole_fits_); }
 
   /// Bytes for surfaces; what is left is for the rest of the program.
@@ -44,12 +51,12 @@ class Looks {
   void choose(bool whole_fits);
   bool whole_fits() const { return whole_fits_; }
   int last_stage() const { return static_cast<int>(stages_.size()) - 1; }
-  const Look& at(int stage) const { return stages_[static_cast<std::size_t>(stage)]; }
+  const StageSurface& at(int stage) const { return stages_[static_cast<std::size_t>(stage)]; }
   /// In words: "tolerance 4 m", "exact", ...
   std::string name(int stage) const;
 
   /// Neighbours together, as many as the memory holds.
-  std::vector<std::vector<std::size_t>> groups(std::vector<std::size_t> options, const Look& look) const;
+  std::vector<std::vector<std::size_t>> groups(std::vector<std::size_t> options, const StageSurface& surface) const;
 
  private:
   using Options = std::span<std::size_t>;
@@ -66,7 +73,7 @@ class Looks {
   const std::uint64_t points_;  ///< of the full surface there
   const bool cut_;              ///< features are lower than it somewhere there
   bool whole_fits_ = false;
-  std::vector<Look> stages_;
+  std::vector<StageSurface> stages_;
 };
 
 }  // namespace itin::viewshed
