@@ -1,5 +1,7 @@
 #include "los/los_case.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include <profile/documents.hpp>
@@ -64,6 +66,9 @@ std::string text_of_findings(const profile::LosReport& report, const profile::Li
   }
   for (const profile::CriterionResult& c : found.criteria)
     text += fmt::format("K = {}, {:g} F1: {}\n", factor_text(c.criterion, c.k), c.criterion.fraction, outcome_text(c));
+  if (std::any_of(found.criteria.begin(), found.criteria.end(),
+                  [](const profile::CriterionResult& c) { return c.criterion.fade; }))
+    text += std::string(profile::kAboutKe) + "\n";
   for (const profile::NamedHeights& r : found.required) {
     text +=
         fmt::format("heights needed for {}: {} at the first end alone, or {} at the second end alone, or {} at both\n",
@@ -96,8 +101,7 @@ std::string text_of(const profile::LosReport& report) {
                         cause_of(report, report.critical->theme, report.critical->feature));
   }
   text += "\n";
-  const std::string gaps = gap_text(report);
-  if (!gaps.empty()) text += gaps + "\n";
+  if (const std::string why = reason_of(report); !why.empty()) text += why + "\n";
   if (report.geodesic_m)
     text +=
         fmt::format("{:.1f} m on the grid, {:.1f} m geodesic (WGS 84)\n", report.profile.length_m, *report.geodesic_m);

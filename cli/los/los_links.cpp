@@ -118,7 +118,7 @@ LosLinks::Survey LosLinks::run(const Store& store, const LinkTable& table, const
   result.text += "\n";
   for (const std::string& column : table.other_columns)
     result.warnings.push_back(
-        fmt::format("{}: the column '{}' is not understood; the outputs keep it as it is", path_, column));
+        fmt::format("{}: the column '{}' is not understood; the outputs keep its cells as they are", path_, column));
   if (gaps > 0 && query.nodata != profile::NoData::kClear) {
     result.warnings.push_back(fmt::format(
         "{} of {} cross ground without data, which {}; see --nodata", gaps, counted(all, "link"),

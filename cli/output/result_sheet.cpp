@@ -1,11 +1,13 @@
 #include "output/result_sheet.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <itin/coordinates.hpp>
+#include <itin/surface_text.hpp>
 
 namespace itin::cli {
 
@@ -36,11 +38,23 @@ std::function<bool(Point2)> in_cells(const RasterGrid& grid, std::function<bool(
   };
 }
 
-std::string statement_of(const StoreMetadata& metadata, const ThemeChoice& themes) {
+std::string statement_of(const StoreMetadata& metadata, const ThemeChoice& themes, const Detail& detail) {
   if (!themes.includes_raised(metadata.themes))
     return "Bare ground: the screening effect of buildings, walls and vegetation is not taken into account.";
-  return fmt::format("Screening by {} as imported is taken into account; whatever else stands on the ground is not.",
-                     fmt::join(themes.names(metadata.themes), ", "));
+  const std::string as = detail.coarsest() == 0
+                             ? "as imported"
+                             : fmt::format("as far as they stand at a tolerance of {:g} m, at which some are left out,",
+                                           detail.coarsest());
+  return fmt::format("Screening by {} {} is taken into account; whatever else stands on the ground is not.",
+                     fmt::join(themes.names(metadata.themes), ", "), as);
+}
+
+std::pair<std::string, std::string> terrain_fact(const StoreMetadata& metadata, const Detail& detail) {
+  double spacing = 0;
+  for (const SourceInfo& source : metadata.sources)
+    if (source.kind == "terrain") spacing = std::max(spacing, source.spacing);
+  const std::string posts = spacing > 0 ? fmt::format("posts up to {:.3g} m apart; ", spacing) : "";
+  return {"Terrain", posts + surface_text(metadata, detail)};
 }
 
 MapBase base_of(const Store& store, const ResultSheet& content, profile::PaperSize paper, const SheetOptions& options,

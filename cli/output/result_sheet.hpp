@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <itin/raster.hpp>
@@ -38,8 +39,11 @@ struct ResultSheet {
 /// Holds in the grid's cells of which `studied` holds.
 std::function<bool(Point2)> in_cells(const RasterGrid& grid, std::function<bool(std::size_t)> studied);
 
-/// What screens on a map, and what does not.
-std::string statement_of(const StoreMetadata& metadata, const ThemeChoice& themes);
+/// What screens on a map of a surface of this detail, and what does not.
+std::string statement_of(const StoreMetadata& metadata, const ThemeChoice& themes, const Detail& detail);
+
+/// The fact of how exact a map's surface is.
+std::pair<std::string, std::string> terrain_fact(const StoreMetadata& metadata, const Detail& detail);
 
 /// What lies below a result's map on this paper. Results of one area and study may share it. Throws
 /// FileError (a basemap), InputError (a scale that is too large), Cancelled.

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include <itin/counted.hpp>
 #include <itin/store.hpp>
 
 #include "program/verb.hpp"
@@ -21,12 +22,6 @@ Document levels_document(const StoreMetadata& metadata);
 
 /// `levels` as an aligned table.
 std::string levels_table(const StoreMetadata& metadata);
-
-/// 1234567 as "1,234,567".
-std::string grouped(std::uint64_t number);
-
-/// "1 block", "1,234 blocks"; `plural` where it is not made by an s.
-std::string counted(std::uint64_t number, std::string_view noun, std::string_view plural = {});
 
 /// 1234567 as "1.2 MB".
 std::string readable_bytes(std::uint64_t bytes);

@@ -97,7 +97,7 @@ ResultSheet sheet_of(const Store& store, const SiteResult& r, const SiteMap& map
                     {}};
   if (map.result.cells.outside > 0) sheet.map.keys.push_back({{255, 255, 255, 153}, map.options.outside});
   sheet.title.title = map.options.title;
-  sheet.title.statement = statement_of(metadata, r.options.themes.choice());
+  sheet.title.statement = statement_of(metadata, r.options.themes.choice(), Detail::tolerance(0));
   const bool turbines = r.options.placement.given();
   const std::string one = wording_of(r.options).one;
   sheet.title.facts = {

@@ -98,7 +98,7 @@ std::string info_text(const Store& store, const StatedHeights& heights) {
                         : stays(source) ? " (staying)"
                                         : "",
                         grouped(source.vertices), spacing, source.path);
-    if (const auto axis = heights.of(source)) text += fmt::format("{:22}  {}\n", "", described(*axis));
+    if (const std::string of = heights.text_of(source); !of.empty()) text += fmt::format("{:22}  {}\n", "", of);
     if (!source.note.empty()) text += fmt::format("{:22}  {}\n", "", source.note);
   }
   return text;

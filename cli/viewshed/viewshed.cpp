@@ -31,6 +31,7 @@
 #include "program/field_names.hpp"
 #include "program/verb.hpp"
 #include "viewshed/feature_raster.hpp"
+#include "viewshed/hidden_eyes.hpp"
 #include "viewshed/horizon_output.hpp"
 #include "viewshed/viewshed_outputs.hpp"
 #include "viewshed/viewshed_radio.hpp"
@@ -161,6 +162,7 @@ class ViewshedVerb final : public Verb {
     // Certified and exact answers are about the full surface.
     viewshed::Request answered = computed.result.request;
     if (precise_ || certified_) answered.detail = Detail::tolerance(0);
+    warn_of_hidden_eyes(store, computed.result, answered.detail, result.warnings);
     const Document targets =
         horizon_.write(store, computed, answered, compute_options_, outputs_.overwrite(), progress, result.warnings);
     const Document features = features_.write(store, computed.result.grid, {answered.detail, request_.themes},
@@ -173,7 +175,7 @@ class ViewshedVerb final : public Verb {
     if (request_.mode == viewshed::Mode::kBlocker)
       result.document["blockers"] = viewshed::blockers_document(store, computed.result);
     if (!targets.empty()) result.document["horizon_targets"] = targets;
-    result.text = text(computed.result, missing);
+    result.text = text(metadata, computed.result, missing);
     if (!certified_ && viewshed::exact_costs_no_more(store, computed.result.request))
       result.text += "the exact answer takes no longer over this raster: leave out --tolerance\n";
     return result;
@@ -249,11 +251,12 @@ class ViewshedVerb final : public Verb {
     targets_.complete(metadata, request_);
   }
 
-  std::string text(const viewshed::Result& result, const viewshed::MissingGround& missing) const {
+  std::string text(const StoreMetadata& metadata, const viewshed::Result& result,
+                   const viewshed::MissingGround& missing) const {
     std::string text;
     for (const std::string& path : outputs_.paths())
       text += fmt::format("{}: {}\n", path, readable_bytes(std::filesystem::file_size(path)));
-    return text + viewshed_text(result, missing);
+    return text + viewshed_text(metadata, result, missing);
   }
 
   std::string store_, mode_text_;

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <itin/output_file.hpp>
+#include <itin/surface_text.hpp>
 #include <viewshed/result_map.hpp>
 
 #include "output/result_sheet.hpp"
@@ -31,7 +32,9 @@ profile::TitleBlock title_of_map(const Store& store, const viewshed::Result& res
   const viewshed::Request& request = result.request;
   profile::TitleBlock block;
   block.title = title_of(result);
-  block.statement = statement_of(store.metadata(), request.themes);
+  const Detail detail =
+      result.certified ? Detail::tolerance(0) : request.detail;  // what is certain holds for all points
+  block.statement = statement_of(store.metadata(), request.themes, detail);
   block.facts = {{"Observers", observers_in_words(request)},
                  {"Targets", fmt::format("{:g} m {}", request.target_height,
                                          request.target_absolute ? "above datum" : "above the ground")},
@@ -40,6 +43,9 @@ profile::TitleBlock title_of_map(const Store& store, const viewshed::Result& res
     block.facts.insert(block.facts.begin() + 2, {"Radius", fmt::format("{:g} km", *request.radius / 1000)});
   if (const auto criterion = radio_criterion(request)) block.facts.emplace_back("Radio", *criterion);
   block.facts.emplace_back("Earth", request.earth.convention());
+  block.facts.push_back(terrain_fact(store.metadata(), detail));
+  if (result.certified && !result.decided_exactly)
+    block.facts.emplace_back("Looked at", surface_text(store.metadata(), request.detail));
   block.sources = sources;
   return block;
 }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <itin/surface_text.hpp>
 #include <viewshed/area_text.hpp>
 #include <viewshed/documents.hpp>
 
@@ -46,8 +47,14 @@ std::string plain_text(const viewshed::Result& result) {
 
 }  // namespace
 
-std::string viewshed_text(const viewshed::Result& result, const viewshed::MissingGround& missing) {
+std::string viewshed_text(const StoreMetadata& metadata, const viewshed::Result& result,
+                          const viewshed::MissingGround& missing) {
   std::string text = result.certified ? certified_text(result) : plain_text(result);
+  if (!result.decided_exactly && result.request.detail.coarsest() > 0) {
+    text += "surface: " + surface_text(metadata, result.request.detail);
+    const bool features = result.request.themes.includes_raised(metadata.themes);
+    text += features && !result.certified ? "; some features are left out\n" : "\n";
+  }
   if (missing.share() > 0) text += fmt::format("no ground data: {} of the area looked at\n", missing.text());
   return text + fmt::format("{}, {}; {}\n", counted(result.statistics.triangles, "triangle"),
                             counted(result.statistics.lines, "line"), result.request.earth.convention());

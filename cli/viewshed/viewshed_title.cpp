@@ -6,7 +6,9 @@
 
 namespace itin::cli {
 
-std::string title_of(const viewshed::Result& result) {
+namespace {
+
+std::string title_of_mode(const viewshed::Result& result) {
   using viewshed::Mode;
   const viewshed::Request& request = result.request;
   switch (request.mode) {
@@ -31,6 +33,13 @@ std::string title_of(const viewshed::Result& result) {
       break;
   }
   return result.certified ? "Certified viewshed" : "Viewshed";
+}
+
+}  // namespace
+
+std::string title_of(const viewshed::Result& result) {
+  const double tolerance = result.certified ? 0 : result.request.detail.coarsest();
+  return title_of_mode(result) + (tolerance > 0 ? fmt::format(", at a tolerance of {:g} m", tolerance) : "");
 }
 
 }  // namespace itin::cli

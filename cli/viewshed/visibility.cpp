@@ -178,7 +178,7 @@ class VisibilityVerb final : public Verb {
                       {}};
     profile::TitleBlock& block = sheet.title;
     block.title = "How much is seen from everywhere";
-    block.statement = statement_of(metadata, request_.themes);
+    block.statement = statement_of(metadata, request_.themes, request_.detail);
     block.facts = {{"Observers", fmt::format("at the centres of cells of {:g} m, {:g} m above the ground",
                                              request_.cell_size, request_.height)},
                    {"Targets", fmt::format("{} at random for each observer, {:g} m above the ground", request_.targets,
@@ -186,7 +186,8 @@ class VisibilityVerb final : public Verb {
                    {"Radius", fmt::format("{:g} km", request_.radius / 1000)},
                    {"Undecided", fmt::format("{:.2f} % on average, which ground without data alone could hide",
                                              100 * index.mean_undecided)},
-                   {"Earth", request_.earth.convention()}};
+                   {"Earth", request_.earth.convention()},
+                   terrain_fact(metadata, request_.detail)};
     block.sources = described(sources_in(store, index.grid.bounds(), request_.themes), metadata);
     write_file(sheet_.file(), draw_result_sheet(store, sheet, sheet_.papers().front(), sheet_, sheet_.file(), progress),
                policy_.overwrite);

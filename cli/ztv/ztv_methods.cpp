@@ -89,11 +89,19 @@ std::string screening_in_words(const viewshed::Zone& zone, const StoreMetadata& 
     features += fmt::format("{}{} ({}, {}, from {})", features.empty() ? "" : "; ", theme.name, name_of(theme.kind),
                             counted(theme.features, "feature"), sources_in_words(facts.sources, metadata, theme.name));
   }
+  const double tolerance = zone.request.detail.coarsest();
+  const std::string generalised =
+      tolerance == 0 ? ""
+                     : fmt::format(
+                           " At the tolerance of {:g} m features are generalised, and some are left out: the screening "
+                           "effect is less than theirs.",
+                           tolerance);
   return fmt::format(
       "The results are given for bare ground and, with `-screened` in their names, with the screening effect of these "
-      "features: {}. Their heights are those of their sources. They are taken as solid in all seasons. The observer "
+      "features: {}.{} Their heights are as they were imported: by a field, by one height for all, or by a raster in "
+      "whole steps. They are taken as solid in all seasons. The observer "
       "stands on the ground in both cases; an observer within a feature that is higher than the eye sees nothing.",
-      features);
+      features, generalised);
 }
 
 constexpr const char* kWirelines =

@@ -134,11 +134,11 @@ std::vector<std::string> ZtvRadioOptions::methods(const Zone& zone) const {
         radar_->position.x, radar_->position.y, radar_->height, zone.radar->ground_m));
   if (!links_.empty())
     paragraphs.push_back(fmt::format(
-        "## Radio links\n\n{} links of `{}` at {:g} GHz (wavelength 0.299792458 / f). After Bacon (2002) a rotor must "
+        "## Radio links\n\n{} of `{}` at {:g} GHz (wavelength 0.299792458 / f). After Bacon (2002) a rotor must "
         "stay "
         "out of the second Fresnel zone, of radius sqrt(2 lambda d1 d2 / d), in plan: `link-exclusion.tif` for the "
         "greatest rotor, {:g} m in radius; `turbines.csv` for each turbine's own. Heights are not taken into account.",
-        links_.size(), links_path_, frequency_ghz_, study(zone).rotor_radius_m));
+        counted(links_.size(), "link"), links_path_, frequency_ghz_, study(zone).rotor_radius_m));
   return paragraphs;
 }
 

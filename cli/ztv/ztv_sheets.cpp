@@ -155,15 +155,6 @@ viewshed::ResultMap classes_of(const Zone& zone, const ZoneMap& map) {
   return result;
 }
 
-std::string terrain_on_sheet(const StoreMetadata& metadata, const Detail& detail) {
-  double spacing = 0;
-  for (const SourceInfo& source : metadata.sources)
-    if (source.kind == "terrain") spacing = std::max(spacing, source.spacing);
-  const std::string posts = spacing > 0 ? fmt::format("posts up to {:.3g} m apart; ", spacing) : "";
-  const double tolerance = detail.coarsest();
-  return posts + (tolerance > 0 ? fmt::format("generalised to {:g} m", tolerance) : "every point is used");
-}
-
 std::string without_terrain_in_words(const viewshed::MissingGround& missing) {
   if (missing.share() == 0) return "";
   return fmt::format("; {} of it has no terrain data and is not in the percentages", missing.percent());
@@ -189,7 +180,8 @@ profile::TitleBlock title_block(const StoreMetadata& metadata, const Zone& zone,
                                 const ZtvSheetFacts& facts) {
   profile::TitleBlock block;
   block.title = map.title + (map.screened ? ", screened" : "");
-  block.statement = statement_of(metadata, map.screened ? *zone.request.themes : ThemeChoice::none());
+  block.statement =
+      statement_of(metadata, map.screened ? *zone.request.themes : ThemeChoice::none(), zone.request.detail);
   if (!map.screened) block.statement += " What is shown as visible may be hidden by them.";
   block.facts = {{"Turbines", heights_in_words(zone)},
                  {"Study area", radii_in_words(zone) + without_terrain_in_words(facts.missing)},
@@ -198,7 +190,7 @@ profile::TitleBlock title_block(const StoreMetadata& metadata, const Zone& zone,
                  {"Earth", zone.request.earth.curvature
                                ? "curvature and refraction are taken into account, " + zone.request.earth.convention()
                                : "flat; curvature and refraction are not taken into account"},
-                 {"Terrain", terrain_on_sheet(metadata, zone.request.detail)}};
+                 terrain_fact(metadata, zone.request.detail)};
   block.sources = described(facts.sources, metadata);
   return block;
 }

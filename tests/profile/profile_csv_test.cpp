@@ -56,7 +56,7 @@ TEST(ProfileCsv, NamesTheLineThatIsWrong) {
   EXPECT_EQ(refusal(""), "p.csv: holds 0 rows; a profile takes at least 2: its ends");
   EXPECT_NE(refusal("km,height\n0,1\n1,1\n").find("line 1: column 'km'"), std::string::npos);
   EXPECT_NE(refusal("1,1\n1,2\n").find("no length"), std::string::npos);
-  EXPECT_NE(refusal("1\n2\n").find("line 1: 1 columns"), std::string::npos);
+  EXPECT_NE(refusal("1\n2\n").find("line 1: 1 column;"), std::string::npos);
 }
 
 TEST(ProfileCsv, AFileThatIsNotThereIsAFileError) {

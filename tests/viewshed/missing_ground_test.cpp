@@ -190,7 +190,8 @@ TEST_F(VerdictsOverVoids, FeaturesChangeNothingOfThat) {
   }
 }
 
-/// Whether each cell lies in a field of view and has no ground, asked one by one.
+/// Whether each cell lies in a field of view and has no ground, asked one by one. Where an observer has no radius, only
+/// cells whose centres lie within the box of all data are looked at.
 std::vector<std::uint8_t> without_ground(const Store& store, const Result& result) {
   NoProgress progress;
   std::vector<std::uint8_t> cells;
@@ -206,6 +207,9 @@ std::vector<std::uint8_t> without_ground(const Store& store, const Result& resul
         in_view = in_view || (std::hypot(dx, dy) <= o.radius.value_or(1e9) &&
                               (!o.azimuth || (azimuth >= o.azimuth->from && azimuth <= o.azimuth->to)));
       }
+      const auto& observers = result.request.observers;
+      const bool bounded = std::all_of(observers.begin(), observers.end(), [](const Observer& o) { return o.radius; });
+      in_view = in_view && (bounded || store.metadata().grid.box(store.metadata().bounds).contains(p));
       cells.push_back(in_view && std::isnan(heights[result.grid.index({column, row})]) ? 1 : 0);
     }
   return cells;

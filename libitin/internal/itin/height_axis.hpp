@@ -21,6 +21,8 @@ struct HeightAxis {
 
 /// "heights above Ordnance Datum Newlyn, unit: metre".
 std::string described(const HeightAxis& axis);
+/// "metre", "foot (0.3048 m)".
+std::string unit_text(const HeightAxis& axis);
 
 /// As an import takes heights in this CRS (SourceInfo::source_crs, say): by its vertical part; where it has none, in
 /// the unit of its axes, or in metres where these are angles. Throws InputError.

@@ -19,4 +19,10 @@ constexpr bool is_height(double metres) {
 /// is_height().
 void require_height(double metres, std::string_view place);
 
+/// Whether a number customarily stands for a missing height: -9999, -32767 or -32768. In a file that declares its
+/// missing heights it may be one.
+constexpr bool is_usual_nodata(double height) {
+  return height == -9999 || height == -32767 || height == -32768;
+}
+
 }  // namespace itin

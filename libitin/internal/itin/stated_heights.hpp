@@ -21,9 +21,12 @@ class StatedHeights {
 
   /// What is known of one of these sources. Nothing where it has none, or its CRS is not understood here.
   std::optional<HeightAxis> of(const SourceInfo& source) const;
+  /// "heights above a datum that is not stated, unit: metre"; of features, whose heights may count from the ground or
+  /// from a base, "heights of features, unit: metre"; empty where nothing is known.
+  std::string text_of(const SourceInfo& source) const;
 
  private:
-  bool lies_on_ground(const SourceInfo& source) const;
+  const ThemeInfo* theme_of(const SourceInfo& source) const;
 
   const StoreMetadata& metadata_;
   std::map<std::string, std::optional<HeightAxis>> axes_;  ///< by CRS: many tiles have one

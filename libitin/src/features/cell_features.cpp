@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include <itin/counted.hpp>
 #include <itin/error.hpp>
 #include <itin/parallel.hpp>
 #include <itin/silent_progress.hpp>
@@ -157,7 +158,7 @@ CellFeatures with_patches(const Store& ground, std::span<const StoredFootprint> 
   }
   for (const auto& [of, count] : beyond)
     result.reports.push_back(
-        {of.first, fmt::format("{}: {} cells left out: they reach beyond the ground", of.second, count)});
+        {of.first, fmt::format("{}: {} left out: beyond the ground", of.second, counted(count, "cell"))});
   return result;
 }
 

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <itin/counted.hpp>
 #include <itin/error.hpp>
 
 namespace itin {
@@ -20,13 +21,15 @@ std::string filters_of(const ImportOptions& options) {
 std::string what_became(const ImportReport& report, const ImportOptions& options) {
   std::string text;
   if (report.filtered > 0 && options.classes.empty() && options.where.empty()) {
-    text =
-        fmt::format("{} points are noise (classes 7, 18) or withheld, unless `classes` asks for them", report.filtered);
+    text = fmt::format("{} left out as noise (classes 7, 18), unless `classes` asks for these, or as withheld",
+                       counted(report.filtered, "point"));
   } else if (report.filtered > 0) {
-    text = fmt::format("{} out {} points or features", filters_of(options), report.filtered);
+    text = fmt::format("{} out, or their files withhold, {}", filters_of(options),
+                       counted(report.filtered, "point or feature", "points or features"));
   }
   if (report.voids > 0)
-    text += fmt::format("{}{} posts, points or lines have no height", text.empty() ? "" : ", ", report.voids);
+    text += fmt::format("{}{} without a height", text.empty() ? "" : ", ",
+                        counted(report.voids, "post, point or line", "posts, points or lines"));
   return text.empty() ? "the sources hold no point with a height" : text;
 }
 

@@ -291,7 +291,8 @@ void StorePass::count(const PyramidReport& pyramid, const ThemeLines& lines) {
                                              options_.sea_area.empty()
                                                  ? "the box about the sources; give `sea_area` for "
                                                    "sea beyond them"
-                                                 : "`sea_area`"));
+                                                 : "`sea_area`, or it lies beside all posts; it is in the "
+                                                   "store's CRS"));
   }
   require_ground(report_, options_);
 }

@@ -14,6 +14,11 @@ namespace itin::profile {
 /// "no data over 1.200 km of the line, which leaves it undecided; known ground does not hide it"; empty without
 /// gaps.
 std::string gap_text(const LosReport& report);
+/// What reports say of the factor ke.
+inline constexpr const char* kAboutKe =
+    "ke is 157 / (144 + 2670 / length in km), a formula that has not been confirmed from the text of ITU-R P.530.";
+/// What gap_text() says; else why the verdict is undecided; empty where neither needs words.
+std::string reason_of(const LosReport& report);
 /// "Visible", or "Undecided: " and why; after a colon as well what is without data.
 std::string verdict_text(const LosReport& report);
 /// "meets by 0.40 F1 (3.10 m)", "fails by ...", "undecided".

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <itin/coordinates.hpp>
+#include <itin/counted.hpp>
 #include <itin/error.hpp>
 #include <itin/height_limit.hpp>
 #include <itin/paths.hpp>
@@ -218,7 +219,8 @@ class TableReader {
 
   Link link_of(const std::vector<std::string>& cells) const {
     if (cells.size() != width_)
-      throw InputError(fmt::format("has {} columns instead of {}: id,x1,y1,h1,x2,y2,h2", cells.size(), width_));
+      throw InputError(
+          fmt::format("has {} instead of {}: id,x1,y1,h1,x2,y2,h2", counted(cells.size(), "column"), width_));
     Link link{cells[columns_.of[0]], position_of(cells, 1), height_of(cells, 3), position_of(cells, 4),
               height_of(cells, 6)};
     for (const auto& [i, extra] : columns_.extras) {

@@ -14,6 +14,7 @@
 #include <itin/grid_reference.hpp>
 #include <itin/level_choice.hpp>
 #include <itin/sources_in.hpp>
+#include <itin/surface_text.hpp>
 
 #include "lines/line_sources.hpp"
 #include "lines/magnetic_azimuth.hpp"
@@ -74,14 +75,12 @@ std::string names_in(const std::vector<std::string>& themes) {
 std::vector<std::pair<std::string, std::string>> facts_about(const Store& store, const StoreLine& line,
                                                              const std::vector<SourceInfo>& sources) {
   const StoreMetadata& metadata = store.metadata();
-  const CertifiedError error = certified_error(metadata, line.detail);
   std::vector<std::pair<std::string, std::string>> facts = {
       {"Store", std::filesystem::path(store.path()).filename().string()}};
   for (const std::string& text : described(sources, metadata)) facts.emplace_back("Source", text);
   facts.insert(facts.end(),
                {{"CRS", fmt::format("{} ({})", crs_title(metadata.crs_wkt), crs_identifier(metadata.crs_wkt))},
-                {"Surface", fmt::format("tolerance {:g} m, certified error {:+.2f} to {:+.2f} m; themes: {}",
-                                        line.detail.coarsest(), error.lo, error.hi,
+                {"Surface", fmt::format("{}; themes: {}", surface_text(metadata, line.detail),
                                         names_in(line.themes.names(metadata.themes)))}});
   return facts;
 }

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include <itin/counted.hpp>
 #include <itin/error.hpp>
 #include <itin/height_limit.hpp>
 #include <profile/profile.hpp>
@@ -53,7 +54,9 @@ class Reader {
     throw InputError(fmt::format("{}, line {}: {}", name_, line_, what));
   }
   void set_columns(std::size_t count) {
-    if (count < 2 || count > 3) fail(fmt::format("{} columns; expected d_km,h_m or d_km,h_m,clutter_m", count));
+    if (count < 2 || count > 3)
+      fail(fmt::format("{}; expected d_km,h_m or d_km,h_m,clutter_m",
+                       counted(static_cast<std::uint64_t>(count), "column")));
     columns_ = count;
   }
   void read_header(const std::vector<std::string>& names) {
@@ -69,6 +72,9 @@ class Reader {
     const auto parsed = number_in(text, separator_);
     if (!parsed) fail(fmt::format("{} '{}' is not a number", kProfileColumns[column], text));
     if (!std::isfinite(*parsed)) fail(fmt::format("{} '{}' is not a finite number", kProfileColumns[column], text));
+    if (column == 1 && is_usual_nodata(*parsed))
+      fail(
+          fmt::format("{} '{}' stands for missing data, which a profile must not have", kProfileColumns[column], text));
     return *parsed;
   }
   void read_row(const std::vector<std::string>& fields) {

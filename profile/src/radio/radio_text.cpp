@@ -14,8 +14,8 @@ namespace itin::profile {
 
 namespace {
 
-/// ITU Radio Regulations: radio waves end at 3000 GHz; links, at some 300.
-constexpr double kMostGhz = 300;
+/// ITU Radio Regulations: radio waves end at 3000 GHz; links, at some 300. Below a megahertz waves follow the ground.
+constexpr double kLeastGhz = 1e-3, kMostGhz = 300;
 
 std::string lower_trimmed(std::string_view text) {
   std::string result;
@@ -54,6 +54,7 @@ double parse_frequency_ghz(std::string_view text) {
   const auto number = positive_number(digits);
   if (!number || *number == 0) throw InputError("no frequency; give GHz, such as 7.5, or 7500MHz");
   const bool bare = digits.size() == given.size();
+  if (*number * unit < kLeastGhz) throw InputError(fmt::format("{:g} GHz is below radio links", *number * unit));
   if (*number * unit > kMostGhz)
     throw InputError(fmt::format("{:g} GHz is beyond radio links{}", *number * unit,
                                  bare ? fmt::format("; give GHz, {:g}, or {:g}MHz", *number / 1000, *number) : ""));

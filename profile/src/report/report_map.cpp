@@ -46,10 +46,17 @@ class Path {
     return line;
   }
   std::vector<Point3> ray_line() const { return ray_line(0, report_.profile.length_m); }
-  std::vector<Point3> ground_line() const {
-    std::vector<Point3> line;
-    for (const ProfilePoint& p : report_.profile.points) line.push_back({p.x, p.y, p.ground_m});
-    return line;
+  /// One for each stretch of known ground.
+  std::vector<std::vector<Point3>> ground_lines() const {
+    const Profile& profile = report_.profile;
+    std::vector<std::vector<Point3>> lines;
+    for (std::size_t i = 0; i < profile.points.size(); ++i) {
+      if (i == 0 || !profile.joined(i - 1)) lines.emplace_back();
+      const ProfilePoint& p = profile.points[i];
+      lines.back().push_back({p.x, p.y, p.ground_m});
+    }
+    std::erase_if(lines, [](const auto& line) { return line.size() < 2; });
+    return lines;
   }
   std::vector<Point3> obstruction_line(const Obstruction& o) const {
     std::vector<Point3> line = {ray(o.from_m)};
@@ -135,7 +142,7 @@ std::string report_kml(const LosReport& report) {
   if (report.critical) kml.point("Critical point, " + critical_line(report), place_of(*report.critical));
   for (const PointOfPath& p : path_points(report)) kml.point(p.name, p.place);
   kml.line("Ray", "ray", path.ray_line());
-  kml.line("Ground", "ground", path.ground_line());
+  for (const std::vector<Point3>& line : path.ground_lines()) kml.line("Ground", "ground", line);
   for (const Obstruction& o : report.obstructions) {
     kml.line(obstruction_name(report, o), "cut", path.obstruction_line(o));
   }
@@ -181,9 +188,8 @@ std::vector<VectorLayer> report_layers(const LosReport& report) {
   for (const PointOfPath& p : path_points(report))
     ends.features.push_back({{p.place}, {std::string(p.what), p.distance_m, {}}});
   VectorLayer ground{"ground", Shape::kLines, {{"points", kWhole}}, {}};
-  if (report.profile.points.size() > 1) {
-    ground.features.push_back({path.ground_line(), {static_cast<std::int64_t>(report.profile.points.size())}});
-  }
+  for (const std::vector<Point3>& stretch : path.ground_lines())
+    ground.features.push_back({stretch, {static_cast<std::int64_t>(stretch.size())}});
   VectorLayer cuts{
       "obstructions",
       Shape::kLines,

@@ -35,14 +35,18 @@ std::string gap_text(const LosReport& report) {
                          : "the surface's certified error leaves open whether known ground hides it");
 }
 
+std::string reason_of(const LosReport& report) {
+  if (std::string gaps = gap_text(report); !gaps.empty()) return gaps;
+  if (report.verdict != SightVerdict::kUndecided) return {};
+  return fmt::format("the surface's certified error, {:.2f} m, is greater than the margin; at a tolerance of 0 it is 0",
+                     report.query.clearance_error_m);
+}
+
 std::string verdict_text(const LosReport& report) {
   std::string text = name_of(report.verdict);
   text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
-  const std::string gaps = gap_text(report);
-  if (!gaps.empty()) return text + ": " + gaps;
-  if (report.verdict != SightVerdict::kUndecided) return text;
-  return text + fmt::format(": the surface's certified error, {:.2f} m, is greater than the margin",
-                            report.query.clearance_error_m);
+  const std::string why = reason_of(report);
+  return why.empty() ? text : text + ": " + why;
 }
 
 std::string outcome_text(const CriterionResult& result) {

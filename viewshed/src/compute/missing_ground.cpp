@@ -15,14 +15,28 @@ namespace itin::viewshed {
 
 namespace {
 
-/// Calls found(place) on any thread for cells that are in view but for their elevation, and outside the result. Returns
-/// how many they are.
+bool is_bounded(const Request& request) {
+  return request.grid || all_bounded(request);
+}
+
+/// Where observers look. A request that does not say so asks about the box of all data: cells on its rim, whose centres
+/// lie beyond it, are there to fill the raster.
+Box area_of(const Store& store, const Result& result) {
+  return is_bounded(result.request) ? result.grid.bounds() : extent_of(store);
+}
+
+/// Calls found(place) on any thread for cells of the area that are in view but for their elevation, and outside the
+/// result. Returns how many they are.
 template <class Found>
-std::uint64_t for_each_outside(const Result& result, const Found& found) {
+std::uint64_t for_each_outside(const Result& result, const Box& area, const Found& found) {
   if (result.cells.outside == 0) return 0;
   return for_each_cell_in_view(
       result.request, result.grid,
-      [&](RasterGrid::Cell place) { return result.visible[result.grid.index(place)] == Verdict::kOutside; }, found);
+      [&](RasterGrid::Cell place) {
+        return result.visible[result.grid.index(place)] == Verdict::kOutside &&
+               area.contains(result.grid.centre(place.column, place.row));
+      },
+      found);
 }
 
 /// Leaves those without ground.
@@ -37,7 +51,9 @@ std::uint64_t count_without_ground(const Store& store, const Result& result, Pro
     const std::vector<MapView> views = views_of(result.request);
     const bool one_view_holds_all =
         std::any_of(views.begin(), views.end(), [&](const MapView& view) { return view.holds(result.grid.bounds()); });
-    return one_view_holds_all ? result.cells.outside : for_each_outside(result, [](RasterGrid::Cell) {});
+    return one_view_holds_all && is_bounded(result.request)
+               ? result.cells.outside
+               : for_each_outside(result, area_of(store, result), [](RasterGrid::Cell) {});
   }
   const std::vector<std::uint8_t> cells = cells_without_ground(store, result, progress);
   return static_cast<std::uint64_t>(std::count(cells.begin(), cells.end(), 1));
@@ -71,7 +87,7 @@ std::vector<std::uint8_t> cells_without_ground(const Store& store, const Result&
   if (result.cells.outside == 0) return {};
   const RasterGrid& grid = result.grid;
   std::vector<std::uint8_t> cells(grid.cell_count());
-  for_each_outside(result, [&](RasterGrid::Cell place) { cells[grid.index(place)] = 1; });
+  for_each_outside(result, area_of(store, result), [&](RasterGrid::Cell place) { cells[grid.index(place)] = 1; });
   if (bounds_elevations(result.request) && std::find(cells.begin(), cells.end(), 1) != cells.end())
     leave_out_ground(coverage_of(store, Window::box(grid.bounds()), progress), grid, cells);
   return cells;
@@ -85,7 +101,7 @@ MissingGround missing_ground(const Store& store, const Result& result, Progress&
   missing.without_ground = count_without_ground(store, result, progress);
   missing.with_ground = result.cells.in_view();
   missing.beyond = static_cast<std::uint64_t>(cells_beyond(request, grid).count());
-  missing.bounded = request.grid || all_bounded(request);
+  missing.bounded = is_bounded(request);
   return missing;
 }
 

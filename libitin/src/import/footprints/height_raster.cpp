@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <gdal_priv.h>
 
+#include <itin/counted.hpp>
 #include <itin/error.hpp>
 #include <itin/height_limit.hpp>
 
@@ -164,13 +165,13 @@ class HeightRasterReading {
 
   void add_warnings() {
     if (negative_ > 0)
-      result_.footprints.warnings.push_back(fmt::format(
-          "{}: {} cells lie below zero, by up to {:g} m, and do not stand", query_.path, negative_, -lowest_));
+      result_.footprints.warnings.push_back(fmt::format("{}: {} below zero, by up to {:g} m, left out", query_.path,
+                                                        counted(negative_, "cell"), -lowest_));
     if (band_.undeclared_voids() > 0)
       result_.footprints.warnings.push_back(
-          fmt::format("{}: {} cells of -9999, -32767 or -32768 were taken as missing, though the file does not declare "
-                      "these as nodata",
-                      query_.path, band_.undeclared_voids()));
+          fmt::format("{}: {} of -9999, -32767 or -32768 taken as missing, though the file does not declare these as "
+                      "nodata",
+                      query_.path, counted(band_.undeclared_voids(), "cell")));
   }
 
   const HeightRasterQuery& query_;

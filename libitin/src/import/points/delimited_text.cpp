@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <itin/counted.hpp>
 #include <itin/decimal_comma.hpp>
 #include <itin/error.hpp>
 #include <itin/position_columns.hpp>
@@ -118,7 +119,7 @@ class RowParser {
   Point3 operator()(std::string_view line, std::uint64_t line_number) {
     split(line, separator_, wanted_, fields_);
     if (fields_.size() < wanted_)
-      fail(line, line_number, fmt::format("{} columns, but {} are needed", fields_.size(), wanted_));
+      fail(line, line_number, fmt::format("{}, but {} are needed", counted(fields_.size(), "column"), wanted_));
     Point3 point;
     point.x = coordinate(0, line, line_number);
     point.y = coordinate(1, line, line_number);

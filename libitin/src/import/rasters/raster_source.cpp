@@ -14,6 +14,7 @@
 #include <gdal_priv.h>
 #include <ogr_spatialref.h>
 
+#include <itin/counted.hpp>
 #include <itin/error.hpp>
 #include <itin/raster_values.hpp>
 
@@ -195,9 +196,9 @@ ReadCounts RasterTerrain::counts(std::uint64_t undeclared_voids) const {
   counts.warnings.insert(counts.warnings.begin(), warnings_.begin(), warnings_.end());
   if (undeclared_voids > 0)
     counts.warnings.push_back(
-        fmt::format("{}: {} posts of -9999, -32767 or -32768 were taken as missing, though the file does not declare "
-                    "these as nodata",
-                    path_, undeclared_voids));
+        fmt::format("{}: {} of -9999, -32767 or -32768 taken as missing, though the file does not declare these as "
+                    "nodata",
+                    path_, counted(undeclared_voids, "post")));
   return counts;
 }
 

@@ -20,7 +20,7 @@ std::string about(const SourceInfo& source, const StatedHeights& heights) {
   std::string text = source.theme.empty() ? "" : fmt::format("{} in theme {}", source.kind, source.theme);
   const auto add = [&](const std::string& part) { text += (text.empty() ? "" : "; ") + part; };
   if (source.theme.empty() && source.spacing > 0) add(fmt::format("posts every {:.4g} m", source.spacing));
-  if (const auto axis = heights.of(source)) add(described(*axis));
+  if (const std::string text_of_heights = heights.text_of(source); !text_of_heights.empty()) add(text_of_heights);
   if (!source.note.empty()) add(source.note);
   return text;
 }

@@ -15,6 +15,7 @@
 
 #include <itin/file_digest.hpp>
 #include <itin/geometry.hpp>
+#include <itin/height_limit.hpp>
 
 #include "gdal/crs.hpp"
 #include "import/source/source_heights.hpp"
@@ -56,11 +57,6 @@ Crs source_crs(const std::string& path, const std::string& option_crs, const std
 
 /// Whether a number is one that customarily stands for a missing height, and is none for sure.
 bool is_missing_mark(double height);
-/// Whether a number customarily stands for a missing height: -9999, -32767 or -32768. In a file that declares its
-/// missing heights it may be one.
-constexpr bool is_usual_nodata(double height) {
-  return height == -9999 || height == -32767 || height == -32768;
-}
 /// Takes points from a source's coordinates to the grid, a batch at a time; the last step of every kind of source.
 class Placement {
  public:

@@ -58,10 +58,13 @@ SourceHeights source_heights(const std::string& path, const std::optional<Linear
   return heights;
 }
 
+std::string unit_text(const HeightAxis& axis) {
+  return axis.metres == 1 ? axis.unit : fmt::format("{} ({:.9g} m)", axis.unit, axis.metres);
+}
+
 std::string described(const HeightAxis& axis) {
-  const std::string unit = axis.metres == 1 ? axis.unit : fmt::format("{} ({:.9g} m)", axis.unit, axis.metres);
   return fmt::format("{} {}, unit: {}", axis.down ? "depths below" : "heights above",
-                     axis.datum.empty() ? "a datum that is not stated" : axis.datum, unit);
+                     axis.datum.empty() ? "a datum that is not stated" : axis.datum, unit_text(axis));
 }
 
 HeightAxis height_axis(const std::string& crs) {

@@ -23,14 +23,24 @@ StatedHeights::StatedHeights(const StoreMetadata& metadata) : metadata_(metadata
 }
 
 std::optional<HeightAxis> StatedHeights::of(const SourceInfo& source) const {
-  if (source.source_crs.empty() || lies_on_ground(source)) return std::nullopt;
+  const ThemeInfo* theme = theme_of(source);
+  const bool lies_on_ground = theme != nullptr && !is_terrain(theme->kind) && !theme->is_raised();
+  if (source.source_crs.empty() || lies_on_ground) return std::nullopt;
   return axes_.at(source.source_crs);
 }
 
-bool StatedHeights::lies_on_ground(const SourceInfo& source) const {
+std::string StatedHeights::text_of(const SourceInfo& source) const {
+  const std::optional<HeightAxis> axis = of(source);
+  if (!axis) return {};
+  const ThemeInfo* theme = theme_of(source);
+  const bool may_be_relative = theme != nullptr && theme->is_raised() && theme->kind != ThemeKind::Surface;
+  return may_be_relative ? "heights of features, unit: " + unit_text(*axis) : described(*axis);
+}
+
+const ThemeInfo* StatedHeights::theme_of(const SourceInfo& source) const {
   const auto theme = std::find_if(metadata_.themes.begin(), metadata_.themes.end(),
                                   [&](const ThemeInfo& t) { return t.name == source.theme; });
-  return theme != metadata_.themes.end() && !is_terrain(theme->kind) && !theme->is_raised();
+  return theme == metadata_.themes.end() ? nullptr : &*theme;
 }
 
 }  // namespace itin

@@ -1,0 +1,16 @@
+// Numbers in the form people read.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace itin {
+
+/// 1234567 as "1,234,567".
+std::string grouped(std::uint64_t number);
+
+/// "1 block", "1,234 blocks"; `plural` where it is not made by an s.
+std::string counted(std::uint64_t number, std::string_view noun, std::string_view plural = {});
+
+}  // namespace itin
