@@ -167,7 +167,8 @@ class ColumnList {
     of_end("azimuth_magnetic2_deg", "declination2_deg", &Geodesic::back_azimuth_deg, &LinkRow::to_declination_deg);
   }
   void add_radio() {
-    const auto of_radio = [&](const char* name, VectorLayer::Type type, std::function<Value(const RadioPath&)> value) {
+    const auto of_radio = [&](const char* name, VectorLayer::Type type,
+                              const std::function<Value(const RadioPath&)>& value) {
       of_result(
           name, [value](const LinkResult& r) { return r.radio ? value(*r.radio) : Value(); }, type);
     };

@@ -9,6 +9,7 @@
 #include <itin/lattice_reader.hpp>
 #include <itin/level_choice.hpp>
 #include <itin/window.hpp>
+#include <viewshed/surface.hpp>
 
 namespace itin::viewshed {
 

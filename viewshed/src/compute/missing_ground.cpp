@@ -5,6 +5,7 @@
 
 #include <viewshed/area_text.hpp>
 #include <viewshed/missing_ground.hpp>
+#include <viewshed/surface.hpp>
 
 #include "bounds/pixel_heights.hpp"
 #include "request/cells_in_view.hpp"

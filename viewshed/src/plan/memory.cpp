@@ -27,7 +27,6 @@ std::uint64_t bytes_per_cell(const Request& request) {
     case Mode::kProbability:
       return kVerdict + 8;
     case Mode::kLoss:
-      return kVerdict + 20;
     case Mode::kNearest:
       return kVerdict + 20;
     case Mode::kBlocker:
