@@ -26,7 +26,7 @@ using profile::LinkTable;
 
 /// The first error in rows that cannot be read, else in links.
 std::string first_error(const LinkTable& table, const std::vector<LinkResult>& results, const StoreMetadata& metadata) {
-  if (!table.bad.empty()) return fmt::format("line {}: {}", table.bad.front().line, table.bad.front().message);
+  if (!table.bad.empty()) return fmt::format("{}: {}", table.bad.front().place, table.bad.front().message);
   const auto first = std::find_if(results.begin(), results.end(), [](const LinkResult& r) { return !r.found; });
   const Link& link = table.links[static_cast<std::size_t>(first - results.begin())];
   const Point2 end = is_on_the_data(link.from, metadata) ? link.to : link.from;

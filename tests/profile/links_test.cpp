@@ -208,7 +208,7 @@ TEST(LinkTable, NamesTheRowsThatItDoesNotUnderstand) {
   ASSERT_EQ(table.links.size(), 2U);
   ASSERT_EQ(table.bad.size(), 2U);
   EXPECT_EQ(table.bad[0].row, 2U);
-  EXPECT_EQ(table.bad[0].line, 4U);
+  EXPECT_EQ(table.bad[0].place, "line 4");
   EXPECT_EQ(table.bad[0].id, "b");
   EXPECT_EQ(table.bad[1].row, 3U);
   EXPECT_EQ(table.bad[1].message, "x2 'nan' is no number");

@@ -3,6 +3,7 @@
 //   for (const Path& path : read_paths("ridge.gpkg", store.metadata().crs_wkt)) ...
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -18,9 +19,24 @@ struct Path {
   std::vector<Point2> corners;  ///< at least two, in the CRS asked for
 };
 
+/// A feature that is no line, or has a place that the CRS asked for does not know.
+struct BadPath {
+  std::size_t row = 0;  ///< of all features of the file, from 1
+  std::int64_t feature = 0;
+  std::string id;  ///< as Path::id
+  std::string message;
+};
+
+struct PathFile {
+  std::vector<Path> paths;
+  std::vector<BadPath> bad;  ///< in the file's order
+};
+
 /// Every line of every layer, in the file's order, in the CRS `to_crs` (WKT); a file that states no CRS is taken to be
-/// in it. Features that are no lines are errors. Throws FileError for a file or feature that is missing or not
-/// understood (naming it), InputError for a CRS that is unknown.
+/// in it. Throws FileError for a file that is missing or not understood, InputError for a CRS that is unknown.
+PathFile read_path_file(const std::string& path, const std::string& to_crs);
+
+/// The lines alone. Throws as read_path_file() does, and FileError naming the first feature that is none.
 std::vector<Path> read_paths(const std::string& path, const std::string& to_crs);
 
 /// How far along the path each corner is, horizontally: 0 at the first, the path's length at the last.

@@ -47,11 +47,11 @@ struct LinkHeights {
   double from_m = 0, to_m = 0;
 };
 
-/// A row that cannot be understood.
+/// A row, or a feature of a file of lines, that cannot be understood.
 struct BadLink {
-  std::size_t row = 0;   ///< from 1, not counting the header
-  std::size_t line = 0;  ///< of the file, from 1
-  std::string id;        ///< as far as there is one
+  std::size_t row = 0;  ///< from 1, not counting the header
+  std::string place;    ///< "line 7" of a table, "feature 3" by the file's own number
+  std::string id;       ///< as far as there is one
   std::string message;
   std::vector<std::string> others = {};  ///< as Link::others
 };
@@ -67,8 +67,8 @@ struct LinkTable {
 /// that are kept; for x and y stands easting and northing, or lon and lat, each with 1 or 2 behind it, or one column
 /// `position` (`gridref`) with a grid reference. Semicolons or tabs may separate, and then commas be decimal. In the
 /// CRS `to_crs` (WKT); CSV tables are taken to be in `csv_crs`, if that is empty in longitude and latitude where the
-/// header calls them so, else in `to_crs`. Throws FileError naming the feature of a file of lines, InputError for an
-/// unknown CRS and for a file without links.
+/// header calls them so, else in `to_crs`. Throws FileError for a file that is missing or not understood, InputError
+/// for an unknown CRS and for a file without links.
 LinkTable read_link_table(const std::string& path, const std::string& to_crs, const LinkHeights& heights,
                           const std::string& csv_crs = {});
 

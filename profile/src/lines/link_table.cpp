@@ -159,7 +159,8 @@ class TableReader {
       try {
         table_.links.push_back(link_of(cells));
       } catch (const InputError& error) {
-        table_.bad.push_back({row, number, cell(cells, columns_.of[0]), error.what(), others_of(cells)});
+        table_.bad.push_back(
+            {row, fmt::format("line {}", number), cell(cells, columns_.of[0]), error.what(), others_of(cells)});
       }
     }
   }
@@ -248,11 +249,14 @@ bool is_table(const std::string& path) {
   return path.size() > 4 && path.ends_with(".csv");
 }
 
-std::vector<Link> read_lines(const std::string& path, const std::string& to_crs, const LinkHeights& heights) {
-  std::vector<Link> links;
-  for (const Path& line : read_paths(path, to_crs))
-    links.push_back({line.id, line.corners.front(), heights.from_m, line.corners.back(), heights.to_m});
-  return links;
+LinkTable read_lines(const std::string& path, const std::string& to_crs, const LinkHeights& heights) {
+  LinkTable table;
+  const PathFile file = read_path_file(path, to_crs);
+  for (const Path& line : file.paths)
+    table.links.push_back({line.id, line.corners.front(), heights.from_m, line.corners.back(), heights.to_m});
+  for (const BadPath& bad : file.bad)
+    table.bad.push_back({bad.row, fmt::format("feature {}", bad.feature), bad.id, bad.message});
+  return table;
 }
 
 }  // namespace
@@ -263,7 +267,7 @@ LinkTable read_link_table(const std::string& path, const std::string& to_crs, co
   if (is_table(path)) {
     TableReader(path, to_crs, csv_crs, table).read();
   } else {
-    table.links = read_lines(path, to_crs, heights);
+    table = read_lines(path, to_crs, heights);
   }
   if (table.links.empty() && table.bad.empty())
     throw InputError(fmt::format("{}: holds no link; give rows id,x1,y1,h1,x2,y2,h2, or lines", path));

@@ -261,8 +261,7 @@ std::vector<LinkRow> link_rows(const LinkSurvey& survey) {
   auto bad = survey.table.bad.begin();
   for (std::size_t row = 1, i = 0; i < survey.results.size() || bad != survey.table.bad.end(); ++row) {
     if (bad != survey.table.bad.end() && bad->row == row) {
-      rows.push_back(
-          {bad->id, nullptr, nullptr, fmt::format("line {}: {}", bad->line, bad->message), &bad->others, {}});
+      rows.push_back({bad->id, nullptr, nullptr, fmt::format("{}: {}", bad->place, bad->message), &bad->others, {}});
       ++bad;
       continue;
     }

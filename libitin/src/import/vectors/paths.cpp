@@ -1,5 +1,6 @@
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 #include <gdal_priv.h>
@@ -35,40 +36,49 @@ const OGRLineString* line_of(const OGRFeature& feature) {
   return geometry->toMultiLineString()->getGeometryRef(0);
 }
 
-Path path_of(const OGRFeature& feature, const std::string& place, const CoordinateTransform* transform) {
+std::string id_of(const OGRFeature& feature) {
+  return first_of(feature, "id", "name", std::to_string(feature.GetFID()));
+}
+
+/// Throws InputError where it is no line.
+Path path_of(const OGRFeature& feature, const CoordinateTransform* transform) {
   const OGRLineString* line = line_of(feature);
-  if (line == nullptr || line->getNumPoints() < 2) throw FileError(place, "is not one line of two or more points");
-  Path path{feature.GetFID(),
-            first_of(feature, "id", "name", std::to_string(feature.GetFID())),
-            first_of(feature, "name", "id", ""),
-            {}};
+  if (line == nullptr || line->getNumPoints() < 2) throw InputError("is not one line of two or more points");
+  Path path{feature.GetFID(), id_of(feature), first_of(feature, "name", "id", ""), {}};
   for (int i = 0; i < line->getNumPoints(); ++i) {
     const Point2 p{line->getX(i), line->getY(i)};
-    try {
-      path.corners.push_back(transform != nullptr ? (*transform)(p) : p);
-    } catch (const InputError& error) {
-      throw FileError(place, error.what());
-    }
+    path.corners.push_back(transform != nullptr ? (*transform)(p) : p);
   }
   return path;
 }
 
 }  // namespace
 
-std::vector<Path> read_paths(const std::string& path, const std::string& to_crs) {
+PathFile read_path_file(const std::string& path, const std::string& to_crs) {
   const QuietGdal quiet;
   const GDALDatasetUniquePtr dataset = open_vector_file(path, nullptr);
-  std::vector<Path> paths;
+  PathFile file;
   for (OGRLayer* layer : dataset->GetLayers()) {
     if (holds_styles(*layer)) continue;
     std::optional<CoordinateTransform> transform;
     if (const OGRSpatialReference* own = layer->GetSpatialRef()) transform.emplace(wkt_of(*own), to_crs);
     while (const OGRFeatureUniquePtr feature = next_feature(*layer, path)) {
-      const std::string place = fmt::format("{}: feature {}", path, feature->GetFID());
-      paths.push_back(path_of(*feature, place, transform ? &*transform : nullptr));
+      try {
+        file.paths.push_back(path_of(*feature, transform ? &*transform : nullptr));
+      } catch (const InputError& error) {
+        const std::size_t row = file.paths.size() + file.bad.size() + 1;
+        file.bad.push_back({row, feature->GetFID(), id_of(*feature), error.what()});
+      }
     }
   }
-  return paths;
+  return file;
+}
+
+std::vector<Path> read_paths(const std::string& path, const std::string& to_crs) {
+  PathFile file = read_path_file(path, to_crs);
+  if (!file.bad.empty())
+    throw FileError(fmt::format("{}: feature {}", path, file.bad.front().feature), file.bad.front().message);
+  return std::move(file.paths);
 }
 
 std::vector<double> distances_along(const std::vector<Point2>& corners) {
