@@ -53,6 +53,14 @@ constexpr std::int64_t doubled_area(const A& a, const B& b, const C& c) {
   return abx * acy - aby * acx;
 }
 
+/// Whether p lies ahead as seen from a place that faces another: within a right angle of that direction.
+template <GridPosition A, GridPosition B, GridPosition P>
+constexpr bool lies_ahead(const A& from, const B& to, const P& p) {
+  return (std::int64_t{p.x} - from.x) * (std::int64_t{to.x} - from.x) +
+             (std::int64_t{p.y} - from.y) * (std::int64_t{to.y} - from.y) >
+         0;
+}
+
 /// +1 counterclockwise, 0 collinear, -1 clockwise.
 template <GridPosition A, GridPosition B, GridPosition C>
 constexpr int orientation(const A& a, const B& b, const C& c) {

@@ -123,7 +123,7 @@ void write_in_passes(Target target, const Store* existing, Additions additions, 
   const Store* ground = has_uncut_ground(base) && !additions.footprints.empty() ? base : nullptr;
   std::deque<Unfinished> interim;  // stores for the time of this import only
   std::optional<Store> before;
-  RaisedFeatures raised;
+  RaisedFeaturesReport raised;
   for (int raisings = 0;;) {
     raisings += ground != nullptr ? 1 : 0;
     interim.emplace_back(fmt::format("{}.ground{}", target.path, interim.size()));

@@ -11,7 +11,7 @@ namespace itin {
 namespace {
 
 /// How many features of a theme no longer stand.
-std::uint64_t lost(const RaisedTheme& theme, const StoreMetadata* before) {
+std::uint64_t lost(const RaisedThemeReport& theme, const StoreMetadata* before) {
   if (before == nullptr) return 0;
   const auto found = std::find_if(before->themes.begin(), before->themes.end(),
                                   [&](const ThemeInfo& t) { return t.name == theme.name && t.is_raised(); });
@@ -20,10 +20,10 @@ std::uint64_t lost(const RaisedTheme& theme, const StoreMetadata* before) {
 
 }  // namespace
 
-std::vector<std::string> raised_warnings(const RaisedFeatures& raised, const StoreMetadata* before,
+std::vector<std::string> raised_warnings(const RaisedFeaturesReport& raised, const StoreMetadata* before,
                                          std::size_t first_new) {
   std::vector<std::string> warnings;
-  for (const RaisedTheme& theme : raised.themes) {
+  for (const RaisedThemeReport& theme : raised.themes) {
     const std::uint64_t fewer = lost(theme, before);
     Findings findings(fmt::format("theme '{}'", theme.name));
     if (fewer > 0) findings.add(fmt::format("{} of its features stood before, and do not on this ground", fewer));

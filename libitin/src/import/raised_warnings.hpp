@@ -12,7 +12,7 @@ namespace itin {
 
 /// Warns about features of the sources from number `first_new` on, and about themes of which fewer features stand than
 /// in the store before, because the ground has changed. `before` may be null.
-std::vector<std::string> raised_warnings(const RaisedFeatures& raised, const StoreMetadata* before,
+std::vector<std::string> raised_warnings(const RaisedFeaturesReport& raised, const StoreMetadata* before,
                                          std::size_t first_new);
 
 }  // namespace itin

@@ -97,7 +97,7 @@ StorePass::StorePass(const Target& target, const PassSources& of, const ImportOp
   require_numbers();
 }
 
-bool StorePass::run(RaisedFeatures& raised, Progress& progress) {
+bool StorePass::run(RaisedFeaturesReport& raised, Progress& progress) {
   CallProgress call(progress);
   collect(call.step(kCollecting));
   if (ground_ != nullptr) collection_.raise(*ground_, raised, call.step(kRaising));

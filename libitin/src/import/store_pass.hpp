@@ -56,7 +56,7 @@ class StorePass {
   /// Features with heights are raised on the ground, and cut its lines there. Returns false where features need another
   /// pass, on the ground of the interim store that was written instead, which has no points at other levels: this one
   /// has other ground than they were raised on, or they were not.
-  bool run(RaisedFeatures& raised, Progress& progress);
+  bool run(RaisedFeaturesReport& raised, Progress& progress);
 
  private:
   Sources replacing_lines() const;

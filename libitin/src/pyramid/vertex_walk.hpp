@@ -71,8 +71,8 @@ class VertexWalk {
         const std::uint32_t next = mesh_.triangles[t][(i + 1) % 3], previous = mesh_.triangles[t][(i + 2) % 3];
         const int found = side(step == 1 ? previous : next);
         const int of_next = step == 1 ? known : found, of_previous = step == 1 ? found : known;
-        if (of_next == 0 && ahead(from, positions_[next], to)) return {next, t, 0};
-        if (of_previous == 0 && ahead(from, positions_[previous], to)) return {previous, t, 0};
+        if (of_next == 0 && lies_ahead(from, to, positions_[next])) return {next, t, 0};
+        if (of_previous == 0 && lies_ahead(from, to, positions_[previous])) return {previous, t, 0};
         if (of_next < 0 && of_previous > 0) return {kNoTriangle, t, i};
         known = found;
         t = mesh_.neighbours[t][(i + step) % 3];
@@ -84,12 +84,6 @@ class VertexWalk {
   int corner_at(std::uint32_t t, std::uint32_t u) const {
     const auto& v = mesh_.triangles[t];
     return v[0] == u ? 0 : v[1] == u ? 1 : 2;
-  }
-
-  static bool ahead(Position from, Position p, Position to) {
-    return (std::int64_t{p.x} - from.x) * (std::int64_t{to.x} - from.x) +
-               (std::int64_t{p.y} - from.y) * (std::int64_t{to.y} - from.y) >
-           0;
   }
 
   const PlaneMesh& mesh_;

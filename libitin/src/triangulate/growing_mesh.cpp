@@ -207,11 +207,6 @@ std::uint32_t GrowingMesh::place_for(std::size_t number) {
 /// whose opposite edge one leaves.
 SegmentEdge GrowingMesh::edge_towards(std::uint32_t at, std::uint32_t to) const {
   const Position p = position(at), goal = position(to);
-  const auto ahead = [&](Position q) {
-    return (std::int64_t{q.x} - p.x) * (std::int64_t{goal.x} - p.x) +
-               (std::int64_t{q.y} - p.y) * (std::int64_t{goal.y} - p.y) >
-           0;
-  };
   const std::uint32_t start = some_triangle_[at];
   for (const int step : {1, 2}) {  // counterclockwise, and clockwise from where the hull stopped that
     std::uint32_t t = start;
@@ -220,8 +215,9 @@ SegmentEdge GrowingMesh::edge_towards(std::uint32_t at, std::uint32_t to) const 
       while (corner(t, i) != at) ++i;
       const std::uint32_t right = corner(t, i + 1), left = corner(t, i + 2);
       const int right_side = orientation(p, goal, position(right)), left_side = orientation(p, goal, position(left));
-      if (right_side == 0 && ahead(position(right))) return {at, right, t, mesh_.neighbours[t][(i + 2) % 3]};
-      if (left_side == 0 && ahead(position(left))) return {at, left, mesh_.neighbours[t][(i + 1) % 3], t};
+      if (right_side == 0 && lies_ahead(p, goal, position(right)))
+        return {at, right, t, mesh_.neighbours[t][(i + 2) % 3]};
+      if (left_side == 0 && lies_ahead(p, goal, position(left))) return {at, left, mesh_.neighbours[t][(i + 1) % 3], t};
       if (right_side < 0 && left_side > 0) return {at, at, t, kNoTriangle};
       t = mesh_.neighbours[t][(i + step) % 3];
     } while (t != kNoTriangle && t != start);

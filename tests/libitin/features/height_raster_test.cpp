@@ -196,7 +196,7 @@ TEST_F(HeightRaster, LeavesOutWhatReachesBeyondTheGround) {
   const ImportOptions options =
       heights(ThemeKind::Surface, {300208, 199900, 5, 9, 4, 27700}, [](int, int) { return 100; });
   const ImportReport report = import_lines(path("s.itin"), options, progress_);
-  EXPECT_THAT(report.warnings, testing::Contains(testing::HasSubstr("heights.tif: 16 cells left out: they reach")));
+  EXPECT_THAT(report.warnings, testing::Contains(testing::HasSubstr("heights.tif: 16 cells left out: beyond")));
   const Store store(path("s.itin"));
   test::expect_sound(store);
   EXPECT_GT(store.greatest_feature_height(ThemeChoice::all(), {300228, 199890, 300229, 199891}), 20);

@@ -12,8 +12,8 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
 /// Houses of source 1, of which one cannot stand, and a wood of source 2.
-RaisedFeatures town(std::uint64_t houses) {
-  RaisedFeatures raised;
+RaisedFeaturesReport town(std::uint64_t houses) {
+  RaisedFeaturesReport raised;
   raised.themes = {{"houses", houses, {{1, "a: left out: has no area"}}}, {"woods", 1, {{2, "b: has a hole"}}}};
   return raised;
 }
@@ -39,7 +39,7 @@ TEST(RaisedWarnings, TellWhatNoLongerStands) {
 }
 
 TEST(RaisedWarnings, AreTwentyATheme) {
-  RaisedFeatures raised;
+  RaisedFeaturesReport raised;
   raised.themes = {{"houses", 0, std::vector<RaisedReport>(50, {0, "a: left out"})}};
   const auto warnings = raised_warnings(raised, nullptr, 0);
   ASSERT_EQ(warnings.size(), 21U);

@@ -17,6 +17,7 @@ class BlockJudge::BlockWork final : public TileJudge::Work {
       : judge_(judge),
         number_(tile),
         tile_(tile_at(judge.grid_, judge.tiles_, tile)),
+        resolution_(judge.surface_.bounds().units().resolution),
         centres_(judge.surface_.bounds().units(), judge.grid_, tile_),
         all_(all_of(tile_)) {}
 
@@ -30,10 +31,9 @@ class BlockJudge::BlockWork final : public TileJudge::Work {
 
   TileTargets targets() override {
     const Heights& heights = this->heights();
-    const double metres = judge_.surface_.bounds().units().resolution;
     for (std::size_t cell = 0; cell < low_.size(); ++cell) {
-      low_[cell] = judge_.eye_.target(heights.low[cell] * metres) / metres;
-      high_[cell] = judge_.eye_.target(heights.high[cell] * metres) / metres;
+      low_[cell] = judge_.eye_.target(heights.low[cell] * resolution_) / resolution_;
+      high_[cell] = judge_.eye_.target(heights.high[cell] * resolution_) / resolution_;
     }
     return {centres_, low_, high_};
   }
@@ -56,10 +56,9 @@ class BlockJudge::BlockWork final : public TileJudge::Work {
   /// Hides the block where that is certain, else what it can of its quarters, down to about a bin.
   void hide(const CellBlock& block, const TileValues<Verdict>& asked, TileValues<Verdict>& values) const {
     const BinBox box = box_of(block);
-    const double metres = judge_.surface_.bounds().units().resolution;
     const double highest = judge_.surface_.bounds().highest(box) + judge_.surface_.rises().over(tile_, block);
     if (highest == -kInfinity) return;
-    if (judge_.horizon_.hides(box, judge_.eye_.target(highest * metres) / metres))
+    if (judge_.horizon_.hides(box, judge_.eye_.target(highest * resolution_) / resolution_))
       return decide(block, Verdict::kHidden, asked, values);
     if (std::max(box.east - box.west, box.south - box.north) <= kSmallest) return;
     for_each_quarter(block, [&](const CellBlock& quarter) { hide(quarter, asked, values); });
@@ -73,11 +72,11 @@ class BlockJudge::BlockWork final : public TileJudge::Work {
                  north = centres_.y[block.row] - eye.units.y, south = centres_.y[block.row_end - 1] - eye.units.y;
     const double x = std::max({west, -east, 0.0}), y = std::max({south, -north, 0.0});
     const double far_x = std::max(-west, east), far_y = std::max(north, -south);
-    const double metres = judge_.surface_.bounds().units().resolution * judge_.surface_.bounds().units().resolution;
+    const double square_metres = resolution_ * resolution_;
     // The eye's own place lies in no such block.
     return x + y > 1 &&
-           eye.view.holds((x * x + y * y) * metres * (1 - 1e-9),
-                          (far_x * far_x + far_y * far_y) * metres * (1 + 1e-9)) &&
+           eye.view.holds((x * x + y * y) * square_metres * (1 - 1e-9),
+                          (far_x * far_x + far_y * far_y) * square_metres * (1 + 1e-9)) &&
            judge_.surface_.bounds().covers(box_of(block));
   }
 
@@ -98,10 +97,9 @@ class BlockJudge::BlockWork final : public TileJudge::Work {
     });
   }
   Verdict verdict_of_cell(Point2 centre, std::size_t cell, const Heights& heights, Verdict known) const {
-    const double metres = judge_.surface_.bounds().units().resolution;
     const Point2 place = centres_.at(cell);
     const BoundedTarget target =
-        bounded_target(judge_.eye_, centre, place, heights.low[cell] * metres, heights.high[cell] * metres);
+        bounded_target(judge_.eye_, centre, place, heights.low[cell] * resolution_, heights.high[cell] * resolution_);
     if (target.verdict != Verdict::kUndecided || !target.in_view) return target.verdict;
     return judge_.shadow_ && judge_.shadow_->holds(place.x, place.y) ? Verdict::kHidden : known;
   }
@@ -137,6 +135,7 @@ class BlockJudge::BlockWork final : public TileJudge::Work {
   const BlockJudge& judge_;
   std::size_t number_;
   Tile tile_;
+  double resolution_;  ///< metres of a grid unit
   TileCentres centres_;
   CellBlock all_;
   std::unique_ptr<Heights> heights_;
@@ -170,8 +169,8 @@ BlockJudge::BlockJudge(const BoundedEnvelope& surface, const Request& request, c
 bool BlockJudge::may_see(const Box& ground) const {
   const EnvelopeBounds& bounds = surface_.bounds();
   const BinBox box = bounds.in_bins(ground);
-  const double metres = bounds.units().resolution, highest = bounds.highest(box) * metres;
-  return !horizon_.hides(box, std::max(highest, eye_.target(highest)) / metres);
+  const double resolution = bounds.units().resolution, highest = bounds.highest(box) * resolution;
+  return !horizon_.hides(box, std::max(highest, eye_.target(highest)) / resolution);
 }
 
 std::unique_ptr<TileJudge::Work> BlockJudge::begin(std::size_t tile) const {

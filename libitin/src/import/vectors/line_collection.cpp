@@ -261,7 +261,7 @@ bool LineCollection::is_raised() const {
   return std::any_of(themes_.begin(), themes_.end(), [](const CollectedTheme& t) { return !t.footprints.empty(); });
 }
 
-void LineCollection::raise(const Store& ground, RaisedFeatures& report, Progress& progress) {
+void LineCollection::raise(const Store& ground, RaisedFeaturesReport& report, Progress& progress) {
   report = {};
   for (std::uint32_t t = 0; t < themes_.size(); ++t) {
     CollectedTheme& theme = themes_[t];

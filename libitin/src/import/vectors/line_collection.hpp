@@ -25,17 +25,17 @@
 
 namespace itin {
 
-struct RaisedTheme {
+struct RaisedThemeReport {
   std::string name;
   std::uint64_t built = 0;  ///< features that stand
   std::vector<RaisedReport> reports;
 };
 
 /// The features raised for all imports so far.
-struct RaisedFeatures {
+struct RaisedFeaturesReport {
   std::uint64_t features = 0;  ///< that stand
   std::uint64_t refused = 0;
-  std::vector<RaisedTheme> themes;  ///< that stand
+  std::vector<RaisedThemeReport> themes;  ///< that stand
 };
 
 /// Whether lines are taken as they were imported, or as they lie on a ground that features are to be raised on.
@@ -88,7 +88,7 @@ class LineCollection {
   /// Whether any theme is raised.
   bool is_raised() const;
   /// Builds all raised themes on a store's ground. Throws InputError where that takes more than the memory.
-  void raise(const Store& ground, RaisedFeatures& report, Progress& progress);
+  void raise(const Store& ground, RaisedFeaturesReport& report, Progress& progress);
 
   /// Puts the themes in order and the lines of all of them into one plane. `ground` as in raise(), if it was called.
   /// Lines as they were imported make room for `replacing`, which may be null, where their sources do.
