@@ -80,8 +80,10 @@ void HorizonOutput::validate() {
     if (ending != ".svg" && ending != ".png" && ending != ".pdf")
       throw InputError(fmt::format("--horizon '{}': a horizon is written as .csv, .json, .svg, .png or .pdf", path));
   }
-  if (!step_text_.empty()) step_deg_ = parse_number("--horizon-step", step_text_, Range::kPositive);
-  viewshed::require_whole_turn(step_deg_);
+  if (!step_text_.empty()) {
+    step_deg_ = parse_number("--horizon-step", step_text_, Range::kPositive);
+    parsed_by("--horizon-step", step_text_, [&](const std::string&) { viewshed::require_whole_turn(step_deg_); });
+  }
   if (paths_.empty() && !(sites_.path + step_text_).empty())
     throw InputError("--horizon-targets and --horizon-step work only with --horizon FILE");
   if (sites_.path.empty() && !(sites_.name_field + sites_.height_field).empty())
