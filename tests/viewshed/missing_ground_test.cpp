@@ -215,6 +215,17 @@ std::vector<std::uint8_t> without_ground(const Store& store, const Result& resul
   return cells;
 }
 
+TEST(MissingGround, IsNoneOrAllOnlyWhereItIs) {
+  const auto percent = [](std::uint64_t without, std::uint64_t with) {
+    return MissingGround{.without_ground = without, .with_ground = with, .cell_area = 1}.percent();
+  };
+  EXPECT_EQ(percent(0, 5000), "0.0 %");
+  EXPECT_EQ(percent(1, 4999), "less than 0.1 %");
+  EXPECT_EQ(percent(615, 4385), "12.3 %");
+  EXPECT_EQ(percent(4999, 1), "more than 99.9 %");
+  EXPECT_EQ(percent(5000, 0), "100.0 %");
+}
+
 TEST_F(VerdictsOverVoids, CellsInViewWithoutGroundAreTold) {
   const Store store(path());
   Request request = look();

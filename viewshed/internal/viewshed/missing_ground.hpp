@@ -30,7 +30,7 @@ struct MissingGround {
   double share() const;
   double study_m2() const { return static_cast<double>(with_ground + without_ground + beyond) * cell_area; }
   double missing_m2() const { return static_cast<double>(without_ground + beyond) * cell_area; }
-  /// The share: "12.3 %", "less than 0.1 %".
+  /// The share: "12.3 %", "less than 0.1 %", "more than 99.9 %".
   std::string percent() const;
   /// "12.3 % (4.6 km²)".
   std::string text() const;

@@ -68,7 +68,9 @@ double MissingGround::share() const {
 }
 
 std::string MissingGround::percent() const {
-  return share() > 0 && share() < 0.001 ? "less than 0.1 %" : fmt::format("{:.1f} %", 100 * share());
+  if (share() > 0 && share() < 0.001) return "less than 0.1 %";
+  if (share() > 0.999 && share() < 1) return "more than 99.9 %";
+  return fmt::format("{:.1f} %", 100 * share());
 }
 
 std::string MissingGround::text() const {
