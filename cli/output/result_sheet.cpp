@@ -41,10 +41,11 @@ std::function<bool(Point2)> in_cells(const RasterGrid& grid, std::function<bool(
 std::string statement_of(const StoreMetadata& metadata, const ThemeChoice& themes, const Detail& detail) {
   if (!themes.includes_raised(metadata.themes))
     return "Bare ground: the screening effect of buildings, walls and vegetation is not taken into account.";
-  const std::string as = detail.coarsest() == 0
-                             ? "as imported"
-                             : fmt::format("as far as they stand at a tolerance of {:g} m, at which some are left out,",
-                                           detail.coarsest());
+  const std::string as =
+      detail.coarsest() == 0
+          ? "as imported"
+          : fmt::format("as far as they stand at a tolerance of {:g} m, at which lower ones may be left out,",
+                        detail.coarsest());
   return fmt::format("Screening by {} {} is taken into account; whatever else stands on the ground is not.",
                      fmt::join(themes.names(metadata.themes), ", "), as);
 }

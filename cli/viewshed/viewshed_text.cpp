@@ -53,7 +53,7 @@ std::string viewshed_text(const StoreMetadata& metadata, const viewshed::Result&
   if (!result.decided_exactly && result.request.detail.coarsest() > 0) {
     text += "surface: " + surface_text(metadata, result.request.detail);
     const bool features = result.request.themes.includes_raised(metadata.themes);
-    text += features && !result.certified ? "; some features are left out\n" : "\n";
+    text += features && !result.certified ? "; lower features may be left out\n" : "\n";
   }
   if (missing.share() > 0) text += fmt::format("no ground data: {} of the area looked at\n", missing.text());
   return text + fmt::format("{}, {}; {}\n", counted(result.statistics.triangles, "triangle"),

@@ -93,8 +93,8 @@ std::string screening_in_words(const viewshed::Zone& zone, const StoreMetadata& 
   const std::string generalised =
       tolerance == 0 ? ""
                      : fmt::format(
-                           " At the tolerance of {:g} m features are generalised, and some are left out: the screening "
-                           "effect is less than theirs.",
+                           " At the tolerance of {:g} m lower features may be left out: their screening effect is then "
+                           "not taken into account.",
                            tolerance);
   return fmt::format(
       "The results are given for bare ground and, with `-screened` in their names, with the screening effect of these "
