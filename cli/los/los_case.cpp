@@ -1,7 +1,5 @@
 #include "los/los_case.hpp"
 
-#include <algorithm>
-
 #include <fmt/format.h>
 
 #include <profile/documents.hpp>
@@ -66,9 +64,7 @@ std::string text_of_findings(const profile::LosReport& report, const profile::Li
   }
   for (const profile::CriterionResult& c : found.criteria)
     text += fmt::format("K = {}, {:g} F1: {}\n", factor_text(c.criterion, c.k), c.criterion.fraction, outcome_text(c));
-  if (std::any_of(found.criteria.begin(), found.criteria.end(),
-                  [](const profile::CriterionResult& c) { return c.criterion.fade; }))
-    text += std::string(profile::kAboutKe) + "\n";
+  if (const std::string note = profile::fade_note(found); !note.empty()) text += note + "\n";
   for (const profile::NamedHeights& r : found.required) {
     text +=
         fmt::format("heights needed for {}: {} at the first end alone, or {} at the second end alone, or {} at both\n",

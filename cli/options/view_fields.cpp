@@ -117,6 +117,8 @@ void ViewFields::fill(viewshed::Observer& observer, const std::vector<std::optio
   for (std::size_t i = 0; i < fields_.size(); ++i) {
     if (!numbers[i]) continue;
     const double value = *numbers[i];
+    // ArcGIS writes horizontal distances with a minus sign.
+    const double metres = arcgis_ ? std::abs(value) : value;
     const FieldValue field{where, fields_[i].name, value};
     switch (fields_[i].role) {
       case Role::kHeight:
@@ -129,13 +131,12 @@ void ViewFields::fill(viewshed::Observer& observer, const std::vector<std::optio
       case Role::kTargetHeight:
         observer.target_height = field.elevation();
         break;
-      // ArcGIS writes horizontal distances with a minus sign.
       case Role::kRadius:
-        if (!(std::abs(value) > 0) || (value < 0 && !arcgis_)) field.refuse("a positive number of metres");
-        observer.radius = field.distance(arcgis_ ? std::abs(value) : value);
+        if (!(metres > 0)) field.refuse("a positive number of metres");
+        observer.radius = field.distance(metres);
         break;
       case Role::kMinRadius:
-        observer.min_radius = field.distance(arcgis_ ? std::abs(value) : value);
+        observer.min_radius = field.distance(metres);
         break;
       case Role::kAzimuthFrom:
         range_of(observer.azimuth, {0, 360}).from = field.angle(360);

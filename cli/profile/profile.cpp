@@ -168,8 +168,7 @@ class ProfileVerb final : public Verb {
     warn_of_scale(store.metadata(), result.warnings);
     result.document = profile::profile_document(store.metadata(), themes_.choice(), profiles);
     if (!outputs().empty()) result.document["outputs"] = outputs();
-    result.document["statistics"] = {
-        {"points_read", cost.read.points_read}, {"blocks_read", cost.read.blocks_read}, {"triangles", cost.triangles}};
+    result.document["statistics"] = statistics_document(cost.read, cost.triangles);
     write(store.metadata(), profiles, ground, corners, result.document);
     if (wants_triangles()) write_triangles(store, corners, profiles.front().detail, progress);
     result.text = text(profiles, cost.read);

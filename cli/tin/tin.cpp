@@ -173,9 +173,7 @@ class TinVerb final : public Verb {
     document["line_edges"] = tin.lines.size();
     if (joined_) document["lines"] = *joined_;
     document["outputs"] = outputs();
-    document["statistics"] = {{"points_read", tin.statistics.points_read},
-                              {"blocks_read", tin.statistics.blocks_read},
-                              {"triangles", tin.triangles.size()}};
+    document["statistics"] = statistics_document(tin.statistics, tin.triangles.size());
     return document;
   }
 

@@ -5,6 +5,7 @@
 //   return result_text(document);
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,7 @@
 #include <itin/geometry.hpp>
 #include <itin/store.hpp>
 #include <itin/theme.hpp>
+#include <itin/tin.hpp>
 
 namespace itin {
 
@@ -33,6 +35,8 @@ Document error_interval(const CertifiedError& error);
 Document surface_document(const StoreMetadata& metadata, const Detail& detail, const ThemeChoice& themes);
 /// `sources`: those that something was made of.
 Document sources_document(const std::vector<SourceInfo>& sources);
+/// `statistics`: what was read, and how many triangles that gave or a line crossed.
+Document statistics_document(const RetrievalStatistics& read, std::uint64_t triangles);
 /// `refraction`.
 Document earth_document(const Earth& earth);
 /// [xmin, ymin, xmax, ymax] with names.

@@ -30,6 +30,10 @@ Document surface_document(const StoreMetadata& metadata, const Detail& detail, c
   return surface;
 }
 
+Document statistics_document(const RetrievalStatistics& read, std::uint64_t triangles) {
+  return {{"points_read", read.points_read}, {"blocks_read", read.blocks_read}, {"triangles", triangles}};
+}
+
 Document earth_document(const Earth& earth) {
   Document document{{"convention", earth.convention()}, {"curvature", earth.curvature}};
   if (earth.effective_factor) {

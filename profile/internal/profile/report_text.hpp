@@ -14,9 +14,8 @@ namespace itin::profile {
 /// "no data over 1.200 km of the line, which leaves it undecided; known ground does not hide it"; empty without
 /// gaps.
 std::string gap_text(const LosReport& report);
-/// What reports say of the factor ke.
-inline constexpr const char* kAboutKe =
-    "ke is 157 / (144 + 2670 / length in km), a formula that has not been confirmed from the text of ITU-R P.530.";
+/// What is to be said of the factor ke; empty where no criterion asks for it.
+std::string fade_note(const LineFindings& found);
 /// What gap_text() says; else why the verdict is undecided; empty where neither needs words.
 std::string reason_of(const LosReport& report);
 /// "Visible", or "Undecided: " and why; after a colon as well what is without data.

@@ -55,8 +55,7 @@ class Reader {
   }
   void set_columns(std::size_t count) {
     if (count < 2 || count > 3)
-      fail(fmt::format("{}; expected d_km,h_m or d_km,h_m,clutter_m",
-                       counted(static_cast<std::uint64_t>(count), "column")));
+      fail(fmt::format("{}; expected d_km,h_m or d_km,h_m,clutter_m", counted(count, "column")));
     columns_ = count;
   }
   void read_header(const std::vector<std::string>& names) {

@@ -55,16 +55,15 @@ Document links_document(const StoreMetadata& metadata, const LinkTable& table, c
     read += r.statistics;
     triangles += r.triangles;
   }
-  return {
-      {"crs", crs_identifier(metadata.crs_wkt)},
-      {"surface", surface_document(metadata, query.detail, query.themes)},
-      {"refraction", earth_document(query.earth)},
-      {"links",
-       {{"visible", counts.visible},
-        {"hidden", counts.hidden},
-        {"undecided", counts.undecided},
-        {"error", counts.error}}},
-      {"statistics", {{"points_read", read.points_read}, {"blocks_read", read.blocks_read}, {"triangles", triangles}}}};
+  return {{"crs", crs_identifier(metadata.crs_wkt)},
+          {"surface", surface_document(metadata, query.detail, query.themes)},
+          {"refraction", earth_document(query.earth)},
+          {"links",
+           {{"visible", counts.visible},
+            {"hidden", counts.hidden},
+            {"undecided", counts.undecided},
+            {"error", counts.error}}},
+          {"statistics", statistics_document(read, triangles)}};
 }
 
 std::string json_of(const StoreMetadata& metadata, const ThemeChoice& themes,

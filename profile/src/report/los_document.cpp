@@ -243,9 +243,7 @@ Document los_document(const StoreMetadata& metadata, const StoreLine& line, cons
   Document document = los_document(report);
   document["surface"] = surface_document(metadata, line.detail, line.themes);
   document["sources"] = sources_document(report.sources);
-  document["statistics"] = {{"points_read", report.statistics.points_read},
-                            {"blocks_read", report.statistics.blocks_read},
-                            {"triangles", report.triangles}};
+  document["statistics"] = statistics_document(report.statistics, report.triangles);
   return document;
 }
 

@@ -41,9 +41,7 @@ Table criteria_table(const LosReport& report, const LineFindings& found, const s
   for (const CriterionResult& c : found.criteria) table.rows.push_back(criterion_row(c));
   table.note = gap_text(report);
   if (!table.note.empty()) table.note[0] = 'N', table.note += ".";
-  if (std::any_of(found.criteria.begin(), found.criteria.end(),
-                  [](const CriterionResult& c) { return c.criterion.fade; }))
-    table.note += fmt::format("{}{}", table.note.empty() ? "" : " ", kAboutKe);
+  if (const std::string note = fade_note(found); !note.empty()) table.note += (table.note.empty() ? "" : " ") + note;
   if (report.query.clearance_error_m > 0) {
     table.note += fmt::format(
         "{}Where the verdict is undecided, the surface's certified error, {:.2f} m, is greater than the margin.",

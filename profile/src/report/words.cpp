@@ -1,4 +1,5 @@
 // What every format says in the same words.
+#include <algorithm>
 #include <cctype>
 #include <cmath>
 
@@ -33,6 +34,14 @@ std::string gap_text(const LosReport& report) {
                      report.known_verdict == SightVerdict::kVisible
                          ? "known ground does not hide it"
                          : "the surface's certified error leaves open whether known ground hides it");
+}
+
+std::string fade_note(const LineFindings& found) {
+  const bool asked = std::any_of(found.criteria.begin(), found.criteria.end(),
+                                 [](const CriterionResult& c) { return c.criterion.fade; });
+  return asked ? "ke is 157 / (144 + 2670 / length in km), a formula that has not been confirmed from the text of "
+                 "ITU-R P.530."
+               : "";
 }
 
 std::string reason_of(const LosReport& report) {

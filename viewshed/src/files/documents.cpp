@@ -52,10 +52,9 @@ Document grid_document(const RasterGrid& grid) {
 }
 
 Document statistics_document(const Statistics& statistics) {
-  return {{"points_read", statistics.retrieval.points_read},
-          {"blocks_read", statistics.retrieval.blocks_read},
-          {"triangles", statistics.triangles},
-          {"lines", statistics.lines}};
+  Document document = itin::statistics_document(statistics.retrieval, statistics.triangles);
+  document["lines"] = statistics.lines;
+  return document;
 }
 
 double decided_percent(const CellCounts& cells) {
