@@ -123,8 +123,10 @@ class Links : public testing::Test {
 
 TEST_F(Links, HaveTheAnswersOfTheirReports) {
   const std::vector<Link> few = links(5), many = links(3000);
-  EXPECT_FALSE(sharing_pays(*store_, Detail::tolerance(0), few));
-  EXPECT_TRUE(sharing_pays(*store_, Detail::tolerance(0), many));
+  const Detail detail = Detail::tolerance(0);
+  const SectionSurface surface(*store_, detail);
+  EXPECT_FALSE(sharing_pays(*store_, detail, few, surface));
+  EXPECT_TRUE(sharing_pays(*store_, detail, many, surface));
   LinkQuery query;
   expect_reports(few, query);
   expect_reports(many, query);

@@ -18,11 +18,6 @@ namespace itin {
 
 namespace {
 
-Point2 heading_of(const SectionLine& line) {
-  const double dx = line.end().x - line.start().x, dy = line.end().y - line.start().y, length = std::hypot(dx, dy);
-  return length > 0 ? Point2{dx / length, dy / length} : Point2{1, 0};
-}
-
 /// Smith's retrieval: one triangle after another.
 class RetrievedTriangles final : public TriangleFinder {
  public:
@@ -36,7 +31,7 @@ class RetrievedTriangles final : public TriangleFinder {
   SectionVertex beyond(const CrossedEdge& edge) override {
     progress_.throw_if_cancelled();
     const Position left{edge.left.x, edge.left.y}, right{edge.right.x, edge.right.y};
-    if (const auto post = cells_.beyond(left, right)) return {*post, 0};
+    if (const auto post = cells_.beyond(left, right)) return *post;
     const auto found = apex_.apex(left, right);
     if (!found) throw Error("the ground ends without an outline; run itin check on the store");
     return *found;
@@ -45,9 +40,7 @@ class RetrievedTriangles final : public TriangleFinder {
   std::vector<std::array<SectionVertex, 3>> around(const GridBox& box) override {
     if (box == box_) return around_;
     box_ = box;
-    around_.clear();
-    for (const auto& [a, b, c] : cells_.around(box))
-      around_.push_back({SectionVertex{a, 0}, SectionVertex{b, 0}, SectionVertex{c, 0}});
+    around_ = cells_.around(box);
     if (!around_.empty()) return around_;
     const RegionMesh region = triangulate_region(index_, selection_, box);
     const auto vertex = [&](std::uint32_t v) {

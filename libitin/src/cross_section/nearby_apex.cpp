@@ -63,7 +63,7 @@ std::size_t NearbyApex::bin(std::int32_t x, std::int32_t y) const {
 }
 
 void NearbyApex::load(const Leaf& leaf) {
-  const auto block = index_.block(leaf);
+  const auto block = index_.unordered_block(leaf);
   for (std::size_t k = 0; k < block->points.size(); ++k) {
     const GridPoint& p = block->points[k];
     if (!box_.contains(p.x, p.y)) continue;

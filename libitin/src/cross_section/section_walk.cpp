@@ -269,6 +269,11 @@ double spacing_at(const PointIndex& index, const Selection& selection, const Gri
 
 }  // namespace
 
+Point2 heading_of(const SectionLine& line) {
+  const double dx = line.end().x - line.start().x, dy = line.end().y - line.start().y, length = std::hypot(dx, dy);
+  return length > 0 ? Point2{dx / length, dy / length} : Point2{1, 0};
+}
+
 CrossedEdge find_edge_on(const PointIndex& index, const Selection& selection, const OutlineCrossing& segment,
                          const SectionLine& line, OnLine on_line, RetrievalStatistics& statistics) {
   const auto point = [](Position p) { return GridPoint{p.x, p.y, 0}; };
@@ -281,7 +286,7 @@ CrossedEdge find_edge_on(const PointIndex& index, const Selection& selection, co
     selected_leaves(index, selection, box, leaves);
     NeighboursOnSegment neighbours(segment, line, on_line);
     for (const Leaf& leaf : leaves) {
-      const auto block = index.block(leaf);
+      const auto block = index.unordered_block(leaf);
       statistics.points_read += block->points.size();
       statistics.blocks_read += 1;
       for (std::size_t k = 0; k < block->points.size(); ++k) {

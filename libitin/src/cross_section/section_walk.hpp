@@ -36,6 +36,9 @@ class TriangleFinder {
   virtual CrossedEdge edge_on(const OutlineCrossing& segment, const SectionLine& line, OnLine on_line) = 0;
 };
 
+/// The line's direction, of length 1; any where the line has none.
+Point2 heading_of(const SectionLine& line);
+
 /// The cross-section, but for its retrieval statistics. The line's own direction is undone where it was mirrored.
 CrossSection walk_section(const PointIndex& index, const SectionLine& line, TriangleFinder& triangles);
 

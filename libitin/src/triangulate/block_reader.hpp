@@ -19,8 +19,18 @@ class BlockReader {
     std::shared_ptr<const Block>& block = blocks_[leaf.key];
     if (block == nullptr) {
       block = index_.block(leaf);
-      statistics_.points_read += block->points.size();
-      statistics_.blocks_read += 1;
+      count(*block);
+    } else if (!block->in_order) {
+      block = index_.block(leaf);
+    }
+    return block;
+  }
+  /// Its points may be in any order, as with PointIndex::unordered_block().
+  std::shared_ptr<const Block> read_unordered(const Leaf& leaf) {
+    std::shared_ptr<const Block>& block = blocks_[leaf.key];
+    if (block == nullptr) {
+      block = index_.unordered_block(leaf);
+      count(*block);
     }
     return block;
   }
@@ -28,6 +38,11 @@ class BlockReader {
   const RetrievalStatistics& statistics() const { return statistics_; }
 
  private:
+  void count(const Block& block) {
+    statistics_.points_read += block.points.size();
+    statistics_.blocks_read += 1;
+  }
+
   const PointIndex& index_;
   RetrievalStatistics statistics_;
   /// Searches about one place come back to the same few leaves.

@@ -18,6 +18,7 @@ class ReadOnce final : public PointIndex {
   GridBox bounds() const override { return base_.bounds(); }
   void leaves(int finest, const GridBox& box, std::vector<Leaf>& out) const override { base_.leaves(finest, box, out); }
   std::shared_ptr<const Block> block(const Leaf& leaf) const override { return blocks_.read(leaf); }
+  std::shared_ptr<const Block> unordered_block(const Leaf& leaf) const override { return blocks_.read_unordered(leaf); }
   void segments(const GridBox& box, std::vector<Segment>& out) const override { base_.segments(box, out); }
 
   bool has_read(const Leaf& leaf) const { return blocks_.has_read(leaf); }

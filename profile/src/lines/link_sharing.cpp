@@ -12,20 +12,28 @@ namespace itin::profile {
 
 namespace {
 
-// Measured (benchmarks/README.md): microseconds per point that is triangulated, and by how many more per triangle that
-// is retrieved than per one that is walked through.
-constexpr double kPerPoint = 1.2, kPerTriangle = 0.7;
+/// Microseconds, as measured (benchmarks/HISTORY.md).
+struct Costs {
+  double shared_point;  ///< to read it for all
+  double triangle;      ///< by how much retrieving one takes longer than walking through one that is shared
+};
+constexpr Costs kTriangulated{1.2, 0.7}, kLattice{0.06, 0.33};
+/// Links whose ground is asked for.
+constexpr std::size_t kSamples = 16;
 /// A random line crosses so many edges of a Delaunay triangulation per mean spacing of its points (64 / (3 pi^2)).
 constexpr double kEdgesPerSpacing = 2.16;
 /// Metres: the side of the squares in which ground counts as met, about that of a tile.
 constexpr double kSquare = 2000;
 
-}  // namespace
+/// The work that all links are, one way or the other.
+struct Work {
+  double points = 0;     ///< about the links, each once
+  double triangles = 0;  ///< crossed by them
+};
 
-bool sharing_pays(const Store& store, const Detail& detail, const std::vector<Link>& links) {
+Work work_of(const Store& store, const Detail& detail, const std::vector<Link>& links, const Box& ground) {
   std::set<std::pair<std::int64_t, std::int64_t>> squares;
   double length = 0;
-  const Box ground = store.metadata().grid.box(store.metadata().bounds);
   for (const Link& link : links) {
     const double dx = link.to.x - link.from.x, dy = link.to.y - link.from.y, own = std::hypot(dx, dy);
     if (!(own < ground.width() + ground.height())) continue;  // leaves the data, or is no line at all
@@ -37,12 +45,35 @@ bool sharing_pays(const Store& store, const Detail& detail, const std::vector<Li
                       static_cast<std::int64_t>(std::floor((link.from.y + t * dy) / kSquare)));
     }
   }
-  const double area = ground.width() * ground.height();
-  if (area == 0) return true;
   const auto points = static_cast<double>(store.points_about(level_within(store.metadata(), detail.finest()), ground));
-  const double density = points / area;
-  const double met = density * static_cast<double>(squares.size()) * kSquare * kSquare;
-  return kPerPoint * met < kPerTriangle * kEdgesPerSpacing * std::sqrt(density) * length;
+  const double density = points / (ground.width() * ground.height());
+  return {density * static_cast<double>(squares.size()) * kSquare * kSquare,
+          kEdgesPerSpacing * std::sqrt(density) * length};
+}
+
+bool pays(const Work& work, const Costs& costs) {
+  return costs.shared_point * work.points < costs.triangle * work.triangles;
+}
+
+/// Whether most of the links, by a sample of them, lie on posts.
+bool lie_on_lattices(const std::vector<Link>& links, const SectionSurface& surface) {
+  const std::size_t step = links.size() / kSamples + 1;
+  std::size_t asked = 0, lattices = 0;
+  for (std::size_t i = 0; i < links.size(); i += step, ++asked) {
+    const Point2 middle{(links[i].from.x + links[i].to.x) / 2, (links[i].from.y + links[i].to.y) / 2};
+    if (surface.is_lattice_at(middle)) ++lattices;
+  }
+  return 2 * lattices > asked;
+}
+
+}  // namespace
+
+bool sharing_pays(const Store& store, const Detail& detail, const std::vector<Link>& links,
+                  const SectionSurface& surface) {
+  const Box ground = store.metadata().grid.box(store.metadata().bounds);
+  if (ground.width() * ground.height() == 0) return true;
+  const Work work = work_of(store, detail, links, ground);
+  return pays(work, kTriangulated) || (pays(work, kLattice) && lie_on_lattices(links, surface));
 }
 
 }  // namespace itin::profile

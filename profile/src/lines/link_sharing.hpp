@@ -3,13 +3,16 @@
 
 #include <vector>
 
+#include <itin/cross_section.hpp>
 #include <itin/detail.hpp>
 #include <profile/links.hpp>
 
 namespace itin::profile {
 
-/// Triangulating the ground about all links once costs its points; retrieving each link's triangles by themselves costs
-/// the triangles. The answer changes the speed only. O(the links' total length).
-bool sharing_pays(const Store& store, const Detail& detail, const std::vector<Link>& links);
+/// Reading the ground about all links once costs its points, few of which are read twice; retrieving each link's
+/// triangles by themselves costs the triangles. `surface` is the one to be shared. The answer changes the speed only.
+/// O(the links' total length).
+bool sharing_pays(const Store& store, const Detail& detail, const std::vector<Link>& links,
+                  const SectionSurface& surface);
 
 }  // namespace itin::profile

@@ -81,8 +81,8 @@ class Surfaces {
  public:
   Surfaces(const Store& store, const LinkQuery& query, const std::vector<Link>& links) : store_(store), query_(query) {
     const bool has_raised = query.themes.includes_raised(store.metadata().themes);
-    if (has_raised || sharing_pays(store, query.detail, links))
-      surface_.emplace(store, query.detail, query.themes, query.sections);
+    surface_.emplace(store, query.detail, query.themes, query.sections);
+    if (!has_raised && !sharing_pays(store, query.detail, links, *surface_)) surface_.reset();
     if (has_raised) ground_.emplace(store, query.detail, ThemeChoice::none(), query.sections);
   }
 

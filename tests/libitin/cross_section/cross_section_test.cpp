@@ -8,6 +8,7 @@
 #include <itin/cross_section.hpp>
 
 #include "cross_section/retrieval.hpp"
+#include "cross_section/tiled_section.hpp"
 #include "support/covered_index.hpp"
 #include "support/section_text.hpp"
 #include "support/seed.hpp"
@@ -114,6 +115,7 @@ TEST_P(SectionPatterns, EqualEveryTriangleCutByTheLine) {
       for (const auto& [a, b, c] : whole.mesh.triangles) {
         triangles.push_back({whole.vertices[a].point, whole.vertices[b].point, whole.vertices[c].point});
       }
+      SectionTiles tiles(*index, selection, std::uint64_t{1} << 24);
       Ends ends(points, random);
       for (int i = 0; i < 120; ++i) {
         const auto [a, b] = ends.line();
@@ -125,6 +127,7 @@ TEST_P(SectionPatterns, EqualEveryTriangleCutByTheLine) {
                                                << ", from " << a.x << " " << a.y << " to " << b.x << " " << b.y;
         const CrossSection back = retrieve_section(*index, selection, SectionLine(grid, b, a));
         ASSERT_EQ(text(mirrored(back)), text(found));
+        ASSERT_EQ(text(tiled_section(tiles, line)), text(found)) << "run " << run;
         // No block is read twice.
         ASSERT_LE(found.statistics.points_read, points.size());
         with_gaps += found.gaps.empty() ? 0 : 1;

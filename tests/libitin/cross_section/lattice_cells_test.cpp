@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "cross_section/shared_cells.hpp"
 #include "support/covered_index.hpp"
 #include "support/seed.hpp"
 #include "triangulate/region.hpp"
@@ -22,7 +23,9 @@ PlanPlace plan_place(const GridPoint& p) {
 }
 
 /// A triangle, whichever corner comes first.
-std::array<GridPoint, 3> turned(std::array<GridPoint, 3> t) {
+template <class Vertex>
+std::array<GridPoint, 3> turned(const std::array<Vertex, 3>& corners) {
+  std::array<GridPoint, 3> t{corners[0], corners[1], corners[2]};
   std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
   return t;
 }
@@ -59,6 +62,15 @@ class WholeStore {
   std::vector<std::array<GridPoint, 3>> triangles;
   std::set<std::array<GridPoint, 3>> known;
   std::map<std::pair<PlanPlace, PlanPlace>, GridPoint> beyond;
+};
+
+/// The cells that many lines share.
+struct Shared {
+  Shared(const PointIndex& index, const Selection& selection) : tiles(index, selection, std::uint64_t{1} << 24) {}
+  SharedCells cells() { return {tiles, statistics}; }
+
+  SectionTiles tiles;
+  RetrievalStatistics statistics;
 };
 
 struct LatticeCase {
@@ -111,37 +123,42 @@ class LatticeCellsOf : public testing::TestWithParam<LatticeCase> {
 };
 
 TEST_P(LatticeCellsOf, TellTheTriangleBeyondAnEdgeOrNothing) {
-  std::size_t told = 0, asked = 0;
-  for_each_store(
-      [&](const PointIndex& index, const Selection& selection, const WholeStore& whole, std::mt19937& random) {
-        const ReadOnce blocks(index);
-        std::optional<LatticeCells> cells;
-        for (const auto& [a, b, c] : whole.triangles) {
-          // As for lines: many edges near each other, then others.
-          if (!cells || random() % 50 == 0) {
-            const double angle = static_cast<double>(random());
-            cells.emplace(blocks, selection, Point2{std::cos(angle), std::sin(angle)});
-          }
-          for (const auto& [p, q] : {std::pair{a, b}, {b, c}, {c, a}, {b, a}, {c, b}, {a, c}}) {
-            const auto expected = whole.beyond.find({plan_place(p), plan_place(q)});
-            const auto found = cells->beyond({p.x, p.y}, {q.x, q.y});
-            ++asked;
-            if (!found) continue;
-            ASSERT_NE(expected, whole.beyond.end())
-                << "no ground lies beyond " << p.x << " " << p.y << ", " << q.x << " " << q.y;
-            ASSERT_EQ(*found, expected->second);
-            ++told;
-          }
+  std::size_t told = 0, told_to_many = 0, asked = 0;
+  for_each_store([&](const PointIndex& index, const Selection& selection, const WholeStore& whole,
+                     std::mt19937& random) {
+    const ReadOnce blocks(index);
+    std::optional<LatticeCells> cells;
+    Shared shared(index, selection);
+    SharedCells of_many = shared.cells();
+    for (const auto& [a, b, c] : whole.triangles) {
+      // As for lines: many edges near each other, then others.
+      if (!cells || random() % 50 == 0) {
+        const double angle = static_cast<double>(random());
+        cells.emplace(blocks, selection, Point2{std::cos(angle), std::sin(angle)});
+      }
+      for (const auto& [p, q] : {std::pair{a, b}, {b, c}, {c, a}, {b, a}, {c, b}, {a, c}}) {
+        const auto expected = whole.beyond.find({plan_place(p), plan_place(q)});
+        ++asked;
+        for (CellTriangles* triangles : {static_cast<CellTriangles*>(&*cells), static_cast<CellTriangles*>(&of_many)}) {
+          const auto found = triangles->beyond({p.x, p.y}, {q.x, q.y});
+          if (!found) continue;
+          ASSERT_NE(expected, whole.beyond.end())
+              << "no ground lies beyond " << p.x << " " << p.y << ", " << q.x << " " << q.y;
+          ASSERT_EQ(static_cast<const GridPoint&>(*found), expected->second);
+          ++(triangles == &of_many ? told_to_many : told);
         }
-      });
-  EXPECT_TRUE(told > 0 || !GetParam().lattice) << asked << " asked";
+      }
+    }
+  });
+  EXPECT_TRUE((told > 0 && told_to_many > 0) || !GetParam().lattice) << asked << " asked, " << told << " told to one line, " << told_to_many << " to many";
 }
 
 TEST_P(LatticeCellsOf, AreAllThatMeetsABoxOrNone) {
-  std::size_t told = 0, asked = 0;
+  std::size_t told = 0, told_to_many = 0, asked = 0;
   for_each_store([&](const PointIndex& index, const Selection& selection, const WholeStore& whole,
                      std::mt19937& random) {
     const GridBox all = index.bounds();
+    Shared shared(index, selection);
     for (int i = 0; i < 200; ++i) {
       const auto within = [&](std::int32_t low, std::int32_t high) {
         return low + static_cast<std::int32_t>(random() % static_cast<unsigned>(high - low));
@@ -149,20 +166,25 @@ TEST_P(LatticeCellsOf, AreAllThatMeetsABoxOrNone) {
       GridPoint low{within(all.xmin, all.xmax), within(all.ymin, all.ymax), 0};
       if (i % 4 == 0) low = whole.triangles[random() % whole.triangles.size()][0];
       const GridBox box{low.x, low.y, low.x + static_cast<int>(random() % 2), low.y + static_cast<int>(random() % 2)};
-      std::set<std::array<GridPoint, 3>> found;
-      for (const auto& t : LatticeCells(ReadOnce(index), selection, {0, 1}).around(box)) found.insert(turned(t));
       ++asked;
-      if (found.empty()) continue;
-      ++told;
-      for (const auto& t : found) ASSERT_TRUE(whole.known.contains(t)) << "box at " << box.xmin << " " << box.ymin;
-      const RegionMesh expected = triangulate_region(index, selection, box);
-      for (const auto& [a, b, c] : expected.mesh.triangles) {
-        ASSERT_TRUE(found.contains(
-            turned({expected.vertices[a].point, expected.vertices[b].point, expected.vertices[c].point})));
+      const ReadOnce blocks(index);
+      LatticeCells of_one(blocks, selection, {0, 1});
+      SharedCells of_many = shared.cells();
+      for (CellTriangles* triangles : {static_cast<CellTriangles*>(&of_one), static_cast<CellTriangles*>(&of_many)}) {
+        std::set<std::array<GridPoint, 3>> found;
+        for (const auto& t : triangles->around(box)) found.insert(turned(t));
+        if (found.empty()) continue;
+        ++(triangles == &of_many ? told_to_many : told);
+        for (const auto& t : found) ASSERT_TRUE(whole.known.contains(t)) << "box at " << box.xmin << " " << box.ymin;
+        const RegionMesh expected = triangulate_region(index, selection, box);
+        for (const auto& [a, b, c] : expected.mesh.triangles) {
+          const std::array corners{expected.vertices[a].point, expected.vertices[b].point, expected.vertices[c].point};
+          ASSERT_TRUE(found.contains(turned(corners)));
+        }
       }
     }
   });
-  EXPECT_TRUE(told > 0 || !GetParam().lattice) << asked << " asked";
+  EXPECT_TRUE((told > 0 && told_to_many > 0) || !GetParam().lattice) << asked << " asked, " << told << " told to one line, " << told_to_many << " to many";
 }
 
 INSTANTIATE_TEST_SUITE_P(

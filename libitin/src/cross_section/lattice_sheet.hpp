@@ -1,0 +1,79 @@
+// Posts of a rectangular piece of a lattice, and which of its cells stand alone.
+//
+//   LatticeSheet sheet(first, columns, rows);
+//   sheet.add(leaf, block, selection);            // whatever meets sheet.box()
+//   sheet.add(segment);
+//   if (sheet.has(cell) && sheet.stands_alone(cell)) ... sheet.post(cell.x, cell.y)
+//
+// The circle about a square cell has no other place of the lattice in or on it. So where a cell has all four posts,
+// nothing else stands in its circle and no segment touches it, it is ground, and its triangles are those on either side
+// of the diagonal from lower right to upper left, as the tie rule of predicates.hpp has it.
+#pragma once
+
+#include <compare>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include <itin/geometry.hpp>
+
+#include "store/point_index.hpp"
+#include "triangulate/selection.hpp"
+
+namespace itin {
+
+/// Four neighbouring places of a lattice, grid units.
+struct LatticeCell {
+  std::int64_t x = 0, y = 0;  ///< the lower left one
+  std::int64_t side = 0;
+
+  /// What lies beyond it does not disturb the cell.
+  GridBox box_of_circle() const;
+  friend auto operator<=>(const LatticeCell&, const LatticeCell&) = default;
+};
+
+class LatticeSheet {
+ public:
+  /// Has no cells.
+  LatticeSheet() = default;
+  /// Has no posts yet. `first` is the lower left one of its cells. Precondition: each side is below 2^31 grid units.
+  LatticeSheet(const LatticeCell& first, std::int64_t columns, std::int64_t rows);
+
+  bool has_cells() const { return columns_ > 0; }
+  const LatticeCell& first() const { return first_; }
+  /// What lies beyond it disturbs no cell.
+  const GridBox& box() const { return box_; }
+  /// Whether this is a cell of the sheet.
+  bool has(const LatticeCell& cell) const;
+
+  void add(const Leaf& leaf, const Block& block, const Selection& selection);
+  void add(const Segment& segment);
+
+  /// Preconditions: has(cell), and all that meets its box_of_circle() was added.
+  bool stands_alone(const LatticeCell& cell) const;
+  /// Precondition: a cell of it stands alone.
+  GridPoint post(std::int64_t x, std::int64_t y) const;
+
+  std::size_t posts() const { return posts_; }
+  std::size_t bytes() const { return sizeof(*this) + heights_.capacity() * 4 + disturbed_.capacity() / 8; }
+
+ private:
+  std::size_t place(std::int64_t x, std::int64_t y) const;
+  void disturb(const GridBox& box);
+
+  LatticeCell first_;
+  std::int64_t columns_ = 0, rows_ = 0;  ///< of cells, and there is one more of posts
+  GridBox box_;
+  std::vector<std::int32_t> heights_;  ///< of the posts, row by row from the south; kNoPost where there is none
+  std::vector<bool> disturbed_;        ///< cells, by their lower left post
+  std::size_t posts_ = 0;              ///< how many there are
+};
+
+/// The segments that the selection has about a sheet.
+void add_segments(LatticeSheet& sheet, const PointIndex& index, const Selection& selection);
+
+/// Any cell of the lattice that most points in a box seem to lie on; none where no leaf has two points. A guess from
+/// some points of each leaf.
+std::optional<LatticeCell> cell_about(const GridBox& box, const PointIndex& index, const Selection& selection);
+
+}  // namespace itin
