@@ -206,7 +206,7 @@ class SiteVerb final : public Verb {
   Result write(const Store& store, const SiteResult& site, Progress& progress) {
     const std::string& crs = store.metadata().crs_wkt;
     Result result;
-    warn_of(site, store.metadata(), result.warnings);
+    warn_of(site, store, result.warnings);
     warn_of_scale(store.metadata(), result.warnings);
     result.document = site_document(site, store.metadata());
     for (const SiteOutput& output : outputs_)

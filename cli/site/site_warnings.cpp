@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "output/hidden_eyes.hpp"
 #include "output/store_document.hpp"
 
 namespace itin::cli {
@@ -63,13 +64,22 @@ void warn_of_too_few(const SiteResult& site, std::vector<std::string>& warnings)
         "the share asked for is not reached: no further site that may be chosen serves anything more");
 }
 
+void warn_of_hidden_sites(const Store& store, const SiteResult& site, std::vector<std::string>& warnings) {
+  if (site.options.on_surface) return;
+  Eyes eyes{"site", {}, Detail::tolerance(0), site.options.themes.choice()};
+  for (const viewshed::SitePosition& p : site.inputs.positions)
+    eyes.places.push_back({p.position.x, p.position.y, p.elevation()});
+  warn_of_hidden_eyes(store, eyes, warnings);
+}
+
 }  // namespace
 
-void warn_of(const SiteResult& site, const StoreMetadata& metadata, std::vector<std::string>& warnings) {
+void warn_of(const SiteResult& site, const Store& store, std::vector<std::string>& warnings) {
   const SiteOptions& options = site.options;
   if (options.frequency_ghz) options.earth.warn_of_light(warnings);
   warn_of_left_out(site, warnings);
-  if (options.placement.given() && options.demand == "cells") warn_of_reach(site, metadata, warnings);
+  if (options.placement.given() && options.demand == "cells") warn_of_reach(site, store.metadata(), warnings);
+  warn_of_hidden_sites(store, site, warnings);
   if (site.inputs.demand_without_ground > 0)
     warnings.push_back(fmt::format("{} of the demand cannot be served: there is no ground data",
                                    counted(site.inputs.demand_without_ground, "point")));

@@ -11,6 +11,6 @@
 namespace itin::cli {
 
 /// Adds a line each.
-void warn_of(const SiteResult& site, const StoreMetadata& metadata, std::vector<std::string>& warnings);
+void warn_of(const SiteResult& site, const Store& store, std::vector<std::string>& warnings);
 
 }  // namespace itin::cli

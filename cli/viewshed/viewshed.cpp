@@ -26,12 +26,12 @@
 #include "options/sheet_options.hpp"
 #include "options/store_scale.hpp"
 #include "options/surface_options.hpp"
+#include "output/hidden_eyes.hpp"
 #include "output/store_document.hpp"
 #include "program/call_files.hpp"
 #include "program/field_names.hpp"
 #include "program/verb.hpp"
 #include "viewshed/feature_raster.hpp"
-#include "viewshed/hidden_eyes.hpp"
 #include "viewshed/horizon_output.hpp"
 #include "viewshed/viewshed_outputs.hpp"
 #include "viewshed/viewshed_radio.hpp"
@@ -42,6 +42,16 @@
 namespace itin::cli {
 
 namespace {
+
+std::vector<Point3> eyes_of(const viewshed::Result& result) {
+  std::vector<Point3> eyes;
+  for (std::size_t i = 0; i < result.request.observers.size(); ++i) {
+    const viewshed::Observer& observer = result.request.observers[i];
+    eyes.push_back(
+        {observer.position.x, observer.position.y, observer.height + (observer.absolute ? 0 : result.ground_m[i])});
+  }
+  return eyes;
+}
 
 class ViewshedVerb final : public Verb {
  public:
@@ -162,7 +172,9 @@ class ViewshedVerb final : public Verb {
     // Certified and exact answers are about the full surface.
     viewshed::Request answered = computed.result.request;
     if (precise_ || certified_) answered.detail = Detail::tolerance(0);
-    warn_of_hidden_eyes(store, computed.result, answered.detail, result.warnings);
+    if (!answered.observers_on_surface)
+      warn_of_hidden_eyes(store, {"observer", eyes_of(computed.result), answered.detail, answered.themes},
+                          result.warnings);
     const Document targets =
         horizon_.write(store, computed, answered, compute_options_, outputs_.overwrite(), progress, result.warnings);
     const Document features = features_.write(store, computed.result.grid, {answered.detail, request_.themes},
