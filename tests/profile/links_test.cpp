@@ -176,6 +176,7 @@ LinkTable table_of(const std::string& text) {
 TEST(LinkTable, TakesItsColumnsByNameWhereItHasThemAll) {
   for (const char* text : {"id,x1,y1,h1,x2,y2,h2\n\"a, \"\"b\"\"\",1,2,3,4,5,6\n", "\"a, \"\"b\"\"\",1,2,3,4,5,6",
                            "\n \nid,x1,y1,h1,x2,y2,h2\n\"a, \"\"b\"\"\",1,2,3,4,5,6\n",
+                           "link,x1,y1,h1,x2,y2,h2\n\"a, \"\"b\"\"\",1,2,3,4,5,6\n",
                            "name,e,n,h,e,n,h\r\n\"a, \"\"b\"\"\", 1,2 ,3,4,5,6\r\n\r\n",
                            "\xEF\xBB\xBFH2,y2,X2,note,h1,y1,x1,id\n6,5,4,\"x,y\",3,2,1,\"a, \"\"b\"\"\"\n"}) {
     const LinkTable table = table_of(text);
@@ -188,6 +189,23 @@ TEST(LinkTable, TakesItsColumnsByNameWhereItHasThemAll) {
     EXPECT_EQ(link.from_height, 3);
     EXPECT_EQ(link.to_height, 6);
   }
+}
+
+std::string refusal_of(const std::string& text) {
+  try {
+    table_of(text);
+  } catch (const InputError& error) {
+    const std::string message = error.what();
+    return message.substr(message.find(':') + 2);
+  }
+  return "";
+}
+
+TEST(LinkTable, NamesTheColumnsThatItsHeaderLacks) {
+  EXPECT_EQ(refusal_of("x1,y1,h1,x2,y2,h2,note\n1,2,3,4,5,6,7\n"),
+            "its header has no column id; name the columns id,x1,y1,h1,x2,y2,h2, in any order");
+  EXPECT_EQ(refusal_of("id,x1,y1,x2,y2,power,note\na,1,2,3,4,5,6\n").substr(0, 31), "its header has no column h1, h2");
+  EXPECT_EQ(refusal_of("id,e1,n1,h1,e3,n3,h2\na,1,2,3,4,5,6\n").substr(0, 31), "its header has no column x2, y2");
 }
 
 TEST(LinkTable, InLongitudeAndLatitudeIsGeographic) {

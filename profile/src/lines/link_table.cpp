@@ -8,6 +8,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <itin/coordinates.hpp>
 #include <itin/counted.hpp>
@@ -81,21 +82,33 @@ std::optional<std::size_t> written_column(const std::vector<std::string>& names,
   return std::nullopt;
 }
 
-/// By name where a header has all of them, x1 and y1 or what position_columns() or written_column() have in place of
-/// them; else the columns are in the usual order.
+/// By name where a header has any of them, x1 and y1 or what position_columns() or written_column() have in place of
+/// them; the id is the first column, too, where that has another name. Else the columns are in the usual order.
 Columns columns_of(const std::vector<std::string>& names, const std::string& path) {
   const auto from = position_columns(names, "1"), to = position_columns(names, "2");
   Columns columns;
   columns.geographic = from && from->geographic;
   if (columns.geographic != (to && to->geographic))
     throw InputError(path + ": its header names longitude and latitude for one end only; give both ends alike");
-  const auto id = column_of(names, "id"), h1 = column_of(names, "h1"), h2 = column_of(names, "h2");
+  const auto h1 = column_of(names, "h1"), h2 = column_of(names, "h2");
   const auto position1 = written_column(names, "1"), position2 = written_column(names, "2");
-  if (!from && !to && position1 && position2 && id && h1 && h2) {
-    columns.of = {*id, *position1, *position1, *h1, *position2, *position2, *h2};
-    columns.written = true;
-  }
-  if (from && to && id && h1 && h2) columns.of = {*id, from->x, from->y, *h1, to->x, to->y, *h2};
+  auto id = column_of(names, "id");
+  const bool first_is_other = h1 == 0U || h2 == 0U || position1 == 0U || position2 == 0U ||
+                              (from && std::min(from->x, from->y) == 0) || (to && std::min(to->x, to->y) == 0);
+  if (!id && !first_is_other) id = 0;
+  columns.written = !from && !to && position1 && position2;
+  std::vector<const char*> missing;
+  if (!id) missing.push_back("id");
+  if (!from && !columns.written) missing.insert(missing.end(), {"x1", "y1"});
+  if (!h1) missing.push_back("h1");
+  if (!to && !columns.written) missing.insert(missing.end(), {"x2", "y2"});
+  if (!h2) missing.push_back("h2");
+  const bool has_any = from || to || position1 || position2 || h1 || h2;
+  if (has_any && !missing.empty())
+    throw InputError(fmt::format("{}: its header has no column {}; name the columns id,x1,y1,h1,x2,y2,h2, in any order",
+                                 path, fmt::join(missing, ", ")));
+  if (columns.written) columns.of = {*id, *position1, *position1, *h1, *position2, *position2, *h2};
+  if (from && to) columns.of = {*id, from->x, from->y, *h1, to->x, to->y, *h2};
   add_further(names, columns);
   return columns;
 }
