@@ -26,15 +26,16 @@ std::string theme_name(std::uint16_t theme, const StoreMetadata& metadata) {
 }
 
 std::string table(const viewshed::Horizon& horizon, const StoreMetadata& metadata) {
-  std::string text = "azimuth_deg,elevation_deg,distance_m,x,y,z,theme,data_edge\n";
+  std::string text = "azimuth_deg,elevation_deg,distance_m,x,y,z,theme,data_edge,over_missing\n";
   for (const viewshed::HorizonPoint& p : horizon.points) {
     if (!p.sky) {
-      text += fmt::format("{:.10g},,,,,,,\n", p.azimuth_deg);
+      text += fmt::format("{:.10g},,,,,,,,\n", p.azimuth_deg);
       continue;
     }
     const Point3& at = p.sky->position;
-    text += fmt::format("{:.10g},{:.6f},{:.3f},{:.3f},{:.3f},{:.3f},{},{:d}\n", p.azimuth_deg, p.sky->elevation_deg,
-                        p.sky->distance_m, at.x, at.y, at.z, theme_name(p.sky->theme, metadata), p.sky->data_edge);
+    text += fmt::format("{:.10g},{:.6f},{:.3f},{:.3f},{:.3f},{:.3f},{},{:d},{:d}\n", p.azimuth_deg,
+                        p.sky->elevation_deg, p.sky->distance_m, at.x, at.y, at.z, theme_name(p.sky->theme, metadata),
+                        p.sky->data_edge, p.over_missing);
   }
   return text;
 }
@@ -48,8 +49,11 @@ profile::Panorama panorama(const viewshed::Horizon& horizon, const viewshed::Req
   for (const viewshed::HorizonPoint& p : horizon.points)
     drawing.skyline.push_back({p.azimuth_deg, p.sky ? p.sky->elevation_deg : std::numeric_limits<double>::quiet_NaN(),
                                p.sky ? p.sky->distance_m : 0, p.sky && p.sky->data_edge});
-  for (const viewshed::SightedTarget& t : horizon.targets)
-    drawing.places.push_back({t.target.name, t.azimuth_deg, t.elevation_deg, t.distance_m, t.visible});
+  for (const viewshed::SightedTarget& t : horizon.targets) {
+    const bool undecided = t.verdict == viewshed::Verdict::kUndecided;
+    drawing.places.push_back({t.target.name + (undecided ? " (undecided)" : ""), t.azimuth_deg, t.elevation_deg,
+                              t.distance_m, t.verdict == viewshed::Verdict::kVisible});
+  }
   return drawing;
 }
 
@@ -120,6 +124,11 @@ Document HorizonOutput::write(const Store& store, viewshed::ViewshedWithSurface&
     warnings.push_back(
         fmt::format("the sky line is the edge of the data in {} of {} directions; what lies behind may rise higher",
                     ends, horizon.points.size()));
+  const auto over = std::count_if(horizon.points.begin(), horizon.points.end(),
+                                  [](const viewshed::HorizonPoint& p) { return p.over_missing; });
+  if (over > 0)
+    warnings.push_back(fmt::format("ground is missing before the sky line in {} of {} directions, and may rise higher",
+                                   over, horizon.points.size()));
   return viewshed::targets_document(horizon);
 }
 

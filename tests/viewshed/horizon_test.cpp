@@ -119,9 +119,9 @@ TEST(Horizon, TargetsAreInSightOrNot) {
     EXPECT_NEAR(t.elevation_m, *exact.height(p) + t.target.height, 1e-6);
     const double clearance = exact.clearance(eye, {p.x, p.y, t.elevation_m});
     if (std::abs(clearance) > 2e-6) {
-      EXPECT_EQ(t.visible, clearance > 0) << t.target.name;
+      EXPECT_EQ(t.verdict == Verdict::kVisible, clearance > 0) << t.target.name;
     }
-    visible += t.visible;
+    visible += t.verdict == Verdict::kVisible;
     EXPECT_NEAR(std::sin(t.azimuth_deg / kDegrees) * t.distance_m, p.x - o.x, 1e-6);
     EXPECT_NEAR(std::cos(t.azimuth_deg / kDegrees) * t.distance_m, p.y - o.y, 1e-6);
   }
@@ -158,7 +158,7 @@ void expect_same_horizon(const Horizon& expected, const Horizon& found) {
   for (std::size_t i = 0; i < expected.targets.size(); ++i) {
     EXPECT_EQ(expected.targets[i].elevation_m, found.targets[i].elevation_m);
     EXPECT_EQ(expected.targets[i].azimuth_deg, found.targets[i].azimuth_deg);
-    EXPECT_EQ(expected.targets[i].visible, found.targets[i].visible);
+    EXPECT_EQ(expected.targets[i].verdict, found.targets[i].verdict);
   }
 }
 

@@ -43,6 +43,7 @@ struct SkyPoint {
 struct HorizonPoint {
   double azimuth_deg = 0;       ///< 0 to 360
   std::optional<SkyPoint> sky;  ///< nothing where there is no ground in that direction
+  bool over_missing = false;    ///< ground is missing before the sky's point, and may rise higher
 };
 
 struct SightedTarget {
@@ -51,7 +52,7 @@ struct SightedTarget {
   double azimuth_deg = 0;
   double elevation_deg = 0;
   double distance_m = 0;
-  bool visible = false;  ///< in line of sight, whatever the field of view
+  Verdict verdict = Verdict::kHidden;  ///< in line of sight or not, whatever the field of view; or undecided
 };
 
 /// Throws InputError for a step that makes no turn, or is not from 0.001 to 10 degrees.
@@ -70,9 +71,10 @@ struct Horizon {
 Horizon horizon(const Tin& surface, const Tin& ground, const Request& request, const HorizonOptions& options,
                 Progress& progress);
 
-/// As above, on the surface of a store at `request.detail` with `request.themes`. As much is read at once as the memory
-/// holds, one wedge of directions after another, and one direction at least. The answer is the same to the last bit.
-/// Throws what triangulate() throws, too.
+/// As above, on the surface of a store at `request.detail` with `request.themes`, where `request.nodata` tells what is
+/// known of lines over missing ground: targets are as a cross-section along their line has them. As much is read at
+/// once as the memory holds, one wedge of directions after another, and one direction at least. The answer is otherwise
+/// that of above to the last bit. Throws what triangulate() throws, too.
 Horizon horizon(const Store& store, const Request& request, const HorizonOptions& options,
                 const ComputeOptions& compute_options, Progress& progress);
 

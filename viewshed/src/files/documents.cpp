@@ -36,6 +36,7 @@ Document sky_line_document(const Horizon& horizon, const StoreMetadata& metadata
       point["z"] = p.sky->position.z;
       point["theme"] = p.sky->theme == 0 ? "terrain" : metadata.themes[p.sky->theme - std::size_t{1}].name;
       point["data_edge"] = p.sky->data_edge;
+      point["over_missing"] = p.over_missing;
     }
     points.push_back(std::move(point));
   }
@@ -123,7 +124,8 @@ void add_missing_ground(const MissingGround& missing, Document& document) {
 
 Document targets_document(const Horizon& horizon) {
   Document targets = Document::array();
-  for (const SightedTarget& t : horizon.targets)
+  for (const SightedTarget& t : horizon.targets) {
+    const bool visible = t.verdict == Verdict::kVisible, undecided = t.verdict == Verdict::kUndecided;
     targets.push_back({{"name", t.target.name},
                        {"x", t.target.position.x},
                        {"y", t.target.position.y},
@@ -131,7 +133,11 @@ Document targets_document(const Horizon& horizon) {
                        {"azimuth_deg", t.azimuth_deg},
                        {"elevation_deg", t.elevation_deg},
                        {"distance_m", t.distance_m},
-                       {"visible", t.visible}});
+                       {"verdict", visible     ? "visible"
+                                   : undecided ? "undecided"
+                                               : "hidden"},
+                       {"visible", undecided ? Document() : Document(visible)}});
+  }
   return targets;
 }
 

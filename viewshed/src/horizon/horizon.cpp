@@ -7,10 +7,12 @@
 
 #include <itin/azimuth.hpp>
 #include <itin/call_progress.hpp>
+#include <itin/cross_section.hpp>
 #include <itin/error.hpp>
 #include <itin/geodesic.hpp>
 #include <itin/grid_units.hpp>
 #include <itin/level_choice.hpp>
+#include <itin/parallel.hpp>
 #include <itin/silent_progress.hpp>
 #include <itin/tin_heights.hpp>
 #include <itin/triangulate.hpp>
@@ -33,6 +35,9 @@ namespace itin::viewshed {
 namespace {
 
 using Heights = std::vector<std::optional<double>>;
+
+/// Of the memory: what sections over missing ground may keep.
+constexpr std::uint64_t kPartForSections = 8;
 
 /// Metres: the request's radius, or as far as there is data.
 double greatest_reach(const Request& request, const Box& data) {
@@ -85,7 +90,8 @@ class Survey {
       const Direction& d = directions[i];
       if (d.target) {
         const Point3 to = units_of(result_.targets[d.index]);
-        result_.targets[d.index].visible = eye_.stands_at({to.x, to.y}) || !blockers->find(eye_.units, to);
+        const bool visible = eye_.stands_at({to.x, to.y}) || !blockers->find(eye_.units, to);
+        result_.targets[d.index].verdict = visible ? Verdict::kVisible : Verdict::kHidden;
       } else {
         result_.points[d.index].sky = panorama.sky(result_.points[d.index].azimuth_deg);
       }
@@ -153,6 +159,25 @@ std::uint64_t points_within(std::uint64_t memory, const Store& store, const Requ
   return memory_beside_rasters(memory, store, request) / (bytes_per_point(Request()) + kPyramids);
 }
 
+/// Changes what is not known for want of ground along the lines from the eye.
+void heed_missing_ground(const Store& store, const Request& request, const ComputeOptions& options, Horizon& horizon) {
+  if (request.nodata == NoData::kClear) return;
+  const SectionSurface surface(store, request.detail, request.themes, {options.memory_bytes / kPartForSections});
+  const Point2 eye = request.observers.front().position;
+  parallel_for(horizon.points.size(), [&](std::size_t i) {
+    HorizonPoint& p = horizon.points[i];
+    if (!p.sky) return;
+    const CrossSection section = surface.between(eye, {p.sky->position.x, p.sky->position.y});
+    // A gap that goes on to the end is what rounding leaves of a point on the data's edge.
+    p.over_missing = std::any_of(section.gaps.begin(), section.gaps.end(),
+                                 [&](const SectionGap& gap) { return gap.to < section.length; });
+  });
+  for (SightedTarget& t : horizon.targets) {
+    if (t.verdict == Verdict::kVisible && !surface.between(eye, t.target.position).gaps.empty())
+      t.verdict = request.nodata == NoData::kBlock ? Verdict::kHidden : Verdict::kUndecided;
+  }
+}
+
 }  // namespace
 
 void require_whole_turn(double step) {
@@ -201,7 +226,9 @@ Horizon horizon(const Store& store, const Request& request, const HorizonOptions
     survey.cast(surface, left.first(run.count), stage);
     left = left.subspan(run.count);
   }
-  return std::move(survey).result();
+  Horizon result = std::move(survey).result();
+  heed_missing_ground(store, request, compute_options, result);
+  return result;
 }
 
 Horizon horizon(const Store& store, ViewshedWithSurface& computed, const Request& request,
@@ -212,7 +239,9 @@ Horizon horizon(const Store& store, ViewshedWithSurface& computed, const Request
   if (!held) return horizon(store, request, options, compute_options, progress);
   CallProgress call(progress);
   const Tin& surface = computed.surface->listed(call.step(0.5));
-  return horizon(surface, computed.ground ? *computed.ground : surface, request, options, call.step(1));
+  Horizon result = horizon(surface, computed.ground ? *computed.ground : surface, request, options, call.step(1));
+  heed_missing_ground(store, request, compute_options, result);
+  return result;
 }
 
 }  // namespace itin::viewshed
