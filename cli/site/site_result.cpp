@@ -65,9 +65,11 @@ OnCells on_cells(const Store& store, const SiteOptions& options, const SiteInput
   survey.positions.clear();
   for (const std::size_t site : sites) survey.positions.push_back(inputs.positions[site]);
   survey.targets.points.clear();
-  survey.targets.grid = viewshed::grid_of_reach(store, survey.positions, options.radius, options.cell_size());
+  survey.targets.grid = viewshed::grid_of_reach(store, sites.empty() ? inputs.positions : survey.positions,
+                                                options.radius, options.cell_size());
   survey.tolerance = 0;
   OnCells result{survey.targets, {}};
+  if (sites.empty()) return result;
   viewshed::SiteCoverage coverage(store, survey, progress);
   for (std::size_t i = 0; i < sites.size(); ++i) {
     while (!coverage.bounds(i).exact) coverage.refine({&i, 1});

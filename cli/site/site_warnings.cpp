@@ -54,7 +54,7 @@ void warn_of_too_few(const SiteResult& site, std::vector<std::string>& warnings)
     warnings.push_back(fmt::format("{} chosen, not {}: no other site that may be chosen serves anything more",
                                    counted(site.choice.chosen.size(), "site"), *options.count));
   const std::size_t serving = site.choice.chosen.size() + site.inputs.existing();
-  if (serving < static_cast<std::size_t>(options.cover))
+  if (options.cover > 1 && serving < static_cast<std::size_t>(options.cover))
     warnings.push_back(fmt::format("nothing counts as served: --k-cover asks for {} sites, and there {} {}",
                                    options.cover, serving == 1 ? "is" : "are", serving));
   if (options.budget && site.choice.chosen.empty())

@@ -111,9 +111,13 @@ viewshed::Turbine TurbineOptions::turbine_of(const SiteRow& row) const {
 }
 
 TurbineList TurbineOptions::read(const StoreMetadata& metadata, const std::function<double(double)>& radius) const {
-  const std::string name_field = query_.name_field.empty() ? "name" : query_.name_field;
-  const auto rows =
-      read_site_rows(query_, {hub_field_, rotor_field_, tip_field_, farm_field_, name_field}, metadata.crs_wkt);
+  // A field that was asked for has to be there.
+  const auto field = [](const std::string& name, const char* usual) { return SiteField{name, name != usual}; };
+  const auto rows = read_site_rows(
+      query_,
+      {field(hub_field_, kHubField), field(rotor_field_, kRotorField), field(tip_field_, kTipField),
+       field(farm_field_, kFarmField), field(query_.name_field.empty() ? kNameField : query_.name_field, kNameField)},
+      metadata.crs_wkt);
   TurbineList list;
   NoProgress quiet;
   list.sha256 = file_sha256(query_.path, quiet);
@@ -145,10 +149,10 @@ Document TurbineOptions::parameters() const {
   };
   text("layer", query_.layer), text("where", query_.where), text("name_field", query_.name_field);
   parameters.update(size_.parameters());
-  if (hub_field_ != "hub_height") parameters["hub_height_field"] = hub_field_;
-  if (rotor_field_ != "rotor_diameter") parameters["rotor_diameter_field"] = rotor_field_;
-  if (tip_field_ != "tip_height") parameters["tip_height_field"] = tip_field_;
-  if (farm_field_ != "farm") parameters["farm_field"] = farm_field_;
+  if (hub_field_ != kHubField) parameters["hub_height_field"] = hub_field_;
+  if (rotor_field_ != kRotorField) parameters["rotor_diameter_field"] = rotor_field_;
+  if (tip_field_ != kTipField) parameters["tip_height_field"] = tip_field_;
+  if (farm_field_ != kFarmField) parameters["farm_field"] = farm_field_;
   text("farm", farm_), text("in_crs", in_crs_.crs);
   return parameters;
 }

@@ -58,8 +58,9 @@ class TurbineOptions {
 
   SiteQuery query_;
   std::string farm_;
-  std::string hub_field_ = "hub_height", rotor_field_ = "rotor_diameter", tip_field_ = "tip_height",
-              farm_field_ = "farm";
+  static constexpr const char *kHubField = "hub_height", *kRotorField = "rotor_diameter", *kTipField = "tip_height",
+                              *kFarmField = "farm", *kNameField = "name";
+  std::string hub_field_ = kHubField, rotor_field_ = kRotorField, tip_field_ = kTipField, farm_field_ = kFarmField;
   InCrs in_crs_;
   TurbineSizeOptions size_;  ///< of rows that give none
 };

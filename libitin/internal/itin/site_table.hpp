@@ -2,7 +2,7 @@
 //
 //   SiteQuery query;
 //   query.path = "turbines.csv";
-//   for (const SiteRow& row : read_site_rows(query, {"hub_height", "farm"}, store.metadata().crs_wkt))
+//   for (const SiteRow& row : read_site_rows(query, {{"hub_height"}, {"farm"}}, store.metadata().crs_wkt))
 //     if (!row.error.empty()) report(row.feature, row.error);
 #pragma once
 
@@ -15,6 +15,11 @@
 
 namespace itin {
 
+struct SiteField {
+  std::string name;
+  bool required = false;  ///< else it may be missing, and is empty in every row
+};
+
 struct SiteRow {
   std::int64_t feature = 0;                        ///< the file's own number for it
   std::optional<Point2> position;                  ///< in the CRS asked for; nothing: see `error`
@@ -22,11 +27,11 @@ struct SiteRow {
   std::string error;                               ///< why there is no position; one line
 };
 
-/// All rows that query.where lets pass, in the file's order; fields that the layer does not have are empty in every
-/// row. A name longer than the ten letters that a Shapefile keeps is found by these, too. query.height_field and
-/// name_field are not used. Throws FileError for a file, layer or filter that is missing or not understood, InputError
-/// for a CRS that is unknown and a filter that leaves nothing.
-std::vector<SiteRow> read_site_rows(const SiteQuery& query, const std::vector<std::string>& fields,
+/// All rows that query.where lets pass, in the file's order. A name longer than the ten letters that a Shapefile keeps
+/// is found by these, too. query.height_field and name_field are not used. Throws FileError for a file, layer, required
+/// field or filter that is missing or not understood, InputError for a CRS that is unknown and a filter that leaves
+/// nothing.
+std::vector<SiteRow> read_site_rows(const SiteQuery& query, const std::vector<SiteField>& fields,
                                     const std::string& to_crs);
 
 }  // namespace itin

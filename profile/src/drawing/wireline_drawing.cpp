@@ -101,7 +101,7 @@ class WirelinePage {
                      {.size = 8, .colour = kInk, .align = Align::kCentre});
     }
     for (double e = std::ceil(low_); e <= high_; e += 1)
-      drawing_->text({frame_.xmin - 5, y_at(e) + 3}, fmt::format("{:+g}", e),
+      drawing_->text({frame_.xmin - 5, y_at(e) + 3}, fmt::format("{:+g}", e + 0.0),
                      {.size = 8, .colour = kInk, .align = Align::kRight});
     drawing_->text({(frame_.xmin + frame_.xmax) / 2, frame_.ymax + 28}, "azimuth from grid north, degrees",
                    {.size = 8, .colour = kInk, .align = Align::kCentre});

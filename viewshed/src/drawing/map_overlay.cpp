@@ -25,9 +25,9 @@ constexpr double kOpacity = 0.55;  ///< of what is seen
 constexpr int kSteps = 5;
 constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
 
-/// The rest of the palette, for observers.
+/// For observers, features and steps of losses, without amber, which is for the undecided.
 constexpr std::array<Rgba, 7> kPalette{
-    {{0, 114, 178}, {230, 159, 0}, {0, 158, 115}, {204, 121, 167}, {86, 180, 233}, {213, 94, 0}, {240, 228, 66}}};
+    {{0, 114, 178}, {73, 0, 146}, {0, 158, 115}, {204, 121, 167}, {86, 180, 233}, {213, 94, 0}, {240, 228, 66}}};
 
 /// The opacity of step i of n, weak to strong.
 double opacity_of(int i, int n) {
@@ -268,7 +268,6 @@ void MapOverlay::scale_probabilities() {
 
 void MapOverlay::scale_losses() {
   title_ = "Diffraction loss, dB";
-  // Amber is for the undecided.
   constexpr std::array<Rgba, kLossLimitsDb.size()> kColours{{kPalette[4], kPalette[2], kPalette[6], kPalette[5]}};
   add_step(0, {kPalette[0], kOpacity}, "0");
   double from = 0;

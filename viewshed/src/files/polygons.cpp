@@ -27,10 +27,12 @@ RegionClasses regions_of_verdicts(const Result& result) {
 
 RegionClasses classes_of_counts(const Result& result) {
   const std::set<std::uint16_t> counts(result.count.begin(), result.count.end());
+  // Counts are of observers that certainly see the cell.
+  const std::string none = result.cells.undecided > 0 ? "hidden or undecided" : "hidden";
   RegionClasses classes;
   for (const std::uint16_t count : counts)
     if (count != kCountOutside)
-      classes.push_back({count, count == 0   ? std::string("hidden")
+      classes.push_back({count, count == 0   ? none
                                 : count == 1 ? std::string("1 observer")
                                              : fmt::format("{} observers", count)});
   return classes;

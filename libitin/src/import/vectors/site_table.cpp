@@ -20,10 +20,13 @@ int field_named(OGRLayer& layer, const std::string& name) {
 
 class TableRows {
  public:
-  TableRows(GDALDataset& file, OGRLayer& layer, const SiteQuery& query, const std::vector<std::string>& fields,
+  TableRows(GDALDataset& file, OGRLayer& layer, const SiteQuery& query, const std::vector<SiteField>& fields,
             const std::string& to_crs)
       : places_(file, layer, query, to_crs) {
-    for (const std::string& name : fields) fields_.push_back(field_named(layer, name));
+    for (const SiteField& field : fields) {
+      const int there = field_named(layer, field.name);
+      fields_.push_back(there < 0 && field.required ? field_of_layer(layer, query.path, field.name) : there);
+    }
   }
 
   SiteRow read(const OGRFeature& feature) const {
@@ -47,7 +50,7 @@ class TableRows {
 
 }  // namespace
 
-std::vector<SiteRow> read_site_rows(const SiteQuery& query, const std::vector<std::string>& fields,
+std::vector<SiteRow> read_site_rows(const SiteQuery& query, const std::vector<SiteField>& fields,
                                     const std::string& to_crs) {
   const QuietGdal quiet;
   const GDALDatasetUniquePtr dataset = open_place_file(query.path, ColumnTypes::kTexts);
