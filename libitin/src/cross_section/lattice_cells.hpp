@@ -56,14 +56,14 @@ class LatticeCells {
   const Selection& selection_;
   Point2 heading_;
 
-  std::int64_t spacing_ = 0;           ///< of the sheet's posts, grid units; 0 before the first sheet
+  std::int64_t spacing_ = 0;           ///< from post to post of the sheet, grid units; 0 before the first sheet
   Corner first_;                       ///< the sheet's lower left post
   GridBox box_;                        ///< what is read for it
-  std::vector<Unread> unread_;         ///< of its leaves
-  std::vector<std::int32_t> heights_;  ///< of its posts, row by row from the south
+  std::vector<Unread> unread_;         ///< leaves in box_ that are still to be read
+  std::vector<std::int32_t> heights_;  ///< one for each post of the sheet, row by row from the south
   std::vector<Position> odd_;          ///< what is there besides
   std::vector<GridBox> segments_;      ///< the boxes of its segments
-  std::vector<Leaf> leaves_;           ///< for their memory
+  std::vector<Leaf> leaves_;           ///< kept to reuse their memory
   std::vector<Segment> edges_;
   std::uint64_t sheets_ = 0, cells_ = 0;  ///< laid, and known by them
 };

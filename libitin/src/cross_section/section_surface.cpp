@@ -149,7 +149,7 @@ class TiledTriangles final : public TriangleFinder {
   TileCache& tiles_;
   const SectionLine& line_;
   std::shared_ptr<const SectionTile> tile_;
-  SectionTile::Stop at_;  ///< of tile_
+  SectionTile::Stop at_;  ///< where the walk stands in tile_
   RetrievalStatistics statistics_;
 };
 

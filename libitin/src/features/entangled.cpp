@@ -13,7 +13,7 @@ namespace itin {
 
 namespace {
 
-using Meeting = std::pair<std::uint32_t, std::uint32_t>;  ///< of two owners
+using Meeting = std::pair<std::uint32_t, std::uint32_t>;  ///< two owners that meet
 
 /// Takes owners away, those with most meetings first.
 class Untangling {

@@ -41,7 +41,7 @@ class FoundationReaches {
   const FeatureMesh& mesh_;
   const TerrainHeights& terrain_;
   const std::vector<FootprintFeature>& features_;
-  bool any_;  ///< of the features has a flat foundation
+  bool any_;  ///< whether any feature has a flat foundation
 };
 
 }  // namespace itin

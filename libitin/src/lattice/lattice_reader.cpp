@@ -56,7 +56,7 @@ class LatticeReader::Work {
   void read(std::span<const std::uint32_t> tiles, Progress& progress);
 
   LatticeTin lattice_;
-  std::vector<std::int32_t> highest_;  ///< of tiles; none where all heights were read at once
+  std::vector<std::int32_t> highest_;  ///< one for each tile, grid units; none where all heights were read at once
 
  private:
   std::vector<Leaf> leaves_within(double margin) const { return leaves_about(index_, selection_, window_, margin); }
@@ -102,10 +102,10 @@ class LatticeReader::Work {
   Window whole_;
   GridWindow window_;
   bool everything_;
-  double widest_spacing_ = 0;  ///< of what was imported, grid units
+  double widest_spacing_ = 0;  ///< the greatest spacing of any source, grid units
   std::vector<Leaf> leaves_;
   std::optional<LatticeCover> cover_;  ///< while it is being opened
-  std::vector<bool> being_read_;       ///< of tiles
+  std::vector<bool> being_read_;       ///< one for each tile
   BucketLists leaves_of_tile_;
 };
 

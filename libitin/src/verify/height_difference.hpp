@@ -54,7 +54,7 @@ class HeightDifference {
 
   const RegionMesh& low_;
   GridBox bounds_;
-  std::int64_t side_ = 1, columns_ = 0;  ///< of buckets
+  std::int64_t side_ = 1, columns_ = 0;  ///< the side of a bucket, grid units, and how many are side by side
   BucketLists triangles_;                ///< by bucket
 };
 
