@@ -21,7 +21,7 @@ namespace itin::viewshed {
 class RunBounds {
  public:
   static constexpr std::int64_t kRun = 4;
-  static constexpr std::int64_t kSide = 64;  ///< of a tile, bins
+  static constexpr std::int64_t kSide = 64;  ///< the side of a tile, bins
 
   /// At first all is bare: everything is -infinity.
   RunBounds(std::int64_t columns, std::int64_t rows)
