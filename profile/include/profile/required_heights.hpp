@@ -21,7 +21,7 @@ namespace itin::profile {
 
 struct Requirement {
   Earth earth;
-  double fraction = 0;    ///< of the first Fresnel radius; 0: mere line of sight
+  double fraction = 0;    ///< part of the first Fresnel radius; 0: mere line of sight
   double wavelength = 0;  ///< metres; not used when the fraction is 0
 };
 
@@ -62,7 +62,7 @@ struct TallObject {
 /// A part of an object that reaches from its ground up to some height.
 struct VisiblePart {
   double visible_m = 0;  ///< seen of it, from its top down
-  double fraction = 0;   ///< of its height
+  double fraction = 0;   ///< the visible part of its height, 0 to 1
 };
 
 /// The visible part of an object at the second end, seen from an antenna or eye at the first.
