@@ -17,7 +17,7 @@ constexpr std::int64_t kSide = 64;
 /// How far behind the middle of a sheet its first cell lies, in halves of its side.
 constexpr double kSheetAhead = 0.7;
 /// Where sheets tell few cells each, no more of them are laid.
-constexpr std::uint64_t kFreeSheets = 3, kCellsASheet = 8;
+constexpr std::uint64_t kFreeSheets = 3, kCellsPerSheet = 8;
 /// So much that is not of the lattice, and searching is better.
 constexpr std::size_t kMostOdd = 64;
 /// Points of a block that the spacing is guessed by: neighbours, as a rule. A wrong guess is found out.
@@ -125,7 +125,7 @@ bool LatticeCells::on_sheet(const Corner& cell, std::int64_t spacing) const {
 
 /// Lays a sheet that a cell is near the border of, with most of it ahead. False where that does not pay.
 bool LatticeCells::lay(const Corner& cell, std::int64_t spacing) {
-  if (spacing > kGridHalfSide / kSide || sheets_ >= kFreeSheets + cells_ / kCellsASheet) return false;
+  if (spacing > kGridHalfSide / kSide || sheets_ >= kFreeSheets + cells_ / kCellsPerSheet) return false;
   ++sheets_;
   spacing_ = spacing;
   const auto behind = [&](double heading) {
