@@ -1,6 +1,6 @@
 // How high antennas must stand: one end alone, both equally, and one height against the other.
 //
-//   const profile::Requirement six_tenths{Earth(), 0.6, 0.03997};  // of F1, at 7.5 GHz
+//   const profile::Requirement six_tenths{Earth(), 0.6, 0.03997};  // part of F1, at 7.5 GHz
 //   const profile::RequiredHeights heights = profile::required_heights(line, {10, 15}, six_tenths);
 //   // The first end's height, the second one's staying at 15 m.
 //   if (heights.from_alone_m) std::cout << *heights.from_alone_m << " m\n";
