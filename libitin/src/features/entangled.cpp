@@ -55,7 +55,7 @@ class Untangling {
 
   std::uint64_t left_;
   std::map<std::uint32_t, std::vector<std::uint32_t>> others_;  ///< by owner, once for every meeting
-  std::set<std::pair<std::size_t, std::uint32_t>> order_;       ///< by meetings
+  std::set<std::pair<std::size_t, std::uint32_t>> order_;       ///< how many meetings each owner has, and the owner
 };
 
 }  // namespace

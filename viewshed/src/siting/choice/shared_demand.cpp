@@ -116,7 +116,7 @@ class Classes {
   }
 
   const ChoiceProblem& problem_;
-  ServedBounds served_;  ///< by existing sites
+  ServedBounds served_;  ///< what existing sites serve
   std::vector<std::size_t> options_;
   std::size_t end_ = 0;  ///< the first block that is left out
   std::vector<std::uint32_t> class_of_;
