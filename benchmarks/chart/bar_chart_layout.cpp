@@ -12,7 +12,7 @@ using profile::Align;
 using profile::Lettering;
 
 constexpr double kWidth = 780, kMargin = 16, kGap = 6;
-constexpr double kLongestName = 230;  ///< of a group
+constexpr double kLongestName = 230;  ///< how wide the name of a group may be
 constexpr double kBar = 9, kBarPitch = 11, kGroupGap = 9;
 constexpr double kLegendLine = 14, kSwatch = 8;
 constexpr int kMostTicks = 8;

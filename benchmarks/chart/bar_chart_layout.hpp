@@ -22,7 +22,7 @@ struct PlacedBar {
 
 struct BarChartLayout {
   double width = 0, height = 0;
-  Box frame;  ///< of the bars
+  Box frame;  ///< about the bars
   profile::Axis axis;
   std::vector<double> ticks;
   std::vector<PlacedBar> bars, swatches;  ///< swatches are the legend's

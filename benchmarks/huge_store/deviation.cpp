@@ -40,7 +40,7 @@ HeightBounds extremes(const Posts& heights, const Posts& scaled, int stage, cons
       lo = std::min(lo, difference), hi = std::max(hi, difference);
     }
   }
-  return {(lo * Square::kUnitsADecimetre) >> stage, -((-hi * Square::kUnitsADecimetre) >> stage)};
+  return {(lo * Square::kUnitsPerDecimetre) >> stage, -((-hi * Square::kUnitsPerDecimetre) >> stage)};
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ class Square {
   static constexpr const char* kCrs = "EPSG:32630";
   static constexpr std::int32_t kSpacing = 100;  ///< grid units
   static constexpr Grid kGrid{{0, 5368709.12}, 0.01};
-  static constexpr std::int32_t kUnitsADecimetre = 10;
+  static constexpr std::int32_t kUnitsPerDecimetre = 10;
 
   /// Its south-western corner is at 400,000 east, 6,000,000 north. Precondition: 1 to 100,000 m.
   explicit Square(std::int32_t side_m)
@@ -46,7 +46,7 @@ class Square {
 
   GridPoint post(int stage, std::int32_t column, std::int32_t row, std::int32_t decimetres) const {
     const std::int32_t spacing = kSpacing << stage;
-    return {kWest + column * spacing, kSouth + row * spacing, decimetres * kUnitsADecimetre};
+    return {kWest + column * spacing, kSouth + row * spacing, decimetres * kUnitsPerDecimetre};
   }
 
  private:

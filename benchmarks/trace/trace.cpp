@@ -94,7 +94,7 @@ class Trace {
 
   Task root_;
   Task* current_ = &root_;
-  volatile int depth_ = 0;  ///< of loops
+  volatile int depth_ = 0;  ///< how many loops are open
   double since_ = 0;        ///< the processor time at which the stretch began; that of the program's start is 0
 };
 

@@ -23,7 +23,7 @@ struct LosCase {
 struct LosHeader {
   std::string title;
   std::vector<std::pair<std::string, std::string>> facts = {};  ///< that come first: name, value
-  std::string from_name = {}, to_name = {};                     ///< of the ends; may be empty
+  std::string from_name = {}, to_name = {};                     ///< what the ends are called; may be empty
   std::optional<double> table_spacing_m = {};                   ///< as LosReport has it
 };
 

@@ -25,7 +25,7 @@ constexpr std::string_view kId = "{id}";
 
 struct Written {
   std::vector<std::string> paths;
-  std::string failure;  ///< of the first report that could not be written
+  std::string failure;  ///< why the first report that failed could not be written
 };
 
 /// The first of many, by name, and how many more.

@@ -40,7 +40,7 @@ class ObserverOptions {
   InCrs in_crs_;
   ViewFields views_;
 
-  double height_ = 2;  ///< of observers that have none of their own
+  double height_ = 2;  ///< taken for observers that have none of their own
   std::vector<Place> given_;
 };
 

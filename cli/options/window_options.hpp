@@ -39,7 +39,7 @@ class WindowOptions {
   InCrs in_crs_;
 
   Shape shape_ = Shape::kAll;
-  std::vector<double> numbers_;  ///< of the shape's option
+  std::vector<double> numbers_;  ///< the values of the shape's option
 };
 
 }  // namespace itin::cli

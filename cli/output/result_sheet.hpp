@@ -29,8 +29,8 @@ MapObjects mast_objects(std::vector<profile::SheetMark> masts, std::string key);
 struct ResultSheet {
   RasterGrid grid;
   Box area;                             ///< that the map shows at least, metres
-  viewshed::ResultMap map;              ///< of its cells
-  std::string heading;                  ///< of the map's keys
+  viewshed::ResultMap map;              ///< colours and keys of the cells
+  std::string heading;                  ///< heads the map's keys
   std::function<bool(Point2)> studied;  ///< whether a place is part of the study: the others' relief is faded
   std::vector<MapObjects> objects;      ///< over the cells, the lowest first
   profile::TitleBlock title;            ///< without what every sheet says: coordinates, project, date, maker

@@ -15,7 +15,7 @@ namespace itin::cli {
 namespace {
 
 constexpr int kJpegQuality = 80;
-constexpr double kPathUnits = 10 * kWebGroundPixels;  ///< of a path, over the frame's width
+constexpr double kPathUnits = 10 * kWebGroundPixels;  ///< the frame's width in the units of a path
 constexpr SvgPrecision kTenthOfAPixel{.tolerance = 1, .step = 1};
 constexpr double kPixelsPerMillimetre = 96 / 25.4, kMarkPixels = 14;
 constexpr Rgba kNoGround{237, 237, 242, 255};

@@ -28,7 +28,7 @@ namespace {
 using profile::SheetKey;
 using profile::SheetMark;
 
-constexpr double kPageWidth = 990, kPhoneWidth = 358;  ///< of a map, pixels
+constexpr double kPageWidth = 990, kPhoneWidth = 358;  ///< how wide a map is, pixels
 constexpr double kLetterWidth = 7.2, kLetterHeight = 14, kBeside = 10;
 
 RasterGrid ground_pixels(const Box& frame) {

@@ -25,8 +25,8 @@ struct ProfileOutput {
   const std::vector<SurfaceProfile>& profiles;
   const profile::Profile& ground;  ///< for charts and text: the first without raised features; may be empty
   Document document;               ///< the whole, for .json
-  std::string title;               ///< of charts
-  std::vector<double> corners_m;   ///< of charts: where along the line it turns
+  std::string title;               ///< the charts' title
+  std::vector<double> corners_m;   ///< where along the line it turns, for charts
   bool overwrite = false;
 };
 

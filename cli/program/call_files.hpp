@@ -45,7 +45,7 @@ class CallFiles {
   void add(const Named& output);
   void require_none_within(const Named& folder) const;
 
-  std::map<std::string, Named> inputs_, outputs_;  ///< by what identifies a file
+  std::map<std::string, Named> inputs_, outputs_;  ///< each under what identifies its file
 };
 
 }  // namespace itin::cli

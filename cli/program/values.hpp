@@ -73,7 +73,7 @@ std::vector<Ring> parse_rings(std::string_view option, std::string_view text);
 struct Place {
   Point2 position;
   std::optional<double> height;
-  std::string crs = {};  ///< of the position; empty: as the call says
+  std::string crs = {};  ///< the position's CRS; empty: as the call says
 };
 Place parse_place(std::string_view option, std::string_view text);
 

@@ -22,8 +22,8 @@ struct Candidate {
 
 /// Candidates that may not be chosen, all for one reason.
 struct Barred {
-  std::string why;                   ///< to follow "candidate 3 "
-  std::size_t first = 0, count = 0;  ///< of SiteInputs::rejected
+  std::string why;                   ///< the reason, worded to follow "candidate 3 "
+  std::size_t first = 0, count = 0;  ///< which of SiteInputs::rejected they are
 };
 
 struct SiteInputs {

@@ -17,7 +17,7 @@ namespace itin::cli {
 /// How lines between sites are judged.
 struct LinkRules {
   profile::LinkQuery query;
-  double fraction = 0;  ///< of the first Fresnel zone that must be clear, where there is a frequency
+  double fraction = 0;  ///< how much of the first Fresnel zone must be clear, 0 to 1, where there is a frequency
 
   /// Known to be in sight, with so much of the zone clear.
   bool met_by(const profile::LineFindings& found) const {

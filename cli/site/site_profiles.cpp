@@ -20,7 +20,7 @@ namespace {
 
 using viewshed::SitePosition;
 
-constexpr double kProfileWidth = 842, kProfileHeight = 300;  ///< of a sight line in the report, points
+constexpr double kProfileWidth = 842, kProfileHeight = 300;  ///< a sight line's drawing in the report, points
 
 profile::LosReport report_of(const Store& store, const SiteOptions& options, const SitePosition& from,
                              const SitePosition& to) {

@@ -12,10 +12,10 @@ namespace itin::cli {
 
 /// What the report shows besides the result.
 struct SiteReportParts {
-  std::vector<std::string> figures;  ///< of site_figures()
+  std::vector<std::string> figures;  ///< as site_figures() gives them
   std::vector<SiteProfile> profiles;
   Document parameters;               ///< shown as they are
-  std::vector<std::string> sources;  ///< of the ground, sort by sort
+  std::vector<std::string> sources;  ///< where the ground comes from, sort by sort
 };
 
 /// Throws FileError.

@@ -33,10 +33,10 @@ struct SiteResult {
   const SiteOptions& options;
   const SiteInputs& inputs;
   const viewshed::SiteCoverage& coverage;
-  const viewshed::Demand& measure;  ///< of the choice's value and gains: the demand, or the heights seen of turbines
+  const viewshed::Demand& measure;  ///< for the choice's value and gains: the demand, or the heights seen of turbines
   viewshed::Choice choice;
   SiteNetwork network;
-  std::vector<SiteRoute> routes;  ///< of the network's sites to the hub; none without one
+  std::vector<SiteRoute> routes;  ///< from the network's sites to the hub; none without one
   SiteRasters rasters;
   std::vector<double> ground_m;  ///< elevation of the ground under each chosen site, which may stand on a roof
 

@@ -11,7 +11,7 @@ struct SiteWording {
   std::string one, mark;         ///< that is chosen; `mark` with a capital
   std::string served, unserved;  ///< places, on maps; capitals
   std::string nothing;           ///< places without demand
-  std::string share;             ///< of the places that count, on sheets
+  std::string share;             ///< heads the keys on sheets: "Share of the places that count"
   std::string by;                ///< heads the map, before how many are chosen
   std::string how_many;          ///< heads the map of counts
   std::string count, nearest;    ///< bands

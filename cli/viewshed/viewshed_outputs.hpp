@@ -33,7 +33,7 @@ class ViewshedOutputs {
     Document surface;
     std::vector<std::pair<std::string, std::string>> parameters;  ///< that a result does not tell
     const viewshed::MissingGround& missing;
-    std::vector<std::string> sources;  ///< of the surface: sorts of them
+    std::vector<std::string> sources;  ///< where the surface comes from, sort by sort
   };
   void write(const Store& store, viewshed::ViewshedWithSurface& computed, const Context& context,
              std::vector<std::string>& warnings, Progress& progress) const;
@@ -56,7 +56,7 @@ class ViewshedOutputs {
   std::vector<std::string> others_;
   std::vector<std::string> single_;  ///< a path an observer, with --each
   std::vector<std::string> styles_;  ///< beside rasters
-  std::optional<NewFolder> folder_;  ///< of these
+  std::optional<NewFolder> folder_;  ///< the folder of single observers' rasters
   std::deque<Unfinished> in_new_folder_;
   OutputPolicy policy_;
 };

@@ -367,7 +367,7 @@ class ZtvVerb final : public Verb {
 
   TurbineList list_;
   viewshed::ZoneRequest request_;
-  std::vector<SourceInfo> sources_;  ///< of the surface
+  std::vector<SourceInfo> sources_;  ///< where the surface comes from
   viewshed::MissingGround missing_;  ///< in the study area
   ViewpointOptions::Written seen_;
 };

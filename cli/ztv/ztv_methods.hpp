@@ -14,7 +14,7 @@ namespace itin::cli {
 struct ZtvMethods {
   std::string turbines_file, turbines_sha256;
   std::string surface;              ///< detail and certified error
-  std::vector<SourceInfo> sources;  ///< of the terrain and of what screens, within the study area
+  std::vector<SourceInfo> sources;  ///< where the terrain and what screens come from, within the study area
   viewshed::MissingGround missing;  ///< in the study area
   bool wirelines = false, sheets = false;
   std::string radius;  ///< sentence

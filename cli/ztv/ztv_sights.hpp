@@ -16,7 +16,7 @@ struct Viewpoint {
   std::size_t number = 0;
   std::string name;
   Point2 position;
-  double height = 0;  ///< of the eye above the ground
+  double height = 0;  ///< how high the eye is above the ground
   double ground = 0;
 };
 

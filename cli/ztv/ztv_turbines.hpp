@@ -36,8 +36,8 @@ struct TurbineList {
   std::size_t rows = 0;
   std::vector<viewshed::Turbine> turbines;
   std::vector<BadRow> bad;
-  std::vector<std::int64_t> features;  ///< of every row
-  std::string sha256;                  ///< of the file
+  std::vector<std::int64_t> features;  ///< one for each row: the file's own number for it
+  std::string sha256;                  ///< checksum of the file
   std::vector<std::string> warnings;   ///< about rows that are used
 };
 
@@ -62,7 +62,7 @@ class TurbineOptions {
                               *kFarmField = "farm", *kNameField = "name";
   std::string hub_field_ = kHubField, rotor_field_ = kRotorField, tip_field_ = kTipField, farm_field_ = kFarmField;
   InCrs in_crs_;
-  TurbineSizeOptions size_;  ///< of rows that give none
+  TurbineSizeOptions size_;  ///< taken for rows that give none
 };
 
 }  // namespace itin::cli

@@ -34,7 +34,7 @@ class ViewpointOptions {
     std::size_t rows = 0;
     std::vector<BadRow> bad;
     std::string path;
-    std::vector<NamedPlace> places;  ///< of the viewpoints used
+    std::vector<NamedPlace> places;  ///< one for each viewpoint used
   };
   /// viewpoints.csv, viewpoints-summary.csv, and what WirelineWriter writes for the viewpoints chosen. Throws
   /// FileError, InputError (a wireline of no viewpoint), Cancelled.

@@ -16,17 +16,17 @@ namespace itin::cli {
 
 struct WirelineChoice {
   double least_width_deg = 53.5;
-  std::optional<double> bearing_deg;  ///< of the middle; nothing: the turbines' middle
+  std::optional<double> bearing_deg;  ///< where the middle lies; nothing: the turbines' middle
   bool hidden_dashed = false;
-  std::optional<double> blade_deg = 0;  ///< by which a blade is turned from upright; nothing: each turbine's another
+  std::optional<double> blade_deg = 0;  ///< how far a blade is turned from upright; nothing: another for each turbine
   std::string alone;                    ///< sheets in pairs: this farm alone, and all; empty: no pairs
 };
 
 /// A surface and what is written of the view over it.
 struct ViewedSurface {
   const SectionSurface& surface;
-  std::string title;   ///< in a wireline's notes
-  std::string suffix;  ///< of its files' names
+  std::string title;   ///< what a wireline's notes call it
+  std::string suffix;  ///< added to the names of its files
   std::string remark;  ///< about this viewpoint; may be empty
 };
 

@@ -118,7 +118,7 @@ class Links : public testing::Test {
   test::TemporaryDirectory directory_;
   std::optional<Store> store_;
   std::mt19937 random_{5};
-  std::ptrdiff_t undecided_ = 0;  ///< of those computed last
+  std::ptrdiff_t undecided_ = 0;  ///< how many of the links computed last are undecided
 };
 
 TEST_F(Links, HaveTheAnswersOfTheirReports) {

@@ -188,6 +188,16 @@ TEST(Comments, BeginWithTheirSubject) {
   }
 }
 
+/// A comment behind code, or behind a line of a header's example, says what a thing is: `///< the side of a cell`. One
+/// that begins with "of" has to be completed from the name.
+TEST(Comments, BehindCodeSayWhatTheyDescribe) {
+  const std::regex fragment("(\\s*[^\\s/]|//   ).*(//[/!]?<?|/\\*) *of\\b.*");
+  for_each_line({"libitin", "viewshed", "profile", "cli", "tests", "benchmarks", "examples"},
+                [&](const fs::path& file, const std::string& line) {
+                  EXPECT_FALSE(std::regex_match(line, fragment)) << file << ": " << line;
+                });
+}
+
 }  // namespace
 
 }  // namespace itin::test

@@ -77,7 +77,7 @@ class ExactLineOfSight {
 
   struct Patch {
     std::array<long double, 3> x, y, z;
-    std::array<long double, 3> length;  ///< of edge i, from corner i to the next
+    std::array<long double, 3> length;  ///< edge i runs from corner i to the next
 
     void measure_edges() {
       for (std::size_t i = 0; i < 3; ++i) length[i] = std::hypot(x[(i + 1) % 3] - x[i], y[(i + 1) % 3] - y[i]);

@@ -19,10 +19,10 @@ namespace {
 class GroundTilesOfHills : public testing::Test {
  protected:
   static constexpr double kWest = 300000, kNorth = 204000, kStep = 20;
-  static constexpr int kPostsASide = 200;
+  static constexpr int kPostsPerSide = 200;
 
   void SetUp() override {
-    test::write_raster(directory_.file("hills.tif"), {kWest, kNorth, kStep, kPostsASide, kPostsASide, 27700},
+    test::write_raster(directory_.file("hills.tif"), {kWest, kNorth, kStep, kPostsPerSide, kPostsPerSide, 27700},
                        [](int c, int r) { return 100 + 30 * std::sin(c * 0.2) * std::cos(r * 0.3); });
     ImportOptions options;
     options.sources = {directory_.file("hills.tif")};
@@ -33,7 +33,7 @@ class GroundTilesOfHills : public testing::Test {
   double draw(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random_); }
   /// In the hills or up to a fifth of their width outside.
   Point2 place() {
-    const double width = kStep * kPostsASide;
+    const double width = kStep * kPostsPerSide;
     return {kWest + draw(-0.2, 1.2) * width, kNorth - draw(-0.2, 1.2) * width};
   }
   /// Some are one place, and some one line.
@@ -51,7 +51,7 @@ class GroundTilesOfHills : public testing::Test {
 
 TEST_F(GroundTilesOfHills, BeneathLinesToABoxAreThoseBeneathEachOfThem) {
   const Store store(directory_.file("hills.itin"));
-  const double width = kStep * kPostsASide;
+  const double width = kStep * kPostsPerSide;
   const Box hills{kWest, kNorth - width, kWest + width, kNorth};
   const GroundTiles ground(store, 0, hills, 40);
   ASSERT_GT(ground.count(), 900U);

@@ -106,8 +106,8 @@ class WhereverTheObserverStands : public testing::Test {
 /// The answer of the exact line of sight for a cell.
 struct Truth {
   bool own = false;      ///< the observer's
-  double clearance = 0;  ///< of its line
-  double rise = 0;       ///< of its target above the eye
+  double clearance = 0;  ///< the clearance of its line
+  double rise = 0;       ///< how far its target is above the eye
   bool doubtful() const { return !own && std::abs(clearance + kGrazing) < kBisectionError; }
   bool sees() const { return own || clearance > -kGrazing; }
 };

@@ -228,7 +228,7 @@ TEST_F(RadioModes, ZonesAreCutFromTheFractionOfLinesOn) {
   request.cell_size = 170;
   const Result all = compute(store, request, progress_);
   const std::vector<profile::LinkResult> lines = lines_of(store, all);
-  constexpr double kHair = 1e-8;  // of the radius: heights are rounded otherwise there
+  constexpr double kHair = 1e-8;  // a part of the radius: heights are rounded otherwise there
   int looked_at = 0;
   for (std::size_t i = 0; i < lines.size() && looked_at < 40; ++i) {
     if (all.visible[i] == Verdict::kHidden || all.visible[i] == Verdict::kOutside) continue;

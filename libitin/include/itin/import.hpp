@@ -32,10 +32,10 @@ struct ImportOptions {
   std::vector<std::string> sources;  ///< anything GDAL opens as a raster or a point layer, .las, .csv, .xyz, .txt
 
   // Changes the answer.
-  std::optional<ThemeKind> kind;  ///< of lines, for import_lines(); nothing: terrain points
-  std::string theme;              ///< of lines: its name
-  std::string crs;                ///< of sources that do not say; overrides those that do
-  std::string to_crs;             ///< of the store; default: the source's own if metric and projected, else a UTM zone
+  std::optional<ThemeKind> kind;  ///< the kind of lines, for import_lines(); nothing: terrain points
+  std::string theme;              ///< the name of the lines' theme
+  std::string crs;                ///< the CRS of sources that do not name one; overrides those that do
+  std::string to_crs;             ///< the store's; default: the source's own if metric and projected, else a UTM zone
   std::string
       z_field;  ///< the height attribute of point layers and CSV; default: Z of the geometry, or the third column
   std::string layer;
@@ -44,14 +44,14 @@ struct ImportOptions {
   std::string id_field;                                ///< default: the source's number or key for the feature
   std::string name_field;                              ///< also the name of a raised feature in messages; default: none
   std::optional<std::vector<std::string>> attributes;  ///< fields; default: all of numbers, texts, dates and times
-  std::optional<int> band;  ///< of rasters: the one that holds heights, from 1; default: their only one
+  std::optional<int> band;  ///< the band of rasters that holds heights, from 1; default: their only one
 
   // For raised features only: CityJSON, and buildings, vegetation and walls for which one of the first three is given.
-  std::string height_field;      ///< of the highest point above the base
-  std::string eaves_field;       ///< of the eaves above the base
+  std::string height_field;      ///< height of the highest point above the base
+  std::string eaves_field;       ///< height of the eaves above the base
   std::optional<double> height;  ///< metres; of features that have none in the fields
   std::string base_field;        ///< elevation of the base
-  std::optional<BaseRule> base;  ///< of buildings without base_field; default: minimum, or the floors of CityJSON
+  std::optional<BaseRule> base;  ///< for buildings without base_field; default: minimum, or the floors of CityJSON
   std::optional<RoofKind> roof;  ///< default: flat
   /// How buildings meet the terrain; default: walls down to it.
   std::optional<Foundation> foundation;
@@ -90,7 +90,7 @@ struct ImportOptions {
 };
 
 struct ImportReport {
-  std::string crs_name;             ///< of the store
+  std::string crs_name;             ///< the store's CRS
   bool crs_chosen = false;          ///< a UTM zone was chosen, because the source is not metric
   std::uint64_t read = 0;           ///< posts, points and vertices read with a height
   std::uint64_t read_features = 0;  ///< lines, polygons and other features that these vertices are of
@@ -103,7 +103,7 @@ struct ImportReport {
   std::uint64_t isolated = 0;       ///< points left out now because no ground could be triangulated about them
   std::uint64_t features = 0;       ///< line features read, or features that stand now
   std::uint64_t refused = 0;        ///< features that could not stand, of all imports so far; warnings say why
-  std::uint64_t cells = 0;          ///< of rasters of heights that stand, read with a height
+  std::uint64_t cells = 0;          ///< cells with a height in rasters of heights that stand
   std::uint64_t low_cells = 0;      ///< those of them that are known not to reach the threshold
   double height_error_low = 0;      ///< metres: by how much cells stand lower than their rasters say, at most,
   double height_error_high = 0;     ///< or higher, besides the rounding to millimetres and the store's grid
@@ -112,7 +112,7 @@ struct ImportReport {
   std::uint64_t flat_before = 0;    ///< triangles that are level because their corners lie on contours
   std::uint64_t flat_after = 0;     ///< those of flat_before that are left
   std::uint64_t inferred = 0;       ///< points of the store inferred from contours
-  std::uint64_t vertices = 0;       ///< of the store now
+  std::uint64_t vertices = 0;       ///< how many the store has now
   std::uint64_t sea = 0;            ///< vertices of the sea among them
   std::uint64_t store_bytes = 0;
   double seconds = 0;

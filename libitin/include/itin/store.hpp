@@ -46,7 +46,7 @@ struct SourceInfo {
   std::string kind;            ///< "terrain", or a theme's kind (theme.hpp)
   std::string theme;           ///< name of the theme; empty for terrain
   std::string imported;        ///< UTC, ISO 8601
-  std::string sha256;          ///< of the file's bytes; empty where the source is not a plain file
+  std::string sha256;          ///< checksum of the file's bytes; empty where the source is not a plain file
   std::string source_crs;      ///< as found or given, authority:code or WKT
   std::uint64_t vertices = 0;  ///< that came from it and are still there
   /// Ground is triangulated across gaps up to these two vectors u, v (metres, projected): 1.5 times the two lattice
@@ -55,7 +55,7 @@ struct SourceInfo {
   std::array<double, 4> gap_basis{};  ///< ux, uy, vx, vy
   double spacing = 0;                 ///< metres: lattice step (geometric mean of the two), or mean point spacing
   bool replaces = false;              ///< took the place of coarser ground
-  bool makes_room = false;            ///< of lines: they end at the border of ground that replaces others
+  bool makes_room = false;            ///< its lines end at the border of ground that replaces others
   std::string note;                   ///< product, date and licence, as the import or the file says; may be empty
 };
 
@@ -63,12 +63,12 @@ struct StoreMetadata {
   int format_version = 0;
   std::string crs_wkt;
   Grid grid;
-  GridBox bounds;                   ///< of all vertices
+  GridBox bounds;                   ///< the box about all vertices
   std::optional<GridScale> scale;   ///< over the bounds; nothing where the CRS does not tell, and in older stores
   std::vector<LevelInfo> levels;    ///< level 0 (tolerance 0) first, then coarser and coarser
   std::vector<SourceInfo> sources;  ///< also the import history, in order
   std::vector<ThemeInfo> themes;    ///< those of the terrain first, then by name
-  std::vector<ThemePart> parts;     ///< of raised themes, in their order, then the finest first
+  std::vector<ThemePart> parts;     ///< those of raised themes, in the themes' order, then the finest first
   bool has_foundations = false;     ///< some buildings stand on flat foundations, which may cut into the ground
   std::uint64_t vertices = 0;
 };

@@ -79,12 +79,12 @@ struct ThemeInfo {
   ThemeKind kind = ThemeKind::Breaklines;
   std::uint64_t features = 0;  ///< imported, with at least one line
   std::uint64_t vertices = 0;  ///< distinct ends of its segments
-  std::uint64_t segments = 0;  ///< of the full surface, after crossings were resolved
+  std::uint64_t segments = 0;  ///< how many the full surface has, after crossings were resolved
   /// Blocks of a store that keep its footprints as they were imported; none for lines on the ground.
   std::uint32_t footprint_blocks = 0;
   /// Blocks of a store that keep ids, names and attributes of its features; none where no import kept any.
   std::uint32_t feature_blocks = 0;
-  std::vector<AttributeField> fields = {};  ///< of its features, in the order in which imports brought them
+  std::vector<AttributeField> fields = {};  ///< what its features have, in the order in which imports brought them
   bool segments_have_features = false;      ///< its lines know which feature they are of
   /// Metres: how far within their outlines the walls of its features reach their full height, where an import said so;
   /// elsewhere 0.05 or two grid steps.

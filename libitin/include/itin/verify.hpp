@@ -24,7 +24,7 @@ struct VerifyOptions {
 
 struct Verification {
   std::vector<Damage> damage;        ///< empty where every promise holds
-  std::uint64_t tiles = 0;           ///< of the ground, and of the raised features on it
+  std::uint64_t tiles = 0;           ///< tiles of the ground, and of the raised features on it
   std::uint64_t tiles_verified = 0;  ///< all, or the sample
 };
 

@@ -37,7 +37,7 @@ class BucketLists {
   std::size_t bytes() const { return (first_.capacity() + items_.capacity()) * sizeof(std::uint32_t); }
 
  private:
-  std::vector<std::uint32_t> first_;  ///< of bucket b: items_[first_[b], first_[b + 1])
+  std::vector<std::uint32_t> first_;  ///< bucket b has items_[first_[b], first_[b + 1])
   std::vector<std::uint32_t> items_;
 };
 

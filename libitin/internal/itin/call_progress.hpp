@@ -35,7 +35,7 @@ class CallProgress final : public Progress {
   Progress& whole_;
   std::mutex mutex_;
   bool stepped_ = false;        ///< a step has begun
-  double begin_ = 0, end_ = 1;  ///< of the step
+  double begin_ = 0, end_ = 1;  ///< the step's part of the whole call, 0 to 1
   double reported_ = -1;
   std::string stage_;
 };

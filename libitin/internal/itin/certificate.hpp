@@ -23,7 +23,7 @@ struct HeightBounds {
 class Certificate {
  public:
   struct Cell {
-    std::uint64_t code = 0, end = 0;  ///< of the Morton curve
+    std::uint64_t code = 0, end = 0;  ///< Morton codes: the cell's first, and the one after its last
     HeightBounds bounds;
   };
 

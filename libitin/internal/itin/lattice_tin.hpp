@@ -41,7 +41,7 @@ struct RimEdge {
 
 struct LatticeTin {
   Grid grid;
-  std::int32_t west = 0, north = 0;  ///< of post (0, 0), grid units
+  std::int32_t west = 0, north = 0;  ///< where post (0, 0) is, grid units
   std::int32_t spacing = 1;          ///< grid units
   std::uint32_t columns = 0, rows = 0;
   std::int32_t lowest = 0, highest = 0;  ///< no height is lower or higher; grid units
@@ -55,14 +55,14 @@ struct LatticeTin {
   /// The western and the eastern triangle of a cell, whichever its diagonal.
   static constexpr std::uint8_t kFirst = kSouthWest | kNorthWest, kSecond = kNorthEast | kSouthEast;
 
-  static constexpr std::uint32_t kSide = 64;          ///< of a tile, cells
-  static constexpr std::uint32_t kPosts = kSide + 1;  ///< along it
+  static constexpr std::uint32_t kSide = 64;          ///< the side of a tile, cells
+  static constexpr std::uint32_t kPosts = kSide + 1;  ///< posts along it
   static constexpr std::uint32_t kCells = kSide * kSide;
   enum class Ground : std::uint8_t { kNone, kPartly, kWhole };
   struct Tile {
     Ground ground = Ground::kNone;                                       ///< kWhole: every cell is kFalling
-    std::unique_ptr<std::array<std::uint8_t, kCells>> halves;            ///< of its cells as bits, where kPartly
-    std::unique_ptr<std::array<std::int32_t, kPosts * kPosts>> heights;  ///< of its posts, where they have been read
+    std::unique_ptr<std::array<std::uint8_t, kCells>> halves;            ///< by cell, as bits of Half, where kPartly
+    std::unique_ptr<std::array<std::int32_t, kPosts * kPosts>> heights;  ///< by post; null where they are not read
   };
   std::vector<Tile> tiles;  ///< row by row; those at the eastern and southern ends reach beyond the lattice
 

@@ -21,7 +21,7 @@ struct Path {
 
 /// A feature that is no line, or has a place that the CRS asked for does not know.
 struct BadPath {
-  std::size_t row = 0;  ///< of all features of the file, from 1
+  std::size_t row = 0;  ///< its place among all features of the file, from 1
   std::int64_t feature = 0;
   std::string id;  ///< as Path::id
   std::string message;

@@ -19,7 +19,7 @@ namespace itin {
 struct RegionClass {
   std::uint32_t value = 0;
   std::string name;
-  Rgba colour{0, 114, 178};  ///< in which QGIS opens it
+  Rgba colour{0, 114, 178};  ///< QGIS draws the class in it
 };
 
 struct RegionDescription {

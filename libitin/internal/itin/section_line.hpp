@@ -24,7 +24,7 @@ inline constexpr double kDistanceUnit = 1.0 / (1 << 30);
 
 /// Where the line, prolonged beyond both ends, meets the surface.
 struct SectionCrossing {
-  enum class Place { kBefore, kWithin, kBeyond };  ///< of the line between its ends, both included
+  enum class Place { kBefore, kWithin, kBeyond };  ///< along the line; both ends are within
 
   double t = 0;         ///< 0 at the start, 1 at the end; exactly so there
   double distance = 0;  ///< metres from the start, a multiple of kDistanceUnit

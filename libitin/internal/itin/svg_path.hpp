@@ -12,7 +12,7 @@ namespace itin {
 
 struct SvgPrecision {
   double tolerance = 0;  ///< points nearer to the rest of the line are left out
-  double step = 0.01;    ///< of coordinates: 1, 0.1, 0.01 ...
+  double step = 0.01;    ///< coordinates are multiples of it: 1, 0.1, 0.01 ...
 };
 
 /// In steps, as short as can be: "-.5", "12.25".

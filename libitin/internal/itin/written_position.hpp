@@ -14,7 +14,7 @@ namespace itin {
 
 struct WrittenPosition {
   Point2 position;  ///< easting and northing, or longitude and latitude
-  std::string crs;  ///< in which: EPSG:27700 or EPSG:4326
+  std::string crs;  ///< the CRS it is given in: EPSG:27700 or EPSG:4326
 };
 
 /// A latitude and a longitude, each with its letter N, S, E or W behind it, in either order; or two letters and an even

@@ -58,13 +58,13 @@ class NearbyApex {
   Point2 heading_;
   ApexSearch fallback_;
 
-  GridBox box_;                                            ///< the neighbourhood
-  double half_side_ = 0;                                   ///< of the last one, grid units
-  std::vector<Leaf> leaves_;                               ///< for its memory
-  std::vector<Unread> unread_;                             ///< of the neighbourhood
-  std::vector<std::pair<double, std::uint64_t>> reached_;  ///< of these, what one search's circle meets: circle and key
+  GridBox box_;                 ///< the neighbourhood
+  double half_side_ = 0;        ///< half the neighbourhood's side, grid units; 0 before the first one
+  std::vector<Leaf> leaves_;    ///< kept to reuse its memory
+  std::vector<Unread> unread_;  ///< leaves in the neighbourhood that are still to be read
+  std::vector<std::pair<double, std::uint64_t>> reached_;  ///< unread leaves met by a search's circle: circle and key
   std::vector<Segment> segments_;
-  std::vector<Segment> near_;  ///< of these, those that meet the box of one search's circle
+  std::vector<Segment> near_;  ///< segments_ that meet the box of one search's circle
 
   static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
   int bin_shift_ = 0;

@@ -13,7 +13,7 @@ namespace itin {
 
 namespace {
 
-using Meeting = std::pair<std::uint32_t, std::uint32_t>;  ///< of two owners
+using Meeting = std::pair<std::uint32_t, std::uint32_t>;  ///< two owners that meet
 
 /// Takes owners away, those with most meetings first.
 class Untangling {
@@ -55,7 +55,7 @@ class Untangling {
 
   std::uint64_t left_;
   std::map<std::uint32_t, std::vector<std::uint32_t>> others_;  ///< by owner, once for every meeting
-  std::set<std::pair<std::size_t, std::uint32_t>> order_;       ///< by meetings
+  std::set<std::pair<std::size_t, std::uint32_t>> order_;       ///< how many meetings each owner has, and the owner
 };
 
 }  // namespace

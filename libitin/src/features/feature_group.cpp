@@ -260,7 +260,7 @@ class GroupBuilder {
   const Progress& progress_;
   std::vector<std::uint32_t> feature_of_;  ///< by patch
   Arrangement arrangement_;
-  std::map<GridEdge, std::vector<Position>> between_;  ///< of feet on the terrain, by edge
+  std::map<GridEdge, std::vector<Position>> between_;  ///< where feet cross the terrain's edges, by foot
   std::vector<std::vector<WayAcross>> across_;         ///< by patch
   std::map<std::uint32_t, std::string> objections_;
   std::set<std::uint32_t> flat_;

@@ -15,13 +15,13 @@ namespace itin {
 
 /// A feature on the grid. Heights in grid units.
 struct PreparedFeature {
-  std::uint32_t number = 0;  ///< of the feature in the call
+  std::uint32_t number = 0;  ///< the feature's number in the call
   FeatureKind kind = FeatureKind::building;
   RoofKind roof = RoofKind::flat;
   bool measured = false;         ///< each patch is a plane piece of roof; else there is one patch
-  RoofHeights heights;           ///< of a building
+  RoofHeights heights;           ///< only a building has these
   bool flat_foundation = false;  ///< its outline lies at its base
-  double above_terrain = 0;      ///< of what drapes
+  double above_terrain = 0;      ///< how high a feature that drapes stands above the terrain
   std::vector<Patch> patches;
 
   bool drapes() const { return kind != FeatureKind::building; }

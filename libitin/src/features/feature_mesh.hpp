@@ -70,7 +70,7 @@ void require_wall_offset(double metres, const Grid& grid);
 struct FeatureOptions {
   Grid grid;
   double wall_offset = 0.05;  ///< metres
-  double pitch_degrees = 35;  ///< of roofs that do not say
+  double pitch_degrees = 35;  ///< taken for roofs that do not say theirs
 };
 
 /// Without terrain only buildings with a base of their own stand. Throws InputError for an offset or pitch out of range

@@ -45,7 +45,7 @@ bool strictly_inside(const GridPoint& a, const GridPoint& b, const GridPoint& c,
 struct Node {
   Point2 place;
   double height = kUnknown;
-  std::optional<Position> position;  ///< of the point to infer; none for vertices that are there, or where none fits
+  std::optional<Position> position;  ///< where to infer a point; none for vertices that are there, or where none fits
   bool tip = false;
   std::vector<std::pair<std::uint32_t, double>> links;  ///< neighbours and distances
 };
@@ -307,7 +307,7 @@ class Skeleton {
   std::vector<Node> nodes_;
   std::map<std::pair<std::uint64_t, std::uint64_t>, std::uint32_t> middles_;  ///< by the ends of the side
   std::vector<std::uint32_t> exits_;                                          ///< the vertices beyond
-  NearestSide contours_;                                                      ///< of the region
+  NearestSide contours_;                                                      ///< contours and borders of the region
   Surroundings around_;
   std::vector<Way> ways_;
 };

@@ -208,7 +208,7 @@ class Arranging {
   std::vector<MaskIndex> plans_;  ///< by patch
   std::map<GridEdge, std::uint32_t> left_of_;
   std::vector<std::set<std::uint32_t>> neighbours_;
-  std::vector<std::vector<Position>> corners_;  ///< of tops, by patch
+  std::vector<std::vector<Position>> corners_;  ///< corners of the tops, by patch
   Arrangement result_;
 };
 

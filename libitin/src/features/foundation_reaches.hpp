@@ -1,7 +1,7 @@
 // How far flat foundations bend the ground about them, and how deep they cut into it.
 //
 //   const FoundationReaches foundations(mesh, terrain, features);
-//   const FeatureReach reach = foundations.of(m);   // of mesh.masks[m]
+//   const FeatureReach reach = foundations.of(m);   // at mesh.masks[m]
 //
 // The ground bends within the terrain's triangles that a foot crosses. There, the surface less the terrain is linear
 // between feet and the terrain's vertices, so no part of it lies deeper than the feet do. Within the outline the
@@ -41,7 +41,7 @@ class FoundationReaches {
   const FeatureMesh& mesh_;
   const TerrainHeights& terrain_;
   const std::vector<FootprintFeature>& features_;
-  bool any_;  ///< of the features has a flat foundation
+  bool any_;  ///< whether any feature has a flat foundation
 };
 
 }  // namespace itin

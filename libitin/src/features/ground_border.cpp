@@ -52,7 +52,7 @@ class GroundBorder::Contacts {
  private:
   void meet() {
     std::vector<GridEdge> edges;
-    std::vector<std::size_t> first_line, first_border;  // of each distinct edge; and one behind the last
+    std::vector<std::size_t> first_line, first_border;  // by distinct edge; and one behind the last
     for (std::size_t i = 0; i < lines_.edges.size(); ++i) {
       const GridEdge e = edge_of(lines_.edges[i]);
       if (!edges.empty() && edges.back() == e) continue;

@@ -25,7 +25,7 @@ namespace itin {
 
 /// Triangles of the full surface that raised features change, by their edges.
 struct ChangedGround {
-  std::vector<GridEdge> pieces;  ///< of edges between them, or nearly, that stay: cut where the features' lines cross
+  std::vector<GridEdge> pieces;  ///< pieces left of edges between them, or nearly: cut where features' lines cross
   std::vector<GridEdge> inner;   ///< edges between them or under roofs, whole, the lesser end first
   std::vector<GridEdge> border;  ///< edges with one of them to the left and none to the right
 

@@ -3,7 +3,7 @@
 // level k consists of its vertices of level k and coarser, in their order along it.
 //
 //   LineHierarchy lines(segments, nodes, height, tolerances);
-//   for (const Segment& s : lines.segments()) ...       // of all levels, with finest, coarsest and reach
+//   for (const Segment& s : lines.segments()) ...       // all levels, with finest, coarsest and reach
 //
 // Lines are cut into chains at their junctions, where themes change and at `nodes`; closed chains at three extremes.
 // These vertices stay at every level. A shortcut may take the place of a piece of a chain where the piece's vertices

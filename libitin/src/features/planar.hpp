@@ -1,6 +1,6 @@
 // Makes lines planar: what comes out meets only at vertices, whatever went in.
 //
-//   std::vector<OwnedSegment> pieces = ...;            // of all lines of all owners, in any order
+//   std::vector<OwnedSegment> pieces = ...;            // all lines of all owners, in any order
 //   PlanarLines lines = make_planar(pieces);
 //   for (const PlanarEdge& e : lines.edges) ...        // e.from, e.to: numbers in lines.vertices
 //

@@ -56,8 +56,8 @@ class PolygonSides {
 
   std::vector<GridEdge> edges_;
   Position origin_;
-  Place extent_{-1, -1};   ///< of the box
-  std::int64_t side_ = 0;  ///< of a cell
+  Place extent_{-1, -1};   ///< the upper right corner of the box
+  std::int64_t side_ = 0;  ///< the side of a cell, in the units of Place
   std::int64_t columns_ = 0, rows_ = 0;
   BucketLists edges_of_cell_;
   std::vector<bool> inside_;  ///< by cell: whether the reference place is

@@ -56,7 +56,7 @@ GridBox box_on_grid(const FootprintFeature& feature, const Grid& grid) {
 /// Where a feature stands wall to wall with a higher one, whose eaves its wall reaches up to.
 struct PartyWall {
   std::uint32_t higher = 0, lower = 0;
-  std::int32_t height = 0;  ///< of the eaves above the ground, grid units
+  std::int32_t height = 0;  ///< how high the eaves are above the ground, grid units
 };
 
 std::vector<PartyWall> party_walls(const FeatureMesh& mesh, const MaskIndex& masks, const TerrainHeights& terrain) {
@@ -346,7 +346,7 @@ class ThemeRaiser {
   FeatureOptions options_;
   std::vector<double> lateral_;
   std::map<int, RaisedPart> parts_;
-  std::map<int, std::uint32_t> clusters_;  ///< of each part so far
+  std::map<int, std::uint32_t> clusters_;  ///< how many there are so far, by level
   RaisedFeatureTheme theme_;
 };
 

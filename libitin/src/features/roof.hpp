@@ -30,7 +30,7 @@ namespace itin {
 struct RoofHeights {
   double base = 0;
   std::optional<double> eaves;
-  std::optional<double> ridge;  ///< of the two at least one
+  std::optional<double> ridge;  ///< ridge or eaves, or both, are given
   double slope = 0.7;           ///< the tangent of the pitch
 };
 

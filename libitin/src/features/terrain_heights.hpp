@@ -1,6 +1,6 @@
 // Heights of the ground under features, exactly those of a triangulation: at positions, along edges, under footprints.
 //
-//   const TerrainHeights terrain(tin);                    // of the full surface, in a window about the features
+//   const TerrainHeights terrain(tin);                    // the full surface, in a window about the features
 //   std::optional<double> z = terrain.height_at(p);       // metres; nothing outside the triangulation
 //   std::optional<double> base = terrain.base_height(footprint, BaseRule::mean);
 //

@@ -352,9 +352,9 @@ class Overlaying {
   const std::vector<CoveredGround>& covered_;
   const Progress& progress_;
   Ownership footprints_, tops_;
-  std::map<std::uint32_t, double> above_;                          ///< of features that drape
-  std::map<std::uint32_t, std::int32_t> bases_;                    ///< of features on flat foundations
-  std::map<std::uint32_t, std::unique_ptr<TopSurface>> surfaces_;  ///< of tops that the terrain may pierce
+  std::map<std::uint32_t, double> above_;                          ///< height of what drapes, grid units, by feature
+  std::map<std::uint32_t, std::int32_t> bases_;                    ///< height of flat foundations, by feature
+  std::map<std::uint32_t, std::unique_ptr<TopSurface>> surfaces_;  ///< by top, where the terrain may pierce it
   std::vector<PlacedSegment> segments_;
   SegmentOwners owners_;
   PlanarLines lines_;

@@ -33,7 +33,7 @@ namespace itin {
 struct CoveredGround {
   std::uint32_t feature = 0;         ///< its number
   std::optional<double> above;       ///< its top follows the terrain already, so many grid units above it
-  std::optional<std::int32_t> base;  ///< of a flat foundation: its feet lie at this height, grid units
+  std::optional<std::int32_t> base;  ///< a flat foundation: its feet lie at this height, grid units
   GridPolygons footprint, top;
   std::vector<WayAcross> across;  ///< where edges of the terrain are cut that run along its walls into others'
 };

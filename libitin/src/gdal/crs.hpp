@@ -18,9 +18,9 @@ namespace itin {
 struct Crs {
   std::string wkt;                        ///< WKT 2; empty where there is but a vertical part
   std::string name;                       ///< "EPSG:27700" where an authority knows it, otherwise its name
-  std::optional<double> metres_per_axis;  ///< of a projected CRS; angles have none
-  std::optional<HeightAxis> heights;      ///< of a vertical part, where there is one
-  bool heights_given = false;             ///< by --crs, whatever the source says itself
+  std::optional<double> metres_per_axis;  ///< metres in a unit of a projected CRS; nothing where its axes are angles
+  std::optional<HeightAxis> heights;      ///< what the vertical part says, where there is one
+  bool heights_given = false;             ///< `heights` come from --crs, whatever the source says itself
   std::string whole;                      ///< authority:code or WKT 2, vertical part included
 
   /// Projected, axes in metres: fit for a store.

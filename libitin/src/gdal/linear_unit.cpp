@@ -13,7 +13,7 @@ struct Known {
   int code;  // EPSG's; 0 where it has none
   double metres;
   const char* name;
-  std::string_view others = {};  // in lower case, between bars
+  std::string_view others = {};  // other names, in lower case, between bars
 };
 
 // After the EPSG dataset v10, names in dialects after ESRI, PROJ, UDUNITS and what drivers of GDAL write.

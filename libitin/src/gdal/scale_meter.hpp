@@ -27,7 +27,7 @@ class ScaleMeter {
  private:
   Ellipsoid ellipsoid_;
   double allowed_ = kGreatestScaleError;
-  double degrees_ = 1;  ///< of one of its geographic CRS's units
+  double degrees_ = 1;  ///< degrees in a unit of its geographic CRS
   std::optional<PointTransform> to_geographic_;
 };
 

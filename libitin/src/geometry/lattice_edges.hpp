@@ -14,7 +14,7 @@ namespace itin {
 struct LatticeStep {
   int dx, dy;            ///< eastwards and northwards
   int left_dx, left_dy;  ///< the cell to the left: from the post's own column and row, which is that to its south-east
-  std::uint8_t left_halves;  ///< of that cell, those that have the edge
+  std::uint8_t left_halves;  ///< that cell's halves that have the edge, as bits
   int right_dx, right_dy;
   std::uint8_t right_halves;
 };

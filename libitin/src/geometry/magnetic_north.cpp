@@ -25,7 +25,7 @@ bool is_of_the_model(double year) {
 struct Geocentric {
   double radius_m;
   double sin_colatitude, cos_colatitude;
-  double sin_turn, cos_turn;  ///< of the geocentric latitude less the geodetic one
+  double sin_turn, cos_turn;  ///< sine and cosine of the geocentric latitude less the geodetic one
 };
 
 Geocentric geocentric(double latitude, double height_m) {

@@ -81,8 +81,8 @@ class StorePass {
   Additions& additions_;
   const ImportOptions& options_;
   ImportReport& report_;
-  const bool repair_;                ///< of contours
-  std::vector<SourceInfo> sources_;  ///< of the new store; the last one stands for inferred points where it is repaired
+  const bool repair_;                ///< whether contours are repaired
+  std::vector<SourceInfo> sources_;  ///< the new store's; the last one stands for inferred points where repair_ is true
   const Sources replacing_;          ///< the sources whose ground lines make room for
   PointIntake points_;
   LineCollection collection_;

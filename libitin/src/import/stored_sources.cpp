@@ -20,7 +20,7 @@ void add_surface(const Store& store, PointIntake& intake, LineCollection& lines,
   std::vector<RawPoint> points;
   for (std::size_t i = 0; i < leaves.size(); ++i) {
     progress.throw_if_cancelled();
-    if (leaves[i].theme > store.metadata().themes.size()) continue;  // of a part, which is made again
+    if (leaves[i].theme > store.metadata().themes.size()) continue;  // a part's, and parts are made again
     const auto block = store.points().block(leaves[i]);
     points.clear();
     for (std::size_t k = 0; k < block->points.size(); ++k) {

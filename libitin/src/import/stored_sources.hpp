@@ -22,7 +22,7 @@ bool will_repair(const ImportOptions& options, const Store* store);
 std::vector<SourceInfo> imported_sources(const Store* store);
 
 struct StoredPoints {
-  std::uint64_t count = 0;          ///< of the ground
+  std::uint64_t count = 0;          ///< points of the ground without the inferred ones
   std::vector<GridPoint> inferred;  ///< from contours; in Morton order
 };
 

@@ -83,7 +83,7 @@ class LatticeCover {
   LatticeTin& lattice_;
   const GridWindow& window_;
   bool everything_;
-  std::vector<Reach> reach_;                   ///< of tiles
+  std::vector<Reach> reach_;                   ///< one for each tile
   std::vector<std::unique_ptr<Posts>> posts_;  ///< where cells within reach have some
 };
 

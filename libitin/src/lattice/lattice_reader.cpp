@@ -29,7 +29,7 @@ namespace {
 constexpr std::uint64_t kEmptiest = 4, kEmptiestWithoutHeights = 64;
 /// The number of the fullest leaves that the lattice is found by.
 constexpr std::size_t kSamples = 8;
-constexpr std::size_t kLeavesATask = 64;
+constexpr std::size_t kLeavesPerTask = 64;
 /// The widest leaf, in posts, that bounds the height of a tile. Wider leaves say little about it, so their posts are
 /// read instead.
 constexpr std::int64_t kWidestToBound = LatticeTin::kSide / 2;
@@ -56,7 +56,7 @@ class LatticeReader::Work {
   void read(std::span<const std::uint32_t> tiles, Progress& progress);
 
   LatticeTin lattice_;
-  std::vector<std::int32_t> highest_;  ///< of tiles; none where all heights were read at once
+  std::vector<std::int32_t> highest_;  ///< one for each tile, grid units; none where all heights were read at once
 
  private:
   std::vector<Leaf> leaves_within(double margin) const { return leaves_about(index_, selection_, window_, margin); }
@@ -102,10 +102,10 @@ class LatticeReader::Work {
   Window whole_;
   GridWindow window_;
   bool everything_;
-  double widest_spacing_ = 0;  ///< of what was imported, grid units
+  double widest_spacing_ = 0;  ///< the greatest spacing of any source, grid units
   std::vector<Leaf> leaves_;
   std::optional<LatticeCover> cover_;  ///< while it is being opened
-  std::vector<bool> being_read_;       ///< of tiles
+  std::vector<bool> being_read_;       ///< one for each tile
   BucketLists leaves_of_tile_;
 };
 
@@ -188,9 +188,9 @@ bool LatticeReader::Work::place_all(const std::vector<Group>& groups, std::size_
                                     Heights heights, Progress& progress) {
   std::atomic<bool> odd = false;
   std::atomic<std::size_t> done = begin;
-  parallel_for((end - begin + kLeavesATask - 1) / kLeavesATask, [&](std::size_t task) {
+  parallel_for((end - begin + kLeavesPerTask - 1) / kLeavesPerTask, [&](std::size_t task) {
     progress.throw_if_cancelled();
-    const std::size_t first = begin + task * kLeavesATask, last = std::min(end, first + kLeavesATask);
+    const std::size_t first = begin + task * kLeavesPerTask, last = std::min(end, first + kLeavesPerTask);
     for (std::size_t i = first; i < last && !odd; ++i) {
       const Leaf& leaf = groups[i].front();
       const bool square = heights == Heights::kNone && bounds_well(leaf);
@@ -317,9 +317,9 @@ void LatticeReader::Work::read(std::span<const std::uint32_t> tiles, Progress& p
 
 /// Reads leaves into the tiles that are being read.
 void LatticeReader::Work::read_leaves(std::span<const std::uint32_t> leaves, Progress& progress) {
-  parallel_for((leaves.size() + kLeavesATask - 1) / kLeavesATask, [&](std::size_t task) {
+  parallel_for((leaves.size() + kLeavesPerTask - 1) / kLeavesPerTask, [&](std::size_t task) {
     progress.throw_if_cancelled();
-    for (std::size_t i = task * kLeavesATask; i < std::min(leaves.size(), (task + 1) * kLeavesATask); ++i) {
+    for (std::size_t i = task * kLeavesPerTask; i < std::min(leaves.size(), (task + 1) * kLeavesPerTask); ++i) {
       const Leaf& leaf = leaves_[leaves[i]];
       // Wide ones are asked for time and again.
       const auto block = bounds_well(leaf) ? index_.block_once(leaf) : index_.unordered_block(leaf);

@@ -17,7 +17,7 @@ namespace itin {
 /// An edge of the full surface crosses one of the coarse surface, too far above or below it.
 struct FailingCrossing {
   std::uint32_t coarse_from, coarse_to;  ///< the coarse edge's ends, the lesser first
-  std::int32_t size;                     ///< of the difference, grid units, rounded up
+  std::int32_t size;                     ///< how far apart in height the two are, grid units, rounded up
   /// The full edge's end that is nearer to the coarse edge, its other end, and the corners of the triangles at it,
   /// ascending. Where the edge has one triangle, its corner stands twice.
   std::array<std::uint64_t, 4> vertices;

@@ -32,7 +32,7 @@
 namespace itin {
 
 struct CoarseFaceInfo {
-  std::uint32_t first = kNoVertex;  ///< of the vertices that lie in the face, where the ground lists these
+  std::uint32_t first = kNoVertex;  ///< the first vertex that lies in the face, where the ground lists these
   std::uint32_t version = 0;        ///< counts the face's reincarnations, to recognise stale proposals
 };
 
@@ -69,9 +69,9 @@ inline constexpr double kCrossingError = 2e-5;
 struct Insertion {
   double error;
   std::uint32_t point;
-  std::uint32_t version;   ///< of the face
+  std::uint32_t version;   ///< the face's, when this was proposed
   CoarseFace face;         ///< null for an edge's proposal
-  std::uint32_t from, to;  ///< of the edge
+  std::uint32_t from, to;  ///< the ends of the edge
   bool of_edge() const { return face == CoarseFace(); }
   /// Greatest error first, then the first vertex in order; the rest only makes the order one.
   bool operator<(const Insertion& p) const {

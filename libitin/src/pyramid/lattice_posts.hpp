@@ -54,7 +54,7 @@ class LatticePosts {
   std::size_t count_with_neighbours() const;
 
   std::int64_t columns_ = 0, rows_ = 0, step_x_ = 1, step_y_ = 1;
-  std::int32_t west_ = 0, south_ = 0;  ///< of the first place
+  std::int32_t west_ = 0, south_ = 0;  ///< where the first place is, grid units
   double columns_per_unit_ = 0, rows_per_unit_ = 0;
   std::vector<std::uint32_t> vertices_;  ///< by place
 };

@@ -14,7 +14,7 @@
 namespace itin {
 
 struct Proposal {
-  std::vector<Segment> outline;         ///< of the ground, in short pieces (coverage.hpp)
+  std::vector<Segment> outline;         ///< the ground's, in short pieces (coverage.hpp)
   std::vector<std::uint64_t> isolated;  ///< points of no ground triangle, as Morton codes
 };
 

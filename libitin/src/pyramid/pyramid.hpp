@@ -29,9 +29,9 @@ struct PyramidReport {
   std::uint64_t isolated = 0;  ///< points left out: no ground about them
   std::vector<std::uint64_t> vertices_of_source;
   std::uint64_t left_out = 0;                ///< segments of lines that are not wholly on the ground
-  std::vector<std::uint64_t> segments;       ///< by theme and then by part, of the full surface
+  std::vector<std::uint64_t> segments;       ///< how many the full surface has, by theme and then by part
   std::vector<std::uint64_t> line_vertices;  ///< by theme and then by part
-  std::vector<Segment> placed;               ///< of lines on the ground, of the full surface
+  std::vector<Segment> placed;               ///< lines on the ground, as segments of the full surface
   std::vector<SegmentFeature> of_features;   ///< which features they are of
   std::uint64_t flat_before = 0;             ///< flat triangles of contours (features/flat_triangles.hpp)
   std::uint64_t flat_after = 0;              ///< those that the repair did not mend
@@ -42,9 +42,9 @@ struct PyramidSources {
   SortedPoints& points;  ///< the vertices of terrain lines among them; where contours are repaired, points are added
   const std::vector<SourceInfo>& sources;  ///< they give the gap bases
   const Grid& grid;
-  const std::vector<double>& tolerances;  ///< of the levels, metres
+  const std::vector<double>& tolerances;  ///< tolerances of the levels, metres
   const ThemeLines& lines;
-  const std::vector<GridPoint>* inferred = nullptr;  ///< by an earlier repair of contours, in Morton order
+  const std::vector<GridPoint>* inferred = nullptr;  ///< points from an earlier repair of contours, in Morton order
 };
 
 /// Finds the coverage, gives every point its level, certifies the levels and writes it all. Out of core: memory follows

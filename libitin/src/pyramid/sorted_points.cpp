@@ -303,7 +303,7 @@ class PointSorter::Impl {
     };
     const std::uint64_t buffer = merge_buffer(runs_.size()), count = total(runs_);
     RunWriter writer(sorted.file, 0, buffer);
-    std::optional<RawPoint> best, bare, ground;  // of one position: of all, of no line, ground by itself
+    std::optional<RawPoint> best, bare, ground;  // best points at a position: of all, off lines, of ground by itself
     std::uint64_t visited = 0;
     const auto append_best = [&] {
       if (!best) return;
@@ -334,7 +334,7 @@ class PointSorter::Impl {
   std::uint64_t memory_points_;
   std::uint64_t chunk_points_;
   TemporaryFile file_;
-  std::uint64_t end_ = 0;  // of the file, in points
+  std::uint64_t end_ = 0;  // the length of the file, in points
   std::vector<Run> runs_;
   std::vector<std::vector<RawPoint>> chunks_;  // all but the last one full
   std::vector<std::vector<RawPoint>> spare_;   // empty, with memory

@@ -174,7 +174,7 @@ namespace {
 Codes ends_of_features(const std::vector<Segment>& segments, const std::vector<SegmentFeature>& of_features) {
   using End = std::pair<std::uint64_t, std::uint16_t>;  // code, theme
   std::vector<End> all;
-  std::vector<std::pair<End, std::uint32_t>> own;  // with a feature
+  std::vector<std::pair<End, std::uint32_t>> own;  // ends, each with a feature
   for (const Segment& s : segments)
     for (const std::uint64_t code : {code_of(s.a()), code_of(s.b())}) all.emplace_back(code, s.theme);
   for (const auto& [s, feature] : of_features)

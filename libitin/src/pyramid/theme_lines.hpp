@@ -44,7 +44,7 @@ struct ThemeLines {
   std::vector<PlacedPart> parts;
   /// Ascending: the ends of what keeps the ground, all vertices of the full surface or of the theme's parts.
   std::vector<ThemeVertex> ground_ends;
-  std::vector<PlacedBorder> borders;  ///< of this ground
+  std::vector<PlacedBorder> borders;  ///< the borders of this ground
 
   std::size_t themes() const { return terrain.size(); }
   bool is_raised(const PlanarEdge& e) const { return e.owner >= themes(); }
@@ -64,12 +64,12 @@ struct ThemeLines {
 struct PlacedLines {
   std::vector<Segment> terrain;             ///< part of the full surface; their ends are points of the index
   std::vector<Segment> features;            ///< on it
-  std::vector<SegmentFeature> of_features;  ///< of the first two: which features they are of; ascending
+  std::vector<SegmentFeature> of_features;  ///< which features `terrain` and `features` are of; ascending
   std::vector<std::uint64_t> feature_ends;  ///< ascending Morton codes: where a theme's line goes on as another feature
-  std::vector<Segment> raised;              ///< of parts
+  std::vector<Segment> raised;              ///< lines of parts
   std::vector<Segment> ground;              ///< edges of the full surface about these, at level 0
-  std::vector<std::uint64_t> ends;          ///< of the first two, ascending Morton codes
-  std::vector<std::uint64_t> on_outline;    ///< of these, those on it
+  std::vector<std::uint64_t> ends;          ///< ends of `terrain` and `features`, ascending Morton codes
+  std::vector<std::uint64_t> on_outline;    ///< the ends that lie on the ground's outline
   std::vector<std::uint64_t> strays;        ///< vertices of terrain lines beyond the ground
   std::uint64_t left_out = 0;               ///< segments beyond the ground, or that leave it
 };

@@ -87,7 +87,7 @@ class VertexWalk {
   }
 
   const PlaneMesh& mesh_;
-  std::vector<Position> positions_;  ///< of the vertices, close together
+  std::vector<Position> positions_;  ///< where the vertices are, close together in memory
   std::vector<std::uint32_t> some_triangle_;
 };
 

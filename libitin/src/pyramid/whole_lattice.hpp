@@ -55,7 +55,7 @@ class WholeLattice {
   bool is_crossed(const PointIndex& index, const GridBox& near, const GridBox& all) const;
   void find_corners(const GridBox& box);
 
-  std::int64_t west_ = 0, south_ = 0;  ///< of the first post
+  std::int64_t west_ = 0, south_ = 0;  ///< where the first post is, grid units
   std::int64_t step_x_ = 0, step_y_ = 0;
   std::int32_t columns_ = 0, rows_ = 0;
   std::vector<std::int32_t> heights_;  ///< by post

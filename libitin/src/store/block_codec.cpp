@@ -307,7 +307,7 @@ struct Plan {
   PointSources sources;
   std::vector<std::uint8_t> padded;
   std::vector<LocalPosition> positions;
-  std::optional<BitReader> heights;  // of `padded`, before the first residual
+  std::optional<BitReader> heights;  // reads `padded` from the first residual on
 };
 
 Plan read_plan(const Cell& cell, std::span<const std::uint8_t> bytes) {

@@ -127,7 +127,7 @@ class Inspection {
     for (std::size_t t = 1; t <= themes.size(); ++t) {
       for (std::uint32_t i = 0; i < themes[t - 1].feature_blocks; ++i) {
         block_keys_.push_back(format::feature_key(t, i));
-        std::size_t records = kFeaturesInBlock;  // of a damaged block: what names them is not damaged
+        std::size_t records = kFeaturesInBlock;  // taken for a damaged block: what names them is not damaged
         guarded([&] { records = file_.read_features(static_cast<std::uint16_t>(t), i).size(); });
         features_[t] += records;
       }
@@ -230,7 +230,7 @@ class Inspection {
   std::vector<std::uint64_t> vertices_ = std::vector<std::uint64_t>(format::kFirstEdgeTree);  ///< by tree
   std::vector<std::uint64_t> segments_ = std::vector<std::uint64_t>(format::kLastTree);       ///< by theme
   std::vector<std::uint64_t> features_ =
-      std::vector<std::uint64_t>(format::kMaxThemes + 1);  ///< with records, by theme
+      std::vector<std::uint64_t>(format::kMaxThemes + 1);  ///< how many have records, by theme
   GridBox bounds_;
 };
 

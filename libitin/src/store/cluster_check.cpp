@@ -38,7 +38,7 @@ class VertexBoxes {
 
   const StoreFile& file_;
   int tree_;
-  std::uint64_t key_ = 0;  ///< of the leaf that was read last
+  std::uint64_t key_ = 0;  ///< the leaf that was read last
   std::map<std::uint64_t, Boxes> boxes_;
 };
 

@@ -16,8 +16,8 @@ using DirectoryChunk = std::vector<Leaf>;
 
 /// The part of a chunk that is always in memory.
 struct ChunkEntry {
-  std::uint64_t code = 0;  ///< of its first leaf
-  std::uint64_t end = 0;   ///< of its last leaf
+  std::uint64_t code = 0;  ///< where its first leaf begins
+  std::uint64_t end = 0;   ///< where its last leaf ends
   std::uint64_t leaves = 0;
   std::uint64_t points = 0;  ///< or segments, of an edge tree
 };

@@ -14,7 +14,7 @@ namespace itin {
 
 struct EncodedLeaf {
   Leaf leaf;
-  GridBox bounds;                   ///< of its points
+  GridBox bounds;                   ///< the box about its points
   std::uint32_t vertices = 0;       ///< its points without those of source format::kMask
   std::vector<std::uint8_t> block;  ///< empty without points
 };

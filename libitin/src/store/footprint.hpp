@@ -33,7 +33,7 @@ inline constexpr std::int32_t kNoHeight = std::numeric_limits<std::int32_t>::min
 struct HeightCells {
   /// The raster's first corner, and what leads from a cell to the next one of its row and of its column; metres.
   Point2 corner, across, down;
-  std::int32_t first_column = 0, first_row = 0, columns = 0, rows = 0;  ///< of the raster, in this part
+  std::int32_t first_column = 0, first_row = 0, columns = 0, rows = 0;  ///< which cells of the raster are in this part
   bool absolute = false;                                                ///< elevations; else heights above the ground
   std::int32_t step = 0, threshold = 0;
   HeightRounding rounding = HeightRounding::nearest;
@@ -51,13 +51,13 @@ struct FootprintFeature {
   FeatureKind kind = FeatureKind::building;
   std::vector<PlanRing> rings;
   BaseRule base_rule = BaseRule::minimum;
-  bool flat_foundation = false;  ///< of a building: its outline lies at its base, not on the terrain
+  bool flat_foundation = false;  ///< a building's outline lies at its base, not on the terrain
   std::optional<double> base;    ///< elevation; default: from the terrain. Only buildings have one: all else drapes
-  std::optional<double> height;  ///< of the highest point above the base (above the terrain, where it drapes)
-  std::optional<double> eaves;   ///< of the eaves above the base; default: from height and pitch
+  std::optional<double> height;  ///< how high the highest point is above the base (above the terrain, where it drapes)
+  std::optional<double> eaves;   ///< how high the eaves are above the base; default: from height and pitch
   RoofKind roof = RoofKind::flat;
   std::vector<RoofSurface> surfaces;  ///< a measured roof; takes the place of height, eaves and roof
-  std::optional<HeightCells> cells;   ///< of the kind `cells`, whose ring goes about them all
+  std::optional<HeightCells> cells;   ///< given for the kind `cells`, whose ring goes about them all
 };
 
 inline std::uint64_t vertex_count(const FootprintFeature& feature) {

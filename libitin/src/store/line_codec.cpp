@@ -28,7 +28,7 @@ enum Field { kGap, kDegree, kOther, kFinest, kCoarsest, kReach, kFields };
 struct LineLattice {
   Vertex corner;
   Vertex step;
-  int row_bits;  ///< of the greatest row
+  int row_bits;  ///< how many bits the greatest row takes
 };
 
 std::vector<Vertex> ends_of(const std::vector<Segment>& segments) {

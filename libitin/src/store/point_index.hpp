@@ -40,7 +40,7 @@ struct Block {
   PointSources sources;
   std::vector<std::uint8_t> levels;   ///< per point, or empty when all have the leaf's level
   std::uint16_t raised_theme = 0;     ///< the theme whose features they belong to; 0 for all but raised themes'
-  std::vector<std::uint8_t> outline;  ///< of those per point: whether it lies between a feature and the ground
+  std::vector<std::uint8_t> outline;  ///< per point of raised_theme: whether it lies between a feature and the ground
 
   /// The theme within whose features the point lies, off their outlines; 0 for none.
   std::uint16_t theme(std::size_t k) const {

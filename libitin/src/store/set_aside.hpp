@@ -18,7 +18,7 @@ namespace itin {
 struct ImportedSegment {
   GridPoint a, b;
   std::uint16_t source = 0;
-  std::uint32_t feature = kNoFeature;  ///< of its theme (segment_features.hpp)
+  std::uint32_t feature = kNoFeature;  ///< its number in the theme (segment_features.hpp)
   friend auto operator<=>(const ImportedSegment&, const ImportedSegment&) = default;
 };
 

@@ -153,7 +153,7 @@ class Assembly {
 
   std::vector<RegionMesh> regions_;
   std::vector<Part> parts_;
-  std::vector<std::uint64_t> codes_;  ///< of the result's vertices, ascending
+  std::vector<std::uint64_t> codes_;  ///< Morton codes of the result's vertices, ascending
   Tin tin_;
 };
 

@@ -125,7 +125,7 @@ std::vector<GridWindow::Edge> GridWindow::without_common_borders(const std::vect
   struct End {
     bool vertical;
     std::int32_t line, at;
-    int change;  ///< in how many edges more run upwards or to the right than back
+    int change;  ///< how many more edges run upwards or to the right than back
   };
   std::vector<End> ends;
   for (const Edge& e : edges) {

@@ -75,7 +75,7 @@ class GridWindow {
   bool boundary_meets(const Figure& figure, const CellRange& range) const;
 
   GridBox bounds_;           // within the grid
-  GridBox extent_;           // of the edges; up to one step outside the grid
+  GridBox extent_;           // the box about the edges; up to one step outside the grid
   std::vector<Edge> edges_;  // none: the window is the box extent_
 
   // A uniform grid of closed cells over extent_: which edges meet each cell, and each row of cells.

@@ -29,7 +29,7 @@ constexpr std::size_t kFewPlaces = 4;
 
 struct Place {
   Point2 units;       ///< on the grid
-  std::size_t index;  ///< of the position
+  std::size_t index;  ///< which position it is
 };
 
 /// All triangles that hold a position meet this, whatever rounding does.

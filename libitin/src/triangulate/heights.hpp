@@ -10,7 +10,7 @@
 namespace itin {
 
 struct RetrievedHeights {
-  std::vector<std::optional<double>> metres;  ///< of each position, in order
+  std::vector<std::optional<double>> metres;  ///< one for each position, in order
   RetrievalStatistics statistics;
 };
 

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::uint32_t kNone = kNoTriangle;
 /// Lattices with more gaps than posts are left alone from some point on.
-constexpr std::size_t kMostNodesAPost = 4;
+constexpr std::size_t kMostNodesPerPost = 4;
 /// A column with fewer than one in so many of the posts that columns usually have is none: its points are vertices of
 /// lines.
 constexpr std::uint32_t kLeastPart = 4;
@@ -142,7 +142,7 @@ bool LatticeSquares::place(std::span<const Position> positions) {
   if (!x.count(positions, &Position::x, most) || !y.count(positions, &Position::y, most)) return false;
   columns_ = x.choose(), rows_ = y.choose();
   if (columns_.size() < 2 || rows_.size() < 2) return false;
-  if (columns_.size() * rows_.size() > kMostNodesAPost * positions.size()) return false;
+  if (columns_.size() * rows_.size() > kMostNodesPerPost * positions.size()) return false;
   column_step_ = median_step(columns_), row_step_ = median_step(rows_);
   vertices_.assign(columns_.size() * rows_.size(), kNone);
   nodes_.assign(positions.size(), {});

@@ -445,7 +445,7 @@ class RegionTriangulation {
   int log2_cell_side_ = 0;
   std::uint64_t most_known_ = 0;  ///< points that may still be read into known_
   std::vector<Constraint> constraints_;
-  LatticeSquares squares_;  ///< of the points read at first
+  LatticeSquares squares_;  ///< made of the points read at first
   GrowingMesh grown_;       ///< proved: a triangle that needs no more proof
   std::vector<Ground> ground_;
   std::vector<SegmentEdge> outline_;

@@ -64,8 +64,8 @@ class RegionReader {
   const Selection& selection_;
   std::vector<SelectedVertex> vertices_;
   std::vector<std::uint64_t> codes_;                         ///< Morton codes of those in order
-  std::unordered_map<std::uint64_t, std::uint32_t> others_;  ///< by Morton code
-  std::set<std::uint32_t> bare_;                             ///< of these, those known by position only
+  std::unordered_map<std::uint64_t, std::uint32_t> others_;  ///< numbers of vertices that came later, by Morton code
+  std::set<std::uint32_t> bare_;                             ///< numbers in others_ of vertices known by position only
   std::unordered_set<Segment, HashOfEnds> segments_;         ///< that have been read
   RetrievalStatistics statistics_;
 };

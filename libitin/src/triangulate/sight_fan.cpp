@@ -9,7 +9,7 @@ namespace itin {
 
 namespace {
 
-constexpr std::size_t kSegmentsASector = 4;
+constexpr std::size_t kSegmentsPerSector = 4;
 constexpr std::size_t kMostSectors = 512;
 /// Far above the rounding of directions, far below the width of a sector.
 constexpr double kSlack = 1e-9;
@@ -21,7 +21,7 @@ SightFan::SightFan(Position a, Position b, Position eye, std::span<const Segment
   along_x_ = static_cast<double>(b.x) - a.x, along_y_ = static_cast<double>(b.y) - a.y;
   const double length = std::hypot(along_x_, along_y_);
   along_x_ /= length, along_y_ /= length;
-  count_ = static_cast<std::uint32_t>(std::clamp<std::size_t>(segments.size() / kSegmentsASector, 1, kMostSectors));
+  count_ = static_cast<std::uint32_t>(std::clamp<std::size_t>(segments.size() / kSegmentsPerSector, 1, kMostSectors));
   std::vector<Sectors> sectors;
   for (const Segment& s : segments) sectors.push_back(sectors_of(s));
   in_sector_ = {count_, sectors.size(), [&](std::uint32_t i, const auto& add) {

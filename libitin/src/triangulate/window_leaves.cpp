@@ -8,7 +8,7 @@ namespace itin {
 
 namespace {
 
-constexpr std::int64_t kStrips = 32;  ///< of the window's box, and columns of each
+constexpr std::int64_t kStrips = 32;  ///< the window's box has so many, and each of them so many columns
 
 /// Calls visit(first, last) for strip after strip of a range.
 template <class Visit>

@@ -15,7 +15,7 @@ namespace itin {
 struct FalseCell {
   int tree = 0;
   std::optional<Leaf> leaf;  ///< none: a leaf is missing
-  Extremes differs;          ///< of the two surfaces in it
+  Extremes differs;          ///< by how much the two surfaces differ in it
 };
 
 /// Merges what several tiles found about one cell; in the order of trees and of the curve.

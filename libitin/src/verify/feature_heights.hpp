@@ -37,7 +37,7 @@ class PartHeights {
   Selection ground_, selection_;
   RaisedIndex raised_;
   bool founded_;                  ///< some foundations may bend the ground about them, and cut into it
-  std::vector<int> other_trees_;  ///< of the theme's other parts
+  std::vector<int> other_trees_;  ///< trees of the theme's other parts
 };
 
 }  // namespace itin

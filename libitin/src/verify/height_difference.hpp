@@ -1,7 +1,7 @@
 // How far one triangulated surface rises above another within a box: the overlay of both, made triangle by triangle.
 //
 //   const HeightDifference difference(low_mesh);
-//   difference.add(high_mesh, t, box, extremes);     // of triangle t, over as much of it as lies in the box
+//   difference.add(high_mesh, t, box, extremes);     // triangle t, over as much of it as lies in the box
 //
 // Slow and plain: what pyramid/overlay.hpp finds along edges in one walk, and for whole triangles. Neither surface has
 // to have the other's vertices. In extended precision, about a corner of the triangle: to some 1e-5 grid units even
@@ -54,7 +54,7 @@ class HeightDifference {
 
   const RegionMesh& low_;
   GridBox bounds_;
-  std::int64_t side_ = 1, columns_ = 0;  ///< of buckets
+  std::int64_t side_ = 1, columns_ = 0;  ///< the side of a bucket, grid units, and how many are side by side
   BucketLists triangles_;                ///< by bucket
 };
 

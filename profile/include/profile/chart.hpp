@@ -23,7 +23,7 @@ struct Chart {
   std::string title;
   std::string note;                 ///< below the title, smaller
   std::vector<ChartSeries> series;  ///< the first is drawn as ground, the others as lines over it
-  Profile ground;                   ///< of the first, without raised features; no points where it has none
+  Profile ground;                   ///< the first one's ground, without raised features; no points where it has none
   std::vector<std::string> themes;  ///< names by ProfilePoint::theme, of those features
   std::vector<double> corners_m;    ///< where along the profile its path turns
 };

@@ -81,9 +81,9 @@ struct DiffractionEdge {
 struct PathLosses {
   Horizons horizons;
   SmoothHeights smooth;
-  std::optional<double> largest_v;  ///< of all points as single knife edges; nothing without a point between the ends
+  std::optional<double> largest_v;  ///< among points, each a knife edge; nothing without a point between the ends
   double free_space_db = 0;         ///< along the slant line between the antennas
-  double knife_edge_db = 0;         ///< of the point with the largest v, alone
+  double knife_edge_db = 0;         ///< loss over the point with the largest v, alone
   double lba_db = 0, lbs_db = 0;    ///< Bullington over the ground and over the smooth surface
   double ldsph_db = 0;              ///< spherical Earth
   double ld_db = 0;                 ///< delta-Bullington: lba + max(ldsph - lbs, 0)
@@ -106,14 +106,14 @@ PathLosses path_losses(const Profile& profile, const Antennas& antennas, const R
 struct Reflection {
   double distance_m = 0;           ///< from the first antenna
   std::optional<double> ground_m;  ///< elevation of what stands there; nothing where that is without data
-  std::uint16_t theme = 0;         ///< of it
+  std::uint16_t theme = 0;         ///< the theme of what stands there
   double grazing_deg = 0;          ///< angle between the path and the ground
   double longer_by_m = 0;          ///< than the direct path
   /// The place itself, where what stands there rises above the direct path; else where the profile rises highest above
   /// the two straight lines from the antennas to the ground there; nothing where it does not, and where ground_m is
   /// nothing.
   std::optional<ProfilePoint> screen;
-  double screen_depth_m = 0;  ///< by how much; 0 without a screen
+  double screen_depth_m = 0;  ///< how far the screen rises above that; 0 without a screen
 };
 /// The specular point on the straight surface that fits the ground best (smooth_heights(), hst and hsr) over the
 /// effective Earth: angles of incidence and reflection are equal there. The profile is looked at as it is, with no

@@ -74,7 +74,7 @@ LinkTable read_link_table(const std::string& path, const std::string& to_crs, co
 
 struct LinkQuery {
   Earth earth;
-  Detail detail = Detail::tolerance(0);      ///< of the surface
+  Detail detail = Detail::tolerance(0);      ///< the surface's level of detail
   ThemeChoice themes = ThemeChoice::none();  ///< raised features on the surface
   /// Whether an end within a raised feature stands on it, or else on the ground under it.
   bool from_on_surface = false, to_on_surface = false;
@@ -93,12 +93,12 @@ struct LinkResult {
   double distance_m = 0;
   std::optional<LineFindings> found;  ///< nothing: an error. Without obstructions and curves
   EndGrounds stands_on;               ///< elevations of what the ends stand on
-  double gap_m = 0;                   ///< of the distance, without data
+  double gap_m = 0;                   ///< how much of the distance has no data
   std::optional<RadioPath> radio;
   std::optional<PathLosses> losses;  ///< nothing also where an antenna is within a feature
   std::optional<Reflection> reflection;
   std::optional<VisibleHeight> visible;
-  std::string message;  ///< of an error
+  std::string message;  ///< what went wrong, where there was an error
   // What was read for this link; what links share is counted where it was read first:
   RetrievalStatistics statistics;
   std::uint64_t triangles = 0;  ///< crossed by the line

@@ -44,8 +44,8 @@ struct Obstruction {
   double from_m = 0, to_m = 0;  ///< distances
   double peak_at_m = 0;         ///< where it is deepest
   double peak_m = 0;            ///< elevation of the ground there
-  double depth_m = 0;           ///< of the ray below it, > 0
-  std::uint16_t theme = 0;      ///< of what stands at peak_at_m
+  double depth_m = 0;           ///< how far the ray lies below the ground there, > 0
+  std::uint16_t theme = 0;      ///< the theme of what stands at peak_at_m
   std::int64_t feature = -1;    ///< as in ProfilePoint
 };
 
@@ -63,7 +63,7 @@ struct Criterion {
 double fade_factor(double length_m);
 struct CriterionResult {
   Criterion criterion;
-  double k = 0;  ///< of the Earth on which it was judged
+  double k = 0;  ///< the effective Earth factor by which it was judged
   CriterionVerdict verdict = CriterionVerdict::kMeets;
   // Over known ground, at the critical point on this Earth.
   std::optional<double> clearance_m;
@@ -101,8 +101,8 @@ struct LosQuery {
 /// Where a line over a store runs, and over which surface.
 struct StoreLine {
   Point2 from, to;                           ///< in the store's CRS
-  Detail detail = Detail::tolerance(0);      ///< of the surface
-  ThemeChoice themes = ThemeChoice::none();  ///< likewise
+  Detail detail = Detail::tolerance(0);      ///< the surface's level of detail
+  ThemeChoice themes = ThemeChoice::none();  ///< raised features on the surface
   bool elevations = false;  ///< the query's heights are elevations, not heights above what the ends stand on
 };
 
@@ -111,9 +111,9 @@ struct LosEnd {
   double ground_m = 0;              ///< elevation of the ground without raised features
   std::optional<double> surface_m;  ///< elevation with them, where they are known
   bool on_surface = false;          ///< whether height_m counts from that
-  double height_m = 0;              ///< of the antenna
-  double elevation_m = 0;           ///< likewise
-  double elevation_angle_deg = 0;   ///< of the other antenna, as it appears
+  double height_m = 0;              ///< the antenna's height
+  double elevation_m = 0;           ///< the antenna's elevation
+  double elevation_angle_deg = 0;   ///< the angle at which the other antenna appears
   struct Site {
     Point2 position;                                    ///< in the store's CRS
     Point2 lon_lat;                                     ///< degrees on WGS 84
@@ -168,7 +168,7 @@ struct LosReport : LineFindings {
   std::optional<double> table_spacing_m;
 
   // Known for a line over a store alone:
-  std::vector<SourceInfo> sources;  ///< of the surface under the line, as triangulated there
+  std::vector<SourceInfo> sources;  ///< the surface's under the line, as triangulated there
   RetrievalStatistics statistics;
   std::uint64_t triangles = 0;  ///< crossed by the line
 };

@@ -29,7 +29,7 @@ struct ProfilePoint {
   double y = 0;
   double ground_m = 0;        ///< elevation of the surface
   double clutter_m = 0;       ///< on top of it, for diffraction only
-  std::uint16_t theme = 0;    ///< of the feature that it is within, as in Breakpoint; 0: terrain
+  std::uint16_t theme = 0;    ///< the theme of the feature that it is within, as in Breakpoint; 0: terrain
   std::int64_t feature = -1;  ///< none
 };
 

@@ -1,6 +1,6 @@
 // How high antennas must stand: one end alone, both equally, and one height against the other.
 //
-//   const profile::Requirement six_tenths{Earth(), 0.6, 0.03997};  // of F1, at 7.5 GHz
+//   const profile::Requirement six_tenths{Earth(), 0.6, 0.03997};  // part of F1, at 7.5 GHz
 //   const profile::RequiredHeights heights = profile::required_heights(line, {10, 15}, six_tenths);
 //   // The first end's height, the second one's staying at 15 m.
 //   if (heights.from_alone_m) std::cout << *heights.from_alone_m << " m\n";
@@ -21,7 +21,7 @@ namespace itin::profile {
 
 struct Requirement {
   Earth earth;
-  double fraction = 0;    ///< of the first Fresnel radius; 0: mere line of sight
+  double fraction = 0;    ///< part of the first Fresnel radius; 0: mere line of sight
   double wavelength = 0;  ///< metres; not used when the fraction is 0
 };
 
@@ -62,7 +62,7 @@ struct TallObject {
 /// A part of an object that reaches from its ground up to some height.
 struct VisiblePart {
   double visible_m = 0;  ///< seen of it, from its top down
-  double fraction = 0;   ///< of its height
+  double fraction = 0;   ///< the visible part of its height, 0 to 1
 };
 
 /// The visible part of an object at the second end, seen from an antenna or eye at the first.

@@ -32,7 +32,7 @@ struct WirelineTurbine {
   double tip_m = 0;
   bool seen = true;      ///< labelled
   std::string farm;      ///< each has its colour
-  double blade_deg = 0;  ///< by which a blade is turned from upright
+  double blade_deg = 0;  ///< how far a blade is turned from upright
 };
 
 struct WirelineQuery {

@@ -68,7 +68,7 @@ struct SheetKey {
   Sample sample = Sample::kPatch;
   Rgba colour;
   std::string text;
-  SheetSymbol symbol = SheetSymbol::kMast;  ///< of a mark
+  SheetSymbol symbol = SheetSymbol::kMast;  ///< what is drawn for a mark
 };
 
 struct TitleBlock {
@@ -78,7 +78,7 @@ struct TitleBlock {
   std::string date;                                        ///< as it is to be printed
   std::string statement;                                   ///< what the result takes into account and what not
   std::vector<std::pair<std::string, std::string>> facts;  ///< name, value
-  std::vector<std::string> sources;                        ///< of the data, with their licences
+  std::vector<std::string> sources;                        ///< where the data comes from, with licences
   std::string made_by;
 };
 

@@ -13,7 +13,7 @@ namespace itin::profile {
 
 namespace {
 
-constexpr SvgPrecision kTenthOfAPixel{.tolerance = 0.07, .step = 0.01};  ///< of a screen; in points
+constexpr SvgPrecision kTenthOfAPixel{.tolerance = 0.07, .step = 0.01};  ///< a tenth of a screen's pixel; in points
 
 std::string coordinate(double v) {
   return svg_number(v, kTenthOfAPixel.step);

@@ -16,7 +16,7 @@ namespace itin::profile {
 namespace {
 
 constexpr double kNearest = 20;   ///< metres: what is nearer is the ground at the viewer's feet
-constexpr double kGrowth = 1.12;  ///< of bands with distance
+constexpr double kGrowth = 1.12;  ///< a band ends at most this many times as far away as it begins
 
 /// Limits between bands, the turbines' distances among them, so that each stands between two.
 std::vector<double> band_limits(const WirelineQuery& query) {

@@ -17,7 +17,7 @@ namespace itin::profile {
 namespace {
 
 constexpr double kTellable = 0.06;    ///< points: a fiftieth of a millimetre
-constexpr double kSteepestJoint = 4;  ///< of a crest between two lines of sight, rise over distance
+constexpr double kSteepestJoint = 4;  ///< a crest climbs no more from one line of sight to the next, angle over angle
 
 double elevation_of(const WirelineQuery& query, const PlacedTurbine& placed, double height) {
   return apparent_angle_deg(query.earth, placed.distance, placed.turbine->ground_m + height - query.eye_elevation_m);

@@ -38,7 +38,7 @@ class WirelineScene {
   struct Part {
     double from_deg = 0, to_deg = 360;
     double label_size = 6;
-    double weight = 1;  ///< of all lines
+    double weight = 1;  ///< all lines are so many times as wide
   };
   WirelineScene(const Wireline& view, const Box& frame, WirelineProjection projection, const Part& part);
 

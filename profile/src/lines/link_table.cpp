@@ -157,7 +157,7 @@ class TableReader {
   void read() {
     std::string line;
     std::size_t row = 0;
-    bool first = true;  // of the lines that are not blank
+    bool first = true;  // until a line that is not blank has been read
     for (std::size_t number = 1; std::getline(file_, line); ++number) {
       if (number == 1 && line.starts_with(kUtf8Mark)) line.erase(0, 3);
       if (line.find_first_not_of(" \t\r") == std::string::npos) continue;

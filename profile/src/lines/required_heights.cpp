@@ -71,7 +71,7 @@ class Demand {
     double t;
     double ground;
     Above above;
-    std::optional<double> slope_on = {};  ///< of the ground from here to the next point, where there is any
+    std::optional<double> slope_on = {};  ///< the slope of the ground from here to the next point, where there is any
   };
 
   Above above_ground(double t) const {

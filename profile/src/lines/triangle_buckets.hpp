@@ -27,7 +27,7 @@ class TriangleBuckets {
   std::size_t bucket(int column, int row) const { return static_cast<std::size_t>(row) * column_count_ + column; }
 
   Box bounds_;
-  double side_ = 1;  ///< of a bucket, metres
+  double side_ = 1;  ///< the side of a bucket, metres
   int column_count_ = 0;
   int row_count_ = 0;
   BucketLists triangles_;  ///< by bucket, row by row

@@ -17,7 +17,7 @@ struct LinkRow {
   std::string id;
   const Link* link = nullptr;          ///< null: the row could not be read
   const LinkResult* result = nullptr;  ///< null: as above
-  std::string message;                 ///< of an error
+  std::string message;                 ///< what went wrong, where there was an error
   const std::vector<std::string>* others = nullptr;
   std::optional<Geodesic> geodesic;  ///< between the ends on WGS 84
   /// The declination of magnetic north at the ends, on the survey's day.

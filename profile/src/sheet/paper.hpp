@@ -11,7 +11,7 @@ inline constexpr double kPointsPerMillimetre = 72 / 25.4;
 struct Paper {
   double width, height;
   double type;  ///< sizes of letters and symbols are times this one: A1 is read from farther away
-  Box frame;    ///< of the map
+  Box frame;    ///< about the map
   Box panel;
 };
 

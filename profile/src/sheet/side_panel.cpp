@@ -77,7 +77,7 @@ void SidePanel::draw_key(const SheetKey& key) {
   const double size = 0.85 * row;
   switch (key.sample) {
     case kPatch: {
-      const double wash = 0.84;  // of level ground in the relief
+      const double wash = 0.84;  // the grey of level ground in the relief
       drawing_.rectangle(patch, {wash, wash, wash});
       drawing_.rectangle(patch, drawn(key.colour));
       drawing_.outline(patch, {kFaint, 0.3 * paper_.type, {}});

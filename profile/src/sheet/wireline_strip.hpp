@@ -15,7 +15,7 @@ struct WirelineStrip {
   double principal_mm = 0;  ///< the distance from which it is seen as in nature
   double centre_deg = 0;    ///< bearing of its middle
   double width_deg = 90;
-  double weight = 1;  ///< of all lines: wide sheets are seen from farther away
+  double weight = 1;  ///< all lines are so many times as wide: wide sheets are seen from farther away
 };
 
 /// How far the horizon must lie below the middle of the frame for the highest tip in it to be seen, points.

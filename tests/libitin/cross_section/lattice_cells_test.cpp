@@ -76,7 +76,7 @@ struct Shared {
 struct LatticeCase {
   Pattern pattern;
   int scale;     ///< grid units from post to post; 0: as the pattern has it
-  bool lattice;  ///< of squares, so that some are told
+  bool lattice;  ///< the posts form squares, so that some triangles are told
 };
 
 /// A line of a theme from one post to another two columns and a row away: no triangle crosses it.

@@ -209,8 +209,8 @@ PlanRing random_ring(std::mt19937& random, double reach, int corners, Point2 cen
 }
 
 struct Crowd {
-  double reach;   ///< of one polygon, metres
-  double spread;  ///< of their centres
+  double reach;   ///< how far a polygon reaches from its centre, metres
+  double spread;  ///< how far the centres lie from the middle, metres
   double offset;
 };
 

@@ -77,8 +77,8 @@ struct Rules {
   const char* name;
   BaseRule base;
   RoofKind roof;
-  double step;    ///< of posts, metres
-  double height;  ///< of features, at most
+  double step;    ///< from post to post, metres
+  double height;  ///< the greatest height of a feature, metres
 };
 
 class OnlyRaisedByRule : public OnlyRaised, public testing::WithParamInterface<Rules> {};

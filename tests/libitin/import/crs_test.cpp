@@ -103,7 +103,7 @@ TEST(Crs, RecognisesDialectsWithoutCodes) {
 }
 
 TEST(Crs, TakesNoUnknownDatumForAKnownOne) {
-  const Crs crs = parse_crs("+proj=utm +zone=55 +south +ellps=GRS80 +units=m", "a");  // of no authority
+  const Crs crs = parse_crs("+proj=utm +zone=55 +south +ellps=GRS80 +units=m", "a");  // no authority knows it
   EXPECT_EQ(crs.name.find("EPSG"), std::string::npos) << crs.name;
   EXPECT_EQ(parse_crs("+proj=utm +zone=55 +south +datum=WGS84 +units=m", "a").name, "EPSG:32755");
   // A false easting of its own.

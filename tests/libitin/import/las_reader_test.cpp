@@ -154,7 +154,7 @@ TEST(LasProjection, ReadsTheVerticalPart) {
   EXPECT_EQ(heights({{3072, 32630}, {4096, 5715}}), (HeightAxis{"Mean Sea Level", "metre", 1, true}));
   EXPECT_TRUE(heights({{3072, 26917}, {4096, 6358}}).down);
   EXPECT_EQ(heights({{3072, 26912}, {3076, 9002}, {4096, 5703}}).datum, "North American Vertical Datum 1988");
-  EXPECT_EQ(heights({{4096, 5703}}).unit, "metre");  // of no horizontal CRS
+  EXPECT_EQ(heights({{4096, 5703}}).unit, "metre");  // without a horizontal CRS
   EXPECT_EQ(parse_crs(projection_of(with_keys({{3072, 27700}, {4096, 5701}})).crs, "a").whole, "EPSG:27700+5701");
   EXPECT_EQ(projection_of(with_keys({{3072, 27700}, {4096, 5103}})).crs, "EPSG:27700");  // not known as a CRS
 }
@@ -167,7 +167,7 @@ TEST(LasProjection, ReadsUnits) {
   EXPECT_EQ(unit({{3072, 26912}, {4099, 9002}}), 0.3048);
   EXPECT_EQ(unit({{3072, 26912}, {4099, 9014}}), 1.8288);
   EXPECT_EQ(unit({{3072, 26912}, {4099, 1033}}), 0.01);
-  EXPECT_NEAR(unit({{3072, 26912}, {4099, 9070}}), 0.3048008333, 1e-10);  // of 1865, not 1936
+  EXPECT_NEAR(unit({{3072, 26912}, {4099, 9070}}), 0.3048008333, 1e-10);  // the foot of 1865, not of 1936
   EXPECT_EQ(unit({{3072, 2229}, {4096, 5703}, {4099, 9002}}), 0.3048);
   EXPECT_EQ(projection_of(with_keys({{3072, 26912}, {3076, 9001}})).crs, "EPSG:26912");
   const std::string feet = projection_of(with_keys({{3072, 26912}, {3076, 9002}})).crs;

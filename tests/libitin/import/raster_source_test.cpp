@@ -260,7 +260,7 @@ TEST_F(RasterSource, HonoursMaskNodataAndNanTogether) {
 TEST_F(RasterSource, AppliesScaleAndOffset) {
   MadeRaster made = whole_metres(hills(30, 20));
   made.scale = 0.1, made.offset = 300;
-  made.nodata = 12;  // of raw values
+  made.nodata = 12;  // a raw value
   test::write_raster(directory_.file("a.tif"), made);
   expect_exact(directory_.file("a.tif"));
 }

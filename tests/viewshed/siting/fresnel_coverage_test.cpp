@@ -175,7 +175,7 @@ class FresnelSites : public ::testing::Test {
   int side_ = 0;
   SiteSurvey survey_;
   double frequency_ghz_ = 1;
-  std::size_t in_sight_ = 0;  ///< of the pairs asked about
+  std::size_t in_sight_ = 0;  ///< how many of the pairs asked about are in sight
   std::mt19937 random_{test::seed()};
   NoProgress progress_;
 };

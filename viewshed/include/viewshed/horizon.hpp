@@ -36,7 +36,7 @@ struct SkyPoint {
   double elevation_deg = 0;
   double distance_m = 0;    ///< horizontal
   Point3 position;          ///< on the surface; of several places the nearest
-  std::uint16_t theme = 0;  ///< of the raised feature there; 0: terrain
+  std::uint16_t theme = 0;  ///< the theme of the raised feature there; 0: terrain
   bool data_edge = false;   ///< the ground ends there: what lies behind, unknown, may rise higher
 };
 
@@ -48,7 +48,7 @@ struct HorizonPoint {
 
 struct SightedTarget {
   HorizonTarget target;
-  double elevation_m = 0;  ///< of the target
+  double elevation_m = 0;  ///< the target's
   double azimuth_deg = 0;
   double elevation_deg = 0;
   double distance_m = 0;

@@ -25,11 +25,11 @@ struct MapOptions {
   std::string observers = {};                       ///< what the legend calls them; empty: "Observers"
   std::string counts = "Number of observers that see the place";  ///< heads the scale of Mode::kCount
   std::string outside = "Outside the field of view, or no data";
-  std::vector<std::uint8_t> no_data = {};  ///< of the result's cells: 1 to stripe those without ground; or none
+  std::vector<std::uint8_t> no_data = {};  ///< one per cell: 1 to stripe it as without ground; empty: none
   std::string no_data_text = "No ground data";
   std::string beyond_text = {};           ///< a line of the legend about what lies beyond the map; or none
   std::vector<std::string> sources = {};  ///< lines below the legend; more than six are counted
-  int map_pixels = 1600;                  ///< of the longer side of the map proper, 200 to 16000
+  int map_pixels = 1600;                  ///< the longer side of the map proper, 200 to 16000
 };
 
 /// 8-bit sRGB, row by row from the north-west.
@@ -50,9 +50,9 @@ MapImage draw_map(Surface& surface, const Result& result, Progress& progress, co
 struct ObliqueOptions {
   double azimuth = 340;               ///< degrees clockwise from grid north: where the viewer looks
   double elevation = 40;              ///< degrees, above 0 up to 90: how high above the horizon the viewer is
-  int pixels = 1600;                  ///< of the picture's longer side, 200 to 16000
+  int pixels = 1600;                  ///< the picture's longer side, 200 to 16000
   bool edges = false;                 ///< those of all triangles, over the shading
-  std::vector<ThemeKind> kinds = {};  ///< of the store's themes, the first one's first; without them all tops are grey
+  std::vector<ThemeKind> kinds = {};  ///< one for each theme of the store, in order; without them all tops are grey
 };
 
 /// Hidden parts are hidden exactly, up to a pixel. O(n) time for n triangles and O(pixels^2) memory, on one thread.
@@ -65,7 +65,7 @@ struct PerspectiveOptions {
   double azimuth = 0;  ///< degrees clockwise from grid north, in the middle of the picture
   double pitch = 0;    ///< degrees above the horizontal, between -90 and 90
   double field = 60;   ///< degrees across the picture, 1 to 150
-  int pixels = 1600;   ///< of the picture's width, 200 to 16000; its height is nine sixteenths of that
+  int pixels = 1600;   ///< the picture's width, 200 to 16000; its height is nine sixteenths of that
   Earth earth = {};
   bool edges = false;                 ///< those of all triangles, over the shading
   std::vector<ThemeKind> kinds = {};  ///< as ObliqueOptions::kinds

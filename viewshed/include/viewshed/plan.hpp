@@ -34,7 +34,7 @@ struct Segment {
   std::int64_t rows = 0;
   std::vector<std::uint32_t> observers;  ///< their numbers from 0 in the request, ascending
   double distance_m = 0;                 ///< from the nearest of them to the nearest cell
-  std::uint64_t points = 0;              ///< of the surface under the sight lines, about
+  std::uint64_t points = 0;              ///< points of the surface under the sight lines, about
 };
 
 inline constexpr std::uint64_t kAnyNumberOfCells = std::numeric_limits<std::uint64_t>::max();

@@ -67,8 +67,8 @@ struct SiteSurvey {
   /// Served are targets in sight; with a criterion only those whose link meets it, too.
   std::optional<FresnelCriterion> fresnel;
   // Change the speed, never what is exact.
-  Engine engine = Engine::kAuto;    ///< of cells at full detail; points are decided by rays
-  std::optional<double> tolerance;  ///< of the first stage; none: chosen by the number of points
+  Engine engine = Engine::kAuto;    ///< judges cells at full detail; points are decided by rays
+  std::optional<double> tolerance;  ///< the first stage's; none: chosen by the number of points
   /// For surfaces, and for what is known of what each site serves.
   std::uint64_t memory_bytes = std::uint64_t{1} << 30;
 };

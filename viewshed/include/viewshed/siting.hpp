@@ -94,7 +94,7 @@ class LinkNetwork {
   std::size_t options_, sites_;
   std::optional<std::size_t> hub_;
   Linked ask_;
-  std::vector<Link> links_;  ///< of each pair
+  std::vector<Link> links_;  ///< one for each pair of sites
 };
 
 enum class Objective {
@@ -106,7 +106,7 @@ struct ChoiceGoal {
   Objective objective = Objective::kMost;
   // At least one; the choice ends at the first that is reached.
   std::optional<std::size_t> count{};
-  std::optional<double> budget{};  ///< of the sum of costs
+  std::optional<double> budget{};  ///< the most that the sites may cost together
   std::optional<Weight> wanted{};  ///< value, besides what existing sites serve
   int cover = 1;                   ///< so many sites must serve an element, 1 to 255
   std::vector<DemandSet> existing{};
@@ -119,7 +119,7 @@ struct ChoiceGoal {
 
 struct ChosenSite {
   std::size_t option = 0;
-  Weight gain = 0;  ///< of the value, in this order
+  Weight gain = 0;  ///< what it adds to the value, in this order
   Weight cumulative = 0;
 };
 
@@ -142,7 +142,7 @@ struct Choice {
   Weight upper_bound = 0;
   Weight existing = 0;  ///< served by existing sites alone
   std::size_t swaps = 0;
-  std::vector<std::optional<Margin>> closest;  ///< of each option: the step at which it came nearest to being taken
+  std::vector<std::optional<Margin>> closest;  ///< per option: the step at which it came nearest to being taken
 };
 
 /// Throws InputError for a goal without an end, or one that its objective does not take, and Error where no choice

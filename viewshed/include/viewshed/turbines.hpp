@@ -47,8 +47,8 @@ struct ZoneRequest {
   std::optional<double> cell_size;  ///< the cells: one of the two
   std::optional<RasterGrid> grid;
   Earth earth;
-  Detail detail = Detail::tolerance(0);  ///< of the surface; not used with a Tin
-  std::optional<ThemeChoice> themes;     ///< of the screened surface, likewise; nothing: bare ground alone
+  Detail detail = Detail::tolerance(0);  ///< the surface's level of detail; not used with a Tin
+  std::optional<ThemeChoice> themes;     ///< what screens; not used with a Tin; nothing: bare ground alone
   NoData nodata = NoData::kUnknown;
   /// A survey of a store may take about so many bytes: it is made in parts where the surface does not fit. The results
   /// are the same. Nothing: any.
@@ -68,9 +68,9 @@ struct Visibility {
   std::vector<float> visible_height_m;        ///< tip less least visible height, the greatest over the turbines; or 0
   std::vector<float> vertical_angle_deg;      ///< that the visible part of a turbine takes up, the greatest; or 0
   std::vector<float> vertical_angle_sum_deg;  ///< over all turbines
-  std::vector<float> horizontal_angle_deg;    ///< of the smallest arc that holds all visible rotors; or 0
+  std::vector<float> horizontal_angle_deg;    ///< the smallest arc that holds all visible rotors; or 0
   std::vector<float> horizontal_from_deg;     ///< that arc's anticlockwise end, from grid north; NaN where none is seen
-  std::vector<float> horizontal_occupied_deg;  ///< of the arc, the part that rotors take up
+  std::vector<float> horizontal_occupied_deg;  ///< how much of that arc rotors take up
   std::vector<float> share;                    ///< tips seen, of all turbines of the request
   std::vector<float> nearest_m;                ///< horizontal distance to the nearest turbine seen; NaN where none is
   /// A sum over all cells for each turbine of the request, where it has weights: visible height times the cell's

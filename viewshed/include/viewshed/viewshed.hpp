@@ -120,8 +120,8 @@ struct Request {
   std::optional<double> cell_size;
   std::optional<RasterGrid> grid;
   Earth earth;
-  Detail detail = Detail::tolerance(0);      ///< of the surface; not used with a Tin
-  ThemeChoice themes = ThemeChoice::none();  ///< likewise
+  Detail detail = Detail::tolerance(0);      ///< the surface's level of detail; not used with a Tin
+  ThemeChoice themes = ThemeChoice::none();  ///< raised features on the surface; not used with a Tin
   // Both ends stand on the ground without raised features, or on the surface with them. Without a ground of its own,
   // compute() takes the surface for both.
   bool observers_on_surface = false;
@@ -220,7 +220,7 @@ struct Result {
   std::vector<float> free_space_db;
   std::vector<std::string> theme_names;  ///< from a store: of theme 1 and so on
   CellCounts cells;                      ///< areas are these times grid.cell_area()
-  std::vector<double> ground_m;          ///< of each observer
+  std::vector<double> ground_m;          ///< elevation of the ground, or of what stands on it, under each observer
   bool crosses_voids = false;            ///< some sight line may have passed over ground without data
   std::vector<std::string> warnings;     ///< one line each
   Statistics statistics;

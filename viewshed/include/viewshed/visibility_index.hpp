@@ -21,9 +21,9 @@
 namespace itin::viewshed {
 
 struct IndexRequest {
-  Window area;             ///< of observers: cells whose centre lies in it; all(): the whole coverage
+  Window area;             ///< where observers are: cells whose centre lies in it; all(): the whole coverage
   double cell_size = 100;  ///< metres
-  double height = 2;       ///< of observers above the ground, metres
+  double height = 2;       ///< observers' height above the ground, metres
   double target_height = 0;
   double radius = 5000;    ///< metres
   unsigned targets = 128;  ///< per observer
@@ -37,10 +37,10 @@ struct IndexRequest {
 
 struct VisibilityIndex {
   RasterGrid grid;
-  std::vector<float> share;           ///< of the ground within the radius, 0 to 1; NaN outside the area, or its ground
-  std::vector<float> standard_error;  ///< of that: sqrt(p (1 - p) / n), with one target more of either kind
+  std::vector<float> share;  ///< seen of the ground within the radius, 0 to 1; NaN outside the area, or its ground
+  std::vector<float> standard_error;  ///< sqrt(p (1 - p) / n) of the share p, with one target more of either kind
   std::vector<float> undecided;       ///< share that ground without data alone could hide, under kUnknown; NaN likewise
-  double mean = 0;                    ///< of the share seen, over the cells
+  double mean = 0;                    ///< the share seen, averaged over the cells
   double mean_error = 0;              ///< the standard error of that, for these cells
   double mean_undecided = 0;
   std::uint64_t observers = 0;

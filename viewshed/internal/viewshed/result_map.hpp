@@ -24,7 +24,7 @@ struct ResultMap {
     std::string text;
   };
   std::vector<Rgba> cells;  ///< clear where nothing is shown
-  std::vector<Key> keys;    ///< of single colours, with their shares of the cells decided
+  std::vector<Key> keys;    ///< single colours, with their shares of the cells decided
   std::string scale_title;
   std::vector<Key> scale;  ///< empty where the mode has no more to tell
 };

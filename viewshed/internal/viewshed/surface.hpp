@@ -20,7 +20,7 @@ namespace itin::viewshed {
 struct Surface {
   Tin tin;                                 ///< empty where the surface is a lattice, until it is listed
   std::unique_ptr<LatticeReader> lattice;  ///< else null
-  Box extent;                              ///< of all the data that it is a part of, metres; empty: of itself
+  Box extent;                              ///< about all the data that it is a part of, metres; empty: about itself
 
   std::size_t triangle_count() const { return lattice ? lattice->lattice().triangle_count() : tin.triangles.size(); }
   const RetrievalStatistics& statistics() const { return lattice ? lattice->lattice().statistics : tin.statistics; }

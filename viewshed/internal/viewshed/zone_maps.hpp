@@ -22,7 +22,7 @@ struct ZoneMap {
   };
   std::string name;          ///< as in the names of files: "tip-count-screened"
   std::string title;         ///< "Zone of theoretical visibility: blade tips"
-  std::string heading;       ///< of its legend
+  std::string heading;       ///< heads its legend
   const char* seen = "tip";  ///< "tip", "hub" or "farms"
   bool screened = false;
   std::vector<Class> classes;

@@ -34,7 +34,7 @@ class OppositeSides {
   }
 
  private:
-  std::vector<std::uint32_t> first_;  ///< of vertex v: [first_[v], first_[v + 1])
+  std::vector<std::uint32_t> first_;  ///< vertex v has triangles_[first_[v], first_[v + 1])
   std::vector<std::uint32_t> triangles_;
 };
 

@@ -45,7 +45,7 @@ class EnvelopeBounds final : public BinBounds {
   void round_outwards();
   void bound_runs();
 
-  std::vector<float> low_, high_;  ///< of each bin
+  std::vector<float> low_, high_;  ///< one entry for each bin
 };
 
 }  // namespace itin::viewshed

@@ -21,7 +21,7 @@ namespace itin::viewshed {
 class RunBounds {
  public:
   static constexpr std::int64_t kRun = 4;
-  static constexpr std::int64_t kSide = 64;  ///< of a tile, bins
+  static constexpr std::int64_t kSide = 64;  ///< the side of a tile, bins
 
   /// At first all is bare: everything is -infinity.
   RunBounds(std::int64_t columns, std::int64_t rows)
@@ -48,8 +48,8 @@ class RunBounds {
   Lines southwards() const;
 
  private:
-  static constexpr std::size_t kRunsASide = kSide / kRun;
-  using Runs = std::array<float, kSide * kRunsASide>;  ///< line by line
+  static constexpr std::size_t kRunsPerSide = kSide / kRun;
+  using Runs = std::array<float, kSide * kRunsPerSide>;  ///< line by line
   struct Tile {
     std::array<Runs, 2> low, high;  ///< eastwards, southwards
   };
@@ -78,9 +78,11 @@ class RunBounds::Lines {
  private:
   friend class RunBounds;
   const Tile& tile(std::size_t run, std::size_t line) const {
-    return *tiles_[run / kRunsASide * along_ + line / kSide * across_];
+    return *tiles_[run / kRunsPerSide * along_ + line / kSide * across_];
   }
-  static std::size_t place(std::size_t run, std::size_t line) { return line % kSide * kRunsASide + run % kRunsASide; }
+  static std::size_t place(std::size_t run, std::size_t line) {
+    return line % kSide * kRunsPerSide + run % kRunsPerSide;
+  }
 
   const Tile* const* tiles_ = nullptr;
   std::size_t direction_ = 0;
@@ -127,7 +129,7 @@ void RunBounds::bound(std::size_t tile, const RangeOf& range_of, const Low& low,
   for (const std::size_t direction : {0, 1}) {
     const std::size_t step = direction == 0 ? 1 : kStride, beside = direction == 0 ? kStride : 1;
     for (std::size_t line = 0; line < kSide; ++line) {
-      for (std::size_t run = 0; run < kRunsASide; ++run) {
+      for (std::size_t run = 0; run < kRunsPerSide; ++run) {
         const std::size_t first = line * beside + run * kRun * step;
         Value least = lows[first], greatest = highs[first];
         for (std::size_t bin = first, i = 0; i < kRun; ++i, bin += step) {

@@ -26,7 +26,7 @@ class TriangleBins {
   }
 
  private:
-  std::vector<std::uint32_t> first_;  ///< of bin b: [first_[b], first_[b + 1])
+  std::vector<std::uint32_t> first_;  ///< bin b has triangles_[first_[b], first_[b + 1])
   std::vector<std::uint32_t> triangles_;
 };
 

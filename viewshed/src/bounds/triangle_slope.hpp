@@ -2,7 +2,7 @@
 // farther than its corners do.
 //
 //   const TriangleSlope slope(tin, triangle, half);
-//   const double middle = slope.middle(x, y);          // of the square, grid units
+//   const double middle = slope.middle(x, y);          // at the square's middle, grid units
 //   use(slope.low(middle), slope.high(middle));
 #pragma once
 

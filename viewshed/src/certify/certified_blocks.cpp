@@ -40,7 +40,7 @@ ViewshedWithSurface certify_by_blocks(const Store& store, const Request& request
   Stopwatch watch;
   const std::vector<Eye> eyes = eyes_on_surface(store, request, Detail::tolerance(0), result.ground_m, progress);
   EnvelopeRequest wanted = certified_request(store, request);
-  wanted.observers.clear();  // of rays, and none is cast
+  wanted.observers.clear();  // rays would begin there, and none is cast
   CallProgress call(progress);
   Envelope envelope = envelop(store, wanted, call.step(0.4));
   result.statistics.add_retrieval(envelope.lower.statistics, envelope.lower.triangles.size(), watch.lap());

@@ -103,10 +103,10 @@ class CertifiedSectors {
   const Store& store_;
   const Request& request_;
   double most_points_;
-  EnvelopeRequest whole_;  ///< of all sectors together
+  EnvelopeRequest whole_;  ///< what all sectors together ask for
   double points_per_square_metre_;
   Progress& progress_;
-  SilentProgress reading_;  ///< of a sector
+  SilentProgress reading_;  ///< while a sector is read
   Stopwatch watch_;
   ViewshedWithSurface computed_;
   RasterGrid tiles_;

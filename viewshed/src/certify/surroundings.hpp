@@ -26,7 +26,7 @@ class Surroundings {
   const Store& store_;
   const Request& request_;
   const RasterGrid& grid_;
-  double points_;  ///< of the full surface, read about each observer, about
+  double points_;  ///< how many of the full surface are read about each observer, about
 };
 
 }  // namespace itin::viewshed

@@ -32,8 +32,8 @@ std::uint64_t judge_undecided(const TileJudge& judge, const std::vector<std::siz
 
 enum class CoarseWay : std::uint8_t {
   kNothing,  ///< decides nothing: all ground under the lines is needed
-  kRays,     ///< of the full surface, what is hidden or visible, and where the lines to others come near the ground
-  kBlocks,   ///< of a level's surface, cells that are hidden, and what is not hidden of the ground under the lines
+  kRays,     ///< finds over the full surface what is hidden or visible, and where other lines come near the ground
+  kBlocks,   ///< finds over a level's surface cells that are hidden, and what is not hidden of the ground under lines
 };
 CoarseWay coarse_way(const Store& store, const Request& request);
 
@@ -44,7 +44,7 @@ class CoarsePass {
     const Request& request;
     const GroundTiles& ground;
     const std::vector<RimEdge>& rim;  ///< where ground ends
-    const RasterGrid& tiles;          ///< of the result's cells
+    const RasterGrid& tiles;          ///< its cells are tiles of the result's
     const Result& result;
   };
   struct Left {

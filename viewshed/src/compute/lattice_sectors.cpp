@@ -172,14 +172,14 @@ class LatticeSectors {
   const Request& request_;
   std::uint64_t memory_;
   bool all_heights_;
-  double share_seen_;  ///< of a sector's tiles, as far as it is known
+  double share_seen_;  ///< the part of a sector's tiles that is seen, as far as it is known
   CallProgress progress_;
-  SilentProgress reading_;  ///< of a sector
+  SilentProgress reading_;  ///< while a sector is read
   Stopwatch watch_;
   ViewshedWithSurface computed_;
   RasterGrid tiles_;
   double posts_per_square_metre_ = 0;
-  double tile_side_m_ = 0;                                  ///< of a tile of the lattice, as far as it is known
+  double tile_side_m_ = 0;                                  ///< the side of the lattice's tiles, as far as it is known
   bool is_lattice_ = false;                                 ///< as far as has been read
   std::optional<Stage> stage_;                              ///< its steps are cells, of all observers
   std::vector<std::unique_ptr<Observation>> observations_;  ///< per tile

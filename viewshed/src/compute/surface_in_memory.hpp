@@ -15,10 +15,10 @@ struct SurfaceInMemory {
   // One of the two.
   const Tin* tin = nullptr;
   const LatticeTin* lattice = nullptr;
-  LatticeReader* reader = nullptr;                   ///< of the lattice, where heights may have to be read
+  LatticeReader* reader = nullptr;                   ///< reads the lattice, where heights may have to be read
   const Tin* bare = nullptr;                         ///< what ends stand on, where that is not the surface
   Box extent;                                        ///< that cells are laid over
-  std::shared_ptr<BinnedHeights> heights = nullptr;  ///< of the surface, where they have been binned
+  std::shared_ptr<BinnedHeights> heights = nullptr;  ///< the surface's, where they have been binned
 
   const Grid& units() const { return lattice != nullptr ? lattice->grid : tin->grid; }
 };

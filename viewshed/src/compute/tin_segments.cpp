@@ -231,12 +231,12 @@ class TinSegments {
   const Store& store_;
   const Request& request_;
   bool features_;  ///< stand on the ground
-  int level_;      ///< of the surface, or its coarsest
+  int level_;      ///< the surface's, or its coarsest
   CoarseWay way_;
   Box box_;
   std::uint64_t memory_;  ///< bytes, without the rasters
   CallProgress progress_;
-  SilentProgress reading_;  ///< of a segment
+  SilentProgress reading_;  ///< while a segment is read
   Stopwatch watch_;
   ViewshedWithSurface computed_;
   RasterGrid tiles_;

@@ -28,7 +28,7 @@ constexpr Rgba kMapPaper{255, 255, 255};
 constexpr Rgba kVoid{244, 244, 244};
 constexpr Rgba kVoidStripe{170, 170, 170};
 
-constexpr std::uint8_t kLevelGrey = 214;  ///< of level ground
+constexpr std::uint8_t kLevelGrey = 214;  ///< the grey of level ground
 
 constexpr double kOutsideFade = 0.6;  ///< how far ground outside the field of view fades into the paper
 
@@ -341,13 +341,13 @@ class MapDrawing {
   const Result& result_;
   const MapOptions& options_;
   RasterGrid pixels_;
-  std::vector<float> shades_;  ///< of the ground, per pixel
-  int width_, height_;         ///< of the map proper, pixels
+  std::vector<float> shades_;  ///< the ground's, one for each pixel
+  int width_, height_;         ///< the size of the map proper, pixels
   int unit_;                   ///< everything else is measured in this, pixels
   MapOverlay overlay_;
   bool has_void_, has_outside_;  ///< the map shows places in view without ground, or outside the field of view
   Canvas canvas_;
-  int left_, top_;  ///< of the map proper on the canvas
+  int left_, top_;  ///< where the map proper begins on the canvas
   Lettering letters_;
 };
 

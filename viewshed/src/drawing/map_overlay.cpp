@@ -21,7 +21,7 @@ namespace itin::viewshed {
 
 namespace {
 
-constexpr double kOpacity = 0.55;  ///< of what is seen
+constexpr double kOpacity = 0.55;  ///< how opaque what is seen is drawn
 constexpr int kSteps = 5;
 constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
 

@@ -10,7 +10,7 @@
 namespace itin::viewshed {
 
 Relief relief(const Store& store, const RasterGrid& pixels, Progress& progress) {
-  constexpr double kTellable = 0.1;  ///< of a pixel's width
+  constexpr double kTellable = 0.1;  ///< what is smaller cannot be told, in widths of a pixel
   constexpr std::uint64_t kMostPoints = 1'500'000;
   const Box box = pixels.bounds();
   const int fine = level_within(store.metadata(), kTellable * pixels.cell_width());

@@ -35,7 +35,7 @@ class IndexPlan {
   struct Block {
     CellRectangle cells;
     Box ground;                ///< under the sight lines of the observers in the area; empty where there are none
-    std::uint64_t points = 0;  ///< of that ground
+    std::uint64_t points = 0;  ///< how many that ground has
   };
 
   bool fits(Block& block) const {

@@ -16,9 +16,9 @@ class VisibilitySampler {
  public:
   struct Tally {
     unsigned asked = 0;      ///< targets within the radius
-    unsigned on_ground = 0;  ///< of these
-    unsigned seen = 0;       ///< of those
-    unsigned undecided = 0;  ///< of those: ground without data alone could hide them
+    unsigned on_ground = 0;  ///< targets asked about that have ground
+    unsigned seen = 0;       ///< targets on ground that are seen
+    unsigned undecided = 0;  ///< targets that ground without data alone could hide
   };
 
   /// The targets of every eye.
@@ -48,7 +48,7 @@ class VisibilitySampler {
   Targets targets_;
   NoData rule_;
   std::vector<RimEdge> rim_;  ///< from south to north, where ground without data matters
-  std::int32_t longest_ = 0;  ///< of its edges, from south to north
+  std::int32_t longest_ = 0;  ///< the greatest extent of its edges, from south to north
 };
 
 }  // namespace itin::viewshed

@@ -187,7 +187,7 @@ class EnvelopeJudge::EnvelopeWork final : public TileJudge::Work {
   const EnvelopeScene& scene_;
   std::size_t number_;
   Tile tile_;
-  std::size_t rows_, columns_;  ///< of the tile
+  std::size_t rows_, columns_;  ///< how many cells the tile has
   double resolution_, metre_;   ///< grid units in metres, and the other way round
   TileCentres centres_;
   TileValues<double> low_;   ///< the least height of what targets stand on, grid units

@@ -37,7 +37,7 @@ struct EnvelopePacket {
   unsigned starts_under = 0;  ///< one bit per line: where the eye is not above the upper surface
   unsigned ends_under = 0;    ///< where the lowest target is not
   unsigned behind_void = 0;   ///< left open unless they are hidden
-  unsigned perhaps_outside = 0;  ///< of the field of view: left open
+  unsigned perhaps_outside = 0;  ///< perhaps not in the field of view: left open
 };
 
 /// A target at another place than the eye's; grid units, but for its horizontal distance, squared metres.
@@ -77,10 +77,10 @@ class EnvelopeScene {
   Scene lower;
   UpperScene upper;
   TriangleBins bins;
-  std::optional<TriangleBins> ground_bins;  ///< of the bare ground, where the envelope has it
-  NoData rule;                              ///< of missing ground
+  std::optional<TriangleBins> ground_bins;  ///< the bare ground's, where the envelope has it
+  NoData rule;                              ///< what missing ground does
   bool exact;                               ///< both surfaces are the full one, of level 0
-  double drop;                              ///< by curvature, grid units per squared grid unit
+  double drop;                              ///< how far curvature lowers the ground, grid units per squared grid unit
 
  private:
   /// The upper surface's height, grid units; -infinity where there is none.

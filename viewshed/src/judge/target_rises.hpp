@@ -33,7 +33,7 @@ class TargetRises {
   void raise(const Store& store, const ThemeChoice& themes, const RasterGrid& grid, const Tile& tile);
 
   std::int64_t columns_ = 0;   ///< boxes
-  std::vector<double> rises_;  ///< of each box; empty where no target rises
+  std::vector<double> rises_;  ///< one for each box; empty where no target rises
 };
 
 }  // namespace itin::viewshed

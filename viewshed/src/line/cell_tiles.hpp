@@ -22,7 +22,7 @@ namespace itin::viewshed {
 
 struct Tile {
   static constexpr std::int64_t kSide = 64;
-  std::int64_t column = 0;  ///< of its north-west cell
+  std::int64_t column = 0;  ///< where its north-west cell is
   std::int64_t row = 0;
   std::int64_t columns = 0;  ///< at most kSide
   std::int64_t rows = 0;
@@ -43,7 +43,7 @@ Tile tile_at(const RasterGrid& cells, const RasterGrid& tiles, std::size_t index
 
 /// A rectangle of cells of any size.
 struct CellRectangle {
-  std::int64_t column = 0, row = 0;  ///< of its north-west cell
+  std::int64_t column = 0, row = 0;  ///< where its north-west cell is
   std::int64_t columns = 0, rows = 0;
 
   std::uint64_t count() const { return static_cast<std::uint64_t>(columns * rows); }

@@ -1,7 +1,7 @@
 // Normal errors in many realisations, to count in how many of them something holds.
 //
 //   const ErrorRealisations realisations;
-//   const std::span<const float, ErrorRealisations::kCount> errors = realisations.of(vertex);  // of each realisation
+//   const std::span<const float, ErrorRealisations::kCount> errors = realisations.of(vertex);  // one per realisation
 //
 // A Latin hypercube: in its kCount realisations everything takes each of as many equally probable values once, in an
 // order of its own, so that shares vary less than those of independent draws (McKay, Beckman and Conover 1979). The

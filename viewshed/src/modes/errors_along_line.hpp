@@ -52,7 +52,7 @@ class ErrorsAlongLine {
   struct Drawn {
     ErrorSum sum;
     std::array<double, 2> with_ends{};  ///< covariances
-    std::uint32_t used = 0;             ///< of a vertex: when last asked for; 0 where none has been drawn
+    std::uint32_t used = 0;             ///< when a vertex was last asked for; 0 where none has been drawn
     Errors errors{};
   };
   void draw_end(std::size_t which, const ErrorSum& sum, std::span<const Drawn* const> given);

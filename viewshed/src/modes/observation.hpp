@@ -37,9 +37,9 @@ struct CellView {
 /// One observer's view of the cells of a tile.
 struct TileView {
   ExactJudge::ExactWork& work;
-  std::size_t number;                        ///< of the eye, in the judge
+  std::size_t number;                        ///< the eye's number in the judge
   std::uint32_t observer;                    ///< from 0
-  const TriangleStudies* studies = nullptr;  ///< of the surface, where the mode needs them
+  const TriangleStudies* studies = nullptr;  ///< made for the surface, where the mode needs them
 
   const EyeView& from() const { return work.view(number); }
   const Eye& eye() const { return from().eye; }

@@ -22,8 +22,8 @@ class ProbabilityObservation final : public Observation {
   void store_row(std::size_t cell, std::size_t columns, std::size_t place, Result& result) const override;
 
   NoData nodata_;
-  std::optional<VisibilityProbability::Scratch> scratch_;  ///< of the surface looked at
-  TileValues<float> probabilities_;                        ///< of several observers the greatest
+  std::optional<VisibilityProbability::Scratch> scratch_;  ///< made for the surface looked at
+  TileValues<float> probabilities_;                        ///< the greatest over several observers
 };
 
 }  // namespace itin::viewshed

@@ -44,7 +44,7 @@ class VisibilityProbability {
   };
   struct Odds {
     double probability = 0;
-    bool clear = false;  ///< of ground, as the heights are
+    bool clear = false;  ///< no ground is in the way, as the heights are
   };
   class Scratch;
   /// Cost: about half a microsecond per edge that comes near the line, 20 microseconds per line over rolling ground.
@@ -69,7 +69,7 @@ class VisibilityProbability {
     ErrorSum error;
     double above = 0;  ///< how far the end is, grid units
   };
-  using Margins = std::array<float, ErrorRealisations::kCount>;  ///< by which a line is clear, in sigmas
+  using Margins = std::array<float, ErrorRealisations::kCount>;  ///< how far a line is clear, in sigmas
 
   bool cross(const Line& line, Scratch& scratch) const;
   Footing under(const Point3& end) const;

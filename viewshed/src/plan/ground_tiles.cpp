@@ -13,12 +13,12 @@ namespace itin::viewshed {
 
 namespace {
 
-constexpr double kMostTilesASide = 160;
+constexpr double kMostTilesPerSide = 160;
 
 RasterGrid tiles_over(const Store& store, int level, const Box& box, double points_of_tile) {
   const double points = static_cast<double>(store.points_about(level, box));
   const double side = std::max({box.width(), box.height(), store.metadata().grid.resolution});
-  const double tiles = std::clamp(std::sqrt(points / points_of_tile), 1.0, kMostTilesASide);
+  const double tiles = std::clamp(std::sqrt(points / points_of_tile), 1.0, kMostTilesPerSide);
   const double size = side * 1.0001 / tiles;
   return {{box.xmin, box.ymax},
           size,

@@ -2,7 +2,7 @@
 //
 //   for_each_step(tiles.cell_count(), "sight lines", progress, [&](std::size_t tile) { ... });
 //
-//   Stage stage("cells decided", observers * cells, progress);              // of several loops
+//   Stage stage("cells decided", observers * cells, progress);              // shared by several loops
 //   stage.for_each(tiles.size(), [&](std::size_t i) { ...; return cells_in(tiles[i]); });
 //   stage.advance_to(cells);
 //

@@ -88,7 +88,7 @@ std::uint64_t for_each_cell_in_view(const Request& request, const RasterGrid& gr
 
 /// Cells beyond a grid.
 struct CellsBeyond {
-  RasterGrid grid;                  ///< of cells as large, or larger where they would be many
+  RasterGrid grid;                  ///< its cells are as large, or larger where they would be many
   std::vector<std::uint8_t> cells;  ///< 1 where an observer looks; empty: none
   double each = 1;                  ///< how many cells of the other grid fit into one
 

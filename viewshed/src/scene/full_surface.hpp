@@ -67,7 +67,7 @@ class FullSurface {
     TileCentres centres;
     TileValues<double> ground;   ///< grid units; kNoSurface where none is, kUnread where no eye sees it
     bool unread = false;         ///< all of the ground
-    TileValues<double> targets;  ///< of the last eye's lines; kNoSurface where none was needed
+    TileValues<double> targets;  ///< where the last eye's lines end; kNoSurface where none was needed
     RadialSweep::Heights seen;
     RadialSweep::Scratch scratch;
     ExactRays::Scratch rays;
@@ -121,9 +121,9 @@ class FullSurface {
   const RasterGrid& grid_;
   const RasterGrid& tiles_;
   const std::shared_ptr<BinnedHeights> heights_;
-  std::optional<TriangleBins> of_tiles_;  ///< of that Tin, where `heights_` does not tell its heights well
+  std::optional<TriangleBins> of_tiles_;  ///< that Tin's triangles, where `heights_` does not tell its heights well
   RadialSweep sweep_;
-  const std::vector<BinBox> cells_;  ///< of each tile, about their centres
+  const std::vector<BinBox> cells_;  ///< one for each tile, about its cells' centres
   std::unique_ptr<const ExactRays> rays_;
 };
 

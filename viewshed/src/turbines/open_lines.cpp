@@ -126,7 +126,7 @@ class OpenLines::TileMarker {
 
   const OpenLines& lines_;
   const std::unique_ptr<FullSurface::TileCells> place_;
-  double height_;  ///< of eyes, grid units
+  double height_;  ///< how high eyes are above the ground, grid units
   Visibility& open_;
   std::size_t turbine_ = 0;
 };

@@ -54,7 +54,7 @@ class OpenLines {
   const Grid units_;
   RetrievalStatistics retrieval_;
   std::optional<EnvelopeBounds> bounds_;
-  std::vector<HorizonView> views_;  ///< of each turbine
+  std::vector<HorizonView> views_;  ///< one for each turbine
   std::optional<GroundTiles> tiles_;
   Tin roofs_;  ///< above each tile two level triangles as high as anything on it
   std::optional<HeightPyramid> pyramid_;

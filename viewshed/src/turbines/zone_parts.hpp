@@ -17,7 +17,7 @@ namespace itin::viewshed {
 /// The part that one reading of the ground decides, or of the ground and of what stands on it.
 struct ZonePart {
   Window window;                            ///< holds every sight line of what follows
-  std::vector<std::size_t> tiles;           ///< of grid_of_tiles(zone.grid): from their cells turbines are looked for
+  std::vector<std::size_t> tiles;           ///< places in grid_of_tiles(zone.grid): turbines are looked for from there
   std::vector<std::size_t> radar_tiles;     ///< over their cells the radar's heights are looked for
   std::vector<std::size_t> radar_turbines;  ///< indices in zone.request.turbines: those that the radar looks for
 };

@@ -24,7 +24,7 @@ struct Quantity {
   std::vector<float> Visibility::*values;
   const char* what;
   const char* unit;
-  std::vector<double> limits;  ///< of its bands
+  std::vector<double> limits;  ///< where its bands end
 };
 
 const std::vector<Quantity>& quantities() {

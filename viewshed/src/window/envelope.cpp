@@ -122,7 +122,7 @@ struct WantedPiece {
 
 struct Piece {
   Tin tin;
-  std::vector<HeightBounds> bounds;  ///< of its vertices
+  std::vector<HeightBounds> bounds;  ///< one entry for each vertex
 };
 
 /// The level of the request, and each finer one about the discs that have it, the coarsest first.

@@ -48,8 +48,8 @@ struct Envelope {
   Tin upper;
   std::vector<BoundaryEdge> outline;  ///< the edges of the coverage, of vertices and triangles of either
   std::vector<std::uint32_t> pieces;  ///< the first triangle of each piece but the first
-  double drift = 0;                   ///< of rays from the observers, grid units: greatest_drift()
-  bool exact = false;                 ///< of one level throughout: `lower` is the surface
+  double drift = 0;                   ///< how far rays from the observers may drift, grid units: greatest_drift()
+  bool exact = false;                 ///< one level throughout: `lower` is the surface
   std::optional<Tin> bare_ground;     ///< the full surface without what stands on it
 };
 

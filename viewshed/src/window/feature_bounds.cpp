@@ -15,7 +15,7 @@ namespace {
 
 struct Feature {
   std::int32_t height = 0;  ///< the greatest, grid units; 0 where none stands
-  double bend = 0;          ///< of the ground beside it, grid units
+  double bend = 0;          ///< how far the ground beside it is bent, grid units
 };
 
 Box box_near(const Tin& tin, const Triangle& t) {

@@ -1,7 +1,7 @@
 // Certificates that know features: how far what stands on the ground takes the full surface above, and below, the
 // bounds of the bare one.
 //
-//   std::vector<HeightBounds> bounds = ...;            // of the vertices of a level, for the bare ground
+//   std::vector<HeightBounds> bounds = ...;            // one for each vertex of a level, over the bare ground
 //   enclose_features(store, themes, tin, bounds);      // for the surface with these features
 //
 // Features only raise the surface, except beside their outlines: their vertices are rounded to the grid, so that there

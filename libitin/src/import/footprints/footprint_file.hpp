@@ -13,7 +13,7 @@ namespace itin {
 
 struct FootprintFile {
   FootprintSource footprints;
-  std::uint64_t vertices = 0;  ///< of all footprints and roofs
+  std::uint64_t vertices = 0;  ///< how many all footprints and roofs have
   /// The cells of a raster with a height and without one, and those known not to reach the threshold.
   std::uint64_t cells = 0, voids = 0, low_cells = 0;
   SourceInfo info;

@@ -30,8 +30,8 @@ struct FootprintQuery {
   std::string path;
   std::string layer;             ///< default: the file's only layer
   std::string where;             ///< in OGR's SQL; default: all features
-  std::string height_field;      ///< of the highest point above the base
-  std::string eaves_field;       ///< of the eaves above the base
+  std::string height_field;      ///< height of the highest point above the base
+  std::string eaves_field;       ///< height of the eaves above the base
   std::string base_field;        ///< elevation of the base; default: left to the terrain
   FeatureQuery kept;             ///< features without a name are called "feature" and the file's number for them
   std::string crs;               ///< overrides the layer's own
@@ -45,7 +45,7 @@ struct FootprintQuery {
 struct FootprintSource {
   std::vector<FootprintFeature> features;  ///< in the file's order
   std::vector<AttributeField> fields;      ///< that are kept of them
-  std::vector<FeatureRecord> records;      ///< of each; none where nothing is kept
+  std::vector<FeatureRecord> records;      ///< one for each feature; none where nothing is kept
   std::string crs;                         ///< as found or given
   std::uint64_t filtered = 0;              ///< left out by where
   std::vector<std::string> warnings;       ///< one line each: features that were passed over, units assumed

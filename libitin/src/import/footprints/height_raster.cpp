@@ -179,7 +179,7 @@ class HeightRasterReading {
   HeightBand band_;
   HeightCells rule_;  ///< as all parts have it
   int columns_ = 0, rows_ = 0;
-  double metres_ = 1;  ///< in the unit of heights
+  double metres_ = 1;  ///< how many the unit of heights has
   double highest_ = -std::numeric_limits<double>::infinity(), lowest_ = 0;
   std::uint64_t negative_ = 0;
   std::vector<std::int32_t> heights_;

@@ -31,7 +31,7 @@ struct LasHeader {
   bool compressed = false;
   bool prefers_wkt = false;  ///< global encoding says that the CRS is the WKT record
   std::uint16_t header_size = 0;
-  std::uint16_t record_length = 0;  ///< of a point: the format's own, and extra bytes
+  std::uint16_t record_length = 0;  ///< bytes of a point: the format's own, and extra ones
   std::uint64_t point_offset = 0;
   std::uint32_t vlr_count = 0;
   std::uint64_t evlr_offset = 0;

@@ -30,7 +30,7 @@ namespace {
 
 constexpr double kSteadySteps = 1.25;            // steps that vary more than this earn a warning
 constexpr std::size_t kPostsPerBatch = 1 << 16;  // posts placed at a time
-constexpr std::uint64_t kCacheShare = 8;         // of the memory, for GDAL's cache of blocks
+constexpr std::uint64_t kCacheShare = 8;         // the memory is this many times GDAL's cache of blocks
 
 std::vector<std::string> rasters_in_archive(const std::string& archive) {
   std::vector<std::string> found;

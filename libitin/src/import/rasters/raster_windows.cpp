@@ -20,7 +20,7 @@ constexpr int kFewestPosts = 1 << 14, kMostPosts = 1 << 22;       // in a window
 constexpr std::uint64_t kNominalMemory = std::uint64_t{1} << 22;  // in small windows, so that they tell where posts are
 constexpr std::uint64_t kVast = std::uint64_t{1} << 36;           // posts: looking for those that are there is worth it
 constexpr std::uint64_t kPostsOfStore = std::uint64_t{1} << 40;   // its tree has no more leaves
-constexpr std::uint64_t kBlockShare = 4;                          // of the memory, for the block at hand
+constexpr std::uint64_t kBlockShare = 4;                          // the memory holds the block at hand so many times
 constexpr int kMostNested = 8;                                    // virtual rasters of virtual rasters
 
 /// The memory that GDAL takes to read a single post.

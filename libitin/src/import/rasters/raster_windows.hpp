@@ -42,7 +42,7 @@ class RasterWindows {
 
   const HeightBand& band_;
   std::uint64_t memory_bytes_;
-  int columns_ = 1, rows_ = 1;  ///< of posts, in a window
+  int columns_ = 1, rows_ = 1;  ///< how many posts a window has
   bool tells_absence_ = false;
 };
 

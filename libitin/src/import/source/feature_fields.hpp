@@ -38,7 +38,7 @@ class FeatureFields {
   KeptTexts texts_;
   int id_ = -1, name_ = -1;
   std::vector<AttributeField> fields_;
-  std::vector<int> indices_;  ///< of them in the layer
+  std::vector<int> indices_;  ///< where fields_ are in the layer
   std::vector<std::string> warnings_;
 };
 

@@ -136,7 +136,7 @@ ReadCounts Placement::counts() const {
 std::string utc_now() {
   std::time_t seconds = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
   if (const char* const given = std::getenv("SOURCE_DATE_EPOCH")) {
-    constexpr std::time_t kLast = 253402300799;  // of the year 9999
+    constexpr std::time_t kLast = 253402300799;  // the last second of the year 9999
     const std::string_view text = given;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seconds);
     if (error != std::errc() || end != text.data() + text.size() || seconds < 0 || seconds > kLast)

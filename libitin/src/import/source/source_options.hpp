@@ -15,8 +15,8 @@ enum class SourceKind : std::uint16_t {
   text,           ///< delimited text of points
   points,         ///< a layer of points
   contours,       ///< a layer of lines that are ground by themselves
-  terrain_lines,  ///< of others with heights that are part of the ground
-  ground_lines,   ///< of lines and outlines that lie on it
+  terrain_lines,  ///< a layer of other lines with heights that are part of the ground
+  ground_lines,   ///< a layer of lines and outlines that lie on the ground
   buildings,      ///< a layer of footprints that stand
   walls,          ///< a layer of walls or vegetation
   city_model,     ///< CityJSON

@@ -18,7 +18,7 @@ struct ReadCounts {
   std::uint64_t read = 0;             ///< points handed on
   std::uint64_t voids = 0;            ///< posts without data
   std::uint64_t filtered = 0;         ///< left out by class or where
-  GridBox bounds;                     ///< of the points handed on
+  GridBox bounds;                     ///< the box about the points handed on
   std::vector<std::string> warnings;  ///< one line each
 };
 
@@ -39,11 +39,11 @@ class LineLayer;  // line_layer.hpp
 class TrueScale;  // true_scale.hpp
 
 struct ImportPlan {
-  std::string crs_wkt;  ///< of the store: projected, metres
+  std::string crs_wkt;  ///< the store's: projected, metres
   std::string crs_name;
   bool crs_chosen = false;  ///< a UTM zone was chosen
   Grid grid;
-  std::unique_ptr<TrueScale> scale;  ///< of that CRS; null where the plan adds neither points nor lines
+  std::unique_ptr<TrueScale> scale;  ///< that CRS's scale; null where the plan adds neither points nor lines
   ImportPlan();
   ImportPlan(ImportPlan&&) noexcept;
   ImportPlan& operator=(ImportPlan&&) noexcept;

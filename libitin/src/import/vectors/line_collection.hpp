@@ -46,8 +46,8 @@ struct CollectedTheme {
   bool raised = false;  ///< it has features with heights, which are made parts
   std::vector<StoredFootprint> footprints{};
   ThemeFeatures features{};
-  std::uint16_t first_source = 0;  ///< by a rule that does not depend on the order of import
-  ChangedGround changed{};         ///< by its raised features
+  std::uint16_t first_source = 0;  ///< chosen by a rule that does not depend on the order of import
+  ChangedGround changed{};         ///< what its raised features change
 };
 
 class LineCollection {
@@ -133,13 +133,13 @@ class LineCollection {
   std::vector<OwnPart> parts_;
   bool keeps_set_aside_ = true;                            ///< the store does
   std::vector<std::string> theme_of_source_;               ///< by the store's source; empty for points
-  std::vector<Segment> stored_;                            ///< of the store's lines, on the ground
-  std::vector<SegmentFeature> stored_features_;            ///< of them, ascending
+  std::vector<Segment> stored_;                            ///< the store's lines on the ground
+  std::vector<SegmentFeature> stored_features_;            ///< the features of these lines, ascending
   std::unordered_map<std::uint64_t, std::uint32_t> ends_;  ///< theme by Morton code: those of the stored terrain lines
   std::vector<ImportedPiece> imported_;
   std::vector<std::uint64_t> made_room_;
   std::vector<OwnedSegment> segments_;
-  std::vector<ThemeVertex> ground_ends_;                ///< of edges that keep the ground about features
+  std::vector<ThemeVertex> ground_ends_;                ///< ends of edges that keep the ground about features
   std::unordered_map<std::uint64_t, Vertex> vertices_;  ///< by Morton code: of the lines as they are taken
 };
 

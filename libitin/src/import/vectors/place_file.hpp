@@ -36,8 +36,8 @@ class Places {
   std::string wrong_coordinate(const OGRFeature& feature) const;
 
   bool csv_;
-  std::map<std::int64_t, std::string> wrong_rows_;  ///< of a CSV file, by their numbers, and what is wrong with them
-  std::vector<int> columns_;  ///< of x and y in a CSV file; none where its header names no position
+  std::map<std::int64_t, std::string> wrong_rows_;  ///< what is wrong with rows of a CSV file, by their numbers
+  std::vector<int> columns_;  ///< the fields of x and y in a CSV file; none where its header names no position
   std::optional<CoordinateTransform> transform_;
 };
 

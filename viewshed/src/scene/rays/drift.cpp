@@ -29,7 +29,7 @@ class Drift {
 
  private:
   double resolution_;
-  Box bounds_;  ///< of the surface
+  Box bounds_;  ///< about the surface
   Box eyes_;
 };
 

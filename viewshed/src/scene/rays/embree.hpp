@@ -19,7 +19,7 @@
 namespace itin::viewshed {
 
 inline constexpr double kRounding = 0x1p-24;
-inline constexpr double kRoundings = 16;  ///< of Embree's edge functions; see scene.hpp
+inline constexpr double kRoundings = 16;  ///< how many Embree's edge functions make; see scene.hpp
 
 /// u (4 extent + 16 length).
 constexpr double rounding_error(double extent, double length) {

@@ -20,7 +20,7 @@ struct Tessellation {
   GridPoint centre;                    ///< z: middle of the heights
   std::vector<float> vertices;         ///< x, y, z in grid units about the centre
   std::vector<std::uint32_t> indices;  ///< three per triangle
-  std::vector<std::uint32_t> parents;  ///< of each triangle in the Tin; empty when none was cut
+  std::vector<std::uint32_t> parents;  ///< for each triangle the Tin's that it is cut from; empty when none was cut
   double half_width = 0;               ///< greatest |x| or |y|, grid units
   double half_height = 0;              ///< greatest |z|, grid units
 };

@@ -14,7 +14,7 @@ namespace {
 struct Event {
   double along;
   bool enters;
-  std::uint32_t piece;  ///< of the surface
+  std::uint32_t piece;  ///< which piece of the surface
 };
 using Events = std::array<std::vector<Event>, SightLines::kSize>;
 
@@ -192,7 +192,7 @@ class UpperScene::Impl {
 
   const Tin& tin_;
   std::vector<std::uint32_t> pieces_;
-  std::vector<std::uint32_t> parents_;  ///< of the pieces of cut triangles
+  std::vector<std::uint32_t> parents_;  ///< for each piece of a triangle the one it is cut from; empty when none was
   std::vector<BoundaryEdge> boundary_;
   RayFrame frame_;
   EmbreeScene embree_;

@@ -35,7 +35,7 @@ class HorizonHierarchy {
   /// Sectors of equal slopes from -1 to 1, looked along up to where slab `slab` begins.
   struct Ring {
     std::size_t slab = 0;
-    std::vector<float> below, above;  ///< of lines in a sector hidden and clear, rounded away from each other
+    std::vector<float> below, above;  ///< by sector: lines are hidden below, clear above; rounded away from each other
     Sector::Horizon known(double from, double to) const;
   };
   void widen();

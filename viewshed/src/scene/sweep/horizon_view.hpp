@@ -61,7 +61,7 @@ class HorizonView {
   Axis axis_;
   Sector::Axis sector_axis_;
   std::vector<Quadrant> quadrants_;
-  std::vector<HorizonHierarchy> fans_;  ///< of each quadrant
+  std::vector<HorizonHierarchy> fans_;  ///< one for each quadrant
   double column_, row_, bin_;           ///< where the axis is, in bins, and how wide these are, grid units
 };
 

@@ -152,7 +152,7 @@ class RadialSweep::Task {
   void sweep(const Quadrant& quadrant, const HorizonHierarchy& fan, const Slopes& sector, const Slopes& cells) {
     bool computed = false;
     last_ = kNoSilhouette;
-    double along = -1, hidden_below = 0;  // of ends this far away
+    double along = -1, hidden_below = 0;  // how far away the last end was, and below what such ends are hidden
     for_each_cell(quadrant, cells.from, cells.to, [&](Cell cell) {
       if (!std::exchange(computed, true)) survey(quadrant, fan, sector.from, sector.to);
       if (cell.along != along) {
@@ -328,7 +328,7 @@ class RadialSweep::Task {
   // The tile's cells as the quadrant has them, in bins.
   std::array<double, Tile::kSide> along_{}, across_{}, along_squared_{}, across_squared_{};
   std::int64_t majors_ = 0, minors_ = 0;
-  double highest_ = 0;  ///< of the tile's ends
+  double highest_ = 0;  ///< the highest of the tile's ends
   double farthest_ = 0, nearest_ = 0, cells_per_bin_ = 1;
   // The triangles that hid the last eye of this sector, and the last eye as far away.
   std::uint32_t last_ = kNoSilhouette;

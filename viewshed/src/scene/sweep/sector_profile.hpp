@@ -160,9 +160,9 @@ class SectorProfile {
   std::optional<Sector> sector_;
   Sector::Horizon known_;
   std::size_t nearest_ = 0, count_ = 0;
-  std::vector<float> high_, group_high_, block_high_;  ///< of a slab, of 8, of 64
-  std::vector<bool> highs_known_;                      ///< of a block of 64
-  std::vector<double> hidden_below_;                   ///< by what lies nearer than slab nearest_ + i
+  std::vector<float> high_, group_high_, block_high_;  ///< the highest in a slab, in 8, in 64
+  std::vector<bool> highs_known_;                      ///< one for each block of 64
+  std::vector<double> hidden_below_;  ///< entry i: below it what is nearer than slab nearest_ + i hides
 };
 
 template <class Visit>

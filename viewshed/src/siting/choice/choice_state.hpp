@@ -45,7 +45,7 @@ struct ChoiceProblem : ChoiceRules {
   const Demand& demand;
   Coverage& coverage;
   Progress& progress;
-  const Conflicts* conflicts = nullptr;  ///< of Objective::kLeast
+  const Conflicts* conflicts = nullptr;  ///< given for Objective::kLeast
 
   void refine_fully(std::size_t option) const {
     while (!coverage.bounds(option).exact) coverage.refine({&option, 1});

@@ -55,7 +55,7 @@ class Room {
   std::size_t missing_;
   std::vector<bool> open_;            ///< not taken, and not excluded by what was
   std::vector<std::size_t> fitting_;  ///< open options that fill the choice
-  std::vector<Left> left_;            ///< by the options, since the last was taken
+  std::vector<Left> left_;            ///< one for each option; kUnknown again when one is taken
 };
 
 }  // namespace itin::viewshed

@@ -8,7 +8,7 @@
 namespace itin::viewshed {
 
 struct GreatestGain {
-  Weight sum = 0;        ///< of so many sites: gains only fall as sites are added (submodularity)
+  Weight sum = 0;        ///< so many sites gain no more: gains only fall as sites are added (submodularity)
   std::size_t best = 0;  ///< the option that alone gains most
 };
 

@@ -193,7 +193,7 @@ class Greedy {
   std::vector<std::optional<Margin>>& closest_;
   ServedBounds served_;
   Ways ways_;                 ///< from what is chosen
-  std::optional<Room> room_;  ///< of kLeast
+  std::optional<Room> room_;  ///< kLeast alone has one
   bool all_exact_ = true;
 };
 

@@ -40,7 +40,7 @@ template <class Cost>
 struct Cheapest {
   std::vector<std::size_t> taken;  ///< places among the open options, the cheapest first
   Cost sum = 0;
-  Cost last = 0;  ///< of the dearest one taken
+  Cost last = 0;  ///< what the dearest one taken costs
 };
 
 template <class Cost>

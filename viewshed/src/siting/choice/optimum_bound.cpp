@@ -76,7 +76,7 @@ Weight bound_optimum(const ChoiceProblem& problem, std::span<const std::size_t> 
   if (!problem.goal.count && !problem.goal.budget) count = chosen.size();
 
   Served everything(problem.demand, cover), served(problem.demand, cover);
-  Weight sum = 0, known = 0;  // of min(served, cover): at most, and at least
+  Weight sum = 0, known = 0;  // min(served, cover) summed over all elements: at most, and at least
   for (const DemandSet& set : problem.goal.existing) {
     sum += served.gain(set);
     served.add(set);

@@ -17,7 +17,7 @@ constexpr std::size_t kMostNodes = 5000;
 
 /// Choices that hold some options and none of some others.
 struct Node {
-  Weight bound = 0;  ///< of the sum of min(served, cover) over all of them
+  Weight bound = 0;  ///< no such choice has a greater sum of min(served, cover)
   std::vector<std::size_t> in, out;
   std::size_t branch = 0;  ///< the option of the greatest gain, or the first on the way to it
   bool complete = false;   ///< nothing can be added

@@ -32,7 +32,7 @@ class Payments {
  private:
   const SharedDemand& demand_;
   std::vector<bool> served_;  ///< by class
-  std::vector<double> sums_;  ///< of shares, by class
+  std::vector<double> sums_;  ///< sums of shares, by class
   std::vector<std::uint32_t> payers_;
   double work_ = 0;
 };

@@ -116,9 +116,9 @@ class Classes {
   }
 
   const ChoiceProblem& problem_;
-  ServedBounds served_;  ///< by existing sites
+  ServedBounds served_;  ///< what existing sites serve
   std::vector<std::size_t> options_;
-  std::size_t end_ = 0;  ///< of the blocks
+  std::size_t end_ = 0;  ///< the first block that is left out
   std::vector<std::uint32_t> class_of_;
   std::vector<Part> parts_;             ///< by class
   std::vector<std::uint32_t> numbers_;  ///< in the result, from 1; by class

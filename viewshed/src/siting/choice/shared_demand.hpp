@@ -9,7 +9,7 @@
 namespace itin::viewshed {
 
 struct SharedDemand {
-  std::vector<Weight> weights;  ///< of each class of elements, none 0
+  std::vector<Weight> weights;  ///< one for each class of elements, none 0
   /// What each option certainly serves and existing sites do not, as classes, ascending.
   std::vector<std::vector<std::uint32_t>> of_option;
 };

@@ -14,7 +14,7 @@ namespace itin::viewshed {
 struct Way {
   std::optional<std::size_t> before{};  ///< the option before it; none: it is linked with the choice
   std::size_t sites = 0;                ///< number of options on the way, itself included
-  double cost = 0;                      ///< of these
+  double cost = 0;                      ///< what these cost together
 };
 
 /// To each option that can be added.
@@ -30,7 +30,7 @@ class Ways {
 };
 
 struct WayRules {
-  std::size_t most_sites = 0;  ///< of the choice together with the way
+  std::size_t most_sites = 0;  ///< the choice and the way together have no more
   bool by_cost = false;        ///< the cheapest way, otherwise the one of fewest options
   /// For bounds: ways lead to every option that any allowed choice may hold besides the given one. They keep within the
   /// budget if they are by cost, otherwise within the number of sites, and may hold options that exclude each other.
@@ -44,7 +44,7 @@ Ways ways_to_options(const ChoiceRules& rules, std::span<const std::size_t> chos
 /// What choices of at most `count` sites may hold that hold all of `chosen`.
 struct Extensions {
   std::vector<bool> open;
-  std::vector<std::size_t> first;  ///< of each open option: what a way to it begins with
+  std::vector<std::size_t> first;  ///< for each open option what a way to it begins with
 };
 Extensions extensions(const ChoiceRules& rules, std::span<const std::size_t> chosen, std::size_t count);
 

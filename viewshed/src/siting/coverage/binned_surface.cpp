@@ -99,7 +99,7 @@ class SurfaceBinner {
   std::uint64_t most_points_;  ///< that are read at once
   Statistics& statistics_;
   BinnedSurface binned_;
-  RasterGrid tiles_;  ///< of bins
+  RasterGrid tiles_;  ///< its cells are tiles of bins
 };
 
 }  // namespace

@@ -23,7 +23,7 @@ using TileWords = std::array<std::uint64_t, kBlocks * kBlocks>;
 
 /// The part of one tile that one option serves.
 struct TileCover {
-  std::size_t entry = 0;  ///< of the options
+  std::size_t entry = 0;  ///< the option's place among those that are judged
   TileWords certain{}, possible{};
 
   bool any() const {

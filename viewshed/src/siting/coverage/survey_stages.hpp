@@ -21,7 +21,7 @@ struct StageSurface {
     kBins        ///< bins of this
   };
   Kind kind = Kind::kBareLevel;
-  int level = 0;  ///< of the bare terrain; 0 with the themes
+  int level = 0;  ///< the bare terrain's; 0 with the themes
 
   bool themed() const { return kind != Kind::kBareLevel; }
   bool binned() const { return kind == Kind::kBins; }
@@ -69,8 +69,8 @@ class SurveyStages {
   const SiteSurvey& survey_;
   const bool themed_;
   const std::uint64_t sets_;
-  const Box reach_;             ///< of all sites
-  const std::uint64_t points_;  ///< of the full surface there
+  const Box reach_;             ///< the box within which any site may serve
+  const std::uint64_t points_;  ///< how many the full surface has there
   const bool cut_;              ///< features are lower than it somewhere there
   bool whole_fits_ = false;
   std::vector<StageSurface> stages_;
