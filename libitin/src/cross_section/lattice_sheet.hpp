@@ -62,9 +62,9 @@ class LatticeSheet {
   void disturb(const GridBox& box);
 
   LatticeCell first_;
-  std::int64_t columns_ = 0, rows_ = 0;  ///< of cells, and there is one more of posts
+  std::int64_t columns_ = 0, rows_ = 0;  ///< how many cells, and there is one more of posts
   GridBox box_;
-  std::vector<std::int32_t> heights_;  ///< of the posts, row by row from the south; kNoPost where there is none
+  std::vector<std::int32_t> heights_;  ///< by post, row by row from the south; kNoPost where there is none
   std::vector<bool> disturbed_;        ///< cells, by their lower left post
   std::size_t posts_ = 0;              ///< how many there are
 };

@@ -36,7 +36,7 @@ namespace {
 
 using Heights = std::vector<std::optional<double>>;
 
-/// Of the memory: what sections over missing ground may keep.
+/// Sections over missing ground may keep this part of the memory.
 constexpr std::uint64_t kPartForSections = 8;
 
 /// Metres: the request's radius, or as far as there is data.
