@@ -25,10 +25,12 @@ class CheckVerb final : public Verb {
   std::string summary() const override { return "Verify checksums, index, levels and certificates of a store"; }
   void declare(CLI::App& app) override {
     reads(app.add_option("STORE", store_, "The store")->required());
-    app.add_flag("--quick", quick_,
-                 fmt::format("Compare surfaces with what certificates and heights of features say in {} tiles spread "
-                             "over the store, not everywhere; every byte is read in any case",
-                             kSample));
+    app.add_flag(
+        "--quick", quick_,
+        fmt::format("Compare surfaces with what certificates and heights of features say not everywhere, but in "
+                    "{} tiles of the ground spread over the store, and as many of each part of what stands on "
+                    "it; every byte is read in any case",
+                    kSample));
   }
   void validate() override {}
   Document parameters() const override { return {{"store", store_}, {"quick", quick_}}; }

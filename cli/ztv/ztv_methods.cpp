@@ -157,7 +157,9 @@ std::string methods_text(const viewshed::Zone& zone, const StoreMetadata& metada
                   "{:g} m.",
                   request.observer_height, zone.grid.cell_width(), zone.grid.cell_height()));
   paragraph("Study area",
-            facts.radius + " Distances are horizontal; beyond its own distance a turbine is not counted.");
+            facts.radius +
+                " Distances are horizontal; beyond its own distance a turbine is not counted on maps and in "
+                "areas. Tables and sheets of viewpoints and routes count every turbine, however far it is.");
   paragraph("Ground without data", missing_in_words(facts.missing, request.nodata));
   paragraph("Curvature and refraction", refraction_in_words(request.earth));
   paragraph(

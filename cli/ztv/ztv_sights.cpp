@@ -73,6 +73,7 @@ Seen seen_of(const Zone& zone, const std::vector<Sight>& sights, const std::vect
     seen.gaps = seen.gaps || s.gaps;
     if (!s.tip) continue;
     ++seen.tips;
+    if (s.distance > zone.request.turbines[k].radius) ++seen.tips_beyond;
     const double half =
         std::atan2(zone.request.turbines[k].rotor_diameter.value_or(0) / 2, s.distance) * kDegreesPerRadian;
     rotors.push_back({within_turn(s.azimuth - half), 2 * half});

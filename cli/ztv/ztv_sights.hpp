@@ -39,6 +39,7 @@ viewshed::Arc arc_to_all(const std::vector<Sight>& sights);
 /// What is seen of some turbines together.
 struct Seen {
   std::size_t turbines = 0, tips = 0;
+  std::size_t tips_beyond = 0;      ///< how many of the tips are beyond their turbine's radius, where maps count none
   std::optional<std::size_t> hubs;  ///< nothing: no hub's height is known
   std::size_t nearest = 0;          ///< index in the request
   std::optional<std::size_t> nearest_seen;

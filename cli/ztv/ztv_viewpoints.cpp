@@ -64,7 +64,7 @@ constexpr const char* kSummarySeen =
 std::string summary_header(bool screened) {
   std::string header = kSummaryHeader + fmt::format(kSummarySeen, "");
   if (screened) header += fmt::format(kSummarySeen, "_screened");
-  return header + ",note" + (screened ? ",before_the_eye" : "") + "\n";
+  return header + ",tips_beyond_radius,note" + (screened ? ",before_the_eye" : "") + "\n";
 }
 
 std::string summary_cells(const Zone& zone, const std::vector<Sight>& sights, const Seen& seen) {
@@ -86,7 +86,7 @@ std::string summary_row(const Viewpoint& v, const Zone& zone, const std::vector<
                   zone.request.turbines[seen.nearest].number, nearest.distance, nearest.azimuth);
   row += summary_cells(zone, sights, seen);
   if (!screened.empty()) row += summary_cells(zone, screened, seen_of(zone, screened, all_turbines(zone)));
-  row += seen.gaps ? ",some lines cross ground without data" : ",";
+  row += fmt::format(",{},{}", seen.tips_beyond, seen.gaps ? "some lines cross ground without data" : "");
   if (!screened.empty()) row += "," + csv_cell(remark);
   return row + "\n";
 }

@@ -33,6 +33,7 @@ std::string name_of_file(const char* kind, const Viewpoint& v, const std::string
 
 std::string visible_in_words(const Zone& zone, const Seen& seen) {
   std::string text = fmt::format("the blade tips of {} of {}", seen.tips, counted(seen.turbines, "turbine"));
+  if (seen.tips_beyond > 0) text += fmt::format(" ({} beyond the radius of the maps)", seen.tips_beyond);
   if (seen.hubs) text += fmt::format(", the hubs of {}", *seen.hubs);
   const std::size_t hubs = known_hubs(zone.request.turbines);
   if (hubs < seen.turbines)

@@ -150,7 +150,8 @@ TEST_P(LatticeCellsOf, TellTheTriangleBeyondAnEdgeOrNothing) {
       }
     }
   });
-  EXPECT_TRUE((told > 0 && told_to_many > 0) || !GetParam().lattice) << asked << " asked, " << told << " told to one line, " << told_to_many << " to many";
+  EXPECT_TRUE((told > 0 && told_to_many > 0) || !GetParam().lattice)
+      << asked << " asked, " << told << " told to one line, " << told_to_many << " to many";
 }
 
 TEST_P(LatticeCellsOf, AreAllThatMeetsABoxOrNone) {
@@ -184,7 +185,8 @@ TEST_P(LatticeCellsOf, AreAllThatMeetsABoxOrNone) {
       }
     }
   });
-  EXPECT_TRUE((told > 0 && told_to_many > 0) || !GetParam().lattice) << asked << " asked, " << told << " told to one line, " << told_to_many << " to many";
+  EXPECT_TRUE((told > 0 && told_to_many > 0) || !GetParam().lattice)
+      << asked << " asked, " << told << " told to one line, " << told_to_many << " to many";
 }
 
 INSTANTIATE_TEST_SUITE_P(

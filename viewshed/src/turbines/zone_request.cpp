@@ -49,7 +49,11 @@ void place_turbines(const std::function<std::optional<double>(Point2)>& ground, 
           {t.number, fmt::format("there is no data at {:.10g},{:.10g}", t.position.x, t.position.y)});
     }
   }
-  if (placed.empty()) throw InputError("no turbine stands on any data; see the CRS of the turbines and of the store");
+  if (placed.empty())
+    throw InputError(
+        fmt::format("no turbine that can be used stands on data: turbine {}: {}; see the CRS of the "
+                    "turbines and of the store",
+                    zone.misplaced.front().number, zone.misplaced.front().message));
   zone.request.turbines = std::move(placed);
 }
 
