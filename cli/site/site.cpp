@@ -223,6 +223,7 @@ class SiteVerb final : public Verb {
     const std::vector<std::string> in_words = described(sources, store.metadata());
     write_site_sheets(store, site, in_words, policy_.overwrite, progress);
     write_site_report(site, {site_figures(store, site, progress), profiles, parameters(), in_words}, policy_.overwrite);
+    if (policy_.overwrite) remove_former_outputs(options_, result.document["outputs"]);
     Document whole = call_document(*this);
     whole.update(result.document);
     write_file(options_.path("site.json"), json_text(whole, 2) + "\n", policy_.overwrite);

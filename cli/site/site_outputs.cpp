@@ -1,5 +1,10 @@
 #include "site/site_outputs.hpp"
 
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <system_error>
+
 #include <fmt/format.h>
 
 #include <itin/coordinates.hpp>
@@ -58,6 +63,26 @@ std::vector<SiteOutput> site_outputs(const SiteOptions& options, OutputPolicy& p
     policy.claim(outputs.back().path);
   }
   return outputs;
+}
+
+void remove_former_outputs(const SiteOptions& options, const Document& outputs) {
+  namespace fs = std::filesystem;
+  std::ifstream file(options.path("site.json"));
+  const Document former = Document::parse(file, nullptr, false);
+  if (!former.is_object() || !former.contains("outputs") || !former["outputs"].is_array()) return;
+  // The folder may have had another name, so that places within it count.
+  const auto place_of = [&](const fs::path& path) {
+    const bool profile = path.parent_path().filename() == kLinkFolder;
+    return profile ? fs::path(kLinkFolder) / path.filename() : path.filename();
+  };
+  std::set<fs::path> now;
+  for (const Document& output : outputs) now.insert(place_of(output["path"].get<std::string>()));
+  for (const Document& output : former["outputs"]) {
+    if (!output.is_object() || !output.contains("path") || !output["path"].is_string()) continue;
+    const fs::path place = place_of(output["path"].get<std::string>());
+    std::error_code ignored;
+    if (!now.contains(place)) fs::remove(options.path(place.string()), ignored);
+  }
 }
 
 Document site_document(const SiteResult& r, const StoreMetadata& metadata) {

@@ -23,6 +23,12 @@ struct SiteOutput {
 /// reads one.
 std::vector<SiteOutput> site_outputs(const SiteOptions& options, OutputPolicy& policy);
 
+/// The folder in that of a run with the profiles of links.
+inline constexpr const char* kLinkFolder = "links";
+
+/// Removes what an earlier run wrote into the folder, as its site.json has it, and is not among this one's `outputs`.
+void remove_former_outputs(const SiteOptions& options, const Document& outputs);
+
 /// `value`, `upper_bound`, `chosen` and the rest of the contract's document, without what the program adds.
 Document site_document(const SiteResult& result, const StoreMetadata& metadata);
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <set>
 #include <string>
 
@@ -13,6 +12,7 @@
 #include <profile/sight_svg.hpp>
 
 #include "output/output_path.hpp"
+#include "site/site_outputs.hpp"
 
 namespace itin::cli {
 
@@ -58,29 +58,12 @@ std::vector<char> shown_in_report(const SiteResult& r) {
   return shown;
 }
 
-/// Removes profiles that an earlier run wrote into the folder, and this one did not write again.
-void remove_former(const SiteOptions& options, const std::set<std::string>& written) {
-  namespace fs = std::filesystem;
-  std::ifstream file(options.path("site.json"));
-  const Document former = Document::parse(file, nullptr, false);
-  if (!former.is_object() || !former.contains("outputs") || !former["outputs"].is_array()) return;
-  const fs::path folder = options.path("links");
-  for (const Document& output : former["outputs"]) {
-    if (!output.is_object() || !output.contains("path") || !output["path"].is_string()) continue;
-    const fs::path path = output["path"].get<std::string>();
-    std::error_code ignored;
-    if (path.extension() == ".svg" && path.parent_path().filename() == folder.filename() &&
-        !written.contains(path.stem().string()))
-      fs::remove(folder / path.filename(), ignored);
-  }
-}
-
 }  // namespace
 
 std::vector<SiteProfile> write_site_profiles(const Store& store, const SiteResult& r, bool overwrite,
                                              Progress& progress) {
   namespace fs = std::filesystem;
-  const fs::path folder = r.options.path("links");
+  const fs::path folder = r.options.path(kLinkFolder);
   std::vector<SiteProfile> profiles;
   std::set<std::string> taken;
   const std::vector<char> in_report = shown_in_report(r);
@@ -102,7 +85,6 @@ std::vector<SiteProfile> write_site_profiles(const Store& store, const SiteResul
                         in_report[i] ? profile::sight_svg(report, kProfileWidth, kProfileHeight) : ""});
     progress.report("profiles of links", static_cast<double>(i + 1) / static_cast<double>(r.network.links.size()));
   }
-  if (overwrite) remove_former(r.options, taken);
   return profiles;
 }
 
