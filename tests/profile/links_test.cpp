@@ -125,6 +125,8 @@ TEST_F(Links, HaveTheAnswersOfTheirReports) {
   const std::vector<Link> few = links(5), many = links(3000);
   const Detail detail = Detail::tolerance(0);
   const SectionSurface surface(*store_, detail);
+  EXPECT_TRUE(surface.is_lattice_at({300300, 199700}));
+  EXPECT_FALSE(surface.is_lattice_at({1e300, 199700}));
   EXPECT_FALSE(sharing_pays(*store_, detail, few, surface));
   EXPECT_TRUE(sharing_pays(*store_, detail, many, surface));
   LinkQuery query;
