@@ -77,7 +77,7 @@ enum class Mode {
   kAngle,        ///< the greatest elevation angle of their sight lines
   kNearest,      ///< the nearest of them, and its distance
   kBlocker,      ///< where none does, what hides the cell from the nearest observer that looks there
-  kHeight,       ///< the least height above the ground at which a target is seen by any of them
+  kHeight,       ///< the least height above what targets stand on at which one is seen by any of them
   kProbability,  ///< how probably any of them does where heights are uncertain: the greatest of theirs
   kFresnel,      ///< whether any does with its first Fresnel zone clear
   kLoss          ///< what a radio path loses by diffraction: of the observer with the least loss in all

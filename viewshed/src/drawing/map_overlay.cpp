@@ -232,7 +232,8 @@ void MapOverlay::scale_blockers() {
 }
 
 void MapOverlay::scale_heights() {
-  title_ = "Least height at which a target is seen, metres";
+  title_ =
+      fmt::format("Least height above {}, metres", result_.request.targets_on_surface ? "the surface" : "the ground");
   const std::vector<float> heights =
       sorted_sample(result_.least_height_m, [](float h) { return h > 0 && std::isfinite(h); });
   // Round heights that part the hidden cells into about as many each.

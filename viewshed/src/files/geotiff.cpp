@@ -110,8 +110,9 @@ class Writer {
   }
 
   void heights() {
-    write<float>({"least height above the ground at which a target is seen, metres; no value: at none"}, kNaN,
-                 result_.least_height_m);
+    const char* base = result_.request.targets_on_surface ? "the surface with its features" : "the ground";
+    write<float>({fmt::format("least height above {} at which a target is seen, metres; no value: at none", base)},
+                 kNaN, result_.least_height_m);
   }
   void probabilities() {
     std::vector<float> values = result_.probability;
