@@ -51,6 +51,12 @@ double parse_number(std::string_view option, std::string_view text, Range range)
   return *value;
 }
 
+double parse_bearing(std::string_view option, std::string_view text) {
+  const double bearing = parse_number(option, text, Range::kNotNegative);
+  if (bearing > 360) refuse(option, text, "give a bearing from 0 to 360 degrees");
+  return bearing;
+}
+
 double parse_height(std::string_view option, std::string_view text, Range range) {
   const double height = parse_number(option, text, range);
   require_height(height, fmt::format("{} '{}'", option, text));

@@ -25,6 +25,9 @@ enum class Range { kAny, kNotNegative, kPositive };
 /// A finite decimal number and nothing else.
 double parse_number(std::string_view option, std::string_view text, Range range = Range::kAny);
 
+/// Degrees clockwise from north, 0 to 360.
+double parse_bearing(std::string_view option, std::string_view text);
+
 /// Metres up to kFarthestHeight.
 double parse_height(std::string_view option, std::string_view text, Range range = Range::kAny);
 

@@ -81,11 +81,7 @@ void PlacementOptions::validate_spacing() {
   if (along != across && wind_text_.empty())
     throw InputError(fmt::format("--rotor-spacing '{}': give --wind-from BEARING too", spacing_text_));
   spacing_ = {along * rotor_diameter(), across * rotor_diameter(), 0};
-  if (!wind_text_.empty()) {
-    spacing_->wind_from_deg = parse_number("--wind-from", wind_text_, Range::kNotNegative);
-    if (spacing_->wind_from_deg > 360)
-      throw InputError(fmt::format("--wind-from '{}': give a bearing from 0 to 360 degrees", wind_text_));
-  }
+  if (!wind_text_.empty()) spacing_->wind_from_deg = parse_bearing("--wind-from", wind_text_);
 }
 
 Document PlacementOptions::parameters() const {

@@ -144,10 +144,7 @@ void ViewpointOptions::validate(const InCrs& in_crs, const SheetOptions& sheets)
   if (no_wirelines_ && !wirelines_text_.empty()) throw InputError("--wirelines and --no-wirelines exclude each other");
   if (!field_text_.empty()) choice_.least_width_deg = parse_number("--wireline-field", field_text_, Range::kPositive);
   if (choice_.least_width_deg > 360) throw InputError("--wireline-field: give at most 360 degrees");
-  if (!bearing_text_.empty()) {
-    choice_.bearing_deg = parse_number("--wireline-bearing", bearing_text_, Range::kNotNegative);
-    if (*choice_.bearing_deg > 360) throw InputError("--wireline-bearing: give 0 to 360 degrees");
-  }
+  if (!bearing_text_.empty()) choice_.bearing_deg = parse_bearing("--wireline-bearing", bearing_text_);
   if (!choice_.alone.empty() && !sheets.given())
     throw InputError("--wireline-pairs are sheets: give --sheets A3 or A1 with it");
   if (blades_text_ == "random") {

@@ -4,6 +4,8 @@
 #include <cstdlib>
 #include <utility>
 
+#include "geometry/whole_division.hpp"
+
 namespace itin {
 
 namespace {
@@ -11,10 +13,7 @@ namespace {
 /// The first and last cell that meet the interval from `low` to `high`, by their lower borders.
 std::pair<std::int64_t, std::int64_t> cells_meeting(std::int64_t low, std::int64_t high, std::int64_t origin,
                                                     std::int64_t side) {
-  const auto floored = [&](std::int64_t v) {
-    const std::int64_t rest = (v - origin) % side;
-    return v - (rest < 0 ? rest + side : rest);
-  };
+  const auto floored = [&](std::int64_t v) { return origin + floor_divide(v - origin, side) * side; };
   return {floored(low - 1), floored(high)};
 }
 

@@ -5,6 +5,7 @@
 #include <map>
 #include <span>
 
+#include "geometry/whole_division.hpp"
 #include "lattice/lattice_frame.hpp"
 
 namespace itin {
@@ -31,7 +32,7 @@ GridBox box_about(std::int64_t x, std::int64_t y, std::int64_t width, std::int64
 /// The first cell with places that are not negative.
 LatticeCell cell_at_origin(const PostSpacing& posts) {
   const std::int64_t side = posts.spacing();
-  const auto rest = [&](std::int64_t v) { return v % side < 0 ? v % side + side : v % side; };
+  const auto rest = [&](std::int64_t v) { return v - floor_divide(v, side) * side; };
   return {rest(posts.origin().x), rest(posts.origin().y), side};
 }
 
@@ -84,10 +85,10 @@ void LatticeSheet::add(const Segment& segment) {
 void LatticeSheet::disturb(const GridBox& box) {
   if (!box_.meets(box)) return;
   const auto first_touched = [&](std::int64_t distance) {
-    return distance <= 0 ? std::int64_t{0} : (distance - 1) / first_.side;
+    return std::max<std::int64_t>(floor_divide(distance - 1, first_.side), 0);
   };
   const auto last_touched = [&](std::int64_t distance, std::int64_t cells) {
-    return distance < 0 ? std::int64_t{-1} : std::min(distance / first_.side, cells - 1);
+    return std::min(floor_divide(distance, first_.side), cells - 1);
   };
   const std::int64_t west = first_touched(box.xmin - first_.x), east = last_touched(box.xmax - first_.x, columns_),
                      south = first_touched(box.ymin - first_.y), north = last_touched(box.ymax - first_.y, rows_);

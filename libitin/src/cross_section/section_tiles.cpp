@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "geometry/whole_division.hpp"
 #include "triangulate/read_once.hpp"
 #include "triangulate/region.hpp"
 
@@ -35,8 +36,7 @@ LatticeSheet sheet_over(const GridBox& box, const ReadOnce& index, const Selecti
   const std::optional<LatticeCell> any = cell_about(box, index, selection);
   if (!any) return {};
   const auto from = [&](std::int64_t low, std::int64_t post) {
-    const std::int64_t rest = (post - low) % any->side;
-    return low + (rest < 0 ? rest + any->side : rest);
+    return post - floor_divide(post - low, any->side) * any->side;
   };
   const LatticeCell first{from(box.xmin, any->x), from(box.ymin, any->y), any->side};
   if (first.x > box.xmax || first.y > box.ymax) return {};
