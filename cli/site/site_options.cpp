@@ -128,16 +128,14 @@ void SiteOptions::declare_work(CLI::App& app) {
   app.add_option(
          "--tolerance", tolerance_text_,
          "Tolerance of the terrain for the first estimate of all candidates; the choice is made on exact coverage "
-         "all the same (default: by size)")
+         "all the same (default: by size; no estimate where --memory holds the terrain, as exact coverage takes no "
+         "longer)")
       ->type_name("METRES");
   themes.declare(app);
   earth.declare(app);
   nodata.declare(app, kPassesIfUnknown);
   engine.declare(app);
-  memory.declare(
-      app,
-      "Memory to work in, for example 2G. What exceeds it is read in parts; the result does not depend on it "
-      "(default: 1G)");
+  memory.declare(app, kReadInParts);
   sheets.declare(app);
   app.add_flag("--resume", resume, "Go on where a run with the same parameters was killed");
   policy.declare(app);

@@ -90,10 +90,7 @@ class ViewshedVerb final : public Verb {
     nodata_.declare(app);
     engine_.declare(app);
     app.add_flag("--precise", precise_, "Exact for the full surface: the same as --tolerance 0");
-    memory_.declare(
-        app,
-        "Memory to work in, for example 2G. What exceeds it is read in parts; the result does not depend on it, and "
-        "too little is refused (default: 1G)");
+    memory_.declare(app, kReadInParts);
   }
 
   void validate() override {

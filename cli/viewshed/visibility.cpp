@@ -71,10 +71,7 @@ class VisibilityVerb final : public Verb {
     themes_.declare(app);
     earth_.declare(app);
     nodata_.declare(app);
-    memory_.declare(
-        app,
-        "Memory to work in, for example 2G. What exceeds it is read in parts; the result does not depend on it "
-        "(default: 1G)");
+    memory_.declare(app, kReadInParts);
     policy_.declare(app);
   }
 

@@ -82,10 +82,10 @@ class ZtvVerb final : public Verb {
     themes_.declare(app);
     earth_.declare(app);
     nodata_.declare(app, kPassesIfUnknown);
-    memory_.declare(
-        app,
-        "Memory to work in, for example 2G. What exceeds it is read in parts; the result does not depend on it "
-        "(default: no limit)");
+    memory_.declare(app,
+                    "Memory to work in, for example 2G. Surfaces that exceed it are read in parts, and rasters that do "
+                    "are refused; "
+                    "the result does not depend on it (default: no limit)");
     policy_.declare(app);
   }
 

@@ -17,6 +17,7 @@
 #include "support/temporary_directory.hpp"
 #include "support/terrain_tin.hpp"
 #include "support/vector_file.hpp"
+#include "turbines/zone_request.hpp"
 
 namespace itin::viewshed {
 namespace {

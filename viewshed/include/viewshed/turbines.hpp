@@ -118,7 +118,7 @@ Zone survey_turbines(const Tin& ground, const Tin* screened, const ZoneRequest& 
 
 /// On the surface of a store: one retrieval within the turbines' radii, or one per part; at full detail features are
 /// read only where they may rise into a line to a turbine that the ground leaves open. Throws also what triangulate()
-/// throws, and InputError where memory_bytes is not enough for some part, saying about how much is.
+/// throws, and InputError where memory_bytes does not hold the rasters or some part, saying about how much that takes.
 Zone survey_turbines(const Store& store, const ZoneRequest& request, Progress& progress);
 
 }  // namespace itin::viewshed

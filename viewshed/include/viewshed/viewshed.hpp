@@ -280,7 +280,7 @@ struct ViewshedWithSurface {
 /// more than whether a cell is seen, they take all ground under the lines. The answer is the same to the last bit, in
 /// every mode. Cost, on one core: about a microsecond a point; a fifth of that for rasters, and 9 bytes per post.
 /// Throws as compute() on a Tin and triangulate() do, and InputError where the line to a single cell does not fit into
-/// the memory.
+/// the memory, or large rasters leave less than a quarter of it.
 ViewshedWithSurface compute_with_surface(const Store& store, const Request& request, const ComputeOptions& options,
                                          Progress& progress);
 
@@ -295,7 +295,7 @@ ViewshedWithSurface compute_with_surface(const Store& store, const Request& requ
 /// certainly visible. Cost: about 2 microseconds per point of the level and 10 nanoseconds per cell and observer, and
 /// bounds of 0.1 seconds. Where exact answers cost no more, every cell is decided, but for such lines across voids, as
 /// by compute_with_surface() at tolerance 0. Levels of more than a million and a half points are looked at sector by
-/// sector about each observer. Throws as compute() does.
+/// sector about each observer. Throws as compute_with_surface() does.
 ViewshedWithSurface compute_certified(const Store& store, const Request& request, const ComputeOptions& options,
                                       Progress& progress);
 

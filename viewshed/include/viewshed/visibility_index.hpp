@@ -52,7 +52,7 @@ struct VisibilityIndex {
 /// A store and a request always give the same numbers, whatever the number of threads and the memory: each line is
 /// hidden or not as SightLine, and so every viewshed, has it. Cost: retrieval of the observers' cells and the radius
 /// about them, and one to two microseconds per target. Throws InputError (values out of range, no ground in the area,
-/// too little memory for a single observer), and what triangulate() throws.
+/// too little memory for a single observer or the rasters), and what triangulate() throws.
 VisibilityIndex visibility_index(const Store& store, const IndexRequest& request, Progress& progress);
 
 /// Three bands, Float32: the share, its standard error and the share undecided; nodata NaN. Throws FileError,

@@ -9,6 +9,7 @@
 
 #include "certify/certified_blocks.hpp"
 #include "certify/certified_sectors.hpp"
+#include "plan/memory.hpp"
 #include "request/request.hpp"
 #include "request/request_window.hpp"
 
@@ -52,6 +53,7 @@ ViewshedWithSurface compute_certified(const Store& store, const Request& request
 ViewshedWithSurface compute_certified(const Store& store, const Request& request, CertifiedWay way,
                                       const ComputeOptions& options, Progress& progress) {
   validate_certified(request);
+  require_memory_for_rasters(store, request, options.memory_bytes);
   if (way == CertifiedWay::kExactly) return decide_exactly(store, request, options, progress);
   require_memory(store, request, way, options.memory_bytes);
   CallProgress call(progress);

@@ -55,6 +55,7 @@ ViewshedWithSurface climb(const Store& store, const Request& request, const Comp
 ViewshedWithSurface compute_with_surface(const Store& store, const Request& request, const ComputeOptions& options,
                                          Progress& progress) {
   validate(request);
+  require_memory_for_rasters(store, request, options.memory_bytes);
   CallProgress call(progress);
   ViewshedWithSurface computed = climb(store, request, options, call);
   name_features(store, computed.result, call);

@@ -53,10 +53,12 @@ class IndexWork {
         quiet_(progress) {
     index_.grid =
         RasterGrid::aligned(request.area.is_all() ? extent_of(store) : request.area.bounds(), request.cell_size);
+    const std::uint64_t bytes = kBytesPerCell * index_.grid.cell_count();
+    require_memory_for_rasters(index_.grid, bytes, request.memory_bytes);
+    memory_ = memory_beside(bytes, request.memory_bytes);
     index_.share.assign(index_.grid.cell_count(), kNoShare);
     index_.standard_error.assign(index_.grid.cell_count(), kNoShare);
     index_.undecided.assign(index_.grid.cell_count(), kNoShare);
-    memory_ = memory_beside(kBytesPerCell * index_.grid.cell_count(), request.memory_bytes);
   }
 
   /// Where all ground under a segment is posts of a lattice, there is room for far more of them.

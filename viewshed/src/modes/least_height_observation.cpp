@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 
 #include "line/infinity.hpp"
 #include "request/request.hpp"
@@ -20,19 +21,20 @@ bool LeastHeightObservation::open(const CellView& view) const {
 std::uint64_t LeastHeightObservation::observe(const TileView& tile) {
   FullSurface::TileCells& cells = tile.cells();
   cells.targets.fill(kNoSurface);
+  const auto ends = std::make_unique<Ends>();
   std::uint64_t lines = 0;
   tile.for_each_cell([&](const CellView& view) {
-    if (open(view)) lines += raise(tile, view) ? 1 : 0;
+    if (open(view)) lines += raise(tile, view, *ends) ? 1 : 0;
   });
-  tile.work.surface().raise_from(tile.from().view, {lowest_, wanted_}, cells);
+  tile.work.surface().raise_from(tile.from().view, {ends->lowest, ends->wanted}, cells);
   tile.for_each_cell([&](const CellView& view) {
-    if (!std::isnan(cells.targets[view.cell]) && !std::isnan(cells.seen[view.cell])) record(tile, view);
+    if (!std::isnan(cells.targets[view.cell]) && !std::isnan(cells.seen[view.cell])) record(tile, view, *ends);
   });
   return lines;
 }
 
 /// Where its line may end, if it needs one.
-bool LeastHeightObservation::raise(const TileView& tile, const CellView& view) {
+bool LeastHeightObservation::raise(const TileView& tile, const CellView& view, Ends& ends) {
   const Eye& eye = tile.eye();
   FullSurface::TileCells& cells = tile.cells();
   if (eye.view.contains(view.dx, view.dy, view.dz, kSky) == false) return false;
@@ -48,20 +50,20 @@ bool LeastHeightObservation::raise(const TileView& tile, const CellView& view) {
   // Heights that another observer is known to see need no line, unless the target that counts as visible is higher.
   highest = std::min(highest, std::max(ground + least_[view.cell] / resolution, wanted));
   if (lowest > highest) return false;
-  cells.targets[view.cell] = highest, lowest_[view.cell] = lowest, wanted_[view.cell] = wanted;
+  cells.targets[view.cell] = highest, ends.lowest[view.cell] = lowest, ends.wanted[view.cell] = wanted;
   return true;
 }
 
-void LeastHeightObservation::record(const TileView& tile, const CellView& view) {
+void LeastHeightObservation::record(const TileView& tile, const CellView& view, const Ends& ends) {
   const FullSurface::TileCells& cells = tile.cells();
   const Point3 highest = cells.target(view.cell);
   if (const auto& shadow = tile.from().shadow; shadow && shadow->holds(highest.x, highest.y)) return;
   // At the eye's own place nothing hides.
-  const double found = cells.seen[view.cell], seen = std::isinf(found) ? lowest_[view.cell] : found;
-  const double ground = cells.ground[view.cell], wanted = wanted_[view.cell];
+  const double found = cells.seen[view.cell], seen = std::isinf(found) ? ends.lowest[view.cell] : found;
+  const double ground = cells.ground[view.cell], wanted = ends.wanted[view.cell];
   const double height = seen <= ground ? 0 : (seen - ground) * tile.resolution();
   least_[view.cell] = std::min(least_[view.cell], height);
-  if (wanted >= lowest_[view.cell] && wanted <= highest.z && seen <= wanted)
+  if (wanted >= ends.lowest[view.cell] && wanted <= highest.z && seen <= wanted)
     verdicts().add(view.cell, Verdict::kVisible);
 }
 

@@ -16,13 +16,15 @@ class LeastHeightObservation final : public Observation {
 
  private:
   void store_row(std::size_t cell, std::size_t columns, std::size_t place, Result& result) const override;
-  bool raise(const TileView& tile, const CellView& view);
-  void record(const TileView& tile, const CellView& view);
+  /// Where one observer's lines may end, grid units.
+  struct Ends {
+    TileValues<double> lowest;
+    TileValues<double> wanted;  ///< the target that counts as visible
+  };
+  bool raise(const TileView& tile, const CellView& view, Ends& ends);
+  void record(const TileView& tile, const CellView& view, const Ends& ends);
 
   TileValues<double> least_;  ///< metres above the ground; infinity where no height is seen
-  // These two belong to the last observer's lines, grid units.
-  TileValues<double> lowest_;
-  TileValues<double> wanted_;  ///< the target that counts as visible
 };
 
 }  // namespace itin::viewshed

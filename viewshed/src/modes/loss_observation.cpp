@@ -19,6 +19,12 @@ LossObservation::LossObservation(NoData nodata) : nodata_(nodata) {
   free_space_.fill(kNoLoss);
 }
 
+std::uint64_t LossObservation::observe(const TileView& tile) {
+  const std::uint64_t lines = Observation::observe(tile);
+  scratch_ = {};
+  return lines;
+}
+
 void LossObservation::qualify(const TileView&, TileValues<Verdict>& values) {
   for (std::size_t cell = 0; cell < values.size(); ++cell)
     if (values[cell] == Verdict::kUndecided) unknown_.set(cell);

@@ -12,6 +12,7 @@ class LossObservation final : public Observation {
  public:
   explicit LossObservation(NoData nodata);
   bool asks_of_the_hidden() const override { return true; }
+  std::uint64_t observe(const TileView& tile) override;
 
  private:
   void qualify(const TileView& tile, TileValues<Verdict>& values) override;
@@ -19,7 +20,7 @@ class LossObservation final : public Observation {
   void store_row(std::size_t cell, std::size_t columns, std::size_t place, Result& result) const override;
 
   NoData nodata_;
-  LineLosses::Scratch scratch_;
+  LineLosses::Scratch scratch_;                     ///< empty but while an observer looks
   TileValues<float> diffraction_, free_space_;      ///< infinity where no observer has a known one
   std::bitset<Tile::kSide * Tile::kSide> unknown_;  ///< where an observer's is not
 };

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
+#include <itin/error.hpp>
 #include <itin/level_choice.hpp>
 #include <viewshed/surface.hpp>
 
@@ -24,8 +27,8 @@ std::uint64_t bytes_per_cell(const Request& request) {
       return kVerdict + 8 * bit_grids(request.observers.size());
     case Mode::kAngle:
     case Mode::kHeight:
-    case Mode::kProbability:
       return kVerdict + 8;
+    case Mode::kProbability:
     case Mode::kLoss:
     case Mode::kNearest:
       return kVerdict + 20;
@@ -33,6 +36,17 @@ std::uint64_t bytes_per_cell(const Request& request) {
       return kVerdict + 28;
   }
   return kVerdict;
+}
+
+/// Rasters of so few bytes are never too large: the program takes as much by itself.
+constexpr std::uint64_t kSmallRasters = 64000000;
+
+bool holds(std::uint64_t memory, std::uint64_t raster_bytes) {
+  return raster_bytes <= std::max(memory / 4 * 3, kSmallRasters);
+}
+
+std::uint64_t bytes_of_rasters(const Store& store, const Request& request) {
+  return bytes_per_cell(request) * cells_of(request, extent_of(store)).cell_count();
 }
 
 }  // namespace
@@ -64,12 +78,29 @@ std::uint64_t bytes_held(const Store& store, const Detail& detail, const Box& ar
   return points_about(store, detail, area) * (form == SurfaceForm::kPosts ? kBytesPerPost : bytes_per_point(Request()));
 }
 
+void require_memory_for_rasters(const RasterGrid& cells, std::uint64_t bytes, std::uint64_t memory) {
+  if (holds(memory, bytes)) return;
+  constexpr std::uint64_t kMega = 1 << 20;  // as --memory counts
+  throw InputError(
+      fmt::format("{} x {} cells take about {} MB, more than three quarters of the {} MB of memory: give a greater "
+                  "`cell_size`, a smaller `radius`, or more `memory_bytes`",
+                  cells.columns(), cells.rows(), bytes / kMega, memory / kMega));
+}
+
+void require_memory_for_rasters(const Store& store, const Request& request, std::uint64_t memory) {
+  require_memory_for_rasters(cells_of(request, extent_of(store)), bytes_of_rasters(store, request), memory);
+}
+
+bool holds_rasters(std::uint64_t memory, const Store& store, const Request& request) {
+  return holds(memory, bytes_of_rasters(store, request));
+}
+
 std::uint64_t memory_beside(std::uint64_t raster_bytes, std::uint64_t memory) {
   return std::max(memory / 4, memory - std::min(memory, raster_bytes));
 }
 
 std::uint64_t memory_beside_rasters(std::uint64_t memory, const Store& store, const Request& request) {
-  return memory_beside(bytes_per_cell(request) * cells_of(request, extent_of(store)).cell_count(), memory);
+  return memory_beside(bytes_of_rasters(store, request), memory);
 }
 
 }  // namespace itin::viewshed

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include <itin/raster.hpp>
 #include <itin/store.hpp>
 #include <viewshed/viewshed.hpp>
 
@@ -23,6 +24,14 @@ std::uint64_t points_about(const Store& store, const Detail& detail, const Box& 
 enum class SurfaceForm : std::uint8_t { kTriangles, kPosts };
 /// What holding a surface takes, about, and the memory to retrieve it in.
 std::uint64_t bytes_held(const Store& store, const Detail& detail, const Box& area, SurfaceForm form);
+
+/// Throws InputError where rasters of these cells, that take so many bytes on the way and in the end, are large and
+/// leave less than a quarter of the memory.
+void require_memory_for_rasters(const RasterGrid& cells, std::uint64_t bytes, std::uint64_t memory);
+/// Throws it where the request's rasters do.
+void require_memory_for_rasters(const Store& store, const Request& request, std::uint64_t memory);
+/// Whether they do not.
+bool holds_rasters(std::uint64_t memory, const Store& store, const Request& request);
 
 /// What rasters of so many bytes leave of the memory, or a quarter of it.
 std::uint64_t memory_beside(std::uint64_t raster_bytes, std::uint64_t memory);

@@ -118,7 +118,7 @@ class Division {
   bool fits(Segment& segment) const {
     const Request request = request_on(request_, grid_, segment);
     segment.points = points_.within(window_of(request));
-    return request.grid->cell_count() <= most_cells_ &&
+    return request.grid->cell_count() <= most_cells_ && holds_rasters(memory_, store_, request) &&
            segment.points <= memory_beside_rasters(memory_, store_, request) / bytes_per_point_;
   }
 

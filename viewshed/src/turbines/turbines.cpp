@@ -172,16 +172,13 @@ std::optional<Surface> lattice_under(const Store& store, const Zone& zone, Progr
 Zone survey_turbines(const Tin& ground, const Tin* screened, const ZoneRequest& request, Progress& progress) {
   validate(request);
   const auto height = [&](Point2 p) { return height_on(ground, p); };
-  Zone zone = lay_out(request, ground.bounds(), height);
+  Zone zone = lay_out(request, ground.bounds(), height, screened != nullptr);
   warn_of_voids(ground, zone);
   ZoneWork work(ground.grid, height, zone);
   const RasterGrid tiles = grid_of_tiles(zone.grid);
   const FullSurface bare(ground, nullptr, request.earth, zone.grid, tiles);
   std::optional<FullSurface> screen;
-  if (screened != nullptr) {
-    zone.screened = zone.bare;
-    screen.emplace(*screened, nullptr, request.earth, zone.grid, tiles);
-  }
+  if (screened != nullptr) screen.emplace(*screened, nullptr, request.earth, zone.grid, tiles);
   const ZonePart whole = whole_zone(zone);
   Stage stage("sight lines", steps_of({whole}, screen.has_value()), progress);
   work.survey(bare, screen ? std::optional(ZoneWork::Screen{*screen}) : std::nullopt, whole, stage);
@@ -192,11 +189,10 @@ Zone survey_turbines(const Store& store, const ZoneRequest& request, Progress& p
   validate(request);
   const auto height = [&](Point2 p) { return height_at(store, p, ThemeChoice::none(), progress, request.detail); };
   const Tin outline = coverage_of(store, window_of(request), progress);
-  Zone zone = lay_out(request, outline.bounds(), height);
+  const bool screens = request.themes && request.themes->includes_raised(store.metadata().themes);
+  Zone zone = lay_out(request, outline.bounds(), height, screens);
   warn_of_voids(outline, zone);
   ZoneWork work(store.metadata().grid, height, zone);
-  const bool screens = request.themes && request.themes->includes_raised(store.metadata().themes);
-  if (screens) zone.screened = zone.bare;
 
   CallProgress call(progress);
   auto lattice = screens ? std::nullopt : lattice_under(store, zone, call.step(kReadingZone));

@@ -20,6 +20,7 @@
 #include "plan/azimuth_order.hpp"
 #include "plan/partition.hpp"
 #include "plan/point_counts.hpp"
+#include "turbines/zone_request.hpp"
 
 namespace itin::viewshed {
 
@@ -202,11 +203,6 @@ ZonePart whole_zone(const Zone& zone) {
   whole.radar_tiles = whole.tiles;
   whole.radar_turbines = numbers_to(zone.request.turbines.size());
   return whole;
-}
-
-std::uint64_t bytes_of_results(const Zone& zone) {
-  const std::uint64_t surfaces = zone.screened ? 2 : 1;
-  return (surfaces * (36 + 4 * zone.words) + (zone.request.radar ? 4 : 0)) * zone.grid.cell_count();
 }
 
 std::vector<ZonePart> zone_parts(const Store& store, const Zone& zone, bool screened) {

@@ -30,9 +30,6 @@ Window window_of(const Zone& zone);
 
 ZonePart whole_zone(const Zone& zone);
 
-/// The memory of all results of the cells.
-std::uint64_t bytes_of_results(const Zone& zone);
-
 /// One part of everything where the zone's memory_bytes hold that, or are not given. Else tiles in the order of their
 /// azimuth about the turbines, as many together as they hold, and then, over the bare ground alone, about the radar.
 /// Throws InputError where that is impossible, saying about how much is needed.

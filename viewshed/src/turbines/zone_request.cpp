@@ -10,6 +10,8 @@
 
 #include <itin/error.hpp>
 
+#include "plan/memory.hpp"
+
 namespace itin::viewshed {
 
 namespace {
@@ -111,14 +113,23 @@ Request view_of(const ZoneRequest& zone) {
 }
 
 Zone lay_out(const ZoneRequest& request, const Box& coverage,
-             const std::function<std::optional<double>(Point2)>& ground) {
+             const std::function<std::optional<double>(Point2)>& ground, bool screens) {
   Zone zone;
   zone.request = request;
   place_turbines(ground, zone);
   zone.grid = grid_of(zone.request, coverage);
   for (const Turbine& t : zone.request.turbines) zone.words = std::max(zone.words, bit_grids(t.number));
+  if (screens) zone.screened.emplace();
+  if (const auto memory = zone.request.memory_bytes)
+    require_memory_for_rasters(zone.grid, bytes_of_results(zone), *memory);
   zone.bare = nothing_seen(zone);
+  if (screens) zone.screened = zone.bare;
   return zone;
+}
+
+std::uint64_t bytes_of_results(const Zone& zone) {
+  const std::uint64_t surfaces = zone.screened ? 2 : 1;
+  return (surfaces * (36 + 4 * zone.words) + (zone.request.radar ? 4 : 0)) * zone.grid.cell_count();
 }
 
 }  // namespace itin::viewshed

@@ -1,6 +1,7 @@
 // A request for a zone of visibility, checked and laid out on the ground.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <optional>
 
@@ -13,10 +14,13 @@ namespace itin::viewshed {
 void validate(const ZoneRequest& request);
 
 /// The zone before any line of sight: its turbines on their ground, those without any among the misplaced, its grid
-/// over what of the coverage lies within a radius, and no cell seen. `ground` gives metres. Throws InputError where no
-/// turbine stands on the ground.
+/// over what of the coverage lies within a radius, and no cell seen, nor with what `screens`. `ground` gives metres.
+/// Throws InputError where no turbine stands on the ground, and where the memory does not hold the results.
 Zone lay_out(const ZoneRequest& request, const Box& coverage,
-             const std::function<std::optional<double>(Point2)>& ground);
+             const std::function<std::optional<double>(Point2)>& ground, bool screens);
+
+/// The memory of all results of the cells.
+std::uint64_t bytes_of_results(const Zone& zone);
 
 /// How far the centre of a cell lies from a turbine in plan, metres squared; whether that is within its radius.
 inline double squared_distance(const Turbine& turbine, const RasterGrid& grid, RasterGrid::Cell cell) {
