@@ -1,7 +1,6 @@
 // Segments of a plan: each one's viewshed, and all of them together.
 #include <algorithm>
 #include <functional>
-#include <limits>
 #include <utility>
 
 #include <fmt/format.h>
@@ -13,6 +12,7 @@
 #include "compute/compute.hpp"
 #include "line/cell_tiles.hpp"
 #include "modes/blocker_table.hpp"
+#include "modes/mode_rasters.hpp"
 #include "modes/observation.hpp"
 #include "plan/planned_result.hpp"
 
@@ -34,8 +34,7 @@ class Merge::Rasters {
     add_certainty(plan, result_);
     result_.ground_m.resize(plan.request().observers.size());
     Observation::prepare(result_);
-    if (plan.request().mode == Mode::kBlocker) result_.blocker_feature.resize(plan.grid().cell_count());
-    fill_outside();
+    if (plan.request().mode == Mode::kBlocker) result_.blocker_feature.assign(plan.grid().cell_count(), kNoBlocker);
   }
 
   void add(std::size_t number, const Result& part) {
@@ -70,31 +69,10 @@ class Merge::Rasters {
   }
 
  private:
-  void fill_outside() {
-    constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
-    const auto fill = [](auto& values, auto value) { std::fill(values.begin(), values.end(), value); };
-    fill(result_.visible, Verdict::kOutside);
-    fill(result_.count, kCountOutside);
-    fill(result_.angle_deg, kNone);
-    fill(result_.distance_m, kNone);
-    fill(result_.blocker, kNoBlocker);
-    fill(result_.blocker_feature, kNoBlocker);
-    fill(result_.least_height_m, kNone);
-    fill(result_.probability, kNone);
-    fill(result_.loss_db, kNone);
-    fill(result_.free_space_db, kNone);
-  }
-
   void add_cells(const Segment& segment, const Result& part) {
-    copy(segment, part.visible, result_.visible);
-    copy(segment, part.count, result_.count);
-    copy(segment, part.angle_deg, result_.angle_deg);
-    copy(segment, part.distance_m, result_.distance_m);
+    for_each_raster_of(result_.request.mode, [&](auto raster, auto) { copy(segment, part.*raster, result_.*raster); });
     copy(segment, part.blocker_feature, result_.blocker_feature);
-    copy(segment, part.least_height_m, result_.least_height_m);
-    copy(segment, part.probability, result_.probability);
-    copy(segment, part.loss_db, result_.loss_db);
-    copy(segment, part.free_space_db, result_.free_space_db);
+    // Numbers among the segment's observers and blockers become those among all.
     copy(segment, part.nearest, result_.nearest,
          [&](std::uint32_t from_1) { return from_1 == 0 ? 0 : segment.observers[from_1 - 1] + 1; });
     const std::vector<std::uint32_t> numbers = blockers_.numbers_of(part.blockers);

@@ -10,6 +10,7 @@
 #include "modes/blocker_observation.hpp"
 #include "modes/least_height_observation.hpp"
 #include "modes/loss_observation.hpp"
+#include "modes/mode_rasters.hpp"
 #include "modes/probability_observation.hpp"
 #include "modes/zone_observation.hpp"
 #include "request/field_of_view.hpp"
@@ -161,17 +162,10 @@ void Observation::store(const Tile& tile, Result& result, CellCounts& cells) con
 }
 
 void Observation::prepare(Result& result) {
+  const Request& request = result.request;
   const std::size_t cells = result.grid.cell_count();
-  result.visible.resize(cells);
-  const Mode mode = result.request.mode;
-  if (mode == Mode::kCount) result.count.resize(cells);
-  if (mode == Mode::kWhich) result.which.resize(cells * bit_grids(result.request.observers.size()));
-  if (mode == Mode::kAngle) result.angle_deg.resize(cells);
-  if (mode == Mode::kBlocker) result.blocker.resize(cells);
-  if (mode == Mode::kProbability) result.probability.resize(cells);
-  if (mode == Mode::kHeight) result.least_height_m.resize(cells);
-  if (mode == Mode::kLoss) result.loss_db.resize(cells), result.free_space_db.resize(cells);
-  if (mode == Mode::kNearest) result.nearest.resize(cells), result.distance_m.resize(cells);
+  for_each_raster_of(request.mode, [&](auto raster, auto outside) { (result.*raster).assign(cells, outside); });
+  if (request.mode == Mode::kWhich) result.which.resize(cells * bit_grids(request.observers.size()));
 }
 
 std::vector<std::unique_ptr<Observation>> Observations::of_tiles(const RasterGrid& tiles) {

@@ -81,7 +81,7 @@ class Observation {
   /// Counts the cells, and writes them to their places in the result.
   void store(const Tile& tile, Result& result, CellCounts& cells) const;
 
-  /// Makes room in the result for what store() writes.
+  /// Makes room in the result for what store() writes: rasters of cells that are outside.
   static void prepare(Result& result);
 
  protected:
