@@ -61,9 +61,7 @@ std::string datum_in_words(const std::vector<SourceInfo>& sources) {
   for (const SourceInfo& source : sources)
     if (source.theme.empty() && !source.source_crs.empty())
       if (const std::string datum = height_axis(source.source_crs).datum; !datum.empty()) datums.insert(datum);
-  if (datums.empty())
-    return "Heights are taken as metres above one vertical datum, which the sources do not name; Ordnance Datum Newlyn "
-           "is assumed for data of the Ordnance Survey.";
+  if (datums.empty()) return "Heights are taken as metres above one vertical datum, which the sources do not name.";
   return fmt::format("Heights are metres above {}.", fmt::join(datums, " and "));
 }
 

@@ -127,18 +127,21 @@ std::vector<std::string> ZtvRadioOptions::methods(const Zone& zone) const {
   if (zone.radar)
     paragraphs.push_back(fmt::format(
         "## Radar\n\nA radar at {:.0f}, {:.0f}, {:g} m above its ground of {:.1f} m. `radar-height.tif` is the least "
-        "height "
-        "above the ground that it sees over bare ground, with curvature and refraction as stated; `turbines.csv` says "
-        "how many metres of each turbine rise above its horizon. The heights are exact for the surface; between the "
+        "height above the ground that it sees over bare ground, with curvature and refraction as stated; "
+        "`turbines.csv` says how many metres of each turbine rise above its horizon. The heights are exact for the "
+        "surface; between the "
         "terrain's points they depend on its triangles.",
         radar_->position.x, radar_->position.y, radar_->height, zone.radar->ground_m));
-  if (!links_.empty())
+  if (!links_.empty()) {
+    const double radius = study(zone).rotor_radius_m;
+    const std::string rotor = radius > 0 ? fmt::format("the greatest rotor, {:g} m in radius", radius)
+                                         : "the axis alone, as no rotor is known";
     paragraphs.push_back(fmt::format(
-        "## Radio links\n\n{} of `{}` at {:g} GHz (wavelength 0.299792458 / f). After Bacon (2002) a rotor must "
-        "stay "
-        "out of the second Fresnel zone, of radius sqrt(2 lambda d1 d2 / d), in plan: `link-exclusion.tif` for the "
-        "greatest rotor, {:g} m in radius; `turbines.csv` for each turbine's own. Heights are not taken into account.",
-        counted(links_.size(), "link"), links_path_, frequency_ghz_, study(zone).rotor_radius_m));
+        "## Radio links\n\n{} of `{}` at {:g} GHz (wavelength 0.299792458 / f). After Bacon (2002) a rotor must stay "
+        "out of the second Fresnel zone, of radius sqrt(2 lambda d1 d2 / d), in plan: `link-exclusion.tif` for {}; "
+        "`turbines.csv` for each turbine's own. Heights are not taken into account.",
+        counted(links_.size(), "link"), links_path_, frequency_ghz_, rotor));
+  }
   return paragraphs;
 }
 
