@@ -77,7 +77,7 @@ std::vector<SiteMap> site_maps(const SiteResult& r) {
       r.options.cover > 1 ? fmt::format(", by at least {} sites", r.options.cover) : "");
   std::vector<SiteMap> maps{{"coverage", result, options}};
   result.request.mode = viewshed::Mode::kCount;
-  result.count = r.rasters.redundancy;
+  result.values = viewshed::Counts{r.rasters.redundancy};
   options.title = wording.how_many;
   options.counts = turbines ? "Turbines" : "Served by sites";
   maps.push_back({"redundancy", std::move(result), std::move(options)});

@@ -37,11 +37,11 @@ void expect_first(const Tin& tin, Point2 from, double cell, const Earth& earth) 
   const double unit = tin.grid.resolution, drop = earth.drop_coefficient() * unit;
   const Point3 eye{from.x, from.y, *exact.height(from) + 2};
   std::size_t hidden = 0;
-  for (std::size_t i = 0; i < result.blocker.size(); ++i) {
-    ASSERT_EQ(result.blocker[i] != kNoBlocker, result.visible[i] == Verdict::kHidden);
+  for (std::size_t i = 0; i < result.get<Blockers>().triangle.size(); ++i) {
+    ASSERT_EQ(result.get<Blockers>().triangle[i] != kNoBlocker, result.visible[i] == Verdict::kHidden);
     if (result.visible[i] != Verdict::kHidden) continue;
     ++hidden;
-    EXPECT_EQ(result.blocker_theme[i], 0U);
+    EXPECT_EQ(result.get<Blockers>().theme[i], 0U);
     const auto columns = result.grid.columns();
     const Point2 c = result.grid.centre(static_cast<std::int64_t>(i) % columns, static_cast<std::int64_t>(i) / columns);
     const Point3 target{c.x, c.y, *exact.height(c) + 1};
@@ -56,9 +56,9 @@ void expect_first(const Tin& tin, Point2 from, double cell, const Earth& earth) 
     double least = 2;
     for (std::uint32_t t = 0; t < tin.triangles.size(); ++t)
       if (const auto at = hidden_from(t)) least = std::min(least, *at);
-    const auto& [u, v, w] = result.blockers[result.blocker[i]].corners;
+    const auto& [u, v, w] = result.get<Blockers>().triangles[result.get<Blockers>().triangle[i]].corners;
     const auto found = line.hidden_from(u, v, w);
-    ASSERT_TRUE(found) << "triangle " << result.blocker[i] << " hides nothing";
+    ASSERT_TRUE(found) << "triangle " << result.get<Blockers>().triangle[i] << " hides nothing";
     ASSERT_NEAR(*found, least, 1e-9);
     // The line is clear up to that place, and not beyond.
     const double length = std::hypot(target.x - eye.x, target.y - eye.y);
@@ -69,7 +69,7 @@ void expect_first(const Tin& tin, Point2 from, double cell, const Earth& earth) 
     EXPECT_GE(exact.clearance(eye, point(*found)), -2e-6);
     EXPECT_LT(exact.clearance(eye, target), -0.5e-6);
   }
-  EXPECT_GT(hidden, result.blocker.size() / 20);
+  EXPECT_GT(hidden, result.get<Blockers>().triangle.size() / 20);
 }
 
 TEST(BlockerMode, IsTheFirstTriangleThatHides) {
@@ -104,7 +104,8 @@ TEST(BlockerMode, NamesTheThemeAndMissingGround) {
   request.cell_size = 10;
   request.nodata = NoData::kBlock;
   const auto theme = [&](const Result& result, double dx) {
-    return result.blocker_theme[result.grid.index(result.grid.cell_at({kCorner.x + dx, kCorner.y + 205}).value())];
+    return result.get<Blockers>()
+        .theme[result.grid.index(result.grid.cell_at({kCorner.x + dx, kCorner.y + 205}).value())];
   };
   const Result low = run(tin, request);
   EXPECT_EQ(theme(low, 155), kNoBlocker);
@@ -123,7 +124,8 @@ TEST(BlockerMode, IsCancelledWhileItNamesFeatures) {
   request.mode = Mode::kBlocker;
   NoProgress progress;
   Result result = compute(store, request, progress);
-  ASSERT_NE(result.blocker_feature, std::vector<std::uint32_t>(result.blocker.size(), kNoBlocker));
+  ASSERT_NE(result.get<Blockers>().feature,
+            std::vector<std::uint32_t>(result.get<Blockers>().triangle.size(), kNoBlocker));
   EXPECT_THROW(name_features(store, result, test::Impatient(0)), Cancelled);
 }
 
@@ -139,7 +141,8 @@ TEST(BlockerMode, OfSeveralObserversThatOfTheNearest) {
   request.cell_size = 10;
   const Result result = run(tin, request);
   const auto theme = [&](double dx) {
-    return result.blocker_theme[result.grid.index(result.grid.cell_at({kCorner.x + dx, kCorner.y + 205}).value())];
+    return result.get<Blockers>()
+        .theme[result.grid.index(result.grid.cell_at({kCorner.x + dx, kCorner.y + 205}).value())];
   };
   EXPECT_EQ(theme(105), kNoBlocker);
   EXPECT_EQ(theme(255), 2U);  // nearer to the eastern one, behind the eastern wall

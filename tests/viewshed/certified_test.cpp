@@ -258,11 +258,12 @@ TEST(Certified, RingsAndSeveralObservers) {
   };
   for (std::size_t i = 0; i < truth.size(); ++i) {
     if (truth[i] == Verdict::kOutside) continue;
-    ASSERT_EQ(count.count[i], (truth[i] == Verdict::kVisible) + (other[i] == Verdict::kVisible));
-    ASSERT_EQ(any.visible[i] == Verdict::kVisible, count.count[i] > 0);
-    ASSERT_EQ(which.which[i], (truth[i] == Verdict::kVisible ? 1U : 0U) + (other[i] == Verdict::kVisible ? 2U : 0U));
-    const bool first_nearer = other[i] != Verdict::kVisible || distance(0, i) <= distance(1, i);
-    ASSERT_EQ(nearest.nearest[i], count.count[i] == 0 ? 0 : truth[i] == Verdict::kVisible && first_nearer ? 1 : 2);
+    const bool sees = truth[i] == Verdict::kVisible, other_sees = other[i] == Verdict::kVisible;
+    ASSERT_EQ(count.get<Counts>().count[i], sees + other_sees);
+    ASSERT_EQ(any.visible[i] == Verdict::kVisible, sees || other_sees);
+    ASSERT_EQ(which.get<ObserverSets>().words[i], (sees ? 1U : 0U) + (other_sees ? 2U : 0U));
+    const bool first_nearer = sees && (!other_sees || distance(0, i) <= distance(1, i));
+    ASSERT_EQ(nearest.get<NearestObservers>().number[i], first_nearer ? 1 : other_sees ? 2 : 0);
   }
 }
 
@@ -276,14 +277,15 @@ void expect_heights_at_any_memory(const Terrain& terrain, Request request, const
           .result;
   EXPECT_TRUE(all.visible == visible.visible);
   EXPECT_TRUE(parts.visible == visible.visible);
-  for (std::size_t i = 0; i < all.least_height_m.size(); ++i) {
-    const float a = all.least_height_m[i], b = parts.least_height_m[i];
+  for (std::size_t i = 0; i < all.get<LeastHeights>().height_m.size(); ++i) {
+    const float a = all.get<LeastHeights>().height_m[i], b = parts.get<LeastHeights>().height_m[i];
     ASSERT_TRUE(a == b || (std::isnan(a) && std::isnan(b))) << a << ", " << b;
   }
   request.mode = Mode::kAngle;
   const auto angles = [&](std::uint64_t memory) {
     return test::compute_at_full_detail(terrain.store(), request, {.memory_bytes = memory, .lattices = false}, progress)
-        .result.angle_deg;
+        .result.get<Angles>()
+        .angle_deg;
   };
   const std::vector<float> whole = angles(1 << 30), cut = angles(16000000);
   EXPECT_TRUE(std::equal(whole.begin(), whole.end(), cut.begin(), cut.end(),
@@ -302,8 +304,6 @@ void expect_studies_at_any_memory(const Terrain& terrain, Request request) {
         test::compute_at_full_detail(terrain.store(), request, {.memory_bytes = 16000000}, progress).result;
     EXPECT_GT(parts.statistics.triangles, all.statistics.triangles) << "not in segments";
     test::expect_same_result(all, parts);
-    EXPECT_TRUE(all.blockers == parts.blockers);
-    EXPECT_TRUE(all.blocker == parts.blocker);
   }
 }
 
@@ -322,10 +322,10 @@ TEST(Probability, IsThatOfTheLineWhateverTheWindow) {
   request.radius = 1900;
   const Result far = compute(terrain.store(), request, progress);
   std::size_t probable = 0;
-  for (std::size_t i = 0; i < near.probability.size(); ++i) {
-    if (std::isnan(near.probability[i])) continue;
-    ASSERT_EQ(near.probability[i], far.probability[i]);
-    probable += near.probability[i] > 0.05F && near.probability[i] < 0.95F;
+  for (std::size_t i = 0; i < near.get<Probabilities>().probability.size(); ++i) {
+    if (std::isnan(near.get<Probabilities>().probability[i])) continue;
+    ASSERT_EQ(near.get<Probabilities>().probability[i], far.get<Probabilities>().probability[i]);
+    probable += near.get<Probabilities>().probability[i] > 0.05F && near.get<Probabilities>().probability[i] < 0.95F;
   }
   EXPECT_GT(probable, 50U);
 }

@@ -65,14 +65,15 @@ void expect_exact(const Tin& tin, const Request& request) {
       const Point2 centre = result.grid.centre(column, row);
       const std::size_t i = result.grid.index({column, row});
       if (!slow.ground(centre)) {
-        EXPECT_TRUE(std::isnan(result.least_height_m[i]));
+        EXPECT_TRUE(std::isnan(result.get<LeastHeights>().height_m[i]));
         ++cells.outside;
         continue;
       }
       const double expected = slow.least_height(centre);
       // Where the line grazes near the eye, a micrometre there is more at the target.
-      ASSERT_NEAR(result.least_height_m[i], expected, 1e-3 + 1e-6 * expected) << centre.x << "," << centre.y;
-      EXPECT_EQ(result.least_height_m[i] == 0, expected == 0);
+      ASSERT_NEAR(result.get<LeastHeights>().height_m[i], expected, 1e-3 + 1e-6 * expected)
+          << centre.x << "," << centre.y;
+      EXPECT_EQ(result.get<LeastHeights>().height_m[i] == 0, expected == 0);
       const bool doubtful = expected > 0 && std::abs(expected - request.target_height) < 1e-3;
       const bool visible = doubtful ? result.visible[i] == Verdict::kVisible : expected <= request.target_height;
       EXPECT_EQ(result.visible[i], visible ? Verdict::kVisible : Verdict::kHidden);
@@ -106,7 +107,7 @@ TEST(HeightMode, OfSeveralObserversTheLeast) {
   request.grid = result.grid;
   const Result second = run(tin, request);
   for (std::size_t i = 0; i < result.visible.size(); ++i) {
-    if (second.least_height_m[i] <= 300) {
+    if (second.get<LeastHeights>().height_m[i] <= 300) {
       EXPECT_EQ(result.visible[i], Verdict::kVisible);
     }
   }
@@ -126,13 +127,14 @@ TEST(HeightMode, ElevationLimitsRaiseItOrHideTheCell) {
   request.elevation = AngleRange{0, 45};
   const Result result = run(plane, request);
   const auto at = [&](double dx, double dy) {
-    return result.least_height_m[result.grid.index(result.grid.cell_at({kCorner.x + dx, kCorner.y + dy}).value())];
+    return result.get<LeastHeights>()
+        .height_m[result.grid.index(result.grid.cell_at({kCorner.x + dx, kCorner.y + dy}).value())];
   };
   EXPECT_NEAR(at(305, 205), 2, 1e-5);  // the eye's own height
   request.elevation = AngleRange{-90, -30};
   const Result down = run(plane, request);
   const std::size_t far = down.grid.index(down.grid.cell_at({kCorner.x + 305, kCorner.y + 205}).value());
-  EXPECT_TRUE(std::isnan(down.least_height_m[far]));  // no target there, however high
+  EXPECT_TRUE(std::isnan(down.get<LeastHeights>().height_m[far]));  // no target there, however high
   EXPECT_EQ(down.visible[far], Verdict::kOutside);
 }
 
@@ -145,8 +147,8 @@ TEST(HeightMode, NoHeightIsSeenBehindMissingGroundThatBlocks) {
   const auto cell = [&](double dx) {
     return result.grid.index(result.grid.cell_at({kCorner.x + dx, kCorner.y + 205}).value());
   };
-  EXPECT_EQ(result.least_height_m[cell(155)], 0);
-  EXPECT_TRUE(std::isnan(result.least_height_m[cell(305)]));
+  EXPECT_EQ(result.get<LeastHeights>().height_m[cell(155)], 0);
+  EXPECT_TRUE(std::isnan(result.get<LeastHeights>().height_m[cell(305)]));
   EXPECT_EQ(result.visible[cell(305)], Verdict::kHidden);
 }
 

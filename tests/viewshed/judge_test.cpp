@@ -176,7 +176,7 @@ TEST_F(Judges, AModeKeepsTheVerdictsOfAllEyes) {
     EXPECT_EQ(result.cells.visible, expected.cells.visible);
     for_each_cell(place, [&](std::size_t cell, RasterGrid::Cell at) {
       const bool outside = verdicts[cell] == Verdict::kOutside;
-      EXPECT_EQ(result.count[grid_.index(at)], outside ? kCountOutside : seen_by[cell]);
+      EXPECT_EQ(result.get<Counts>().count[grid_.index(at)], outside ? kCountOutside : seen_by[cell]);
     });
   }
 }

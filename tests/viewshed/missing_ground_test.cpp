@@ -21,7 +21,7 @@
 #include "compute/lattice_sectors.hpp"
 #include "support/full_detail.hpp"
 #include "support/raster_file.hpp"
-#include "support/same_bits.hpp"
+#include "support/same_result.hpp"
 #include "support/seed.hpp"
 #include "support/temporary_directory.hpp"
 #include "support/terrain_tin.hpp"
@@ -34,10 +34,6 @@ namespace {
 constexpr std::uint64_t kMuch = 1 << 30;
 
 /// To the last bit; no number is the same as no number.
-bool same(const std::vector<float>& a, const std::vector<float>& b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](float x, float y) { return test::same_bits(x, y); });
-}
-
 class VerdictsOverVoids : public testing::Test {
  protected:
   static constexpr int kSide = 193;
@@ -181,9 +177,7 @@ TEST_F(VerdictsOverVoids, FeaturesChangeNothingOfThat) {
       const Result whole = test::compute_at_full_detail(store, request, {kMuch, false}, progress_).result;
       const Result parts = test::compute_at_full_detail(store, request, {4000000, false}, progress_).result;
       EXPECT_TRUE(parts.visible == whole.visible);
-      EXPECT_TRUE(same(parts.least_height_m, whole.least_height_m));
-      EXPECT_TRUE(same(parts.angle_deg, whole.angle_deg));
-      EXPECT_TRUE(parts.count == whole.count);
+      EXPECT_TRUE(test::same_values(parts.values, whole.values));
       const bool undecided = mode != Mode::kHeight && rule == NoData::kUnknown;
       EXPECT_EQ(parts.cells.undecided > 0, undecided);
     }

@@ -109,7 +109,7 @@ Tin hills() {
 
 bool sees(const Result& result, std::size_t cell, std::size_t observer) {
   const RasterBit bit = raster_bit(observer);
-  return (result.which[bit.grid * result.grid.cell_count() + cell] & bit.mask) != 0;
+  return (result.get<ObserverSets>().words[bit.grid * result.grid.cell_count() + cell] & bit.mask) != 0;
 }
 
 void expect_classes_agree(const Result& result, std::size_t cell, const std::vector<Sight>& sights) {
@@ -127,7 +127,7 @@ TEST(Modes, WhichHasABitAnObserver) {
   for (const std::size_t count : {5U, 32U, 37U}) {
     const Request request = strewn(count, Mode::kWhich);
     const Result result = run(tin, request);
-    ASSERT_EQ(result.which.size(), result.grid.cell_count() * (count > 32 ? 2 : 1));
+    ASSERT_EQ(result.get<ObserverSets>().words.size(), result.grid.cell_count() * (count > 32 ? 2 : 1));
     std::size_t bits = 0;
     const std::size_t cells =
         SlowTwin(tin, request).for_each_clear_cell(result.grid, [&](std::size_t cell, const auto& sights) {
@@ -141,7 +141,7 @@ TEST(Modes, WhichHasABitAnObserver) {
     EXPECT_GT(bits, cells / 4);
     if (count > 32) {  // bits of nobody stay clear
       for (std::size_t cell = 0; cell < result.grid.cell_count(); ++cell)
-        EXPECT_EQ(result.which[result.grid.cell_count() + cell] >> 5, 0U);
+        EXPECT_EQ(result.get<ObserverSets>().words[result.grid.cell_count() + cell] >> 5, 0U);
     }
   }
 }
@@ -185,25 +185,25 @@ TEST(Modes, ManyObserversSeeWhatEachSeesAlone) {
       ASSERT_EQ(sees(which, cell, i), seen) << "observer " << i << " cell " << cell;
       if (one.visible[cell] == Verdict::kOutside) continue;
       if (counted[cell] == kCountOutside) counted[cell] = 0;
-      least[cell] = std::min(least[cell], high.least_height_m[cell]);
+      least[cell] = std::min(least[cell], high.get<LeastHeights>().height_m[cell]);
       if (!seen) continue;
       ++counted[cell];
-      greatest[cell] = std::max(greatest[cell], one.angle_deg[cell]);
-      distance[cell] = std::min(distance[cell], near.distance_m[cell]);
+      greatest[cell] = std::max(greatest[cell], one.get<Angles>().angle_deg[cell]);
+      distance[cell] = std::min(distance[cell], near.get<NearestObservers>().distance_m[cell]);
     }
   }
-  EXPECT_EQ(count.count, counted);
+  EXPECT_EQ(count.get<Counts>().count, counted);
   std::size_t seen_cells = 0;
   for (std::size_t cell = 0; cell < cells; ++cell) {
     const bool seen = counted[cell] != kCountOutside && counted[cell] > 0;
     seen_cells += seen ? 1 : 0;
     EXPECT_EQ(visible.visible[cell] == Verdict::kVisible, seen);
     if (counted[cell] != kCountOutside) {
-      EXPECT_EQ(height.least_height_m[cell], least[cell]);
+      EXPECT_EQ(height.get<LeastHeights>().height_m[cell], least[cell]);
     }
     if (!seen) continue;
-    EXPECT_EQ(angle.angle_deg[cell], greatest[cell]);
-    EXPECT_EQ(nearest.distance_m[cell], distance[cell]);
+    EXPECT_EQ(angle.get<Angles>().angle_deg[cell], greatest[cell]);
+    EXPECT_EQ(nearest.get<NearestObservers>().distance_m[cell], distance[cell]);
   }
   EXPECT_GT(seen_cells, cells / 4);
 }
@@ -232,9 +232,9 @@ TEST(Modes, AngleIsTheGreatestOfTheSightLines) {
         for (const Sight& s : sights)
           if (s.verdict == Sight::kSees) greatest = std::max(greatest, s.angle_deg);
         if (std::isinf(greatest)) {
-          EXPECT_TRUE(std::isnan(result.angle_deg[cell]));
+          EXPECT_TRUE(std::isnan(result.get<Angles>().angle_deg[cell]));
         } else {
-          EXPECT_NEAR(result.angle_deg[cell], greatest, 1e-5);
+          EXPECT_NEAR(result.get<Angles>().angle_deg[cell], greatest, 1e-5);
         }
         expect_classes_agree(result, cell, sights);
       });
@@ -252,11 +252,11 @@ TEST(Modes, NearestIsTheNearestThatSees) {
         for (std::uint32_t i = 0; i < sights.size(); ++i)
           if (sights[i].verdict == Sight::kSees && sights[i].distance < distance)
             nearest = i + 1, distance = sights[i].distance;
-        EXPECT_EQ(result.nearest[cell], nearest);
+        EXPECT_EQ(result.get<NearestObservers>().number[cell], nearest);
         if (nearest == 0) {
-          EXPECT_TRUE(std::isnan(result.distance_m[cell]));
+          EXPECT_TRUE(std::isnan(result.get<NearestObservers>().distance_m[cell]));
         } else {
-          EXPECT_NEAR(result.distance_m[cell], distance, 1e-3);
+          EXPECT_NEAR(result.get<NearestObservers>().distance_m[cell], distance, 1e-3);
         }
         expect_classes_agree(result, cell, sights);
       });
@@ -272,7 +272,8 @@ TEST(Modes, OfTwoAsNearTheFirstIsNearest) {
                        {"east", {kCorner.x + 305, kCorner.y + 205}, 5}};
   const Result result = run(tin, request);
   const auto at = [&](double dx, double dy) {
-    return result.nearest[result.grid.index(result.grid.cell_at({kCorner.x + dx, kCorner.y + dy}).value())];
+    return result.get<NearestObservers>()
+        .number[result.grid.index(result.grid.cell_at({kCorner.x + dx, kCorner.y + dy}).value())];
   };
   EXPECT_EQ(at(205, 205), 1U);
   EXPECT_EQ(at(205, 395), 1U);

@@ -156,14 +156,14 @@ struct AllModes {
     for (const Result* other : {&count, &which, &angle, &nearest, &blocker, &height, &probability})
       EXPECT_EQ(other->visible[cell], value) << mode_name(other->request.mode);
     const bool seen = value == Verdict::kVisible;
-    EXPECT_EQ(count.count[cell], value == Verdict::kOutside ? kCountOutside : seen ? 1 : 0);
-    EXPECT_EQ(which.which[cell], seen ? 1U : 0U);
-    EXPECT_EQ(nearest.nearest[cell], seen ? 1U : 0U);
-    EXPECT_EQ(std::isfinite(angle.angle_deg[cell]), seen);
-    EXPECT_EQ(std::isfinite(nearest.distance_m[cell]), seen);
-    EXPECT_EQ(blocker.blocker[cell] != kNoBlocker, value == Verdict::kHidden);
-    EXPECT_EQ(std::isfinite(probability.probability[cell]), value != Verdict::kOutside);
-    const float least = height.least_height_m[cell];
+    EXPECT_EQ(count.get<Counts>().count[cell], value == Verdict::kOutside ? kCountOutside : seen ? 1 : 0);
+    EXPECT_EQ(which.get<ObserverSets>().words[cell], seen ? 1U : 0U);
+    EXPECT_EQ(nearest.get<NearestObservers>().number[cell], seen ? 1U : 0U);
+    EXPECT_EQ(std::isfinite(angle.get<Angles>().angle_deg[cell]), seen);
+    EXPECT_EQ(std::isfinite(nearest.get<NearestObservers>().distance_m[cell]), seen);
+    EXPECT_EQ(blocker.get<Blockers>().triangle[cell] != kNoBlocker, value == Verdict::kHidden);
+    EXPECT_EQ(std::isfinite(probability.get<Probabilities>().probability[cell]), value != Verdict::kOutside);
+    const float least = height.get<LeastHeights>().height_m[cell];
     EXPECT_FALSE(std::isinf(least));
     if (value == Verdict::kOutside) {
       EXPECT_TRUE(std::isnan(least));
@@ -174,10 +174,10 @@ struct AllModes {
 
   void expect_own(std::size_t cell, const Truth& truth) const {
     EXPECT_EQ(visible.visible[cell], Verdict::kVisible);
-    EXPECT_EQ(height.least_height_m[cell], 0);
-    EXPECT_EQ(nearest.distance_m[cell], 0);
-    EXPECT_EQ(probability.probability[cell], 1);
-    const float angle_deg = angle.angle_deg[cell];
+    EXPECT_EQ(height.get<LeastHeights>().height_m[cell], 0);
+    EXPECT_EQ(nearest.get<NearestObservers>().distance_m[cell], 0);
+    EXPECT_EQ(probability.get<Probabilities>().probability[cell], 1);
+    const float angle_deg = angle.get<Angles>().angle_deg[cell];
     if (std::abs(truth.rise) > 1e-5) {
       EXPECT_EQ(angle_deg, std::copysign(90.0F, static_cast<float>(truth.rise)));
     } else {
@@ -220,7 +220,8 @@ TEST_F(WhereverTheObserverStands, AllModesAgree) {
         if (!truth || value == Verdict::kOutside) continue;
         if (truth->own) modes.expect_own(cell, *truth);
         // The exact line of sight does not know of missing ground.
-        const bool behind_void = value == Verdict::kHidden && modes.blocker.blocker[cell] == kMissingGround;
+        const bool behind_void =
+            value == Verdict::kHidden && modes.blocker.get<Blockers>().triangle[cell] == kMissingGround;
         if (!truth->doubtful() && !behind_void) {
           EXPECT_EQ(value == Verdict::kVisible, truth->sees()) << "clearance " << truth->clearance;
         }
@@ -279,7 +280,7 @@ class OwnCell : public testing::Test {
 TEST_F(OwnCell, LiesStraightBelowAboveOrLevel) {
   for (const auto& [height, angle] : {std::pair{0.0, -90.0F}, {5.0, 90.0F}, {2.0, 0.0F}}) {
     ask(Mode::kAngle, {-90, 90}, height);
-    EXPECT_EQ(result_.angle_deg[cell_], angle);
+    EXPECT_EQ(result_.get<Angles>().angle_deg[cell_], angle);
   }
 }
 
@@ -293,7 +294,7 @@ TEST_F(OwnCell, IsInViewWhereItsElevationIs) {
       EXPECT_EQ(result_.visible[cell_], in_view ? Verdict::kVisible : Verdict::kOutside);
       ask(Mode::kHeight, range, height);
       EXPECT_EQ(result_.visible[cell_] == Verdict::kVisible, in_view);
-      EXPECT_NEAR(result_.least_height_m[cell_], range.from == -90 ? 0 : 2, 1e-5);
+      EXPECT_NEAR(result_.get<LeastHeights>().height_m[cell_], range.from == -90 ? 0 : 2, 1e-5);
     }
   }
 }

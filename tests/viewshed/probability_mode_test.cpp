@@ -77,7 +77,7 @@ void expect_as_simulated(const Tin& tin, const Request& request) {
   int between = 0;
   for (std::size_t i = 0; i < share.size(); ++i) {
     if (result.visible[i] == Verdict::kOutside || below_ground(tin, result, i)) continue;
-    const double difference = result.probability[i] - share[i];
+    const double difference = result.get<Probabilities>().probability[i] - share[i];
     most = std::max(most, std::abs(difference));
     if (share[i] > 0.02 && share[i] < 0.98) ++between, sum += difference;
   }
@@ -136,16 +136,18 @@ TEST(ProbabilityMode, IsAHalfAtMostWhereACellIsHidden) {
   request.observers.push_back({"", {kCorner.x + 303, kCorner.y + 398}, 5});
   const Result result = run(tin, request);
   std::size_t sure = 0, hidden = 0;
-  for (std::size_t i = 0; i < result.probability.size(); ++i) {
-    ASSERT_EQ(result.visible[i] == Verdict::kOutside, std::isnan(result.probability[i]));
+  for (std::size_t i = 0; i < result.get<Probabilities>().probability.size(); ++i) {
+    ASSERT_EQ(result.visible[i] == Verdict::kOutside, std::isnan(result.get<Probabilities>().probability[i]));
     if (result.visible[i] == Verdict::kHidden) {
       ++hidden;
-      EXPECT_LE(result.probability[i], 0.57F);
+      EXPECT_LE(result.get<Probabilities>().probability[i], 0.57F);
     }
-    sure += result.probability[i] < 0.01F || result.probability[i] > 0.99F ? 1 : 0;
+    sure += result.get<Probabilities>().probability[i] < 0.01F || result.get<Probabilities>().probability[i] > 0.99F
+                ? 1
+                : 0;
   }
   EXPECT_GT(hidden, 100);
-  EXPECT_GT(sure, result.probability.size() / 3);
+  EXPECT_GT(sure, result.get<Probabilities>().probability.size() / 3);
 }
 
 TEST(ProbabilityMode, RefusesAnErrorThatIsNone) {

@@ -116,18 +116,19 @@ class RadioModes : public ::testing::Test {
     const std::vector<profile::LinkResult> lines = lines_of(store, result);
     for (std::size_t i = 0; i < lines.size(); ++i) {
       if (result.visible[i] == Verdict::kOutside) {
-        ASSERT_TRUE(std::isnan(result.loss_db[i]) && std::isnan(result.free_space_db[i]));
+        ASSERT_TRUE(std::isnan(result.get<Losses>().diffraction_db[i]) &&
+                    std::isnan(result.get<Losses>().free_space_db[i]));
         continue;
       }
       const bool known = lines[i].losses && (lines[i].gap_m == 0 || request.nodata == NoData::kClear);
-      ASSERT_EQ(!std::isnan(result.loss_db[i]), known) << lines[i].gap_m;
-      ASSERT_EQ(!std::isnan(result.free_space_db[i]), known);
+      ASSERT_EQ(!std::isnan(result.get<Losses>().diffraction_db[i]), known) << lines[i].gap_m;
+      ASSERT_EQ(!std::isnan(result.get<Losses>().free_space_db[i]), known);
       if (!known) {
         ++without_loss_;
         continue;
       }
-      expect_near(result.loss_db[i], lines[i].losses->ld_db);
-      expect_near(result.free_space_db[i], lines[i].losses->free_space_db);
+      expect_near(result.get<Losses>().diffraction_db[i], lines[i].losses->ld_db);
+      expect_near(result.get<Losses>().free_space_db[i], lines[i].losses->free_space_db);
       ++with_loss_;
       if (HasFailure()) return;
     }
@@ -138,14 +139,15 @@ class RadioModes : public ::testing::Test {
     float least = std::numeric_limits<float>::infinity();
     bool unknown = false;
     for (const Result& one : each) {
-      const bool known = !std::isnan(one.loss_db[cell]);
+      const bool known = !std::isnan(one.get<Losses>().diffraction_db[cell]);
       unknown = unknown || (!known && all.request.nodata == NoData::kUnknown);
-      if (known) least = std::min(least, one.loss_db[cell] + one.free_space_db[cell]);
+      if (known)
+        least = std::min(least, one.get<Losses>().diffraction_db[cell] + one.get<Losses>().free_space_db[cell]);
     }
     if (unknown || std::isinf(least)) {
-      ASSERT_TRUE(std::isnan(all.loss_db[cell]));
+      ASSERT_TRUE(std::isnan(all.get<Losses>().diffraction_db[cell]));
     } else {
-      ASSERT_EQ(all.loss_db[cell] + all.free_space_db[cell], least);
+      ASSERT_EQ(all.get<Losses>().diffraction_db[cell] + all.get<Losses>().free_space_db[cell], least);
     }
   }
 
@@ -283,8 +285,8 @@ TEST_F(RadioModes, AKnifeEdgeCostsWhatItCostsByHand) {
   request.radio.effective_earth_km = effective_earth_km(request.earth);
   const Result result = test::run(ridge, request);
   EXPECT_EQ(result.visible[0], Verdict::kHidden);
-  EXPECT_NEAR(result.loss_db[0], 15.056, 0.001);
-  EXPECT_NEAR(result.free_space_db[0], 108.005, 0.001);
+  EXPECT_NEAR(result.get<Losses>().diffraction_db[0], 15.056, 0.001);
+  EXPECT_NEAR(result.get<Losses>().free_space_db[0], 108.005, 0.001);
 }
 
 /// The best verdict that any observer has, undecided where another might have a better one; the least sum of losses.

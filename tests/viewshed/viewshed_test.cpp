@@ -160,22 +160,23 @@ TEST(Viewshed, SeveralObserversSeeWhatAnySees) {
   request.mode = Mode::kCount;
   request.radius = 150;
   const Result count = run(walled(), request);
+  const std::vector<std::uint16_t>& counts = count.get<Counts>().count;
   const auto seen_by = [&](double dx, double dy) {
-    return count.count[count.grid.index(count.grid.cell_at({kCorner.x + dx, kCorner.y + dy}).value())];
+    return counts[count.grid.index(count.grid.cell_at({kCorner.x + dx, kCorner.y + dy}).value())];
   };
   EXPECT_EQ(seen_by(105, 205), 1);
   EXPECT_EQ(seen_by(225, 205), 1);
   EXPECT_EQ(seen_by(245, 345), kCountOutside);
-  for (std::size_t i = 0; i < count.count.size(); ++i)
-    EXPECT_EQ(count.visible[i], count.count[i] == kCountOutside ? Verdict::kOutside
-                                : count.count[i] > 0            ? Verdict::kVisible
-                                                                : Verdict::kHidden);
+  for (std::size_t i = 0; i < counts.size(); ++i)
+    EXPECT_EQ(count.visible[i], counts[i] == kCountOutside ? Verdict::kOutside
+                                : counts[i] > 0            ? Verdict::kVisible
+                                                           : Verdict::kHidden);
   std::uint64_t counted = 0;
-  for (const std::uint16_t n : count.count) counted += n != 0 && n != kCountOutside;
+  for (const std::uint16_t n : counts) counted += n != 0 && n != kCountOutside;
   EXPECT_EQ(counted, count.cells.visible);
   request.radius.reset();
   request.observers[0].height = request.observers[1].height = 100;
-  EXPECT_EQ(run(walled(), request).count[0], 2);
+  EXPECT_EQ(run(walled(), request).get<Counts>().count[0], 2);
 }
 
 TEST(Viewshed, SwappingTheEndsKeepsTheVerdict) {
@@ -210,7 +211,7 @@ TEST(Viewshed, TheNumberOfThreadsDoesNotShow) {
   const Result one = run(tin, request);
   set_thread_count(0);
   const Result all = run(tin, request);
-  EXPECT_EQ(one.count, all.count);
+  EXPECT_EQ(one.get<Counts>().count, all.get<Counts>().count);
   EXPECT_EQ(one.statistics.lines, all.statistics.lines);
 }
 
@@ -271,16 +272,16 @@ TEST(Viewshed, ObserversAreCountedAndNamedWhereTheyCertainlySee) {
   };
   const Result counted = in(Mode::kCount, NoData::kUnknown), named = in(Mode::kWhich, NoData::kUnknown),
                nearest = in(Mode::kNearest, NoData::kUnknown), angle = in(Mode::kAngle, NoData::kUnknown);
-  EXPECT_EQ(counted.count, in(Mode::kCount, NoData::kBlock).count);
-  EXPECT_EQ(named.which, in(Mode::kWhich, NoData::kBlock).which);
-  EXPECT_EQ(nearest.nearest, in(Mode::kNearest, NoData::kBlock).nearest);
-  EXPECT_NE(counted.count, in(Mode::kCount, NoData::kClear).count);
+  EXPECT_EQ(counted.get<Counts>().count, in(Mode::kCount, NoData::kBlock).get<Counts>().count);
+  EXPECT_EQ(named.get<ObserverSets>().words, in(Mode::kWhich, NoData::kBlock).get<ObserverSets>().words);
+  EXPECT_EQ(nearest.get<NearestObservers>().number, in(Mode::kNearest, NoData::kBlock).get<NearestObservers>().number);
+  EXPECT_NE(counted.get<Counts>().count, in(Mode::kCount, NoData::kClear).get<Counts>().count);
   for (const Result* r : {&counted, &named, &nearest, &angle}) {
     EXPECT_EQ(r->visible, visible.visible);
     EXPECT_THAT(r->warnings, IsEmpty());
   }
   for (std::size_t i = 0; i < visible.visible.size(); ++i)
-    ASSERT_EQ(std::isnan(angle.angle_deg[i]), visible.visible[i] != Verdict::kVisible) << i;
+    ASSERT_EQ(std::isnan(angle.get<Angles>().angle_deg[i]), visible.visible[i] != Verdict::kVisible) << i;
 }
 
 TEST(Viewshed, TheEdgeOfTheDataHidesNothingOnThisSide) {

@@ -108,8 +108,8 @@ class ZoneParts : public testing::Test {
     request.nodata = request_.nodata;
     const Result result = compute(Store(path()), request, progress_);
     std::size_t high = 0;
-    for (std::size_t i = 0; i < result.least_height_m.size(); ++i) {
-      const float expected = result.least_height_m[i], found = zone.radar->height_m[i];
+    for (std::size_t i = 0; i < result.get<LeastHeights>().height_m.size(); ++i) {
+      const float expected = result.get<LeastHeights>().height_m[i], found = zone.radar->height_m[i];
       ASSERT_EQ(std::isnan(expected), std::isnan(found)) << "cell " << i;
       if (std::isnan(expected)) continue;
       ASSERT_NEAR(expected, found, 1e-3) << "cell " << i;

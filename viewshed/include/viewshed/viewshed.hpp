@@ -25,6 +25,7 @@
 #include <span>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include <itin/detail.hpp>
@@ -185,45 +186,83 @@ struct Statistics {
   }
 };
 
+// What modes tell of each cell besides whether it is seen, row by row.
+
+/// kCount: how many observers certainly see the cell, or kCountOutside.
+struct Counts {
+  std::vector<std::uint16_t> count;
+};
+/// kWhich: the set of observers that do, see raster_bit().
+struct ObserverSets {
+  std::vector<std::uint32_t> words;
+};
+/// kAngle, of the line after curvature and refraction; NaN where none sees.
+struct Angles {
+  std::vector<float> angle_deg;
+};
+/// kNearest: the observer's number from 1 in their order, 0 where none sees; and how far away it is horizontally, or
+/// NaN.
+struct NearestObservers {
+  std::vector<std::uint32_t> number;
+  std::vector<float> distance_m;
+};
+/// kBlocker.
+struct Blockers {
+  std::vector<BlockingTriangle> triangles;  ///< those that first hide a cell, ascending
+  /// For hidden cells: which of these rises above the sight line first, kMissingGround, or kNoBlocker; and its theme
+  /// (from 1; 0: terrain), or the same value.
+  std::vector<std::uint32_t> triangle;
+  std::vector<std::uint32_t> theme;
+  /// From a store: which feature of that theme it is part of, by features_at(); kNoBlocker: of none.
+  std::vector<std::uint32_t> feature;
+};
+/// kHeight: 0 where the ground is seen, NaN where no height is (outside, beyond the elevations in view, or behind
+/// missing ground that blocks). Exact: the sight line to it touches the surface within a micrometre.
+struct LeastHeights {
+  std::vector<float> height_m;
+};
+/// kProbability: that the whole line is clear, with a standard error of at most 0.022, alike in neighbouring cells; 0
+/// for a target at an elevation below the ground; NaN outside.
+struct Probabilities {
+  std::vector<float> probability;
+};
+/// kLoss: delta-Bullington diffraction by ITU-R P.526 (profile/diffraction.hpp), and the loss in free space along the
+/// slant line, of the observer for whom their sum is least. NaN outside; at an observer's own place; where a raised
+/// feature holds an end; and where a line crosses ground without data, unless NoData::kClear lets it pass or
+/// NoData::kBlock leaves that observer out.
+struct Losses {
+  std::vector<float> diffraction_db;
+  std::vector<float> free_space_db;
+};
+/// Those of a mode; none in kVisible and kFresnel.
+using ModeValues = std::variant<std::monostate, Counts, ObserverSets, Angles, NearestObservers, Blockers, LeastHeights,
+                                Probabilities, Losses>;
+
 struct Result {
   Request request;  ///< as understood
   RasterGrid grid;
   /// In every mode. Undecided is what only ground without data leaves open, under NoData::kUnknown (not in kBlocker,
   /// kHeight and kProbability), and in certified results what the level leaves open.
   std::vector<Verdict> visible;
-  bool certified = false;              ///< made by compute_certified(): verdicts at a level are certain
-  bool decided_exactly = false;        ///< a certified one over the full surface, where the level is no cheaper
-  std::vector<std::uint16_t> count;    ///< kCount: how many certainly see the cell, or kCountOutside
-  std::vector<std::uint32_t> which;    ///< kWhich: the set of observers, see raster_bit()
-  std::vector<float> angle_deg;        ///< kAngle, of the line after curvature and refraction; NaN where none sees
-  std::vector<std::uint32_t> nearest;  ///< kNearest: the observer's number from 1 in their order; 0 where none sees
-  std::vector<float> distance_m;       ///< kNearest, horizontally; NaN where none sees
-  /// kBlocker: the triangles that first hide a cell, ascending.
-  std::vector<BlockingTriangle> blockers;
-  /// kBlocker, for hidden cells: which of these rises above the sight line first, or one of the two values above; and
-  /// its theme (from 1; 0: terrain), or the same value.
-  std::vector<std::uint32_t> blocker;
-  std::vector<std::uint32_t> blocker_theme;
-  /// kBlocker, from a store: which feature of that theme it is part of, by features_at(); kNoBlocker: of none.
-  std::vector<std::uint32_t> blocker_feature;
-  /// kHeight: 0 where the ground is seen, NaN where no height is (outside, beyond the elevations in view, or behind
-  /// missing ground that blocks). Exact: the sight line to it touches the surface within a micrometre.
-  std::vector<float> least_height_m;
-  /// kProbability: that the whole line is clear, with a standard error of at most 0.022, alike in neighbouring cells; 0
-  /// for a target at an elevation below the ground; NaN outside.
-  std::vector<float> probability;
-  /// kLoss, dB: delta-Bullington diffraction by ITU-R P.526 (profile/diffraction.hpp), and the loss in free space along
-  /// the slant line, of the observer for whom their sum is least. NaN outside; at an observer's own place; where a
-  /// raised feature holds an end; and where a line crosses ground without data, unless NoData::kClear lets it pass or
-  /// NoData::kBlock leaves that observer out.
-  std::vector<float> loss_db;
-  std::vector<float> free_space_db;
+  bool certified = false;                ///< made by compute_certified(): verdicts at a level are certain
+  bool decided_exactly = false;          ///< a certified one over the full surface, where the level is no cheaper
+  ModeValues values;                     ///< what request.mode tells besides
   std::vector<std::string> theme_names;  ///< from a store: of theme 1 and so on
   CellCounts cells;                      ///< areas are these times grid.cell_area()
   std::vector<double> ground_m;          ///< elevation of the ground, or of what stands on it, under each observer
   bool crosses_voids = false;            ///< some sight line may have passed over ground without data
   std::vector<std::string> warnings;     ///< one line each
   Statistics statistics;
+
+  /// The values of the mode, such as get<Counts>(). Throws std::bad_variant_access where they are another mode's.
+  template <class Values>
+  const Values& get() const {
+    return std::get<Values>(values);
+  }
+  template <class Values>
+  Values& get() {
+    return std::get<Values>(values);
+  }
 };
 
 /// Where a raster of sets keeps whether thing `number` (from 0) is in the set of a cell: grids of 32-bit words, one for

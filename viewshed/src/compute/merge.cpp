@@ -12,7 +12,7 @@
 #include "compute/compute.hpp"
 #include "line/cell_tiles.hpp"
 #include "modes/blocker_table.hpp"
-#include "modes/mode_rasters.hpp"
+#include "modes/mode_values.hpp"
 #include "modes/observation.hpp"
 #include "plan/planned_result.hpp"
 
@@ -34,7 +34,8 @@ class Merge::Rasters {
     add_certainty(plan, result_);
     result_.ground_m.resize(plan.request().observers.size());
     Observation::prepare(result_);
-    if (plan.request().mode == Mode::kBlocker) result_.blocker_feature.assign(plan.grid().cell_count(), kNoBlocker);
+    if (auto* const blockers = std::get_if<Blockers>(&result_.values))
+      blockers->feature.assign(plan.grid().cell_count(), kNoBlocker);
   }
 
   void add(std::size_t number, const Result& part) {
@@ -70,18 +71,52 @@ class Merge::Rasters {
 
  private:
   void add_cells(const Segment& segment, const Result& part) {
-    for_each_raster_of(result_.request.mode, [&](auto raster, auto) { copy(segment, part.*raster, result_.*raster); });
-    copy(segment, part.blocker_feature, result_.blocker_feature);
-    // Numbers among the segment's observers and blockers become those among all.
-    copy(segment, part.nearest, result_.nearest,
-         [&](std::uint32_t from_1) { return from_1 == 0 ? 0 : segment.observers[from_1 - 1] + 1; });
-    const std::vector<std::uint32_t> numbers = blockers_.numbers_of(part.blockers);
-    copy(segment, part.blocker, result_.blocker,
-         [&](std::uint32_t blocker) { return blocker < kMissingGround ? numbers[blocker] : blocker; });
-    if (!part.which.empty()) add_bits(segment, part);
+    copy(segment, part.visible, result_.visible);
+    std::visit([&]<class Values>(const Values& values) { add(segment, values, result_.get<Values>()); }, part.values);
   }
 
-  /// The segment's values to their places; a mode that has none of these copies none.
+  void add(const Segment&, std::monostate, std::monostate) {}
+  void add(const Segment& segment, const Counts& from, Counts& to) { copy(segment, from.count, to.count); }
+  void add(const Segment& segment, const Angles& from, Angles& to) { copy(segment, from.angle_deg, to.angle_deg); }
+  void add(const Segment& segment, const LeastHeights& from, LeastHeights& to) {
+    copy(segment, from.height_m, to.height_m);
+  }
+  void add(const Segment& segment, const Probabilities& from, Probabilities& to) {
+    copy(segment, from.probability, to.probability);
+  }
+  void add(const Segment& segment, const Losses& from, Losses& to) {
+    copy(segment, from.diffraction_db, to.diffraction_db);
+    copy(segment, from.free_space_db, to.free_space_db);
+  }
+  /// Observers have other numbers among all than among the segment's.
+  void add(const Segment& segment, const NearestObservers& from, NearestObservers& to) {
+    copy(segment, from.distance_m, to.distance_m);
+    copy(segment, from.number, to.number,
+         [&](std::uint32_t from_1) { return from_1 == 0 ? 0 : segment.observers[from_1 - 1] + 1; });
+  }
+  void add(const Segment& segment, const Blockers& from, Blockers& to) {
+    const std::vector<std::uint32_t> numbers = blockers_.numbers_of(from.triangles);
+    copy(segment, from.feature, to.feature);
+    copy(segment, from.triangle, to.triangle,
+         [&](std::uint32_t blocker) { return blocker < kMissingGround ? numbers[blocker] : blocker; });
+  }
+  /// Observers have other bits, too.
+  void add(const Segment& segment, const ObserverSets& from, ObserverSets& to) {
+    for (std::size_t i = 0; i < segment.observers.size(); ++i) {
+      const RasterBit bit = raster_bit(i), bit_of_all = raster_bit(segment.observers[i]);
+      const auto cells = static_cast<std::size_t>(segment.columns * segment.rows);
+      const std::size_t first = bit.grid * cells, first_of_all = bit_of_all.grid * result_.grid.cell_count();
+      for (std::size_t cell = 0; cell < cells; ++cell) {
+        if ((from.words[first + cell] & bit.mask) == 0) continue;
+        const auto n = static_cast<std::int64_t>(cell);
+        const RasterGrid::Cell place{segment.north_west.column + n % segment.columns,
+                                     segment.north_west.row + n / segment.columns};
+        to.words[first_of_all + result_.grid.index(place)] |= bit_of_all.mask;
+      }
+    }
+  }
+
+  /// The segment's values to their places; features that were not named are none.
   template <class T, class Become = std::identity>
   void copy(const Segment& segment, const std::vector<T>& from, std::vector<T>& to, const Become& become = {}) const {
     if (from.empty()) return;
@@ -89,21 +124,6 @@ class Merge::Rasters {
       const auto first = from.begin() + row * segment.columns;
       const std::size_t place = result_.grid.index({segment.north_west.column, segment.north_west.row + row});
       std::transform(first, first + segment.columns, to.begin() + static_cast<std::ptrdiff_t>(place), become);
-    }
-  }
-
-  /// Observers have other bits in the whole than among the segment's.
-  void add_bits(const Segment& segment, const Result& part) {
-    for (std::size_t i = 0; i < segment.observers.size(); ++i) {
-      const RasterBit from = raster_bit(i), to = raster_bit(segment.observers[i]);
-      const std::size_t from_grid = from.grid * part.grid.cell_count(), to_grid = to.grid * result_.grid.cell_count();
-      for (std::int64_t row = 0; row < segment.rows; ++row) {
-        for (std::int64_t column = 0; column < segment.columns; ++column) {
-          if ((part.which[from_grid + part.grid.index({column, row})] & from.mask) == 0) continue;
-          const RasterGrid::Cell place{segment.north_west.column + column, segment.north_west.row + row};
-          result_.which[to_grid + result_.grid.index(place)] |= to.mask;
-        }
-      }
     }
   }
 

@@ -97,28 +97,30 @@ double MapOverlay::value(std::size_t cell) const {
   const auto positive = [](double v) { return v > 0 ? v : kNoValue; };
   switch (result_.request.mode) {
     case Mode::kCount:
-      return positive(result_.count[cell]);
+      return positive(result_.get<Counts>().count[cell]);
     case Mode::kWhich: {
+      const auto& words = result_.get<ObserverSets>().words;
       int count = 0;
-      for (std::size_t i = cell; i < result_.which.size(); i += result_.grid.cell_count())
-        count += std::popcount(result_.which[i]);
+      for (std::size_t i = cell; i < words.size(); i += result_.grid.cell_count()) count += std::popcount(words[i]);
       return positive(count);
     }
     case Mode::kAngle:
-      return result_.angle_deg[cell];
-    case Mode::kNearest:
-      return result_.request.observers.size() <= kPalette.size() ? positive(result_.nearest[cell])
-                                                                 : result_.distance_m[cell];
-    case Mode::kBlocker:
-      return result_.visible[cell] == Verdict::kVisible ? 0
-             : result_.blocker[cell] == kNoBlocker      ? kNoValue
-                                                        : blocker_value(result_.blocker_theme[cell]);
+      return result_.get<Angles>().angle_deg[cell];
+    case Mode::kNearest: {
+      const auto& nearest = result_.get<NearestObservers>();
+      return result_.request.observers.size() <= kPalette.size() ? positive(nearest.number[cell])
+                                                                 : nearest.distance_m[cell];
+    }
+    case Mode::kBlocker: {
+      const std::uint32_t theme = result_.get<Blockers>().theme[cell];
+      return result_.visible[cell] == Verdict::kVisible ? 0 : theme == kNoBlocker ? kNoValue : blocker_value(theme);
+    }
     case Mode::kHeight:
-      return result_.least_height_m[cell];
+      return result_.get<LeastHeights>().height_m[cell];
     case Mode::kProbability:
-      return result_.probability[cell];
+      return result_.get<Probabilities>().probability[cell];
     case Mode::kLoss:
-      return result_.loss_db[cell];
+      return result_.get<Losses>().diffraction_db[cell];
     case Mode::kVisible:
     case Mode::kFresnel:
       break;
@@ -177,7 +179,7 @@ void MapOverlay::scale_angles() {
   title_ = "Elevation angle, degrees";
   // An observer's own place lies straight below it.
   const std::vector<float> angles =
-      sorted_sample(result_.angle_deg, [](float degrees) { return std::abs(degrees) < 90; });
+      sorted_sample(result_.get<Angles>().angle_deg, [](float degrees) { return std::abs(degrees) < 90; });
   if (angles.empty()) return;
   const auto at = [&](double share) {
     return static_cast<double>(angles[static_cast<std::size_t>(share * static_cast<double>(angles.size() - 1))]);
@@ -209,7 +211,7 @@ void MapOverlay::scale_observers() {
 
 void MapOverlay::scale_distances() {
   title_ = "Distance of the nearest visible observer, metres";
-  const Extremes e = extremes_of(result_.distance_m);
+  const Extremes e = extremes_of(result_.get<NearestObservers>().distance_m);
   if (e.empty()) return;
   const double width = round_step(std::max(e.most / kSteps, 1.0));
   const int steps = std::max(1, static_cast<int>(std::ceil(e.most / width)));
@@ -219,7 +221,7 @@ void MapOverlay::scale_distances() {
 
 void MapOverlay::scale_blockers() {
   title_ = "Visible, or hidden by";
-  blockers_ = result_.blocker_theme;
+  blockers_ = result_.get<Blockers>().theme;
   sort_unique(blockers_);
   std::erase(blockers_, kNoBlocker);
   add_step(0, {kSeenColour, kOpacity}, "visible");
@@ -235,7 +237,7 @@ void MapOverlay::scale_heights() {
   title_ =
       fmt::format("Least height above {}, metres", result_.request.targets_on_surface ? "the surface" : "the ground");
   const std::vector<float> heights =
-      sorted_sample(result_.least_height_m, [](float h) { return h > 0 && std::isfinite(h); });
+      sorted_sample(result_.get<LeastHeights>().height_m, [](float h) { return h > 0 && std::isfinite(h); });
   // Round heights that part the hidden cells into about as many each.
   std::vector<double> limits;
   for (const double share : {0.2, 0.45, 0.7}) {

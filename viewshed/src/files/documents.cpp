@@ -64,9 +64,11 @@ double decided_percent(const CellCounts& cells) {
 }
 
 std::uint64_t cells_without_loss(const Result& result) {
+  const auto* const losses = std::get_if<Losses>(&result.values);
+  if (losses == nullptr) return 0;
   std::uint64_t count = 0;
-  for (std::size_t i = 0; i < result.loss_db.size(); ++i)
-    count += std::isnan(result.loss_db[i]) && result.visible[i] != Verdict::kOutside ? 1 : 0;
+  for (std::size_t i = 0; i < losses->diffraction_db.size(); ++i)
+    count += std::isnan(losses->diffraction_db[i]) && result.visible[i] != Verdict::kOutside ? 1 : 0;
   return count;
 }
 
@@ -90,9 +92,10 @@ Document viewshed_document(const StoreMetadata& metadata, const Result& result) 
 
 Document blockers_document(const Store& store, const Result& result) {
   std::map<std::uint16_t, std::map<std::int64_t, std::uint64_t>> hidden;  // cells by theme and feature
-  for (std::size_t cell = 0; cell < result.blocker_feature.size(); ++cell)
-    if (result.blocker_feature[cell] != kNoBlocker)
-      ++hidden[static_cast<std::uint16_t>(result.blocker_theme[cell])][result.blocker_feature[cell]];
+  const auto& cells_hidden_by = result.get<Blockers>();
+  for (std::size_t cell = 0; cell < cells_hidden_by.feature.size(); ++cell)
+    if (cells_hidden_by.feature[cell] != kNoBlocker)
+      ++hidden[static_cast<std::uint16_t>(cells_hidden_by.theme[cell])][cells_hidden_by.feature[cell]];
   std::vector<std::pair<std::uint64_t, Document>> blockers;
   for (const auto& [theme, of_features] : hidden) {
     std::vector<std::int64_t> numbers;

@@ -99,23 +99,24 @@ class Writer {
     write<std::uint8_t>({band}, code_of(Verdict::kOutside), codes_of(result_.visible));
   }
   void losses() {
-    std::vector<float> values = result_.loss_db;
-    values.insert(values.end(), result_.free_space_db.begin(), result_.free_space_db.end());
+    const auto& losses = result_.get<Losses>();
+    std::vector<float> values = losses.diffraction_db;
+    values.insert(values.end(), losses.free_space_db.begin(), losses.free_space_db.end());
     write<float>({"diffraction loss (ITU-R P.526, delta-Bullington), dB", "free-space loss, dB"}, kNaN, values);
   }
-  void counts() { write<std::uint16_t>({"observers that see the cell"}, kCountOutside, result_.count); }
+  void counts() { write<std::uint16_t>({"observers that see the cell"}, kCountOutside, result_.get<Counts>().count); }
   void angles() {
     write<float>({"elevation angle of the sight line, degrees; of several observers the greatest"}, kNaN,
-                 result_.angle_deg);
+                 result_.get<Angles>().angle_deg);
   }
 
   void heights() {
     const char* base = result_.request.targets_on_surface ? "the surface with its features" : "the ground";
     write<float>({fmt::format("least height above {} at which a target is seen, metres; no value: at none", base)},
-                 kNaN, result_.least_height_m);
+                 kNaN, result_.get<LeastHeights>().height_m);
   }
   void probabilities() {
-    std::vector<float> values = result_.probability;
+    std::vector<float> values = result_.get<Probabilities>().probability;
     values.reserve(2 * values.size());
     for (const Verdict v : result_.visible)
       values.push_back(v == Verdict::kOutside ? std::numeric_limits<float>::quiet_NaN()
@@ -125,10 +126,11 @@ class Writer {
   }
   void blockers() {
     std::vector<std::string> bands{"theme of what hides the cell, 0: terrain"};
-    std::vector<std::uint32_t> values = result_.blocker_theme;
-    if (!result_.blocker_feature.empty()) {
+    const auto& blockers = result_.get<Blockers>();
+    std::vector<std::uint32_t> values = blockers.theme;
+    if (!blockers.feature.empty()) {
       bands.emplace_back("its feature, from 0 in the order of import");
-      values.insert(values.end(), result_.blocker_feature.begin(), result_.blocker_feature.end());
+      values.insert(values.end(), blockers.feature.begin(), blockers.feature.end());
     }
     write<std::uint32_t>(bands, kNoBlocker, values);
   }
@@ -142,13 +144,14 @@ class Writer {
       const std::string& name = observers[i].name;
       band += fmt::format("bit {}: {}", i % 32, name.empty() ? std::to_string(i + 1) : name);
     }
-    write<std::uint32_t>(bands, std::nullopt, result_.which);
+    write<std::uint32_t>(bands, std::nullopt, result_.get<ObserverSets>().words);
   }
 
   void nearest() {
-    std::vector<float> values = result_.distance_m;
+    const auto& nearest = result_.get<NearestObservers>();
+    std::vector<float> values = nearest.distance_m;
     values.reserve(2 * values.size());
-    for (const std::uint32_t number : result_.nearest)
+    for (const std::uint32_t number : nearest.number)
       values.push_back(number == 0 ? std::numeric_limits<float>::quiet_NaN() : static_cast<float>(number));
     write<float>({"distance of the nearest visible observer, metres", "its number, from 1"}, kNaN, values);
   }

@@ -26,7 +26,8 @@ RegionClasses regions_of_verdicts(const Result& result) {
 }
 
 RegionClasses classes_of_counts(const Result& result) {
-  const std::set<std::uint16_t> counts(result.count.begin(), result.count.end());
+  const auto& counted = result.get<Counts>().count;
+  const std::set<std::uint16_t> counts(counted.begin(), counted.end());
   // Counts are of observers that certainly see the cell.
   const std::string none = result.cells.undecided > 0 ? "hidden or undecided" : "hidden";
   RegionClasses classes;
@@ -48,7 +49,8 @@ RegionClasses classes_of_observers(const Result& result) {
 }
 
 RegionClasses classes_of_blockers(const Result& result) {
-  const std::set<std::uint32_t> themes(result.blocker_theme.begin(), result.blocker_theme.end());
+  const auto& blockers = result.get<Blockers>().theme;
+  const std::set<std::uint32_t> themes(blockers.begin(), blockers.end());
   RegionClasses classes;
   for (const std::uint32_t theme : themes)
     if (theme != kNoBlocker) classes.push_back({theme, blocker_name(result, theme)});
@@ -80,11 +82,11 @@ void write_polygons(const std::string& path, const Result& result, const std::st
   };
   switch (result.request.mode) {
     case Mode::kCount:
-      return write(result.count, classes_of_counts(result));
+      return write(result.get<Counts>().count, classes_of_counts(result));
     case Mode::kNearest:
-      return write(result.nearest, classes_of_observers(result));
+      return write(result.get<NearestObservers>().number, classes_of_observers(result));
     case Mode::kBlocker:
-      return write(result.blocker_theme, classes_of_blockers(result));
+      return write(result.get<Blockers>().theme, classes_of_blockers(result));
     case Mode::kFresnel:
     case Mode::kVisible:
     case Mode::kWhich:

@@ -9,20 +9,34 @@
 #include <itin/packed_file.hpp>
 #include <viewshed/plan.hpp>
 
+#include "modes/mode_values.hpp"
 #include "plan/planned_result.hpp"
 
 namespace itin::viewshed {
 
 namespace {
 
-/// Serves both directions: `exchange` passes every field to an archive, which writes it or reads it.
+// These serve both directions: they pass every field to an archive, which writes it or reads it.
+
+template <class Archive, class Values>
+void exchange_values(Archive& archive, Values& values) {
+  using Mode = std::remove_const_t<Values>;
+  if constexpr (std::is_same_v<Mode, Counts>) archive(values.count);
+  if constexpr (std::is_same_v<Mode, ObserverSets>) archive(values.words);
+  if constexpr (std::is_same_v<Mode, Angles>) archive(values.angle_deg);
+  if constexpr (std::is_same_v<Mode, NearestObservers>) archive(values.number, values.distance_m);
+  if constexpr (std::is_same_v<Mode, Blockers>)
+    archive(values.triangles, values.triangle, values.theme, values.feature);
+  if constexpr (std::is_same_v<Mode, LeastHeights>) archive(values.height_m);
+  if constexpr (std::is_same_v<Mode, Probabilities>) archive(values.probability);
+  if constexpr (std::is_same_v<Mode, Losses>) archive(values.diffraction_db, values.free_space_db);
+}
+
 template <class Archive, class R>
 void exchange(Archive& archive, R& result) {
-  archive(result.visible, result.count, result.which, result.angle_deg, result.nearest, result.distance_m,
-          result.blockers, result.blocker, result.blocker_theme, result.blocker_feature, result.least_height_m,
-          result.probability, result.loss_db, result.free_space_db, result.theme_names, result.cells.visible,
-          result.cells.hidden, result.cells.undecided, result.cells.outside, result.cells.zone_cut, result.ground_m,
-          result.crosses_voids, result.warnings);
+  archive(result.visible, result.theme_names, result.cells.visible, result.cells.hidden, result.cells.undecided,
+          result.cells.outside, result.cells.zone_cut, result.ground_m, result.crosses_voids, result.warnings);
+  std::visit([&](auto& values) { exchange_values(archive, values); }, result.values);
   auto& s = result.statistics;
   archive(s.retrieval.points_read, s.retrieval.blocks_read, s.triangles, s.lines, s.retrieval_seconds, s.scene_seconds,
           s.lines_seconds);
@@ -132,6 +146,7 @@ Result read_segment(const std::string& path, const Plan& plan, std::size_t segme
   if (id != plan.id()) throw InputError(fmt::format("{}: is a segment of another plan", path));
   if (number != segment) throw InputError(fmt::format("{}: is segment {}, not {}", path, number, segment));
   Result result;
+  result.values = values_outside(plan.request(), 0);
   exchange(reader, result);
   reader.expect_end();
   result = as_planned(plan, segment, std::move(result));

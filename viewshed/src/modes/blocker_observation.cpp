@@ -48,7 +48,8 @@ void BlockerObservation::study(const TileView& tile, const CellView& view, const
 
 void BlockerObservation::store_row(std::size_t cell, std::size_t columns, std::size_t place, Result& result) const {
   for (std::size_t i = 0; i < columns; ++i)
-    result.blocker[place + i] = verdicts()[cell + i] == Verdict::kHidden ? blocker_[cell + i] : kNoBlocker;
+    result.get<Blockers>().triangle[place + i] =
+        verdicts()[cell + i] == Verdict::kHidden ? blocker_[cell + i] : kNoBlocker;
 }
 
 }  // namespace itin::viewshed

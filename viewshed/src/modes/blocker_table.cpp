@@ -15,20 +15,21 @@ std::vector<std::uint32_t> BlockerTable::numbers_of(std::span<const BlockingTria
 void BlockerTable::give(Result& result) const {
   // A blocker that hid a cell from one observer may have given way to one that hides it from a nearer observer.
   std::vector<bool> hides(numbers_.size());
-  for (const std::uint32_t blocker : result.blocker)
+  auto& [triangles, of_cells, themes, features] = result.get<Blockers>();
+  for (const std::uint32_t blocker : of_cells)
     if (blocker < kMissingGround) hides[blocker] = true;
   std::vector<std::uint32_t> place(numbers_.size());
-  result.blockers.clear();
+  triangles.clear();
   for (const auto& [triangle, number] : numbers_) {
     if (!hides[number]) continue;
-    place[number] = static_cast<std::uint32_t>(result.blockers.size());
-    result.blockers.push_back(triangle);
+    place[number] = static_cast<std::uint32_t>(triangles.size());
+    triangles.push_back(triangle);
   }
-  result.blocker_theme.resize(result.blocker.size());
-  for (std::size_t cell = 0; cell < result.blocker.size(); ++cell) {
-    std::uint32_t& blocker = result.blocker[cell];
+  themes.resize(of_cells.size());
+  for (std::size_t cell = 0; cell < of_cells.size(); ++cell) {
+    std::uint32_t& blocker = of_cells[cell];
     if (blocker < kMissingGround) blocker = place[blocker];
-    result.blocker_theme[cell] = blocker < kMissingGround ? result.blockers[blocker].theme : blocker;
+    themes[cell] = blocker < kMissingGround ? triangles[blocker].theme : blocker;
   }
 }
 

@@ -22,24 +22,24 @@ Point2 middle(const Grid& grid, const std::array<GridPoint, 3>& corners) {
   return {sum.x / 3, sum.y / 3};
 }
 
-/// Fills `blocker_feature`.
-void find_blocking_features(const Store& store, Result& result, const Progress& progress) {
+/// Fills Blockers::feature.
+void find_blocking_features(const Store& store, Blockers& blockers, const Progress& progress) {
   std::map<std::uint16_t, std::pair<std::vector<std::uint32_t>, std::vector<Point2>>> by_theme;
-  for (std::uint32_t i = 0; i < result.blockers.size(); ++i) {
-    const BlockingTriangle& blocker = result.blockers[i];
+  for (std::uint32_t i = 0; i < blockers.triangles.size(); ++i) {
+    const BlockingTriangle& blocker = blockers.triangles[i];
     if (blocker.theme == 0) continue;
     auto& [numbers, places] = by_theme[blocker.theme];
     numbers.push_back(i);
     places.push_back(middle(store.metadata().grid, blocker.corners));
   }
-  std::vector<std::uint32_t> feature_of(result.blockers.size(), kNoBlocker);
-  for (const auto& [theme, blockers] : by_theme) {
-    const auto found = features_at(store, theme, blockers.second, progress);
+  std::vector<std::uint32_t> feature_of(blockers.triangles.size(), kNoBlocker);
+  for (const auto& [theme, of_theme] : by_theme) {
+    const auto found = features_at(store, theme, of_theme.second, progress);
     for (std::size_t i = 0; i < found.size(); ++i)
-      if (found[i]) feature_of[blockers.first[i]] = static_cast<std::uint32_t>(found[i]->number);
+      if (found[i]) feature_of[of_theme.first[i]] = static_cast<std::uint32_t>(found[i]->number);
   }
-  result.blocker_feature.resize(result.blocker.size());
-  std::transform(result.blocker.begin(), result.blocker.end(), result.blocker_feature.begin(),
+  blockers.feature.resize(blockers.triangle.size());
+  std::transform(blockers.triangle.begin(), blockers.triangle.end(), blockers.feature.begin(),
                  [&](std::uint32_t b) { return b < kMissingGround ? feature_of[b] : kNoBlocker; });
 }
 
@@ -48,7 +48,7 @@ void find_blocking_features(const Store& store, Result& result, const Progress& 
 void name_features(const Store& store, Result& result, const Progress& progress) {
   result.theme_names.clear();
   for (const ThemeInfo& theme : store.metadata().themes) result.theme_names.push_back(theme.name);
-  if (result.request.mode == Mode::kBlocker) find_blocking_features(store, result, progress);
+  if (auto* const blockers = std::get_if<Blockers>(&result.values)) find_blocking_features(store, *blockers, progress);
 }
 
 std::string blocker_name(const Result& result, std::uint32_t theme) {

@@ -70,7 +70,7 @@ void LeastHeightObservation::record(const TileView& tile, const CellView& view, 
 void LeastHeightObservation::store_row(std::size_t cell, std::size_t columns, std::size_t place, Result& result) const {
   for (std::size_t i = 0; i < columns; ++i) {
     const double least = least_[cell + i];
-    result.least_height_m[place + i] =
+    result.get<LeastHeights>().height_m[place + i] =
         std::isinf(least) ? std::numeric_limits<float>::quiet_NaN() : static_cast<float>(least);
   }
 }

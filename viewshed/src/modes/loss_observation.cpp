@@ -45,10 +45,11 @@ void LossObservation::study(const TileView& tile, const CellView& view, const Si
 
 void LossObservation::store_row(std::size_t cell, std::size_t columns, std::size_t place, Result& result) const {
   constexpr float kNoValue = std::numeric_limits<float>::quiet_NaN();
+  auto& losses = result.get<Losses>();
   for (std::size_t i = 0; i < columns; ++i) {
     const bool known = !unknown_[cell + i] && !std::isinf(diffraction_[cell + i]);
-    result.loss_db[place + i] = known ? diffraction_[cell + i] : kNoValue;
-    result.free_space_db[place + i] = known ? free_space_[cell + i] : kNoValue;
+    losses.diffraction_db[place + i] = known ? diffraction_[cell + i] : kNoValue;
+    losses.free_space_db[place + i] = known ? free_space_[cell + i] : kNoValue;
   }
 }
 

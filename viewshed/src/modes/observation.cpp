@@ -10,7 +10,7 @@
 #include "modes/blocker_observation.hpp"
 #include "modes/least_height_observation.hpp"
 #include "modes/loss_observation.hpp"
-#include "modes/mode_rasters.hpp"
+#include "modes/mode_values.hpp"
 #include "modes/probability_observation.hpp"
 #include "modes/zone_observation.hpp"
 #include "request/field_of_view.hpp"
@@ -38,8 +38,9 @@ class ObserverCount final : public Observation {
  private:
   void keep(const CellView& view) override { ++counts_[view.cell]; }
   void store_row(std::size_t cell, std::size_t columns, std::size_t place, Result& result) const override {
+    auto& counts = result.get<Counts>().count;
     for (std::size_t i = 0; i < columns; ++i)
-      result.count[place + i] = verdicts()[cell + i] == Verdict::kOutside ? kCountOutside : counts_[cell + i];
+      counts[place + i] = verdicts()[cell + i] == Verdict::kOutside ? kCountOutside : counts_[cell + i];
   }
   TileValues<std::uint16_t> counts_;
 };
@@ -57,11 +58,12 @@ class ObserverBits final : public Observation {
     row[words + bit.grid] |= bit.mask;
   }
   void store_row(std::size_t cell, std::size_t columns, std::size_t place, Result& result) const override {
+    auto& words = result.get<ObserverSets>().words;
     const std::vector<std::uint32_t>& row = rows_[cell / Tile::kSide];
     const std::size_t seen = std::min(columns, row.size() / grids_);  // beyond, the result's words are 0
     for (std::size_t i = 0; i < seen; ++i)
       for (std::size_t grid = 0; grid < grids_; ++grid)
-        result.which[grid * result.grid.cell_count() + place + i] = row[i * grids_ + grid];
+        words[grid * result.grid.cell_count() + place + i] = row[i * grids_ + grid];
   }
   std::size_t grids_;
   /// Each of the tile's rows has the words of its cells, cell by cell, up to the last that is seen.
@@ -78,7 +80,7 @@ class GreatestAngle final : public Observation {
     if (!(angles_[view.cell] >= angle)) angles_[view.cell] = angle;
   }
   void store_row(std::size_t cell, std::size_t columns, std::size_t place, Result& result) const override {
-    copy_row(angles_, cell, columns, result.angle_deg.data() + place);
+    copy_row(angles_, cell, columns, result.get<Angles>().angle_deg.data() + place);
   }
   FieldOfView view_;
   TileValues<float> angles_;
@@ -102,10 +104,11 @@ class NearestObserver final : public Observation {
     numbers_[view.cell] = view.observer + 1;
   }
   void store_row(std::size_t cell, std::size_t columns, std::size_t place, Result& result) const override {
-    copy_row(numbers_, cell, columns, result.nearest.data() + place);
+    auto& nearest = result.get<NearestObservers>();
+    copy_row(numbers_, cell, columns, nearest.number.data() + place);
     for (std::size_t i = 0; i < columns; ++i) {
       const bool seen = numbers_[cell + i] != 0;
-      result.distance_m[place + i] = seen ? static_cast<float>(std::sqrt(squared_[cell + i])) : kNoAngle;
+      nearest.distance_m[place + i] = seen ? static_cast<float>(std::sqrt(squared_[cell + i])) : kNoAngle;
     }
   }
   TileValues<double> squared_;
@@ -162,10 +165,8 @@ void Observation::store(const Tile& tile, Result& result, CellCounts& cells) con
 }
 
 void Observation::prepare(Result& result) {
-  const Request& request = result.request;
-  const std::size_t cells = result.grid.cell_count();
-  for_each_raster_of(request.mode, [&](auto raster, auto outside) { (result.*raster).assign(cells, outside); });
-  if (request.mode == Mode::kWhich) result.which.resize(cells * bit_grids(request.observers.size()));
+  result.visible.assign(result.grid.cell_count(), Verdict::kOutside);
+  result.values = values_outside(result.request, result.grid.cell_count());
 }
 
 std::vector<std::unique_ptr<Observation>> Observations::of_tiles(const RasterGrid& tiles) {

@@ -31,7 +31,7 @@ void ProbabilityObservation::study(const TileView& tile, const CellView& view, c
 
 void ProbabilityObservation::store_row(std::size_t cell, std::size_t columns, std::size_t place, Result& result) const {
   for (std::size_t i = 0; i < columns; ++i)
-    result.probability[place + i] =
+    result.get<Probabilities>().probability[place + i] =
         verdicts()[cell + i] == Verdict::kOutside ? std::numeric_limits<float>::quiet_NaN() : probabilities_[cell + i];
 }
 

@@ -1,0 +1,13 @@
+// What a mode's rasters hold before any cell is looked at.
+#pragma once
+
+#include <cstddef>
+
+#include <viewshed/viewshed.hpp>
+
+namespace itin::viewshed {
+
+/// Those of the request's mode for so many cells that are outside every field of view.
+ModeValues values_outside(const Request& request, std::size_t cells);
+
+}  // namespace itin::viewshed
