@@ -20,8 +20,11 @@ void ObserverOptions::declare(CLI::App& app) {
             ->type_name("FILE"));
   app.add_option("--layer", sites_.layer, "The layer of that file")->type_name("NAME");
   app.add_option("--where", sites_.where, "Only observers that this SQL condition holds for")->type_name("SQL");
-  app.add_option("--height-field", sites_.height_field, "The field of that file that holds h")->type_name("FIELD");
-  app.add_option("--name-field", sites_.name_field, "The field of that file that holds names")->type_name("FIELD");
+  app.add_option("--height-field", sites_.height_field,
+                 "The field of that file that holds h (default: height, unless --observer-height is given)")
+      ->type_name("FIELD");
+  app.add_option("--name-field", sites_.name_field, "The field of that file that holds names (default: name)")
+      ->type_name("FIELD");
   app.add_option("--observer-height", height_text_, "Height h of observers that have none of their own (default: 2)")
       ->type_name("METRES");
   app.add_flag("--absolute-heights", absolute_heights_, "Every h is an elevation, not a height above the surface");
@@ -64,8 +67,26 @@ void ObserverOptions::require_above_ground(const std::string& where, double heig
   }
 }
 
-std::vector<viewshed::Observer> ObserverOptions::observers(const StoreMetadata& metadata) const {
-  return sites_.path.empty() ? observers_given(metadata) : observers_of_file(metadata);
+std::vector<viewshed::Observer> ObserverOptions::observers(const StoreMetadata& metadata,
+                                                           std::vector<std::string>& warnings) {
+  if (sites_.path.empty()) return observers_given(metadata);
+  const bool names_heights = views_.arcgis() || !sites_.height_field.empty();
+  if (!names_heights) take_heights(sites_, height_text_.empty() ? "" : "--observer-height", warnings);
+  took_heights_ = !names_heights && !sites_.height_field.empty();
+  take_names(sites_);
+  return observers_of_file(metadata);
+}
+
+Document ObserverOptions::parameters() const {
+  Document parameters = Document::object();
+  if (!sites_.height_field.empty()) parameters["height_field"] = sites_.height_field;
+  if (!sites_.name_field.empty()) parameters["name_field"] = sites_.name_field;
+  return parameters;
+}
+
+std::string ObserverOptions::text() const {
+  if (!took_heights_) return {};
+  return fmt::format("heights of observers are those of the field '{}' of {}\n", sites_.height_field, sites_.path);
 }
 
 std::vector<viewshed::Observer> ObserverOptions::observers_given(const StoreMetadata& metadata) const {

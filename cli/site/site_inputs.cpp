@@ -180,7 +180,7 @@ class InputReader {
         continue;
       }
       std::vector<Mast> masts = options_.masts;
-      if (candidate.height) masts = {{*candidate.height, options_.cost_field.empty() ? 1.0 : 0.0}};
+      if (candidate.height) masts = {{*candidate.height, options_.masts.front().cost}};
       for (const Mast& mast : masts) {
         if (!(candidate.cost + mast.cost > 0))
           throw InputError(fmt::format("candidate {}: its cost is 0; costs must be positive", candidate.id));
@@ -196,7 +196,7 @@ class InputReader {
     if (options_.existing.empty()) return {};
     SiteQuery query;
     query.path = options_.existing;
-    query.height_field = options_.candidates.height_field;
+    query.height_field = options_.existing_height_field;
     query.crs = options_.in_crs.crs;
     const std::size_t rejected = inputs_.rejected.size();
     const std::vector<Site> sites = read_sites(query, crs_, inputs_.rejected);

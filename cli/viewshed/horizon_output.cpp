@@ -70,10 +70,12 @@ void HorizonOutput::declare(CLI::App& app) {
   app.add_option("--horizon-step", step_text_, "Between the sky line's azimuths (default: 0.1)")->type_name("DEGREES");
   reads(app.add_option("--horizon-targets", sites_.path, "Places to mark on the horizon, in line of sight or not")
             ->type_name("FILE"));
-  app.add_option("--horizon-name-field", sites_.name_field, "The field of that file that holds names")
+  app.add_option("--horizon-name-field", sites_.name_field, "The field of that file that holds names (default: name)")
       ->type_name("FIELD");
-  app.add_option("--horizon-height-field", sites_.height_field,
-                 "The field of that file that holds h (default: --target-height)")
+  app.add_option(
+         "--horizon-height-field", sites_.height_field,
+         "The field of that file that holds h (default: height, unless --target-height is given; places without one "
+         "have --target-height)")
       ->type_name("FIELD");
 }
 
@@ -92,6 +94,20 @@ void HorizonOutput::validate() {
     throw InputError("--horizon-targets and --horizon-step work only with --horizon FILE");
   if (sites_.path.empty() && !(sites_.name_field + sites_.height_field).empty())
     throw InputError("--horizon-name-field and --horizon-height-field work only with --horizon-targets");
+}
+
+void HorizonOutput::take_fields(bool height_given, std::vector<std::string>& warnings) {
+  if (sites_.path.empty()) return;
+  take_heights(sites_, height_given ? "--target-height" : "", warnings);
+  take_names(sites_);
+}
+
+Document HorizonOutput::parameters() const {
+  Document parameters = Document::object();
+  if (!sites_.path.empty()) parameters["horizon_targets"] = sites_.path;
+  if (!sites_.name_field.empty()) parameters["horizon_name_field"] = sites_.name_field;
+  if (!sites_.height_field.empty()) parameters["horizon_height_field"] = sites_.height_field;
+  return parameters;
 }
 
 std::vector<viewshed::HorizonTarget> HorizonOutput::targets(const viewshed::Request& request,

@@ -20,6 +20,11 @@ class HorizonOutput {
   /// Throws InputError.
   void validate();
   const std::vector<std::string>& paths() const { return paths_; }
+  /// Decides which fields of the targets' file are read. `height_given`: whether the call states the height of targets.
+  /// `warnings` gets one where the file's heights are not used. Throws FileError.
+  void take_fields(bool height_given, std::vector<std::string>& warnings);
+  /// These fields.
+  Document parameters() const;
 
   /// Computes and writes what was asked for, if anything; the document of the horizon's targets, or null. `warnings`
   /// gets one where the sky line is the edge of the data. Throws InputError, FileError.
