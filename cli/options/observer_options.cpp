@@ -68,13 +68,14 @@ void ObserverOptions::require_above_ground(const std::string& where, double heig
 }
 
 std::vector<viewshed::Observer> ObserverOptions::observers(const StoreMetadata& metadata,
+                                                           const viewshed::Request& request,
                                                            std::vector<std::string>& warnings) {
   if (sites_.path.empty()) return observers_given(metadata);
   const bool names_heights = views_.arcgis() || !sites_.height_field.empty();
   if (!names_heights) take_heights(sites_, height_text_.empty() ? "" : "--observer-height", warnings);
   took_heights_ = !names_heights && !sites_.height_field.empty();
   take_names(sites_);
-  return observers_of_file(metadata);
+  return observers_of_file(metadata, request);
 }
 
 Document ObserverOptions::parameters() const {
@@ -99,7 +100,8 @@ std::vector<viewshed::Observer> ObserverOptions::observers_given(const StoreMeta
   return observers;
 }
 
-std::vector<viewshed::Observer> ObserverOptions::observers_of_file(const StoreMetadata& metadata) const {
+std::vector<viewshed::Observer> ObserverOptions::observers_of_file(const StoreMetadata& metadata,
+                                                                   const viewshed::Request& request) const {
   SiteQuery query = sites_;
   query.crs = in_crs_.crs;
   query.numbers = views_.numbers();
@@ -109,6 +111,7 @@ std::vector<viewshed::Observer> ObserverOptions::observers_of_file(const StoreMe
     require_on_the_data(where, site.position, in_crs_, metadata);
     viewshed::Observer observer{site.name, site.position, site.height.value_or(height_), absolute_heights_};
     views_.fill(observer, site.numbers, where);
+    views_.require_agreement(observer, request, where);
     if (!observer.absolute) require_above_ground(where, observer.height);
     observers.push_back(std::move(observer));
   }

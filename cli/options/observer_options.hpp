@@ -24,9 +24,11 @@ class ObserverOptions {
   void validate();
   bool absolute_heights() const { return absolute_heights_; }
   bool on_surface() const { return observer_on_ == "surface"; }
-  /// At least one, in the store's CRS. `warnings` gets one where a file's heights are not used. Throws InputError,
-  /// FileError.
-  std::vector<viewshed::Observer> observers(const StoreMetadata& metadata, std::vector<std::string>& warnings);
+  const InCrs& in_crs() const { return in_crs_; }
+  /// At least one, in the store's CRS. `request`: what is said of all of them. `warnings` gets one where a file's
+  /// heights are not used. Throws InputError, FileError.
+  std::vector<viewshed::Observer> observers(const StoreMetadata& metadata, const viewshed::Request& request,
+                                            std::vector<std::string>& warnings);
   /// The fields that heights and names were taken from; after observers().
   Document parameters() const;
   /// A line about heights that a file gives unasked; empty where it gives none. After observers().
@@ -34,7 +36,8 @@ class ObserverOptions {
 
  private:
   std::vector<viewshed::Observer> observers_given(const StoreMetadata& metadata) const;
-  std::vector<viewshed::Observer> observers_of_file(const StoreMetadata& metadata) const;
+  std::vector<viewshed::Observer> observers_of_file(const StoreMetadata& metadata,
+                                                    const viewshed::Request& request) const;
   void require_above_ground(const std::string& where, double height) const;
 
   std::vector<std::string> observers_;

@@ -257,13 +257,13 @@ class ViewshedVerb final : public Verb {
 
   /// Completes the request by what depends on the store's CRS and on the fields of files.
   void complete_request(const StoreMetadata& metadata, std::vector<std::string>& warnings) {
-    request_.observers = observers_.observers(metadata, warnings);
+    targets_.complete(metadata, request_);
+    request_.observers = observers_.observers(metadata, request_, warnings);
     if (detail_.has_rings() && request_.observers.size() > 1) {
       throw InputError("--rings lie about one observer; for several give --tolerance");
     }
     request_.detail = detail_.detail(request_.observers.front().position);
-    targets_.complete(metadata, request_);
-    horizon_.take_fields(targets_.height_given(), warnings);
+    horizon_.read_targets(request_, targets_.height_given(), observers_.in_crs(), metadata, warnings);
   }
 
   std::string text(const StoreMetadata& metadata, const viewshed::Result& result,
