@@ -40,7 +40,8 @@ void LosLinks::declare(CLI::App& app) {
   reads(app.add_option(
                "--links", path_,
                "Many links: a table id,x1,y1,h1,x2,y2,h2 (.csv; also lon1,lat1,lon2,lat2, or position1,position2 with "
-               "grid references; and name1,name2,frequency,polarisation,criteria of each), or a file of lines")
+               "grid references; without id, name or link: rows are numbered from 1; and "
+               "name1,name2,frequency,polarisation,criteria of each), or a file of lines")
             ->type_name("FILE"));
   app.add_option("--link-height", height_text_,
                  "Height of both ends of the lines of a file (default: 2, and at the second end the tip of "

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <set>
 
 #include <fmt/format.h>
 
@@ -11,6 +10,7 @@
 #include <itin/parallel.hpp>
 #include <profile/los.hpp>
 
+#include "output/file_names.hpp"
 #include "output/store_document.hpp"
 #include "program/call_files.hpp"
 #include "program/field_names.hpp"
@@ -99,13 +99,15 @@ void LosReports::write(const LosCase& one, const Document& command, const std::v
 
 std::vector<LosReports::Job> LosReports::jobs(const std::vector<profile::Link>& links, OutputPolicy& policy) const {
   std::vector<Job> jobs;
-  std::set<std::string> names;
+  FileNames names;
   for (std::size_t i = 0; i < links.size() && given(); ++i) {
     Job& job = jobs.emplace_back(Job{i, {}});
     for (std::string path : paths_) {
       path.replace(path.find(kId), kId.size(), file_name(links[i].id));
-      if (!names.insert(path).second)
-        throw InputError(fmt::format("--report: two links' reports would be {}; give links different ids", path));
+      if (!names.insert(path))
+        throw InputError(fmt::format(
+            "--report: two links' reports would be {}, where upper and lower case are one; give links different ids",
+            path));
       policy.claim(path);
       job.paths.push_back(std::move(path));
     }

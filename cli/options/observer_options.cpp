@@ -20,8 +20,11 @@ void ObserverOptions::declare(CLI::App& app) {
             ->type_name("FILE"));
   app.add_option("--layer", sites_.layer, "The layer of that file")->type_name("NAME");
   app.add_option("--where", sites_.where, "Only observers that this SQL condition holds for")->type_name("SQL");
-  app.add_option("--height-field", sites_.height_field, "The field of that file that holds h")->type_name("FIELD");
-  app.add_option("--name-field", sites_.name_field, "The field of that file that holds names")->type_name("FIELD");
+  app.add_option("--height-field", sites_.height_field,
+                 "The field of that file that holds h (default: height, unless --observer-height is given)")
+      ->type_name("FIELD");
+  app.add_option("--name-field", sites_.name_field, "The field of that file that holds names (default: name)")
+      ->type_name("FIELD");
   app.add_option("--observer-height", height_text_, "Height h of observers that have none of their own (default: 2)")
       ->type_name("METRES");
   app.add_flag("--absolute-heights", absolute_heights_, "Every h is an elevation, not a height above the surface");
@@ -64,8 +67,27 @@ void ObserverOptions::require_above_ground(const std::string& where, double heig
   }
 }
 
-std::vector<viewshed::Observer> ObserverOptions::observers(const StoreMetadata& metadata) const {
-  return sites_.path.empty() ? observers_given(metadata) : observers_of_file(metadata);
+std::vector<viewshed::Observer> ObserverOptions::observers(const StoreMetadata& metadata,
+                                                           const viewshed::Request& request,
+                                                           std::vector<std::string>& warnings) {
+  if (sites_.path.empty()) return observers_given(metadata);
+  const bool names_heights = views_.arcgis() || !sites_.height_field.empty();
+  if (!names_heights) take_heights(sites_, height_text_.empty() ? "" : "--observer-height", warnings);
+  took_heights_ = !names_heights && !sites_.height_field.empty();
+  take_names(sites_);
+  return observers_of_file(metadata, request);
+}
+
+Document ObserverOptions::parameters() const {
+  Document parameters = Document::object();
+  if (!sites_.height_field.empty()) parameters["height_field"] = sites_.height_field;
+  if (!sites_.name_field.empty()) parameters["name_field"] = sites_.name_field;
+  return parameters;
+}
+
+std::string ObserverOptions::text() const {
+  if (!took_heights_) return {};
+  return fmt::format("heights of observers are those of the field '{}' of {}\n", sites_.height_field, sites_.path);
 }
 
 std::vector<viewshed::Observer> ObserverOptions::observers_given(const StoreMetadata& metadata) const {
@@ -78,7 +100,8 @@ std::vector<viewshed::Observer> ObserverOptions::observers_given(const StoreMeta
   return observers;
 }
 
-std::vector<viewshed::Observer> ObserverOptions::observers_of_file(const StoreMetadata& metadata) const {
+std::vector<viewshed::Observer> ObserverOptions::observers_of_file(const StoreMetadata& metadata,
+                                                                   const viewshed::Request& request) const {
   SiteQuery query = sites_;
   query.crs = in_crs_.crs;
   query.numbers = views_.numbers();
@@ -88,6 +111,7 @@ std::vector<viewshed::Observer> ObserverOptions::observers_of_file(const StoreMe
     require_on_the_data(where, site.position, in_crs_, metadata);
     viewshed::Observer observer{site.name, site.position, site.height.value_or(height_), absolute_heights_};
     views_.fill(observer, site.numbers, where);
+    views_.require_agreement(observer, request, where);
     if (!observer.absolute) require_above_ground(where, observer.height);
     observers.push_back(std::move(observer));
   }

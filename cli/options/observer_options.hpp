@@ -24,12 +24,20 @@ class ObserverOptions {
   void validate();
   bool absolute_heights() const { return absolute_heights_; }
   bool on_surface() const { return observer_on_ == "surface"; }
-  /// At least one, in the store's CRS. Throws InputError, FileError.
-  std::vector<viewshed::Observer> observers(const StoreMetadata& metadata) const;
+  const InCrs& in_crs() const { return in_crs_; }
+  /// At least one, in the store's CRS. `request`: what is said of all of them. `warnings` gets one where a file's
+  /// heights are not used. Throws InputError, FileError.
+  std::vector<viewshed::Observer> observers(const StoreMetadata& metadata, const viewshed::Request& request,
+                                            std::vector<std::string>& warnings);
+  /// The fields that heights and names were taken from; after observers().
+  Document parameters() const;
+  /// A line about heights that a file gives unasked; empty where it gives none. After observers().
+  std::string text() const;
 
  private:
   std::vector<viewshed::Observer> observers_given(const StoreMetadata& metadata) const;
-  std::vector<viewshed::Observer> observers_of_file(const StoreMetadata& metadata) const;
+  std::vector<viewshed::Observer> observers_of_file(const StoreMetadata& metadata,
+                                                    const viewshed::Request& request) const;
   void require_above_ground(const std::string& where, double height) const;
 
   std::vector<std::string> observers_;
@@ -39,6 +47,7 @@ class ObserverOptions {
   bool absolute_heights_ = false;
   InCrs in_crs_;
   ViewFields views_;
+  bool took_heights_ = false;  ///< from the usual field, for which the call did not ask
 
   double height_ = 2;  ///< taken for observers that have none of their own
   std::vector<Place> given_;

@@ -1,5 +1,6 @@
 #include "options/view_fields.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -154,6 +155,33 @@ void ViewFields::fill(viewshed::Observer& observer, const std::vector<std::optio
   }
   if (spot) observer.height += *spot, observer.absolute = true;
   require_view(observer, where);
+}
+
+std::string ViewFields::source_of(Role role, bool is_own, const char* option) const {
+  const auto field = std::find_if(fields_.begin(), fields_.end(), [&](const Field& f) { return f.role == role; });
+  return is_own && field != fields_.end() ? fmt::format("field '{}'", field->name) : option;
+}
+
+void ViewFields::require_agreement(const viewshed::Observer& observer, const viewshed::Request& request,
+                                   const std::string& where) const {
+  if (observer.target_height.value_or(0) < 0 && !request.target_absolute)
+    throw InputError(
+        fmt::format("{}: its target height of {:.10g} m ({}) is negative; for elevations give --absolute-heights",
+                    where, *observer.target_height, source_of(Role::kTargetHeight, true, "")));
+  const std::optional<double> radius = observer.radius ? observer.radius : request.radius;
+  if (!radius) return;
+  const std::string radius_source = source_of(Role::kRadius, observer.radius.has_value(), "--radius");
+  const double least = observer.min_radius.value_or(request.min_radius);
+  if (least > *radius && (observer.radius || observer.min_radius))
+    throw InputError(fmt::format(
+        "{}: its least radius of {:.10g} m ({}) exceeds its radius of {:.10g} m ({}): correct one of them", where,
+        least, source_of(Role::kMinRadius, observer.min_radius.has_value(), "--min-radius"), *radius, radius_source));
+  const double cell =
+      request.grid ? std::max(request.grid->cell_width(), request.grid->cell_height()) : request.cell_size.value_or(0);
+  if (cell > *radius && observer.radius)
+    throw InputError(fmt::format(
+        "{}: its radius of {:.10g} m ({}) is smaller than a cell of {:.10g} m ({}): give smaller cells, or correct it",
+        where, *radius, radius_source, cell, request.grid ? "--like" : "--cell"));
 }
 
 }  // namespace itin::cli

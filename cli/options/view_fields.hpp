@@ -25,6 +25,10 @@ class ViewFields {
   /// out of range, saying `where`, the field and the value.
   void fill(viewshed::Observer& observer, const std::vector<std::optional<double>>& numbers,
             const std::string& where) const;
+  /// Throws InputError, as fill() does, where what the fields hold and what the request says of all observers exclude
+  /// each other.
+  void require_agreement(const viewshed::Observer& observer, const viewshed::Request& request,
+                         const std::string& where) const;
 
  private:
   enum class Role {
@@ -44,6 +48,8 @@ class ViewFields {
   };
 
   std::string text_given() const;
+  /// "field 'reach'", or the option where the value is not the observer's own.
+  std::string source_of(Role role, bool is_own, const char* option) const;
   void add_pair(const char* option, const std::string& text, Role from, Role to);
 
   bool arcgis_ = false;

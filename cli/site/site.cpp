@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -65,6 +66,8 @@ class SiteVerb final : public Verb {
     const Store store(options_.store, cache_within(options_.memory_bytes));
     options_.themes.choice().check(store.metadata().themes);
     inputs_document_ = hash_inputs(progress);
+    std::vector<std::string> warnings;
+    options_.take_fields(warnings);
     const SiteInputs inputs = read_site_inputs(store, options_, progress);
     require_memory(store, inputs);
     const std::optional<viewshed::SitePosition> hub_position = hub(store, progress);
@@ -88,7 +91,7 @@ class SiteVerb final : public Verb {
     site.routes = site_routes(options_, site.network);
     site.ground_m = site_grounds(store, inputs, site.choice, progress);
     site.rasters = site_rasters(store, options_, inputs, coverage, site.choice, progress);
-    Result result = write(store, site, progress);
+    Result result = write(store, site, std::move(warnings), progress);
     if (checkpoint.restored() > 0)
       result.text += fmt::format("taken over from an earlier run: {}\n", counted(checkpoint.restored(), "result"));
     checkpoint.remove();
@@ -203,9 +206,11 @@ class SiteVerb final : public Verb {
     return std::max<viewshed::Weight>(0, all - viewshed::served_by(inputs.demand, goal.existing, goal.cover));
   }
 
-  Result write(const Store& store, const SiteResult& site, Progress& progress) {
+  /// `warnings`: those about the files.
+  Result write(const Store& store, const SiteResult& site, std::vector<std::string> warnings, Progress& progress) {
     const std::string& crs = store.metadata().crs_wkt;
     Result result;
+    result.warnings = std::move(warnings);
     warn_of(site, store, result.warnings);
     warn_of_scale(store.metadata(), result.warnings);
     result.document = site_document(site, store.metadata());
@@ -256,7 +261,7 @@ class SiteVerb final : public Verb {
           fmt::format("{:<16} {:>12.2f} {:>12.2f}  {:>5g} m  +{:<10.10g} {:.10g}\n", place.name, place.position.x,
                       place.position.y, place.height, site.in_metric(chosen.gain), site.in_metric(chosen.cumulative));
     }
-    text += outcome(site);
+    text += options_.heights_text() + outcome(site);
     const std::size_t candidates = site.inputs.candidates.size(), options = site.inputs.options.size();
     text += counted(candidates, "candidate");
     if (options != candidates) text += fmt::format(", {} with their masts", counted(options, "option"));

@@ -104,9 +104,9 @@ class InputReader {
     }
   }
 
-  /// Tells why a candidate may not be chosen; `why` follows its name.
+  /// Tells why a candidate may not be chosen; `why` follows its name. Returns how many these are.
   template <class Unfit>
-  void leave_out(const std::string& why, const Unfit& unfit) {
+  std::size_t leave_out(const std::string& why, const Unfit& unfit) {
     const std::size_t first = inputs_.rejected.size();
     const std::size_t left_out = std::erase_if(inputs_.candidates, [&](const Candidate& candidate) {
       const bool is_unfit = unfit(candidate.position);
@@ -114,6 +114,7 @@ class InputReader {
       return is_unfit;
     });
     if (left_out > 0) inputs_.barred.push_back({why, first, left_out});
+    return left_out;
   }
 
   void leave_out_forbidden() {
@@ -126,8 +127,13 @@ class InputReader {
     const PlacementOptions& placement = options_.placement;
     if (placement.dwellings.empty()) return;
     const viewshed::Dwellings dwellings = read_dwellings();
-    leave_out(fmt::format("stands nearer than {:g} m to a dwelling", placement.setback()),
-              [&](Point2 p) { return dwellings.any_within(p, placement.setback()); });
+    const std::size_t left_out = leave_out(fmt::format("stands nearer than {:g} m to a dwelling", placement.setback()),
+                                           [&](Point2 p) { return dwellings.any_within(p, placement.setback()); });
+    if (left_out == 0)
+      inputs_.warnings.push_back(
+          fmt::format("{}: the dwellings keep no candidate away: all stand at least {:g} m from each; check where the "
+                      "dwellings are, or leave out --dwellings",
+                      placement.dwellings, placement.setback()));
   }
 
   /// Points, or polygons. No dwelling may be left out.
@@ -180,7 +186,7 @@ class InputReader {
         continue;
       }
       std::vector<Mast> masts = options_.masts;
-      if (candidate.height) masts = {{*candidate.height, options_.cost_field.empty() ? 1.0 : 0.0}};
+      if (candidate.height) masts = {{*candidate.height, options_.masts.front().cost}};
       for (const Mast& mast : masts) {
         if (!(candidate.cost + mast.cost > 0))
           throw InputError(fmt::format("candidate {}: its cost is 0; costs must be positive", candidate.id));
@@ -196,7 +202,7 @@ class InputReader {
     if (options_.existing.empty()) return {};
     SiteQuery query;
     query.path = options_.existing;
-    query.height_field = options_.candidates.height_field;
+    query.height_field = options_.existing_height_field;
     query.crs = options_.in_crs.crs;
     const std::size_t rejected = inputs_.rejected.size();
     const std::vector<Site> sites = read_sites(query, crs_, inputs_.rejected);

@@ -38,6 +38,7 @@ struct SiteInputs {
   std::vector<std::string> rejected;      ///< a line for each row that is not used, and why
   std::vector<Barred> barred;             ///< which of these are candidates that lie where no site may stand
   std::size_t demand_without_ground = 0;  ///< points
+  std::vector<std::string> warnings;      ///< about files that may not be what was meant
 
   std::size_t existing() const { return positions.size() - options.size(); }
 };

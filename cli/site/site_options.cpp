@@ -9,6 +9,7 @@
 #include <profile/fresnel.hpp>
 
 #include "options/radius_preset.hpp"
+#include "options/site_list.hpp"
 #include "options/wave_options.hpp"
 #include "output/store_document.hpp"
 #include "program/call_files.hpp"
@@ -46,7 +47,8 @@ void SiteOptions::declare_candidates(CLI::App& app) {
   app.add_option("--where", candidates.where, "Only candidates that this SQL condition holds for")->type_name("SQL");
   app.add_option("--name-field", candidates.name_field, "The field that holds names (default: the row's number from 0)")
       ->type_name("FIELD");
-  app.add_option("--height-field", candidates.height_field, "The field that holds each mast's height")
+  app.add_option("--height-field", candidates.height_field,
+                 "The field that holds each mast's height (default: height, unless --mast-height is given)")
       ->type_name("FIELD");
   app.add_option("--cost-field", cost_field, "The field that holds each place's cost (default: no costs)")
       ->type_name("FIELD");
@@ -102,11 +104,10 @@ void SiteOptions::declare_choice(CLI::App& app) {
       ->type_name("SHARE");
   app.add_option("--min-spacing", min_spacing_text_, "No two chosen sites are nearer to each other than this")
       ->type_name("METRES");
-  reads(
-      app.add_option("--existing", existing,
-                     "Sites that serve already, from a vector file; their heights are in --height-field, or the first "
-                     "of --mast-height")
-          ->type_name("FILE"));
+  reads(app.add_option("--existing", existing,
+                       "Sites that serve already, from a vector file; their heights are in --height-field (default: "
+                       "height); those without one have the first of --mast-height")
+            ->type_name("FILE"));
   reads(app.add_option("--forbidden", forbidden, "No site in these polygons (a file, or WKT)")->type_name("AREA"));
   app.add_option("--k-cover", cover_text_, "How many sites must serve a target for it to count as served (default: 1)")
       ->type_name("N");
@@ -218,6 +219,25 @@ void SiteOptions::validate_links() {
       throw InputError("--frequency needs a --mast-height above 0: no link from the ground is clear");
 }
 
+void SiteOptions::take_fields(std::vector<std::string>& warnings) {
+  existing_height_field = candidates.height_field;
+  if (placement.given()) return;
+  if (!candidates.path.empty() && candidates.height_field.empty()) {
+    take_heights(candidates, mast_height_text_.empty() ? "" : "--mast-height", warnings);
+    took_heights_ = !candidates.height_field.empty();
+  }
+  if (existing.empty()) return;
+  SiteQuery standing;
+  standing.path = existing, standing.height_field = existing_height_field;
+  take_heights(standing, "", warnings);
+  existing_height_field = standing.height_field;
+}
+
+std::string SiteOptions::heights_text() const {
+  if (!took_heights_) return {};
+  return fmt::format("heights of masts are those of the field '{}' of {}\n", candidates.height_field, candidates.path);
+}
+
 std::optional<viewshed::FresnelCriterion> SiteOptions::criterion() const {
   if (!frequency_ghz) return std::nullopt;
   return viewshed::FresnelCriterion{profile::wavelength_m(*frequency_ghz), fresnel};
@@ -296,6 +316,7 @@ Document SiteOptions::parameters() const {
   if (share) p["share"] = *share;
   if (min_spacing) p["min_spacing_m"] = *min_spacing;
   if (!existing.empty()) p["existing"] = existing;
+  if (!existing_height_field.empty()) p["existing_height_field"] = existing_height_field;
   if (!forbidden.empty()) p["forbidden"] = forbidden;
   p["k_cover"] = cover;
   p["intervisible"] = intervisible;

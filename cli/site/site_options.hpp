@@ -38,6 +38,11 @@ class SiteOptions {
   void apply_parameter_file();
   /// Throws InputError.
   void validate();
+  /// Decides which fields of the files of sites hold heights. `warnings` gets one where a file's heights are not used.
+  /// Throws FileError.
+  void take_fields(std::vector<std::string>& warnings);
+  /// A line about heights of masts that a file gives unasked; empty where it gives none. After take_fields().
+  std::string heights_text() const;
   /// The values given, by option name without dashes, as a parameter file holds them.
   Document given() const;
   Document parameters() const;
@@ -78,7 +83,7 @@ class SiteOptions {
   std::optional<std::size_t> count;
   std::optional<double> budget, share;
   std::optional<double> min_spacing;
-  std::string existing, forbidden;
+  std::string existing, existing_height_field, forbidden;
   int cover = 1;
   bool intervisible = false;
   std::optional<Place> hub;
@@ -109,6 +114,7 @@ class SiteOptions {
 
   CLI::App* app_ = nullptr;
   std::string params_;
+  bool took_heights_ = false;  ///< from the usual field, for which the call did not ask
   std::string spacing_text_, mast_height_text_, mast_cost_text_, observer_on_ = "ground";
   std::string target_height_text_, target_on_ = "ground", radius_text_, cell_text_;
   std::string count_text_, budget_text_, share_text_, min_spacing_text_, cover_text_, hub_text_;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <set>
 #include <string>
 
 #include <fmt/format.h>
@@ -11,7 +10,7 @@
 #include <profile/los.hpp>
 #include <profile/sight_svg.hpp>
 
-#include "output/output_path.hpp"
+#include "output/file_names.hpp"
 #include "site/site_outputs.hpp"
 
 namespace itin::cli {
@@ -65,7 +64,7 @@ std::vector<SiteProfile> write_site_profiles(const Store& store, const SiteResul
   namespace fs = std::filesystem;
   const fs::path folder = r.options.path(kLinkFolder);
   std::vector<SiteProfile> profiles;
-  std::set<std::string> taken;
+  FileNames names;
   const std::vector<char> in_report = shown_in_report(r);
   for (std::size_t i = 0; i < r.network.links.size(); ++i) {
     const SiteLink& link = r.network.links[i];
@@ -75,9 +74,7 @@ std::vector<SiteProfile> write_site_profiles(const Store& store, const SiteResul
     std::error_code failed;
     fs::create_directory(folder, failed);
     if (failed) throw FileError(folder.string(), "cannot be made (" + failed.message() + "); name another place");
-    std::string name = file_name(from.name + "--" + to.name);
-    if (!taken.insert(name).second) name += fmt::format("-{}", i + 1);
-    taken.insert(name);
+    const std::string name = names.add(from.name + "--" + to.name, i + 1);
     const std::string path = (folder / (name + ".svg")).string();
     const profile::LosReport report = report_of(store, r.options, from, to);
     profile::write_report(report, {}, path, overwrite);

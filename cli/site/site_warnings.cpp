@@ -77,6 +77,7 @@ void warn_of_hidden_sites(const Store& store, const SiteResult& site, std::vecto
 void warn_of(const SiteResult& site, const Store& store, std::vector<std::string>& warnings) {
   const SiteOptions& options = site.options;
   if (options.frequency_ghz) options.earth.warn_of_light(warnings);
+  warnings.insert(warnings.end(), site.inputs.warnings.begin(), site.inputs.warnings.end());
   warn_of_left_out(site, warnings);
   if (options.placement.given() && options.demand == "cells") warn_of_reach(site, store.metadata(), warnings);
   warn_of_hidden_sites(store, site, warnings);

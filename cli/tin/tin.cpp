@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <numeric>
 #include <optional>
 
 #include <fmt/format.h>
@@ -99,9 +100,10 @@ class TinVerb final : public Verb {
     if (tin.triangles.empty() && !picture_.path().empty())
       throw InputError(window_.no_ground(store.metadata()) + "; there is nothing to draw");
     const Document surface = surface_document(store.metadata(), detail, themes);
-    if (!output_.empty()) write(store, {tin, window, detail, lines}, surface, progress);
+    Result result;
+    if (!output_.empty()) write(store, {tin, window, detail, lines}, surface, progress, result.warnings);
     if (!picture_.path().empty()) picture_.write(store, tin, detail, policy_.overwrite, progress);
-    Result result{document(tin, store.metadata(), surface), text(tin), {}, {}};
+    result.document = document(tin, store.metadata(), surface), result.text = text(tin);
     warn_of_scale(store.metadata(), result.warnings);
     if (tin.triangles.empty()) result.warnings.push_back(window_.no_ground(store.metadata()));
     return result;
@@ -151,11 +153,26 @@ class TinVerb final : public Verb {
     return numbers;
   }
 
-  void write(const Store& store, const WindowLines& lines, const Document& surface, Progress& progress) {
+  /// About the theme lines_[i], of which no line was written.
+  std::string no_lines(const WindowLines& lines, std::size_t i) const {
+    const bool is_there = std::any_of(lines.tin.lines.begin(), lines.tin.lines.end(),
+                                      [&](const LineEdge& e) { return e.theme == lines.themes[i]; });
+    return fmt::format("--lines: the theme '{}' {}", lines_[i],
+                       is_there
+                           ? "has no lines: what stands by the cells of a raster has no outlines; leave out --lines "
+                             "to have its triangles"
+                           : "has no line in this window");
+  }
+
+  void write(const Store& store, const WindowLines& lines, const Document& surface, Progress& progress,
+             std::vector<std::string>& warnings) {
     const TinExportOptions options =
         tin_export_options(store.metadata(), {{"command", query()}, {"surface", surface}}, policy_.overwrite);
     if (!lines.themes.empty()) {
-      joined_ = export_lines(store, lines, output_, options, progress);
+      const std::vector<std::size_t> counts = export_lines(store, lines, output_, options, progress);
+      joined_ = std::accumulate(counts.begin(), counts.end(), std::size_t{0});
+      for (std::size_t i = 0; i < counts.size(); ++i)
+        if (counts[i] == 0) warnings.push_back(no_lines(lines, i));
     } else if (kind_) {
       export_topology(lines.tin, *kind_, output_, options, progress);
     } else {

@@ -12,6 +12,7 @@
 #include <profile/chart.hpp>
 #include <viewshed/documents.hpp>
 
+#include "options/off_the_data.hpp"
 #include "options/site_list.hpp"
 #include "output/output_path.hpp"
 #include "program/call_files.hpp"
@@ -70,10 +71,12 @@ void HorizonOutput::declare(CLI::App& app) {
   app.add_option("--horizon-step", step_text_, "Between the sky line's azimuths (default: 0.1)")->type_name("DEGREES");
   reads(app.add_option("--horizon-targets", sites_.path, "Places to mark on the horizon, in line of sight or not")
             ->type_name("FILE"));
-  app.add_option("--horizon-name-field", sites_.name_field, "The field of that file that holds names")
+  app.add_option("--horizon-name-field", sites_.name_field, "The field of that file that holds names (default: name)")
       ->type_name("FIELD");
-  app.add_option("--horizon-height-field", sites_.height_field,
-                 "The field of that file that holds h (default: --target-height)")
+  app.add_option(
+         "--horizon-height-field", sites_.height_field,
+         "The field of that file that holds h (default: height, unless --target-height is given; places without one "
+         "have --target-height)")
       ->type_name("FIELD");
 }
 
@@ -94,14 +97,31 @@ void HorizonOutput::validate() {
     throw InputError("--horizon-name-field and --horizon-height-field work only with --horizon-targets");
 }
 
-std::vector<viewshed::HorizonTarget> HorizonOutput::targets(const viewshed::Request& request,
-                                                            const StoreMetadata& metadata) const {
-  std::vector<viewshed::HorizonTarget> targets;
-  if (sites_.path.empty()) return targets;
-  for (const Site& site : read_sites(sites_, metadata.crs_wkt))
-    targets.push_back({site.name, site.position, site.height.value_or(request.target_height)});
-  if (targets.empty()) throw InputError(none_in(sites_, "place"));
-  return targets;
+void HorizonOutput::read_targets(const viewshed::Request& request, bool height_given, const InCrs& in_crs,
+                                 const StoreMetadata& metadata, std::vector<std::string>& warnings) {
+  if (sites_.path.empty()) return;
+  take_heights(sites_, height_given ? "--target-height" : "", warnings);
+  take_names(sites_);
+  sites_.crs = in_crs.crs;
+  for (const Site& site : read_sites(sites_, metadata.crs_wkt)) {
+    const std::string where = fmt::format("{}: feature {}", sites_.path, site.feature);
+    require_on_the_data(where, site.position, in_crs, metadata);
+    if (!request.target_absolute && site.height.value_or(0) < 0)
+      throw InputError(
+          fmt::format("{}: field '{}' holds {:.10g}: a height must not be negative; for an elevation give "
+                      "--absolute-heights",
+                      where, sites_.height_field, *site.height));
+    targets_.push_back({site.name, site.position, site.height.value_or(request.target_height), where});
+  }
+  if (targets_.empty()) throw InputError(none_in(sites_, "place"));
+}
+
+Document HorizonOutput::parameters() const {
+  Document parameters = Document::object();
+  if (!sites_.path.empty()) parameters["horizon_targets"] = sites_.path;
+  if (!sites_.name_field.empty()) parameters["horizon_name_field"] = sites_.name_field;
+  if (!sites_.height_field.empty()) parameters["horizon_height_field"] = sites_.height_field;
+  return parameters;
 }
 
 Document HorizonOutput::write(const Store& store, viewshed::ViewshedWithSurface& computed,
@@ -110,7 +130,7 @@ Document HorizonOutput::write(const Store& store, viewshed::ViewshedWithSurface&
   if (paths_.empty()) return nullptr;
   const StoreMetadata& metadata = store.metadata();
   const viewshed::Horizon horizon =
-      viewshed::horizon(store, computed, request, {step_deg_, targets(request, metadata)}, options, progress);
+      viewshed::horizon(store, computed, request, {step_deg_, targets_}, options, progress);
   for (const std::string& path : paths_) {
     const std::string ending = ending_of(path);
     const std::string bytes = ending == ".csv"    ? table(horizon, metadata)

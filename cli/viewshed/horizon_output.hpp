@@ -10,6 +10,7 @@
 #include <itin/store.hpp>
 #include <viewshed/horizon.hpp>
 
+#include "options/in_crs.hpp"
 #include "program/verb.hpp"
 
 namespace itin::cli {
@@ -20,6 +21,12 @@ class HorizonOutput {
   /// Throws InputError.
   void validate();
   const std::vector<std::string>& paths() const { return paths_; }
+  /// Reads the targets. `height_given`: whether the call states the height of targets. `warnings` gets one where the
+  /// file's heights are not used. Throws FileError, InputError.
+  void read_targets(const viewshed::Request& request, bool height_given, const InCrs& in_crs,
+                    const StoreMetadata& metadata, std::vector<std::string>& warnings);
+  /// The targets' file and its fields.
+  Document parameters() const;
 
   /// Computes and writes what was asked for, if anything; the document of the horizon's targets, or null. `warnings`
   /// gets one where the sky line is the edge of the data. Throws InputError, FileError.
@@ -28,12 +35,11 @@ class HorizonOutput {
                  std::vector<std::string>& warnings) const;
 
  private:
-  std::vector<viewshed::HorizonTarget> targets(const viewshed::Request& request, const StoreMetadata& metadata) const;
-
   std::vector<std::string> paths_;
   std::string step_text_;
   double step_deg_ = 0.1;
   SiteQuery sites_;
+  std::vector<viewshed::HorizonTarget> targets_;
 };
 
 }  // namespace itin::cli

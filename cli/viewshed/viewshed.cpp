@@ -116,6 +116,8 @@ class ViewshedVerb final : public Verb {
 
   Document parameters() const override {
     Document parameters{{"store", store_}, {"observers", observers_document(request_.observers)}};
+    parameters.update(observers_.parameters());
+    parameters.update(horizon_.parameters());
     parameters["mode"] = mode_name();
     parameters["precise"] = precise_;
     parameters.update(targets_.parameters(request_));
@@ -135,7 +137,8 @@ class ViewshedVerb final : public Verb {
     const std::future<void> rasters = beside(make_gdal_ready);
     const Store store(store_, cache_within(compute_options_.memory_bytes));
     const StoreMetadata& metadata = store.metadata();
-    complete_request(metadata);
+    Result result;
+    complete_request(metadata, result.warnings);
     request_.themes.check(metadata.themes);
     features_.require_themes(metadata, request_.themes);
     if (!horizon_.paths().empty() && request_.observers.size() > 1)
@@ -153,8 +156,7 @@ class ViewshedVerb final : public Verb {
                                             {"target_on", targets_.on()}},
                                            missing,
                                            described(sources, metadata)};
-    Result result;
-    result.warnings = computed.result.warnings;
+    result.warnings.insert(result.warnings.end(), computed.result.warnings.begin(), computed.result.warnings.end());
     if (const auto warning = missing.warning("the area looked at")) result.warnings.push_back(in_options(*warning));
     if (computed.result.cells.in_view() == 0)
       result.warnings.emplace_back(
@@ -250,14 +252,15 @@ class ViewshedVerb final : public Verb {
                      : survey(store, request, progress).result;
   }
 
-  /// Completes the request by the options that need the store's CRS.
-  void complete_request(const StoreMetadata& metadata) {
-    request_.observers = observers_.observers(metadata);
+  /// Completes the request by what depends on the store's CRS and on the fields of files.
+  void complete_request(const StoreMetadata& metadata, std::vector<std::string>& warnings) {
+    targets_.complete(metadata, request_);
+    request_.observers = observers_.observers(metadata, request_, warnings);
     if (detail_.has_rings() && request_.observers.size() > 1) {
       throw InputError("--rings lie about one observer; for several give --tolerance");
     }
     request_.detail = detail_.detail(request_.observers.front().position);
-    targets_.complete(metadata, request_);
+    horizon_.read_targets(request_, targets_.height_given(), observers_.in_crs(), metadata, warnings);
   }
 
   std::string text(const StoreMetadata& metadata, const viewshed::Result& result,
@@ -265,7 +268,7 @@ class ViewshedVerb final : public Verb {
     std::string text;
     for (const std::string& path : outputs_.paths())
       text += fmt::format("{}: {}\n", path, readable_bytes(std::filesystem::file_size(path)));
-    return text + viewshed_text(metadata, result, missing);
+    return text + observers_.text() + viewshed_text(metadata, result, missing);
   }
 
   std::string store_, mode_text_;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <optional>
-#include <set>
 
 #include <fmt/format.h>
 
@@ -14,6 +13,7 @@
 #include <viewshed/map_image.hpp>
 #include <viewshed/qgis_styles.hpp>
 
+#include "output/file_names.hpp"
 #include "program/call_files.hpp"
 #include "viewshed/viewshed_title.hpp"
 
@@ -59,12 +59,10 @@ void ViewshedOutputs::prepare(const viewshed::Request& request) {
   for (const std::string& path : paths()) policy_.require_writable(path);
   if (!each_.empty()) {
     folder_.emplace(each_);
-    std::set<std::string> taken;
+    FileNames names;
     for (std::size_t i = 0; i < request.observers.size(); ++i) {
       const std::string& given = request.observers[i].name;
-      std::string name = file_name(given.empty() ? std::to_string(i + 1) : given);
-      if (taken.contains(name)) name += fmt::format("-{}", i + 1);
-      taken.insert(name);
+      const std::string name = names.add(given.empty() ? std::to_string(i + 1) : given, i + 1);
       single_.push_back((fs::path(each_) / (name + ".tif")).string());
       if (folder_->made()) in_new_folder_.emplace_back(single_.back());
     }

@@ -20,6 +20,8 @@ class ViewshedTargets {
   void validate(const ObserverOptions& observers, viewshed::Request& request);
   /// Fills in the cells of --like. Throws InputError, FileError.
   void complete(const StoreMetadata& metadata, viewshed::Request& request) const;
+  /// Whether the call states the height of targets.
+  bool height_given() const { return !height_text_.empty(); }
   /// "ground" or "surface".
   const std::string& on() const { return on_; }
   /// How the request came to its targets.

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <filesystem>
 #include <future>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -15,6 +16,7 @@
 #include <itin/sources_in.hpp>
 #include <itin/store.hpp>
 #include <viewshed/documents.hpp>
+#include <viewshed/missing_ground.hpp>
 #include <viewshed/qgis_styles.hpp>
 #include <viewshed/visibility_index.hpp>
 
@@ -30,6 +32,7 @@
 #include "output/result_sheet.hpp"
 #include "output/store_document.hpp"
 #include "program/call_files.hpp"
+#include "program/field_names.hpp"
 #include "program/values.hpp"
 #include "program/verb.hpp"
 
@@ -133,30 +136,41 @@ class VisibilityVerb final : public Verb {
         output_, index, request_,
         {metadata.crs_wkt, {{"itin", ITIN_VERSION}, {"surface", json_text(surface)}}, policy_.overwrite}, progress);
     write_file(style_beside(output_), viewshed::qgis_style_of_shares(), policy_.overwrite);
-    if (!sheet_.file().empty()) write_sheet(store, index, progress);
+    const std::vector<SourceInfo> sources = sources_in(store, index.grid.bounds(), request_.themes);
+    if (!sheet_.file().empty()) write_sheet(store, index, described(sources, metadata), progress);
     Result result;
+    const viewshed::MissingGround missing = viewshed::missing_ground(index);
+    if (const auto warning = missing.warning("what lies within the radius, on average over the observers,"))
+      result.warnings.push_back(in_options(*warning));
     warn_of_scale(metadata, result.warnings);
     Document& document = result.document;
     document["crs"] = crs_identifier(metadata.crs_wkt);
     document["surface"] = surface;
     document["refraction"] = earth_document(earth_.earth());
+    document["grid"] = viewshed::grid_document(index.grid);
     document["observers"] = index.observers;
+    document["share_without_data"] = missing.share();
     document["mean_share"] = index.mean;
     document["mean_share_standard_error"] = index.mean_error;
     document["mean_share_undecided"] = index.mean_undecided;
+    document["sources"] = sources_document(sources);
     document["outputs"] = {output_, style_beside(output_)};
     if (!sheet_.file().empty()) document["outputs"].push_back(sheet_.file());
     document["statistics"] = viewshed::statistics_document({index.retrieval, index.triangles, index.lines});
     result.text = fmt::format(
-        "{}: {}\non average, one of {} sees {:.2f} % (standard error {:.2f}) of the ground within {:g} m\n{}{}, {}; "
+        "{}: {}\non average, one of {} sees {:.2f} % (standard error {:.2f}) of the ground within {:g} m\n{}{}{}, {}; "
         "{}\n",
         output_, readable_bytes(std::filesystem::file_size(output_)), counted(index.observers, "observer"),
-        100 * index.mean, 100 * index.mean_error, request_.radius, undecided_in_words(index),
+        100 * index.mean, 100 * index.mean_error, request_.radius, undecided_in_words(index), missing_in_words(missing),
         counted(index.triangles, "triangle"), counted(index.lines, "line"), earth_.earth().convention());
     return result;
   }
 
  private:
+  static std::string missing_in_words(const viewshed::MissingGround& missing) {
+    if (missing.share() == 0) return "";
+    return fmt::format("no ground data: {} of what lies within that distance\n", missing.text());
+  }
   static std::string undecided_in_words(const viewshed::VisibilityIndex& index) {
     if (index.mean_undecided == 0) return "";
     return fmt::format(
@@ -164,7 +178,8 @@ class VisibilityVerb final : public Verb {
         100 * index.mean_undecided);
   }
 
-  void write_sheet(const Store& store, const viewshed::VisibilityIndex& index, Progress& progress) const {
+  void write_sheet(const Store& store, const viewshed::VisibilityIndex& index, std::vector<std::string> sources,
+                   Progress& progress) const {
     const StoreMetadata& metadata = store.metadata();
     ResultSheet sheet{index.grid,
                       index.grid.bounds(),
@@ -185,7 +200,7 @@ class VisibilityVerb final : public Verb {
                                              100 * index.mean_undecided)},
                    {"Earth", request_.earth.convention()},
                    terrain_fact(metadata, request_.detail)};
-    block.sources = described(sources_in(store, index.grid.bounds(), request_.themes), metadata);
+    block.sources = std::move(sources);
     write_file(sheet_.file(), draw_result_sheet(store, sheet, sheet_.papers().front(), sheet_, sheet_.file(), progress),
                policy_.overwrite);
   }

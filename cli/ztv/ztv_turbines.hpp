@@ -59,7 +59,7 @@ class TurbineOptions {
   SiteQuery query_;
   std::string farm_;
   static constexpr const char *kHubField = "hub_height", *kRotorField = "rotor_diameter", *kTipField = "tip_height",
-                              *kFarmField = "farm", *kNameField = "name";
+                              *kFarmField = "farm";
   std::string hub_field_ = kHubField, rotor_field_ = kRotorField, tip_field_ = kTipField, farm_field_ = kFarmField;
   InCrs in_crs_;
   TurbineSizeOptions size_;  ///< taken for rows that give none

@@ -212,7 +212,7 @@ ViewpointOptions::Written ViewpointOptions::write(const std::string& folder, con
   std::string table = fmt::format("{}{}\n", kHeader, features ? kScreenedHeader : "");
   std::string summary = summary_header(features.has_value());
   WirelineWriter wirelines(folder, store, zone, choice_, sheets);
-  for (const SiteRow& row : read_site_rows(query_, {{"name"}, {"height"}}, metadata.crs_wkt)) {
+  for (const SiteRow& row : read_site_rows(query_, {{kNameField}, {kHeightField}}, metadata.crs_wkt)) {
     const std::size_t number = ++written.rows;
     try {
       const Viewpoint v = viewpoint_of(row, number, ground, zone.request.observer_height);

@@ -34,6 +34,7 @@ TEST(Readme, CommandsDoWhatTheySay) {
   for (const std::string& command : commands) {
     const Outcome outcome = shell.run(command);
     EXPECT_EQ(outcome.status, 0) << command << "\n" << outcome.err;
+    EXPECT_EQ(outcome.err.find("keep no candidate away"), std::string::npos) << command << "\n" << outcome.err;
   }
   for (const char* made :
        {"cardiff.itin", "garth.glb", "bay.gpkg", "summit.json", "fine.tif", "fine.png", "hills.tif"}) {

@@ -203,9 +203,30 @@ std::string refusal_of(const std::string& text) {
   return "";
 }
 
+TEST(LinkTable, TakesForAnIdOnlyWhatIsCalledSo) {
+  for (const char* text : {"frequency,x1,y1,h1,x2,y2,h2\n7.5,1,2,3,4,5,6\n7.5,1,2,3,4,low,6\n7.5,1,2,3,4,5,6\n",
+                           "x1,y1,h1,x2,y2,h2,frequency\n1,2,3,4,5,6,7.5\n1,2,3,4,low,6,7.5\n1,2,3,4,5,6,7.5\n"}) {
+    const LinkTable table = table_of(text);
+    ASSERT_EQ(table.links.size(), 2U) << text;
+    ASSERT_EQ(table.bad.size(), 1U);
+    EXPECT_EQ(table.links[0].id, "1");
+    EXPECT_EQ(table.bad[0].id, "2");
+    EXPECT_EQ(table.links[1].id, "3");
+    EXPECT_EQ(table.links[1].frequency_ghz, 7.5);
+    EXPECT_TRUE(table.other_columns.empty());
+  }
+  const LinkTable noted = table_of("path,x1,y1,h1,x2,y2,h2\na,1,2,3,4,5,6\n");
+  EXPECT_EQ(noted.links.at(0).id, "1");
+  EXPECT_EQ(noted.other_columns, (std::vector<std::string>{"path"}));
+  EXPECT_EQ(noted.links.at(0).others, (std::vector<std::string>{"a"}));
+  EXPECT_EQ(table_of("x1,y1,h1,x2,y2,h2,name\n1,2,3,4,5,6,a\n").links.at(0).id, "a");
+  EXPECT_EQ(table_of("x1,y1,h1,x2,y2,h2,name,id\n1,2,3,4,5,6,a,b\n").links.at(0).id, "b");
+  EXPECT_EQ(table_of("x1,y1,h1,x2,y2,h2\n1,2,3,4,5,6\n").links.at(0).to, (Point2{4, 5}));
+}
+
 TEST(LinkTable, NamesTheColumnsThatItsHeaderLacks) {
-  EXPECT_EQ(refusal_of("x1,y1,h1,x2,y2,h2,note\n1,2,3,4,5,6,7\n"),
-            "its header has no column id; name the columns id,x1,y1,h1,x2,y2,h2, in any order");
+  EXPECT_EQ(refusal_of("x1,y1,h1,x2,y2,note\n1,2,3,4,5,7\n"),
+            "its header has no column h2; name the columns id,x1,y1,h1,x2,y2,h2, in any order");
   EXPECT_EQ(refusal_of("id,x1,y1,x2,y2,power,note\na,1,2,3,4,5,6\n").substr(0, 31), "its header has no column h1, h2");
   EXPECT_EQ(refusal_of("id,e1,n1,h1,e3,n3,h2\na,1,2,3,4,5,6\n").substr(0, 31), "its header has no column x2, y2");
 }

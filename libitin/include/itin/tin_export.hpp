@@ -88,16 +88,16 @@ struct WindowLines {
 
 /// Writes lines with z as a GeoPackage (.gpkg), layer `lines`, or GeoJSON (.geojson) in the store's CRS. At a tolerance
 /// those of the terrain are generalised to it. The columns are the theme, `feature_id`, `feature_name` and the
-/// attributes that the import kept, and `length_m`, horizontally. Returns how many there are. Errors as above, and
-/// CorruptStore.
+/// attributes that the import kept, and `length_m`, horizontally. Returns how many each theme has. Errors as above,
+/// and CorruptStore.
 ///
 /// Lines on the ground are written as all edges of the surface that meet the window, whatever the window, feature by
 /// feature and as far as they go on: a line ends where other than two edges of its feature meet, and at the window.
 /// What stands is written as the sides of the footprints that have a part of the surface, as they were imported, at the
 /// height of the terrain under them; measured roofs without footprints have the outlines of their surfaces together,
 /// and rasters of heights have none.
-std::size_t export_lines(const Store& store, const WindowLines& lines, const std::string& path,
-                         const TinExportOptions& options, Progress& progress);
+std::vector<std::size_t> export_lines(const Store& store, const WindowLines& lines, const std::string& path,
+                                      const TinExportOptions& options, Progress& progress);
 /// Throws what export_lines() would throw before writing.
 void require_lines_output(const std::string& path, bool overwrite);
 

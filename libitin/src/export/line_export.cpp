@@ -107,8 +107,8 @@ void require_lines_output(const std::string& path, bool overwrite) {
   PendingFile::require_possible(path, overwrite);
 }
 
-std::size_t export_lines(const Store& store, const WindowLines& lines, const std::string& path,
-                         const TinExportOptions& options, Progress& progress) {
+std::vector<std::size_t> export_lines(const Store& store, const WindowLines& lines, const std::string& path,
+                                      const TinExportOptions& options, Progress& progress) {
   require_lines_output(path, options.overwrite);
   const std::vector<ThemeInfo>& themes = store.metadata().themes;
   Columns columns;
@@ -117,18 +117,21 @@ std::size_t export_lines(const Store& store, const WindowLines& lines, const std
     columns.add(themes[theme - std::size_t{1}], theme);
     tables.try_emplace(theme, store, theme);
   }
+  std::vector<std::size_t> counts(lines.themes.size());
   VectorLayer layer{"lines", VectorLayer::Shape::kLines, columns.fields(), {}};
   for (FeatureLine& line : feature_lines(store, lines, progress)) {
     const FeatureRecord* known = line.feature ? tables.at(line.theme).at(*line.feature) : nullptr;
     std::vector<Value> values =
         columns.values(line, themes[line.theme - std::size_t{1}].name, known != nullptr ? *known : FeatureRecord());
     layer.features.push_back({std::move(line.points), std::move(values)});
+    ++counts[static_cast<std::size_t>(std::find(lines.themes.begin(), lines.themes.end(), line.theme) -
+                                      lines.themes.begin())];
   }
   if (ending_of(path) == ".geojson")
     write_geojson(path, options.crs_wkt, layer, options.overwrite);
   else
     write_geopackage(path, options.crs_wkt, {layer}, options.overwrite);
-  return layer.features.size();
+  return counts;
 }
 
 }  // namespace itin

@@ -64,11 +64,12 @@ struct LinkTable {
 /// A CSV table `id,x1,y1,h1,x2,y2,h2`, or a file of lines, whose ends are the links' ends at `heights` above the
 /// surface. A table may have a header line; one with all these names may have its columns in another order and others
 /// besides: `name1`, `name2`, `frequency`, `polarisation`, `criteria` (blanks between several) of each link, and those
-/// that are kept; for x and y stands easting and northing, or lon and lat, each with 1 or 2 behind it, or one column
-/// `position` (`gridref`) with a grid reference. Semicolons or tabs may separate, and then commas be decimal. In the
-/// CRS `to_crs` (WKT); CSV tables are taken to be in `csv_crs`, if that is empty in longitude and latitude where the
-/// header calls them so, else in `to_crs`. Throws FileError for a file that is missing or not understood, InputError
-/// for an unknown CRS and for a file without links.
+/// that are kept; `name` or `link` stands for `id`, and where there is none of the three links have the numbers of
+/// their rows from 1; for x and y stands easting and northing, or lon and lat, each with 1 or 2 behind it, or one
+/// column `position` (`gridref`) with a grid reference. Semicolons or tabs may separate, and then commas be decimal. In
+/// the CRS `to_crs` (WKT); CSV tables are taken to be in `csv_crs`, if that is empty in longitude and latitude where
+/// the header calls them so, else in `to_crs`. Throws FileError for a file that is missing or not understood,
+/// InputError for an unknown CRS and for a file without links.
 LinkTable read_link_table(const std::string& path, const std::string& to_crs, const LinkHeights& heights,
                           const std::string& csv_crs = {});
 

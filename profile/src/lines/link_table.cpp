@@ -48,8 +48,10 @@ constexpr ExtraName kExtraNames[] = {
 /// The columns of a link table.
 struct Columns {
   std::array<std::size_t, kLinkColumns> of{0, 1, 2, 3, 4, 5, 6};  ///< the cell that each of kLinkNames is in
-  bool geographic = false;                                        ///< positions are longitude and latitude
-  bool written = false;  ///< x1 and y1 are one cell as written_position() has it
+  bool named = false;                                             ///< by a header, and not in the usual order
+  bool numbered = false;    ///< no column is an id: links have the numbers of their rows
+  bool geographic = false;  ///< positions are longitude and latitude
+  bool written = false;     ///< x1 and y1 are one cell as written_position() has it
   std::vector<std::pair<std::size_t, Extra>> extras;
   std::vector<std::size_t> others;
 };
@@ -82,8 +84,14 @@ std::optional<std::size_t> written_column(const std::vector<std::string>& names,
   return std::nullopt;
 }
 
+std::optional<std::size_t> id_column(const std::vector<std::string>& names) {
+  for (const char* name : {"id", "name", "link"})
+    if (const auto found = column_of(names, name)) return found;
+  return std::nullopt;
+}
+
 /// By name where a header has any of them, x1 and y1 or what position_columns() or written_column() have in place of
-/// them; the id is the first column, too, where that has another name. Else the columns are in the usual order.
+/// them. Else the columns are in the usual order.
 Columns columns_of(const std::vector<std::string>& names, const std::string& path) {
   const auto from = position_columns(names, "1"), to = position_columns(names, "2");
   Columns columns;
@@ -92,23 +100,21 @@ Columns columns_of(const std::vector<std::string>& names, const std::string& pat
     throw InputError(path + ": its header names longitude and latitude for one end only; give both ends alike");
   const auto h1 = column_of(names, "h1"), h2 = column_of(names, "h2");
   const auto position1 = written_column(names, "1"), position2 = written_column(names, "2");
-  auto id = column_of(names, "id");
-  const bool first_is_other = h1 == 0U || h2 == 0U || position1 == 0U || position2 == 0U ||
-                              (from && std::min(from->x, from->y) == 0) || (to && std::min(to->x, to->y) == 0);
-  if (!id && !first_is_other) id = 0;
   columns.written = !from && !to && position1 && position2;
   std::vector<const char*> missing;
-  if (!id) missing.push_back("id");
   if (!from && !columns.written) missing.insert(missing.end(), {"x1", "y1"});
   if (!h1) missing.push_back("h1");
   if (!to && !columns.written) missing.insert(missing.end(), {"x2", "y2"});
   if (!h2) missing.push_back("h2");
-  const bool has_any = from || to || position1 || position2 || h1 || h2;
-  if (has_any && !missing.empty())
+  columns.named = from || to || position1 || position2 || h1 || h2;
+  if (columns.named && !missing.empty())
     throw InputError(fmt::format("{}: its header has no column {}; name the columns id,x1,y1,h1,x2,y2,h2, in any order",
                                  path, fmt::join(missing, ", ")));
-  if (columns.written) columns.of = {*id, *position1, *position1, *h1, *position2, *position2, *h2};
-  if (from && to) columns.of = {*id, from->x, from->y, *h1, to->x, to->y, *h2};
+  const auto id = id_column(names);
+  columns.numbered = columns.named && !id;
+  const std::size_t first = id.value_or(h1.value_or(0));  // h1 besides: a column that nothing else is taken for
+  if (columns.written) columns.of = {first, *position1, *position1, *h1, *position2, *position2, *h2};
+  if (from && to) columns.of = {first, from->x, from->y, *h1, to->x, to->y, *h2};
   add_further(names, columns);
   return columns;
 }
@@ -170,10 +176,9 @@ class TableReader {
       }
       ++row;
       try {
-        table_.links.push_back(link_of(cells));
+        table_.links.push_back(link_of(cells, row));
       } catch (const InputError& error) {
-        table_.bad.push_back(
-            {row, fmt::format("line {}", number), cell(cells, columns_.of[0]), error.what(), others_of(cells)});
+        table_.bad.push_back({row, fmt::format("line {}", number), id_of(cells, row), error.what(), others_of(cells)});
       }
     }
   }
@@ -183,6 +188,9 @@ class TableReader {
     return i < cells.size() ? cells[i] : "";
   }
 
+  std::string id_of(const std::vector<std::string>& cells, std::size_t row) const {
+    return columns_.numbered ? std::to_string(row) : cell(cells, columns_.of[0]);
+  }
   double number_of(const std::vector<std::string>& cells, std::size_t i) const {
     const std::string& text = cells[columns_.of[i]];
     auto value = number_in(text, separator_);
@@ -219,7 +227,7 @@ class TableReader {
   /// `header` is empty where there is none.
   void understand(const std::vector<std::string>& header) {
     columns_ = columns_of(header, path_);
-    width_ = columns_.written ? header.size() : std::max(header.size(), kLinkColumns);
+    width_ = columns_.named ? header.size() : std::max(header.size(), kLinkColumns);
     for (const std::size_t i : columns_.others) table_.other_columns.push_back(header[i]);
     const std::string crs = csv_crs_.empty() && columns_.geographic ? kGeographicColumnsCrs : csv_crs_;
     if (!crs.empty()) transform_.emplace(crs, to_crs_);
@@ -231,11 +239,11 @@ class TableReader {
     return others;
   }
 
-  Link link_of(const std::vector<std::string>& cells) const {
+  Link link_of(const std::vector<std::string>& cells, std::size_t row) const {
     if (cells.size() != width_)
       throw InputError(
           fmt::format("has {} instead of {}: id,x1,y1,h1,x2,y2,h2", counted(cells.size(), "column"), width_));
-    Link link{cells[columns_.of[0]], position_of(cells, 1), height_of(cells, 3), position_of(cells, 4),
+    Link link{id_of(cells, row), position_of(cells, 1), height_of(cells, 3), position_of(cells, 4),
               height_of(cells, 6)};
     for (const auto& [i, extra] : columns_.extras) {
       if (cells[i].empty()) continue;

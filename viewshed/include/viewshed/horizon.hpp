@@ -24,7 +24,8 @@ namespace itin::viewshed {
 struct HorizonTarget {
   std::string name;
   Point2 position;
-  double height = 0;  ///< metres above the ground, or an elevation with Request::target_absolute
+  double height = 0;        ///< metres above the ground, or an elevation with Request::target_absolute
+  std::string source = {};  ///< where it was read, for messages: "peaks.csv: feature 7"; empty: they name it alone
 };
 
 struct HorizonOptions {

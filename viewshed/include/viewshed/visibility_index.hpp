@@ -44,7 +44,8 @@ struct VisibilityIndex {
   double mean_error = 0;              ///< the standard error of that, for these cells
   double mean_undecided = 0;
   std::uint64_t observers = 0;
-  std::uint64_t lines = 0;
+  std::uint64_t targets = 0;  ///< within the radius of all observers, on ground or not
+  std::uint64_t lines = 0;    ///< to those of them on ground
   std::uint64_t triangles = 0;
   RetrievalStatistics retrieval;
 };

@@ -16,6 +16,7 @@
 #include <itin/store.hpp>
 #include <viewshed/turbines.hpp>
 #include <viewshed/viewshed.hpp>
+#include <viewshed/visibility_index.hpp>
 
 namespace itin::viewshed {
 
@@ -23,7 +24,7 @@ struct MissingGround {
   std::uint64_t without_ground = 0;  ///< cells of the raster that an observer looks at, and that have no ground
   std::uint64_t with_ground = 0;     ///< those that have
   std::uint64_t beyond = 0;          ///< cells of their size within observers' radii, but beyond the raster
-  double cell_area = 0;              ///< square metres
+  double cell_area = 0;              ///< square metres; 0: targets at random are counted in place of cells
   bool bounded = true;               ///< the request says how far observers look, and not: as far as there is ground
 
   /// The part of all that observers look at, 0 to 1.
@@ -32,7 +33,7 @@ struct MissingGround {
   double missing_m2() const { return static_cast<double>(without_ground + beyond) * cell_area; }
   /// The share: "12.3 %", "less than 0.1 %", "more than 99.9 %".
   std::string percent() const;
-  /// "12.3 % (4.6 km²)".
+  /// "12.3 % (4.6 km²)"; the share alone where no cells are counted.
   std::string text() const;
   /// Says what share of `area` it is, and what decides; nothing where that is less than a thousandth, or the area is
   /// wherever there is ground.
@@ -45,6 +46,9 @@ MissingGround missing_ground(const Store& store, const Result& result, Progress&
 /// 1 for a cell of the raster where an observer looks and there is no ground, else 0. Empty where there is ground
 /// everywhere. Throws likewise.
 std::vector<std::uint8_t> cells_without_ground(const Store& store, const Result& result, Progress& progress);
+
+/// Among the targets of all observers.
+MissingGround missing_ground(const VisibilityIndex& index);
 
 /// Within the radii of the turbines.
 MissingGround missing_ground(const Zone& zone);

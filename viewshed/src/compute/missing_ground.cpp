@@ -74,7 +74,7 @@ std::string MissingGround::percent() const {
 }
 
 std::string MissingGround::text() const {
-  return fmt::format("{} ({})", percent(), area_text(missing_m2()));
+  return cell_area > 0 ? fmt::format("{} ({})", percent(), area_text(missing_m2())) : percent();
 }
 
 std::optional<std::string> MissingGround::warning(const std::string& area) const {

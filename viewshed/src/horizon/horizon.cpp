@@ -112,11 +112,20 @@ class Survey {
     }
   }
 
+  [[noreturn]] static void refuse(const HorizonTarget& target, const std::string& reason) {
+    throw InputError(fmt::format("{}{}target {} at {:.10g},{:.10g}: {}", target.source,
+                                 target.source.empty() ? "" : ": ", target.name, target.position.x, target.position.y,
+                                 reason));
+  }
+
   void add_target(const HorizonTarget& target, std::optional<double> ground) {
     const Point2& p = target.position;
-    if (!ground || std::hypot(p.x - eye_.position.x, p.y - eye_.position.y) > reach_)
-      throw InputError(fmt::format("target {} at {:.10g},{:.10g}: there is no data there, or it lies beyond the radius",
-                                   target.name, p.x, p.y));
+    const double distance = std::hypot(p.x - eye_.position.x, p.y - eye_.position.y);
+    if (distance > reach_)
+      refuse(target,
+             fmt::format("it is {:.1f} m away, beyond the `radius` of {:.10g} m: give a greater one, or leave it out",
+                         distance, reach_));
+    if (!ground) refuse(target, "there is no ground data; move it onto the data, or leave it out");
     SightedTarget& sighted = result_.targets.emplace_back(SightedTarget{target});
     sighted.elevation_m = request_.target_absolute ? target.height : *ground + target.height;
     const Point3 to = units_of(sighted);

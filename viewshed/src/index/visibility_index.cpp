@@ -127,6 +127,7 @@ class IndexWork {
     const VisibilitySampler::Tally tally =
         sampler.observe(place, *height + request_.height,
                         std::uint64_t{static_cast<std::uint32_t>(seed.x)} << 32 | static_cast<std::uint32_t>(seed.y));
+    targets_ += tally.asked;
     lines_ += tally.on_ground;
     if (tally.on_ground == 0) return;
     const std::size_t i = index_.grid.index(cell);
@@ -150,6 +151,7 @@ class IndexWork {
     if (index_.observers == 0)
       throw InputError(
           "no target fell on ground: the radius reaches far beyond it; give a smaller one, or more targets");
+    index_.targets = targets_;
     index_.lines = lines_;
     index_.mean /= static_cast<double>(index_.observers);
     index_.mean_undecided /= static_cast<double>(index_.observers);
@@ -168,7 +170,7 @@ class IndexWork {
   VisibilityIndex index_;
   std::optional<Stage> stage_;
   std::atomic<bool> any_eye_ = false;
-  std::atomic<std::uint64_t> lines_ = 0;
+  std::atomic<std::uint64_t> targets_ = 0, lines_ = 0;
 };
 
 }  // namespace

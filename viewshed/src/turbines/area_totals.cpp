@@ -8,6 +8,8 @@
 #include <viewshed/zone_files.hpp>
 #include <viewshed/zone_maps.hpp>
 
+#include "turbines/value_bands.hpp"
+
 namespace itin::viewshed {
 
 namespace {
@@ -30,7 +32,7 @@ std::string area_totals(const Zone& zone) {
                      map.seen, csv_cell(name), static_cast<double>(cells) * zone.grid.cell_area() / 1e6, decimals(zone),
                      100.0 * static_cast<double>(cells) / static_cast<double>(std::max<std::uint64_t>(1, all)));
     };
-    for (const ZoneMap::Class& c : map.classes) add(c.label, c.cells);
+    for (const ZoneMap::Class& c : map.classes) add(&c == &map.classes.front() ? kNoneSeen : c.label, c.cells);
     add("any", all - map.classes.front().cells);
     add("all", all);
   }

@@ -25,7 +25,7 @@ constexpr std::array<Rgba, 8> kBands{{{240, 228, 66},
                                       {117, 30, 90}}};
 
 ValueBand none() {
-  return {0, "none", kTransparent};
+  return {0, kNoneSeen, kTransparent};
 }
 
 void colour_bands(std::vector<ValueBand>& bands) {

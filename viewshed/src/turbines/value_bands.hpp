@@ -10,6 +10,9 @@
 
 namespace itin::viewshed {
 
+/// What tables and styles call cells from which nothing is seen.
+inline constexpr const char* kNoneSeen = "none";
+
 /// Values above the last band's limit up to this one.
 struct ValueBand {
   double to = 0;  ///< may be infinite

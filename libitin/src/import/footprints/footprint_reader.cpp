@@ -63,6 +63,7 @@ class FootprintLayer {
       if (!feature) break;
       add(*feature);
     }
+    if (marks_ > 0) source_.warnings.push_back(warning_of_marks(query_.path, marks_, mark_));
     for (std::string& line : findings_.lines()) source_.warnings.push_back(std::move(line));
     for (std::string& line : kept_->warnings()) source_.warnings.push_back(std::move(line));
     if (unused_z_)
@@ -126,7 +127,7 @@ class FootprintLayer {
     for (std::size_t i = 0; i < count; ++i) {
       const int at = static_cast<int>(i);
       x[i] = line.getX(at), y[i] = line.getY(at);
-      if (!line.Is3D()) continue;
+      if (!line.Is3D() || is_mark(line.getZ(at))) continue;
       const double z = line.getZ(at) * axis_.factor();
       lowest_ = std::min(lowest_, z), highest_ = std::max(highest_, z);
     }
@@ -140,6 +141,13 @@ class FootprintLayer {
     return ring;
   }
 
+  /// Counts it where it is one.
+  bool is_mark(double height) {
+    if (!is_usual_nodata(height)) return false;
+    ++marks_, mark_ = height;
+    return true;
+  }
+
   std::optional<double> number(const OGRFeature& feature, int index) {
     if (index < 0 || !feature.IsFieldSetAndNotNull(index)) return std::nullopt;
     const OGRFieldDefn& definition = *feature.GetFieldDefnRef(index);
@@ -151,6 +159,7 @@ class FootprintLayer {
                                 definition.GetNameRef(), feature.GetFieldAsString(index)));
       return std::nullopt;
     }
+    if (is_mark(value)) return std::nullopt;
     if (!is_height(value * axis_.metres))
       require_height(value * axis_.metres,
                      fmt::format("{}: feature {}: {}", query_.path, feature.GetFID(), definition.GetNameRef()));
@@ -184,6 +193,8 @@ class FootprintLayer {
   HeightAxis axis_;
   double lowest_ = 0, highest_ = 0;  ///< elevations that Z of the feature at hand has, metres
   bool unused_z_ = false;
+  std::uint64_t marks_ = 0;  ///< heights that customarily mark missing data
+  double mark_ = 0;          ///< one of them
   FootprintSource source_;
 };
 

@@ -30,6 +30,7 @@ class PointLayer final : public PointReader {
   std::string crs() const override { return layer_.crs(); }
   Point2 centre() const override { return centre_; }
   double size_hint() const override { return static_cast<double>(layer_.matching()); }
+  std::uint64_t without_geometry() const override { return without_geometry_; }
   std::uint64_t read(const Sink& sink) override;
 
  private:
@@ -42,6 +43,7 @@ class PointLayer final : public PointReader {
 
   SourceLayer layer_;
   Point2 centre_;
+  std::uint64_t without_geometry_ = 0;
 };
 
 PointLayer::PointLayer(const std::string& path, const ImportOptions& options)
@@ -79,10 +81,7 @@ Point2 PointLayer::find_centre() {
   PointBatch batch;
   while (const auto feature = layer_.next()) {
     add(*feature, batch);
-    if (batch.size() == 0 || std::isnan(batch.x.front())) {
-      batch.clear();
-      continue;
-    }
+    if (batch.size() == 0) continue;
     // Layers declared flat sometimes hold points with Z all the same, so the first feature has its say.
     if (!layer_.has_height_field() && !wkbHasZ(layer_.geometry_type()) && std::isnan(batch.z.front()))
       refuse_heightless();
@@ -103,7 +102,9 @@ std::uint64_t PointLayer::read(const Sink& sink) {
     batch.clear();
   };
   layer_.rewind();
+  without_geometry_ = 0;
   while (const auto feature = layer_.next()) {
+    if (!has_geometry(*feature)) ++without_geometry_;
     add(*feature, batch);
     ++done;
     if (batch.size() >= kPointBatchSize) hand_on();
@@ -114,12 +115,12 @@ std::uint64_t PointLayer::read(const Sink& sink) {
 }
 
 void PointLayer::add(const OGRFeature& feature, PointBatch& batch) const {
-  const OGRGeometry* geometry = feature.GetGeometryRef();
-  if (!geometry || geometry->IsEmpty()) return batch.add(kVoid, kVoid, kVoid);
-  const OGRwkbGeometryType type = geometry->getGeometryType();
-  if (wkbFlatten(type) == wkbPoint) return add(*geometry->toPoint(), feature, batch);
+  if (!has_geometry(feature)) return;
+  const OGRGeometry& geometry = *feature.GetGeometryRef();
+  const OGRwkbGeometryType type = geometry.getGeometryType();
+  if (wkbFlatten(type) == wkbPoint) return add(*geometry.toPoint(), feature, batch);
   if (wkbFlatten(type) != wkbMultiPoint) refuse_geometry(OGRGeometryTypeToName(type));
-  for (const OGRPoint* point : *geometry->toMultiPoint())
+  for (const OGRPoint* point : *geometry.toMultiPoint())
     if (!point->IsEmpty()) add(*point, feature, batch);
 }
 

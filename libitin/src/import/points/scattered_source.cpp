@@ -5,6 +5,9 @@
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
+
+#include <itin/counted.hpp>
 #include <itin/file_digest.hpp>
 
 namespace itin {
@@ -55,6 +58,9 @@ class ScatteredTerrain final : public TerrainSource {
     });
     ReadCounts counts = placement_.counts();
     counts.filtered = filtered;
+    if (const std::uint64_t none = reader_->without_geometry(); none > 0)
+      counts.warnings.push_back(
+          fmt::format("{}: {} without geometry left out", reader_->path(), counted(none, "feature")));
     info_.spacing = mean_spacing(grid_.box(counts.bounds), counts.read);
     const double gap = max_gap_ > 0 ? max_gap_ : kGapSpacings * info_.spacing;
     info_.gap_basis = {gap, 0, 0, gap};

@@ -47,6 +47,8 @@ class PointReader {
   virtual Point2 centre() const = 0;
   /// The box of the points, as far as it is known without reading them: at least the centre.
   virtual Box extent() const { return {centre().x, centre().y, centre().x, centre().y}; }
+  /// How many features without geometry read() has passed over.
+  virtual std::uint64_t without_geometry() const { return 0; }
   /// Bytes or points, whatever is at hand.
   virtual double size_hint() const = 0;
   /// Streams all points in bounded memory, and returns how many were left out by class or attribute filter. Exceptions

@@ -68,6 +68,13 @@ bool is_missing_mark(double height) {
                      [&](double mark) { return std::abs(height - mark) <= kMarkShare * std::abs(mark); });
 }
 
+std::string warning_of_marks(const std::string& path, std::uint64_t count, double mark) {
+  return fmt::format(
+      "{}: {} heights of what customarily marks missing data, such as {:g}, were taken as missing, though "
+      "the file does not declare it",
+      path, count, mark);
+}
+
 Placement::Placement(std::string path, const Crs& crs, const HeightAxis& heights, const SourceContext& context,
                      Missing missing)
     : path_(std::move(path)),
@@ -117,11 +124,7 @@ void Placement::place(std::span<double> x, std::span<double> y, std::span<const 
 
 ReadCounts Placement::counts() const {
   ReadCounts counts{placed_, voids_ + marks_ + out_of_range_ + unmapped_, 0, bounds_, {}};
-  if (marks_ > 0)
-    counts.warnings.push_back(fmt::format(
-        "{}: {} heights of what customarily marks missing data, such as {:g}, were taken as missing, though "
-        "the file does not declare it",
-        path_, marks_, mark_));
+  if (marks_ > 0) counts.warnings.push_back(warning_of_marks(path_, marks_, mark_));
   if (out_of_range_ > 0)
     counts.warnings.push_back(
         fmt::format("{}: {} heights below {} m or above {} m were taken as missing; check their "

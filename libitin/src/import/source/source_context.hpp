@@ -57,6 +57,10 @@ Crs source_crs(const std::string& path, const std::string& option_crs, const std
 
 /// Whether a number is one that customarily stands for a missing height, and is none for sure.
 bool is_missing_mark(double height);
+
+/// The warning about `count` heights that were taken as missing, `mark` among them.
+std::string warning_of_marks(const std::string& path, std::uint64_t count, double mark);
+
 /// Takes points from a source's coordinates to the grid, a batch at a time; the last step of every kind of source.
 class Placement {
  public:

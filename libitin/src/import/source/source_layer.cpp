@@ -96,6 +96,11 @@ OGRFeatureUniquePtr next_feature(OGRLayer& layer, const std::string& path) {
   return feature;
 }
 
+bool has_geometry(const OGRFeature& feature) {
+  const OGRGeometry* geometry = feature.GetGeometryRef();
+  return geometry != nullptr && !geometry->IsEmpty();
+}
+
 SourceLayer::SourceLayer(std::string path, const ImportOptions& options, const std::string& what)
     : path_(std::move(path)) {
   const QuietGdal quiet;

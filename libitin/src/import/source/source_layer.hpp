@@ -38,6 +38,9 @@ std::uint64_t select_features(OGRLayer& layer, const std::string& path, const st
 /// The next feature; null at the end. Throws FileError where reading fails.
 OGRFeatureUniquePtr next_feature(OGRLayer& layer, const std::string& path);
 
+/// Whether there is anything on the map: databases may have features with a null geometry, or an empty one.
+bool has_geometry(const OGRFeature& feature);
+
 class SourceLayer {
  public:
   /// Opens the layer that options.layer names, otherwise the file's only one. `what` as in

@@ -13,8 +13,20 @@
 
 #include "gdal/quiet_gdal.hpp"
 #include "import/points/scattered_source.hpp"
+#include "import/source/findings.hpp"
 
 namespace itin {
+
+namespace {
+
+constexpr const char* kWithoutLength = "has no length on the store's grid";
+
+bool has_length(const std::vector<GridPoint>& line) {
+  return std::any_of(line.begin(), line.end(),
+                     [&](const GridPoint& p) { return p.x != line.front().x || p.y != line.front().y; });
+}
+
+}  // namespace
 
 LineLayer::LineLayer(const std::string& path, const ImportOptions& options)
     : layer_(path, options, "a layer of lines"),
@@ -47,13 +59,13 @@ void LineLayer::find_centre() {
 
 std::vector<LineLayer::Line> LineLayer::lines_of(const OGRFeature& feature) const {
   std::vector<Line> lines;
-  const OGRGeometry* geometry = feature.GetGeometryRef();
-  if (geometry == nullptr || geometry->IsEmpty()) return lines;
-  if (geometry->hasCurveGeometry()) {
-    const std::unique_ptr<OGRGeometry> linear(geometry->getLinearGeometry());
+  if (!has_geometry(feature)) return lines;
+  const OGRGeometry& geometry = *feature.GetGeometryRef();
+  if (geometry.hasCurveGeometry()) {
+    const std::unique_ptr<OGRGeometry> linear(geometry.getLinearGeometry());
     collect(*linear, feature, lines);
   } else {
-    collect(*geometry, feature, lines);
+    collect(geometry, feature, lines);
   }
   return lines;
 }
@@ -98,28 +110,41 @@ void LineLayer::add(const OGRSimpleCurve& curve, const OGRFeature& feature, std:
 ReadCounts LineLayer::read(const SourceContext& context, const Sink& sink, Progress& progress) {
   const std::string stage = "reading " + path();
   Placement placement(path(), crs_, heights_.axis, context, Placement::Missing::kNotDeclared);
+  Findings findings(path());
   std::vector<GridPoint> points;
   std::uint64_t done = 0, vertices = 0;
   layer_.rewind();
   features_ = 0;
   while (const auto feature = layer_.next()) {
     progress.throw_if_cancelled();
-    bool any = false;
-    for (Line& line : lines_of(*feature)) {
+    std::vector<Line> lines = lines_of(*feature);
+    std::size_t taken = 0;
+    const char* why_not = has_geometry(*feature) ? kWithoutLength : "has no geometry";
+    for (Line& line : lines) {
       placement.place(line.x, line.y, line.z, points);
-      if (points.size() != line.z.size()) continue;
+      const bool complete = points.size() == line.z.size();
+      if (!complete || !has_length(points)) {
+        why_not = complete ? kWithoutLength : "has a vertex without a height, or without a place in the store's CRS";
+        continue;
+      }
       vertices += points.size();
-      if (!any && fields_.any()) sink.feature(fields_.record(*feature));
+      if (taken++ == 0 && fields_.any()) sink.feature(fields_.record(*feature));
       sink.line(points);
-      any = true;
     }
-    features_ += any ? 1 : 0;
+    features_ += taken > 0 ? 1 : 0;
+    if (taken == 0) {
+      findings.add(fmt::format("feature {}: passed over: {}", feature->GetFID(), why_not));
+    } else if (taken < lines.size()) {
+      findings.add(fmt::format("feature {}: {} of its {} lines passed over: it {}", feature->GetFID(),
+                               lines.size() - taken, lines.size(), why_not));
+    }
     progress.report(stage,
                     static_cast<double>(++done) / static_cast<double>(std::max<std::uint64_t>(1, layer_.matching())));
   }
   ReadCounts counts = placement.counts();
   counts.read = vertices;
   counts.filtered = layer_.filtered();
+  for (std::string& line : findings.lines()) counts.warnings.push_back(std::move(line));
   for (std::string& line : fields_.warnings()) counts.warnings.push_back(std::move(line));
   describe(counts, context.grid, progress);
   return counts;

@@ -36,8 +36,9 @@ class LineLayer final : public OpenedFile {
   /// What is kept of the features.
   const FeatureFields& fields() const { return fields_; }
 
-  /// Hands on every line, and before those of a feature what is kept of it, if anything is. Lines with a vertex that
-  /// has no height or no position are left out and counted as voids. Throws FileError, InputError, Cancelled, and what
+  /// Hands on every line, and before those of a feature what is kept of it, if anything is. Lines without
+  /// length on the grid, and those with a vertex that has no height or no position, are left out with a warning; such
+  /// vertices count as voids. Throws FileError, InputError, Cancelled, and what
   /// the sink throws.
   ReadCounts read(const SourceContext& context, const Sink& sink, Progress& progress);
 

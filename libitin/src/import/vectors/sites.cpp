@@ -111,6 +111,12 @@ std::vector<Site> read(const SiteQuery& query, const std::string& to_crs, std::v
 
 }  // namespace
 
+bool has_field(const SiteQuery& query, const std::string& field) {
+  const QuietGdal quiet;
+  const GDALDatasetUniquePtr dataset = open_place_file(query.path, ColumnTypes::kDeclared);
+  return choose_layer(*dataset, query.path, query.layer).GetLayerDefn()->GetFieldIndex(field.c_str()) >= 0;
+}
+
 std::vector<Site> read_sites(const SiteQuery& query, const std::string& to_crs) {
   return read(query, to_crs, nullptr);
 }
