@@ -8,6 +8,7 @@
 
 #include <itin/coordinates.hpp>
 #include <itin/surface_text.hpp>
+#include <itin/void_stripes.hpp>
 
 namespace itin::cli {
 
@@ -24,11 +25,21 @@ profile::MapSheet empty_sheet(const Store& store, const ResultSheet& content, pr
   return sheet;
 }
 
+bool has_clear_pixels(const profile::SheetCells& picture) {
+  return std::any_of(picture.colours.begin(), picture.colours.end(), [](const Rgba& c) { return c.alpha == 0; });
+}
+
 }  // namespace
 
 MapObjects mast_objects(std::vector<profile::SheetMark> masts, std::string key) {
   return {{profile::SheetMarks{profile::SheetSymbol::kMast, kMastColour, std::move(masts)}},
           {{SheetKey::Sample::kMark, kMastColour, std::move(key)}}};
+}
+
+MissingOnSheet missing_on_sheet(viewshed::PlacesWithoutGround places, const viewshed::MissingGround& missing,
+                                const std::string& area) {
+  if (missing.share() == 0) return {};
+  return {[places = std::move(places)](Point2 p) { return places.contain(p); }, missing.key_text(area)};
 }
 
 std::function<bool(Point2)> in_cells(const RasterGrid& grid, std::function<bool(std::size_t)> studied) {
@@ -58,11 +69,21 @@ std::pair<std::string, std::string> terrain_fact(const StoreMetadata& metadata, 
   return {"Terrain", posts + surface_text(metadata, detail)};
 }
 
+MapBase fitted(MapBase base, const ResultSheet& content) {
+  base = faded(std::move(base), content.studied);
+  const RasterGrid& pixels = base.picture.grid;
+  for (std::int64_t row = 0; row < pixels.rows() && content.missing.there; ++row)
+    for (std::int64_t column = 0; column < pixels.columns(); ++column)
+      if (content.missing.there(pixels.centre(column, row)))
+        base.picture.colours[pixels.index({column, row})] = void_colour(column, row, profile::kVoidStripePixels);
+  return base;
+}
+
 MapBase base_of(const Store& store, const ResultSheet& content, profile::PaperSize paper, const SheetOptions& options,
                 Progress& progress) {
   const profile::MapSheet sheet = empty_sheet(store, content, paper, options);
-  return faded(map_base(store, profile::ground_in_frame(sheet), profile::scale_of(sheet), options.basemap(), progress),
-               content.studied);
+  return fitted(map_base(store, profile::ground_in_frame(sheet), profile::scale_of(sheet), options.basemap(), progress),
+                content);
 }
 
 std::vector<profile::SheetLayer> layers_of(const MapBase& base, const ResultSheet& content) {
@@ -80,10 +101,13 @@ std::vector<SheetKey> keys_of(const MapBase& base, const ResultSheet& content) {
     for (const auto& key : more) keys.push_back({SheetKey::Sample::kPatch, key.colour, key.text});
   };
   add(content.heading, content.map.keys);
+  if (!content.missing.text.empty()) keys.push_back({SheetKey::Sample::kVoid, {}, content.missing.text});
   add(content.map.scale_title, content.map.scale);
   keys.push_back({SheetKey::Sample::kHeading, {}, "Map"});
   for (const MapObjects& objects : content.objects) keys.insert(keys.end(), objects.keys.begin(), objects.keys.end());
   keys.insert(keys.end(), base.keys.begin(), base.keys.end());
+  if (!base.clear.empty() && has_clear_pixels(base.picture))
+    keys.push_back({SheetKey::Sample::kPatch, {237, 237, 242, 255}, base.clear});
   return keys;
 }
 

@@ -138,7 +138,8 @@ std::string WebMaps::part(std::string svg) {
 }
 
 std::string WebMaps::figure(const ResultSheet& content, const std::string& about) {
-  const std::vector<profile::SheetLayer> layers = layers_of(faded(base_, content.studied), content);
+  const MapBase base = fitted(base_, content);
+  const std::vector<profile::SheetLayer> layers = layers_of(base, content);
   std::string html =
       fmt::format("<figure>\n<svg class=\"map\" style=\"aspect-ratio:{:.6g}\" role=\"img\" aria-label=\"{}\">\n",
                   frame_.width() / frame_.height(), escaped_markup("Map: " + content.title.title));
@@ -149,7 +150,7 @@ std::string WebMaps::figure(const ResultSheet& content, const std::string& about
   html +=
       fmt::format("<p><b>{}</b>: {}. <span class=\"note\">{}</span></p>\n<ul class=\"key\">\n",
                   escaped_markup(content.title.title), escaped_markup(about), escaped_markup(content.title.statement));
-  for (const SheetKey& key : keys_of(base_, content)) html += key_html(key);
+  for (const SheetKey& key : keys_of(base, content)) html += key_html(key);
   return html + "</ul></figcaption>\n</figure>\n";
 }
 

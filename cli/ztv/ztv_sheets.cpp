@@ -203,6 +203,8 @@ std::vector<viewshed::ZoneFile> write_ztv_sheets(const std::string& folder, cons
   std::vector<viewshed::ZoneFile> files;
   const std::vector<ZoneMap> maps = viewshed::zone_maps(zone);
   const std::vector<MapObjects> objects = objects_of(zone, facts);
+  const MissingOnSheet missing =
+      missing_on_sheet(viewshed::places_without_ground(zone), facts.missing, "the study area");
   const auto content_of = [&](const ZoneMap& map) {
     return ResultSheet{zone.grid,
                        study_area(zone),
@@ -210,7 +212,8 @@ std::vector<viewshed::ZoneFile> write_ztv_sheets(const std::string& folder, cons
                        map.heading + ", and share of the area that has terrain data",
                        [&](Point2 p) { return beyond_study_area(zone, p) <= 0; },
                        objects,
-                       title_block(store.metadata(), zone, map, facts)};
+                       title_block(store.metadata(), zone, map, facts),
+                       missing};
   };
   std::size_t done = 0;
   for (const profile::PaperSize paper : options.papers()) {

@@ -62,9 +62,14 @@ struct SheetMarks {
 
 using SheetLayer = std::variant<SheetCells, SheetLines, SheetMarks>;
 
+/// The side of a pixel of the pictures that are made for sheets: relief, and stripes where there is no ground.
+inline constexpr double kSheetPixelMm = 0.25;
+/// How far apart those stripes are.
+inline constexpr int kVoidStripePixels = 10;
+
 /// One row of the legend; what is shown before the text looks as it does on the map.
 struct SheetKey {
-  enum class Sample { kPatch, kLine, kDashes, kMark, kHeading };
+  enum class Sample { kPatch, kVoid, kLine, kDashes, kMark, kHeading };
   Sample sample = Sample::kPatch;
   Rgba colour;
   std::string text;

@@ -30,10 +30,6 @@ Colour opaque(Rgba c) {
   return drawn(c);
 }
 
-std::uint32_t argb(const Rgba& c) {
-  return std::uint32_t{c.alpha} << 24 | std::uint32_t{c.red} << 16 | std::uint32_t{c.green} << 8 | c.blue;
-}
-
 }  // namespace
 
 std::span<const Point2> corners_of(SheetSymbol symbol) {

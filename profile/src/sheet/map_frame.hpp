@@ -1,6 +1,8 @@
 // The map of a sheet: its layers to scale in their frame, with the grid's references about it.
 #pragma once
 
+#include <cstdint>
+
 #include <itin/geometry.hpp>
 #include <itin/label_places.hpp>
 #include <profile/map_sheet.hpp>
@@ -12,6 +14,11 @@ namespace itin::profile {
 
 inline Colour drawn(const Rgba& c) {
   return {c.red / 255.0, c.green / 255.0, c.blue / 255.0, c.alpha / 255.0};
+}
+
+/// As Drawing::cells() takes it.
+inline std::uint32_t argb(const Rgba& c) {
+  return std::uint32_t{c.alpha} << 24 | std::uint32_t{c.red} << 16 | std::uint32_t{c.green} << 8 | c.blue;
 }
 
 /// A mark of a map or its legend; `size` is its height in points.

@@ -8,6 +8,7 @@
 
 #include <itin/coordinates.hpp>
 #include <itin/round_length.hpp>
+#include <itin/void_stripes.hpp>
 
 #include "drawing/palette.hpp"
 #include "sheet/map_frame.hpp"
@@ -83,6 +84,9 @@ void SidePanel::draw_key(const SheetKey& key) {
       drawing_.outline(patch, {kFaint, 0.3 * paper_.type, {}});
       break;
     }
+    case kVoid:
+      draw_void(patch);
+      break;
     case kLine:
     case kDashes: {
       Stroke stroke{drawn(key.colour), 0.35 * kPointsPerMillimetre * paper_.type, {}};
@@ -104,6 +108,19 @@ void SidePanel::draw_key(const SheetKey& key) {
     baseline += 1.2 * lettering.size;
   }
   y_ = std::max(y_ + row, baseline - 0.8 * lettering.size);
+}
+
+/// Pixel by pixel, as the map has it.
+void SidePanel::draw_void(const Box& patch) {
+  const double pixel = kSheetPixelMm * kPointsPerMillimetre;
+  const auto pixels = [&](double length) { return std::max(1, static_cast<int>(std::lround(length / pixel))); };
+  const int columns = pixels(patch.width()), rows = pixels(patch.height());
+  std::vector<std::uint32_t> colours;
+  for (int row = 0; row < rows; ++row)
+    for (int column = 0; column < columns; ++column)
+      colours.push_back(argb(void_colour(column, row, kVoidStripePixels)));
+  drawing_.cells(patch, columns, rows, colours);
+  drawing_.outline(patch, {kFaint, 0.3 * paper_.type, {}});
 }
 
 void SidePanel::draw_legend(double bottom) {
@@ -160,7 +177,7 @@ void SidePanel::draw_north(Point2 foot) {
 void SidePanel::draw_notes() {
   const TitleBlock& t = sheet_.title;
   if (!t.statement.empty()) paragraph(t.statement, 7, true);
-  for (const auto& [name, value] : t.facts) paragraph(name + ": " + value, 6.3, false);
+  for (const auto& [name, value] : t.facts) paragraph(fmt::format("{}: {}", name, value), 6.3, false);
   std::string sources;
   for (const std::string& source : t.sources) sources += (sources.empty() ? "" : "; ") + source;
   if (!sources.empty()) paragraph("Sources: " + sources, 6.3, false);

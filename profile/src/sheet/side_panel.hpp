@@ -17,6 +17,7 @@ class SidePanel {
   void draw_heading();
   void draw_legend(double bottom);
   void draw_key(const SheetKey& key);
+  void draw_void(const Box& patch);
   void draw_scale();
   void draw_north(Point2 foot);
   void paragraph(const std::string& text, double size, bool bold);

@@ -7,6 +7,7 @@
 #include <itin/error.hpp>
 #include <itin/parallel.hpp>
 #include <itin/round_length.hpp>
+#include <itin/void_stripes.hpp>
 #include <viewshed/area_text.hpp>
 #include <viewshed/map_image.hpp>
 #include <viewshed/surface.hpp>
@@ -25,8 +26,7 @@ constexpr Rgba kMark{213, 94, 0};
 constexpr Rgba kInk{30, 30, 30};
 constexpr Rgba kFaint{95, 95, 95};
 constexpr Rgba kMapPaper{255, 255, 255};
-constexpr Rgba kVoid{244, 244, 244};
-constexpr Rgba kVoidStripe{170, 170, 170};
+constexpr Rgba kUnread{244, 244, 244};  ///< beyond what was looked at, and so what was read
 
 constexpr std::uint8_t kLevelGrey = 214;  ///< the grey of level ground
 
@@ -173,8 +173,7 @@ class MapDrawing {
     const float shade = shades_[pixels_.index({x, y})];
     const int px = left_ + x, py = top_ + y;
     if (lacks_ground(cell_of(x, y))) return draw_void(px, py);
-    // Beyond what was looked at, and so what was read.
-    if (std::isnan(shade)) return canvas_.blend(px, py, kVoid, 1);
+    if (std::isnan(shade)) return canvas_.blend(px, py, kUnread, 1);
     const auto grey = static_cast<std::uint8_t>(std::clamp(kLevelGrey + 150.0 * (shade - kLevelShade), 100.0, 250.0));
     const Shown shown = shown_at(x, y);
     canvas_.blend(px, py, {grey, grey, grey}, 1);
@@ -182,10 +181,7 @@ class MapDrawing {
     canvas_.blend(px, py, shown.colour(), shown.opacity);
   }
 
-  /// Striped, unlike all that is known.
-  void draw_void(int x, int y) {
-    canvas_.blend(x, y, (x + y) % unit_ < std::max(2, unit_ / 4) ? kVoidStripe : kVoid, 1);
-  }
+  void draw_void(int x, int y) { canvas_.blend(x, y, void_colour(x, y, unit_), 1); }
 
   Point2 place_of(Point2 p) const { return {left_ + pixels_.column_at(p.x), top_ + pixels_.row_at(p.y)}; }
 
