@@ -69,7 +69,7 @@ void add_contours(const Heights& heights, MapBase& base) {
     }
   }
   base.contours = {std::move(plain), std::move(index)};
-  base.keys.push_back({profile::SheetKey::Sample::kLine, kContour, fmt::format("Contours every {:g} m", interval)});
+  base.keys.push_back({profile::SheetKey::Sample::kLine, {kContour}, fmt::format("Contours every {:g} m", interval)});
 }
 
 /// Clear where there is no ground.

@@ -16,6 +16,8 @@ namespace {
 
 using profile::SheetKey;
 
+constexpr Rgba kNoGroundColour{237, 237, 242, 255}, kFadedColour{255, 255, 255, 153};
+
 /// Without layers, legend and title.
 profile::MapSheet empty_sheet(const Store& store, const ResultSheet& content, profile::PaperSize paper,
                               const SheetOptions& options) {
@@ -29,11 +31,22 @@ bool has_clear_pixels(const profile::SheetCells& picture) {
   return std::any_of(picture.colours.begin(), picture.colours.end(), [](const Rgba& c) { return c.alpha == 0; });
 }
 
+bool shows_outside(const profile::SheetCells& picture, const ResultSheet& content) {
+  const auto is_outside = [&](Point2 p) {
+    return !content.studied(p) && !(content.missing.there && content.missing.there(p));
+  };
+  for (std::int64_t row = 0; row < picture.grid.rows(); ++row)
+    for (std::int64_t column = 0; column < picture.grid.columns(); ++column)
+      if (picture.colours[picture.grid.index({column, row})].alpha > 0 && is_outside(picture.grid.centre(column, row)))
+        return true;
+  return false;
+}
+
 }  // namespace
 
 MapObjects mast_objects(std::vector<profile::SheetMark> masts, std::string key) {
   return {{profile::SheetMarks{profile::SheetSymbol::kMast, kMastColour, std::move(masts)}},
-          {{SheetKey::Sample::kMark, kMastColour, std::move(key)}}};
+          {{SheetKey::Sample::kMark, {kMastColour}, std::move(key)}}};
 }
 
 MissingOnSheet missing_on_sheet(viewshed::PlacesWithoutGround places, const viewshed::MissingGround& missing,
@@ -98,16 +111,18 @@ std::vector<SheetKey> keys_of(const MapBase& base, const ResultSheet& content) {
   const auto add = [&](const std::string& heading, const std::vector<viewshed::ResultMap::Key>& more) {
     if (more.empty()) return;
     keys.push_back({SheetKey::Sample::kHeading, {}, heading});
-    for (const auto& key : more) keys.push_back({SheetKey::Sample::kPatch, key.colour, key.text});
+    for (const auto& key : more) keys.push_back({SheetKey::Sample::kPatch, key.colours, key.text});
   };
   add(content.heading, content.map.keys);
   if (!content.missing.text.empty()) keys.push_back({SheetKey::Sample::kVoid, {}, content.missing.text});
+  if (!content.outside.empty() && shows_outside(base.picture, content))
+    keys.push_back({SheetKey::Sample::kPatch, {kFadedColour}, content.outside});
   add(content.map.scale_title, content.map.scale);
   keys.push_back({SheetKey::Sample::kHeading, {}, "Map"});
   for (const MapObjects& objects : content.objects) keys.insert(keys.end(), objects.keys.begin(), objects.keys.end());
   keys.insert(keys.end(), base.keys.begin(), base.keys.end());
   if (!base.clear.empty() && has_clear_pixels(base.picture))
-    keys.push_back({SheetKey::Sample::kPatch, {237, 237, 242, 255}, base.clear});
+    keys.push_back({SheetKey::Sample::kPatch, {kNoGroundColour}, base.clear});
   return keys;
 }
 

@@ -44,6 +44,7 @@ struct ResultSheet {
   std::vector<MapObjects> objects;      ///< over the cells, the lowest first
   profile::TitleBlock title;            ///< without what every sheet says: coordinates, project, date, maker
   MissingOnSheet missing = {};
+  std::string outside = {};  ///< what the legend calls the ground that is faded; empty: nothing
 };
 
 /// Holds in the grid's cells of which `studied` holds.

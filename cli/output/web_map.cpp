@@ -96,20 +96,31 @@ class WebLabels {
   std::vector<const SheetMark*> marks_;
 };
 
+/// Over level ground.
+std::string patch_svg(const std::vector<Rgba>& colours) {
+  constexpr double kWidth = 23;
+  std::string svg = fmt::format("<rect x=\".5\" y=\".5\" width=\"{}\" height=\"15\" fill=\"#d6d6d6\"/>", kWidth);
+  for (std::size_t i = 0; i < colours.size(); ++i) {
+    const double part = kWidth / static_cast<double>(colours.size());
+    svg +=
+        fmt::format("<rect x=\"{:.4g}\" y=\".5\" width=\"{:.4g}\" height=\"15\" fill=\"{}\" fill-opacity=\"{:.2g}\"/>",
+                    0.5 + part * static_cast<double>(i), part, web_colour(colours[i]), colours[i].alpha / 255.0);
+  }
+  return svg +
+         fmt::format("<rect x=\".5\" y=\".5\" width=\"{}\" height=\"15\" fill=\"none\" stroke=\"#5f5f5f\"/>", kWidth);
+}
+
 std::string key_html(const SheetKey& key) {
   using enum SheetKey::Sample;
-  const std::string text = escaped_markup(key.text), colour = web_colour(key.colour);
+  const std::string text = escaped_markup(key.text);
   if (key.sample == kHeading) return fmt::format("<li class=\"heading\">{}</li>\n", text);
   std::string sample;
   if (key.sample == kMark) {
-    sample = fmt::format("<g transform=\"translate(12 8)\">{}</g>", web_mark(key.symbol, key.colour));
+    sample = fmt::format("<g transform=\"translate(12 8)\">{}</g>", web_mark(key.symbol, key.colours.front()));
   } else if (key.sample == kPatch) {
-    sample = fmt::format(
-        "<rect x=\".5\" y=\".5\" width=\"23\" height=\"15\" fill=\"#d6d6d6\"/><rect x=\".5\" y=\".5\" width=\"23\" "
-        "height=\"15\" fill=\"{}\" fill-opacity=\"{:.2g}\" stroke=\"#5f5f5f\"/>",
-        colour, key.colour.alpha / 255.0);
+    sample = patch_svg(key.colours);
   } else {
-    sample = fmt::format("<path d=\"M0 8h24\" stroke=\"{}\" stroke-width=\"2\"{}/>", colour,
+    sample = fmt::format("<path d=\"M0 8h24\" stroke=\"{}\" stroke-width=\"2\"{}/>", web_colour(key.colours.front()),
                          key.sample == kDashes ? " stroke-dasharray=\"8 5\"" : "");
   }
   return fmt::format("<li><svg aria-hidden=\"true\">{}</svg>{}</li>\n", sample, text);

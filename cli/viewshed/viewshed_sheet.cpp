@@ -62,7 +62,8 @@ void write_viewshed_sheet(const Store& store, const viewshed::Result& result, co
       in_cells(result.grid, [&](std::size_t cell) { return result.visible[cell] != viewshed::Verdict::kOutside; }),
       {},
       title_of_map(store, result, facts),
-      missing_on_sheet(viewshed::places_without_ground(store, result, progress), facts.missing, kAreaLookedAt)};
+      missing_on_sheet(viewshed::places_without_ground(store, result, progress), facts.missing, kAreaLookedAt),
+      kOutOfView};
   std::vector<profile::SheetMark> observers;
   for (const viewshed::Observer& o : result.request.observers) observers.push_back({o.position, o.name});
   sheet.objects.push_back(mast_objects(std::move(observers), "Observer"));

@@ -99,8 +99,8 @@ MapObjects distance_objects(const Zone& zone) {
   PlaneField(box, [&](Point2 p) { return beyond_study_area(zone, p); }).add_lines(0, "", edge);
   return {
       {std::move(rings), std::move(edge)},
-      {{SheetKey::Sample::kDashes, kStudyArea, "Study area"},
-       {SheetKey::Sample::kLine, kRing, fmt::format("Distance to the nearest turbine, every {:g} km", step / 1000)}}};
+      {{SheetKey::Sample::kDashes, {kStudyArea}, "Study area"},
+       {SheetKey::Sample::kLine, {kRing}, fmt::format("Distance to the nearest turbine, every {:g} km", step / 1000)}}};
 }
 
 Rgba farm_colour(std::size_t farm) {
@@ -119,8 +119,10 @@ MapObjects turbine_objects(const Zone& zone) {
     for (const Turbine& t : zone.request.turbines)
       if (single || t.farm == farms[f]) marks.marks.push_back({t.position, fmt::format("{}", t.number)});
     const std::string turbines = counted(marks.marks.size(), "wind turbine") + ", numbered";
-    objects.keys.push_back({SheetKey::Sample::kMark, marks.colour,
-                            farms[f].empty() ? turbines : fmt::format("{}: {}", farms[f], turbines), marks.symbol});
+    objects.keys.push_back({SheetKey::Sample::kMark,
+                            {marks.colour},
+                            farms[f].empty() ? turbines : fmt::format("{}: {}", farms[f], turbines),
+                            marks.symbol});
     objects.layers.emplace_back(std::move(marks));
   }
   return objects;
@@ -129,7 +131,7 @@ MapObjects turbine_objects(const Zone& zone) {
 MapObjects viewpoint_objects(const std::vector<NamedPlace>& viewpoints) {
   profile::SheetMarks marks{profile::SheetSymbol::kViewpoint, kViewpoint, {}};
   for (const NamedPlace& v : viewpoints) marks.marks.push_back({v.position, fmt::format("{} {}", v.number, v.name)});
-  return {{std::move(marks)}, {{SheetKey::Sample::kMark, kViewpoint, "Viewpoint", profile::SheetSymbol::kViewpoint}}};
+  return {{std::move(marks)}, {{SheetKey::Sample::kMark, {kViewpoint}, "Viewpoint", profile::SheetSymbol::kViewpoint}}};
 }
 
 /// What every map of the zone has above its classes.
@@ -145,13 +147,13 @@ viewshed::ResultMap classes_of(const Zone& zone, const ZoneMap& map) {
   for (const ZoneMap::Class& c : map.classes) all += c.cells;
   for (const ZoneMap::Class& c : map.classes) {
     result.keys.push_back(
-        {viewshed::over_relief(c.colour),
+        {{viewshed::over_relief(c.colour)},
          fmt::format("{}: {} ({:.1f} %)", c.label,
                      viewshed::area_text(static_cast<double>(c.cells) * zone.grid.cell_area()),
                      100.0 * static_cast<double>(c.cells) / static_cast<double>(std::max<std::uint64_t>(1, all)))});
   }
   for (const std::uint8_t c : map.class_of_cell)
-    result.cells.push_back(c == viewshed::kNoMapClass ? kTransparent : result.keys[c].colour);
+    result.cells.push_back(c == viewshed::kNoMapClass ? kTransparent : result.keys[c].colours.front());
   return result;
 }
 

@@ -71,7 +71,8 @@ inline constexpr int kVoidStripePixels = 10;
 struct SheetKey {
   enum class Sample { kPatch, kVoid, kLine, kDashes, kMark, kHeading };
   Sample sample = Sample::kPatch;
-  Rgba colour;
+  std::vector<Rgba>
+      colours;  ///< one, or in a patch several side by side; none for a heading or where there is no ground
   std::string text;
   SheetSymbol symbol = SheetSymbol::kMast;  ///< what is drawn for a mark
 };

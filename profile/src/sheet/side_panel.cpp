@@ -80,7 +80,12 @@ void SidePanel::draw_key(const SheetKey& key) {
     case kPatch: {
       const double wash = 0.84;  // the grey of level ground in the relief
       drawing_.rectangle(patch, {wash, wash, wash});
-      drawing_.rectangle(patch, drawn(key.colour));
+      const double part = patch.width() / static_cast<double>(key.colours.size());
+      double from = patch.xmin;
+      for (const Rgba& colour : key.colours) {
+        drawing_.rectangle({from, patch.ymin, from + part, patch.ymax}, drawn(colour));
+        from += part;
+      }
       drawing_.outline(patch, {kFaint, 0.3 * paper_.type, {}});
       break;
     }
@@ -89,7 +94,7 @@ void SidePanel::draw_key(const SheetKey& key) {
       break;
     case kLine:
     case kDashes: {
-      Stroke stroke{drawn(key.colour), 0.35 * kPointsPerMillimetre * paper_.type, {}};
+      Stroke stroke{drawn(key.colours.front()), 0.35 * kPointsPerMillimetre * paper_.type, {}};
       if (key.sample == kDashes)
         stroke.dashes = {2.2 * kPointsPerMillimetre * paper_.type, 1.4 * kPointsPerMillimetre * paper_.type};
       drawing_.polyline(std::array{Point2{patch.xmin, middle}, Point2{patch.xmax, middle}}, stroke);
@@ -97,7 +102,7 @@ void SidePanel::draw_key(const SheetKey& key) {
     }
     default: {
       const double up = key.symbol == SheetSymbol::kTurbine ? 0.4 * size : 0;
-      draw_symbol(drawing_, key.symbol, {x + width / 2, middle + up}, size, key.colour);
+      draw_symbol(drawing_, key.symbol, {x + width / 2, middle + up}, size, key.colours.front());
     }
   }
   const Lettering lettering{.size = 7 * paper_.type, .colour = kInk};
