@@ -1,5 +1,7 @@
 // Every colour of a map has a row of its own in the legend.
+#include <gmock/gmock.h>
 #include <set>
+#include <string>
 
 #include <gtest/gtest.h>
 
@@ -12,7 +14,9 @@ namespace {
 
 /// All that is clear is alike.
 std::uint32_t number_of(const Rgba& c) {
-  return c.alpha == 0 ? 0 : std::uint32_t{c.red} << 24 | std::uint32_t{c.green} << 16 | std::uint32_t{c.blue} << 8 | c.alpha;
+  return c.alpha == 0
+             ? 0
+             : std::uint32_t{c.red} << 24 | std::uint32_t{c.green} << 16 | std::uint32_t{c.blue} << 8 | c.alpha;
 }
 
 std::set<std::uint32_t> numbers_of(const std::vector<Rgba>& colours) {
@@ -79,6 +83,17 @@ TEST(ResultMap, TargetsBelowTheGroundAreAClassOfBlockers) {
   EXPECT_EQ(s.map.scale.back().text, "own ground");
   EXPECT_EQ(s.map.scale.back().colours.front().alpha, 0);
   EXPECT_EQ(numbers_of(s.map.keys[1].colours), hidden);
+}
+
+TEST(ResultMap, SmallAreasAreInSquareMetres) {
+  Request request;
+  request.observers = {{"Mast", {301000, 201500}, 30}};
+  request.cell_size = 25, request.radius = 100;
+  NoProgress progress;
+  const Result result = compute(test::fractal_tin(65, 50, 200, 0.5, 9), request, progress);
+  const auto area = static_cast<std::uint64_t>(result.grid.cell_area()) * result.cells.visible;
+  EXPECT_THAT(result_map(result, {}).keys.front().text,
+              testing::StartsWith("Visible: " + std::to_string(area) + " m² ("));
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <viewshed/area_text.hpp>
 #include <viewshed/result_map.hpp>
 
 #include "drawing/map_overlay.hpp"
@@ -19,7 +20,7 @@ Rgba colour_of(const Tint& tint) {
 }
 
 std::string key_text(const std::string& what, std::uint64_t cells, std::uint64_t of, double cell_area) {
-  return fmt::format("{}: {:.4g} km² ({:.1f} %)", what, static_cast<double>(cells) * cell_area / 1e6,
+  return fmt::format("{}: {} ({:.1f} %)", what, area_text(static_cast<double>(cells) * cell_area),
                      100.0 * static_cast<double>(cells) / static_cast<double>(of));
 }
 
