@@ -27,6 +27,62 @@ profile::MapSheet empty_sheet(const Store& store, const ResultSheet& content, pr
   return sheet;
 }
 
+struct Beyond {
+  std::size_t all = 0;
+  std::vector<std::string> names;  ///< those of what lies wholly beyond the frame
+
+  void add(const Box& extent, const std::string& name, const Box& frame) {
+    ++all;
+    if (!extent.meets(frame)) names.push_back(name);
+  }
+};
+
+bool stands_for(const SheetKey& key, const profile::SheetMarks& marks) {
+  return key.sample == SheetKey::Sample::kMark && key.symbol == marks.symbol && key.colours.front() == marks.colour;
+}
+bool stands_for(const SheetKey& key, const profile::SheetLines& lines) {
+  const auto sample = lines.dashed ? SheetKey::Sample::kDashes : SheetKey::Sample::kLine;
+  return key.sample == sample && key.colours.front() == lines.colour;
+}
+bool stands_for(const SheetKey&, const profile::SheetCells&) {
+  return false;
+}
+
+void add_objects(const profile::SheetMarks& marks, const Box& frame, Beyond& beyond) {
+  for (const profile::SheetMark& mark : marks.marks)
+    beyond.add({mark.at.x, mark.at.y, mark.at.x, mark.at.y}, mark.label, frame);
+}
+void add_objects(const profile::SheetLines& lines, const Box& frame, Beyond& beyond) {
+  for (const profile::SheetLine& line : lines.lines) {
+    Box extent;
+    for (const Point2& p : line.points) extent.extend(p);
+    beyond.add(extent, line.label, frame);
+  }
+}
+void add_objects(const profile::SheetCells&, const Box&, Beyond&) {}
+
+/// What a legend adds to a key: "; 2 of 5 beyond the map: 3 Inn, 5 Church".
+std::string beyond_the_map(const MapObjects& objects, const SheetKey& key, const Box& frame) {
+  constexpr std::size_t kMostNames = 12;
+  Beyond beyond;
+  for (const profile::SheetLayer& layer : objects.layers)
+    std::visit(
+        [&](const auto& l) {
+          if (stands_for(key, l)) add_objects(l, frame, beyond);
+        },
+        layer);
+  std::vector<std::string>& names = beyond.names;
+  if (names.empty()) return "";
+  const std::string count = fmt::format("; {} of {} beyond the map", names.size(), beyond.all);
+  std::erase(names, "");
+  if (names.empty()) return count;
+  if (const std::size_t all = names.size(); all > kMostNames) {
+    names.resize(kMostNames - 1);
+    names.push_back(fmt::format("{} more", all - names.size()));
+  }
+  return fmt::format("{}: {}", count, fmt::join(names, ", "));
+}
+
 bool has_clear_pixels(const profile::SheetCells& picture) {
   return std::any_of(picture.colours.begin(), picture.colours.end(), [](const Rgba& c) { return c.alpha == 0; });
 }
@@ -106,7 +162,7 @@ std::vector<profile::SheetLayer> layers_of(const MapBase& base, const ResultShee
   return layers;
 }
 
-std::vector<SheetKey> keys_of(const MapBase& base, const ResultSheet& content) {
+std::vector<SheetKey> keys_of(const MapBase& base, const ResultSheet& content, const Box& frame) {
   std::vector<SheetKey> keys;
   const auto add = [&](const std::string& heading, const std::vector<viewshed::ResultMap::Key>& more) {
     if (more.empty()) return;
@@ -119,7 +175,11 @@ std::vector<SheetKey> keys_of(const MapBase& base, const ResultSheet& content) {
     keys.push_back({SheetKey::Sample::kPatch, {kFadedColour}, content.outside});
   add(content.map.scale_title, content.map.scale);
   keys.push_back({SheetKey::Sample::kHeading, {}, "Map"});
-  for (const MapObjects& objects : content.objects) keys.insert(keys.end(), objects.keys.begin(), objects.keys.end());
+  for (const MapObjects& objects : content.objects)
+    for (SheetKey key : objects.keys) {
+      key.text += beyond_the_map(objects, key, frame);
+      keys.push_back(std::move(key));
+    }
   keys.insert(keys.end(), base.keys.begin(), base.keys.end());
   if (!base.clear.empty() && has_clear_pixels(base.picture))
     keys.push_back({SheetKey::Sample::kPatch, {kNoGroundColour}, base.clear});
@@ -130,7 +190,7 @@ profile::MapSheet map_sheet(const Store& store, const ResultSheet& content, cons
                             profile::PaperSize paper, const SheetOptions& options) {
   profile::MapSheet sheet = empty_sheet(store, content, paper, options);
   sheet.layers = layers_of(base, content);
-  sheet.legend = keys_of(base, content);
+  sheet.legend = keys_of(base, content, profile::ground_in_frame(sheet));
   sheet.title = content.title;
   sheet.title.facts.emplace_back("Coordinates", crs_title(store.metadata().crs_wkt));
   if (!options.basemap().empty()) sheet.title.facts.push_back(basemap_fact(options.basemap()));

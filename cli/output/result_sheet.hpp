@@ -66,7 +66,8 @@ MapBase base_of(const Store& store, const ResultSheet& content, profile::PaperSi
 
 /// All that is drawn over such a base, the base lowest, and its legend.
 std::vector<profile::SheetLayer> layers_of(const MapBase& base, const ResultSheet& content);
-std::vector<profile::SheetKey> keys_of(const MapBase& base, const ResultSheet& content);
+/// It says which objects lie beyond the frame, on the ground.
+std::vector<profile::SheetKey> keys_of(const MapBase& base, const ResultSheet& content, const Box& frame);
 
 /// The sheet, for profile::draw_map_sheet().
 profile::MapSheet map_sheet(const Store& store, const ResultSheet& content, const MapBase& base,

@@ -161,7 +161,7 @@ std::string WebMaps::figure(const ResultSheet& content, const std::string& about
   html +=
       fmt::format("<p><b>{}</b>: {}. <span class=\"note\">{}</span></p>\n<ul class=\"key\">\n",
                   escaped_markup(content.title.title), escaped_markup(about), escaped_markup(content.title.statement));
-  for (const SheetKey& key : keys_of(base, content)) html += key_html(key);
+  for (const SheetKey& key : keys_of(base, content, frame_)) html += key_html(key);
   return html + "</ul></figcaption>\n</figure>\n";
 }
 

@@ -212,9 +212,15 @@ class ZtvVerb final : public Verb {
       add(seen_.files);
       document["viewpoints"] = bad_rows_document(seen_.path, seen_.rows, seen_.rows - seen_.bad.size(), seen_.bad);
     }
-    if (route_.given()) add(route_.write(folder, store, zone, progress));
+    std::vector<Path> routes;
+    if (route_.given()) {
+      RouteOptions::Written written = route_.write(folder, store, zone, progress);
+      add(std::move(written.files));
+      routes = std::move(written.routes);
+    }
     if (sheets_.given())
-      add(write_ztv_sheets(folder, store, zone, sheets_, {seen_.places, sources_, missing_}, progress));
+      add(write_ztv_sheets(folder, store, zone, sheets_,
+                           {seen_.places, routes, radio_.links(), radio_.radar(), sources_, missing_}, progress));
     add_text("areas.csv", "km² by band of turbines visible and by ring of distance to the nearest turbine",
              viewshed::area_table(zone));
     add_text("area-totals.csv",

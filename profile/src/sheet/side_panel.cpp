@@ -62,10 +62,15 @@ void SidePanel::paragraph(const std::string& text, double size, bool bold) {
   y_ += 0.35 * lettering.size;
 }
 
+void SidePanel::heading(const std::string& text, std::size_t most_lines, double size, bool bold) {
+  const Lettering full{.size = size * paper_.type, .colour = kInk, .bold = bold};
+  paragraph(text, drawing_.lettering_for(text, right_ - left_, most_lines, full).size / paper_.type, bold);
+}
+
 void SidePanel::draw_heading() {
   y_ += 1.5 * kPointsPerMillimetre * paper_.type;
-  if (!sheet_.title.project.empty()) paragraph(sheet_.title.project, 9.5, false);
-  paragraph(sheet_.title.title, 12, true);
+  if (!sheet_.title.project.empty()) heading(sheet_.title.project, 2, 9.5, false);
+  heading(sheet_.title.title, 4, 12, true);
   rule();
 }
 

@@ -20,6 +20,7 @@ class SidePanel {
   void draw_void(const Box& patch);
   void draw_scale();
   void draw_north(Point2 foot);
+  void heading(const std::string& text, std::size_t most_lines, double size, bool bold);
   void paragraph(const std::string& text, double size, bool bold);
   void draw_notes();
   void draw_foot();
