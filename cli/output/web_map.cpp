@@ -52,6 +52,14 @@ class WebLabels {
         for (const SheetMark& mark : some->marks) marks_.push_back(&mark);
   }
 
+  /// A phrase about names that have no room even on a page; empty where all have.
+  std::string left_out() const {
+    const auto names = static_cast<std::size_t>(
+        std::count_if(marks_.begin(), marks_.end(), [](const SheetMark* mark) { return !mark->label.empty(); }));
+    const std::size_t drawn = that_fit(kPageWidth).size();
+    return drawn < names ? left_out_text(names - drawn, names) : "";
+  }
+
   std::string svg() const {
     const std::set<const SheetMark*> roomy = that_fit(kPageWidth), all = that_fit(kPhoneWidth);
     std::string text;
@@ -156,13 +164,16 @@ std::string WebMaps::figure(const ResultSheet& content, const std::string& about
                   frame_.width() / frame_.height(), escaped_markup("Map: " + content.title.title));
   for (const profile::SheetLayer& layer : layers)
     html += part(web_layer(frame_, layer, &layer == &layers.front() ? WebPicture::kGround : WebPicture::kCells));
-  html += part(WebLabels(frame_, layers).svg()) + part(kNorthArrow);
+  const WebLabels labels(frame_, layers);
+  html += part(labels.svg()) + part(kNorthArrow);
   html += "</svg>\n<figcaption>" + scale_bar(frame_);
   html +=
       fmt::format("<p><b>{}</b>: {}. <span class=\"note\">{}</span></p>\n<ul class=\"key\">\n",
                   escaped_markup(content.title.title), escaped_markup(about), escaped_markup(content.title.statement));
   for (const SheetKey& key : keys_of(base, content, frame_)) html += key_html(key);
-  return html + "</ul></figcaption>\n</figure>\n";
+  html += "</ul>";
+  if (const std::string text = labels.left_out(); !text.empty()) html += "<p class=\"note\">" + text + "</p>";
+  return html + "</figcaption>\n</figure>\n";
 }
 
 }  // namespace itin::cli

@@ -49,7 +49,8 @@ enum class SheetSymbol { kTurbine, kViewpoint, kMast, kRelay, kExistingMast, kHu
 /// About its place, y downwards, for a height of 1. Empty for discs and for turbines.
 std::span<const Point2> corners_of(SheetSymbol symbol);
 
-/// Labels that would cover another label or a mark are left out, those of later marks first.
+/// Labels that would cover another label or a mark are left out, those of later marks first, and counted below the
+/// legend.
 struct SheetMark {
   Point2 at;
   std::string label;

@@ -7,6 +7,7 @@
 #include <itin/azimuth.hpp>
 #include <itin/error.hpp>
 #include <itin/geodesic.hpp>
+#include <itin/label_places.hpp>
 #include <profile/chart.hpp>
 
 #include "drawing/axis.hpp"
@@ -235,8 +236,7 @@ class PanoramaPage {
       x += 90;
     }
     if (const std::size_t without = marks_.size() - names_.size(); without > 0)
-      drawing_->text({x - 30, y}, fmt::format("{} of {} names left out for want of room", without, marks_.size()),
-                     {.size = 8, .colour = kInk});
+      drawing_->text({x - 30, y}, left_out_text(without, marks_.size()), {.size = 8, .colour = kInk});
   }
 
   const Panorama& panorama_;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 
 #include <itin/geometry.hpp>
 #include <itin/label_places.hpp>
@@ -31,6 +32,8 @@ class MapFrame {
 
   void draw(const MapSheet& sheet);
   double points_per_metre() const { return scale_; }
+  /// A line about names of marks within the frame that have no place; empty where all have.
+  std::string left_out() const { return left_out_ > 0 ? left_out_text(left_out_, names_) : ""; }
 
  private:
   Point2 at(Point2 ground) const;
@@ -46,6 +49,7 @@ class MapFrame {
   Box ground_;
   double scale_;  ///< points a metre
   LabelPlaces places_;
+  std::size_t names_ = 0, left_out_ = 0;
 };
 
 }  // namespace itin::profile

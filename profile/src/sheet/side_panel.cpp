@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -26,11 +27,13 @@ std::string with_commas(double number) {
 
 }  // namespace
 
-SidePanel::SidePanel(Drawing& drawing, const Paper& paper, const MapSheet& sheet, double scale)
+SidePanel::SidePanel(Drawing& drawing, const Paper& paper, const MapSheet& sheet, double scale,
+                     std::string below_legend)
     : drawing_(drawing),
       paper_(paper),
       sheet_(sheet),
       scale_(scale),
+      below_legend_(std::move(below_legend)),
       left_(paper.panel.xmin + 3 * kPointsPerMillimetre * paper.type),
       right_(paper.panel.xmax - 3 * kPointsPerMillimetre * paper.type),
       y_(paper.panel.ymin) {}
@@ -143,6 +146,7 @@ void SidePanel::draw_legend(double bottom) {
     draw_key(key);
     --left;
   }
+  if (!below_legend_.empty()) paragraph(below_legend_, 6.3, false);
   rule();
 }
 

@@ -158,9 +158,13 @@ std::string draw_viewpoint_sheet(const Wireline& view, const ViewpointSheet& she
   draw_table(drawing, sheet.farms, {left, y + 10}, width);
   Paper paper = paper_of(PaperSize::kA3);
   paper.frame = kLocationFrame;
-  MapFrame(drawing, paper, ground_in_location_map(sheet.map)).draw(sheet.map);
+  MapFrame map(drawing, paper, ground_in_location_map(sheet.map));
+  map.draw(sheet.map);
+  const std::string left_out = map.left_out();
   drawing.text({paper.frame.xmin, paper.frame.ymax + 22},
-               fmt::format("Location, 1:{:.0f} at A3; grid north is up", sheet.map.scale), name_of_fact);
+               fmt::format("Location, 1:{:.0f} at A3; grid north is up{}{}", sheet.map.scale,
+                           left_out.empty() ? "" : "; ", left_out),
+               name_of_fact);
   const double image = kSheetWidth - 2 * kSheetMargin, principal = image / (std::numbers::pi / 2);
   draw_strip(drawing, view,
              {StripProjection::kCylindrical, box_mm(kSheetMargin, 214, image, kStrip), principal,
