@@ -18,7 +18,6 @@ namespace itin::cli {
 
 namespace {
 
-constexpr double kPixel = 0.00025;    ///< metres on paper
 constexpr std::int64_t kCoarser = 3;  ///< pixels per side, whose mean contours follow
 constexpr Rgba kContour{150, 105, 60, 150};
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
@@ -70,7 +69,7 @@ void add_contours(const Heights& heights, MapBase& base) {
     }
   }
   base.contours = {std::move(plain), std::move(index)};
-  base.keys.push_back({profile::SheetKey::Sample::kLine, kContour, fmt::format("Contours every {:g} m", interval)});
+  base.keys.push_back({profile::SheetKey::Sample::kLine, {kContour}, fmt::format("Contours every {:g} m", interval)});
 }
 
 /// Clear where there is no ground.
@@ -86,21 +85,19 @@ profile::SheetCells shaded(const viewshed::Relief& ground) {
   return cells;
 }
 
-void add_key_of_missing(const viewshed::Relief& ground, MapBase& base) {
-  if (std::any_of(ground.heights_m.begin(), ground.heights_m.end(), [](float z) { return std::isnan(z); }))
-    base.keys.push_back({profile::SheetKey::Sample::kPatch, {237, 237, 242, 255}, "No terrain data"});
+MapBase base_without_contours(const viewshed::Relief& ground) {
+  return {shaded(ground), {}, {}, "No terrain data"};
 }
 
 MapBase relief_base(const Store& store, const RasterGrid& pixels, Progress& progress) {
   const viewshed::Relief ground = viewshed::relief(store, pixels, progress);
-  MapBase base{shaded(ground), {}, {}};
+  MapBase base = base_without_contours(ground);
   add_contours(smoothed(ground), base);
-  add_key_of_missing(ground, base);
   return base;
 }
 
 MapBase picture_base(const std::string& basemap, const RasterGrid& pixels, const std::string& crs_wkt) {
-  return {{pixels, picture_at(basemap, pixels, crs_wkt)}, {}, {}};
+  return {{pixels, picture_at(basemap, pixels, crs_wkt)}, {}, {}, {}};
 }
 
 Rgba paler(const Rgba& c) {
@@ -112,14 +109,11 @@ Rgba paler(const Rgba& c) {
 }  // namespace
 
 MapBase plain_base(const Store& store, const RasterGrid& pixels, Progress& progress) {
-  const viewshed::Relief ground = viewshed::relief(store, pixels, progress);
-  MapBase base{shaded(ground), {}, {}};
-  add_key_of_missing(ground, base);
-  return base;
+  return base_without_contours(viewshed::relief(store, pixels, progress));
 }
 
 MapBase map_base(const Store& store, const Box& frame, double scale, const std::string& basemap, Progress& progress) {
-  const double pixel = kPixel * scale;
+  const double pixel = profile::kSheetPixelMm / 1000 * scale;
   const RasterGrid pixels({frame.xmin, frame.ymax}, pixel, pixel,
                           static_cast<std::int64_t>(std::ceil(frame.width() / pixel)),
                           static_cast<std::int64_t>(std::ceil(frame.height() / pixel)));

@@ -17,7 +17,8 @@ namespace itin::cli {
 struct MapBase {
   profile::SheetCells picture;
   std::vector<profile::SheetLayer> contours;
-  std::vector<profile::SheetKey> keys;  ///< rows of the legend for contours, and for missing ground where there is some
+  std::vector<profile::SheetKey> keys;  ///< rows of the legend for contours
+  std::string clear;                    ///< what the picture is clear for, in the legend; empty: for nothing
 };
 
 /// Over all of a map's frame, at 1 : scale. `basemap` is a georeferenced picture in place of the relief; empty: none.

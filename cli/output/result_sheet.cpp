@@ -8,12 +8,15 @@
 
 #include <itin/coordinates.hpp>
 #include <itin/surface_text.hpp>
+#include <itin/void_stripes.hpp>
 
 namespace itin::cli {
 
 namespace {
 
 using profile::SheetKey;
+
+constexpr Rgba kNoGroundColour{237, 237, 242, 255}, kFadedColour{255, 255, 255, 153};
 
 /// Without layers, legend and title.
 profile::MapSheet empty_sheet(const Store& store, const ResultSheet& content, profile::PaperSize paper,
@@ -24,11 +27,88 @@ profile::MapSheet empty_sheet(const Store& store, const ResultSheet& content, pr
   return sheet;
 }
 
+struct Beyond {
+  std::size_t all = 0;
+  std::vector<std::string> names;  ///< those of what lies wholly beyond the frame
+
+  void add(const Box& extent, const std::string& name, const Box& frame) {
+    ++all;
+    if (!extent.meets(frame)) names.push_back(name);
+  }
+};
+
+bool stands_for(const SheetKey& key, const profile::SheetMarks& marks) {
+  return key.sample == SheetKey::Sample::kMark && key.symbol == marks.symbol && key.colours.front() == marks.colour;
+}
+bool stands_for(const SheetKey& key, const profile::SheetLines& lines) {
+  const auto sample = lines.dashed ? SheetKey::Sample::kDashes : SheetKey::Sample::kLine;
+  return key.sample == sample && key.colours.front() == lines.colour;
+}
+bool stands_for(const SheetKey&, const profile::SheetCells&) {
+  return false;
+}
+
+void add_objects(const profile::SheetMarks& marks, const Box& frame, Beyond& beyond) {
+  for (const profile::SheetMark& mark : marks.marks)
+    beyond.add({mark.at.x, mark.at.y, mark.at.x, mark.at.y}, mark.label, frame);
+}
+void add_objects(const profile::SheetLines& lines, const Box& frame, Beyond& beyond) {
+  for (const profile::SheetLine& line : lines.lines) {
+    Box extent;
+    for (const Point2& p : line.points) extent.extend(p);
+    beyond.add(extent, line.label, frame);
+  }
+}
+void add_objects(const profile::SheetCells&, const Box&, Beyond&) {}
+
+/// What a legend adds to a key: "; 2 of 5 beyond the map: 3 Inn, 5 Church".
+std::string beyond_the_map(const MapObjects& objects, const SheetKey& key, const Box& frame) {
+  constexpr std::size_t kMostNames = 12;
+  Beyond beyond;
+  for (const profile::SheetLayer& layer : objects.layers)
+    std::visit(
+        [&](const auto& l) {
+          if (stands_for(key, l)) add_objects(l, frame, beyond);
+        },
+        layer);
+  std::vector<std::string>& names = beyond.names;
+  if (names.empty()) return "";
+  const std::string count = fmt::format("; {} of {} beyond the map", names.size(), beyond.all);
+  std::erase(names, "");
+  if (names.empty()) return count;
+  if (const std::size_t all = names.size(); all > kMostNames) {
+    names.resize(kMostNames - 1);
+    names.push_back(fmt::format("{} more", all - names.size()));
+  }
+  return fmt::format("{}: {}", count, fmt::join(names, ", "));
+}
+
+bool has_clear_pixels(const profile::SheetCells& picture) {
+  return std::any_of(picture.colours.begin(), picture.colours.end(), [](const Rgba& c) { return c.alpha == 0; });
+}
+
+bool shows_outside(const profile::SheetCells& picture, const ResultSheet& content) {
+  const auto is_outside = [&](Point2 p) {
+    return !content.studied(p) && !(content.missing.there && content.missing.there(p));
+  };
+  for (std::int64_t row = 0; row < picture.grid.rows(); ++row)
+    for (std::int64_t column = 0; column < picture.grid.columns(); ++column)
+      if (picture.colours[picture.grid.index({column, row})].alpha > 0 && is_outside(picture.grid.centre(column, row)))
+        return true;
+  return false;
+}
+
 }  // namespace
 
 MapObjects mast_objects(std::vector<profile::SheetMark> masts, std::string key) {
   return {{profile::SheetMarks{profile::SheetSymbol::kMast, kMastColour, std::move(masts)}},
-          {{SheetKey::Sample::kMark, kMastColour, std::move(key)}}};
+          {{SheetKey::Sample::kMark, {kMastColour}, std::move(key)}}};
+}
+
+MissingOnSheet missing_on_sheet(viewshed::PlacesWithoutGround places, const viewshed::MissingGround& missing,
+                                const std::string& area) {
+  if (missing.share() == 0) return {};
+  return {[places = std::move(places)](Point2 p) { return places.contain(p); }, missing.key_text(area)};
 }
 
 std::function<bool(Point2)> in_cells(const RasterGrid& grid, std::function<bool(std::size_t)> studied) {
@@ -58,11 +138,21 @@ std::pair<std::string, std::string> terrain_fact(const StoreMetadata& metadata, 
   return {"Terrain", posts + surface_text(metadata, detail)};
 }
 
+MapBase fitted(MapBase base, const ResultSheet& content) {
+  base = faded(std::move(base), content.studied);
+  const RasterGrid& pixels = base.picture.grid;
+  for (std::int64_t row = 0; row < pixels.rows() && content.missing.there; ++row)
+    for (std::int64_t column = 0; column < pixels.columns(); ++column)
+      if (content.missing.there(pixels.centre(column, row)))
+        base.picture.colours[pixels.index({column, row})] = void_colour(column, row, profile::kVoidStripePixels);
+  return base;
+}
+
 MapBase base_of(const Store& store, const ResultSheet& content, profile::PaperSize paper, const SheetOptions& options,
                 Progress& progress) {
   const profile::MapSheet sheet = empty_sheet(store, content, paper, options);
-  return faded(map_base(store, profile::ground_in_frame(sheet), profile::scale_of(sheet), options.basemap(), progress),
-               content.studied);
+  return fitted(map_base(store, profile::ground_in_frame(sheet), profile::scale_of(sheet), options.basemap(), progress),
+                content);
 }
 
 std::vector<profile::SheetLayer> layers_of(const MapBase& base, const ResultSheet& content) {
@@ -72,18 +162,27 @@ std::vector<profile::SheetLayer> layers_of(const MapBase& base, const ResultShee
   return layers;
 }
 
-std::vector<SheetKey> keys_of(const MapBase& base, const ResultSheet& content) {
+std::vector<SheetKey> keys_of(const MapBase& base, const ResultSheet& content, const Box& frame) {
   std::vector<SheetKey> keys;
   const auto add = [&](const std::string& heading, const std::vector<viewshed::ResultMap::Key>& more) {
     if (more.empty()) return;
     keys.push_back({SheetKey::Sample::kHeading, {}, heading});
-    for (const auto& key : more) keys.push_back({SheetKey::Sample::kPatch, key.colour, key.text});
+    for (const auto& key : more) keys.push_back({SheetKey::Sample::kPatch, key.colours, key.text});
   };
   add(content.heading, content.map.keys);
+  if (!content.missing.text.empty()) keys.push_back({SheetKey::Sample::kVoid, {}, content.missing.text});
+  if (!content.outside.empty() && shows_outside(base.picture, content))
+    keys.push_back({SheetKey::Sample::kPatch, {kFadedColour}, content.outside});
   add(content.map.scale_title, content.map.scale);
   keys.push_back({SheetKey::Sample::kHeading, {}, "Map"});
-  for (const MapObjects& objects : content.objects) keys.insert(keys.end(), objects.keys.begin(), objects.keys.end());
+  for (const MapObjects& objects : content.objects)
+    for (SheetKey key : objects.keys) {
+      key.text += beyond_the_map(objects, key, frame);
+      keys.push_back(std::move(key));
+    }
   keys.insert(keys.end(), base.keys.begin(), base.keys.end());
+  if (!base.clear.empty() && has_clear_pixels(base.picture))
+    keys.push_back({SheetKey::Sample::kPatch, {kNoGroundColour}, base.clear});
   return keys;
 }
 
@@ -91,7 +190,7 @@ profile::MapSheet map_sheet(const Store& store, const ResultSheet& content, cons
                             profile::PaperSize paper, const SheetOptions& options) {
   profile::MapSheet sheet = empty_sheet(store, content, paper, options);
   sheet.layers = layers_of(base, content);
-  sheet.legend = keys_of(base, content);
+  sheet.legend = keys_of(base, content, profile::ground_in_frame(sheet));
   sheet.title = content.title;
   sheet.title.facts.emplace_back("Coordinates", crs_title(store.metadata().crs_wkt));
   if (!options.basemap().empty()) sheet.title.facts.push_back(basemap_fact(options.basemap()));

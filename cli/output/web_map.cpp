@@ -52,6 +52,14 @@ class WebLabels {
         for (const SheetMark& mark : some->marks) marks_.push_back(&mark);
   }
 
+  /// A phrase about names that have no room even on a page; empty where all have.
+  std::string left_out() const {
+    const auto names = static_cast<std::size_t>(
+        std::count_if(marks_.begin(), marks_.end(), [](const SheetMark* mark) { return !mark->label.empty(); }));
+    const std::size_t drawn = that_fit(kPageWidth).size();
+    return drawn < names ? left_out_text(names - drawn, names) : "";
+  }
+
   std::string svg() const {
     const std::set<const SheetMark*> roomy = that_fit(kPageWidth), all = that_fit(kPhoneWidth);
     std::string text;
@@ -96,20 +104,31 @@ class WebLabels {
   std::vector<const SheetMark*> marks_;
 };
 
+/// Over level ground.
+std::string patch_svg(const std::vector<Rgba>& colours) {
+  constexpr double kWidth = 23;
+  std::string svg = fmt::format("<rect x=\".5\" y=\".5\" width=\"{}\" height=\"15\" fill=\"#d6d6d6\"/>", kWidth);
+  for (std::size_t i = 0; i < colours.size(); ++i) {
+    const double part = kWidth / static_cast<double>(colours.size());
+    svg +=
+        fmt::format("<rect x=\"{:.4g}\" y=\".5\" width=\"{:.4g}\" height=\"15\" fill=\"{}\" fill-opacity=\"{:.2g}\"/>",
+                    0.5 + part * static_cast<double>(i), part, web_colour(colours[i]), colours[i].alpha / 255.0);
+  }
+  return svg +
+         fmt::format("<rect x=\".5\" y=\".5\" width=\"{}\" height=\"15\" fill=\"none\" stroke=\"#5f5f5f\"/>", kWidth);
+}
+
 std::string key_html(const SheetKey& key) {
   using enum SheetKey::Sample;
-  const std::string text = escaped_markup(key.text), colour = web_colour(key.colour);
+  const std::string text = escaped_markup(key.text);
   if (key.sample == kHeading) return fmt::format("<li class=\"heading\">{}</li>\n", text);
   std::string sample;
   if (key.sample == kMark) {
-    sample = fmt::format("<g transform=\"translate(12 8)\">{}</g>", web_mark(key.symbol, key.colour));
+    sample = fmt::format("<g transform=\"translate(12 8)\">{}</g>", web_mark(key.symbol, key.colours.front()));
   } else if (key.sample == kPatch) {
-    sample = fmt::format(
-        "<rect x=\".5\" y=\".5\" width=\"23\" height=\"15\" fill=\"#d6d6d6\"/><rect x=\".5\" y=\".5\" width=\"23\" "
-        "height=\"15\" fill=\"{}\" fill-opacity=\"{:.2g}\" stroke=\"#5f5f5f\"/>",
-        colour, key.colour.alpha / 255.0);
+    sample = patch_svg(key.colours);
   } else {
-    sample = fmt::format("<path d=\"M0 8h24\" stroke=\"{}\" stroke-width=\"2\"{}/>", colour,
+    sample = fmt::format("<path d=\"M0 8h24\" stroke=\"{}\" stroke-width=\"2\"{}/>", web_colour(key.colours.front()),
                          key.sample == kDashes ? " stroke-dasharray=\"8 5\"" : "");
   }
   return fmt::format("<li><svg aria-hidden=\"true\">{}</svg>{}</li>\n", sample, text);
@@ -138,19 +157,23 @@ std::string WebMaps::part(std::string svg) {
 }
 
 std::string WebMaps::figure(const ResultSheet& content, const std::string& about) {
-  const std::vector<profile::SheetLayer> layers = layers_of(faded(base_, content.studied), content);
+  const MapBase base = fitted(base_, content);
+  const std::vector<profile::SheetLayer> layers = layers_of(base, content);
   std::string html =
       fmt::format("<figure>\n<svg class=\"map\" style=\"aspect-ratio:{:.6g}\" role=\"img\" aria-label=\"{}\">\n",
                   frame_.width() / frame_.height(), escaped_markup("Map: " + content.title.title));
   for (const profile::SheetLayer& layer : layers)
     html += part(web_layer(frame_, layer, &layer == &layers.front() ? WebPicture::kGround : WebPicture::kCells));
-  html += part(WebLabels(frame_, layers).svg()) + part(kNorthArrow);
+  const WebLabels labels(frame_, layers);
+  html += part(labels.svg()) + part(kNorthArrow);
   html += "</svg>\n<figcaption>" + scale_bar(frame_);
   html +=
       fmt::format("<p><b>{}</b>: {}. <span class=\"note\">{}</span></p>\n<ul class=\"key\">\n",
                   escaped_markup(content.title.title), escaped_markup(about), escaped_markup(content.title.statement));
-  for (const SheetKey& key : keys_of(base_, content)) html += key_html(key);
-  return html + "</ul></figcaption>\n</figure>\n";
+  for (const SheetKey& key : keys_of(base, content, frame_)) html += key_html(key);
+  html += "</ul>";
+  if (const std::string text = labels.left_out(); !text.empty()) html += "<p class=\"note\">" + text + "</p>";
+  return html + "</figcaption>\n</figure>\n";
 }
 
 }  // namespace itin::cli

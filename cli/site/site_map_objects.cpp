@@ -24,7 +24,7 @@ MapObjects building_objects(const Store& store, const SiteResult& r) {
   profile::SheetLines lines{{}, kBuilding, 0.2, false};
   for (auto& ring : building_outlines(store, r.options.themes.choice(), frame, {0.1 * pixel, 2 * pixel}))
     lines.lines.push_back({std::move(ring), ""});
-  return {{std::move(lines)}, {{Sample::kLine, kBuilding, "Building outline"}}};
+  return {{std::move(lines)}, {{Sample::kLine, {kBuilding}, "Building outline"}}};
 }
 
 MapObjects link_objects(const SiteResult& r) {
@@ -38,7 +38,7 @@ MapObjects link_objects(const SiteResult& r) {
       lines.lines.push_back({{network.from(link).position, network.to(link).position}, ""});
   }
   const char* const what = r.options.hub ? "Link on a route to the hub" : "Link between sites";
-  return {{std::move(lines)}, {{Sample::kLine, kBackhaul, what}}};
+  return {{std::move(lines)}, {{Sample::kLine, {kBackhaul}, what}}};
 }
 
 /// The ends of a network that `is_one` takes.
@@ -48,7 +48,7 @@ MapObjects marks(const SiteNetwork& network, SheetSymbol symbol, const Rgba& col
   profile::SheetMarks marks{symbol, colour, {}};
   for (std::size_t i = 0; i < network.ends.size(); ++i)
     if (is_one(i)) marks.marks.push_back({network.ends[i].place.position, network.ends[i].place.name});
-  return {{std::move(marks)}, {{Sample::kMark, colour, what, symbol}}};
+  return {{std::move(marks)}, {{Sample::kMark, {colour}, what, symbol}}};
 }
 
 bool is_empty(const MapObjects& objects) {

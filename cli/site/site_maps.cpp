@@ -95,7 +95,7 @@ ResultSheet sheet_of(const Store& store, const SiteResult& r, const SiteMap& map
                              [&](std::size_t cell) { return map.result.visible[cell] != viewshed::Verdict::kOutside; }),
                     objects,
                     {}};
-  if (map.result.cells.outside > 0) sheet.map.keys.push_back({{255, 255, 255, 153}, map.options.outside});
+  sheet.outside = map.options.outside;
   sheet.title.title = map.options.title;
   sheet.title.statement = statement_of(metadata, r.options.themes.choice(), Detail::tolerance(0));
   const bool turbines = r.options.placement.given();

@@ -165,7 +165,7 @@ class ViewshedVerb final : public Verb {
     warn_of_scale(metadata, result.warnings);
     if (radio_.is_given()) earth_.warn_of_light(result.warnings);
     outputs_.write(store, computed, context, result.warnings, progress);
-    write_viewshed_sheet(store, computed.result, sheet_, context.sources, outputs_.overwrite(), progress);
+    write_viewshed_sheet(store, computed.result, sheet_, {missing, context.sources}, outputs_.overwrite(), progress);
     outputs_.write_each([&](std::size_t i) { return compute_for_observer(store, computed, i, progress); }, context,
                         progress);
     // Certified and exact answers are about the full surface.

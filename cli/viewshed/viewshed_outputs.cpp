@@ -105,10 +105,10 @@ void ViewshedOutputs::write(const Store& store, viewshed::ViewshedWithSurface& c
     viewshed::MapOptions options;
     options.sources = context.sources;
     options.no_data = no_data;
-    options.outside = "Beyond the radius or the field of view";
+    options.outside = kOutOfView;
     options.title = title_of(computed.result);
     if (context.missing.without_ground > 0) {
-      options.no_data_text += fmt::format(": {} of the area looked at", context.missing.text());
+      options.no_data_text = context.missing.key_text(kAreaLookedAt);
     } else if (context.missing.share() > 0) {
       options.beyond_text = "Beyond the ground data: " + context.missing.text();
     }

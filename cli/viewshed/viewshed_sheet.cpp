@@ -27,8 +27,7 @@ std::string observers_in_words(const viewshed::Request& request) {
   return fmt::format("{}, {:g} m {}", count, first.height, first.absolute ? "above datum" : "above the ground");
 }
 
-profile::TitleBlock title_of_map(const Store& store, const viewshed::Result& result,
-                                 const std::vector<std::string>& sources) {
+profile::TitleBlock title_of_map(const Store& store, const viewshed::Result& result, const ViewshedSheetFacts& facts) {
   const viewshed::Request& request = result.request;
   profile::TitleBlock block;
   block.title = title_of(result);
@@ -46,14 +45,14 @@ profile::TitleBlock title_of_map(const Store& store, const viewshed::Result& res
   block.facts.push_back(terrain_fact(store.metadata(), detail));
   if (result.certified && !result.decided_exactly)
     block.facts.emplace_back("Looked at", surface_text(store.metadata(), request.detail));
-  block.sources = sources;
+  block.sources = facts.sources;
   return block;
 }
 
 }  // namespace
 
 void write_viewshed_sheet(const Store& store, const viewshed::Result& result, const SheetOptions& options,
-                          const std::vector<std::string>& sources, bool overwrite, Progress& progress) {
+                          const ViewshedSheetFacts& facts, bool overwrite, Progress& progress) {
   if (options.file().empty()) return;
   ResultSheet sheet{
       result.grid,
@@ -62,7 +61,9 @@ void write_viewshed_sheet(const Store& store, const viewshed::Result& result, co
       "Share of the cells with terrain data in view",
       in_cells(result.grid, [&](std::size_t cell) { return result.visible[cell] != viewshed::Verdict::kOutside; }),
       {},
-      title_of_map(store, result, sources)};
+      title_of_map(store, result, facts),
+      missing_on_sheet(viewshed::places_without_ground(store, result, progress), facts.missing, kAreaLookedAt),
+      kOutOfView};
   std::vector<profile::SheetMark> observers;
   for (const viewshed::Observer& o : result.request.observers) observers.push_back({o.position, o.name});
   sheet.objects.push_back(mast_objects(std::move(observers), "Observer"));

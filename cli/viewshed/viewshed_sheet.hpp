@@ -5,14 +5,21 @@
 #include <vector>
 
 #include <itin/store.hpp>
+#include <viewshed/missing_ground.hpp>
 #include <viewshed/viewshed.hpp>
 
 #include "options/sheet_options.hpp"
 
 namespace itin::cli {
 
-/// `sources` are those of the surface, in words. Throws FileError, InputError (a scale that is too large), Cancelled.
+/// What it says besides what the result tells.
+struct ViewshedSheetFacts {
+  const viewshed::MissingGround& missing;
+  const std::vector<std::string>& sources;  ///< those of the surface, in words
+};
+
+/// Throws FileError, InputError (a scale that is too large), Cancelled.
 void write_viewshed_sheet(const Store& store, const viewshed::Result& result, const SheetOptions& options,
-                          const std::vector<std::string>& sources, bool overwrite, Progress& progress);
+                          const ViewshedSheetFacts& facts, bool overwrite, Progress& progress);
 
 }  // namespace itin::cli

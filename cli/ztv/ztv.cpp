@@ -212,16 +212,22 @@ class ZtvVerb final : public Verb {
       add(seen_.files);
       document["viewpoints"] = bad_rows_document(seen_.path, seen_.rows, seen_.rows - seen_.bad.size(), seen_.bad);
     }
-    if (route_.given()) add(route_.write(folder, store, zone, progress));
+    std::vector<Path> routes;
+    if (route_.given()) {
+      RouteOptions::Written written = route_.write(folder, store, zone, progress);
+      add(std::move(written.files));
+      routes = std::move(written.routes);
+    }
     if (sheets_.given())
-      add(write_ztv_sheets(folder, store, zone, sheets_, {seen_.places, sources_, missing_}, progress));
-    add_text("areas.csv", "km2 by band of turbines visible and by ring of distance to the nearest turbine",
+      add(write_ztv_sheets(folder, store, zone, sheets_,
+                           {seen_.places, routes, radio_.links(), radio_.radar(), sources_, missing_}, progress));
+    add_text("areas.csv", "km² by band of turbines visible and by ring of distance to the nearest turbine",
              viewshed::area_table(zone));
     add_text("area-totals.csv",
-             "km2 by band of turbines visible and by combination of farms, over the whole study area",
+             "km² by band of turbines visible and by combination of farms, over the whole study area",
              viewshed::area_totals(zone));
     if (viewshed::farms_of(zone).size() > 1)
-      add_text("farms.csv", "what the values of farms.tif stand for: combinations of farms, and km2 of each",
+      add_text("farms.csv", "what the values of farms.tif stand for: combinations of farms, and km² of each",
                viewshed::combination_table(zone));
     add_text("turbines.csv", "the turbines row by row: heights and ground as used, and why a row is not used",
              turbine_table(zone));

@@ -27,6 +27,7 @@ class ZtvRadioOptions {
   /// Reads the links. Throws FileError, InputError.
   void load(const InCrs& in_crs, const StoreMetadata& metadata);
   std::optional<viewshed::Observer> radar() const { return radar_; }
+  const std::vector<viewshed::RadioLink>& links() const { return links_; }
 
   /// Throws FileError.
   std::vector<viewshed::ZoneFile> write(const std::string& folder, const viewshed::Zone& zone,

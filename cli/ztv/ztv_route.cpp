@@ -164,6 +164,10 @@ void survey(Route& route, const SectionSurface& ground, const SectionSurface* fe
 
 }  // namespace
 
+std::string route_name(const Path& route, std::size_t number) {
+  return route.name.empty() ? fmt::format("route {}", number) : route.name;
+}
+
 void RouteOptions::declare(CLI::App& app) {
   reads(app.add_option("--route", path_,
                        "Roads or paths from a vector file of lines: tables and charts of the hubs and tips visible "
@@ -185,27 +189,28 @@ Document RouteOptions::parameters() const {
   return {{"route", path_}, {"every_m", every_}};
 }
 
-std::vector<viewshed::ZoneFile> RouteOptions::write(const std::string& folder, const Store& store, const Zone& zone,
-                                                    Progress& progress) const {
+RouteOptions::Written RouteOptions::write(const std::string& folder, const Store& store, const Zone& zone,
+                                          Progress& progress) const {
   const StoreMetadata& metadata = store.metadata();
   const SectionSurface::Options cache = section_cache_within(zone.request.memory_bytes);
   const SectionSurface ground(store, zone.request.detail, ThemeChoice::none(), cache);
   std::optional<SectionSurface> features;
   if (zone.request.themes) features.emplace(store, zone.request.detail, *zone.request.themes, cache);
   const bool national = is_national_grid(metadata.crs_wkt);
-  std::vector<viewshed::ZoneFile> files;
+  Written written;
   const auto add = [&](const std::string& name, const std::string& what, const std::string& bytes) {
     write_file(folder + "/" + name, bytes, true);
-    files.push_back({name, what});
+    written.files.push_back({name, what});
   };
   std::string summary =
       "route,name,surface,length_km,tips_visible_km,tips_visible_percent,hubs_visible_km,hubs_visible_percent,"
       "most_tips_visible,stretches_with_tips,no_data_km\n";
   std::size_t number = 0;
-  for (const Path& path : read_paths(path_, metadata.crs_wkt)) {
+  written.routes = read_paths(path_, metadata.crs_wkt);
+  for (const Path& path : written.routes) {
     Route route;
     route.number = ++number;
-    route.name = path.name.empty() ? fmt::format("route {}", route.number) : path.name;
+    route.name = route_name(path, route.number);
     const std::vector<double> at = distances_along(path.corners);
     route.length = at.back();
     route.places = places_along(path.corners, at, every_);
@@ -235,7 +240,7 @@ std::vector<viewshed::ZoneFile> RouteOptions::write(const std::string& folder, c
            fmt::format("Ground with {}", fmt::join(zone.request.themes->names(metadata.themes), ", ")));
   }
   add("routes.csv", "a row for each route: kilometres from where tips and hubs are visible", summary);
-  return files;
+  return written;
 }
 
 }  // namespace itin::cli

@@ -6,6 +6,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <itin/paths.hpp>
 #include <itin/progress.hpp>
 #include <itin/store.hpp>
 #include <viewshed/turbines.hpp>
@@ -15,6 +16,9 @@
 
 namespace itin::cli {
 
+/// `number` counts the lines of the file from 1.
+std::string route_name(const Path& route, std::size_t number);
+
 class RouteOptions {
  public:
   void declare(CLI::App& app);
@@ -23,10 +27,13 @@ class RouteOptions {
   bool given() const { return !path_.empty(); }
   Document parameters() const;
 
+  struct Written {
+    std::vector<viewshed::ZoneFile> files;
+    std::vector<Path> routes;
+  };
   /// route-N-NAME.csv, .pdf and .svg of each line of the file, bare and screened, and routes.csv with a row for each.
   /// Throws FileError, InputError, Cancelled.
-  std::vector<viewshed::ZoneFile> write(const std::string& folder, const Store& store, const viewshed::Zone& zone,
-                                        Progress& progress) const;
+  Written write(const std::string& folder, const Store& store, const viewshed::Zone& zone, Progress& progress) const;
 
  private:
   std::string path_, every_text_;

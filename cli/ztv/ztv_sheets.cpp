@@ -17,6 +17,7 @@
 #include "output/result_sheet.hpp"
 #include "output/store_document.hpp"
 #include "ztv/ztv_methods.hpp"
+#include "ztv/ztv_route.hpp"
 
 namespace itin::cli {
 
@@ -27,7 +28,8 @@ using viewshed::Turbine;
 using viewshed::Zone;
 using viewshed::ZoneMap;
 
-constexpr Rgba kRing{70, 70, 70, 255}, kStudyArea{20, 20, 20, 255}, kViewpoint{20, 60, 140, 255};
+constexpr Rgba kRing{70, 70, 70, 255}, kStudyArea{20, 20, 20, 255}, kViewpoint{20, 60, 140, 255},
+    kRoute{0, 110, 60, 255}, kLink{150, 20, 110, 255}, kRadar{90, 40, 150, 255};
 constexpr std::size_t kMostFarmColours = 8;
 
 /// Metres beyond its radius of the turbine that is farthest within it: not above 0 in the study area.
@@ -97,10 +99,13 @@ MapObjects distance_objects(const Zone& zone) {
   const PlaneField distance(box, [&](Point2 p) { return nearest_turbine(zone, p); });
   for (double at = step; at < farthest; at += step) distance.add_lines(at, fmt::format("{:g} km", at / 1000), rings);
   PlaneField(box, [&](Point2 p) { return beyond_study_area(zone, p); }).add_lines(0, "", edge);
-  return {
-      {std::move(rings), std::move(edge)},
-      {{SheetKey::Sample::kDashes, kStudyArea, "Study area"},
-       {SheetKey::Sample::kLine, kRing, fmt::format("Distance to the nearest turbine, every {:g} km", step / 1000)}}};
+  MapObjects objects{{}, {{SheetKey::Sample::kDashes, {kStudyArea}, "Study area"}}};
+  // None where all radii are shorter than the first.
+  if (!rings.lines.empty())
+    objects.keys.push_back(
+        {SheetKey::Sample::kLine, {kRing}, fmt::format("Distance to the nearest turbine, every {:g} km", step / 1000)});
+  objects.layers = {std::move(rings), std::move(edge)};
+  return objects;
 }
 
 Rgba farm_colour(std::size_t farm) {
@@ -119,8 +124,10 @@ MapObjects turbine_objects(const Zone& zone) {
     for (const Turbine& t : zone.request.turbines)
       if (single || t.farm == farms[f]) marks.marks.push_back({t.position, fmt::format("{}", t.number)});
     const std::string turbines = counted(marks.marks.size(), "wind turbine") + ", numbered";
-    objects.keys.push_back({SheetKey::Sample::kMark, marks.colour,
-                            farms[f].empty() ? turbines : fmt::format("{}: {}", farms[f], turbines), marks.symbol});
+    objects.keys.push_back({SheetKey::Sample::kMark,
+                            {marks.colour},
+                            farms[f].empty() ? turbines : fmt::format("{}: {}", farms[f], turbines),
+                            marks.symbol});
     objects.layers.emplace_back(std::move(marks));
   }
   return objects;
@@ -129,12 +136,34 @@ MapObjects turbine_objects(const Zone& zone) {
 MapObjects viewpoint_objects(const std::vector<NamedPlace>& viewpoints) {
   profile::SheetMarks marks{profile::SheetSymbol::kViewpoint, kViewpoint, {}};
   for (const NamedPlace& v : viewpoints) marks.marks.push_back({v.position, fmt::format("{} {}", v.number, v.name)});
-  return {{std::move(marks)}, {{SheetKey::Sample::kMark, kViewpoint, "Viewpoint", profile::SheetSymbol::kViewpoint}}};
+  return {{std::move(marks)}, {{SheetKey::Sample::kMark, {kViewpoint}, "Viewpoint", profile::SheetSymbol::kViewpoint}}};
+}
+
+MapObjects route_objects(const std::vector<Path>& routes) {
+  profile::SheetLines lines{{}, kRoute, 0.6, false};
+  for (std::size_t i = 0; i < routes.size(); ++i)
+    lines.lines.push_back({routes[i].corners, route_name(routes[i], i + 1)});
+  return {{std::move(lines)}, {{SheetKey::Sample::kLine, {kRoute}, "Route"}}};
+}
+
+MapObjects radio_link_objects(const std::vector<viewshed::RadioLink>& links) {
+  profile::SheetLines lines{{}, kLink, 0.3, true};
+  for (const viewshed::RadioLink& link : links) lines.lines.push_back({{link.from, link.to}, link.id});
+  return {{std::move(lines)}, {{SheetKey::Sample::kDashes, {kLink}, "Radio link"}}};
+}
+
+MapObjects radar_objects(const viewshed::Observer& radar) {
+  const profile::SheetMarks mark{profile::SheetSymbol::kExistingMast, kRadar, {{radar.position, "Radar"}}};
+  return {{mark}, {{SheetKey::Sample::kMark, {kRadar}, "Radar", mark.symbol}}};
 }
 
 /// What every map of the zone has above its classes.
 std::vector<MapObjects> objects_of(const Zone& zone, const ZtvSheetFacts& facts) {
-  std::vector<MapObjects> objects{distance_objects(zone), turbine_objects(zone)};
+  std::vector<MapObjects> objects{distance_objects(zone)};
+  if (!facts.routes.empty()) objects.push_back(route_objects(facts.routes));
+  if (!facts.links.empty()) objects.push_back(radio_link_objects(facts.links));
+  objects.push_back(turbine_objects(zone));
+  if (facts.radar) objects.push_back(radar_objects(*facts.radar));
   if (!facts.viewpoints.empty()) objects.push_back(viewpoint_objects(facts.viewpoints));
   return objects;
 }
@@ -145,13 +174,13 @@ viewshed::ResultMap classes_of(const Zone& zone, const ZoneMap& map) {
   for (const ZoneMap::Class& c : map.classes) all += c.cells;
   for (const ZoneMap::Class& c : map.classes) {
     result.keys.push_back(
-        {viewshed::over_relief(c.colour),
+        {{viewshed::over_relief(c.colour)},
          fmt::format("{}: {} ({:.1f} %)", c.label,
                      viewshed::area_text(static_cast<double>(c.cells) * zone.grid.cell_area()),
                      100.0 * static_cast<double>(c.cells) / static_cast<double>(std::max<std::uint64_t>(1, all)))});
   }
   for (const std::uint8_t c : map.class_of_cell)
-    result.cells.push_back(c == viewshed::kNoMapClass ? kTransparent : result.keys[c].colour);
+    result.cells.push_back(c == viewshed::kNoMapClass ? kTransparent : result.keys[c].colours.front());
   return result;
 }
 
@@ -203,6 +232,8 @@ std::vector<viewshed::ZoneFile> write_ztv_sheets(const std::string& folder, cons
   std::vector<viewshed::ZoneFile> files;
   const std::vector<ZoneMap> maps = viewshed::zone_maps(zone);
   const std::vector<MapObjects> objects = objects_of(zone, facts);
+  const MissingOnSheet missing =
+      missing_on_sheet(viewshed::places_without_ground(zone), facts.missing, "the study area");
   const auto content_of = [&](const ZoneMap& map) {
     return ResultSheet{zone.grid,
                        study_area(zone),
@@ -210,7 +241,8 @@ std::vector<viewshed::ZoneFile> write_ztv_sheets(const std::string& folder, cons
                        map.heading + ", and share of the area that has terrain data",
                        [&](Point2 p) { return beyond_study_area(zone, p) <= 0; },
                        objects,
-                       title_block(store.metadata(), zone, map, facts)};
+                       title_block(store.metadata(), zone, map, facts),
+                       missing};
   };
   std::size_t done = 0;
   for (const profile::PaperSize paper : options.papers()) {

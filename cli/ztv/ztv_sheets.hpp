@@ -1,10 +1,12 @@
 // The map sheets of `itin ztv`: every map of the zone on every paper asked for.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include <itin/paths.hpp>
 #include <itin/store.hpp>
 #include <viewshed/missing_ground.hpp>
 #include <viewshed/turbines.hpp>
@@ -20,9 +22,12 @@ struct NamedPlace {
   Point2 position;
 };
 
-/// What title blocks say besides what the zone tells.
+/// What sheets show and say besides what the zone tells.
 struct ZtvSheetFacts {
   std::vector<NamedPlace> viewpoints;
+  std::vector<Path> routes;
+  std::vector<viewshed::RadioLink> links;
+  std::optional<viewshed::Observer> radar;
   std::vector<SourceInfo> sources;  ///< within the study area
   viewshed::MissingGround missing;  ///< in the study area
 };

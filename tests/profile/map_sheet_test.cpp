@@ -44,6 +44,17 @@ TEST(MapSheet, EqualSheetsGiveEqualBytes) {
   EXPECT_THROW(draw_map_sheet(sheet, "a.svg"), InputError);
 }
 
+TEST(MapSheet, ShowsAllColoursOfAPatch) {
+  const auto drawn_with = [](std::vector<Rgba> colours) {
+    MapSheet sheet = sheet_of(PaperSize::kA3, 30);
+    sheet.legend = {{SheetKey::Sample::kPatch, std::move(colours), "Hidden"}};
+    return draw_map_sheet(sheet, "a.png");
+  };
+  const Rgba red{200, 0, 0}, green{0, 200, 0};
+  const std::string both = drawn_with({red, green});
+  EXPECT_TRUE(both != drawn_with({red}) && both != drawn_with({green}));
+}
+
 }  // namespace
 
 }  // namespace itin::profile

@@ -74,6 +74,23 @@ TEST(MapImage, GroundWithoutDataLooksLikeNothingElse) {
   EXPECT_LT(pixels, before + 20000);
 }
 
+/// There is room for a few names beside a mark: more observers at one place add none.
+TEST(MapImage, NamesDoNotCoverEachOther) {
+  SurveyedHills s = survey(Mode::kVisible);
+  const auto ink = [&](std::size_t names) {
+    s.result.request.observers.assign(names, {"Mast", {301000, 201500}, 30});
+    const MapImage image =
+        draw_map(s.tin, s.result, {.title = "", .subtitle = "x", .observers = "x", .map_pixels = 400});
+    std::size_t dark = 0;
+    const auto above_the_legend = static_cast<std::size_t>(3) * static_cast<std::size_t>(image.width) * 420;
+    for (std::size_t i = 0; i < above_the_legend; i += 3)
+      dark += image.rgb[i] < 60 && image.rgb[i + 1] < 60 && image.rgb[i + 2] < 60 ? 1U : 0U;
+    return dark;
+  };
+  EXPECT_GT(ink(2), ink(1));
+  EXPECT_EQ(ink(30), ink(12));
+}
+
 TEST(MapImage, RefusesSizesOutOfRange) {
   const SurveyedHills s = survey(Mode::kVisible);
   EXPECT_THROW(draw_map(s.tin, s.result, {.title = "", .subtitle = "", .map_pixels = 199}), InputError);

@@ -251,6 +251,22 @@ TEST_F(VerdictsOverVoids, AFieldOfViewMayReachBeyondTheData) {
   EXPECT_GT(missing.beyond, 0U);
   EXPECT_NEAR(missing.share(), 1 - static_cast<double>(missing.with_ground) * 900 / disc, 0.002);
   EXPECT_THAT(missing.warning("the area").value(), testing::HasSubstr("`sea_level`"));
+  EXPECT_EQ(missing.key_text("the area"), "No ground data: " + missing.text() + " of the area");
+  // A map tells beyond the raster, too.
+  const PlacesWithoutGround places = places_without_ground(store, result, progress_);
+  const std::vector<std::uint8_t> cells = cells_without_ground(store, result, progress_);
+  const RasterGrid wide = RasterGrid::aligned(square_about(request.observers.front().position, 3200), 30);
+  std::size_t on_raster = 0, beyond = 0;
+  for (std::int64_t row = 0; row < wide.rows(); ++row)
+    for (std::int64_t column = 0; column < wide.columns(); ++column) {
+      const Point2 p = wide.centre(column, row), eye = request.observers.front().position;
+      const auto cell = result.grid.cell_at(p);
+      const bool in_view = std::hypot(p.x - eye.x, p.y - eye.y) <= 3000;
+      EXPECT_EQ(places.contain(p), cell ? cells[result.grid.index(*cell)] == 1 : in_view);
+      if (places.contain(p)) ++(cell ? on_raster : beyond);
+    }
+  EXPECT_EQ(on_raster, missing.without_ground);
+  EXPECT_EQ(beyond, missing.beyond);
   // Of very many cells beyond, with larger ones.
   request.radius = 300000;
   const Result far = test::compute_at_full_detail(store, request, {kMuch, true}, progress_).result;

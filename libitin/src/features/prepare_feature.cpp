@@ -53,7 +53,7 @@ class Preparing {
     if (!plan) return refuse("has coordinates beyond the grid");
     if (plan->polygons.empty() && !out_.feature.measured) return refuse("has no area");
     if (plan->repaired)
-      out_.findings.push_back(fmt::format("crosses or touches itself; taken by the even-odd rule, {:.1f} m2",
+      out_.findings.push_back(fmt::format("crosses or touches itself; taken by the even-odd rule, {:.1f} m²",
                                           square_metres(area(plan->polygons))));
     plan_ = std::move(plan->polygons);
     return true;

@@ -60,7 +60,8 @@ struct Panorama {
 void require_panorama_format(const std::string& path);
 
 /// The bytes of a file of the format its name tells. Near ground is darker than far ground; places in sight are filled
-/// marks, hidden ones hollow. Throws InputError.
+/// marks, hidden ones hollow. Names that have no room near their places are left out and counted: those of hidden and
+/// far places first. Throws InputError.
 std::string draw_panorama(const Panorama& panorama, const std::string& path);
 
 }  // namespace itin::profile

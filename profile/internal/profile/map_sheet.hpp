@@ -49,7 +49,8 @@ enum class SheetSymbol { kTurbine, kViewpoint, kMast, kRelay, kExistingMast, kHu
 /// About its place, y downwards, for a height of 1. Empty for discs and for turbines.
 std::span<const Point2> corners_of(SheetSymbol symbol);
 
-/// Labels that would cover another label or a mark are left out, those of later marks first.
+/// Labels that would cover another label or a mark are left out, those of later marks first, and counted below the
+/// legend.
 struct SheetMark {
   Point2 at;
   std::string label;
@@ -62,11 +63,17 @@ struct SheetMarks {
 
 using SheetLayer = std::variant<SheetCells, SheetLines, SheetMarks>;
 
+/// The side of a pixel of the pictures that are made for sheets: relief, and stripes where there is no ground.
+inline constexpr double kSheetPixelMm = 0.25;
+/// How far apart those stripes are.
+inline constexpr int kVoidStripePixels = 10;
+
 /// One row of the legend; what is shown before the text looks as it does on the map.
 struct SheetKey {
-  enum class Sample { kPatch, kLine, kDashes, kMark, kHeading };
+  enum class Sample { kPatch, kVoid, kLine, kDashes, kMark, kHeading };
   Sample sample = Sample::kPatch;
-  Rgba colour;
+  std::vector<Rgba>
+      colours;  ///< one, or in a patch several side by side; none for a heading or where there is no ground
   std::string text;
   SheetSymbol symbol = SheetSymbol::kMast;  ///< what is drawn for a mark
 };

@@ -1,5 +1,6 @@
 #include "drawing/drawing.hpp"
 
+#include <algorithm>
 #include <array>
 #include <sstream>
 
@@ -82,6 +83,18 @@ std::vector<std::string> Drawing::lines(const std::string& text, double width, c
     }
   }
   return lines;
+}
+
+Lettering Drawing::lettering_for(const std::string& text, double width, std::size_t most, Lettering lettering) const {
+  constexpr double kLeast = 5, kStep = 0.5;
+  const auto fits = [&] {
+    const std::vector<std::string> all = lines(text, width, lettering);
+    return all.size() <= most && std::all_of(all.begin(), all.end(), [&](const std::string& line) {
+             return text_width(line, lettering) <= width;
+           });
+  };
+  while (lettering.size > kLeast && !fits()) lettering.size = std::max(kLeast, lettering.size - kStep);
+  return lettering;
 }
 
 void Drawing::clip(const Box& box) {

@@ -74,6 +74,8 @@ class Drawing {
 
   /// The text broken at blanks into lines of a width.
   std::vector<std::string> lines(const std::string& text, double width, const Lettering& lettering) const;
+  /// This lettering, or one as much smaller as lets the text stand in `most` lines of a width; 5 points at least.
+  Lettering lettering_for(const std::string& text, double width, std::size_t most, Lettering lettering) const;
 
   /// Until unclip(), nothing is drawn outside the box.
   void clip(const Box& box);

@@ -6,10 +6,13 @@
 
 #include <itin/azimuth.hpp>
 #include <itin/error.hpp>
+#include <itin/geodesic.hpp>
+#include <itin/label_places.hpp>
 #include <profile/chart.hpp>
 
 #include "drawing/axis.hpp"
 #include "drawing/drawing.hpp"
+#include "drawing/label_row.hpp"
 #include "drawing/palette.hpp"
 
 namespace itin::profile {
@@ -17,6 +20,8 @@ namespace itin::profile {
 namespace {
 
 constexpr double kPanoramaWidth = 1260, kPanoramaHeight = 420;
+constexpr double kLongestName = 260;
+const Lettering kPlaceNames{.size = 8, .colour = kInk, .rotation_deg = 50};
 // From the palette of Okabe and Ito, told apart with every kind of colour blindness.
 constexpr Colour kSky{0.93, 0.96, 0.98}, kSeen{0.00, 0.45, 0.70}, kHidden{0.84, 0.37, 0.00};
 constexpr std::array<Colour, 5> kNearToFar{
@@ -38,31 +43,37 @@ std::string azimuth_text(double degrees) {
   return eighth == std::floor(eighth) ? kNames[static_cast<std::size_t>(eighth) % 8] : fmt::format("{:g}°", turned);
 }
 
+struct PlaceName {
+  const PanoramaPlace* place;
+  std::string text;
+  double x, label;  ///< the place's column, and where its name begins
+};
+
 class PanoramaPage {
  public:
   PanoramaPage(const Panorama& panorama, Drawing::Format format)
-      : panorama_(panorama),
-        drawing_(format, kPanoramaWidth, kPanoramaHeight),
-        frame_{52, 130, kPanoramaWidth - 18, kPanoramaHeight - 66} {
+      : panorama_(panorama), frame_{52, 130, kPanoramaWidth - 18, kPanoramaHeight - 66} {
     if (panorama.skyline.size() < 2) throw InputError("a panorama of fewer than two azimuths: widen `azimuth`");
     unwrap();
-    place_axes();
+    x_ = {azimuths_.front(), azimuths_.back(), frame_.xmin, frame_.xmax};
+    place_names(format);
+    place_elevations();
     sort_distances();
   }
 
   std::string run() {
-    drawing_.rectangle({0, 0, kPanoramaWidth, kPanoramaHeight}, kPaper);
-    drawing_.text({frame_.xmin, 20}, panorama_.title, {.size = 12, .colour = kInk, .bold = true});
-    drawing_.text({frame_.xmin, 34}, panorama_.note, {.size = 8, .colour = kFaint});
-    drawing_.rectangle(frame_, kSky);
+    drawing_->rectangle({0, 0, drawing_->width(), drawing_->height()}, kPaper);
+    drawing_->text({frame_.xmin, 20}, panorama_.title, {.size = 12, .colour = kInk, .bold = true});
+    drawing_->text({frame_.xmin, 34}, panorama_.note, {.size = 8, .colour = kFaint});
+    drawing_->rectangle(frame_, kSky);
     draw_grid();
-    drawing_.clip(frame_);
+    drawing_->clip(frame_);
     for (std::size_t i = 0; i + 1 < azimuths_.size(); ++i) draw_piece(i);
-    drawing_.unclip();
+    drawing_->unclip();
     draw_places();
     draw_axes();
     draw_legend();
-    return drawing_.finish();
+    return drawing_->finish();
   }
 
  private:
@@ -77,7 +88,33 @@ class PanoramaPage {
     step_ = (azimuths_.back() - azimuths_.front()) / static_cast<double>(azimuths_.size() - 1);
   }
 
-  void place_axes() {
+  /// The page grows upwards and to the right with the names.
+  void place_names(Drawing::Format format) {
+    const Drawing measure(format, 1, 1);
+    std::vector<RowPlace> wanted;
+    for (const PanoramaPlace& place : panorama_.places) {
+      const auto x = column_of(place.azimuth_deg);
+      if (!x) continue;
+      const std::string text = place.name + ", " + rounded_distance(place.distance_m);
+      marks_.push_back({&place, measure.fitted(text, kLongestName, kPlaceNames), *x, *x});
+      // What is seen matters more than what is hidden, and what is near more than what is far.
+      wanted.push_back({*x, (place.visible ? 1 : 0) + 1 / (2 + place.distance_m)});
+    }
+    const double turn = kPlaceNames.rotation_deg / kDegreesPerRadian;
+    double width = kPanoramaWidth, top = frame_.ymin;
+    for (const RowLabel& label : label_row(wanted, {.from = frame_.xmin, .to = frame_.xmax})) {
+      PlaceName& name = names_.emplace_back(marks_[label.index]);
+      name.label = label.at;
+      const double length = measure.text_width(name.text, kPlaceNames);
+      width = std::max(width, name.label + length * std::cos(turn) + 10);
+      top = std::max(top, 56 + length * std::sin(turn));
+    }
+    const double down = std::round(top - frame_.ymin);
+    frame_.ymin += down, frame_.ymax += down;
+    drawing_.emplace(format, std::round(width), kPanoramaHeight + down);
+  }
+
+  void place_elevations() {
     double low = 0, high = 0;
     const auto extend = [&](double elevation) {
       if (std::isnan(elevation)) return;
@@ -86,7 +123,6 @@ class PanoramaPage {
     for (const SkylinePoint& p : panorama_.skyline) extend(p.elevation_deg);
     for (const PanoramaPlace& p : panorama_.places) extend(p.elevation_deg);
     const double margin = std::max(0.12 * (high - low), 0.2);
-    x_ = {azimuths_.front(), azimuths_.back(), frame_.xmin, frame_.xmax};
     y_ = {low - 2 * margin, high + margin, frame_.ymax, frame_.ymin};
   }
 
@@ -113,39 +149,40 @@ class PanoramaPage {
     const double from = x_.at(azimuths_[i]), to = x_.at(azimuths_[i + 1]) + 0.15;
     const double a = y_.at(p.elevation_deg), b = y_.at(q.elevation_deg);
     const std::array<Point2, 4> piece{Point2{from, a}, {to, b}, {to, frame_.ymax}, {from, frame_.ymax}};
-    drawing_.polygon(piece, shade(std::min(p.distance_m, q.distance_m)));
+    drawing_->polygon(piece, shade(std::min(p.distance_m, q.distance_m)));
     const std::array<Point2, 2> edge{Point2{from, a}, {to, b}};
     const bool ends = p.data_edge && q.data_edge;
     if (ends) has_data_edge_ = true;
-    drawing_.polyline(edge, ends ? kDataEdge : Stroke{kInk, 0.6, {}});
+    drawing_->polyline(edge, ends ? kDataEdge : Stroke{kInk, 0.6, {}});
   }
 
   void draw_grid() {
     for (const double elevation : y_.ticks(7)) {
       const std::array<Point2, 2> line{Point2{frame_.xmin, y_.at(elevation)}, {frame_.xmax, y_.at(elevation)}};
-      drawing_.polyline(line, {elevation == 0 ? kFaint : kGrid, elevation == 0 ? 0.8 : 0.5, {}});
+      drawing_->polyline(line, {elevation == 0 ? kFaint : kGrid, elevation == 0 ? 0.8 : 0.5, {}});
     }
   }
 
   void draw_axes() {
     const double step = y_.step(7);
     for (const double elevation : y_.ticks(7))
-      drawing_.text({frame_.xmin - 5, y_.at(elevation) + 3}, tick_label(elevation, step) + "°",
-                    {.size = 8, .colour = kInk, .align = Align::kRight});
+      drawing_->text({frame_.xmin - 5, y_.at(elevation) + 3}, tick_label(elevation, step) + "°",
+                     {.size = 8, .colour = kInk, .align = Align::kRight});
     const double range = x_.high - x_.low;
     const double every = range > 200 ? 22.5 : range > 60 ? 15 : range > 20 ? 5 : 1;
     for (double azimuth = std::ceil(x_.low / every - 1e-9) * every; azimuth <= x_.high + 1e-9; azimuth += every) {
       const double x = x_.at(azimuth);
       const std::array<Point2, 2> mark{Point2{x, frame_.ymax}, {x, frame_.ymax + 4}};
-      drawing_.polyline(mark, {kInk, 0.7, {}});
-      drawing_.text({x, frame_.ymax + 14}, azimuth_text(azimuth), {.size = 8, .colour = kInk, .align = Align::kCentre});
+      drawing_->polyline(mark, {kInk, 0.7, {}});
+      drawing_->text({x, frame_.ymax + 14}, azimuth_text(azimuth),
+                     {.size = 8, .colour = kInk, .align = Align::kCentre});
     }
     const std::array<Point2, 5> outline{Point2{frame_.xmin, frame_.ymin},
                                         {frame_.xmax, frame_.ymin},
                                         {frame_.xmax, frame_.ymax},
                                         {frame_.xmin, frame_.ymax},
                                         {frame_.xmin, frame_.ymin}};
-    drawing_.polyline(outline, {kInk, 0.8, {}});
+    drawing_->polyline(outline, {kInk, 0.8, {}});
   }
 
   /// Where a place lies on the axis; nothing beyond its ends.
@@ -157,59 +194,55 @@ class PanoramaPage {
   }
 
   void draw_mark(Point2 at, bool visible) {
-    drawing_.circle(at, 3.6, kPaper);
-    drawing_.circle(at, 3.0, visible ? kSeen : kHidden);
-    if (!visible) drawing_.circle(at, 1.7, kPaper);
+    drawing_->circle(at, 3.6, kPaper);
+    drawing_->circle(at, 3.0, visible ? kSeen : kHidden);
+    if (!visible) drawing_->circle(at, 1.7, kPaper);
   }
 
   void draw_places() {
-    std::vector<std::pair<double, const PanoramaPlace*>> order;
-    for (const PanoramaPlace& place : panorama_.places)
-      if (const auto x = column_of(place.azimuth_deg)) order.emplace_back(*x, &place);
-    std::sort(order.begin(), order.end());
-    double free = frame_.xmin;
-    for (const auto& [x, place] : order) {
-      const Point2 at{x, y_.at(place->elevation_deg)};
-      // Names stand above the frame side by side; those that would cover another move on.
-      const double label = std::min(std::max(x, free), frame_.xmax);
-      free = label + 10;
-      const std::array<Point2, 3> leader{at, {x, frame_.ymin}, {label, frame_.ymin - 8}};
-      drawing_.polyline(leader, {place->visible ? kSeen : kHidden, 0.5, {}});
-      draw_mark(at, place->visible);
-      const std::string text = place->name + ", " + rounded_distance(place->distance_m);
-      drawing_.text({label + 2, frame_.ymin - 10}, text,
-                    {.size = 8, .colour = place->visible ? kInk : kFaint, .rotation_deg = 50});
+    for (const PlaceName& name : names_) {
+      const std::array<Point2, 3> leader{mark_of(name), {name.x, frame_.ymin}, {name.label, frame_.ymin - 8}};
+      drawing_->polyline(leader, {name.place->visible ? kSeen : kHidden, 0.5, {}});
+      Lettering lettering = kPlaceNames;
+      if (!name.place->visible) lettering.colour = kFaint;
+      drawing_->text({name.label + 2, frame_.ymin - 10}, name.text, lettering);
     }
+    for (const PlaceName& name : marks_) draw_mark(mark_of(name), name.place->visible);
   }
 
+  Point2 mark_of(const PlaceName& name) const { return {name.x, y_.at(name.place->elevation_deg)}; }
+
   void draw_legend() {
-    const double y = kPanoramaHeight - 22;
+    const double y = drawing_->height() - 22;
     double x = frame_.xmin;
-    drawing_.text({x, y}, "Distance of the sky line", {.size = 8, .colour = kInk});
+    drawing_->text({x, y}, "Distance of the sky line", {.size = 8, .colour = kInk});
     x += 110;
     for (std::size_t i = 0; i <= limits_.size(); ++i) {
-      drawing_.rectangle({x, y - 8, x + 24, y + 1}, kNearToFar[i]);
+      drawing_->rectangle({x, y - 8, x + 24, y + 1}, kNearToFar[i]);
       const std::string text = i < limits_.size() ? "to " + rounded_distance(limits_[i]) : std::string("beyond");
-      drawing_.text({x + 28, y}, text, {.size = 8, .colour = kInk});
+      drawing_->text({x + 28, y}, text, {.size = 8, .colour = kInk});
       x += 90;
     }
     if (has_data_edge_) {
       const std::array<Point2, 2> sample{Point2{x, y - 3}, {x + 24, y - 3}};
-      drawing_.polyline(sample, kDataEdge);
-      drawing_.text({x + 28, y}, "edge of the data", {.size = 8, .colour = kInk});
+      drawing_->polyline(sample, kDataEdge);
+      drawing_->text({x + 28, y}, "edge of the data", {.size = 8, .colour = kInk});
       x += 110;
     }
     if (panorama_.places.empty()) return;
     for (const bool visible : {true, false}) {
       draw_mark({x + 4, y - 3}, visible);
-      drawing_.text({x + 12, y}, visible ? "in line of sight" : "hidden", {.size = 8, .colour = kInk});
+      drawing_->text({x + 12, y}, visible ? "in line of sight" : "hidden", {.size = 8, .colour = kInk});
       x += 90;
     }
+    if (const std::size_t without = marks_.size() - names_.size(); without > 0)
+      drawing_->text({x - 30, y}, left_out_text(without, marks_.size()), {.size = 8, .colour = kInk});
   }
 
   const Panorama& panorama_;
-  Drawing drawing_;
+  std::optional<Drawing> drawing_;
   Box frame_;
+  std::vector<PlaceName> marks_, names_;  ///< all places in view, and those that are named, from left to right
   std::vector<double> azimuths_;
   double step_ = 0;
   std::vector<double> limits_;

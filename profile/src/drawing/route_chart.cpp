@@ -28,7 +28,8 @@ class RoutePage {
 
   std::string run() {
     drawing_.rectangle({0, 0, kRouteWidth, kRouteHeight}, kPaper);
-    drawing_.text({frame_.xmin, 20}, chart_.title, {.size = 12, .colour = kInk, .bold = true});
+    drawing_.text({frame_.xmin, 20}, chart_.title,
+                  drawing_.lettering_for(chart_.title, frame_.width(), 1, {.size = 12, .colour = kInk, .bold = true}));
     drawing_.text({frame_.xmin, 34}, chart_.note, {.size = 8, .colour = kFaint});
     for (const RouteStep& step : chart_.steps) draw_step(step);
     draw_axes();

@@ -74,7 +74,8 @@ class WirelinePage {
   double y_at(double elevation) const { return frame_.ymax - (elevation - low_) * kPerDegree; }
 
   void draw_heading() {
-    drawing_->text({kLeft, 20}, query_.title, {.size = 12, .colour = kInk, .bold = true});
+    drawing_->text({kLeft, 20}, query_.title,
+                   drawing_->lettering_for(query_.title, width_, 1, {.size = 12, .colour = kInk, .bold = true}));
     double y = 33;
     for (const std::string& note : query_.notes) {
       drawing_->text({kLeft, y}, note, {.size = 8, .colour = kFaint});

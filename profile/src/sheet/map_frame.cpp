@@ -16,6 +16,7 @@ namespace itin::profile {
 namespace {
 
 constexpr Colour kGridInk{0.25, 0.35, 0.55};
+constexpr double kLongestLabel = 0.4;         ///< what is longer is cut, in widths of the frame
 constexpr Colour kNoLayer{0.93, 0.93, 0.95};  ///< where the map has no layer
 
 /// The distance of grid lines: 20 mm apart at least, of those that maps have.
@@ -28,10 +29,6 @@ double grid_step(double points_per_metre) {
 Colour opaque(Rgba c) {
   c.alpha = 255;
   return drawn(c);
-}
-
-std::uint32_t argb(const Rgba& c) {
-  return std::uint32_t{c.alpha} << 24 | std::uint32_t{c.red} << 16 | std::uint32_t{c.green} << 8 | c.blue;
 }
 
 }  // namespace
@@ -153,23 +150,16 @@ void MapFrame::label_marks(const SheetMarks& marks) {
   const bool bold = marks.symbol == SheetSymbol::kViewpoint;
   const Lettering lettering{.size = (bold ? 7 : 5.5) * paper_.type, .colour = kInk, .bold = bold, .rim = 1.4};
   for (const SheetMark& mark : marks.marks) {
-    if (mark.label.empty()) continue;
     const Point2 p = at(mark.at);
-    const double width = drawing_.text_width(mark.label, lettering), height = 0.75 * lettering.size;
-    // Beside, above and below, at its corners.
-    const double far = 0.55 * size, x0 = p.x - width / 2, y0 = p.y - up + height / 2;
-    const Point2 anchors[] = {{p.x + far, y0},
-                              {p.x - far - width, y0},
-                              {x0, p.y - up - 1.2 * far},
-                              {x0, p.y - up + 1.2 * far + height},
-                              {p.x + 0.7 * far, p.y - up - 0.8 * far},
-                              {p.x - 0.7 * far - width, p.y - up - 0.8 * far}};
-    for (const Point2& anchor : anchors) {
-      const Box box{anchor.x - 0.5, anchor.y - height, anchor.x + width + 0.5, anchor.y + 0.5};
-      if (!places_.free(box)) continue;
-      drawing_.text(anchor, mark.label, lettering);
-      places_.take(box);
-      break;
+    if (mark.label.empty() || !paper_.frame.contains(p)) continue;
+    const std::string label = drawing_.fitted(mark.label, kLongestLabel * paper_.frame.width(), lettering);
+    ++names_;
+    const auto anchor = places_.take_beside(
+        {{p.x, p.y - up}, 0.55 * size, drawing_.text_width(label, lettering), 0.75 * lettering.size}, paper_.frame);
+    if (anchor) {
+      drawing_.text(*anchor, label, lettering);
+    } else {
+      ++left_out_;
     }
   }
 }

@@ -1,6 +1,9 @@
 // The map of a sheet: its layers to scale in their frame, with the grid's references about it.
 #pragma once
 
+#include <cstdint>
+#include <string>
+
 #include <itin/geometry.hpp>
 #include <itin/label_places.hpp>
 #include <profile/map_sheet.hpp>
@@ -14,6 +17,11 @@ inline Colour drawn(const Rgba& c) {
   return {c.red / 255.0, c.green / 255.0, c.blue / 255.0, c.alpha / 255.0};
 }
 
+/// As Drawing::cells() takes it.
+inline std::uint32_t argb(const Rgba& c) {
+  return std::uint32_t{c.alpha} << 24 | std::uint32_t{c.red} << 16 | std::uint32_t{c.green} << 8 | c.blue;
+}
+
 /// A mark of a map or its legend; `size` is its height in points.
 void draw_symbol(Drawing& drawing, SheetSymbol symbol, Point2 at, double size, const Rgba& colour);
 
@@ -24,6 +32,8 @@ class MapFrame {
 
   void draw(const MapSheet& sheet);
   double points_per_metre() const { return scale_; }
+  /// A line about names of marks within the frame that have no place; empty where all have.
+  std::string left_out() const { return left_out_ > 0 ? left_out_text(left_out_, names_) : ""; }
 
  private:
   Point2 at(Point2 ground) const;
@@ -39,6 +49,7 @@ class MapFrame {
   Box ground_;
   double scale_;  ///< points a metre
   LabelPlaces places_;
+  std::size_t names_ = 0, left_out_ = 0;
 };
 
 }  // namespace itin::profile

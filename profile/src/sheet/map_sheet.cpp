@@ -58,8 +58,9 @@ std::string draw_map_sheet(const MapSheet& sheet, const std::string& path) {
   const Paper paper = paper_of(sheet.paper);
   Drawing drawing(*Drawing::format_of(path), paper.width, paper.height, kPixelsPerPoint);
   drawing.rectangle({0, 0, paper.width, paper.height}, kPaper);
-  MapFrame(drawing, paper, ground_in_frame(sheet)).draw(sheet);
-  SidePanel(drawing, paper, sheet, scale_of(sheet)).draw();
+  MapFrame map(drawing, paper, ground_in_frame(sheet));
+  map.draw(sheet);
+  SidePanel(drawing, paper, sheet, scale_of(sheet), map.left_out()).draw();
   return drawing.finish();
 }
 

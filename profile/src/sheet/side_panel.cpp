@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include <itin/coordinates.hpp>
 #include <itin/round_length.hpp>
+#include <itin/void_stripes.hpp>
 
 #include "drawing/palette.hpp"
 #include "sheet/map_frame.hpp"
@@ -25,11 +27,13 @@ std::string with_commas(double number) {
 
 }  // namespace
 
-SidePanel::SidePanel(Drawing& drawing, const Paper& paper, const MapSheet& sheet, double scale)
+SidePanel::SidePanel(Drawing& drawing, const Paper& paper, const MapSheet& sheet, double scale,
+                     std::string below_legend)
     : drawing_(drawing),
       paper_(paper),
       sheet_(sheet),
       scale_(scale),
+      below_legend_(std::move(below_legend)),
       left_(paper.panel.xmin + 3 * kPointsPerMillimetre * paper.type),
       right_(paper.panel.xmax - 3 * kPointsPerMillimetre * paper.type),
       y_(paper.panel.ymin) {}
@@ -61,10 +65,15 @@ void SidePanel::paragraph(const std::string& text, double size, bool bold) {
   y_ += 0.35 * lettering.size;
 }
 
+void SidePanel::heading(const std::string& text, std::size_t most_lines, double size, bool bold) {
+  const Lettering full{.size = size * paper_.type, .colour = kInk, .bold = bold};
+  paragraph(text, drawing_.lettering_for(text, right_ - left_, most_lines, full).size / paper_.type, bold);
+}
+
 void SidePanel::draw_heading() {
   y_ += 1.5 * kPointsPerMillimetre * paper_.type;
-  if (!sheet_.title.project.empty()) paragraph(sheet_.title.project, 9.5, false);
-  paragraph(sheet_.title.title, 12, true);
+  if (!sheet_.title.project.empty()) heading(sheet_.title.project, 2, 9.5, false);
+  heading(sheet_.title.title, 4, 12, true);
   rule();
 }
 
@@ -79,13 +88,21 @@ void SidePanel::draw_key(const SheetKey& key) {
     case kPatch: {
       const double wash = 0.84;  // the grey of level ground in the relief
       drawing_.rectangle(patch, {wash, wash, wash});
-      drawing_.rectangle(patch, drawn(key.colour));
+      const double part = patch.width() / static_cast<double>(key.colours.size());
+      double from = patch.xmin;
+      for (const Rgba& colour : key.colours) {
+        drawing_.rectangle({from, patch.ymin, from + part, patch.ymax}, drawn(colour));
+        from += part;
+      }
       drawing_.outline(patch, {kFaint, 0.3 * paper_.type, {}});
       break;
     }
+    case kVoid:
+      draw_void(patch);
+      break;
     case kLine:
     case kDashes: {
-      Stroke stroke{drawn(key.colour), 0.35 * kPointsPerMillimetre * paper_.type, {}};
+      Stroke stroke{drawn(key.colours.front()), 0.35 * kPointsPerMillimetre * paper_.type, {}};
       if (key.sample == kDashes)
         stroke.dashes = {2.2 * kPointsPerMillimetre * paper_.type, 1.4 * kPointsPerMillimetre * paper_.type};
       drawing_.polyline(std::array{Point2{patch.xmin, middle}, Point2{patch.xmax, middle}}, stroke);
@@ -93,7 +110,7 @@ void SidePanel::draw_key(const SheetKey& key) {
     }
     default: {
       const double up = key.symbol == SheetSymbol::kTurbine ? 0.4 * size : 0;
-      draw_symbol(drawing_, key.symbol, {x + width / 2, middle + up}, size, key.colour);
+      draw_symbol(drawing_, key.symbol, {x + width / 2, middle + up}, size, key.colours.front());
     }
   }
   const Lettering lettering{.size = 7 * paper_.type, .colour = kInk};
@@ -106,6 +123,19 @@ void SidePanel::draw_key(const SheetKey& key) {
   y_ = std::max(y_ + row, baseline - 0.8 * lettering.size);
 }
 
+/// Pixel by pixel, as the map has it.
+void SidePanel::draw_void(const Box& patch) {
+  const double pixel = kSheetPixelMm * kPointsPerMillimetre;
+  const auto pixels = [&](double length) { return std::max(1, static_cast<int>(std::lround(length / pixel))); };
+  const int columns = pixels(patch.width()), rows = pixels(patch.height());
+  std::vector<std::uint32_t> colours;
+  for (int row = 0; row < rows; ++row)
+    for (int column = 0; column < columns; ++column)
+      colours.push_back(argb(void_colour(column, row, kVoidStripePixels)));
+  drawing_.cells(patch, columns, rows, colours);
+  drawing_.outline(patch, {kFaint, 0.3 * paper_.type, {}});
+}
+
 void SidePanel::draw_legend(double bottom) {
   std::size_t left = sheet_.legend.size();
   for (const SheetKey& key : sheet_.legend) {
@@ -116,6 +146,7 @@ void SidePanel::draw_legend(double bottom) {
     draw_key(key);
     --left;
   }
+  if (!below_legend_.empty()) paragraph(below_legend_, 6.3, false);
   rule();
 }
 
@@ -160,7 +191,7 @@ void SidePanel::draw_north(Point2 foot) {
 void SidePanel::draw_notes() {
   const TitleBlock& t = sheet_.title;
   if (!t.statement.empty()) paragraph(t.statement, 7, true);
-  for (const auto& [name, value] : t.facts) paragraph(name + ": " + value, 6.3, false);
+  for (const auto& [name, value] : t.facts) paragraph(fmt::format("{}: {}", name, value), 6.3, false);
   std::string sources;
   for (const std::string& source : t.sources) sources += (sources.empty() ? "" : "; ") + source;
   if (!sources.empty()) paragraph("Sources: " + sources, 6.3, false);

@@ -1,6 +1,8 @@
 // The panel beside a map: title, legend, scale bar and north, statement, facts, sources, title block.
 #pragma once
 
+#include <string>
+
 #include <profile/map_sheet.hpp>
 
 #include "drawing/drawing.hpp"
@@ -10,15 +12,17 @@ namespace itin::profile {
 
 class SidePanel {
  public:
-  SidePanel(Drawing& drawing, const Paper& paper, const MapSheet& sheet, double scale);
+  SidePanel(Drawing& drawing, const Paper& paper, const MapSheet& sheet, double scale, std::string below_legend);
   void draw();
 
  private:
   void draw_heading();
   void draw_legend(double bottom);
   void draw_key(const SheetKey& key);
+  void draw_void(const Box& patch);
   void draw_scale();
   void draw_north(Point2 foot);
+  void heading(const std::string& text, std::size_t most_lines, double size, bool bold);
   void paragraph(const std::string& text, double size, bool bold);
   void draw_notes();
   void draw_foot();
@@ -28,7 +32,8 @@ class SidePanel {
   Drawing& drawing_;
   const Paper& paper_;
   const MapSheet& sheet_;
-  double scale_;  ///< 1 : scale
+  double scale_;              ///< 1 : scale
+  std::string below_legend_;  ///< may be empty
   double left_, right_, y_;
   bool measuring_ = false;  ///< moves y_ without drawing
 };

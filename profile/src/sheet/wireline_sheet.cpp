@@ -137,9 +137,14 @@ std::string draw_viewpoint_sheet(const Wireline& view, const ViewpointSheet& she
   Drawing drawing = pdf(path, kSheetWidth, kSheetHeight);
   drawing.rectangle({0, 0, drawing.width(), drawing.height()}, kPaper);
   const double left = kSheetMargin * k, width = 230 * k;
-  drawing.text({left, 16 * k}, drawing.fitted(sheet.wireline.title, width, {.size = 16, .colour = kInk, .bold = true}),
-               {.size = 16, .colour = kInk, .bold = true});
-  double y = 26 * k;
+  double y = 16 * k;
+  const Lettering title =
+      drawing.lettering_for(sheet.wireline.title, width, 2, {.size = 16, .colour = kInk, .bold = true});
+  for (const std::string& line : drawing.lines(sheet.wireline.title, width, title)) {
+    drawing.text({left, y}, line, title);
+    y += 1.2 * title.size;
+  }
+  y += 10 * k - 1.2 * title.size;
   const Lettering name_of_fact{.size = 9, .colour = kFaint}, plain{.size = 9, .colour = kInk};
   const double values = left + 55 * k;
   for (const auto& [name, value] : sheet.wireline.facts) {
@@ -153,9 +158,13 @@ std::string draw_viewpoint_sheet(const Wireline& view, const ViewpointSheet& she
   draw_table(drawing, sheet.farms, {left, y + 10}, width);
   Paper paper = paper_of(PaperSize::kA3);
   paper.frame = kLocationFrame;
-  MapFrame(drawing, paper, ground_in_location_map(sheet.map)).draw(sheet.map);
+  MapFrame map(drawing, paper, ground_in_location_map(sheet.map));
+  map.draw(sheet.map);
+  const std::string left_out = map.left_out();
   drawing.text({paper.frame.xmin, paper.frame.ymax + 22},
-               fmt::format("Location, 1:{:.0f} at A3; grid north is up", sheet.map.scale), name_of_fact);
+               fmt::format("Location, 1:{:.0f} at A3; grid north is up{}{}", sheet.map.scale,
+                           left_out.empty() ? "" : "; ", left_out),
+               name_of_fact);
   const double image = kSheetWidth - 2 * kSheetMargin, principal = image / (std::numbers::pi / 2);
   draw_strip(drawing, view,
              {StripProjection::kCylindrical, box_mm(kSheetMargin, 214, image, kStrip), principal,

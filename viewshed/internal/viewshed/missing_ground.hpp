@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <itin/progress.hpp>
@@ -35,6 +36,8 @@ struct MissingGround {
   std::string percent() const;
   /// "12.3 % (4.6 km²)"; the share alone where no cells are counted.
   std::string text() const;
+  /// For the legend of what marks it on a map: "No ground data: 12.3 % (4.6 km²) of `area`".
+  std::string key_text(const std::string& area) const;
   /// Says what share of `area` it is, and what decides; nothing where that is less than a thousandth, or the area is
   /// wherever there is ground.
   std::optional<std::string> warning(const std::string& area) const;
@@ -53,5 +56,24 @@ MissingGround missing_ground(const VisibilityIndex& index);
 /// Within the radii of the turbines.
 MissingGround missing_ground(const Zone& zone);
 std::vector<std::uint8_t> cells_without_ground(const Zone& zone);
+
+/// Where observers look and there is no ground, on the raster and beyond it.
+class PlacesWithoutGround {
+ public:
+  /// One per cell of a raster: 1 where it is so.
+  struct Cells {
+    RasterGrid grid;
+    std::vector<std::uint8_t> values;
+  };
+  explicit PlacesWithoutGround(std::vector<Cells> parts) : parts_(std::move(parts)) {}
+
+  bool contain(Point2 place) const;
+
+ private:
+  std::vector<Cells> parts_;
+};
+/// Throws as cells_without_ground() does.
+PlacesWithoutGround places_without_ground(const Store& store, const Result& result, Progress& progress);
+PlacesWithoutGround places_without_ground(const Zone& zone);
 
 }  // namespace itin::viewshed

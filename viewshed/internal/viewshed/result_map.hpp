@@ -20,11 +20,11 @@ constexpr Rgba over_relief(const Rgba& colour) {
 
 struct ResultMap {
   struct Key {
-    Rgba colour;
+    std::vector<Rgba> colours;  ///< side by side
     std::string text;
   };
   std::vector<Rgba> cells;  ///< clear where nothing is shown
-  std::vector<Key> keys;    ///< single colours, with their shares of the cells decided
+  std::vector<Key> keys;    ///< what is seen and what is not, with their shares of the cells decided
   std::string scale_title;
   std::vector<Key> scale;  ///< empty where the mode has no more to tell
 };

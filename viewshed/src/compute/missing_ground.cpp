@@ -77,6 +77,10 @@ std::string MissingGround::text() const {
   return cell_area > 0 ? fmt::format("{} ({})", percent(), area_text(missing_m2())) : percent();
 }
 
+std::string MissingGround::key_text(const std::string& area) const {
+  return fmt::format("No ground data: {} of {}", text(), area);
+}
+
 std::optional<std::string> MissingGround::warning(const std::string& area) const {
   if (share() < 0.001 || !bounded) return std::nullopt;
   return fmt::format(
@@ -94,6 +98,19 @@ std::vector<std::uint8_t> cells_without_ground(const Store& store, const Result&
   if (bounds_elevations(result.request) && std::find(cells.begin(), cells.end(), 1) != cells.end())
     leave_out_ground(coverage_of(store, Window::box(grid.bounds()), progress), grid, cells);
   return cells;
+}
+
+bool PlacesWithoutGround::contain(Point2 place) const {
+  return std::any_of(parts_.begin(), parts_.end(), [&](const Cells& part) {
+    const auto cell = part.values.empty() ? std::nullopt : part.grid.cell_at(place);
+    return cell && part.values[part.grid.index(*cell)] == 1;
+  });
+}
+
+PlacesWithoutGround places_without_ground(const Store& store, const Result& result, Progress& progress) {
+  CellsBeyond beyond = cells_beyond(result.request, result.grid);
+  return PlacesWithoutGround(
+      {{result.grid, cells_without_ground(store, result, progress)}, {beyond.grid, std::move(beyond.cells)}});
 }
 
 MissingGround missing_ground(const Store& store, const Result& result, Progress& progress) {

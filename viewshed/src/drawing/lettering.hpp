@@ -4,6 +4,7 @@
 #include <string>
 
 #include "drawing/canvas.hpp"
+#include "drawing/plain_text.hpp"
 
 namespace itin::viewshed {
 
@@ -23,6 +24,8 @@ class Lettering {
   int width(const std::string& text, int size) const;
 
  private:
+  int advance(const PlainPiece& piece, int size) const;
+
   std::string font_;  ///< path
 };
 

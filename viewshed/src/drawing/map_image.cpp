@@ -5,8 +5,10 @@
 #include <fmt/format.h>
 
 #include <itin/error.hpp>
+#include <itin/label_places.hpp>
 #include <itin/parallel.hpp>
 #include <itin/round_length.hpp>
+#include <itin/void_stripes.hpp>
 #include <viewshed/area_text.hpp>
 #include <viewshed/map_image.hpp>
 #include <viewshed/surface.hpp>
@@ -25,8 +27,7 @@ constexpr Rgba kMark{213, 94, 0};
 constexpr Rgba kInk{30, 30, 30};
 constexpr Rgba kFaint{95, 95, 95};
 constexpr Rgba kMapPaper{255, 255, 255};
-constexpr Rgba kVoid{244, 244, 244};
-constexpr Rgba kVoidStripe{170, 170, 170};
+constexpr Rgba kUnread{244, 244, 244};  ///< beyond what was looked at, and so what was read
 
 constexpr std::uint8_t kLevelGrey = 214;  ///< the grey of level ground
 
@@ -173,8 +174,7 @@ class MapDrawing {
     const float shade = shades_[pixels_.index({x, y})];
     const int px = left_ + x, py = top_ + y;
     if (lacks_ground(cell_of(x, y))) return draw_void(px, py);
-    // Beyond what was looked at, and so what was read.
-    if (std::isnan(shade)) return canvas_.blend(px, py, kVoid, 1);
+    if (std::isnan(shade)) return canvas_.blend(px, py, kUnread, 1);
     const auto grey = static_cast<std::uint8_t>(std::clamp(kLevelGrey + 150.0 * (shade - kLevelShade), 100.0, 250.0));
     const Shown shown = shown_at(x, y);
     canvas_.blend(px, py, {grey, grey, grey}, 1);
@@ -182,10 +182,7 @@ class MapDrawing {
     canvas_.blend(px, py, shown.colour(), shown.opacity);
   }
 
-  /// Striped, unlike all that is known.
-  void draw_void(int x, int y) {
-    canvas_.blend(x, y, (x + y) % unit_ < std::max(2, unit_ / 4) ? kVoidStripe : kVoid, 1);
-  }
+  void draw_void(int x, int y) { canvas_.blend(x, y, void_colour(x, y, unit_), 1); }
 
   Point2 place_of(Point2 p) const { return {left_ + pixels_.column_at(p.x), top_ + pixels_.row_at(p.y)}; }
 
@@ -198,16 +195,35 @@ class MapDrawing {
   void draw_observers() {
     for (const Observer& observer : result_.request.observers)
       if (result_.grid.cell_at(observer.position)) draw_mark(place_of(observer.position));
+    std::vector<const Observer*> named;
+    for (const Observer& observer : result_.request.observers)
+      if (!observer.name.empty() && result_.grid.cell_at(observer.position)) named.push_back(&observer);
+    const std::size_t labels = draw_names(named);
+    if (labels < named.size()) names_left_out_ = left_out_text(named.size() - labels, named.size());
+  }
+
+  /// Returns how many have room.
+  std::size_t draw_names(const std::vector<const Observer*>& named) {
     constexpr std::size_t kMostLabels = 40;
-    if (result_.request.observers.size() > kMostLabels) return;
-    for (const Observer& observer : result_.request.observers) {
-      if (observer.name.empty() || !result_.grid.cell_at(observer.position)) continue;
-      const Point2 at = place_of(observer.position);
-      const int size = unit_ * 5 / 4, label = letters_.width(observer.name, size);
-      const bool fits = at.x + unit_ + label < left_ + width_;
-      letters_.draw_with_rim(canvas_, observer.name,
-                             {fits ? at.x + 0.9 * unit_ : at.x - 0.9 * unit_ - label, at.y + 0.45 * unit_}, size, kInk);
+    if (named.size() > kMostLabels) return 0;
+    LabelPlaces places;
+    const double mark = 0.62 * unit_;
+    for (const Observer* observer : named) {
+      const Point2 at = place_of(observer->position);
+      places.take({at.x - mark, at.y - mark, at.x + mark, at.y + mark});
     }
+    const int size = unit_ * 5 / 4;
+    const Box frame{1.0 * left_, 1.0 * top_, 1.0 * (left_ + width_), 1.0 * (top_ + height_)};
+    std::size_t drawn = 0;
+    for (const Observer* observer : named) {
+      const MarkLabel label{place_of(observer->position), 0.9 * unit_, 1.0 * letters_.width(observer->name, size),
+                            0.72 * size, 2};
+      const auto baseline = places.take_beside(label, frame);
+      if (!baseline) continue;
+      letters_.draw_with_rim(canvas_, observer->name, *baseline, size, kInk);
+      ++drawn;
+    }
+    return drawn;
   }
 
   std::string subtitle() const {
@@ -309,8 +325,10 @@ class MapDrawing {
     const double y = top_ + height_ + 6.9 * unit_ + further_rows() * key_height();
     draw_mark({left_ + 1.0 * unit_, y});
     const char* observers = result_.request.observers.size() == 1 ? "Observer" : "Observers";
-    letters_.draw(canvas_, options_.observers.empty() ? observers : options_.observers,
-                  {left_ + 2.6 * unit_, y + 0.4 * unit_}, unit_, kInk);
+    std::string marks = options_.observers.empty() ? observers : options_.observers;
+    if (!names_left_out_.empty()) marks += "; " + names_left_out_;
+    letters_.draw(canvas_, marks, {left_ + 2.6 * unit_, y + 0.4 * unit_},
+                  fitting_size(marks, width_ / 2 - 3 * unit_, unit_), kInk);
     const std::string earth = result_.request.earth.convention();
     letters_.draw(canvas_, earth, {static_cast<double>(left_ + width_), y + 0.4 * unit_},
                   fitting_size(earth, width_ / 2, unit_ * 9 / 10), kFaint, Align::kRight);
@@ -346,6 +364,7 @@ class MapDrawing {
   int unit_;                   ///< everything else is measured in this, pixels
   MapOverlay overlay_;
   bool has_void_, has_outside_;  ///< the map shows places in view without ground, or outside the field of view
+  std::string names_left_out_;   ///< a phrase of the legend; empty: all have room
   Canvas canvas_;
   int left_, top_;  ///< where the map proper begins on the canvas
   Lettering letters_;

@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
+#include <numeric>
 
 #include <fmt/format.h>
 
@@ -43,6 +44,12 @@ std::string find_font() {
   return best == found.end() ? std::string() : *best;
 }
 
+constexpr double kRaised = 0.32;  ///< in sizes of letters
+
+int size_of(const PlainPiece& piece, int size) {
+  return piece.raised ? std::max(6, size * 13 / 20) : size;
+}
+
 }  // namespace
 
 Lettering::Lettering() : font_(find_font()) {}
@@ -51,10 +58,19 @@ void Lettering::draw(Canvas& canvas, const std::string& text, Point2 baseline, i
                      Align align) const {
   if (!available()) return;
   const std::array<float, 3> rgb{colour.red / 255.0F, colour.green / 255.0F, colour.blue / 255.0F};
-  const int side = align == Align::kLeft ? 0 : align == Align::kCentre ? 1 : 2;
-  drawing().draw_text({canvas.rgb().data(), canvas.width(), canvas.height(), 3}, plain_text(text).c_str(),
-                      {font_.c_str(), size}, static_cast<int>(baseline.x), static_cast<int>(baseline.y), side,
-                      rgb.data());
+  const auto put = [&](const PlainPiece& piece, double x, Align about) {
+    const int side = about == Align::kLeft ? 0 : about == Align::kCentre ? 1 : 2;
+    drawing().draw_text({canvas.rgb().data(), canvas.width(), canvas.height(), 3}, piece.text.c_str(),
+                        {font_.c_str(), size_of(piece, size)}, static_cast<int>(x),
+                        static_cast<int>(baseline.y - (piece.raised ? kRaised * size : 0)), side, rgb.data());
+  };
+  const std::vector<PlainPiece> pieces = plain_pieces(text);
+  if (pieces.size() == 1) return put(pieces.front(), baseline.x, align);
+  double x = baseline.x - (align == Align::kLeft ? 0 : align == Align::kCentre ? 0.5 : 1) * width(text, size);
+  for (const PlainPiece& piece : pieces) {
+    put(piece, x, Align::kLeft);
+    x += advance(piece, size);
+  }
 }
 
 void Lettering::draw_with_rim(Canvas& canvas, const std::string& text, Point2 baseline, int size, Rgba colour) const {
@@ -65,7 +81,19 @@ void Lettering::draw_with_rim(Canvas& canvas, const std::string& text, Point2 ba
 }
 
 int Lettering::width(const std::string& text, int size) const {
-  return available() ? drawing().text_width(plain_text(text).c_str(), {font_.c_str(), size}) : 0;
+  if (!available()) return 0;
+  const std::vector<PlainPiece> pieces = plain_pieces(text);
+  if (pieces.size() == 1) return drawing().text_width(pieces.front().text.c_str(), {font_.c_str(), size});
+  return std::accumulate(pieces.begin(), pieces.end(), 0,
+                         [&](int sum, const PlainPiece& piece) { return sum + advance(piece, size); });
+}
+
+/// Blanks at its ends count, which the width leaves out.
+int Lettering::advance(const PlainPiece& piece, int size) const {
+  const auto width_of = [&](const std::string& text) {
+    return drawing().text_width(text.c_str(), {font_.c_str(), size_of(piece, size)});
+  };
+  return width_of(fmt::format("|{}|", piece.text)) - width_of("||");
 }
 
 void require_image_format(const std::string& path) {

@@ -231,6 +231,10 @@ void MapOverlay::scale_blockers() {
     add_step(static_cast<double>(i + 1), {kPalette[1 + i % (kPalette.size() - 1)], theme == 0 ? 0.2 : kOpacity},
              blocker_name(result_, theme));
   }
+  // Its cells have no value: the relief alone shows.
+  for (std::size_t i = 0; i < result_.visible.size(); ++i)
+    if (result_.visible[i] == Verdict::kHidden && result_.blocker[i] == kNoBlocker)
+      return add_step(kInfinity, {}, "own ground");
 }
 
 void MapOverlay::scale_heights() {

@@ -1,5 +1,6 @@
 #include "drawing/plain_text.hpp"
 
+#include <algorithm>
 #include <cstdint>
 
 namespace itin::viewshed {
@@ -25,8 +26,6 @@ std::string plain(std::uint32_t letter) {
       return " deg";
     case 0xB1:
       return "+/-";
-    case 0xB2:
-      return "^2";
     case 0xD7:
       return "x";
     case 0x2013:
@@ -60,6 +59,20 @@ std::string plain_text(std::string_view utf8) {
     text += plain(letter);
   }
   return text;
+}
+
+std::vector<PlainPiece> plain_pieces(std::string_view utf8) {
+  constexpr std::string_view kSquared = "\u00B2";
+  std::vector<PlainPiece> pieces;
+  while (!utf8.empty()) {
+    const std::size_t end = std::min(utf8.find(kSquared), utf8.size());
+    if (end > 0) pieces.push_back({plain_text(utf8.substr(0, end)), false});
+    utf8.remove_prefix(end);
+    if (utf8.empty()) break;
+    pieces.push_back({"2", true});
+    utf8.remove_prefix(kSquared.size());
+  }
+  return pieces;
 }
 
 }  // namespace itin::viewshed

@@ -3,10 +3,20 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace itin::viewshed {
 
 /// Latin letters lose their accents, a few signs are written out, anything else beyond ASCII becomes '?'.
 std::string plain_text(std::string_view utf8);
+
+/// In a line, those that are raised in smaller letters: the two of square metres.
+struct PlainPiece {
+  std::string text;
+  bool raised = false;
+
+  friend bool operator==(const PlainPiece&, const PlainPiece&) = default;
+};
+std::vector<PlainPiece> plain_pieces(std::string_view utf8);
 
 }  // namespace itin::viewshed

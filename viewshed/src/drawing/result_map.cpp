@@ -1,8 +1,10 @@
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
+#include <viewshed/area_text.hpp>
 #include <viewshed/result_map.hpp>
 
 #include "drawing/map_overlay.hpp"
@@ -18,7 +20,7 @@ Rgba colour_of(const Tint& tint) {
 }
 
 std::string key_text(const std::string& what, std::uint64_t cells, std::uint64_t of, double cell_area) {
-  return fmt::format("{}: {:.4g} km² ({:.1f} %)", what, static_cast<double>(cells) * cell_area / 1e6,
+  return fmt::format("{}: {} ({:.1f} %)", what, area_text(static_cast<double>(cells) * cell_area),
                      100.0 * static_cast<double>(cells) / static_cast<double>(of));
 }
 
@@ -32,11 +34,13 @@ ResultMap result_map(const Result& result, const MapOptions& options) {
     if (const auto tint = overlay.at(i)) map.cells[i] = colour_of(*tint);
   const std::uint64_t decided = std::max<std::uint64_t>(1, result.cells.in_view());
   for (const MapOverlay::Key& key : overlay.keys()) {
-    map.keys.push_back({key.tints.empty() ? kTransparent : colour_of(key.tints.back()),
-                        key_text(key.text, key.cells, decided, result.grid.cell_area())});
+    std::vector<Rgba> colours;
+    for (const Tint& tint : key.tints) colours.push_back(colour_of(tint));
+    if (colours.empty()) colours.push_back(kTransparent);
+    map.keys.push_back({std::move(colours), key_text(key.text, key.cells, decided, result.grid.cell_area())});
   }
   map.scale_title = overlay.scale_title();
-  for (const MapOverlay::Step& step : overlay.scale()) map.scale.push_back({colour_of(step.tint), step.text});
+  for (const MapOverlay::Step& step : overlay.scale()) map.scale.push_back({{colour_of(step.tint)}, step.text});
   return map;
 }
 
@@ -53,7 +57,7 @@ ResultMap result_map(const VisibilityIndex& index) {
   }
   for (std::size_t b = 0; b < bands.size(); ++b) {
     map.keys.push_back(
-        {over_relief(bands[b].colour),
+        {{over_relief(bands[b].colour)},
          key_text(bands[b].label, cells[b], std::max<std::uint64_t>(1, index.observers), index.grid.cell_area())});
   }
   return map;

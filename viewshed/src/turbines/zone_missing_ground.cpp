@@ -25,6 +25,11 @@ std::vector<std::uint8_t> cells_without_ground(const Zone& zone) {
   return cells;
 }
 
+PlacesWithoutGround places_without_ground(const Zone& zone) {
+  CellsBeyond beyond = cells_beyond(view_of(zone.request), zone.grid);
+  return PlacesWithoutGround({{zone.grid, cells_without_ground(zone)}, {beyond.grid, std::move(beyond.cells)}});
+}
+
 MissingGround missing_ground(const Zone& zone) {
   const std::vector<std::uint16_t>& counts = zone.bare.tip_count;
   MissingGround missing;

@@ -40,14 +40,14 @@ std::vector<ZoneFile> write_zone_polygons(const std::string& folder, const Zone&
   const std::size_t farms = farms_of(zone).size();
   const auto write_all = [&](const Visibility& v, const std::string& suffix) {
     files.push_back({"tip-count" + suffix + ".gpkg",
-                     "polygons of the areas from which tips are seen, by bands of their number, with the area in m2"});
+                     "polygons of the areas from which tips are seen, by bands of their number, with the area in m²"});
     write_bands(folder + "/" + files.back().name, "tip-count", zone, v.tip_count, options);
     if (knows_hubs(zone)) {
-      files.push_back({"hub-count" + suffix + ".gpkg", "where a band of turbines has its hubs seen: polygons, m2"});
+      files.push_back({"hub-count" + suffix + ".gpkg", "where a band of turbines has its hubs seen: polygons, m²"});
       write_bands(folder + "/" + files.back().name, "hub-count", zone, v.hub_count, options);
     }
     if (farms < 2) return;
-    files.push_back({"farms" + suffix + ".gpkg", "where a combination of farms has tips seen: polygons, m2"});
+    files.push_back({"farms" + suffix + ".gpkg", "where a combination of farms has tips seen: polygons, m²"});
     write_farm_polygons(folder + "/" + files.back().name, zone, farm_combinations(zone, v), options);
   };
   write_all(zone.bare, "");

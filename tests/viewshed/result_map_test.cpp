@@ -1,0 +1,100 @@
+// Every colour of a map has a row of its own in the legend.
+#include <gmock/gmock.h>
+#include <set>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include <viewshed/result_map.hpp>
+
+#include "support/terrain_tin.hpp"
+
+namespace itin::viewshed {
+namespace {
+
+/// All that is clear is alike.
+std::uint32_t number_of(const Rgba& c) {
+  return c.alpha == 0
+             ? 0
+             : std::uint32_t{c.red} << 24 | std::uint32_t{c.green} << 16 | std::uint32_t{c.blue} << 8 | c.alpha;
+}
+
+std::set<std::uint32_t> numbers_of(const std::vector<Rgba>& colours) {
+  std::set<std::uint32_t> numbers;
+  for (const Rgba& c : colours) numbers.insert(number_of(c));
+  return numbers;
+}
+
+constexpr double kLow = -20;  ///< an elevation that some of the ground is above
+
+struct SurveyedMap {
+  Result result;
+  ResultMap map;
+
+  /// Those of cells of a verdict.
+  std::set<std::uint32_t> shown(Verdict verdict) const {
+    std::set<std::uint32_t> numbers;
+    for (std::size_t i = 0; i < map.cells.size(); ++i)
+      if (result.visible[i] == verdict) numbers.insert(number_of(map.cells[i]));
+    return numbers;
+  }
+};
+
+SurveyedMap surveyed_map(Mode mode, bool low_targets = false) {
+  const Tin tin = test::fractal_tin(65, 50, 200, 0.5, 9);
+  Request request;
+  request.observers = {{"Mast", {301000, 201500}, 30}, {"Tower", {302000, 201000}, 30}};
+  request.cell_size = 25;
+  request.mode = mode;
+  if (low_targets) request.target_absolute = true, request.target_height = kLow;
+  NoProgress progress;
+  SurveyedMap s{compute(tin, request, progress), {}};
+  s.map = result_map(s.result, {});
+  return s;
+}
+
+TEST(ResultMap, SeenAndHiddenHaveAllTheirColoursInTheLegend) {
+  for (const Mode mode : {Mode::kVisible, Mode::kCount, Mode::kBlocker, Mode::kHeight}) {
+    const SurveyedMap s = surveyed_map(mode);
+    ASSERT_EQ(s.map.keys.size(), 2U);
+    EXPECT_EQ(numbers_of(s.map.keys[0].colours), s.shown(Verdict::kVisible));
+    EXPECT_EQ(numbers_of(s.map.keys[1].colours), s.shown(Verdict::kHidden));
+  }
+}
+
+TEST(ResultMap, EveryStepOfAScaleHasAColourOfItsOwn) {
+  for (const Mode mode : {Mode::kBlocker, Mode::kHeight}) {
+    const SurveyedMap s = surveyed_map(mode);
+    std::set<std::uint32_t> steps;
+    for (const ResultMap::Key& key : s.map.scale) {
+      ASSERT_EQ(key.colours.size(), 1U);
+      EXPECT_TRUE(steps.insert(number_of(key.colours.front())).second);
+    }
+    std::set<std::uint32_t> shown = s.shown(Verdict::kVisible);
+    shown.merge(s.shown(Verdict::kHidden));
+    EXPECT_EQ(steps, shown);
+  }
+}
+
+TEST(ResultMap, TargetsBelowTheGroundAreAClassOfBlockers) {
+  const SurveyedMap s = surveyed_map(Mode::kBlocker, true);
+  const std::set<std::uint32_t> hidden = s.shown(Verdict::kHidden);
+  ASSERT_EQ(hidden.size(), 2U);  // terrain before it, and its own
+  EXPECT_EQ(s.map.scale.back().text, "own ground");
+  EXPECT_EQ(s.map.scale.back().colours.front().alpha, 0);
+  EXPECT_EQ(numbers_of(s.map.keys[1].colours), hidden);
+}
+
+TEST(ResultMap, SmallAreasAreInSquareMetres) {
+  Request request;
+  request.observers = {{"Mast", {301000, 201500}, 30}};
+  request.cell_size = 25, request.radius = 100;
+  NoProgress progress;
+  const Result result = compute(test::fractal_tin(65, 50, 200, 0.5, 9), request, progress);
+  const auto area = static_cast<std::uint64_t>(result.grid.cell_area()) * result.cells.visible;
+  EXPECT_THAT(result_map(result, {}).keys.front().text,
+              testing::StartsWith("Visible: " + std::to_string(area) + " m² ("));
+}
+
+}  // namespace
+}  // namespace itin::viewshed
