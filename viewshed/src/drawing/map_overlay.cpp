@@ -232,8 +232,9 @@ void MapOverlay::scale_blockers() {
              blocker_name(result_, theme));
   }
   // Its cells have no value: the relief alone shows.
-  for (std::size_t i = 0; i < result_.visible.size(); ++i)
-    if (result_.visible[i] == Verdict::kHidden && result_.blocker[i] == kNoBlocker)
+  const std::vector<std::uint32_t>& themes = result_.get<Blockers>().theme;
+  for (std::size_t i = 0; i < themes.size(); ++i)
+    if (result_.visible[i] == Verdict::kHidden && themes[i] == kNoBlocker)
       return add_step(kInfinity, {}, "own ground");
 }
 
