@@ -75,6 +75,7 @@ std::vector<viewshed::Observer> ObserverOptions::observers(const StoreMetadata& 
   if (!names_heights) take_heights(sites_, height_text_.empty() ? "" : "--observer-height", warnings);
   took_heights_ = !names_heights && !sites_.height_field.empty();
   take_names(sites_);
+  if (!views_.reads_radii()) warn_of_unused(sites_, "radius", "--radius-field", warnings);
   return observers_of_file(metadata, request);
 }
 

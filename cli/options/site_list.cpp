@@ -19,6 +19,13 @@ void take_names(SiteQuery& query) {
   if (query.name_field.empty() && has_field(query, kNameField)) query.name_field = kNameField;
 }
 
+void warn_of_unused(const SiteQuery& query, const std::string& field, const std::string& option,
+                    std::vector<std::string>& warnings) {
+  if (has_field(query, field))
+    warnings.push_back(
+        fmt::format("{}: its field '{}' is not used; {} {} would use it", query.path, field, option, field));
+}
+
 std::string none_in(const SiteQuery& query, const char* what) {
   return fmt::format("{}: holds no {}{}", query.path, what,
                      query.where.empty() ? "" : fmt::format(" for which --where '{}' holds", query.where));

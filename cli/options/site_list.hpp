@@ -22,6 +22,10 @@ void take_heights(SiteQuery& query, const std::string& given, std::vector<std::s
 /// Lets the query take names from kNameField where it names no field and the file has that one. Throws FileError.
 void take_names(SiteQuery& query);
 
+/// Warns of a field that the file has and that nobody reads unless `option` names it.
+void warn_of_unused(const SiteQuery& query, const std::string& field, const std::string& option,
+                    std::vector<std::string>& warnings);
+
 /// The error about a file of places that holds none. Names the option that may have left all out, where there is one.
 std::string none_in(const SiteQuery& query, const char* what);
 

@@ -19,6 +19,7 @@ class ViewFields {
   void validate();
   bool given() const { return !fields_.empty() || !text_given().empty(); }
   bool arcgis() const { return arcgis_; }
+  bool reads_radii() const { return arcgis_ || !radius_.empty(); }
   /// The fields to read, in the order that fill() takes them.
   std::vector<NumberField> numbers() const;
   /// Gives the observer what its fields say; it keeps what it has where they are empty. Throws InputError for a value

@@ -10,6 +10,7 @@
 #include <itin/sites.hpp>
 
 #include "options/off_the_data.hpp"
+#include "options/site_list.hpp"
 #include "output/store_document.hpp"
 
 namespace itin::cli {
@@ -75,7 +76,11 @@ class DemandReader {
     SiteQuery query;
     query.path = options_.demand;
     query.crs = options_.in_crs.crs;
-    if (!options_.weight_field.empty()) query.numbers.push_back({options_.weight_field});
+    if (options_.weight_field.empty()) {
+      warn_of_unused(query, "weight", "--weight-field", inputs_.warnings);
+    } else {
+      query.numbers.push_back({options_.weight_field});
+    }
     std::vector<std::pair<Point2, double>> points;
     for (const Site& site : read_sites(query, crs_, inputs_.rejected)) {
       const double weight = site.numbers.empty() ? 1 : site.numbers.front().value_or(-1);

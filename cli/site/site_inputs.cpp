@@ -89,7 +89,11 @@ class InputReader {
   void read_candidates() {
     SiteQuery query = options_.candidates;
     query.crs = options_.in_crs.crs;
-    if (!options_.cost_field.empty()) query.numbers.push_back({options_.cost_field});
+    if (options_.cost_field.empty()) {
+      warn_of_unused(query, "cost", "--cost-field", inputs_.warnings);
+    } else {
+      query.numbers.push_back({options_.cost_field});
+    }
     for (const Site& site : read_sites(query, crs_, inputs_.rejected)) {
       const std::string place = fmt::format("{}: feature {}", query.path, site.feature);
       const double cost = site.numbers.empty() ? 0 : site.numbers.front().value_or(std::nan(""));
