@@ -19,7 +19,7 @@ using test::kCorner;
 
 using test::run;
 
-Request look(std::vector<Point2> from, double cell) {
+Request look(const std::vector<Point2>& from, double cell) {
   Request request;
   request.mode = Mode::kHeight;
   request.cell_size = cell;

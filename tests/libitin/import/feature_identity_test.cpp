@@ -77,8 +77,9 @@ TEST_F(FeatureIdentity, HoldsAtEveryLevel) {
     for (const IdentifiedEdge& e : edges) {
       const Point3 a = grid.point(e.a), b = grid.point(e.b), middle{(a.x + b.x) / 2, (a.y + b.y) / 2, 0};
       for (const auto& [id, line] : lines_) {
-        const bool along = distance_to(line, a) < kRoundedBy && distance_to(line, middle) < kRoundedBy / 2 &&
-                           distance_to(line, b) < kRoundedBy;
+        // Both ends may be rounded to one side of the line: then so is the middle, by as much as they on average.
+        const bool along =
+            std::max({distance_to(line, a), distance_to(line, middle), distance_to(line, b)}) < kRoundedBy;
         if (std::hypot(b.x - a.x, b.y - a.y) < 1 || id.substr(0, 4) != e.id.substr(0, 4)) continue;
         EXPECT_EQ(edges.contains({e.theme, id, e.a, e.b}), along) << id << " beside " << e.id;
       }

@@ -76,6 +76,10 @@ void extend_greedily(const ChoiceProblem& problem, StepMeasure measure, std::vec
 /// one must be exact.
 std::size_t swap(const ChoiceProblem& problem, std::vector<std::size_t>& chosen);
 
+/// Looks at every choice within the goal where a count allows few, and puts the best in place of `chosen` where that is
+/// better. Returns whether it is. Every option becomes exact then.
+bool take_best_of_few(const ChoiceProblem& problem, std::vector<std::size_t>& chosen);
+
 /// Leaves out sites, the least useful first, as long as the wanted value is reached without them.
 void drop_needless(const ChoiceProblem& problem, std::vector<std::size_t>& chosen);
 

@@ -206,6 +206,7 @@ Choice choose(const Demand& demand, const std::vector<SiteOption>& options, Cove
   Attempt best = Attempts(problem, choice.closest).best();
   LeastProof proof;
   if (least) proof = prove_least(problem, best.chosen);
+  if (!least && goal.exact_chosen && goal.swaps && take_best_of_few(problem, best.chosen)) ++best.swaps;
   choice.swaps = best.swaps + proof.swaps;
   choice.existing = value_of(problem, {});
   const bool in_greedy_order = choice.swaps == 0 && !goal.budget && !goal.network && !least;
