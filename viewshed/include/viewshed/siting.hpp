@@ -10,7 +10,8 @@
 // 1978) takes the option of the greatest upper bound; where its bounds leave open whether it is the best, it is refined
 // and looked at again. An option whose upper bound never comes first need not be refined, ever: the choice is what
 // greedy makes of exact coverage, ties falling to the option that comes first. Swaps of one chosen site for another
-// follow, under the same rule, until none gains. Where a count allows no more than a thousand choices, all are looked at.
+// follow, under the same rule, until none gains. Where a count allows no more than a thousand choices, all are looked
+// at.
 //
 // An element served by fewer than `cover` sites counts for nothing in the value; greedy and swaps work on the sum of
 // min(served, cover), of which it is a bound, and which is submodular.
