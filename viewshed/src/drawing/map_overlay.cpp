@@ -234,8 +234,7 @@ void MapOverlay::scale_blockers() {
   // Its cells have no value: the relief alone shows.
   const std::vector<std::uint32_t>& themes = result_.get<Blockers>().theme;
   for (std::size_t i = 0; i < themes.size(); ++i)
-    if (result_.visible[i] == Verdict::kHidden && themes[i] == kNoBlocker)
-      return add_step(kInfinity, {}, "own ground");
+    if (result_.visible[i] == Verdict::kHidden && themes[i] == kNoBlocker) return add_step(kInfinity, {}, "own ground");
 }
 
 void MapOverlay::scale_heights() {
