@@ -31,11 +31,11 @@ ViewshedWithSurface decide_exactly(const Store& store, const Request& request, c
 /// The part of the level read at a time does not depend on the memory, or what it leaves undecided would depend on it,
 /// too.
 void require_memory(const Store& store, const Request& request, CertifiedWay way, std::uint64_t memory) {
-  constexpr std::uint64_t kBytesPerPointOfLevel = 715, kBytesOfBounds = 40000000;
+  constexpr std::uint64_t kBytesOfBounds = 40000000;
   const int level = level_within(store.metadata(), request.detail.coarsest());
   const std::uint64_t points =
       way == CertifiedWay::kBySectors ? kPointsOfSector : store.points_about(level, box_of_window(store, request));
-  const std::uint64_t bytes = points * kBytesPerPointOfLevel + kBytesOfBounds;
+  const std::uint64_t bytes = points * kBytesPerEnvelopePoint + kBytesOfBounds;
   if (bytes > memory)
     throw InputError(
         fmt::format("the level takes {:.0f} MB at a time: give more `memory_bytes`, a coarser tolerance or "

@@ -37,8 +37,6 @@ namespace itin::viewshed {
 
 namespace {
 
-/// An envelope has two surfaces and two scenes; and half of the memory is for what is refined meanwhile.
-constexpr std::uint64_t kBytesPerEnvelopePoint = 2400;
 /// The coarse pass reads so much less than the surface.
 constexpr std::uint64_t kCoarseShareOfRays = 12, kCoarseShareOfBlocks = 30;
 /// Its share of the time, about.
@@ -82,8 +80,9 @@ class TinSegments {
 
   int coarse_level() const {
     const std::uint64_t share = way_ == CoarseWay::kBlocks ? kCoarseShareOfBlocks : kCoarseShareOfRays;
+    // Half of the memory is for what is refined meanwhile.
     const std::uint64_t most =
-        std::min(memory_ / kBytesPerEnvelopePoint, store_.points_about(enclosed_level(), box_) / share);
+        std::min(memory_ / 2 / kBytesPerCastEnvelopePoint, store_.points_about(enclosed_level(), box_) / share);
     return finest_level_of(store_, box_, most, std::max(enclosed_level(), 1));
   }
 

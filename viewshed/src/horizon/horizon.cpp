@@ -165,7 +165,7 @@ std::vector<Point2> positions_of(const std::vector<HorizonTarget>& targets) {
 /// Surfaces of triangles, with what finds the highest of them and what hides targets.
 std::uint64_t points_within(std::uint64_t memory, const Store& store, const Request& request) {
   constexpr std::uint64_t kPyramids = 80;
-  return memory_beside_rasters(memory, store, request) / (bytes_per_point(Request()) + kPyramids);
+  return memory_beside_rasters(memory, store, request) / (kBytesPerSurfacePoint + kPyramids);
 }
 
 /// Changes what is not known for want of ground along the lines from the eye.

@@ -58,9 +58,9 @@ bool takes_a_lattice(const Store& store, const Request& request) {
 }
 
 std::uint64_t bytes_per_point(const Request& request) {
-  constexpr std::uint64_t kTriangles = 400, kStudies = 150, kRays = 1500;
+  constexpr std::uint64_t kStudies = 150, kRays = 1500;
   const std::uint64_t studies = needs_bare_lines(request) ? 2 : needs_triangles(request) ? 1 : 0;
-  return kTriangles + studies * kStudies + (casts_rays(request) ? kRays : 0);
+  return kBytesPerSurfacePoint + studies * kStudies + (casts_rays(request) ? kRays : 0);
 }
 
 std::uint64_t points_about(const Store& store, const Detail& detail, const Box& box) {
@@ -75,7 +75,7 @@ std::uint64_t points_about(const Store& store, const Detail& detail, const Box& 
 }
 
 std::uint64_t bytes_held(const Store& store, const Detail& detail, const Box& area, SurfaceForm form) {
-  return points_about(store, detail, area) * (form == SurfaceForm::kPosts ? kBytesPerPost : bytes_per_point(Request()));
+  return points_about(store, detail, area) * (form == SurfaceForm::kPosts ? kBytesPerPost : kBytesPerSurfacePoint);
 }
 
 void require_memory_for_rasters(const RasterGrid& cells, std::uint64_t bytes, std::uint64_t memory) {

@@ -9,12 +9,19 @@
 
 namespace itin::viewshed {
 
+// Peak memory for each point of a surface, as measured. One that is a lattice takes kBytesPerPost.
+inline constexpr std::uint64_t kBytesPerSurfacePoint = 400,  ///< triangulation, triangles and bins
+    kBytesPerEnvelopePoint = 715,                            ///< two surfaces, and the bounds that they make
+    kBytesPerCastEnvelopePoint = 1200;                       ///< two surfaces, and a scene for the rays to each
+
+/// A surface with its features has about this many times the points of the bare one.
+inline constexpr std::uint64_t kPointsWithFeatures = 3;
+
 /// Whether the request can be answered over the posts of a lattice alone: at full detail, in a mode that asks no more
 /// than sight lines, by the sweep.
 bool takes_a_lattice(const Store& store, const Request& request);
 
-/// At the peak, for each point of a surface of triangles: triangulation, triangles and bins, and what the engine and
-/// the mode add.
+/// kBytesPerSurfacePoint, and what the engine and the mode add.
 std::uint64_t bytes_per_point(const Request& request);
 
 /// Points of the surface of this detail within the box, about.

@@ -9,6 +9,7 @@
 #include <viewshed/surface.hpp>
 
 #include "bounds/surface_heights.hpp"
+#include "plan/memory.hpp"
 #include "plan/partition.hpp"
 #include "siting/coverage/site_window.hpp"
 #include "siting/coverage/target_ground.hpp"
@@ -18,8 +19,6 @@ namespace itin::viewshed {
 namespace {
 
 constexpr double kNarrowest = 0.5;  ///< metres
-/// Of what is read at once: a point bare, and three where features stand, triangulated.
-constexpr std::uint64_t kBytesPerPointRead = 1200;
 
 class SurfaceBinner {
  public:
@@ -27,7 +26,7 @@ class SurfaceBinner {
   SurfaceBinner(const Store& store, const SiteSurvey& survey, std::uint64_t bytes, Statistics& statistics)
       : store_(store),
         survey_(survey),
-        most_points_(bytes / 2 / kBytesPerPointRead),
+        most_points_(bytes / 2 / (kPointsWithFeatures * kBytesPerSurfacePoint)),
         statistics_(statistics),
         binned_{bins_within(bytes / 4), std::vector<double>(survey.targets.grid ? survey.targets.grid->cell_count()
                                                                                 : survey.targets.points.size(),

@@ -8,6 +8,7 @@
 #include <itin/feature_cuts.hpp>
 #include <itin/level_choice.hpp>
 
+#include "plan/memory.hpp"
 #include "plan/partition.hpp"
 #include "request/request.hpp"
 #include "siting/coverage/site_window.hpp"
@@ -16,10 +17,6 @@ namespace itin::viewshed {
 
 namespace {
 
-/// Peak memory per point: of an envelope, and of a surface that is swept.
-constexpr std::uint64_t kBytesPerRayPoint = 1200, kBytesPerSweptPoint = 400;
-/// A surface with its themes has about this many times the points of the bare one.
-constexpr std::uint64_t kThemedPoints = 3;
 /// The first pass reads at most one in so many of the full surface's points: fewer where a second pass is cheap, since
 /// the memory holds the full surface for all of them.
 constexpr std::uint64_t kFirstShare = 2, kFirstShareOfWhole = 8;
@@ -47,7 +44,7 @@ SurveyStages::SurveyStages(const Store& store, const SiteSurvey& survey)
       cut_(!feature_cuts(store, survey.themes, reach_).empty()) {}
 
 bool SurveyStages::whole_fits_as_triangles() const {
-  return fits(points_ * (themed_ ? kThemedPoints : 1), survey_.positions.size(), 0);
+  return fits(points_ * (themed_ ? kPointsWithFeatures : 1), survey_.positions.size(), 0);
 }
 
 void SurveyStages::choose(bool whole_fits) {
@@ -85,7 +82,7 @@ bool SurveyStages::fits(std::uint64_t points, std::size_t options, int level) co
   const bool swept = judges_cells_exactly(level) && !casts_rays();
   // Judging them makes bounds anew, which mostly hold half of what is within reach.
   const std::uint64_t sets = sets_ / survey_.positions.size() * options / 2;
-  return points * (swept ? kBytesPerSweptPoint : kBytesPerRayPoint) + sets <= memory();
+  return points * (swept ? kBytesPerSurfacePoint : kBytesPerCastEnvelopePoint) + sets <= memory();
 }
 
 std::uint64_t SurveyStages::points_of(Options options, int level) const {
