@@ -164,18 +164,19 @@ class ViewshedVerb final : public Verb {
           "view");
     warn_of_scale(metadata, result.warnings);
     if (radio_.is_given()) earth_.warn_of_light(result.warnings);
+    // Certified and exact answers are about the full surface.
+    viewshed::Request answered = computed.result.request;
+    if (precise_ || certified_) answered.detail = Detail::tolerance(0);
+    // Before the other files: it refuses targets that no line reaches.
+    const Document targets =
+        horizon_.write(store, computed, answered, compute_options_, outputs_.overwrite(), progress, result.warnings);
     outputs_.write(store, computed, context, result.warnings, progress);
     write_viewshed_sheet(store, computed.result, sheet_, {missing, context.sources}, outputs_.overwrite(), progress);
     outputs_.write_each([&](std::size_t i) { return compute_for_observer(store, computed, i, progress); }, context,
                         progress);
-    // Certified and exact answers are about the full surface.
-    viewshed::Request answered = computed.result.request;
-    if (precise_ || certified_) answered.detail = Detail::tolerance(0);
     if (!answered.observers_on_surface)
       warn_of_hidden_eyes(store, {"observer", eyes_of(computed.result), answered.detail, answered.themes},
                           result.warnings);
-    const Document targets =
-        horizon_.write(store, computed, answered, compute_options_, outputs_.overwrite(), progress, result.warnings);
     const Document features = features_.write(store, computed.result.grid, {answered.detail, request_.themes},
                                               outputs_.overwrite(), progress);
     result.document = viewshed::viewshed_document(metadata, computed.result);
