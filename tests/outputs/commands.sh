@@ -43,7 +43,7 @@ itin los garth.itin --links links.csv -o links-radio.csv --frequency 6 --effecti
 
 # Viewsheds in every mode, plain, at a tolerance, certified and precise.
 view() { name=$1 radius=$2; shift 2; itin viewshed garth.itin --observer 310375,183525,2 --radius "$radius" --cell 20 "$@" -o "$name.tif" --json >"$name.json"; }
-view visible 5000 --image visible.png
+view visible 5000 --image visible.png --sheet visible-sheet.png --date '1 July 2027'
 view tall 5000 --target-height 20
 view coarse 5000 --tolerance 4
 view rings 5000 --rings 500:0,2000:1,10000:4
@@ -56,7 +56,7 @@ view height-precise 5000 --mode height --precise --memory 5M
 view angle 5000 --mode angle --target-height 10
 view count 5000 --mode count --observer 313000,188000,10 309000,186000,30
 view which 5000 --mode which --observer 313000,188000,10 309000,186000,30
-view nearest 5000 --mode nearest --observer 313000,188000,10 309000,186000,30
+view nearest 5000 --mode nearest --observer 313000,188000,10 309000,186000,30 --sheet nearest-sheet.pdf --date '1 July 2027'
 view blocker 2000 --mode blocker
 view probability 1500 --mode probability --vertical-error 2
 view zones 4000 --target-height 2 --frequency 5.8 --effective-earth 4/3
@@ -83,7 +83,7 @@ printf 'x,y,hub_height,rotor_diameter,farm\n309000,185000,80,90,A\n313500,187000
 printf 'x,y,name\n310375,183525,Garth Hill\n' >viewpoints.csv
 itin ztv garth.itin --turbines turbines.csv --viewpoints viewpoints.csv --radius 4000 --cell 50 -o ztv
 itin ztv town.itin --themes all --tip-height 60 --turbines town-turbines.csv --radius 400 --cell 5 -o ztv-town
-itin ztv garth.itin --turbines turbines.csv --radar 310375,183525,20 --radius 4000 --cell 50 -o radar
+itin ztv garth.itin --turbines turbines.csv --radar 310375,183525,20 --radius 4000 --cell 50 --sheets A3 --date '1 July 2027' -o radar
 itin site garth.itin --search-area 'POLYGON((309500 183500,314500 183500,314500 188500,309500 188500,309500 183500))' --spacing 1200 --mast-height 20 --count 3 --radius 3000 --cell 50 -o masts --json >masts.json
 itin site garth.itin --turbines --search-area 'POLYGON((309500 183500,314500 183500,314500 188500,309500 188500,309500 183500))' --spacing 600 --count 4 --hub-height 80 --rotor-diameter 90 --rotor-spacing 5x3 --wind-from 240 --dwellings viewpoints.csv --setback 500 --radius 3000 --cell 100 -o least-seen --json >least-seen.json
 itin site garth.itin --turbines --minimise height --demand viewpoints.csv --candidates turbines.csv --count 1 --hub-height 80 --rotor-diameter 90 --radius 4000 --cell 100 -o least-height --json >least-height.json
