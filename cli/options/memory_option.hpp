@@ -31,8 +31,7 @@ inline constexpr const char* kKeptOfTheStore =
 /// The help of verbs that look at surfaces.
 inline constexpr const char* kReadInParts =
     "Memory to work in, for example 2G. Surfaces that exceed it are read in parts, and rasters that do are refused; "
-    "the "
-    "result does not depend on it (default: 1G)";
+    "the result does not depend on it (default: 1G)";
 
 /// What is kept of a store's blocks: at most a quarter of the memory, where that is bounded.
 StoreOptions cache_within(std::optional<std::uint64_t> memory_bytes);

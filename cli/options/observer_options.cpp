@@ -72,10 +72,11 @@ std::vector<viewshed::Observer> ObserverOptions::observers(const StoreMetadata& 
                                                            std::vector<std::string>& warnings) {
   if (sites_.path.empty()) return observers_given(metadata);
   const bool names_heights = views_.arcgis() || !sites_.height_field.empty();
-  if (!names_heights) take_heights(sites_, height_text_.empty() ? "" : "--observer-height", warnings);
+  const LayerFields fields(sites_);
+  if (!names_heights) take_heights(sites_, fields, height_text_.empty() ? "" : "--observer-height", warnings);
   took_heights_ = !names_heights && !sites_.height_field.empty();
-  take_names(sites_);
-  if (!views_.reads_radii()) warn_of_unused(sites_, "radius", "--radius-field", warnings);
+  take_names(sites_, fields);
+  if (!views_.reads_radii()) warn_of_unused(sites_, fields, "radius", "--radius-field", warnings);
   return observers_of_file(metadata, request);
 }
 

@@ -4,8 +4,9 @@
 
 namespace itin::cli {
 
-void take_heights(SiteQuery& query, const std::string& given, std::vector<std::string>& warnings) {
-  if (!query.height_field.empty() || !has_field(query, kHeightField)) return;
+void take_heights(SiteQuery& query, const LayerFields& fields, const std::string& given,
+                  std::vector<std::string>& warnings) {
+  if (!query.height_field.empty() || !fields.has(kHeightField)) return;
   if (!given.empty()) {
     warnings.push_back(
         fmt::format("{}: the heights in its field '{}' are not used: {} comes before them; to use them leave it out",
@@ -15,13 +16,13 @@ void take_heights(SiteQuery& query, const std::string& given, std::vector<std::s
   }
 }
 
-void take_names(SiteQuery& query) {
-  if (query.name_field.empty() && has_field(query, kNameField)) query.name_field = kNameField;
+void take_names(SiteQuery& query, const LayerFields& fields) {
+  if (query.name_field.empty() && fields.has(kNameField)) query.name_field = kNameField;
 }
 
-void warn_of_unused(const SiteQuery& query, const std::string& field, const std::string& option,
-                    std::vector<std::string>& warnings) {
-  if (has_field(query, field))
+void warn_of_unused(const SiteQuery& query, const LayerFields& fields, const std::string& field,
+                    const std::string& option, std::vector<std::string>& warnings) {
+  if (fields.has(field))
     warnings.push_back(
         fmt::format("{}: its field '{}' is not used; {} {} would use it", query.path, field, option, field));
 }

@@ -16,15 +16,16 @@ inline constexpr const char *kHeightField = "height", *kNameField = "name";
 
 /// Lets the query take heights from kHeightField where it names no field and the file has that one. `given`: an option
 /// of the call that states these heights, which leaves the field unused, with a warning; empty where there is none.
-/// Throws FileError.
-void take_heights(SiteQuery& query, const std::string& given, std::vector<std::string>& warnings);
+/// `fields` are those of the query's file, here as below.
+void take_heights(SiteQuery& query, const LayerFields& fields, const std::string& given,
+                  std::vector<std::string>& warnings);
 
-/// Lets the query take names from kNameField where it names no field and the file has that one. Throws FileError.
-void take_names(SiteQuery& query);
+/// Lets the query take names from kNameField where it names no field and the file has that one.
+void take_names(SiteQuery& query, const LayerFields& fields);
 
 /// Warns of a field that the file has and that nobody reads unless `option` names it.
-void warn_of_unused(const SiteQuery& query, const std::string& field, const std::string& option,
-                    std::vector<std::string>& warnings);
+void warn_of_unused(const SiteQuery& query, const LayerFields& fields, const std::string& field,
+                    const std::string& option, std::vector<std::string>& warnings);
 
 /// The error about a file of places that holds none. Names the option that may have left all out, where there is one.
 std::string none_in(const SiteQuery& query, const char* what);

@@ -77,7 +77,7 @@ class DemandReader {
     query.path = options_.demand;
     query.crs = options_.in_crs.crs;
     if (options_.weight_field.empty()) {
-      warn_of_unused(query, "weight", "--weight-field", inputs_.warnings);
+      warn_of_unused(query, LayerFields(query), "weight", "--weight-field", inputs_.warnings);
     } else {
       query.numbers.push_back({options_.weight_field});
     }

@@ -90,7 +90,7 @@ class InputReader {
     SiteQuery query = options_.candidates;
     query.crs = options_.in_crs.crs;
     if (options_.cost_field.empty()) {
-      warn_of_unused(query, "cost", "--cost-field", inputs_.warnings);
+      warn_of_unused(query, LayerFields(query), "cost", "--cost-field", inputs_.warnings);
     } else {
       query.numbers.push_back({options_.cost_field});
     }

@@ -223,13 +223,13 @@ void SiteOptions::take_fields(std::vector<std::string>& warnings) {
   existing_height_field = candidates.height_field;
   if (placement.given()) return;
   if (!candidates.path.empty() && candidates.height_field.empty()) {
-    take_heights(candidates, mast_height_text_.empty() ? "" : "--mast-height", warnings);
+    take_heights(candidates, LayerFields(candidates), mast_height_text_.empty() ? "" : "--mast-height", warnings);
     took_heights_ = !candidates.height_field.empty();
   }
-  if (existing.empty()) return;
+  if (existing.empty() || !existing_height_field.empty()) return;
   SiteQuery standing;
-  standing.path = existing, standing.height_field = existing_height_field;
-  take_heights(standing, "", warnings);
+  standing.path = existing;
+  take_heights(standing, LayerFields(standing), "", warnings);
   existing_height_field = standing.height_field;
 }
 

@@ -100,8 +100,9 @@ void HorizonOutput::validate() {
 void HorizonOutput::read_targets(const viewshed::Request& request, bool height_given, const InCrs& in_crs,
                                  const StoreMetadata& metadata, std::vector<std::string>& warnings) {
   if (sites_.path.empty()) return;
-  take_heights(sites_, height_given ? "--target-height" : "", warnings);
-  take_names(sites_);
+  const LayerFields fields(sites_);
+  take_heights(sites_, fields, height_given ? "--target-height" : "", warnings);
+  take_names(sites_, fields);
   sites_.crs = in_crs.crs;
   for (const Site& site : read_sites(sites_, metadata.crs_wkt)) {
     const std::string where = fmt::format("{}: feature {}", sites_.path, site.feature);

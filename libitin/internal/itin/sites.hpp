@@ -42,9 +42,17 @@ struct Site {
   std::vector<std::optional<double>> numbers;  ///< one for each SiteQuery::numbers; nothing where the field is empty
 };
 
-/// Whether the layer that the query is about has a field of this name, in whatever case. Throws FileError for a file or
-/// layer that is missing or not understood.
-bool has_field(const SiteQuery& query, const std::string& field);
+/// The fields of the layer that a query is about, read once.
+class LayerFields {
+ public:
+  /// Throws FileError for a file or layer that is missing or not understood.
+  explicit LayerFields(const SiteQuery& query);
+  /// In whatever case.
+  bool has(const std::string& name) const;
+
+ private:
+  std::vector<std::string> names_;
+};
 
 /// All sites in the file's order, in the CRS `to_crs` (WKT). Throws FileError for a file, layer, field, filter or
 /// feature that is missing or not understood (naming it), InputError for a CRS that is unknown, a height beyond

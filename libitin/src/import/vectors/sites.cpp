@@ -111,10 +111,16 @@ std::vector<Site> read(const SiteQuery& query, const std::string& to_crs, std::v
 
 }  // namespace
 
-bool has_field(const SiteQuery& query, const std::string& field) {
+LayerFields::LayerFields(const SiteQuery& query) {
   const QuietGdal quiet;
   const GDALDatasetUniquePtr dataset = open_place_file(query.path, ColumnTypes::kDeclared);
-  return choose_layer(*dataset, query.path, query.layer).GetLayerDefn()->GetFieldIndex(field.c_str()) >= 0;
+  const OGRFeatureDefn& layer = *choose_layer(*dataset, query.path, query.layer).GetLayerDefn();
+  for (int i = 0; i < layer.GetFieldCount(); ++i) names_.emplace_back(layer.GetFieldDefn(i)->GetNameRef());
+}
+
+bool LayerFields::has(const std::string& name) const {
+  return std::any_of(names_.begin(), names_.end(),
+                     [&](const std::string& field) { return EQUAL(field.c_str(), name.c_str()); });
 }
 
 std::vector<Site> read_sites(const SiteQuery& query, const std::string& to_crs) {
