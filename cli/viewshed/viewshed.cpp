@@ -72,9 +72,10 @@ class ViewshedVerb final : public Verb {
            "observer's own place -90 or 90, and 0 at the height of its eye); "
            "nearest (two bands: distance and number of the nearest visible observer); blocker (two bands: theme and "
            "feature of what first hides the cell from the nearest observer, none where the target itself is below the "
-           "ground); height (the least height above the "
-           "ground at which a target is seen, metres, no value where none is); probability (two bands: the "
-           "probability of being visible under --vertical-error, and 1 or 0 for the heights as stored)")
+           "ground, 4294967294 where ground without data comes first); height (the least height above the "
+           "ground at which a target is seen, metres, no value where none is or is known); probability (two bands: the "
+           "probability of being visible under --vertical-error, and 1, 0 or 2 for visible, hidden or undecided as the "
+           "heights are stored)")
         ->type_name("MODE");
     observers_.declare(app);
     targets_.declare(app);

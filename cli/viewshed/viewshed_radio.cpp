@@ -30,7 +30,7 @@ std::string zone_text(const viewshed::Result& result) {
 }
 
 std::string loss_text(const viewshed::Result& result) {
-  const std::uint64_t in_view = result.cells.in_view(), without = viewshed::cells_without_loss(result);
+  const std::uint64_t in_view = result.cells.in_view(), without = viewshed::cells_without_value(result)->cells;
   std::string text =
       fmt::format("diffraction loss known in {} of {}\n", grouped(in_view - without), counted(in_view, "cell"));
   if (without > 0)

@@ -27,6 +27,15 @@ std::string certified_text(const viewshed::Result& result) {
   return text;
 }
 
+/// The cells whose value only ground without data leaves unknown, in modes that have one of every cell.
+std::string unknown_values_text(const viewshed::Result& result) {
+  const auto without = viewshed::cells_without_value(result);
+  if (!without || without->cells == 0 || !result.crosses_voids || result.request.nodata != NoData::kUnknown) return "";
+  return fmt::format(
+      "no {} is known of {}, to which lines cross ground without data; --nodata block or clear decides them\n",
+      without->value, counted(without->cells, "cell"));
+}
+
 std::string plain_text(const viewshed::Result& result) {
   const viewshed::CellCounts& cells = result.cells;
   const std::uint64_t decided = cells.visible + cells.hidden;
@@ -42,7 +51,7 @@ std::string plain_text(const viewshed::Result& result) {
   if (cells.undecided > 0)
     text += fmt::format("undecided: {}, across ground without data; --nodata block or clear decides them\n",
                         counted(cells.undecided, "cell"));
-  return text;
+  return mode == viewshed::Mode::kLoss ? text : text + unknown_values_text(result);
 }
 
 }  // namespace

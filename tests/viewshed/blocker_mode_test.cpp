@@ -115,6 +115,19 @@ TEST(BlockerMode, NamesTheThemeAndMissingGround) {
   const Result high = run(tin, request);
   EXPECT_EQ(theme(high, 255), kNoBlocker);
   EXPECT_EQ(theme(high, 355), kMissingGround);
+  // From the other side the gap comes before the wall, which alone is known to hide what lies behind both.
+  request.observers = {{"", {kCorner.x + 385, kCorner.y + 205}, 2}};
+  EXPECT_EQ(theme(run(tin, request), 105), kMissingGround);
+  request.nodata = NoData::kUnknown;
+  const Result open = run(tin, request);
+  EXPECT_EQ(theme(open, 105), kMissingGround);
+  EXPECT_EQ(open.visible[open.grid.index(open.grid.cell_at({kCorner.x + 105, kCorner.y + 205}).value())],
+            Verdict::kHidden);
+  EXPECT_EQ(theme(open, 255), kNoBlocker);
+  EXPECT_EQ(open.visible[open.grid.index(open.grid.cell_at({kCorner.x + 255, kCorner.y + 205}).value())],
+            Verdict::kUndecided);
+  request.nodata = NoData::kClear;
+  EXPECT_EQ(theme(run(tin, request), 105), 3U);
 }
 
 TEST(BlockerMode, IsCancelledWhileItNamesFeatures) {

@@ -19,6 +19,7 @@
 
 #include "bounds/pixel_heights.hpp"
 #include "compute/lattice_sectors.hpp"
+#include "line/infinity.hpp"
 #include "support/full_detail.hpp"
 #include "support/raster_file.hpp"
 #include "support/same_result.hpp"
@@ -141,6 +142,84 @@ TEST_F(VerdictsOverVoids, NothingIsOpenUnderTheOtherRules) {
   }
 }
 
+TEST_F(VerdictsOverVoids, AreThoseOfEveryMode) {
+  const Store store(path());
+  Request request = look();
+  const Result expected = of_two_runs(store, request);
+  request.vertical_error = {2, 0};
+  for (const Mode mode : {Mode::kBlocker, Mode::kHeight, Mode::kProbability}) {
+    SCOPED_TRACE(static_cast<int>(mode));
+    request.mode = mode;
+    for (const std::uint64_t memory : {kMuch, std::uint64_t{4000000}})
+      expect_same(expected, test::compute_at_full_detail(store, request, {memory, false}, progress_).result);
+  }
+}
+
+/// What single observers find where voids hide nothing tells what all find, and what is not known of it: the values of
+/// those whose lines cross a void, which no height is seen across where it blocks, are bounds.
+TEST_F(VerdictsOverVoids, LeaveValuesOpenThatTheyCouldChange) {
+  const Store store(path());
+  Request request = look();
+  request.grid = compute(store, request, progress_).grid;
+  request.cell_size.reset();
+  request.vertical_error = {2, 0};
+  const auto values = [&](Mode mode, NoData rule, const std::vector<Observer>& observers) {
+    Request of = request;
+    of.mode = mode, of.nodata = rule, of.observers = observers;
+    const Result result = test::compute_at_full_detail(store, of, {}, progress_).result;
+    return mode == Mode::kHeight ? result.get<LeastHeights>().height_m : result.get<Probabilities>().probability;
+  };
+  for (const Mode mode : {Mode::kHeight, Mode::kProbability}) {
+    SCOPED_TRACE(static_cast<int>(mode));
+    // A value is the better the greater it is.
+    const float sign = mode == Mode::kHeight ? -1 : 1, worst = mode == Mode::kHeight ? -kFloatInfinity : 0;
+    const std::vector<float> found = values(mode, NoData::kUnknown, request.observers);
+    std::vector<float> known(found.size(), worst), open = known;
+    std::vector<bool> seen_by_any(found.size());
+    for (const Observer& observer : request.observers) {
+      const std::vector<float> clear = values(mode, NoData::kClear, {observer});
+      const std::vector<float> beyond_voids = values(Mode::kHeight, NoData::kBlock, {observer});
+      for (std::size_t i = 0; i < found.size(); ++i) {
+        if (std::isnan(clear[i])) continue;
+        seen_by_any[i] = true;
+        float& best = (std::isnan(beyond_voids[i]) ? open : known)[i];
+        best = std::max(best, sign * clear[i]);
+      }
+    }
+    std::size_t unknown = 0, told = 0;
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      const bool is_known = seen_by_any[i] && known[i] >= open[i] && !std::isinf(known[i]);
+      ASSERT_EQ(!std::isnan(found[i]), is_known) << "cell " << i;
+      if (is_known) {
+        ASSERT_EQ(sign * found[i], known[i]) << "cell " << i;
+      }
+      (is_known ? told : unknown) += seen_by_any[i] ? 1 : 0;
+    }
+    EXPECT_GT(unknown, 100U);
+    EXPECT_GT(told, 100U);
+  }
+}
+
+TEST_F(VerdictsOverVoids, HaveNoProbabilityWhereTheyBlock) {
+  const Store store(path());
+  Request request = look();
+  request.observers.resize(1);
+  request.nodata = NoData::kBlock;
+  request.vertical_error = {5, 0};
+  const auto compute_in = [&](Mode mode) {
+    request.mode = mode;
+    return test::compute_at_full_detail(store, request, {}, progress_).result;
+  };
+  const Result heights = compute_in(Mode::kHeight), probabilities = compute_in(Mode::kProbability);
+  std::size_t behind = 0;
+  for (std::size_t i = 0; i < heights.visible.size(); ++i) {
+    if (heights.visible[i] == Verdict::kOutside || !std::isnan(heights.get<LeastHeights>().height_m[i])) continue;
+    ++behind;
+    ASSERT_EQ(probabilities.get<Probabilities>().probability[i], 0) << "cell " << i;
+  }
+  EXPECT_GT(behind, 100U);
+}
+
 TEST_F(VerdictsOverVoids, ProgressOnlyGrowsAndReachesTheEnd) {
   const Store store(path());
   const Request request = look();
@@ -178,7 +257,7 @@ TEST_F(VerdictsOverVoids, FeaturesChangeNothingOfThat) {
       const Result parts = test::compute_at_full_detail(store, request, {4000000, false}, progress_).result;
       EXPECT_TRUE(parts.visible == whole.visible);
       EXPECT_TRUE(test::same_values(parts.values, whole.values));
-      const bool undecided = mode != Mode::kHeight && rule == NoData::kUnknown;
+      const bool undecided = rule == NoData::kUnknown;
       EXPECT_EQ(parts.cells.undecided > 0, undecided);
     }
   }

@@ -283,16 +283,16 @@ TEST_F(Plans, RefuseDamagedFiles) {
 }
 
 /// Cells of a request's own warn of missing ground where a line to them can cross it, and nowhere else.
-TEST_F(Plans, WarnOfMissingGroundWhereLinesCrossIt) {
+TEST_F(Plans, KnowWhereLinesCrossMissingGround) {
   const Store store(hills_path());
   Request request = over_hills();
   request.observers.resize(1);
   request.mode = Mode::kHeight;
   request.cell_size.reset();
   request.grid.emplace(Point2{302500, 203500}, 20, 20, 50, 50);
-  EXPECT_TRUE(compute(store, request, progress_).warnings.empty());
+  EXPECT_FALSE(compute(store, request, progress_).crosses_voids);
   request.grid.emplace(Point2{300500, 201000}, 20, 20, 20, 20);
-  EXPECT_EQ(compute(store, request, progress_).warnings.size(), 1U);
+  EXPECT_TRUE(compute(store, request, progress_).crosses_voids);
 }
 
 }  // namespace

@@ -251,14 +251,19 @@ TEST(Viewshed, GroundWithoutDataIsUnknownClearOrBlocks) {
   EXPECT_EQ(at(run(parted(), request), 395, 205), Verdict::kHidden);
 }
 
-TEST(Viewshed, ModesThatCannotSayUndecidedWarn) {
+TEST(Viewshed, IsAsUndecidedInEveryMode) {
   Request request = look(105, 205, 5);
-  request.mode = Mode::kHeight;
-  const Result unknown = run(parted(), request);
-  EXPECT_EQ(unknown.warnings.size(), 1U);
-  EXPECT_EQ(unknown.cells.undecided, 0U);
-  request.nodata = NoData::kClear;
-  EXPECT_EQ(run(parted(), request).visible, unknown.visible);
+  request.vertical_error = {1, 0};
+  const Result expected = run(parted(), request);
+  EXPECT_GT(expected.cells.undecided, 0U);
+  for (const Mode mode :
+       {Mode::kCount, Mode::kWhich, Mode::kAngle, Mode::kNearest, Mode::kBlocker, Mode::kHeight, Mode::kProbability}) {
+    SCOPED_TRACE(static_cast<int>(mode));
+    request.mode = mode;
+    const Result result = run(parted(), request);
+    EXPECT_EQ(result.visible, expected.visible);
+    EXPECT_TRUE(result.warnings.empty());
+  }
 }
 
 TEST(Viewshed, ObserversAreCountedAndNamedWhereTheyCertainlySee) {

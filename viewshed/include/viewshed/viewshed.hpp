@@ -59,8 +59,7 @@ struct Observer {
 };
 
 /// Under kUnknown lines are undecided that only ground without data could hide; what counts or names observers counts
-/// those that certainly see. In modes kBlocker, kHeight and kProbability these lines pass, and a warning says so if any
-/// could be concerned.
+/// those that certainly see. A value of which that ground leaves open what it is, is not given.
 using itin::NoData;
 
 /// The algorithm that decides sight lines to cells. The result never depends on it.
@@ -140,7 +139,7 @@ inline constexpr int kDefaultCells = 2048;
 inline constexpr std::uint16_t kCountOutside = 65535;
 
 inline constexpr std::uint32_t kNoBlocker = 0xffffffff;
-/// Ground that is missing, under NoData::kBlock.
+/// Ground without data comes first: it hides under NoData::kBlock, and may hide under NoData::kUnknown.
 inline constexpr std::uint32_t kMissingGround = 0xfffffffe;
 /// A triangle of the surface that hides something.
 struct BlockingTriangle {
@@ -217,12 +216,14 @@ struct Blockers {
   std::vector<std::uint32_t> feature;
 };
 /// kHeight: 0 where the ground is seen, NaN where no height is (outside, beyond the elevations in view, or behind
-/// missing ground that blocks). Exact: the sight line to it touches the surface within a micrometre.
+/// missing ground that blocks) or none is known: where the line crosses ground without data under NoData::kUnknown,
+/// unless another observer certainly sees as low. Exact: the sight line to it touches the surface within a micrometre.
 struct LeastHeights {
   std::vector<float> height_m;
 };
 /// kProbability: that the whole line is clear, with a standard error of at most 0.022, alike in neighbouring cells; 0
-/// for a target at an elevation below the ground; NaN outside.
+/// for a target at an elevation below the ground, or behind ground without data that blocks; NaN outside, and where
+/// ground without data leaves it open under NoData::kUnknown.
 struct Probabilities {
   std::vector<float> probability;
 };
@@ -241,8 +242,8 @@ using ModeValues = std::variant<std::monostate, Counts, ObserverSets, Angles, Ne
 struct Result {
   Request request;  ///< as understood
   RasterGrid grid;
-  /// In every mode. Undecided is what only ground without data leaves open, under NoData::kUnknown (not in kBlocker,
-  /// kHeight and kProbability), and in certified results what the level leaves open.
+  /// In every mode. Undecided is what only ground without data leaves open, under NoData::kUnknown, and in certified
+  /// results what the level leaves open.
   std::vector<Verdict> visible;
   bool certified = false;                ///< made by compute_certified(): verdicts at a level are certain
   bool decided_exactly = false;          ///< a certified one over the full surface, where the level is no cheaper

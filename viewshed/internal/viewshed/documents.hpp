@@ -2,6 +2,9 @@
 // share.
 #pragma once
 
+#include <cstdint>
+#include <optional>
+
 #include <itin/document.hpp>
 #include <viewshed/horizon.hpp>
 #include <viewshed/missing_ground.hpp>
@@ -18,8 +21,13 @@ Document statistics_document(const Statistics& statistics);
 /// How many of the cells within fields of view are decided.
 double decided_percent(const CellCounts& cells);
 
-/// How many of the cells in view have no loss, in mode kLoss.
-std::uint64_t cells_without_loss(const Result& result);
+/// Cells in view that a mode has no value of.
+struct CellsWithoutValue {
+  const char* value;  ///< height, probability or loss
+  std::uint64_t cells = 0;
+};
+/// Those of kHeight, kProbability or kLoss; nothing in other modes.
+std::optional<CellsWithoutValue> cells_without_value(const Result& result);
 
 /// `crs`, `surface`, `refraction`, `grid`, `cells`, `area_m2`, of a certified one `decided_percent` and
 /// `decided_exactly`, and `statistics`.

@@ -77,7 +77,7 @@ class Blocks final : public CoarsePass {
 class Rays final : public CoarsePass {
  public:
   Rays(Envelope envelope, const Over& over)
-      : over_(over), scene_(std::move(envelope), over.request, over.tiles, missing_ground_rule(over.request)) {}
+      : over_(over), scene_(std::move(envelope), over.request, over.tiles, over.request.nodata) {}
 
   Left decide(const Eye& eye, TileVerdicts& verdicts, Stage& stage) override {
     std::vector<TileSet> needed(verdicts.size());

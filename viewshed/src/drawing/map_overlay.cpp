@@ -287,13 +287,10 @@ void MapOverlay::scale_losses() {
 
 void MapOverlay::make_keys(const MapOptions& options) {
   const CellCounts& cells = result_.cells;
-  if (result_.request.mode == Mode::kLoss) {
-    // Undecided cells have none, either, and a key of their own.
-    if (const std::uint64_t without = cells_without_loss(result_); without > cells.undecided)
-      keys_.push_back({{}, "No loss known", without - cells.undecided});
-  } else {
-    add_verdict_keys(options);
-  }
+  if (result_.request.mode != Mode::kLoss) add_verdict_keys(options);
+  // Undecided cells have none, either, and a key of their own.
+  if (const auto without = cells_without_value(result_); without && without->cells > cells.undecided)
+    keys_.push_back({{}, fmt::format("No {} known", without->value), without->cells - cells.undecided});
   if (cells.undecided > 0 || result_.certified)
     keys_.push_back({{{kUndecidedColour, kOpacity}}, "Undecided", cells.undecided});
 }

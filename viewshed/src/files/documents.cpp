@@ -20,7 +20,8 @@ Document of_verdicts(const Result& result, const auto& value) {
                     {"undecided", value(cells.undecided)},
                     {"outside", value(cells.outside)}};
   if (result.request.mode == Mode::kFresnel) document["zone_cut"] = value(cells.zone_cut);
-  if (result.request.mode == Mode::kLoss) document["without_loss"] = value(cells_without_loss(result));
+  if (const auto without = cells_without_value(result))
+    document[std::string("without_") + without->value] = value(without->cells);
   return document;
 }
 
@@ -63,13 +64,17 @@ double decided_percent(const CellCounts& cells) {
   return all == 0 ? 100 : 100.0 * static_cast<double>(decided) / static_cast<double>(all);
 }
 
-std::uint64_t cells_without_loss(const Result& result) {
-  const auto* const losses = std::get_if<Losses>(&result.values);
-  if (losses == nullptr) return 0;
-  std::uint64_t count = 0;
-  for (std::size_t i = 0; i < losses->diffraction_db.size(); ++i)
-    count += std::isnan(losses->diffraction_db[i]) && result.visible[i] != Verdict::kOutside ? 1 : 0;
-  return count;
+std::optional<CellsWithoutValue> cells_without_value(const Result& result) {
+  const auto without = [&](const char* value, const std::vector<float>& values) {
+    CellsWithoutValue cells{value};
+    for (std::size_t i = 0; i < values.size(); ++i)
+      cells.cells += std::isnan(values[i]) && result.visible[i] != Verdict::kOutside ? 1 : 0;
+    return cells;
+  };
+  if (const auto* of = std::get_if<LeastHeights>(&result.values)) return without("height", of->height_m);
+  if (const auto* of = std::get_if<Probabilities>(&result.values)) return without("probability", of->probability);
+  if (const auto* of = std::get_if<Losses>(&result.values)) return without("loss", of->diffraction_db);
+  return std::nullopt;
 }
 
 Document viewshed_document(const StoreMetadata& metadata, const Result& result) {

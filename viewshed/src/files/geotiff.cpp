@@ -112,8 +112,10 @@ class Writer {
 
   void heights() {
     const char* base = result_.request.targets_on_surface ? "the surface with its features" : "the ground";
-    write<float>({fmt::format("least height above {} at which a target is seen, metres; no value: at none", base)},
-                 kNaN, result_.get<LeastHeights>().height_m);
+    const char* unknown = leaves_values_open() ? ", or ground without data leaves it open" : "";
+    write<float>(
+        {fmt::format("least height above {} at which a target is seen, metres; no value: at none{}", base, unknown)},
+        kNaN, result_.get<LeastHeights>().height_m);
   }
   void probabilities() {
     std::vector<float> values = result_.get<Probabilities>().probability;
@@ -121,11 +123,17 @@ class Writer {
     for (const Verdict v : result_.visible)
       values.push_back(v == Verdict::kOutside ? std::numeric_limits<float>::quiet_NaN()
                                               : static_cast<float>(code_of(v)));
-    write<float>({"probability of being visible, in 512 simulated surfaces", "visible as the heights are"}, kNaN,
-                 values);
+    const std::string unknown = leaves_values_open() ? "; no value: ground without data leaves it open" : "";
+    const std::string open = leaves_values_open() ? "; 2: undecided" : "";
+    write<float>(
+        {"probability of being visible, in 512 simulated surfaces" + unknown, "visible as the heights are" + open},
+        kNaN, values);
   }
   void blockers() {
-    std::vector<std::string> bands{"theme of what hides the cell, 0: terrain"};
+    const std::string unknown = result_.crosses_voids && result_.request.nodata != NoData::kClear
+                                    ? fmt::format(", {}: ground without data comes first", kMissingGround)
+                                    : "";
+    std::vector<std::string> bands{"theme of what hides the cell, 0: terrain" + unknown};
     const auto& blockers = result_.get<Blockers>();
     std::vector<std::uint32_t> values = blockers.theme;
     if (!blockers.feature.empty()) {
@@ -157,6 +165,8 @@ class Writer {
   }
 
  private:
+  bool leaves_values_open() const { return result_.crosses_voids && result_.request.nodata == NoData::kUnknown; }
+
   static constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
   template <class T>

@@ -162,7 +162,7 @@ BlockJudge::BlockJudge(const BoundedEnvelope& surface, const Request& request, c
       eye_(eye),
       nearby_(nearby),
       horizon_(horizon_of(surface.bounds(), request, eye)) {
-  if (missing_ground_rule(request) == NoData::kBlock)
+  if (request.nodata == NoData::kBlock)
     shadow_.emplace(rim_of(surface.envelope().upper, surface.envelope().outline), eye.units);
 }
 

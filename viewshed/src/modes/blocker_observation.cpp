@@ -5,8 +5,19 @@
 #include <itin/sort_unique.hpp>
 
 #include "line/infinity.hpp"
+#include "request/void_shadow.hpp"
 
 namespace itin::viewshed {
+
+namespace {
+
+/// Whether the line crosses ground without data before it comes to this fraction of its length.
+bool is_behind_missing_ground(const TileView& tile, const Sight& sight, double at) {
+  const auto& shadow = tile.from().shadow;
+  return shadow && shadow->holds(std::lerp(sight.from.x, sight.to.x, at), std::lerp(sight.from.y, sight.to.y, at));
+}
+
+}  // namespace
 
 BlockerObservation::BlockerObservation(BlockerTable& table) : table_(table) {
   squared_.fill(kInfinity);
@@ -34,7 +45,7 @@ std::uint64_t BlockerObservation::observe(const TileView& tile) {
 }
 
 void BlockerObservation::study(const TileView& tile, const CellView& view, const Sight& sight) {
-  if (sight.seen) return;
+  if (sight.verdict != Verdict::kHidden) return;
   const double squared = view.squared_distance();
   const bool nearer =
       squared < squared_[view.cell] || (squared == squared_[view.cell] && view.observer < observer_[view.cell]);
@@ -42,8 +53,12 @@ void BlockerObservation::study(const TileView& tile, const CellView& view, const
   const auto blocker = tile.studies->blockers->find(sight.from, sight.to);
   squared_[view.cell] = squared;
   observer_[view.cell] = view.observer;
-  blocker_[view.cell] = blocker ? blocker->triangle : kMissingGround;
-  if (blocker) found_.push_back(view.cell);
+  if (!blocker || is_behind_missing_ground(tile, sight, blocker->at)) {
+    blocker_[view.cell] = kMissingGround;
+  } else {
+    blocker_[view.cell] = blocker->triangle;
+    found_.push_back(view.cell);
+  }
 }
 
 void BlockerObservation::store_row(std::size_t cell, std::size_t columns, std::size_t place, Result& result) const {

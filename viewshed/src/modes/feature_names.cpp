@@ -53,7 +53,8 @@ void name_features(const Store& store, Result& result, const Progress& progress)
 
 std::string blocker_name(const Result& result, std::uint32_t theme) {
   if (theme == 0) return "terrain";
-  if (theme == kMissingGround) return "no data";
+  if (theme == kMissingGround)
+    return result.request.nodata == NoData::kBlock ? "ground without data" : "unknown: ground without data comes first";
   return theme <= result.theme_names.size() ? result.theme_names[theme - 1] : fmt::format("theme {}", theme);
 }
 

@@ -12,6 +12,7 @@ namespace itin::viewshed {
 
 LeastHeightObservation::LeastHeightObservation() {
   least_.fill(kInfinity);
+  open_.fill(kInfinity);
 }
 
 bool LeastHeightObservation::open(const CellView& view) const {
@@ -57,21 +58,25 @@ bool LeastHeightObservation::raise(const TileView& tile, const CellView& view, E
 void LeastHeightObservation::record(const TileView& tile, const CellView& view, const Ends& ends) {
   const FullSurface::TileCells& cells = tile.cells();
   const Point3 highest = cells.target(view.cell);
-  if (const auto& shadow = tile.from().shadow; shadow && shadow->holds(highest.x, highest.y)) return;
+  const auto& shadow = tile.from().shadow;
+  const bool over_missing = shadow && shadow->holds(highest.x, highest.y);
+  if (over_missing && shadow->shaded() == Verdict::kHidden) return;
   // At the eye's own place nothing hides.
   const double found = cells.seen[view.cell], seen = std::isinf(found) ? ends.lowest[view.cell] : found;
   const double ground = cells.ground[view.cell], wanted = ends.wanted[view.cell];
   const double height = seen <= ground ? 0 : (seen - ground) * tile.resolution();
-  least_[view.cell] = std::min(least_[view.cell], height);
+  double& least = (over_missing ? open_ : least_)[view.cell];
+  least = std::min(least, height);
   if (wanted >= ends.lowest[view.cell] && wanted <= highest.z && seen <= wanted)
-    verdicts().add(view.cell, Verdict::kVisible);
+    verdicts().add(view.cell, over_missing ? Verdict::kUndecided : Verdict::kVisible);
 }
 
 void LeastHeightObservation::store_row(std::size_t cell, std::size_t columns, std::size_t place, Result& result) const {
   for (std::size_t i = 0; i < columns; ++i) {
     const double least = least_[cell + i];
+    const bool known = !std::isinf(least) && least <= open_[cell + i];
     result.get<LeastHeights>().height_m[place + i] =
-        std::isinf(least) ? std::numeric_limits<float>::quiet_NaN() : static_cast<float>(least);
+        known ? static_cast<float>(least) : std::numeric_limits<float>::quiet_NaN();
   }
 }
 

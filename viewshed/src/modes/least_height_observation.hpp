@@ -24,7 +24,9 @@ class LeastHeightObservation final : public Observation {
   bool raise(const TileView& tile, const CellView& view, Ends& ends);
   void record(const TileView& tile, const CellView& view, const Ends& ends);
 
-  TileValues<double> least_;  ///< metres above the ground; infinity where no height is seen
+  // Metres above the ground; infinity where no height is seen.
+  TileValues<double> least_;
+  TileValues<double> open_;  ///< what known ground asks for, of observers whose lines cross ground without data
 };
 
 }  // namespace itin::viewshed

@@ -25,12 +25,11 @@ std::uint64_t LossObservation::observe(const TileView& tile) {
   return lines;
 }
 
-void LossObservation::qualify(const TileView&, TileValues<Verdict>& values) {
-  for (std::size_t cell = 0; cell < values.size(); ++cell)
-    if (values[cell] == Verdict::kUndecided) unknown_.set(cell);
-}
-
 void LossObservation::study(const TileView& tile, const CellView& view, const Sight& sight) {
+  if (sight.verdict == Verdict::kUndecided) {
+    unknown_.set(view.cell);
+    return;
+  }
   const LineLosses::Outcome outcome = tile.studies->losses->of_line({sight.from, sight.to}, scratch_);
   if (outcome.over_missing && nodata_ == NoData::kUnknown) unknown_.set(view.cell);
   if (!outcome.loss || (outcome.over_missing && nodata_ != NoData::kClear)) return;

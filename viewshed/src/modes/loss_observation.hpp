@@ -15,7 +15,6 @@ class LossObservation final : public Observation {
   std::uint64_t observe(const TileView& tile) override;
 
  private:
-  void qualify(const TileView& tile, TileValues<Verdict>& values) override;
   void study(const TileView& tile, const CellView& view, const Sight& sight) override;
   void store_row(std::size_t cell, std::size_t columns, std::size_t place, Result& result) const override;
 

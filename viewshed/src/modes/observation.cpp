@@ -145,12 +145,11 @@ std::uint64_t Observation::observe(const TileView& tile) {
   verdicts_.add(values);
   tile.for_each_cell([&](CellView view) {
     const Verdict verdict = values[view.cell];
-    if (verdict != Verdict::kVisible && verdict != Verdict::kHidden) return;
-    const bool seen = verdict == Verdict::kVisible;
+    if (verdict == Verdict::kOutside) return;
     view.dz = eye.target(cells.ground[view.cell] * tile.resolution()) - eye.elevation;
     if (!std::isnan(cells.targets[view.cell])) {
-      study(tile, view, {eye, eye.units, cells.target(view.cell), seen});
-    } else if (seen) {
+      study(tile, view, {eye, eye.units, cells.target(view.cell), verdict});
+    } else if (verdict == Verdict::kVisible) {
       keep(view);
     }
   });
@@ -200,7 +199,7 @@ std::unique_ptr<Observation> Observations::of_tile() {
     case Mode::kHeight:
       return std::make_unique<LeastHeightObservation>();
     case Mode::kProbability:
-      return std::make_unique<ProbabilityObservation>(request_.nodata);
+      return std::make_unique<ProbabilityObservation>();
     case Mode::kFresnel:
       return std::make_unique<ZoneObservation>();
     case Mode::kLoss:

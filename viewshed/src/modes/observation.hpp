@@ -55,7 +55,7 @@ struct TileView {
 struct Sight {
   const Eye& eye;
   Point3 from, to;
-  bool seen = false;
+  Verdict verdict = Verdict::kHidden;  ///< or visible, or undecided
 };
 
 class Observation {
@@ -93,9 +93,9 @@ class Observation {
   virtual void qualify(const TileView&, TileValues<Verdict>&) {}
   /// The target is seen; its verdict has been added.
   virtual void keep(const CellView&) {}
-  /// Studies a target that is seen or hidden, and that is not straight above or below the eye.
+  /// Studies a target that the eye looks at, and that is not straight above or below it.
   virtual void study(const TileView&, const CellView& view, const Sight& sight) {
-    if (sight.seen) keep(view);
+    if (sight.verdict == Verdict::kVisible) keep(view);
   }
   /// A row of `columns` cells, from `cell` in the tile to `place` in the grid.
   virtual void store_row(std::size_t, std::size_t, std::size_t, Result&) const {}

@@ -5,8 +5,9 @@
 
 namespace itin::viewshed {
 
-ProbabilityObservation::ProbabilityObservation(NoData nodata) : nodata_(nodata) {
-  probabilities_.fill(0);
+ProbabilityObservation::ProbabilityObservation() {
+  known_.fill(0);
+  open_.fill(0);
 }
 
 std::uint64_t ProbabilityObservation::observe(const TileView& tile) {
@@ -18,21 +19,24 @@ std::uint64_t ProbabilityObservation::observe(const TileView& tile) {
 
 /// At the eye itself, where nothing can come between.
 void ProbabilityObservation::keep(const CellView& view) {
-  probabilities_[view.cell] = 1;
+  known_[view.cell] = 1;
 }
 
 void ProbabilityObservation::study(const TileView& tile, const CellView& view, const Sight& sight) {
-  const VisibilityProbability::Odds odds =
-      tile.studies->odds->of_line({sight.from, sight.to, !sight.eye.absolute, !sight.eye.target_absolute}, *scratch_);
-  // A hidden cell that no ground hides is behind missing ground that blocks.
-  if (!sight.seen && odds.clear && nodata_ == NoData::kBlock) return;
-  probabilities_[view.cell] = std::max(probabilities_[view.cell], static_cast<float>(odds.probability));
+  const auto& shadow = tile.from().shadow;
+  const bool over_missing = shadow && shadow->holds(sight.to.x, sight.to.y);
+  if (over_missing && shadow->shaded() == Verdict::kHidden) return;
+  float& greatest = (over_missing ? open_ : known_)[view.cell];
+  const VisibilityProbability::Line line{sight.from, sight.to, !sight.eye.absolute, !sight.eye.target_absolute};
+  greatest = std::max(greatest, static_cast<float>(tile.studies->odds->of_line(line, *scratch_).probability));
 }
 
 void ProbabilityObservation::store_row(std::size_t cell, std::size_t columns, std::size_t place, Result& result) const {
-  for (std::size_t i = 0; i < columns; ++i)
-    result.get<Probabilities>().probability[place + i] =
-        verdicts()[cell + i] == Verdict::kOutside ? std::numeric_limits<float>::quiet_NaN() : probabilities_[cell + i];
+  for (std::size_t i = cell; i < cell + columns; ++i) {
+    const bool known = verdicts()[i] != Verdict::kOutside && known_[i] >= open_[i];
+    result.get<Probabilities>().probability[place + i - cell] =
+        known ? known_[i] : std::numeric_limits<float>::quiet_NaN();
+  }
 }
 
 }  // namespace itin::viewshed

@@ -11,7 +11,7 @@ namespace itin::viewshed {
 class ProbabilityObservation final : public Observation {
  public:
   /// Observes one tile.
-  explicit ProbabilityObservation(NoData nodata);
+  ProbabilityObservation();
 
   bool asks_of_the_hidden() const override { return true; }
   std::uint64_t observe(const TileView& tile) override;
@@ -21,9 +21,9 @@ class ProbabilityObservation final : public Observation {
   void keep(const CellView& view) override;
   void store_row(std::size_t cell, std::size_t columns, std::size_t place, Result& result) const override;
 
-  NoData nodata_;
   std::optional<VisibilityProbability::Scratch> scratch_;  ///< made for the surface looked at
-  TileValues<float> probabilities_;                        ///< the greatest over several observers
+  TileValues<float> known_;                                ///< the greatest over several observers
+  TileValues<float> open_;                                 ///< and of those whose lines ground without data may hide
 };
 
 }  // namespace itin::viewshed

@@ -146,10 +146,6 @@ bool needs_triangles(const Request& request) {
          request.mode == Mode::kLoss;
 }
 
-bool leaves_open(const Request& request) {
-  return request.mode != Mode::kBlocker && request.mode != Mode::kHeight && request.mode != Mode::kProbability;
-}
-
 bool needs_bare_lines(const Request& request) {
   return request.mode == Mode::kLoss;
 }

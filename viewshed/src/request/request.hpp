@@ -25,8 +25,6 @@ bool has_raised_features(const Store& store, const Request& request);
 bool casts_rays(const Request& request);
 /// Whether the request's mode asks more of the surface's triangles than sight lines.
 bool needs_triangles(const Request& request);
-/// Whether a line that only ground without data could hide stays undecided in the request's mode.
-bool leaves_open(const Request& request);
 /// Whether the request's mode asks about the ground under raised features, too, all along its lines.
 bool needs_bare_lines(const Request& request);
 /// Where the observers stand, metres.

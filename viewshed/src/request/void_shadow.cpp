@@ -20,10 +20,6 @@ constexpr double kTurn = 2 * std::numbers::pi;
 
 }  // namespace
 
-NoData missing_ground_rule(const Request& request) {
-  return leaves_open(request) ? request.nodata : decided_missing_ground_rule(request.nodata);
-}
-
 NoData decided_missing_ground_rule(NoData rule) {
   return rule == NoData::kUnknown ? NoData::kClear : rule;
 }
@@ -113,7 +109,7 @@ std::size_t VoidShadow::sector_of(const Vector& place) {
 }
 
 std::shared_ptr<const VoidShadow> shadow_of(const Eye& eye, const std::vector<RimEdge>& rim, const Result& result) {
-  const NoData rule = missing_ground_rule(result.request);
+  const NoData rule = result.request.nodata;
   if (rule == NoData::kClear || !result.crosses_voids) return nullptr;
   return std::make_shared<const VoidShadow>(rim, eye.units, rule);
 }
@@ -128,9 +124,6 @@ void find_voids(const Grid& units, const std::vector<RimEdge>& rim, Result& resu
     result.crosses_voids = result.crosses_voids || surface_resumes(units, rim, observer.position, reach,
                                                                    hull_about(observer.position, result.grid.bounds()));
   }
-  const Request& request = result.request;
-  if (result.crosses_voids && request.nodata == NoData::kUnknown && !leaves_open(request))
-    result.warnings.emplace_back(kVoidsWarning);
 }
 
 }  // namespace itin::viewshed

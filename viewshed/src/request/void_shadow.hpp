@@ -21,9 +21,6 @@ namespace itin::viewshed {
 inline constexpr const char* kVoidsWarning =
     "sight lines may cross ground without data, which counts as clear; give `nodata` block or clear to choose";
 
-/// The rule for lines that cross ground without data and come back: the request's own, but kClear in place of kUnknown
-/// in modes that leave nothing open (leaves_open()).
-NoData missing_ground_rule(const Request& request);
 /// For answers that leave nothing open: what is not known hides nothing.
 NoData decided_missing_ground_rule(NoData rule);
 
@@ -37,8 +34,10 @@ class VoidShadow {
   /// eye's own. Both lie on the surface. Cost: the edges of one sector.
   bool holds(double x, double y) const;
 
-  /// Each of the tile's cells that is Verdict::kVisible and lies in it becomes Verdict::kHidden, or Verdict::kUndecided
-  /// under kUnknown.
+  /// What it makes of a visible cell: Verdict::kHidden, or Verdict::kUndecided under kUnknown.
+  Verdict shaded() const { return shaded_; }
+
+  /// Each of the tile's cells that is Verdict::kVisible and lies in it becomes shaded().
   void apply_to(const TileCentres& centres, TileValues<Verdict>& values) const;
 
  private:
@@ -60,7 +59,7 @@ class VoidShadow {
   bool comes_from_void(const Numbers& edges, const Vector& corner) const;
 
   Point3 eye_;
-  Verdict shaded_;                ///< what it makes of a visible cell
+  Verdict shaded_;
   std::vector<Edge> edges_;       ///< none where no edge faces away
   std::vector<Numbers> sectors_;  ///< clockwise from the south; as edges_
 };
@@ -71,8 +70,8 @@ std::shared_ptr<const VoidShadow> shadow_of(const Eye& eye, const std::vector<Ri
 
 /// Whether a sight line from a place to another within the radius, metres, may cross ground without data.
 bool may_cross_voids(const Grid& units, const std::vector<RimEdge>& rim, Point2 position, double radius);
-/// Whether sight lines of the result's request may cross ground without data, with a warning where neither the request
-/// nor its answer says what becomes of them. `rim` is where the surface ends, in these units.
+/// Finds out whether sight lines of the result's request may cross ground without data. `rim` is where the surface
+/// ends, in these units.
 void find_voids(const Grid& units, const std::vector<RimEdge>& rim, Result& result);
 
 }  // namespace itin::viewshed
