@@ -34,6 +34,11 @@ using viewshed::Result;
 struct Agreement {
   int visible = 0, hidden = 0;  ///< by the line of sight
   int wrong = 0;                ///< cells that differ
+
+  Agreement& operator+=(const Agreement& a) {
+    visible += a.visible, hidden += a.hidden, wrong += a.wrong;
+    return *this;
+  }
 };
 
 std::ostream& operator<<(std::ostream& out, const Agreement& a) {
@@ -91,7 +96,10 @@ class OneAnswer : public testing::Test {
   }
 
   void expect_exact(const Store& store, const Result& result, int wanted) {
-    const Agreement agreement = ask_again(store, result, wanted);
+    expect_tested(ask_again(store, result, wanted), wanted);
+  }
+
+  static void expect_tested(const Agreement& agreement, int wanted) {
     EXPECT_EQ(agreement.wrong, 0);
     EXPECT_GT(agreement.visible, wanted / 50);  // otherwise nothing was tested
     EXPECT_GT(agreement.hidden, wanted / 50);
@@ -274,13 +282,17 @@ TEST_F(InATown, WithFeaturesAtATolerance) {
 /// Rings that leave most houses out, seen over what they have.
 TEST_F(InATown, InRingsThatThinFeatures) {
   request_.observers.front().height = 15;
+  NoProgress progress;
   for (const bool target : {false, true}) {
+    request_.targets_on_surface = target;
+    // In the smallest rings little may be left that hides anything.
+    Agreement of_all;
     for (const double radius : {20.0, 80.0, 200.0}) {
-      request_.targets_on_surface = target;
       request_.detail = Detail::rings(request_.observers.front().position,
                                       {{radius, 0}, {1.5 * radius, 8}, {2 * radius, 16}, {4 * radius, 32}});
-      expect_plain_agrees(*store_, request_, 400);
+      of_all += ask_again(*store_, viewshed::compute(*store_, request_, progress), 400);
     }
+    expect_tested(of_all, 1200);
   }
 }
 
