@@ -53,7 +53,7 @@ int run(int argc, char** argv) {
   const auto bytes = static_cast<double>(std::filesystem::file_size(path));
   fmt::print(
       "{} m square, {} posts, {:.1f} to {:.1f} m high, {:.0f} bytes ({:.3f} a post) in {:.1f} s, {:.2f} million "
-      "posts a second\n",
+      "posts per second\n",
       report.side_m, report.posts, report.lowest, report.highest, bytes, bytes / posts, seconds,
       posts / seconds * 1e-6);
   return 0;

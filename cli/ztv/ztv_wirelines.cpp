@@ -110,7 +110,7 @@ profile::WirelineQuery query_of(const Viewpoint& v, const ViewedSurface& view, c
   return query;
 }
 
-/// One row a farm, and one of all where there are several.
+/// One row for each farm, and one of all where there are several.
 std::vector<std::vector<std::string>> farm_table(const Zone& zone, const std::vector<Sight>& sights) {
   std::vector<std::vector<std::string>> rows{
       {"Wind farm", "Turbines", "Hubs visible", "Tips visible", "Nearest, km", "Horizontal extent", "Vertical angle"}};

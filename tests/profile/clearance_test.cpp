@@ -150,7 +150,7 @@ TEST(RequiredHeights, AreNoneWhereNoHeightHelps) {
 }
 
 TEST(VisibleHeight, OfATurbineBehindARidge) {
-  // From 2 m the line over the ridge (30 m at 2 km) rises 14 m a km: 72 m at 5 km.
+  // From 2 m the line over the ridge (30 m at 2 km) rises 14 m per km: 72 m at 5 km.
   const Profile profile = even_profile(1000, {0, 0, 30, 0, 0, 0});
   const VisibleHeight seen = visible_height(profile, 2, {80, 125}, Earth::flat());
   EXPECT_NEAR(seen.from_m, 72, 1e-9);

@@ -42,7 +42,7 @@ class Delaunay {
   ~Delaunay();
 
   /// All positions ever inserted must differ. Fastest when they come along a space-filling curve:
-  /// about 2.8 million a second.
+  /// about 2.8 million per second.
   void insert(std::span<const Position> positions);
   /// Under these numbers, a position each.
   void insert(std::span<const Position> positions, std::span<const std::uint32_t> numbers);

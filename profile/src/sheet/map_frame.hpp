@@ -47,7 +47,7 @@ class MapFrame {
   Drawing& drawing_;
   const Paper& paper_;
   Box ground_;
-  double scale_;  ///< points a metre
+  double scale_;  ///< points per metre
   LabelPlaces places_;
   std::size_t names_ = 0, left_out_ = 0;
 };

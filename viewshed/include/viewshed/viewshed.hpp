@@ -318,7 +318,7 @@ struct ViewshedWithSurface {
 /// tells which ground is hidden, and the others take what is not; so does one observer on a large surface that is not
 /// wanted as a whole. With rings, with themes that stand on the ground at a tolerance, and in modes that ask
 /// more than whether a cell is seen, they take all ground under the lines. The answer is the same to the last bit, in
-/// every mode. Cost, on one core: about a microsecond a point; a fifth of that for rasters, and 9 bytes per post.
+/// every mode. Cost, on one core: about a microsecond per point; a fifth of that for rasters, and 9 bytes per post.
 /// Throws as compute() on a Tin and triangulate() do, and InputError where the line to a single cell does not fit into
 /// the memory, or large rasters leave less than a quarter of it.
 ViewshedWithSurface compute_with_surface(const Store& store, const Request& request, const ComputeOptions& options,

@@ -53,7 +53,7 @@ struct Envelope {
   std::optional<Tin> bare_ground;     ///< the full surface without what stands on it
 };
 
-/// Cost: as triangulate(), and about a microsecond a triangle. Throws as triangulate() does.
+/// Cost: as triangulate(), and about a microsecond per triangle. Throws as triangulate() does.
 Envelope envelop(const Store& store, const EnvelopeRequest& request, Progress& progress);
 
 }  // namespace itin::viewshed
