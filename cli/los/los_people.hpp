@@ -21,7 +21,7 @@ class LosPeople {
   void validate(bool links);
   /// What the report begins with: name, value.
   std::vector<std::pair<std::string, std::string>> facts() const;
-  /// That of the magnetic azimuths; nothing where the date is no day.
+  /// The day for which magnetic azimuths are given; nothing where the date is no day.
   std::optional<CalendarDay> day() const;
   /// Why there are no magnetic azimuths, where a date is given; else empty.
   std::string warning() const;

@@ -29,7 +29,7 @@ profile::MapSheet empty_sheet(const Store& store, const ResultSheet& content, pr
 
 struct Beyond {
   std::size_t all = 0;
-  std::vector<std::string> names;  ///< those of what lies wholly beyond the frame
+  std::vector<std::string> names;  ///< the names of what lies wholly beyond the frame
 
   void add(const Box& extent, const std::string& name, const Box& frame) {
     ++all;

@@ -202,7 +202,7 @@ class ViewshedVerb final : public Verb {
     return paths;
   }
 
-  /// Those of viewshed::Mode; radio's come last, and have options of their own.
+  /// The names of viewshed::Mode's values, in order; radio's come last, and have options of their own.
   static constexpr std::string_view kModes[] = {"visible", "count",  "which",       "angle",   "nearest",
                                                 "blocker", "height", "probability", "fresnel", "loss"};
   static constexpr std::size_t kModesOfRadio = 2;

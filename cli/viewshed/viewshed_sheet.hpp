@@ -15,7 +15,7 @@ namespace itin::cli {
 /// What it says besides what the result tells.
 struct ViewshedSheetFacts {
   const viewshed::MissingGround& missing;
-  const std::vector<std::string>& sources;  ///< those of the surface, in words
+  const std::vector<std::string>& sources;  ///< the sources of the surface, in words
 };
 
 /// Throws FileError, InputError (a scale that is too large), Cancelled.

@@ -104,13 +104,13 @@ struct ImportReport {
   std::uint64_t features = 0;       ///< line features read, or features that stand now
   std::uint64_t refused = 0;        ///< features that could not stand, of all imports so far; warnings say why
   std::uint64_t cells = 0;          ///< cells with a height in rasters of heights that stand
-  std::uint64_t low_cells = 0;      ///< those of them that are known not to reach the threshold
+  std::uint64_t low_cells = 0;      ///< how many of them are known not to reach the threshold
   double height_error_low = 0;      ///< metres: by how much cells stand lower than their rasters say, at most,
   double height_error_high = 0;     ///< or higher, besides the rounding to millimetres and the store's grid
   std::uint64_t crossings = 0;      ///< further pairs of segments that cross, of any themes, and were given a vertex
   std::uint64_t left_out = 0;       ///< further segments, of any theme, that do not lie wholly on the ground
   std::uint64_t flat_before = 0;    ///< triangles that are level because their corners lie on contours
-  std::uint64_t flat_after = 0;     ///< those of flat_before that are left
+  std::uint64_t flat_after = 0;     ///< how many of flat_before are left
   std::uint64_t inferred = 0;       ///< points of the store inferred from contours
   std::uint64_t vertices = 0;       ///< how many the store has now
   std::uint64_t sea = 0;            ///< vertices of the sea among them

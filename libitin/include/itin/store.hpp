@@ -67,8 +67,8 @@ struct StoreMetadata {
   std::optional<GridScale> scale;   ///< over the bounds; nothing where the CRS does not tell, and in older stores
   std::vector<LevelInfo> levels;    ///< level 0 (tolerance 0) first, then coarser and coarser
   std::vector<SourceInfo> sources;  ///< also the import history, in order
-  std::vector<ThemeInfo> themes;    ///< those of the terrain first, then by name
-  std::vector<ThemePart> parts;     ///< those of raised themes, in the themes' order, then the finest first
+  std::vector<ThemeInfo> themes;    ///< the themes of the terrain first, then by name
+  std::vector<ThemePart> parts;     ///< the parts of raised themes, in the themes' order, then the finest first
   bool has_foundations = false;     ///< some buildings stand on flat foundations, which may cut into the ground
   std::uint64_t vertices = 0;
 };

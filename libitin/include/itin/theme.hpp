@@ -93,7 +93,7 @@ struct ThemeInfo {
   bool is_raised() const { return footprint_blocks > 0; }
 };
 
-/// Those features of a raised theme that are there at the same tolerances: whole buildings, or none of them.
+/// The features of a raised theme that are there at the same tolerances: whole buildings, or none of them.
 struct ThemePart {
   std::uint16_t theme = 0;  ///< its number, from 1
   int coarsest = 0;         ///< it is there at this level and finer ones

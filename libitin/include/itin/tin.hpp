@@ -51,7 +51,8 @@ struct Tin {
   /// Per vertex: the theme (from 1) of the raised feature that it is part of, off the feature's outline; 0: none.
   /// Empty where no vertex is.
   std::vector<std::uint16_t> raised_theme;
-  std::vector<LineEdge> lines;  ///< those of every theme present, ascending; an edge that themes share comes for each
+  std::vector<LineEdge>
+      lines;  ///< the lines of every theme present, ascending; an edge that themes share comes for each
 
   /// The corners of a triangle, counterclockwise.
   std::array<GridPoint, 3> corners(std::uint32_t triangle) const {

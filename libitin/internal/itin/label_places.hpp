@@ -17,7 +17,7 @@ struct MarkLabel {
   Point2 mark;          ///< its middle
   double beside = 0;    ///< how far from there the name stands
   double width = 0;     ///< the name's
-  double height = 0;    ///< that of its capitals
+  double height = 0;    ///< the height of its capitals
   double margin = 0.5;  ///< that stays free about it
 };
 

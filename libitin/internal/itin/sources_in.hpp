@@ -12,8 +12,9 @@
 
 namespace itin {
 
-/// Those that have a vertex in the box, metres, of the terrain or of the themes, in the store's order. Reads the points
-/// there until all sources are found; a store of one source has that wherever its bounds reach. Throws CorruptStore.
+/// Returns the sources that have a vertex in the box, metres, of the terrain or of the themes, in the store's order.
+/// Reads the points there until all sources are found; a store of one source has that wherever its bounds reach. Throws
+/// CorruptStore.
 std::vector<SourceInfo> sources_in(const Store& store, const Box& box, const ThemeChoice& themes);
 
 /// A line of text for each sort of sources: their names, posting, vertical datum and note.

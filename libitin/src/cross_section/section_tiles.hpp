@@ -40,7 +40,7 @@ class SectionTiles {
   const PointIndex& index() const { return index_; }
   const Selection& selection() const { return selection_; }
 
-  /// That of the square with the place. Statistics count what this call read.
+  /// What is made of the square that holds the place. Statistics count what this call read.
   std::shared_ptr<const SectionTile> tile_at(Position place, RetrievalStatistics& statistics);
   std::shared_ptr<const SharedSheet> sheet_at(Position place, RetrievalStatistics& statistics);
 

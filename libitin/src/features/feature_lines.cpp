@@ -35,7 +35,7 @@ class ThemeEdges {
     }
   }
 
-  /// Those of each feature. An edge is of the features of the segment that it lies on: a vertex of the terrain may
+  /// The edges of each feature. An edge is of the features of the segment that it lies on: a vertex of the terrain may
   /// split one.
   std::map<std::optional<std::uint32_t>, std::vector<LineEnds>> by_feature(const Store& store,
                                                                            const Selection& selection) const {

@@ -193,7 +193,7 @@ class CellVerification {
                        [&](const Segment& s) { return s.theme != kCoverage && (s.a() == p || s.b() == p); });
   }
 
-  /// Those of level k that meet the box.
+  /// The shortcuts of level k that meet the box.
   std::vector<LineHierarchy::Shortcut> shortcuts_in(int k, const GridBox& box) const {
     std::vector<LineHierarchy::Shortcut> result;
     std::vector<Segment> segments;
@@ -238,7 +238,7 @@ class CellVerification {
   }
 
   const WorkingIndex& index_;
-  const ReadOnce points_;  ///< those of the index
+  const ReadOnce points_;  ///< the points of the index
   const std::vector<std::int32_t>& tolerances_;
   Task task_;
   std::optional<LatticeDifference> lattice_;  ///< where the full surface is a lattice

@@ -21,7 +21,7 @@ struct GroundEdges {
   std::vector<std::uint8_t> touched;  ///< vertices that ground meets
 };
 
-/// Those with an end in the box. The surface has all triangles about vertices there.
+/// The ground edges with an end in the box. The surface has all triangles about vertices there.
 GroundEdges ground_edges(const RegionMesh& surface, const GapRule& gaps, const GridBox& box);
 
 /// As above, for the Delaunay triangulation of these vertices, which are posts of a lattice: all points within two of

@@ -10,8 +10,8 @@
 
 namespace itin {
 
-/// Those of the Morton codes that lie in a ground triangle of the points, borders included; ascending. `gap_bases` per
-/// source, grid units.
+/// The Morton codes, out of those given, that lie in a ground triangle of the points, borders included; ascending.
+/// `gap_bases` per source, grid units.
 ///
 /// All corners of a ground triangle lie within the gap of each other. So what is farther from the codes is read only
 /// where it may lie in such a triangle's circle, and other triangles, which may span half the land, are not looked at.

@@ -86,7 +86,7 @@ class PartMask {
  private:
   using Place = std::pair<std::uint64_t, std::uint32_t>;  // code, cluster
 
-  /// That of the mask which has the position.
+  /// The cluster of the mask that has the position.
   std::uint32_t cluster_about(std::uint64_t code) const {
     return part_.mask_clusters[index_.at(position_of(code)).value()];
   }

@@ -328,7 +328,7 @@ class PyramidBuild {
     writer_.add_segments(segments, segment_features(), parts.clusters);
   }
 
-  /// Those of lines on the ground are whole at all levels.
+  /// The features of all segments. The hierarchy has those of the terrain's lines; others are whole at all levels.
   std::vector<SegmentFeature> segment_features() const {
     std::vector<SegmentFeature> features;
     if (hierarchy_) features = hierarchy_->features(placed_.of_features);

@@ -12,7 +12,7 @@ namespace itin {
 
 using Sources = std::set<std::uint16_t>;
 
-/// Those that any of the points is of. Points of one source mostly follow each other.
+/// The sources that the points are of. Points of one source mostly follow each other.
 template <class Points>
 Sources sources_of(const Points& points) {
   Sources sources;

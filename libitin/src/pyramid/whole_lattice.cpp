@@ -139,7 +139,7 @@ std::optional<WholeLattice::Place> WholeLattice::place(Position p) const {
 
 namespace {
 
-/// Those of `count` intervals between posts that meet [from, to].
+/// Which of `count` intervals between posts meet [from, to].
 std::pair<std::int32_t, std::int32_t> intervals(std::int64_t from, std::int64_t to, std::int64_t step,
                                                 std::int32_t count) {
   const auto inside = [&](std::int64_t i) { return static_cast<std::int32_t>(std::clamp<std::int64_t>(i, 0, count)); };

@@ -26,13 +26,13 @@ struct ItemCluster {
   friend auto operator<=>(const ItemCluster&, const ItemCluster&) = default;
 };
 
-/// Those of one leaf. Clusters that share their box count as one.
+/// The clusters of one leaf. Clusters that share their box count as one.
 struct LeafClusters {
   std::vector<GridBox> boxes;      ///< ascending by xmin, ymin, xmax, ymax; each about some item
   std::vector<ItemCluster> items;  ///< ascending; each item is of one cluster or more
 };
 
-/// Those of one part, and what is of them.
+/// The clusters of one part, and what is of them.
 struct PartClusters {
   std::vector<GridBox> boxes;  ///< by number, as box_about_cluster() gives them
   /// By Morton code, ascending: of vertices, and of places where others make way.

@@ -25,7 +25,7 @@ std::vector<StoredFootprint> stored_footprints(const Store& store, std::uint16_t
 inline constexpr std::size_t kFootprintsInBlock = 256;
 
 std::vector<std::uint8_t> encode_footprints(std::span<const StoredFootprint> footprints);
-/// Those of one feature, without its source and not compressed: an order of features that knows no order of import.
+/// The bytes of one feature, without its source and not compressed: they order features whatever the order of import.
 std::vector<std::uint8_t> content_of(const FootprintFeature& feature);
 /// Throws DecodeError.
 std::vector<StoredFootprint> decode_footprints(std::span<const std::uint8_t> bytes);

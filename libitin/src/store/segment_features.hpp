@@ -18,7 +18,7 @@ struct SegmentFeature {
   friend auto operator<=>(const SegmentFeature&, const SegmentFeature&) = default;
 };
 
-/// Those of one segment. `features` ascending.
+/// The features of one segment. `features` ascending.
 std::span<const SegmentFeature> of_segment(std::span<const SegmentFeature> features, const Segment& segment);
 
 /// `segments` as in encode_lines(); `features` ascending, of these and perhaps others.

@@ -101,8 +101,8 @@ struct ApexSearch::Search {
   std::optional<SightFan> from_a = std::nullopt, from_b = std::nullopt;
 };
 
-/// Those that may come between ab and what lies left of it in a part of the search's box, and perhaps more. Those near
-/// by, which hide most, are first.
+/// Reads the segments that may come between ab and what lies left of it in a part of the search's box, and perhaps
+/// more. Near ones, which hide most, come first.
 void ApexSearch::read_segments(const GridBox& part, Search& search) {
   if (search.segments == Segments::kPassed || search.with_segments.contains(part)) return;
   const ApexFrame& frame = search.frame;

@@ -56,7 +56,7 @@ Box extent_of(std::span<const Place> places) {
   return box;
 }
 
-/// Those to one side and to the other, as many in each, across the longer side of their box.
+/// Halves the places across the longer side of their box.
 std::pair<std::span<Place>, std::span<Place>> divide_places(std::span<Place> places, const Box& box) {
   const std::size_t half = places.size() / 2;
   const bool wide = box.width() > box.height();

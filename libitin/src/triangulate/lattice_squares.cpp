@@ -111,7 +111,7 @@ std::size_t interval(const std::vector<std::int32_t>& values, std::int64_t thric
   return static_cast<std::size_t>(after - begin) - 1;
 }
 
-/// Those of the intervals between neighbouring values that meet [low, high].
+/// Which of the intervals between neighbouring values meet [low, high].
 Range intervals(const std::vector<std::int32_t>& values, double low, double high) {
   const auto from = std::lower_bound(values.begin(), values.end(), low) - values.begin();
   const auto to = std::upper_bound(values.begin(), values.end(), high) - values.begin();
@@ -248,8 +248,9 @@ void LatticeSquares::find_rest(std::span<const Segment> segments) {
 
 namespace {
 
-/// Those of a square, by what lies beyond their edges 0, 1 and 2: the lower left one has the other, the square to the
-/// left and the one below there, the upper right one the square above, the other one and the square to the right.
+/// The triangles of a square, by what lies beyond their edges 0, 1 and 2: the lower left one has the other, the square
+/// to the left and the one below there, the upper right one the square above, the other one and the square to the
+/// right.
 constexpr std::uint32_t kLowerLeft = 0, kUpperRight = 1;
 
 }  // namespace

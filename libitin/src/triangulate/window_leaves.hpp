@@ -9,7 +9,7 @@
 
 namespace itin {
 
-/// Those that may hold something selected within a margin of the window, grid units; each once. Uses all threads.
+/// The leaves that may hold something selected within a margin of the window, grid units; each once. Uses all threads.
 std::vector<Leaf> leaves_about(const PointIndex& index, const Selection& selection, const GridWindow& window,
                                double margin);
 

@@ -91,7 +91,7 @@ struct PathLosses {
   /// The single edge that Bullington puts in place of the terrain, where it costs anything: where the two horizons'
   /// lines meet or, within sight, the point of the largest v.
   std::optional<DiffractionEdge> bullington;
-  /// Those after Deygout that cost anything: the main one, and the largest of the spans before and behind it.
+  /// The edges after Deygout that cost anything: the main one, and the largest of the spans before and behind it.
   std::vector<DiffractionEdge> deygout;
 };
 

@@ -23,7 +23,7 @@ struct PlacedTurbine {
   double distance, across, base, top;  ///< metres; degrees from the left edge and of elevation
 };
 
-/// Those within the field of view and its reach, from the farthest.
+/// The turbines within the field of view and its reach, from the farthest.
 std::vector<PlacedTurbine> placed_turbines(const WirelineQuery& query);
 
 /// Farms in the order of their first turbines, and the colour of each.

@@ -33,7 +33,7 @@ const char* name_of_path(const Reflection& reflection) {
   return reflection.screen ? "screened" : "clear";
 }
 
-/// Those of all links, in the order in which they come.
+/// The criteria of all links, in the order in which they come.
 std::vector<Criterion> criteria_of(const std::vector<LinkRow>& rows) {
   std::vector<Criterion> all;
   for (const LinkRow& row : rows) {
@@ -228,7 +228,7 @@ class ColumnList {
     of("_both_m", &RequiredHeights::both_equal_m);
   }
 
-  /// Those of the table that were not understood; a name that is taken gets a mark.
+  /// Adds the columns of the table that were not understood; a name that is taken gets a mark.
   void add_others() {
     for (std::size_t i = 0; i < survey_.table.other_columns.size(); ++i) {
       std::string name = survey_.table.other_columns[i];

@@ -51,7 +51,7 @@ struct ObliqueOptions {
   double azimuth = 340;               ///< degrees clockwise from grid north: where the viewer looks
   double elevation = 40;              ///< degrees, above 0 up to 90: how high above the horizon the viewer is
   int pixels = 1600;                  ///< the picture's longer side, 200 to 16000
-  bool edges = false;                 ///< those of all triangles, over the shading
+  bool edges = false;                 ///< draws the edges of all triangles, over the shading
   std::vector<ThemeKind> kinds = {};  ///< one for each theme of the store, in order; without them all tops are grey
 };
 
@@ -67,7 +67,7 @@ struct PerspectiveOptions {
   double field = 60;   ///< degrees across the picture, 1 to 150
   int pixels = 1600;   ///< the picture's width, 200 to 16000; its height is nine sixteenths of that
   Earth earth = {};
-  bool edges = false;                 ///< those of all triangles, over the shading
+  bool edges = false;                 ///< draws the edges of all triangles, over the shading
   std::vector<ThemeKind> kinds = {};  ///< as ObliqueOptions::kinds
 };
 

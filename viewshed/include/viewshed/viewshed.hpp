@@ -235,7 +235,7 @@ struct Losses {
   std::vector<float> diffraction_db;
   std::vector<float> free_space_db;
 };
-/// Those of a mode; none in kVisible and kFresnel.
+/// The values of a mode; kVisible and kFresnel have none.
 using ModeValues = std::variant<std::monostate, Counts, ObserverSets, Angles, NearestObservers, Blockers, LeastHeights,
                                 Probabilities, Losses>;
 

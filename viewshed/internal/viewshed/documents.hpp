@@ -26,7 +26,7 @@ struct CellsWithoutValue {
   const char* value;  ///< height, probability or loss
   std::uint64_t cells = 0;
 };
-/// Those of kHeight, kProbability or kLoss; nothing in other modes.
+/// The cells without a value in kHeight, kProbability or kLoss; nothing in other modes.
 std::optional<CellsWithoutValue> cells_without_value(const Result& result);
 
 /// `crs`, `surface`, `refraction`, `grid`, `cells`, `area_m2`, of a certified one `decided_percent` and

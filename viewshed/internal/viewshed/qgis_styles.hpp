@@ -10,10 +10,10 @@
 
 namespace itin::viewshed {
 
-/// That of the counts, probabilities or losses that answer the request. Empty for every other mode: classes have their
-/// colours in the raster.
+/// The style of the counts, probabilities or losses that answer the request. Empty for every other mode: classes have
+/// their colours in the raster.
 std::string qgis_style(const Request& request);
-/// That of the share that write_geotiff() writes of a VisibilityIndex.
+/// The style of the share that write_geotiff() writes of a VisibilityIndex.
 std::string qgis_style_of_shares();
 
 }  // namespace itin::viewshed

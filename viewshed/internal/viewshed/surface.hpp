@@ -42,7 +42,7 @@ inline constexpr std::uint64_t kBytesPerPost = 9;
 /// Holds all data of the store, metres.
 Box extent_of(const Store& store);
 
-/// That of triangulate(). A lattice if it is one of at most so many posts, at full detail.
+/// Retrieves the surface that triangulate() makes, as a lattice if it is one of at most so many posts, at full detail.
 Surface retrieve_surface(const Store& store, const Window& window, const Detail& detail, const ThemeChoice& themes,
                          std::uint64_t most_posts, Progress& progress);
 

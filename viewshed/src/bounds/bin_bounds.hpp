@@ -64,7 +64,7 @@ class BinGrid {
             column_at(easting_in_units(units_, metres.xmax)), row_at(northing_in_units(units_, metres.ymin))};
   }
 
-  /// Those that a box meets, or nearly meets; -1, or the number of columns or rows, where it reaches beyond them.
+  /// The bins that a box meets, or nearly meets; -1, or the number of columns or rows, where it reaches beyond them.
   BinRange bins_about(const BinBox& box) const {
     constexpr double kHair = 1e-6;
     return {bin_at(box.west - kHair, columns()), bin_at(box.east + kHair, columns()), bin_at(box.north - kHair, rows()),

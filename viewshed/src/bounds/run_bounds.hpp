@@ -42,7 +42,7 @@ class RunBounds {
   template <class Value, class RangeOf, class Low, class High>
   void bound(std::size_t tile, const RangeOf& range_of, const Low& low, const High& high);
 
-  /// Those in one direction.
+  /// The runs in one direction.
   class Lines;
   Lines eastwards() const;
   Lines southwards() const;

@@ -24,7 +24,7 @@ class HeldAreas {
   /// A surface over all of `whole`, of triangles where they are needed, or over `part` of it, where the memory does not
   /// hold that; null where it does not hold the part either. Reading is a step of the call. Throws what reading throws.
   std::shared_ptr<const HeldSurface> get(const Box& whole, const Box& part, SurfaceForm needed, CallProgress& call);
-  /// Those that running calls use end with them.
+  /// Areas that running calls use end with these calls.
   void drop_all();
 
   std::vector<Box> areas() const;

@@ -62,7 +62,7 @@ Extremes extremes_of(const std::vector<float>& values) {
   return e;
 }
 
-/// Those that are kept, ascending; of many values about a million, which tell as much.
+/// The values that are kept, ascending; of many values about a million, which tell as much.
 template <class Keep>
 std::vector<float> sorted_sample(const std::vector<float>& values, const Keep& keep) {
   std::vector<float> sample;

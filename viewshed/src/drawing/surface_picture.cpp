@@ -22,7 +22,7 @@ Rgba darker(const Rgba& c) {
   return {part(c.red), part(c.green), part(c.blue)};
 }
 
-/// Each corner's barycentric coordinate at this distance from the side opposite.
+/// How much each corner weighs at a place that lies at this distance from the side opposite to it.
 std::array<double, 3> weights_within(double distance, const std::array<Corner, 3>& s, double area) {
   std::array<double, 3> weights{};
   for (std::size_t i = 0; i < 3; ++i) {

@@ -13,7 +13,7 @@
 
 namespace itin::viewshed {
 
-/// Those of cells in view that the result's mode may have.
+/// The classes of cells in view that the result's mode may have.
 inline std::vector<RasterClass> verdict_classes(const Result& result) {
   constexpr Rgba kHiddenColour{225, 225, 225};
   std::vector<RasterClass> classes;

@@ -80,7 +80,7 @@ class BlockJudge::BlockWork final : public TileJudge::Work {
            judge_.surface_.bounds().covers(box_of(block));
   }
 
-  /// Each cell's own rules, in blocks that have any.
+  /// Judges cells by rules of their own, in blocks that have cells with such rules.
   void judge_cells(const CellBlock& block, const TileValues<Verdict>& asked, TileValues<Verdict>& values) {
     if (is_simple(block)) return;
     if (judge_.surface_.bounds().highest(box_of(block)) == -kFloatInfinity)

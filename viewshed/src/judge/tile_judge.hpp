@@ -44,7 +44,7 @@ class TileJudge {
     /// Verdict::kUndecided cells become Verdict::kVisible, Verdict::kHidden or Verdict::kOutside, or stay. Returns how
     /// many sight lines that took.
     virtual std::uint64_t judge(std::size_t eye, TileValues<Verdict>& values) = 0;
-    /// Those of the eye that was judged last. Valid until the next one is.
+    /// The targets of the eye that was judged last. Valid until the next eye is judged.
     virtual TileTargets targets() = 0;
   };
   /// `tile` is one of those of the grid that it judges. Safe for concurrent use.

@@ -14,7 +14,7 @@ namespace itin::viewshed {
 /// The cells of all parts.
 std::size_t cell_count(std::span<const Tile> parts);
 
-/// Those of a tile, which are parts of it.
+/// Some parts of a tile.
 struct PartsOfTile {
   std::size_t tile;
   std::vector<Tile> parts;

@@ -109,7 +109,7 @@ class Observations {
   explicit Observations(const Request& request) : request_(request) {}
 
   std::unique_ptr<Observation> of_tile();
-  /// One of each.
+  /// One for each tile.
   std::vector<std::unique_ptr<Observation>> of_tiles(const RasterGrid& tiles);
   /// After the last of them has been stored: completes what tiles have in common.
   void finish(Result& result) const;

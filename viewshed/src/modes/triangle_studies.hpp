@@ -14,8 +14,8 @@
 namespace itin::viewshed {
 
 struct TriangleStudies {
-  /// Those that the request's mode needs. `bare` is the ground under what stands on the surface; null where nothing
-  /// does. All must outlive it.
+  /// Makes the studies that the request's mode needs. `bare` is the ground under what stands on the surface; null where
+  /// nothing does. All must outlive it.
   TriangleStudies(const Request& request, const Tin& surface, const Tin* bare) : tin(surface) {
     if (request.mode == Mode::kBlocker) blockers.emplace(surface, request.earth);
     if (request.mode == Mode::kProbability) odds.emplace(surface, request.earth, request.vertical_error);

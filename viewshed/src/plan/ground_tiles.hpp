@@ -40,7 +40,7 @@ class GroundTiles {
   /// Points of that surface, about.
   std::uint64_t points(std::size_t tile) const { return points_[tile]; }
   std::uint64_t points(const TileSet& tiles) const;
-  /// Those for whose box a test holds, which is made by all threads.
+  /// The tiles for whose box a test holds, which is made by all threads.
   TileSet those(const std::function<bool(const Box&)>& test) const;
   /// Every tile that the line between two positions meets, or passes within a metre and the grid's resolution.
   void add_line(Point2 from, Point2 to, TileSet& tiles) const;

@@ -13,7 +13,7 @@ namespace itin {
 class VerticalDatums {
  public:
   VerticalDatums() = default;
-  /// Those of a store's sources.
+  /// Begins with the datums of a store's sources.
   explicit VerticalDatums(const StoreMetadata& store);
 
   /// Throws InputError, which begins with `place` and names `allow_mixed_vertical`, where another datum was added

@@ -153,7 +153,7 @@ class Scene::Impl {
     embree_.attach(geometry);
   }
 
-  /// Those of the lines that the occluder hides.
+  /// Which of the lines the occluder hides.
   unsigned hidden_by_one(const Occluder& occluder, const ExactLines& lines, unsigned active) const {
     if (!occluder.triangle) return 0;
     unsigned result = 0;

@@ -66,7 +66,7 @@ class RadialSweep {
   /// NaN where hidden, infinity for a target at the eye's own place, else the eye's height.
   void decide(const View& eye, const Ends& targets, Scratch& scratch, Heights& seen) const;
 
-  /// Each cell's lowest end that counts, and one that is wanted besides: it need not lie within the range.
+  /// The lowest end that counts in each cell, and one that is wanted besides: it need not lie within the range.
   struct Lowest {
     const TileValues<double>& end;
     const TileValues<double>& wanted;
