@@ -166,8 +166,11 @@ class TinVerb final : public Verb {
 
   void write(const Store& store, const WindowLines& lines, const Document& surface, Progress& progress,
              std::vector<std::string>& warnings) {
-    const TinExportOptions options =
-        tin_export_options(store.metadata(), {{"command", query()}, {"surface", surface}}, policy_.overwrite);
+    Document command{{"verb", name()}};
+    command.update(query());
+    Document about{{"command", command}, {"surface", surface}};
+    if (kind_) about["statistics"] = statistics_document(lines.tin.statistics, lines.tin.triangles.size());
+    const TinExportOptions options = tin_export_options(store.metadata(), about, policy_.overwrite);
     if (!lines.themes.empty()) {
       const std::vector<std::size_t> counts = export_lines(store, lines, output_, options, progress);
       joined_ = std::accumulate(counts.begin(), counts.end(), std::size_t{0});
