@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include <itin/azimuth.hpp>
-#include <itin/geodesic.hpp>
+#include <itin/degrees.hpp>
 #include <itin/parallel.hpp>
 #include <profile/profile.hpp>
 #include <profile/required_heights.hpp>
@@ -74,8 +74,7 @@ Seen seen_of(const Zone& zone, const std::vector<Sight>& sights, const std::vect
     if (!s.tip) continue;
     ++seen.tips;
     if (s.distance > zone.request.turbines[k].radius) ++seen.tips_beyond;
-    const double half =
-        std::atan2(zone.request.turbines[k].rotor_diameter.value_or(0) / 2, s.distance) * kDegreesPerRadian;
+    const double half = in_degrees(std::atan2(zone.request.turbines[k].rotor_diameter.value_or(0) / 2, s.distance));
     rotors.push_back({within_turn(s.azimuth - half), 2 * half});
     seen.vertical_deg = std::max(seen.vertical_deg, s.vertical_deg);
     if (!seen.nearest_seen || s.distance < sights[*seen.nearest_seen].distance) seen.nearest_seen = k;

@@ -12,8 +12,8 @@
 #include <gtest/gtest.h>
 #include <ogrsf_frmts.h>
 
+#include <itin/degrees.hpp>
 #include <itin/error.hpp>
-#include <itin/geodesic.hpp>
 #include <itin/parallel.hpp>
 #include <viewshed/link_exclusion.hpp>
 #include <viewshed/turbine_view.hpp>
@@ -87,7 +87,7 @@ Expected expected(const test::ExactLineOfSight& exact, const Zone& zone, Point2 
       if (high - low < 1e-7) low = high;
     }
     const double drop = zone.request.earth.drop(d);
-    const auto above = [&](double h) { return std::atan((base + h - drop - from.z) / d) * kDegreesPerRadian; };
+    const auto above = [&](double h) { return in_degrees(std::atan((base + h - drop - from.z) / d)); };
     const double angle = above(t.tip_height) - above(low);
     e.height = std::max(e.height, t.tip_height - low), e.angle = std::max(e.angle, angle), e.sum += angle;
     e.nearest = std::min(e.nearest, d);
@@ -222,12 +222,11 @@ TEST(Turbines, BehindAWallSimilarTrianglesTell) {
   const std::size_t i = cell_at(zone, 105, 105);
   const double least = 2 + 8 * 800.0 / 395;
   EXPECT_NEAR(zone.bare.visible_height_m[i], 120 - least, 1e-3);
-  EXPECT_NEAR(zone.bare.vertical_angle_deg[i],
-              (std::atan(118 / 800.0) - std::atan((least - 2) / 800)) * kDegreesPerRadian, 1e-4);
+  EXPECT_NEAR(zone.bare.vertical_angle_deg[i], in_degrees(std::atan(118 / 800.0) - std::atan((least - 2) / 800)), 1e-4);
   EXPECT_EQ(zone.bare.hub_count[i], 1);
   EXPECT_FLOAT_EQ(zone.bare.nearest_m[i], 800);
-  EXPECT_NEAR(zone.bare.horizontal_angle_deg[i], 2 * std::atan(50 / 800.0) * kDegreesPerRadian, 1e-4);
-  EXPECT_NEAR(zone.bare.horizontal_from_deg[i], 90 - std::atan(50 / 800.0) * kDegreesPerRadian, 1e-4);
+  EXPECT_NEAR(zone.bare.horizontal_angle_deg[i], 2 * in_degrees(std::atan(50 / 800.0)), 1e-4);
+  EXPECT_NEAR(zone.bare.horizontal_from_deg[i], 90 - in_degrees(std::atan(50 / 800.0)), 1e-4);
   EXPECT_FLOAT_EQ(zone.bare.visible_height_m[cell_at(zone, 705, 105)], 120);
 }
 

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include <itin/geodesic.hpp>
+#include <itin/degrees.hpp>
 #include <itin/geometry.hpp>
 
 namespace itin {
@@ -15,7 +15,7 @@ inline double within_turn(double degrees) {
 }
 
 inline double grid_azimuth_deg(Point2 from, Point2 to) {
-  return within_turn(std::atan2(to.x - from.x, to.y - from.y) * kDegreesPerRadian);
+  return within_turn(in_degrees(std::atan2(to.x - from.x, to.y - from.y)));
 }
 
 }  // namespace itin

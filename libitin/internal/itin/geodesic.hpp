@@ -3,13 +3,9 @@
 //   geodesic({-4.0763, 53.0685}, {-3.5, 52.7}).azimuth_deg     // from true north, clockwise
 #pragma once
 
-#include <numbers>
-
 #include <itin/geometry.hpp>
 
 namespace itin {
-
-inline constexpr double kDegreesPerRadian = 180 / std::numbers::pi;
 
 struct Ellipsoid {
   double major_m = 0;     ///< the equator's radius

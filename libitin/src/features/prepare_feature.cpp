@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <optional>
 
 #include <fmt/format.h>
+
+#include <itin/degrees.hpp>
 
 #include "features/plan_on_grid.hpp"
 
@@ -80,7 +81,7 @@ class Preparing {
     if (!base) return refuse("has no base height and lies outside the terrain");
     RoofHeights& heights = out_.feature.heights;
     heights.base = units(*base);
-    heights.slope = std::tan(options_.pitch_degrees * std::numbers::pi / 180);
+    heights.slope = std::tan(in_radians(options_.pitch_degrees));
     if (out_.feature.measured) return true;
     if (source_.eaves) heights.eaves = units(*base + *source_.eaves);
     if (source_.height) heights.ridge = units(*base + *source_.height);

@@ -11,6 +11,7 @@
 #include <ogr_spatialref.h>
 #include <ogr_srs_api.h>
 
+#include <itin/degrees.hpp>
 #include <itin/error.hpp>
 #include <itin/grid_reference.hpp>
 #include <itin/parallel.hpp>
@@ -175,8 +176,8 @@ Crs utm_zone(const Crs& crs, Point2 position, const std::string& place) {
   if (!geographic) throw InputError(fmt::format("{}: no UTM zone for {}; give `to_crs`", place, crs.name));
   geographic->SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
   PointTransform(crs.wkt, wkt_of(*geographic), place).transform(std::span(&position.x, 1), std::span(&position.y, 1));
-  const double longitude = position.x * geographic->GetAngularUnits() * 180 / M_PI;
-  const double latitude = position.y * geographic->GetAngularUnits() * 180 / M_PI;
+  const double longitude = in_degrees(position.x * geographic->GetAngularUnits());
+  const double latitude = in_degrees(position.y * geographic->GetAngularUnits());
   const std::optional<int> zone = utm_zone_at({longitude, latitude});
   if (!zone)
     throw InputError(

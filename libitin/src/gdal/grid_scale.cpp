@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <ogr_spatialref.h>
 
+#include <itin/degrees.hpp>
 #include <itin/error.hpp>
 #include <itin/grid_scale.hpp>
 
@@ -68,7 +69,7 @@ ScaleMeter::ScaleMeter(const Crs& crs) {
   if (lies_about_equator(projected)) allowed_ = kGreatestScaleErrorOfWorld;
   const std::unique_ptr<OGRSpatialReference> geographic(projected.CloneGeogCS());
   if (!geographic) throw InputError(fmt::format("{}: has no ellipsoid", crs.name));
-  degrees_ = geographic->GetAngularUnits() * 180 / std::numbers::pi;
+  degrees_ = in_degrees(geographic->GetAngularUnits());
   const double inverse_flattening = geographic->GetInvFlattening();
   ellipsoid_ = {geographic->GetSemiMajor(), inverse_flattening > 0 ? 1 / inverse_flattening : 0};
   to_geographic_.emplace(crs.wkt, wkt_of(*geographic), crs.name);

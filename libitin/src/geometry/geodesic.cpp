@@ -1,6 +1,6 @@
 #include <cmath>
-#include <numbers>
 
+#include <itin/degrees.hpp>
 #include <itin/error.hpp>
 #include <itin/geodesic.hpp>
 
@@ -8,12 +8,8 @@ namespace itin {
 
 namespace {
 
-double radians(double degrees) {
-  return degrees * std::numbers::pi / 180;
-}
-
 double azimuth(double y, double x) {
-  const double degrees = std::atan2(y, x) * 180 / std::numbers::pi;
+  const double degrees = in_degrees(std::atan2(y, x));
   return degrees < 0 ? degrees + 360 : degrees;
 }
 
@@ -63,10 +59,10 @@ double length_of(const Arc& arc, const Ellipsoid& ellipsoid) {
 Geodesic geodesic(Point2 from, Point2 to, const Ellipsoid& ellipsoid) {
   if (from == to) return {};
   const double flat = 1 - ellipsoid.flattening;
-  const double u1 = std::atan(flat * std::tan(radians(from.y)));
-  const double u2 = std::atan(flat * std::tan(radians(to.y)));
+  const double u1 = std::atan(flat * std::tan(in_radians(from.y)));
+  const double u2 = std::atan(flat * std::tan(in_radians(to.y)));
   const Reduced r{std::sin(u1), std::cos(u1), std::sin(u2), std::cos(u2)};
-  const double difference = radians(to.x - from.x);
+  const double difference = in_radians(to.x - from.x);
   double lambda = difference;
   for (int i = 0; i < 100; ++i) {
     const Arc arc = arc_for(r, lambda);

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <itin/degrees.hpp>
 #include <itin/geodesic.hpp>
 #include <itin/magnetic_north.hpp>
 
@@ -75,8 +76,8 @@ class Legendre {
 }  // namespace
 
 MagneticField magnetic_field(Point2 lon_lat, double height_m, double year) {
-  const double longitude = lon_lat.x / kDegreesPerRadian;
-  const Geocentric p = geocentric(lon_lat.y / kDegreesPerRadian, height_m);
+  const double longitude = in_radians(lon_lat.x);
+  const Geocentric p = geocentric(in_radians(lon_lat.y), height_m);
   const Legendre legendre(p);
   double north = 0, east = 0, down = 0;  // geocentric
   for (const GaussCoefficients& c : kWmm2025) {
@@ -95,7 +96,7 @@ std::optional<double> declination_deg(Point2 lon_lat, double height_m, double ye
   if (!is_of_the_model(year)) return std::nullopt;
   const MagneticField field = magnetic_field(lon_lat, height_m, year);
   if (std::hypot(field.north_nt, field.east_nt) < kLeastHorizontal) return std::nullopt;
-  return std::atan2(field.east_nt, field.north_nt) * kDegreesPerRadian;
+  return in_degrees(std::atan2(field.east_nt, field.north_nt));
 }
 
 bool has_declination(const CalendarDay& day) {

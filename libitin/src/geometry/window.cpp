@@ -1,11 +1,11 @@
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include <itin/degrees.hpp>
 #include <itin/error.hpp>
 #include <itin/window.hpp>
 
@@ -13,7 +13,6 @@ namespace itin {
 
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 // Shewchuk's bound for a 2x2 determinant of differences, (3 + 16 eps) eps, rounded up.
 constexpr double kOrientationError = 4.5e-16;
 
@@ -101,11 +100,11 @@ void require_area(const Window::Ring& ring) {
 /// Corners of an arc's circumscribed polyline of `parts` equal chords, each tangent at its middle; clockwise.
 Window::Ring arc(Point2 centre, double azimuth, double width, double radius, int parts) {
   const double step = width / parts;
-  const double reach = radius / std::cos(step * kDegree / 2);
+  const double reach = radius / std::cos(in_radians(step) / 2);
   Window::Ring corners;
   corners.reserve(static_cast<std::size_t>(parts) + 2);
   for (int i = 0; i <= parts; ++i) {
-    const double angle = (azimuth - width / 2 + i * step) * kDegree;
+    const double angle = in_radians(azimuth - width / 2 + i * step);
     corners.push_back({centre.x + reach * std::sin(angle), centre.y + reach * std::cos(angle)});
   }
   return corners;

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <numbers>
 
+#include <itin/degrees.hpp>
 #include <itin/error.hpp>
 
 #include "drawing/surface.hpp"
@@ -135,7 +136,7 @@ class CairoSurface final : public Surface {
     select_font(cairo_, lettering);
     set_colour(cairo_, lettering.colour);
     cairo_translate(cairo_, anchor.x, anchor.y);
-    cairo_rotate(cairo_, -lettering.rotation_deg * std::numbers::pi / 180);
+    cairo_rotate(cairo_, in_radians(-lettering.rotation_deg));
     cairo_move_to(cairo_, shift, 0);
     if (lettering.rim > 0) {
       cairo_text_path(cairo_, text.c_str());

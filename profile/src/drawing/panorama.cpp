@@ -5,8 +5,8 @@
 #include <fmt/format.h>
 
 #include <itin/azimuth.hpp>
+#include <itin/degrees.hpp>
 #include <itin/error.hpp>
-#include <itin/geodesic.hpp>
 #include <itin/label_places.hpp>
 #include <profile/chart.hpp>
 
@@ -100,7 +100,7 @@ class PanoramaPage {
       // What is seen matters more than what is hidden, and what is near more than what is far.
       wanted.push_back({*x, (place.visible ? 1 : 0) + 1 / (2 + place.distance_m)});
     }
-    const double turn = kPlaceNames.rotation_deg / kDegreesPerRadian;
+    const double turn = in_radians(kPlaceNames.rotation_deg);
     double width = kPanoramaWidth, top = frame_.ymin;
     for (const RowLabel& label : label_row(wanted, {.from = frame_.xmin, .to = frame_.xmax})) {
       PlaceName& name = names_.emplace_back(marks_[label.index]);

@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 
 #include <itin/call_progress.hpp>
+#include <itin/degrees.hpp>
 #include <itin/error.hpp>
-#include <itin/geodesic.hpp>
 #include <itin/parallel.hpp>
 #include <profile/wireline.hpp>
 
@@ -61,7 +61,7 @@ class LineOfBands {
   }
 
   float angle_deg(std::size_t band) const {
-    return std::isfinite(greatest_[band]) ? static_cast<float>(std::atan(greatest_[band]) * kDegreesPerRadian)
+    return std::isfinite(greatest_[band]) ? static_cast<float>(in_degrees(std::atan(greatest_[band])))
                                           : std::numeric_limits<float>::quiet_NaN();
   }
   /// Whether the ground falls behind its greatest angle. At the band's far limit that is so if it does in the next
@@ -95,7 +95,7 @@ void validate(const WirelineQuery& query) {
 }  // namespace
 
 double apparent_angle_deg(const Earth& earth, double distance_m, double above_eye_m) {
-  return std::atan2(above_eye_m - earth.drop(distance_m), distance_m) * kDegreesPerRadian;
+  return in_degrees(std::atan2(above_eye_m - earth.drop(distance_m), distance_m));
 }
 
 Wireline survey_wireline(const SectionSurface& surface, const WirelineQuery& query, Progress& progress) {
@@ -107,7 +107,7 @@ Wireline survey_wireline(const SectionSurface& surface, const WirelineQuery& que
   std::atomic<std::size_t> done = 0;
   parallel_for(lines, [&](std::size_t i) {
     progress.throw_if_cancelled();
-    const double azimuth = (query.from_deg + static_cast<double>(i) * query.step_deg) / kDegreesPerRadian;
+    const double azimuth = in_radians(query.from_deg + static_cast<double>(i) * query.step_deg);
     const Point2 to{query.eye.x + query.reach_m * std::sin(azimuth), query.eye.y + query.reach_m * std::cos(azimuth)};
     const CrossSection section = surface.between(query.eye, to);
     const auto& points = section.breakpoints;

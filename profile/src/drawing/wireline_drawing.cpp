@@ -1,13 +1,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include <fmt/format.h>
 
 #include <itin/azimuth.hpp>
+#include <itin/degrees.hpp>
 #include <itin/error.hpp>
-#include <itin/geodesic.hpp>
 #include <profile/wireline.hpp>
 
 #include "drawing/axis.hpp"
@@ -108,12 +107,11 @@ class WirelinePage {
                    {.size = 8, .colour = kInk, .align = Align::kCentre});
     drawing_->text({14, (frame_.ymin + frame_.ymax) / 2}, "elevation, degrees",
                    {.size = 8, .colour = kInk, .align = Align::kCentre, .rotation_deg = 90});
-    drawing_->text(
-        {frame_.xmin, frame_.ymax + 44},
-        fmt::format("Cylindrical, to scale: one degree is {:.1f} mm across and up; at a viewing distance of "
-                    "{:.0f} mm it matches the view in nature. {:g} degrees are shown.",
-                    kPerDegree / kMillimetre, kPerDegree * kDegreesPerRadian / kMillimetre, query_.width_deg),
-        {.size = 8, .colour = kFaint});
+    drawing_->text({frame_.xmin, frame_.ymax + 44},
+                   fmt::format("Cylindrical, to scale: one degree is {:.1f} mm across and up; at a viewing distance of "
+                               "{:.0f} mm it matches the view in nature. {:g} degrees are shown.",
+                               kPerDegree / kMillimetre, kPerDegree * in_degrees(1) / kMillimetre, query_.width_deg),
+                   {.size = 8, .colour = kFaint});
   }
 
   const Wireline& view_;

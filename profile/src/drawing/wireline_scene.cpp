@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include <itin/azimuth.hpp>
-#include <itin/geodesic.hpp>
+#include <itin/degrees.hpp>
 #include <itin/label_places.hpp>
 #include <itin/simplified.hpp>
 
@@ -29,7 +29,7 @@ std::vector<PlacedTurbine> placed_turbines(const WirelineQuery& query) {
   std::vector<PlacedTurbine> placed;
   for (const WirelineTurbine& t : query.turbines) {
     const double dx = t.position.x - query.eye.x, dy = t.position.y - query.eye.y, d = std::hypot(dx, dy);
-    const double across = within_turn(std::atan2(dx, dy) * kDegreesPerRadian - query.from_deg);
+    const double across = within_turn(in_degrees(std::atan2(dx, dy)) - query.from_deg);
     if (across > query.width_deg || d > query.reach_m || d == 0) continue;
     PlacedTurbine& p = placed.emplace_back(PlacedTurbine{&t, d, across, 0, 0});
     p.base = elevation_of(query, p, 0), p.top = elevation_of(query, p, t.tip_m);
@@ -180,7 +180,7 @@ void WirelineScene::draw_turbine(Drawing& drawing, const PlacedTurbine& placed, 
   if (dashed) stroke.width *= 0.5, stroke.dashes = {1.5, 1.5};
   // A point of the rotor's disc, or of the mast: metres to the right of the axis and above the ground.
   const auto point = [&](double right, double height) {
-    return at_(placed.across + std::atan2(right, placed.distance) * kDegreesPerRadian,
+    return at_(placed.across + in_degrees(std::atan2(right, placed.distance)),
                elevation_of(view_.query, placed, height));
   };
   if (!t.hub_m || *t.hub_m >= t.tip_m) {
@@ -191,7 +191,7 @@ void WirelineScene::draw_turbine(Drawing& drawing, const PlacedTurbine& placed, 
   drawing.polyline(std::array{point(0, 0), point(0, hub)}, stroke);
   const auto on_rim = [&](double angle) { return point(radius * std::sin(angle), hub + radius * std::cos(angle)); };
   for (const double sixths : {0.0, 2.0, 4.0})
-    drawing.polyline(std::array{point(0, hub), on_rim(sixths * std::numbers::pi / 3 + t.blade_deg / kDegreesPerRadian)},
+    drawing.polyline(std::array{point(0, hub), on_rim(sixths * std::numbers::pi / 3 + in_radians(t.blade_deg))},
                      stroke);
   if (dashed) return;
   std::vector<Point2> circle;

@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include <fmt/format.h>
 
+#include <itin/degrees.hpp>
 #include <itin/error.hpp>
 #include <itin/grazing.hpp>
 #include <profile/los.hpp>
@@ -16,10 +16,6 @@
 namespace itin::profile {
 
 namespace {
-
-double degrees(double radians) {
-  return radians * 180 / std::numbers::pi;
-}
 
 void add_curves(LosReport& report) {
   const PlannedHeights planned{report.query.from_height_m, report.query.to_height_m};
@@ -35,7 +31,7 @@ void add_curves(LosReport& report) {
 double elevation_deg(double rise, const Profile& profile, const Earth& earth) {
   if (!profile.has_length()) return std::abs(rise) <= kGrazing ? 0 : std::copysign(90.0, rise);
   const double distance = profile.length_m;
-  return degrees(std::atan((rise - earth.drop(distance)) / distance));
+  return in_degrees(std::atan((rise - earth.drop(distance)) / distance));
 }
 
 void describe_ends(LosReport& report) {

@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include <itin/geodesic.hpp>
+#include <itin/degrees.hpp>
 #include <itin/grazing.hpp>
 #include <itin/smooth_path.hpp>
 #include <profile/diffraction.hpp>
@@ -78,7 +78,7 @@ std::optional<Reflection> reflection(const Profile& profile, const Antennas& ant
   if (from <= 0 || to <= 0) return std::nullopt;
   Reflection found;
   found.distance_m = d1 * 1000;
-  found.grazing_deg = std::atan2(from, found.distance_m) * kDegreesPerRadian;
+  found.grazing_deg = in_degrees(std::atan2(from, found.distance_m));
   found.longer_by_m = 2 * from * to / profile.length_m;
   found.ground_m = height_at(profile, found.distance_m);
   if (!found.ground_m) return found;

@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 
 #include <itin/azimuth.hpp>
+#include <itin/degrees.hpp>
 #include <itin/error.hpp>
-#include <itin/geodesic.hpp>
 
 #include "drawing/palette.hpp"
 #include "drawing/wireline_scene.hpp"
@@ -25,8 +25,8 @@ double middle_of(const Wireline& view, const WirelineStrip& strip) {
 
 /// Points to the right of the strip's middle and above its horizon.
 Point2 on_paper(const WirelineStrip& strip, double from_middle_deg, double elevation_deg) {
-  const double principal = strip.principal_mm * kPointsPerMillimetre, azimuth = from_middle_deg / kDegreesPerRadian;
-  const double rise = std::tan(elevation_deg / kDegreesPerRadian);
+  const double principal = strip.principal_mm * kPointsPerMillimetre, azimuth = in_radians(from_middle_deg);
+  const double rise = std::tan(in_radians(elevation_deg));
   if (strip.projection == StripProjection::kCylindrical) return {principal * azimuth, principal * rise};
   return {principal * std::tan(azimuth), principal * rise / std::cos(azimuth)};
 }

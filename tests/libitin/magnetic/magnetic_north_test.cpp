@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <itin/degrees.hpp>
 #include <itin/geodesic.hpp>
 #include <itin/magnetic_north.hpp>
 
@@ -50,7 +51,7 @@ TEST(MagneticNorth, AgreesWithThePublishedValues) {
     EXPECT_NEAR(field.north_nt, p.north_nt, 0.051);
     EXPECT_NEAR(field.east_nt, p.east_nt, 0.051);
     EXPECT_NEAR(field.down_nt, p.down_nt, 0.051);
-    EXPECT_NEAR(std::atan2(field.east_nt, field.north_nt) * kDegreesPerRadian, p.declination, 0.0051);
+    EXPECT_NEAR(in_degrees(std::atan2(field.east_nt, field.north_nt)), p.declination, 0.0051);
   }
 }
 
@@ -109,7 +110,7 @@ TEST(MagneticNorth, IsTheFallOfItsPotential) {
       any_year(2025, 2030);
   for (int i = 0; i < 50; ++i) {
     const double longitude = any_longitude(random), latitude = any_latitude(random), height = any_height(random);
-    const double year = any_year(random), l = longitude / kDegreesPerRadian, b = latitude / kDegreesPerRadian;
+    const double year = any_year(random), l = in_radians(longitude), b = in_radians(latitude);
     SCOPED_TRACE(testing::Message() << longitude << ", " << latitude << ", " << height << ", " << year);
     const Cartesian p = cartesian(l, b, height);
     const MagneticField field = magnetic_field({longitude, latitude}, height, year);

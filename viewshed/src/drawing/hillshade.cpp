@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
+#include <itin/degrees.hpp>
 #include <itin/parallel.hpp>
 
 #include "line/infinity.hpp"
@@ -19,9 +19,7 @@ constexpr float kNothing = std::numeric_limits<float>::quiet_NaN();
 /// A light by the direction that it comes from, as the sine and cosine of its azimuth.
 struct Light {
   Light(double azimuth_degrees, double of_all)
-      : east(std::sin(azimuth_degrees * std::numbers::pi / 180)),
-        north(std::cos(azimuth_degrees * std::numbers::pi / 180)),
-        weight(of_all) {}
+      : east(std::sin(in_radians(azimuth_degrees))), north(std::cos(in_radians(azimuth_degrees))), weight(of_all) {}
 
   double east, north, weight;
 };

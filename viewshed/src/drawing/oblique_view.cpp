@@ -2,6 +2,7 @@
 #include <cmath>
 #include <vector>
 
+#include <itin/degrees.hpp>
 #include <itin/error.hpp>
 #include <viewshed/map_image.hpp>
 
@@ -21,8 +22,8 @@ constexpr Rgba kPaper{255, 255, 255};
 class ParallelView {
  public:
   ParallelView(const Tin& tin, const ObliqueOptions& options) : tin_(tin), options_(options) {
-    sin_a_ = std::sin(options.azimuth * kDegree), cos_a_ = std::cos(options.azimuth * kDegree);
-    sin_e_ = std::sin(options.elevation * kDegree), cos_e_ = std::cos(options.elevation * kDegree);
+    sin_a_ = std::sin(in_radians(options.azimuth)), cos_a_ = std::cos(in_radians(options.azimuth));
+    sin_e_ = std::sin(in_radians(options.elevation)), cos_e_ = std::cos(in_radians(options.elevation));
     const Box box = tin.bounds();
     centre_ = {(box.xmin + box.xmax) / 2, (box.ymin + box.ymax) / 2};
     for (std::uint32_t v = 0; v < tin.vertices.size(); ++v) {

@@ -1,6 +1,7 @@
 #include <cmath>
 #include <vector>
 
+#include <itin/degrees.hpp>
 #include <itin/error.hpp>
 #include <viewshed/map_image.hpp>
 
@@ -22,9 +23,9 @@ class PerspectiveView {
       : tin_(tin),
         options_(options),
         drop_(options.earth.drop_coefficient()),
-        focal_(options.pixels * SurfacePicture::kSamples / 2.0 / std::tan(options.field / 2 * kDegree)) {
-    const double sin_a = std::sin(options.azimuth * kDegree), cos_a = std::cos(options.azimuth * kDegree);
-    const double sin_p = std::sin(options.pitch * kDegree), cos_p = std::cos(options.pitch * kDegree);
+        focal_(options.pixels * SurfacePicture::kSamples / 2.0 / std::tan(in_radians(options.field / 2))) {
+    const double sin_a = std::sin(in_radians(options.azimuth)), cos_a = std::cos(in_radians(options.azimuth));
+    const double sin_p = std::sin(in_radians(options.pitch)), cos_p = std::cos(in_radians(options.pitch));
     right_ = {cos_a, -sin_a, 0};
     up_ = {-sin_a * sin_p, -cos_a * sin_p, cos_p};
     forward_ = {sin_a * cos_p, cos_a * cos_p, sin_p};

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <itin/degrees.hpp>
+
 namespace itin::viewshed {
 
 namespace {
@@ -35,7 +37,7 @@ Rgba colour_of_kind(ThemeKind kind) {
 
 SurfaceColours::SurfaceColours(const Tin& tin, double azimuth, const std::vector<ThemeKind>& kinds) : tin_(tin) {
   for (const ThemeKind kind : kinds) of_themes_.push_back(colour_of_kind(kind));
-  const double light = (azimuth - kLeft) * kDegree, height = kHigh * kDegree;
+  const double light = in_radians(azimuth - kLeft), height = in_radians(kHigh);
   light_ = {-std::sin(light) * std::cos(height), -std::cos(light) * std::cos(height), std::sin(height)};
 }
 

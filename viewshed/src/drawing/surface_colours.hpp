@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <numbers>
 #include <vector>
 
 #include <itin/theme.hpp>
@@ -11,8 +10,6 @@
 #include "drawing/canvas.hpp"
 
 namespace itin::viewshed {
-
-inline constexpr double kDegree = std::numbers::pi / 180;  ///< radians
 
 class SurfaceColours {
  public:

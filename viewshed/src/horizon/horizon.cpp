@@ -8,8 +8,8 @@
 #include <itin/azimuth.hpp>
 #include <itin/call_progress.hpp>
 #include <itin/cross_section.hpp>
+#include <itin/degrees.hpp>
 #include <itin/error.hpp>
-#include <itin/geodesic.hpp>
 #include <itin/grid_units.hpp>
 #include <itin/level_choice.hpp>
 #include <itin/parallel.hpp>
@@ -76,7 +76,7 @@ class Survey {
   /// The line in a direction ends there.
   Point2 end_of(const Direction& direction) const {
     if (direction.target) return result_.targets[direction.index].target.position;
-    const double azimuth = result_.points[direction.index].azimuth_deg / kDegreesPerRadian;
+    const double azimuth = in_radians(result_.points[direction.index].azimuth_deg);
     return {eye_.position.x + reach_ * std::sin(azimuth), eye_.position.y + reach_ * std::cos(azimuth)};
   }
 
@@ -131,7 +131,7 @@ class Survey {
     const Point3 to = units_of(sighted);
     const auto [dx, dy] = eye_.offset_to(p, {to.x, to.y});
     sighted.distance_m = std::hypot(dx, dy);
-    sighted.azimuth_deg = within_turn(std::atan2(dx, dy) * kDegreesPerRadian);
+    sighted.azimuth_deg = within_turn(in_degrees(std::atan2(dx, dy)));
     sighted.elevation_deg = eye_.view.elevation(dx, dy, sighted.elevation_m - eye_.elevation);
     directions_.push_back({within_turn(sighted.azimuth_deg - start_), result_.targets.size() - 1, true});
   }

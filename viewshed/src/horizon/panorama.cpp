@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <itin/degrees.hpp>
 #include <itin/error.hpp>
-#include <itin/geodesic.hpp>
 
 #include "bounds/surface_heights.hpp"
 #include "line/infinity.hpp"
@@ -27,7 +27,7 @@ Panorama::Panorama(const Tin& surface, const Earth& earth, const Eye& eye, doubl
       pyramid_(surface) {}
 
 std::optional<SkyPoint> Panorama::sky(double azimuth) const {
-  const double x = std::sin(azimuth / kDegreesPerRadian), y = std::cos(azimuth / kDegreesPerRadian);
+  const double x = std::sin(in_radians(azimuth)), y = std::cos(in_radians(azimuth));
   const auto line_to = [&](double end) {
     return SightLine(eye_.units, {eye_.units.x + x * reach_, eye_.units.y + y * reach_, end}, drop_, grazing_);
   };
@@ -47,7 +47,7 @@ std::optional<SkyPoint> Panorama::sky(double azimuth) const {
   const auto [s, theme] = nearest_touch(line, highest);
   const double unit = surface_.grid.resolution, bulge = drop_ * reach_ * reach_;
   const double rise = bundle.end - eye_.units.z, distance = s * reach_ * unit;
-  return SkyPoint{std::atan2(rise - bulge, reach_) * kDegreesPerRadian,
+  return SkyPoint{in_degrees(std::atan2(rise - bulge, reach_)),
                   distance,
                   {eye_.position.x + distance * x, eye_.position.y + distance * y,
                    (eye_.units.z + s * rise - bulge * s * (1 - s)) * unit},

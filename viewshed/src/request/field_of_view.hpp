@@ -6,7 +6,7 @@
 #include <utility>
 
 #include <itin/azimuth.hpp>
-#include <itin/geodesic.hpp>
+#include <itin/degrees.hpp>
 #include <itin/grazing.hpp>
 #include <viewshed/viewshed.hpp>
 
@@ -43,7 +43,7 @@ class FieldOfView {
   std::optional<std::pair<double, double>> heights_at(double squared) const {
     if (!elevation_) return std::nullopt;
     const double distance = std::sqrt(squared), drop = drop_ * squared, slack = squared == 0 ? kGrazing : 0;
-    const auto height = [&](double degrees) { return std::tan(degrees / kDegreesPerRadian) * distance + drop; };
+    const auto height = [&](double degrees) { return std::tan(in_radians(degrees)) * distance + drop; };
     return std::pair(elevation_->from <= -90 ? -kInfinity : height(elevation_->from) - slack,
                      elevation_->to >= 90 ? kInfinity : height(elevation_->to) + slack);
   }
@@ -54,7 +54,7 @@ class FieldOfView {
     const double squared = dx * dx + dy * dy;
     if (squared > farthest_ || squared < nearest_) return false;
     if (squared == 0 && low <= kGrazing && high >= -kGrazing) return true;
-    if (squared > 0 && azimuth_ && !azimuth_within(std::atan2(dx, dy) * kDegreesPerRadian)) return false;
+    if (squared > 0 && azimuth_ && !azimuth_within(in_degrees(std::atan2(dx, dy)))) return false;
     if (!elevation_) return true;
     const double lowest = elevation_at(squared, low), highest = elevation_at(squared, high);
     if (lowest >= elevation_->from && highest <= elevation_->to) return true;
@@ -71,7 +71,7 @@ class FieldOfView {
   }
   double elevation_at(double squared, double dz) const {
     if (squared == 0 && std::abs(dz) <= kGrazing) return 0;
-    return std::atan2(dz - drop_ * squared, std::sqrt(squared)) * kDegreesPerRadian;
+    return in_degrees(std::atan2(dz - drop_ * squared, std::sqrt(squared)));
   }
 
   std::optional<AngleRange> azimuth_;

@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include <itin/azimuth.hpp>
-#include <itin/geodesic.hpp>
+#include <itin/degrees.hpp>
 #include <viewshed/turbine_view.hpp>
 
 namespace itin::viewshed {
@@ -11,13 +11,13 @@ double vertical_angle_deg(const Earth& earth, double distance, double eye, doubl
   const double drop = earth.drop(distance);
   const double a = low - drop - eye, b = high - drop - eye;
   // The difference of two arctangents, without cancellation.
-  return std::atan2(distance * (b - a), distance * distance + a * b) * kDegreesPerRadian;
+  return in_degrees(std::atan2(distance * (b - a), distance * distance + a * b));
 }
 
 Arc rotor_arc(Point2 eye, Point2 turbine, double rotor_diameter) {
   const double dx = turbine.x - eye.x, dy = turbine.y - eye.y;
-  const double half = rotor_diameter > 0 ? std::atan2(rotor_diameter / 2, std::hypot(dx, dy)) * kDegreesPerRadian : 0;
-  return {within_turn(std::atan2(dx, dy) * kDegreesPerRadian - half), 2 * half};
+  const double half = rotor_diameter > 0 ? in_degrees(std::atan2(rotor_diameter / 2, std::hypot(dx, dy))) : 0;
+  return {within_turn(in_degrees(std::atan2(dx, dy)) - half), 2 * half};
 }
 
 RotorHorizon rotor_horizon(std::vector<Arc>& arcs) {

@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <itin/degrees.hpp>
 #include <itin/error.hpp>
-#include <itin/geodesic.hpp>
 #include <itin/raster.hpp>
 #include <itin/segment_distance.hpp>
 #include <viewshed/turbine_layout.hpp>
@@ -43,7 +43,7 @@ std::vector<Point2> spaced_positions(const Window& area, double side) {
 }
 
 bool TurbineSpacing::keeps_apart(Point2 a, Point2 b) const {
-  const double east = b.x - a.x, north = b.y - a.y, wind = wind_from_deg / kDegreesPerRadian;
+  const double east = b.x - a.x, north = b.y - a.y, wind = in_radians(wind_from_deg);
   const double with_wind = (east * std::sin(wind) + north * std::cos(wind)) / along;
   const double beside = (east * std::cos(wind) - north * std::sin(wind)) / across;
   return with_wind * with_wind + beside * beside >= 1 - 1e-9;
