@@ -26,9 +26,10 @@ class RadarSurvey {
 
  private:
   struct Screen;
+  /// What ground without data shades, if lines within the window may cross any.
+  std::optional<VoidShadow> shadow_over(const FullSurface& ground, const Window& window) const;
   void survey_tile(const Screen& screen, std::size_t tile);
-  /// The visible part of one turbine, metres from its tip down; 0: hidden.
-  double seen_of(const Screen& screen, std::size_t turbine) const;
+  void survey_turbine(const Screen& screen, std::size_t turbine);
 
   Zone& zone_;
   Eye eye_;

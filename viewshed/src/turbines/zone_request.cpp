@@ -10,7 +10,9 @@
 
 #include <itin/error.hpp>
 
+#include "bounds/boundary.hpp"
 #include "plan/memory.hpp"
+#include "request/void_shadow.hpp"
 
 namespace itin::viewshed {
 
@@ -59,11 +61,19 @@ void place_turbines(const std::function<std::optional<double>(Point2)>& ground, 
   zone.request.turbines = std::move(placed);
 }
 
+bool lines_cross_voids(const ZoneRequest& request, const Tin& outline) {
+  if (request.nodata == NoData::kClear) return false;
+  const std::vector<RimEdge> rim = rim_of(outline, boundary_edges(outline));
+  return std::any_of(request.turbines.begin(), request.turbines.end(),
+                     [&](const Turbine& t) { return may_cross_voids(outline.grid, rim, t.position, t.radius); });
+}
+
 Visibility nothing_seen(const Zone& zone) {
   const std::size_t cells = zone.grid.cell_count();
   Visibility v;
   v.hub_count.assign(cells, kCountOutside);
   v.tip_count.assign(cells, kCountOutside);
+  if (zone.leaves_open()) v.hub_undecided = v.tip_undecided = v.tip_count;
   v.turbines.assign(cells * zone.words, 0);
   for (std::vector<float>* floats :
        {&v.visible_height_m, &v.vertical_angle_deg, &v.vertical_angle_sum_deg, &v.horizontal_angle_deg,
@@ -112,12 +122,13 @@ Request view_of(const ZoneRequest& zone) {
   return request;
 }
 
-Zone lay_out(const ZoneRequest& request, const Box& coverage,
-             const std::function<std::optional<double>(Point2)>& ground, bool screens) {
+Zone lay_out(const ZoneRequest& request, const Tin& outline, const std::function<std::optional<double>(Point2)>& ground,
+             bool screens) {
   Zone zone;
   zone.request = request;
   place_turbines(ground, zone);
-  zone.grid = grid_of(zone.request, coverage);
+  zone.grid = grid_of(zone.request, outline.bounds());
+  zone.crosses_voids = lines_cross_voids(zone.request, outline);
   for (const Turbine& t : zone.request.turbines) zone.words = std::max(zone.words, bit_grids(t.number));
   if (screens) zone.screened.emplace();
   if (const auto memory = zone.request.memory_bytes)
@@ -128,8 +139,9 @@ Zone lay_out(const ZoneRequest& request, const Box& coverage,
 }
 
 std::uint64_t bytes_of_results(const Zone& zone) {
-  const std::uint64_t surfaces = zone.screened ? 2 : 1;
-  return (surfaces * (36 + 4 * zone.words) + (zone.request.radar ? 4 : 0)) * zone.grid.cell_count();
+  const std::uint64_t surfaces = zone.screened ? 2 : 1, counts = zone.leaves_open() ? 8 : 4,
+                      of_radar = zone.request.nodata == NoData::kUnknown ? 8 : 4;
+  return (surfaces * (32 + counts + 4 * zone.words) + (zone.request.radar ? of_radar : 0)) * zone.grid.cell_count();
 }
 
 }  // namespace itin::viewshed
