@@ -15,9 +15,12 @@ UndecidedArea undecided_area(const viewshed::Zone& zone, const std::vector<std::
 }
 
 std::string undecided_in_words(const UndecidedArea& tips) {
-  if (tips.any_m2 + tips.more_m2 == 0) return "";
-  return fmt::format("whether a blade tip is visible from {}, and how many more are from {}",
-                     viewshed::area_text(tips.any_m2), viewshed::area_text(tips.more_m2));
+  std::string text;
+  if (tips.any_m2 > 0) text = "whether a blade tip is visible from " + viewshed::area_text(tips.any_m2);
+  if (tips.more_m2 > 0)
+    text += fmt::format("{}how many more are visible from {}", text.empty() ? "" : ", and ",
+                        viewshed::area_text(tips.more_m2));
+  return text;
 }
 
 }  // namespace itin::cli

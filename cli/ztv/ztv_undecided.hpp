@@ -18,7 +18,7 @@ struct UndecidedArea {
 UndecidedArea undecided_area(const viewshed::Zone& zone, const std::vector<std::uint16_t>& counts,
                              const std::vector<std::uint16_t>& undecided);
 
-/// "whether a blade tip is visible from 1.2 km², and how many more are from 3.4 km²"; empty where none is.
+/// "whether a blade tip is visible from 1.2 km², and how many more are visible from 3.4 km²"; empty where none is.
 std::string undecided_in_words(const UndecidedArea& tips);
 
 /// The options that decide it.

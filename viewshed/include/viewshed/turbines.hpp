@@ -101,12 +101,14 @@ struct RadarView {
   double ground_m = 0;  ///< under the radar
   std::vector<float>
       height_m;  ///< per cell: the least height above its ground that is seen; NaN above 1000 m or no ground
-  std::vector<double> turbine_m;          ///< what is seen of each turbine of the request, from its tip down; 0: hidden
-  std::vector<float> undecided_height_m;  ///< the same where ground without data alone leaves it open, else NaN
-  std::vector<double> undecided_turbine_m;  ///< likewise, else 0
+  std::vector<double> turbine_m;  ///< what is seen of each turbine of the request, from its tip down; 0: hidden
+  /// The same where ground without data alone leaves it open, else NaN, 0. Empty where no line may cross any.
+  std::vector<float> undecided_height_m;
+  std::vector<double> undecided_turbine_m;
+  bool crosses_voids = false;  ///< its sight lines may, as those of a Zone
 
-  /// Whether it is undecided of any cell or turbine.
-  bool leaves_open() const;
+  /// Whether it may be undecided what the radar sees.
+  bool leaves_open() const { return !undecided_height_m.empty(); }
 };
 
 struct Zone {

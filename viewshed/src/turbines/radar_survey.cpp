@@ -1,14 +1,8 @@
 #include "turbines/radar_survey.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <itin/grid_units.hpp>
-
-#include "bounds/boundary.hpp"
-#include "line/hulls.hpp"
-#include "line/infinity.hpp"
 
 namespace itin::viewshed {
 
@@ -25,47 +19,31 @@ Eye eye_of_radar(const Grid& units, std::optional<double> ground_m, const ZoneRe
 
 }  // namespace
 
-bool RadarView::leaves_open() const {
-  return std::any_of(undecided_height_m.begin(), undecided_height_m.end(), [](float m) { return !std::isnan(m); }) ||
-         std::any_of(undecided_turbine_m.begin(), undecided_turbine_m.end(), [](double m) { return m > 0; });
-}
-
 struct RadarSurvey::Screen {
   const FullSurface& ground;
   const RadialSweep::View& view;
-  const std::optional<VoidShadow> shadow;  ///< of ground without data, where lines may cross any
+  const std::optional<VoidShadow>& shadow;  ///< of ground without data, where lines may cross any
 
   bool shades(Point2 units) const { return shadow && shadow->holds(units.x, units.y); }
 };
 
 RadarSurvey::RadarSurvey(const Grid& units, std::optional<double> ground_m, Zone& zone)
     : zone_(zone), eye_(eye_of_radar(units, ground_m, zone.request)) {
-  RadarView& seen = zone.radar.emplace();
-  seen.ground_m = *ground_m;
-  seen.height_m.assign(zone.grid.cell_count(), std::numeric_limits<float>::quiet_NaN());
-  seen.turbine_m.assign(zone.request.turbines.size(), 0);
-  if (zone.request.nodata != NoData::kUnknown) return;
-  seen.undecided_height_m = seen.height_m;
-  seen.undecided_turbine_m = seen.turbine_m;
+  zone.radar->ground_m = *ground_m;
 }
 
 void RadarSurvey::run(const FullSurface& ground, const ZonePart& part, Stage& stage) {
   if (part.radar_tiles.empty() && part.radar_turbines.empty()) return;
   const RadialSweep::View view = ground.view_from(eye_);
-  const Screen screen{ground, view, shadow_over(ground, part.window)};
+  std::optional<VoidShadow> shadow;
+  // The part's window is convex: where it ends, no sight line does.
+  if (zone_.radar->crosses_voids) shadow.emplace(ground.rim(), eye_.units);
+  const Screen screen{ground, view, shadow};
   stage.for_each(part.radar_tiles.size(), [&](std::size_t i) {
     survey_tile(screen, part.radar_tiles[i]);
     return std::size_t{1};
   });
   for (const std::size_t turbine : part.radar_turbines) survey_turbine(screen, turbine);
-}
-
-std::optional<VoidShadow> RadarSurvey::shadow_over(const FullSurface& ground, const Window& window) const {
-  if (zone_.request.nodata == NoData::kClear) return std::nullopt;
-  // The part's window is convex: where it ends, no sight line does.
-  const std::vector<Point2> lines = hull_of(window.parts().front().outer);
-  if (!surface_resumes(ground.units(), ground.rim(), eye_.position, kInfinity, lines)) return std::nullopt;
-  return VoidShadow(ground.rim(), eye_.units);
 }
 
 void RadarSurvey::survey_tile(const Screen& screen, std::size_t tile) {

@@ -26,8 +26,6 @@ class RadarSurvey {
 
  private:
   struct Screen;
-  /// What ground without data shades, if lines within the window may cross any.
-  std::optional<VoidShadow> shadow_over(const FullSurface& ground, const Window& window) const;
   void survey_tile(const Screen& screen, std::size_t tile);
   void survey_turbine(const Screen& screen, std::size_t turbine);
 
