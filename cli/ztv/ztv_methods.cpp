@@ -122,12 +122,12 @@ std::string crossings_in_words(const viewshed::Zone& zone) {
     const std::string what = undecided_in_words(undecided_area(zone, v.tip_count, v.tip_undecided));
     return what.empty() ? "of no place" : what;
   };
-  std::string text = fmt::format(
-      "Where ground without data alone could hide a turbine, it is undecided whether it is visible. Maps, areas and "
-      "numbers of turbines are then of those that are certainly visible, and apart of those that are undecided: "
-      "`undecided.tif` tells how many these are. Undecided is {}",
-      open(zone.bare));
-  if (zone.screened) text += fmt::format("; with the screening effect of features, {}", open(*zone.screened));
+  std::string text =
+      "Where ground without data alone could hide a turbine, it is undecided whether that is visible. Maps, areas and "
+      "numbers of turbines count those that are certainly visible; those that are undecided are counted apart, in "
+      "`undecided.tif`. It is undecided " +
+      open(zone.bare);
+  if (zone.screened) text += "; with the screening effect of features, " + open(*zone.screened);
   return text + fmt::format(". The option `{}` decides it.", kDecidesMissingGround);
 }
 

@@ -156,7 +156,7 @@ std::vector<std::string> ZtvRadioOptions::methods(const Zone& zone) const {
       paragraphs.back() += fmt::format(
           " Where ground without data alone could hide something from the radar, it is undecided whether that is seen: "
           "of {}, and from the heights of `radar-height-undecided.tif` on. What must stay out of the radar's sight has "
-          "to stay below these, too; {} decides it.",
+          "to stay below these, too; the option `{}` decides it.",
           counted(seen_in(zone.radar->undecided_turbine_m), "turbine"), kDecidesMissingGround);
   }
   if (!links_.empty()) {
