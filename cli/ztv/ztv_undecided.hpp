@@ -14,7 +14,7 @@ struct UndecidedArea {
   double more_m2 = 0;  ///< some are certainly seen, and more may be
 };
 
-/// Of hubs or tips: their counts, and how many more there may be.
+/// Takes the counts of hubs or of tips, and how many more there may be.
 UndecidedArea undecided_area(const viewshed::Zone& zone, const std::vector<std::uint16_t>& counts,
                              const std::vector<std::uint16_t>& undecided);
 

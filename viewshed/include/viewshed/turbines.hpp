@@ -69,7 +69,7 @@ struct Visibility {
   std::vector<std::uint16_t> hub_count;
   std::vector<std::uint16_t> tip_count;
   std::vector<std::uint16_t> hub_undecided;   ///< empty unless the zone leaves_open()
-  std::vector<std::uint16_t> tip_undecided;   ///< likewise; never less
+  std::vector<std::uint16_t> tip_undecided;   ///< as that; never less
   std::vector<std::uint32_t> turbines;        ///< tips seen: grids of 32-bit words, see turbine_bit()
   std::vector<float> visible_height_m;        ///< tip less least visible height, the greatest over the turbines; or 0
   std::vector<float> vertical_angle_deg;      ///< that the visible part of a turbine takes up, the greatest; or 0
@@ -102,7 +102,7 @@ struct RadarView {
   std::vector<float>
       height_m;  ///< per cell: the least height above its ground that is seen; NaN above 1000 m or no ground
   std::vector<double> turbine_m;  ///< what is seen of each turbine of the request, from its tip down; 0: hidden
-  /// The same where ground without data alone leaves it open, else NaN, 0. Empty where no line may cross any.
+  /// What it sees unless ground without data alone hides that; else NaN, 0. Empty where no line may cross any.
   std::vector<float> undecided_height_m;
   std::vector<double> undecided_turbine_m;
   bool crosses_voids = false;  ///< its sight lines may, as those of a Zone

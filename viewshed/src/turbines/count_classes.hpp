@@ -16,7 +16,7 @@ namespace itin::viewshed {
 
 class CountClasses {
  public:
-  /// Of hubs or of tips. All must outlive it.
+  /// Takes those of hubs or of tips. All must outlive it.
   CountClasses(const Zone& zone, const std::vector<std::uint16_t>& counts, const std::vector<std::uint16_t>& undecided);
 
   /// None, then the bands of counts; and last, where the zone leaves_open(), a class of cells of which it is undecided
