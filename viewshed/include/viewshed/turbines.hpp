@@ -69,7 +69,7 @@ struct Visibility {
   std::vector<std::uint16_t> hub_count;
   std::vector<std::uint16_t> tip_count;
   std::vector<std::uint16_t> hub_undecided;   ///< empty unless the zone leaves_open()
-  std::vector<std::uint16_t> tip_undecided;   ///< as that; never less
+  std::vector<std::uint16_t> tip_undecided;   ///< empty as that is; never less
   std::vector<std::uint32_t> turbines;        ///< tips seen: grids of 32-bit words, see turbine_bit()
   std::vector<float> visible_height_m;        ///< tip less least visible height, the greatest over the turbines; or 0
   std::vector<float> vertical_angle_deg;      ///< that the visible part of a turbine takes up, the greatest; or 0

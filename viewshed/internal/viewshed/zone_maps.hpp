@@ -19,7 +19,7 @@ struct ZoneMap {
     std::string label;
     Rgba colour;
     std::uint64_t cells = 0;
-    std::uint64_t open_cells = 0;  ///< of these, where ground without data leaves some turbine undecided
+    std::uint64_t open_cells = 0;  ///< those where ground without data leaves some turbine undecided
     bool undecided = false;        ///< whether anything is seen from them is
   };
   std::string name;          ///< as in the names of files: "tip-count-screened"

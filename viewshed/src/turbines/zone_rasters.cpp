@@ -76,7 +76,7 @@ const std::vector<Quantity>& quantities() {
 /// What is seen over one of the zone's surfaces.
 struct View {
   const Visibility& seen;
-  std::string suffix;  ///< of the names of its rasters
+  std::string suffix;  ///< ends the names of its rasters
   std::string remark;  ///< what each of them says besides
 };
 

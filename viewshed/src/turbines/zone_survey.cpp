@@ -34,7 +34,7 @@ struct ZoneSurvey::TileSightings {
   const TileValues<double>& ground;  ///< grid units
   TileValues<double> eyes;           ///< elevations, grid units
   TileValues<std::uint16_t> hubs, tips;
-  TileValues<std::uint16_t> open_hubs, open_tips;  ///< of turbines in the shadow of voids
+  TileValues<std::uint16_t> open_hubs, open_tips;  ///< counts of what stands in the shadow of voids
   TileValues<double> height, angle, angle_sum, nearest;
   std::vector<TileValues<std::uint32_t>> seen;
   TileValues<bool> open;     ///< lines to the turbine at hand
