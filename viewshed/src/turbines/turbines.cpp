@@ -11,8 +11,6 @@
 
 #include "progress/stage.hpp"
 #include "progress/stopwatch.hpp"
-#include "request/request.hpp"
-#include "request/request_window.hpp"
 #include "scene/full_surface.hpp"
 #include "scene/sweep/radial_sweep.hpp"
 #include "turbines/open_lines.hpp"
