@@ -193,9 +193,10 @@ TEST(ZoneUndecided, IsNothingWhereNoLineCrossesMissingGround) {
 TEST(ZoneUndecided, HoldsWhatARadarMaySee) {
   std::mt19937 random(test::seed());
   std::size_t open_cells = 0, open_turbines = 0;
-  for (int round = 0; round < 4; ++round) {
+  for (int round = 0; round < 16; ++round) {
     const Tin tin = holed_hills(random);
     ZoneRequest request = farms_on(tin, random);
+    request.cell_size = 80;
     request.radar = Observer{"radar", request.turbines.front().position, 15};
     const RadarView unknown = *survey_under(NoData::kUnknown, tin, request).radar,
                     block = *survey_under(NoData::kBlock, tin, request).radar,
