@@ -32,7 +32,8 @@ viewshed::ZoneRequest zone_request(const SiteOptions& options, const SiteInputs&
                                 .radius = options.radius});
   request.observer_height = options.target_height;
   request.earth = options.earth.earth();
-  request.nodata = options.nodata.rule();
+  // The least is looked for of what may be seen.
+  request.nodata = options.nodata.rule() == NoData::kUnknown ? NoData::kClear : options.nodata.rule();
   return request;
 }
 
@@ -64,7 +65,7 @@ std::vector<double> heights_over_points(const Store& store, const SiteOptions& o
     progress.report("sight lines of candidates", static_cast<double>(p) / static_cast<double>(points.size()));
     if (!grounds[p]) continue;
     viewshed::Zone near;
-    near.request.earth = request.earth;
+    near.request.earth = request.earth, near.request.nodata = request.nodata;
     std::vector<std::size_t> numbers;
     for (std::size_t i = 0; i < request.turbines.size(); ++i) {
       const Point2 foot = request.turbines[i].position;
@@ -76,8 +77,7 @@ std::vector<double> heights_over_points(const Store& store, const SiteOptions& o
     const Viewpoint eye{p, {}, points[p], options.target_height, *grounds[p]};
     const std::vector<Sight> sights = sights_to_all(surface, eye, near);
     for (std::size_t k = 0; k < numbers.size(); ++k)
-      if (sights[k].tip && !(sights[k].gaps && request.nodata == NoData::kBlock))
-        sums[numbers[k]] += weight_of(inputs.demand, p) * sights[k].visible;
+      sums[numbers[k]] += weight_of(inputs.demand, p) * sights[k].visible;
   }
   return sums;
 }

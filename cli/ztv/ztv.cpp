@@ -41,6 +41,7 @@
 #include "ztv/ztv_route.hpp"
 #include "ztv/ztv_sheets.hpp"
 #include "ztv/ztv_turbines.hpp"
+#include "ztv/ztv_undecided.hpp"
 #include "ztv/ztv_viewpoints.hpp"
 
 namespace itin::cli {
@@ -81,7 +82,7 @@ class ZtvVerb final : public Verb {
     detail_.declare(app, "");
     themes_.declare(app);
     earth_.declare(app);
-    nodata_.declare(app, kPassesIfUnknown);
+    nodata_.declare(app);
     memory_.declare(app,
                     "Memory to work in, for example 2G. Surfaces that exceed it are read in parts, and rasters that do "
                     "are refused; "
@@ -295,6 +296,8 @@ class ZtvVerb final : public Verb {
                               {"share_without_data", missing_.share()}};
     document["area_km2"]["bare"] = areas(zone, zone.bare);
     if (zone.screened) document["area_km2"]["screened"] = areas(zone, *zone.screened);
+    if (zone.leaves_open())
+      document["undecided"] = {{"reason", "ground without data"}, {"decided_by", kDecidesMissingGround}};
     document.update(radio_.document(zone));
     document["statistics"] = viewshed::statistics_document(zone.statistics);
     document["statistics"].update({{"retrieval_seconds", zone.statistics.retrieval_seconds},
@@ -311,7 +314,13 @@ class ZtvVerb final : public Verb {
     }
     const auto km2 = [&](std::uint64_t cells) { return static_cast<double>(cells) * zone.grid.cell_area() / 1e6; };
     Document areas{{"any_tip_seen", km2(tips)}, {"any_hub_seen", nullptr}, {"studied", km2(all)}};
-    if (known_hubs(zone.request.turbines) > 0) areas["any_hub_seen"] = km2(hubs);
+    const bool hubs_known = known_hubs(zone.request.turbines) > 0;
+    if (hubs_known) areas["any_hub_seen"] = km2(hubs);
+    const UndecidedArea of_tips = undecided_area(zone, v.tip_count, v.tip_undecided);
+    areas.update({{"any_tip_undecided", of_tips.any_m2 / 1e6}, {"more_tips_undecided", of_tips.more_m2 / 1e6}});
+    if (!hubs_known) return areas;
+    const UndecidedArea of_hubs = undecided_area(zone, v.hub_count, v.hub_undecided);
+    areas.update({{"any_hub_undecided", of_hubs.any_m2 / 1e6}, {"more_hubs_undecided", of_hubs.more_m2 / 1e6}});
     return areas;
   }
 
@@ -350,7 +359,17 @@ class ZtvVerb final : public Verb {
     std::string text = fmt::format(
         "{}: {} of {}; a blade tip is visible {}, of the {:.1f} km² that have terrain data\n", output_,
         zone.request.turbines.size(), counted(list_.rows, "turbine"), seen_from(bare), bare["studied"].get<double>());
-    if (zone.screened) text += fmt::format("screened: a blade tip {}\n", seen_from(areas(zone, *zone.screened)));
+    const auto add_undecided = [&](const char* where, const viewshed::Visibility& v) {
+      const std::string what = undecided_in_words(undecided_area(zone, v.tip_count, v.tip_undecided));
+      if (!what.empty())
+        text += fmt::format("{}undecided, across ground without data: {}; {} decides it\n", where, what,
+                            kDecidesMissingGround);
+    };
+    add_undecided("", zone.bare);
+    if (zone.screened) {
+      text += fmt::format("screened: a blade tip {}\n", seen_from(areas(zone, *zone.screened)));
+      add_undecided("screened: ", *zone.screened);
+    }
     if (missing_.share() > 0) text += fmt::format("no ground data: {} of the study area\n", missing_.text());
     text += fmt::format("{}, {}; {}\n", counted(zone.statistics.triangles, "triangle"),
                         counted(zone.statistics.lines, "sight line"), request_.earth.convention());

@@ -15,6 +15,7 @@
 
 #include "output/store_document.hpp"
 #include "ztv/ztv_turbines.hpp"
+#include "ztv/ztv_undecided.hpp"
 
 namespace itin::cli {
 
@@ -110,17 +111,32 @@ constexpr const char* kSheets =
     "Visual Representation of Wind Farms, version 2.2: planar, 53.5 by 18.2 degrees at 812.5 mm, and cylindrical, 90 "
     "by 14.2 degrees at 522 mm, on paper of 841 by 297 mm.";
 
-std::string nodata_in_words(viewshed::NoData rule) {
-  return rule == viewshed::NoData::kBlock ? "is taken to block them" : "is taken as clear";
+/// What becomes of sight lines that cross ground without data.
+std::string crossings_in_words(const viewshed::Zone& zone) {
+  if (zone.request.nodata == NoData::kClear)
+    return "Where sight lines cross ground without data, it is taken as clear.";
+  if (zone.request.nodata == NoData::kBlock)
+    return "Where sight lines cross ground without data, it is taken to block them.";
+  if (!zone.leaves_open()) return "No sight line to a turbine crosses ground without data.";
+  const auto open = [&](const viewshed::Visibility& v) {
+    const std::string what = undecided_in_words(undecided_area(zone, v.tip_count, v.tip_undecided));
+    return what.empty() ? "of no place" : what;
+  };
+  std::string text =
+      "Where ground without data alone could hide a turbine, it is undecided whether that is visible. Maps, areas and "
+      "numbers of turbines count those that are certainly visible; those that are undecided are counted apart, in "
+      "`undecided.tif`. It is undecided " +
+      open(zone.bare);
+  if (zone.screened) text += "; with the screening effect of features, " + open(*zone.screened);
+  return text + fmt::format(". The option `{}` decides it.", kDecidesMissingGround);
 }
 
-std::string missing_in_words(const viewshed::MissingGround& missing, viewshed::NoData rule) {
+std::string missing_in_words(const viewshed::MissingGround& missing, const viewshed::Zone& zone) {
   if (missing.share() == 0) return "The terrain data cover the whole study area: all places within the radii.";
   return fmt::format(
       "{} of the study area, {:.1f} km² within the radii, has no terrain data. Nothing is known of places there; they "
-      "are no part of the areas and percentages given, which are of the area with data. Where sight lines cross ground "
-      "without data, it {}.",
-      missing.text(), missing.study_m2() / 1e6, nodata_in_words(rule));
+      "are no part of the areas and percentages given, which are of the area with data. {}",
+      missing.text(), missing.study_m2() / 1e6, crossings_in_words(zone));
 }
 
 }  // namespace
@@ -158,7 +174,7 @@ std::string methods_text(const viewshed::Zone& zone, const StoreMetadata& metada
             facts.radius +
                 " Distances are horizontal; beyond its own distance a turbine is not counted on maps and in "
                 "areas. Tables and sheets of viewpoints and routes count every turbine, however far it is.");
-  paragraph("Ground without data", missing_in_words(facts.missing, request.nodata));
+  paragraph("Ground without data", missing_in_words(facts.missing, zone));
   paragraph("Curvature and refraction", refraction_in_words(request.earth));
   paragraph(
       "Visibility",

@@ -14,11 +14,26 @@
 #include "options/wave_options.hpp"
 #include "output/store_document.hpp"
 #include "program/call_files.hpp"
+#include "ztv/ztv_undecided.hpp"
 
 namespace itin::cli {
 
 using viewshed::Turbine;
 using viewshed::Zone;
+
+namespace {
+
+/// How many turbines a radar sees some metres of.
+std::size_t seen_in(const std::vector<double>& turbine_m) {
+  return static_cast<std::size_t>(std::count_if(turbine_m.begin(), turbine_m.end(), [](double m) { return m > 0; }));
+}
+
+/// Whether ground without data alone leaves it open that turbine k of the request is seen.
+bool radar_leaves_open(const viewshed::RadarView& radar, std::size_t k) {
+  return !radar.undecided_turbine_m.empty() && radar.undecided_turbine_m[k] > 0;
+}
+
+}  // namespace
 
 void ZtvRadioOptions::declare(CLI::App& app) {
   reads(app.add_option(
@@ -92,24 +107,29 @@ std::string ZtvRadioOptions::columns() const {
   std::string names;
   if (radar_) names += ",radar_visible_m";
   if (!links_.empty()) names += ",link,link_clearance_m,link_excluded";
+  if (radar_) names += ",radar_sees";
   return names;
 }
 
 std::string ZtvRadioOptions::cells(const Zone& zone, std::size_t k) const {
   std::string text;
-  if (zone.radar) text += fmt::format(",{:.2f}", zone.radar->turbine_m[k]);
-  if (links_.empty()) return text;
-  const Nearest nearest = nearest_link(zone.request.turbines[k]);
-  return text +
-         fmt::format(",{},{:.2f},{}", csv_cell(nearest.link), nearest.clearance, nearest.clearance < 0 ? "yes" : "no");
+  const bool undecided = zone.radar && radar_leaves_open(*zone.radar, k);
+  if (zone.radar) text += undecided ? "," : fmt::format(",{:.2f}", zone.radar->turbine_m[k]);
+  if (!links_.empty()) {
+    const Nearest nearest = nearest_link(zone.request.turbines[k]);
+    text +=
+        fmt::format(",{},{:.2f},{}", csv_cell(nearest.link), nearest.clearance, nearest.clearance < 0 ? "yes" : "no");
+  }
+  if (zone.radar) text += undecided ? ",undecided" : zone.radar->turbine_m[k] > 0 ? ",yes" : ",no";
+  return text;
 }
 
 Document ZtvRadioOptions::document(const Zone& zone) const {
   Document document = Document::object();
   if (zone.radar) {
-    const auto& seen = zone.radar->turbine_m;
     document["radar"] = {{"ground_m", zone.radar->ground_m},
-                         {"turbines_seen", std::count_if(seen.begin(), seen.end(), [](double m) { return m > 0; })}};
+                         {"turbines_seen", seen_in(zone.radar->turbine_m)},
+                         {"turbines_undecided", seen_in(zone.radar->undecided_turbine_m)}};
   }
   if (!links_.empty()) {
     const auto& turbines = zone.request.turbines;
@@ -124,7 +144,7 @@ Document ZtvRadioOptions::document(const Zone& zone) const {
 
 std::vector<std::string> ZtvRadioOptions::methods(const Zone& zone) const {
   std::vector<std::string> paragraphs;
-  if (zone.radar)
+  if (zone.radar) {
     paragraphs.push_back(fmt::format(
         "## Radar\n\nA radar at {:.0f}, {:.0f}, {:g} m above its ground of {:.1f} m. `radar-height.tif` is the least "
         "height above the ground that it sees over bare ground, with curvature and refraction as stated; "
@@ -132,6 +152,13 @@ std::vector<std::string> ZtvRadioOptions::methods(const Zone& zone) const {
         "surface; between the "
         "terrain's points they depend on its triangles.",
         radar_->position.x, radar_->position.y, radar_->height, zone.radar->ground_m));
+    if (zone.radar->leaves_open())
+      paragraphs.back() += fmt::format(
+          " Where ground without data alone could hide something from the radar, it is undecided whether that is seen: "
+          "of {}, and from the heights of `radar-height-undecided.tif` on. What must stay out of the radar's sight has "
+          "to stay below these, too; the option `{}` decides it.",
+          counted(seen_in(zone.radar->undecided_turbine_m), "turbine"), kDecidesMissingGround);
+  }
   if (!links_.empty()) {
     const double radius = study(zone).rotor_radius_m;
     const std::string rotor = radius > 0 ? fmt::format("the greatest rotor, {:g} m in radius", radius)
@@ -139,7 +166,8 @@ std::vector<std::string> ZtvRadioOptions::methods(const Zone& zone) const {
     paragraphs.push_back(fmt::format(
         "## Radio links\n\n{} of `{}` at {:g} GHz (wavelength 0.299792458 / f). After Bacon (2002) a rotor must stay "
         "out of the second Fresnel zone, of radius sqrt(2 lambda d1 d2 / d), in plan: `link-exclusion.tif` for {}; "
-        "`turbines.csv` for each turbine's own. Heights are not taken into account.",
+        "`turbines.csv` for each turbine's own. Heights are not taken into account, so that ground without data leaves "
+        "nothing open.",
         counted(links_.size(), "link"), links_path_, frequency_ghz_, rotor));
   }
   return paragraphs;

@@ -74,13 +74,14 @@ std::vector<profile::RouteStep> steps_of(const Route& route, const std::vector<F
   for (std::size_t k = 0; k < found.size(); ++k) {
     profile::RouteStep& s = steps.emplace_back();
     s.from_m = step * static_cast<double>(k), s.to_m = s.from_m + step, s.known = found[k].has_value();
-    if (found[k]) s.tips = found[k]->tips, s.hubs = found[k]->hubs;
+    if (found[k]) s.tips = found[k]->tips, s.hubs = found[k]->hubs, s.tips_undecided = found[k]->tips_undecided;
   }
   return steps;
 }
 
 struct Totals {
   double tips_m = 0, hubs_m = 0, unknown_m = 0;
+  double undecided_m = 0;  ///< from where no tip is certainly seen, but one may be
   std::size_t most_tips = 0, stretches = 0;
 };
 
@@ -92,6 +93,7 @@ Totals totals_of(const Route& route, const std::vector<Found>& found) {
     if (s.tips > 0) totals.tips_m += length;
     if (s.hubs.value_or(0) > 0) totals.hubs_m += length;
     if (!s.known) totals.unknown_m += length;
+    if (s.tips == 0 && s.tips_undecided > 0) totals.undecided_m += length;
     totals.most_tips = std::max(totals.most_tips, s.tips);
     if (s.tips > 0 && !before) ++totals.stretches;
     before = s.tips > 0;
@@ -108,13 +110,14 @@ std::string table_of(const Route& route, const Zone& zone, bool national) {
   const bool screened = !route.screened.empty();
   std::string table =
       fmt::format("distance_m,x,y,grid_reference,ground_m,hubs_visible,tips_visible,nearest_turbine,nearest_m{}\n",
-                  screened ? ",hubs_visible_screened,tips_visible_screened" : "");
+                  screened ? ",hubs_visible_screened,tips_visible_screened,tips_undecided,tips_undecided_screened"
+                           : ",tips_undecided");
   for (std::size_t k = 0; k < route.places.size(); ++k) {
     const RoutePlace& p = route.places[k];
     const auto reference = national ? national_grid_reference(p.position) : std::nullopt;
     table += fmt::format("{:.0f},{:.1f},{:.1f},{},", p.distance, p.position.x, p.position.y, reference.value_or(""));
     if (!route.bare[k]) {
-      table += screened ? ",,,,,,\n" : ",,,,\n";
+      table += screened ? ",,,,,,,,\n" : ",,,,,\n";
       continue;
     }
     const std::size_t nearest = route.bare[k]->nearest;
@@ -122,7 +125,8 @@ std::string table_of(const Route& route, const Zone& zone, bool national) {
         fmt::format("{:.1f},{},{},{},{:.0f}", route.ground[k], count(route.bare[k], true), count(route.bare[k], false),
                     zone.request.turbines[nearest].number, route.sights[k][nearest].distance);
     if (screened) table += fmt::format(",{},{}", count(route.screened[k], true), count(route.screened[k], false));
-    table += "\n";
+    table += fmt::format(",{}", route.bare[k]->tips_undecided);
+    table += screened ? fmt::format(",{}\n", route.screened[k]->tips_undecided) : "\n";
   }
   return table;
 }
@@ -132,10 +136,10 @@ std::string route_row(const Route& route, const char* surface, const std::vector
   const auto percent = [&](double metres) {
     return fmt::format("{:.1f}", 100 * metres / std::max(1e-9, route.length));
   };
-  return fmt::format("{},{},{},{:.2f},{:.2f},{},{},{},{},{},{:.2f}\n", route.number, csv_cell(route.name), surface,
-                     route.length / 1000, t.tips_m / 1000, percent(t.tips_m),
+  return fmt::format("{},{},{},{:.2f},{:.2f},{},{},{},{},{},{:.2f},{:.2f}\n", route.number, csv_cell(route.name),
+                     surface, route.length / 1000, t.tips_m / 1000, percent(t.tips_m),
                      hubs ? fmt::format("{:.2f}", t.hubs_m / 1000) : "", hubs ? percent(t.hubs_m) : "", t.most_tips,
-                     t.stretches, t.unknown_m / 1000);
+                     t.stretches, t.unknown_m / 1000, t.undecided_m / 1000);
 }
 
 void survey(Route& route, const SectionSurface& ground, const SectionSurface* features, const Zone& zone,
@@ -204,7 +208,7 @@ RouteOptions::Written RouteOptions::write(const std::string& folder, const Store
   };
   std::string summary =
       "route,name,surface,length_km,tips_visible_km,tips_visible_percent,hubs_visible_km,hubs_visible_percent,"
-      "most_tips_visible,stretches_with_tips,no_data_km\n";
+      "most_tips_visible,stretches_with_tips,no_data_km,tips_undecided_km\n";
   std::size_t number = 0;
   written.routes = read_paths(path_, metadata.crs_wkt);
   for (const Path& path : written.routes) {

@@ -189,6 +189,16 @@ std::string without_terrain_in_words(const viewshed::MissingGround& missing) {
   return fmt::format("; {} of it has no terrain data and is not in the percentages", missing.percent());
 }
 
+/// What the map's class of undecided cells does not say.
+std::string more_in_words(const Zone& zone, const ZoneMap& map) {
+  std::uint64_t more = 0;
+  for (const ZoneMap::Class& c : map.classes)
+    if (!c.undecided) more += c.open_cells;
+  if (more == 0) return "";
+  return fmt::format("ground without data leaves open whether more is visible than shown from {}",
+                     viewshed::area_text(static_cast<double>(more) * zone.grid.cell_area()));
+}
+
 std::string heights_in_words(const Zone& zone) {
   double least = std::numeric_limits<double>::infinity(), most = 0;
   for (const Turbine& t : zone.request.turbines)
@@ -220,6 +230,8 @@ profile::TitleBlock title_block(const StoreMetadata& metadata, const Zone& zone,
                                ? "curvature and refraction are taken into account, " + zone.request.earth.convention()
                                : "flat; curvature and refraction are not taken into account"},
                  terrain_fact(metadata, zone.request.detail)};
+  if (const std::string undecided = more_in_words(zone, map); !undecided.empty())
+    block.facts.emplace_back("Undecided", undecided);
   block.sources = described(facts.sources, metadata);
   return block;
 }

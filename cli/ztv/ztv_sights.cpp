@@ -32,17 +32,22 @@ Sight sight_to(const SectionSurface& surface, const Viewpoint& from, const Turbi
   const profile::Profile profile = profile::from_section(section);
   const auto seen = profile::visible_height(profile, from.height, {turbine.hub_height, turbine.tip_height},
                                             request.earth, profile::EndGrounds{from.ground, ground});
-  const bool blocked = sight.gaps && request.nodata == NoData::kBlock;
-  sight.least = blocked ? turbine.tip_height : std::max(0.0, seen.from_m);
-  sight.visible = turbine.tip_height - sight.least;
-  sight.tip = !blocked && seen.tip.visible_m > 0;
-  if (turbine.hub_height) sight.hub = sight.tip && sight.least <= *turbine.hub_height;
+  const double least = std::max(0.0, seen.from_m);
+  const auto judged = [&](bool clear_of_known_ground) {
+    if (!clear_of_known_ground || (sight.gaps && request.nodata == NoData::kBlock)) return Sight::Verdict::kHidden;
+    return sight.gaps && request.nodata == NoData::kUnknown ? Sight::Verdict::kUndecided : Sight::Verdict::kVisible;
+  };
+  const bool tip_clear = seen.tip.visible_m > 0;
+  sight.tip = judged(tip_clear);
+  if (turbine.hub_height) sight.hub = judged(tip_clear && least <= *turbine.hub_height);
   const double eye = from.ground + from.height;
   const auto angle = [&](double height) {
     return profile::apparent_angle_deg(request.earth, sight.distance, ground + height - eye);
   };
   sight.tip_deg = angle(turbine.tip_height);
-  if (sight.tip) sight.vertical_deg = sight.tip_deg - angle(sight.least);
+  if (sight.tip != Sight::Verdict::kVisible) return sight;
+  sight.visible = turbine.tip_height - least;
+  sight.vertical_deg = sight.tip_deg - angle(least);
   return sight;
 }
 
@@ -68,10 +73,14 @@ Seen seen_of(const Zone& zone, const std::vector<Sight>& sights, const std::vect
   std::vector<viewshed::Arc> rotors;
   for (const std::size_t k : turbines) {
     const Sight& s = sights[k];
-    if (zone.request.turbines[k].hub_height) seen.hubs = seen.hubs.value_or(0) + (s.hub.value_or(false) ? 1 : 0);
+    if (s.hub) {
+      seen.hubs = seen.hubs.value_or(0) + (*s.hub == Sight::Verdict::kVisible ? 1 : 0);
+      seen.hubs_undecided = seen.hubs_undecided.value_or(0) + (*s.hub == Sight::Verdict::kUndecided ? 1 : 0);
+    }
     if (s.distance < sights[seen.nearest].distance) seen.nearest = k;
     seen.gaps = seen.gaps || s.gaps;
-    if (!s.tip) continue;
+    if (s.tip == Sight::Verdict::kUndecided) ++seen.tips_undecided;
+    if (s.tip != Sight::Verdict::kVisible) continue;
     ++seen.tips;
     if (s.distance > zone.request.turbines[k].radius) ++seen.tips_beyond;
     const double half = in_degrees(std::atan2(zone.request.turbines[k].rotor_diameter.value_or(0) / 2, s.distance));

@@ -22,11 +22,12 @@ struct Viewpoint {
 
 /// The part of one turbine that is seen from one viewpoint.
 struct Sight {
+  using Verdict = viewshed::Verdict;  ///< kUndecided: ground without data alone leaves it open
   double distance = 0, azimuth = 0;
-  double least = 0;  ///< metres above the turbine's ground, from which on it is seen
-  bool tip = false;
-  std::optional<bool> hub;  ///< nothing: its height is not known
-  double visible = 0, vertical_deg = 0, tip_deg = 0;
+  Verdict tip = Verdict::kHidden;
+  std::optional<Verdict> hub;            ///< nothing: its height is not known
+  double visible = 0, vertical_deg = 0;  ///< what is certainly seen: metres from the tip down, degrees
+  double tip_deg = 0;
   bool gaps = false;
 };
 
@@ -40,8 +41,10 @@ viewshed::Arc arc_to_all(const std::vector<Sight>& sights);
 struct Seen {
   std::size_t turbines = 0, tips = 0;
   std::size_t tips_beyond = 0;      ///< how many of the tips are beyond their turbine's radius, where maps count none
+  std::size_t tips_undecided = 0;   ///< beside those seen
   std::optional<std::size_t> hubs;  ///< nothing: no hub's height is known
-  std::size_t nearest = 0;          ///< index in the request
+  std::optional<std::size_t> hubs_undecided;
+  std::size_t nearest = 0;  ///< index in the request
   std::optional<std::size_t> nearest_seen;
   std::optional<viewshed::Arc> arc;  ///< the smallest that holds the rotors whose tips are seen
   double vertical_deg = 0;           ///< the greatest vertical angle that the visible part of a turbine takes up

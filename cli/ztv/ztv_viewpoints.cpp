@@ -32,19 +32,23 @@ const char* yes_or_no(bool value) {
   return value ? "yes" : "no";
 }
 
-std::string hub_cell(const Sight& s) {
-  return s.hub ? yes_or_no(*s.hub) : "";
+const char* verdict_cell(Sight::Verdict verdict) {
+  return verdict == Sight::Verdict::kUndecided ? "undecided" : yes_or_no(verdict == Sight::Verdict::kVisible);
+}
+
+/// Hub and tip, and how much is seen; what is not known has no number.
+std::string seen_cells(const Sight& s) {
+  const std::string verdicts = fmt::format("{},{}", s.hub ? verdict_cell(*s.hub) : "", verdict_cell(s.tip));
+  return s.tip == Sight::Verdict::kUndecided ? verdicts + ",,"
+                                             : fmt::format("{},{:.2f},{:.4f}", verdicts, s.visible, s.vertical_deg);
 }
 
 std::string row_of(const Viewpoint& v, const Turbine& t, const Sight& s, const Sight* screened) {
-  std::string row =
-      fmt::format("{},{},{:.1f},{:.1f},{:.2f},{},{},{},{:.1f},{:.2f},{},{},{:.2f},{:.4f},{:.4f},{},{}", v.number,
-                  csv_cell(v.name), v.position.x, v.position.y, v.ground, t.number, csv_cell(t.name), csv_cell(t.farm),
-                  s.distance, s.azimuth, hub_cell(s), yes_or_no(s.tip), s.visible, s.vertical_deg, s.tip_deg,
-                  yes_or_no(s.distance <= t.radius), s.gaps ? "crosses ground without data" : "");
-  if (screened != nullptr)
-    row += fmt::format(",{},{},{:.2f},{:.4f}", hub_cell(*screened), yes_or_no(screened->tip), screened->visible,
-                       screened->vertical_deg);
+  std::string row = fmt::format("{},{},{:.1f},{:.1f},{:.2f},{},{},{},{:.1f},{:.2f},{},{:.4f},{},{}", v.number,
+                                csv_cell(v.name), v.position.x, v.position.y, v.ground, t.number, csv_cell(t.name),
+                                csv_cell(t.farm), s.distance, s.azimuth, seen_cells(s), s.tip_deg,
+                                yes_or_no(s.distance <= t.radius), s.gaps ? "crosses ground without data" : "");
+  if (screened != nullptr) row += "," + seen_cells(*screened);
   return row + "\n";
 }
 
@@ -64,11 +68,21 @@ constexpr const char* kSummarySeen =
 std::string summary_header(bool screened) {
   std::string header = kSummaryHeader + fmt::format(kSummarySeen, "");
   if (screened) header += fmt::format(kSummarySeen, "_screened");
-  return header + ",tips_beyond_radius,note" + (screened ? ",before_the_eye" : "") + "\n";
+  header += std::string(",tips_beyond_radius,note") + (screened ? ",before_the_eye" : "");
+  header += ",hubs_undecided,tips_undecided";
+  return header + (screened ? ",hubs_undecided_screened,tips_undecided_screened\n" : "\n");
+}
+
+std::string number_cell(std::optional<std::size_t> number) {
+  return number ? fmt::format("{}", *number) : "";
+}
+
+std::string undecided_cells(const Seen& seen) {
+  return fmt::format(",{},{}", number_cell(seen.hubs_undecided), seen.tips_undecided);
 }
 
 std::string summary_cells(const Zone& zone, const std::vector<Sight>& sights, const Seen& seen) {
-  std::string cells = fmt::format(",{},{}", seen.hubs ? fmt::format("{}", *seen.hubs) : "", seen.tips);
+  std::string cells = fmt::format(",{},{}", number_cell(seen.hubs), seen.tips);
   if (!seen.nearest_seen) return cells + ",,,,,0";
   return cells + fmt::format(",{},{:.0f},{:.1f},{:.1f},{:.3f}", zone.request.turbines[*seen.nearest_seen].number,
                              sights[*seen.nearest_seen].distance, seen.arc->from, seen.arc->width, seen.vertical_deg);
@@ -85,10 +99,12 @@ std::string summary_row(const Viewpoint& v, const Zone& zone, const std::vector<
                   v.position.y, reference.value_or(""), v.ground, v.ground + v.height, seen.turbines,
                   zone.request.turbines[seen.nearest].number, nearest.distance, nearest.azimuth);
   row += summary_cells(zone, sights, seen);
-  if (!screened.empty()) row += summary_cells(zone, screened, seen_of(zone, screened, all_turbines(zone)));
+  std::optional<Seen> behind;
+  if (!screened.empty()) behind = seen_of(zone, screened, all_turbines(zone));
+  if (behind) row += summary_cells(zone, screened, *behind);
   row += fmt::format(",{},{}", seen.tips_beyond, seen.gaps ? "some lines cross ground without data" : "");
-  if (!screened.empty()) row += "," + csv_cell(remark);
-  return row + "\n";
+  if (behind) row += "," + csv_cell(remark);
+  return row + undecided_cells(seen) + (behind ? undecided_cells(*behind) : "") + "\n";
 }
 
 Viewpoint viewpoint_of(const SiteRow& row, std::size_t number, const SectionSurface& ground, double usual_height) {

@@ -35,6 +35,8 @@ std::string visible_in_words(const Zone& zone, const Seen& seen) {
   std::string text = fmt::format("the blade tips of {} of {}", seen.tips, counted(seen.turbines, "turbine"));
   if (seen.tips_beyond > 0) text += fmt::format(" ({} beyond the radius of the maps)", seen.tips_beyond);
   if (seen.hubs) text += fmt::format(", the hubs of {}", *seen.hubs);
+  if (seen.tips_undecided > 0)
+    text += fmt::format("; undecided, across ground without data, for {} more, marked ?", seen.tips_undecided);
   const std::size_t hubs = known_hubs(zone.request.turbines);
   if (hubs < seen.turbines)
     text += hubs == 0 ? "; hub heights are unknown for all turbines"
@@ -102,8 +104,10 @@ profile::WirelineQuery query_of(const Viewpoint& v, const ViewedSurface& view, c
   double reach = 20000;
   for (std::size_t k = 0; k < sights.size(); ++k) {
     const Turbine& t = zone.request.turbines[k];
-    query.turbines.push_back({fmt::format("{}", t.number), t.position, zone.ground_m[k], t.hub_height, t.tip_height,
-                              sights[k].tip, t.farm, choice.blade_deg.value_or(scattered_blade(t.number))});
+    const bool undecided = sights[k].tip == Sight::Verdict::kUndecided;
+    query.turbines.push_back({fmt::format("{}{}", t.number, undecided ? "?" : ""), t.position, zone.ground_m[k],
+                              t.hub_height, t.tip_height, sights[k].tip != Sight::Verdict::kHidden, t.farm,
+                              choice.blade_deg.value_or(scattered_blade(t.number))});
     reach = std::max(reach, sights[k].distance + 5000);
   }
   query.reach_m = std::min(reach, 60000.0);
@@ -116,8 +120,11 @@ std::vector<std::vector<std::string>> farm_table(const Zone& zone, const std::ve
       {"Wind farm", "Turbines", "Hubs visible", "Tips visible", "Nearest, km", "Horizontal extent", "Vertical angle"}};
   const auto add = [&](const std::string& name, const std::vector<std::size_t>& turbines) {
     const Seen s = seen_of(zone, sights, turbines);
-    rows.push_back({name, fmt::format("{}", s.turbines), s.hubs ? fmt::format("{}", *s.hubs) : "unknown",
-                    fmt::format("{}", s.tips), fmt::format("{:.2f}", sights[s.nearest].distance / 1000),
+    const auto and_undecided = [](std::size_t seen, std::size_t undecided) {
+      return undecided > 0 ? fmt::format("{}, {} undecided", seen, undecided) : fmt::format("{}", seen);
+    };
+    rows.push_back({name, fmt::format("{}", s.turbines), s.hubs ? and_undecided(*s.hubs, *s.hubs_undecided) : "unknown",
+                    and_undecided(s.tips, s.tips_undecided), fmt::format("{:.2f}", sights[s.nearest].distance / 1000),
                     s.arc ? fmt::format("{:.1f}°", s.arc->width) : "none",
                     s.tips > 0 ? fmt::format("{:.2f}°", s.vertical_deg) : "none"});
   };

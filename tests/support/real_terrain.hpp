@@ -38,30 +38,47 @@ inline std::string os_terrain_50_path() {
   return std::string(ITIN_DATA_DIR) + "/os-terrain50-wales/tiles";
 }
 
+/// The posts of one tile from the south upwards, rows `across` apart; false where it is absent.
+inline constexpr int kTilePosts = 200;
+inline bool read_os_terrain_50(const std::string& name, int across, double* south_west) {
+  std::string upper = name;
+  for (char& c : upper) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  const std::string path = os_terrain_50_path() + "/" + name + ".zip";
+  if (!std::filesystem::exists(path)) return false;
+  GDALAllRegister();
+  const GDALDatasetUniquePtr tile(
+      GDALDataset::Open(("/vsizip/" + path + "/" + upper + ".asc").c_str(), GDAL_OF_RASTER));
+  double* const north_west = south_west + std::ptrdiff_t{kTilePosts - 1} * across;
+  return tile && tile->GetRasterBand(1)->RasterIO(GF_Read, 0, 0, kTilePosts, kTilePosts, north_west, kTilePosts,
+                                                  kTilePosts, GDT_Float64, sizeof(double),
+                                                  -GSpacing{sizeof(double)} * across, nullptr) == CE_None;
+}
+
 /// Four tiles of OS Terrain 50 about Pant y Wal, South Wales, 20 km square, or nothing where they are absent.
 inline std::optional<Tin> pant_y_wal() {
-  constexpr int kTile = 200, kSide = 2 * kTile;
+  constexpr int kSide = 2 * kTilePosts;
   std::vector<double> z(std::size_t{kSide} * kSide);
-  GDALAllRegister();
   for (const auto& [name, column, row] : {std::tuple{"ss88", 0, 0}, {"ss98", 1, 0}, {"ss89", 0, 1}, {"ss99", 1, 1}}) {
-    std::string upper = name;
-    for (char& c : upper) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-    const std::string path = os_terrain_50_path() + "/" + name + ".zip";
-    if (!std::filesystem::exists(path)) return std::nullopt;
-    const GDALDatasetUniquePtr tile(
-        GDALDataset::Open(("/vsizip/" + path + "/" + upper + ".asc").c_str(), GDAL_OF_RASTER));
-    double* const north_west = z.data() + (std::size_t{kTile} * row + kTile - 1) * kSide + std::size_t{kTile} * column;
-    // From the south upwards.
-    if (!tile ||
-        tile->GetRasterBand(1)->RasterIO(GF_Read, 0, 0, kTile, kTile, north_west, kTile, kTile, GDT_Float64,
-                                         sizeof(double), -GSpacing{sizeof(double)} * kSide, nullptr) != CE_None)
-      return std::nullopt;
+    double* const south_west = z.data() + std::size_t{kTilePosts} * row * kSide + std::size_t{kTilePosts} * column;
+    if (!read_os_terrain_50(name, kSide, south_west)) return std::nullopt;
   }
   return lattice_tin(kSide, kSide, 50,
                      [&](std::int32_t c, std::int32_t r) {
                        return z[static_cast<std::size_t>(r) * kSide + static_cast<std::size_t>(c)];
                      },
                      0.01, {280025, 180025});
+}
+
+/// The tile about Tenby and Caldey Island, 10 km square, whose sea has no data, or nothing where it is absent.
+inline std::optional<Tin> tenby() {
+  std::vector<double> z(std::size_t{kTilePosts} * kTilePosts);
+  if (!read_os_terrain_50("sn10", kTilePosts, z.data())) return std::nullopt;
+  return lattice_tin(kTilePosts, kTilePosts, 50,
+                     [&](std::int32_t c, std::int32_t r) {
+                       const double height = z[static_cast<std::size_t>(r) * kTilePosts + static_cast<std::size_t>(c)];
+                       return height > 0 ? height : std::nan("");
+                     },
+                     0.01, {210000, 200000});
 }
 
 }  // namespace itin::test

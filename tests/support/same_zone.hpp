@@ -21,6 +21,8 @@ inline void expect_same(const viewshed::Visibility& a, const viewshed::Visibilit
   using viewshed::Visibility;
   EXPECT_EQ(a.hub_count, b.hub_count);
   EXPECT_EQ(a.tip_count, b.tip_count);
+  EXPECT_EQ(a.hub_undecided, b.hub_undecided);
+  EXPECT_EQ(a.tip_undecided, b.tip_undecided);
   EXPECT_EQ(a.turbines, b.turbines);
   EXPECT_EQ(a.height_sums_m, b.height_sums_m);
   for (const auto field :

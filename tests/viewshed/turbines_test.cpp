@@ -416,15 +416,16 @@ TEST(Areas, SumUpToTheCellsWithAValue) {
   std::istringstream table(area_table(zone));
   std::string line;
   std::getline(table, line);
-  EXPECT_EQ(
-      line,
-      "surface,seen,band,ring_from_km,ring_to_km,area_km2,share_of_ring_with_data_percent,ring_with_data_percent");
+  EXPECT_EQ(line,
+            "surface,seen,band,ring_from_km,ring_to_km,area_km2,share_of_ring_with_data_percent,ring_with_data_percent,"
+            "undecided_km2");
   double hub = 0, tip = 0;
   while (std::getline(table, line)) {
     std::vector<std::string> cells;
     std::istringstream row(line);
     for (std::string cell; std::getline(row, cell, ',');) cells.push_back(cell);
-    ASSERT_EQ(cells.size(), 8U);
+    ASSERT_EQ(cells.size(), 9U);
+    EXPECT_EQ(std::stod(cells[8]), 0);
     (cells[1] == "hub" ? hub : tip) += std::stod(cells[5]);
   }
   const auto cells = std::count_if(zone.bare.tip_count.begin(), zone.bare.tip_count.end(),

@@ -79,6 +79,8 @@ class ZoneParts : public testing::Test {
       EXPECT_EQ(a.radar->ground_m, b.radar->ground_m);
       test::expect_same(a.radar->height_m, b.radar->height_m);
       EXPECT_EQ(a.radar->turbine_m, b.radar->turbine_m);
+      test::expect_same(a.radar->undecided_height_m, b.radar->undecided_height_m);
+      EXPECT_EQ(a.radar->undecided_turbine_m, b.radar->undecided_turbine_m);
     }
     EXPECT_EQ(a.warnings, b.warnings);
   }
@@ -99,13 +101,13 @@ class ZoneParts : public testing::Test {
   /// North of the lake, which lies between it and some of the cells.
   void add_radar() { request_.radar = Observer{"radar", {kZoneCorner.x + 1530, kZoneCorner.y - 260}, 15}; }
 
-  /// With the engine of viewsheds, which looks from the radar alone.
+  /// With the engine of viewsheds, which looks from the radar alone. What is certainly seen is seen if voids block.
   void expect_heights_of_a_viewshed(const Zone& zone) {
     Request request;
     request.observers = {*request_.radar};
     request.mode = Mode::kHeight;
     request.grid = zone.grid;
-    request.nodata = request_.nodata;
+    request.nodata = request_.nodata == NoData::kUnknown ? NoData::kBlock : request_.nodata;
     const Result result = compute(Store(path()), request, progress_);
     std::size_t high = 0;
     for (std::size_t i = 0; i < result.get<LeastHeights>().height_m.size(); ++i) {
@@ -125,6 +127,7 @@ class ZoneParts : public testing::Test {
 
 TEST_F(ZoneParts, MakeTheWhole) {
   expect_parts_make_the_whole();
+  EXPECT_TRUE(survey(std::nullopt).leaves_open());
 }
 
 TEST_F(ZoneParts, LikewiseWhereWhatIsMissingHides) {
@@ -176,7 +179,9 @@ TEST_F(ZoneParts, HoldWhatARadarSees) {
 
 TEST_F(ZoneParts, HoldWhatARadarSeesAcrossMissingGround) {
   add_radar();
+  request_.nodata = NoData::kClear;
   const Zone clear = survey(std::nullopt);
+  expect_heights_of_a_viewshed(clear);
   request_.nodata = NoData::kBlock;
   const Zone whole = survey(std::nullopt);
   EXPECT_GT(std::count_if(whole.radar->height_m.begin(), whole.radar->height_m.end(), [](float h) { return h != h; }),

@@ -11,7 +11,8 @@ struct RouteStep {
   double from_m = 0, to_m = 0;
   std::optional<std::size_t> hubs;  ///< nothing: no hub's height is known
   std::size_t tips = 0;
-  bool known = true;  ///< whether there is ground
+  std::size_t tips_undecided = 0;  ///< more of which ground without data leaves open whether they are seen
+  bool known = true;               ///< whether there is ground
 };
 
 struct RouteChart {

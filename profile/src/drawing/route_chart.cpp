@@ -15,7 +15,8 @@ namespace itin::profile {
 namespace {
 
 constexpr double kRouteWidth = 780, kRouteHeight = 260;
-constexpr Colour kTips{0.60, 0.78, 0.91}, kHubs{0.00, 0.35, 0.60}, kUnknown{0.90, 0.90, 0.92};
+constexpr Colour kTips{0.60, 0.78, 0.91}, kHubs{0.00, 0.35, 0.60}, kUnknown{0.90, 0.90, 0.92},
+    kUndecided{0.68, 0.68, 0.68};
 
 class RoutePage {
  public:
@@ -44,6 +45,8 @@ class RoutePage {
 
   void draw_step(const RouteStep& step) {
     if (!step.known) return drawing_.rectangle(bar(step, y_.high), kUnknown);
+    if (step.tips_undecided > 0)
+      drawing_.rectangle(bar(step, static_cast<double>(step.tips + step.tips_undecided)), kUndecided);
     if (step.tips > 0) drawing_.rectangle(bar(step, static_cast<double>(step.tips)), kTips);
     if (step.hubs.value_or(0) > 0) drawing_.rectangle(bar(step, static_cast<double>(*step.hubs)), kHubs);
   }
@@ -79,6 +82,8 @@ class RoutePage {
     const auto any = [&](const auto& holds) { return std::any_of(chart_.steps.begin(), chart_.steps.end(), holds); };
     add(kTips, "blade tip visible");
     if (any([](const RouteStep& s) { return s.hubs.has_value(); })) add(kHubs, "hub visible");
+    if (any([](const RouteStep& s) { return s.tips_undecided > 0; }))
+      add(kUndecided, "undecided whether a tip is, across ground without data");
     if (any([](const RouteStep& s) { return !s.known; })) add(kUnknown, "no terrain data");
   }
 

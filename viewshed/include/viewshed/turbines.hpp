@@ -11,6 +11,9 @@
 // higher than the tip, the hub likewise, and what lies above it is the visible height. It is exact for the surface: it
 // is where the line from the eye touches a triangle. A cell within no turbine's radius, or without ground, has no
 // value; a turbine counts only in cells within its own radius.
+//
+// What is seen is certainly seen: under NoData::kUnknown a turbine that ground without data alone could hide is
+// undecided, and counts apart.
 #pragma once
 
 #include <cstdint>
@@ -60,10 +63,13 @@ struct ZoneRequest {
   std::vector<double> weights;
 };
 
-/// One value for each cell of the zone's grid. Floats are NaN, counts kCountOutside outside.
+/// One value for each cell of the zone's grid. Floats are NaN, counts kCountOutside outside. Under NoData::kUnknown it
+/// is what kBlock gives, and hub_undecided and tip_undecided are what kClear would add to the counts.
 struct Visibility {
   std::vector<std::uint16_t> hub_count;
   std::vector<std::uint16_t> tip_count;
+  std::vector<std::uint16_t> hub_undecided;   ///< empty unless the zone leaves_open()
+  std::vector<std::uint16_t> tip_undecided;   ///< empty as that is; never less
   std::vector<std::uint32_t> turbines;        ///< tips seen: grids of 32-bit words, see turbine_bit()
   std::vector<float> visible_height_m;        ///< tip less least visible height, the greatest over the turbines; or 0
   std::vector<float> vertical_angle_deg;      ///< that the visible part of a turbine takes up, the greatest; or 0
@@ -89,12 +95,20 @@ struct Misplaced {
   std::string message;
 };
 
-/// Above a radar's horizon over bare ground.
+/// Above a radar's horizon over bare ground. Under NoData::kUnknown what the radar certainly sees, as under kBlock, and
+/// apart what it may see: whoever keeps turbines out of its sight has to mind both.
 struct RadarView {
   double ground_m = 0;  ///< under the radar
   std::vector<float>
       height_m;  ///< per cell: the least height above its ground that is seen; NaN above 1000 m or no ground
   std::vector<double> turbine_m;  ///< what is seen of each turbine of the request, from its tip down; 0: hidden
+  /// What it sees unless ground without data alone hides that; else NaN, 0. Empty where no line may cross any.
+  std::vector<float> undecided_height_m;
+  std::vector<double> undecided_turbine_m;
+  bool crosses_voids = false;  ///< its sight lines may, as those of a Zone
+
+  /// Whether it may be undecided what the radar sees.
+  bool leaves_open() const { return !undecided_height_m.empty(); }
 };
 
 struct Zone {
@@ -102,17 +116,22 @@ struct Zone {
   std::vector<double> ground_m;  ///< under each turbine of it
   std::vector<Misplaced> misplaced;
   RasterGrid grid;
-  std::size_t words = 1;  ///< grids in Visibility::turbines
+  std::size_t words = 1;       ///< grids in Visibility::turbines
+  bool crosses_voids = false;  ///< sight lines to turbines may pass over ground without data, unless it is kClear
   Visibility bare;
   std::optional<Visibility> screened;  ///< with the themes' features standing on the ground, where asked for
   std::optional<RadarView> radar;
   std::vector<std::string> warnings;
   Statistics statistics;  ///< its lines: pairs of eye and turbine
+
+  /// Whether it may be undecided what is seen of the turbines.
+  bool leaves_open() const { return crosses_voids && request.nodata == NoData::kUnknown; }
 };
 
 /// On given surfaces; `screened` may be null, and must cover what `ground` does. Turbines without ground become
 /// misplaced. Cost: 0.5 microseconds per triangle and a tenth of a microsecond per line, of processor time. Memory: 80
-/// bytes per triangle and 40 bytes per cell, twice with a screened surface; 170 per triangle with a radar. The result
+/// bytes per triangle and 40 bytes per cell, twice with a screened surface; 170 per triangle with a radar. Where lines
+/// may cross ground without data, 4 bytes more per cell, and 50 per turbine for each edge of its rim. The result
 /// does not depend on the number of threads. Throws InputError (nothing to see, unusable numbers), Cancelled.
 Zone survey_turbines(const Tin& ground, const Tin* screened, const ZoneRequest& request, Progress& progress);
 

@@ -6,7 +6,8 @@
 //     std::cout << file.name << ": " << file.what << '\n';
 //
 // Names: tip-count.tif, tip-count-screened.tif, tip-count-difference.tif (bare
-// less screened), and so on. Beside every raster lies NAME.qml.
+// less screened), and so on; undecided.tif where the zone leaves_open(). Beside
+// every raster lies NAME.qml.
 #pragma once
 
 #include <string>
@@ -45,22 +46,26 @@ std::vector<std::string> farms_of(const Zone& zone);
 /// Throws FileError. Existing files are replaced.
 std::vector<ZoneFile> write_zone_rasters(const std::string& folder, const Zone& zone, const ZoneFileOptions& options);
 
-/// radar-height.tif, where the zone has a radar; and link-exclusion.tif, of rotors of that radius, where links are
-/// given. Throws FileError.
+/// radar-height.tif, where the zone has a radar, and radar-height-undecided.tif where that leaves_open(); and
+/// link-exclusion.tif, of rotors of that radius, where links are given: ground counts for nothing there, and so none
+/// that is missing. Throws FileError.
 std::vector<ZoneFile> write_radar_raster(const std::string& folder, const Zone& zone, const ZoneFileOptions& options);
 std::vector<ZoneFile> write_link_raster(const std::string& folder, const Zone& zone, const ZoneFileOptions& options,
                                         const LinkStudy& study);
 
-/// The banded counts of tips, and the combinations of farms where there are several, as GeoPackages. Throws FileError.
+/// The banded counts of tips, and the combinations of farms where there are several, as GeoPackages. Counts have a
+/// class for cells of which it is undecided whether any is seen. Throws FileError.
 std::vector<ZoneFile> write_zone_polygons(const std::string& folder, const Zone& zone, const ZoneFileOptions& options);
 
 /// km2 by band of counts and by ring of distance to the nearest turbine, as CSV. Every cell with a value is in one band
-/// and one ring; shares are of the ring's part with data, whose share of the ring is the last column.
+/// and one ring; shares are of the ring's part with data, whose share of the ring follows. The last column is how much
+/// of the area leaves some turbine undecided.
 std::string area_table(const Zone& zone);
-/// km2 over all rings by band of counts and by combination of farms, as CSV, with rows of any turbine seen and of all.
+/// km2 over all rings by band of counts and by combination of farms, as CSV, with rows of any turbine seen and of all,
+/// and the same last column.
 std::string area_totals(const Zone& zone);
 
-/// What the values of farms.tif stand for and km2 of each, the largest first, as CSV.
+/// What the values of farms.tif stand for and km2 of each, the largest first, as CSV, with what is undecided likewise.
 std::string combination_table(const Zone& zone);
 
 }  // namespace itin::viewshed

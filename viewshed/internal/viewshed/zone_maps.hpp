@@ -19,6 +19,8 @@ struct ZoneMap {
     std::string label;
     Rgba colour;
     std::uint64_t cells = 0;
+    std::uint64_t open_cells = 0;  ///< those where ground without data leaves some turbine undecided
+    bool undecided = false;        ///< whether anything is seen from them is
   };
   std::string name;          ///< as in the names of files: "tip-count-screened"
   std::string title;         ///< "Zone of theoretical visibility: blade tips"
@@ -31,7 +33,8 @@ struct ZoneMap {
 
 /// Tips seen, hubs where one is known, and combinations of farms where there are several; then all of them screened.
 /// The commonest combinations have classes of their own, `most_combinations` (up to 250) of them, the others one
-/// together. The first class of each map is of cells that see nothing.
+/// together. The first class of each map is of cells that certainly see nothing, and where the zone leaves_open() the
+/// last one of those of which that is undecided.
 std::vector<ZoneMap> zone_maps(const Zone& zone, std::size_t most_combinations = 12);
 
 }  // namespace itin::viewshed

@@ -11,7 +11,7 @@
 
 #include "line/infinity.hpp"
 #include "request/cells_in_view.hpp"
-#include "turbines/value_bands.hpp"
+#include "turbines/count_classes.hpp"
 #include "turbines/zone_request.hpp"
 
 namespace itin::viewshed {
@@ -91,24 +91,32 @@ class AreaTable {
         without_ground_(cells_without_ground(zone, rings_)) {
     text_ =
         "surface,seen,band,ring_from_km,ring_to_km,area_km2,share_of_ring_with_data_percent,"
-        "ring_with_data_percent\n";
+        "ring_with_data_percent,undecided_km2\n";
   }
 
-  void add(const char* surface, const char* seen, const std::vector<std::uint16_t>& counts) {
-    const auto bands = count_bands(zone_.request.turbines.size(), zone_.request.count_bands);
-    std::vector<std::vector<std::uint64_t>> cells(rings_.size(), std::vector<std::uint64_t>(bands.size()));
-    for (std::size_t i = 0; i < counts.size(); ++i)
-      if (ring_of_[i] != kNoRing && counts[i] != kCountOutside) ++cells[ring_of_[i]][band_of(bands, counts[i])];
+  void add(const char* surface, const char* seen, const CountClasses& classes) {
+    struct Cells {
+      std::uint64_t all = 0, open = 0;
+    };
+    std::vector<std::vector<Cells>> cells(rings_.size(), std::vector<Cells>(classes.classes().size()));
+    for (std::size_t i = 0; i < ring_of_.size(); ++i) {
+      const auto of_cell = classes.of(i);
+      if (ring_of_[i] == kNoRing || !of_cell) continue;
+      Cells& found = cells[ring_of_[i]][*of_cell];
+      ++found.all;
+      if (classes.is_open(i)) ++found.open;
+    }
+    const auto km2 = [&](std::uint64_t n) { return static_cast<double>(n) * zone_.grid.cell_area() / 1e6; };
     for (std::size_t r = 0; r < rings_.size(); ++r) {
       std::uint64_t all = 0;
-      for (const std::uint64_t n : cells[r]) all += n;
+      for (const Cells& of_class : cells[r]) all += of_class.all;
       if (all == 0) continue;
       const auto with_data = static_cast<double>(all);
-      for (std::size_t b = 0; b < bands.size(); ++b)
-        fmt::format_to(
-            std::back_inserter(text_), "{},{},{},{:g},{:g},{:.6f},{:.3f},{:.3f}\n", surface, seen, bands[b].label,
-            rings_.from(r), rings_.to(r), static_cast<double>(cells[r][b]) * zone_.grid.cell_area() / 1e6,
-            100.0 * static_cast<double>(cells[r][b]) / with_data, 100.0 * with_data / (with_data + without_ground_[r]));
+      for (std::size_t c = 0; c < cells[r].size(); ++c)
+        fmt::format_to(std::back_inserter(text_), "{},{},{},{:g},{:g},{:.6f},{:.3f},{:.3f},{:.6f}\n", surface, seen,
+                       classes.classes()[c].label, rings_.from(r), rings_.to(r), km2(cells[r][c].all),
+                       100.0 * static_cast<double>(cells[r][c].all) / with_data,
+                       100.0 * with_data / (with_data + without_ground_[r]), km2(cells[r][c].open));
     }
   }
   std::string text() && { return std::move(text_); }
@@ -126,8 +134,8 @@ class AreaTable {
 std::string area_table(const Zone& zone) {
   AreaTable table(zone);
   const auto add = [&](const char* surface, const Visibility& v) {
-    if (knows_hubs(zone)) table.add(surface, "hub", v.hub_count);
-    table.add(surface, "tip", v.tip_count);
+    if (knows_hubs(zone)) table.add(surface, "hub", {zone, v.hub_count, v.hub_undecided});
+    table.add(surface, "tip", {zone, v.tip_count, v.tip_undecided});
   };
   add("bare", zone.bare);
   if (zone.screened) add("screened", *zone.screened);

@@ -23,18 +23,25 @@ int decimals(const Zone& zone) {
 
 std::string area_totals(const Zone& zone) {
   constexpr std::size_t kAnyCombination = 250;
-  std::string text = "surface,seen,class,area_km2,share_percent\n";
+  std::string text = "surface,seen,class,area_km2,share_percent,undecided_km2\n";
   for (const ZoneMap& map : zone_maps(zone, kAnyCombination)) {
-    std::uint64_t all = 0;
-    for (const ZoneMap::Class& c : map.classes) all += c.cells;
-    const auto add = [&](const std::string& name, std::uint64_t cells) {
-      fmt::format_to(std::back_inserter(text), "{},{},{},{:.{}f},{:.2f}\n", map.screened ? "screened" : "bare",
-                     map.seen, csv_cell(name), static_cast<double>(cells) * zone.grid.cell_area() / 1e6, decimals(zone),
-                     100.0 * static_cast<double>(cells) / static_cast<double>(std::max<std::uint64_t>(1, all)));
+    ZoneMap::Class any{"any", {}}, all{"all", {}};
+    for (const ZoneMap::Class& c : map.classes) {
+      all.cells += c.cells, all.open_cells += c.open_cells;
+      if (&c == &map.classes.front() || c.undecided) continue;
+      any.cells += c.cells, any.open_cells += c.open_cells;
+    }
+    const auto add = [&](const std::string& name, const ZoneMap::Class& c) {
+      const auto km2 = [&](std::uint64_t cells) { return static_cast<double>(cells) * zone.grid.cell_area() / 1e6; };
+      fmt::format_to(std::back_inserter(text), "{},{},{},{:.{}f},{:.2f},{:.{}f}\n", map.screened ? "screened" : "bare",
+                     map.seen, csv_cell(name), km2(c.cells), decimals(zone),
+                     100.0 * static_cast<double>(c.cells) / static_cast<double>(std::max<std::uint64_t>(1, all.cells)),
+                     km2(c.open_cells), decimals(zone));
     };
-    for (const ZoneMap::Class& c : map.classes) add(&c == &map.classes.front() ? kNoneSeen : c.label, c.cells);
-    add("any", all - map.classes.front().cells);
-    add("all", all);
+    for (const ZoneMap::Class& c : map.classes)
+      add(&c == &map.classes.front() ? kNoneSeen : c.undecided ? kUndecidedSeen : c.label, c);
+    add(any.label, any);
+    add(all.label, all);
   }
   return text;
 }

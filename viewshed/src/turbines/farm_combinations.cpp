@@ -76,6 +76,13 @@ std::vector<FarmSet> sets_present(const Zone& zone, const FarmSets& sets) {
   return {present.begin(), present.end()};
 }
 
+/// The combinations of cells of which ground without data leaves some turbine undecided alone.
+std::vector<std::uint32_t> where_open(std::vector<std::uint32_t> farms, const Visibility& visibility) {
+  for (std::size_t i = 0; i < farms.size(); ++i)
+    if (visibility.tip_undecided.empty() || visibility.tip_undecided[i] == 0) farms[i] = kOutsideFarms;
+  return farms;
+}
+
 std::uint64_t cells_of(const CombinationCells& cells, const Combination& combination) {
   const auto found = cells.find(combination.farms);
   return found == cells.end() ? 0 : found->second;
@@ -139,13 +146,23 @@ std::string combination_table(const Zone& zone) {
   const std::vector<std::uint32_t> bare = farm_combinations(zone, zone.bare);
   const std::vector<std::uint32_t> screened =
       zone.screened ? farm_combinations(zone, *zone.screened) : std::vector<std::uint32_t>{};
-  const CombinationCells bare_cells = cells_by_combination(bare), screened_cells = cells_by_combination(screened);
+  const CombinationCells bare_cells = cells_by_combination(bare), screened_cells = cells_by_combination(screened),
+                         bare_open = cells_by_combination(where_open(bare, zone.bare)),
+                         screened_open = zone.screened ? cells_by_combination(where_open(screened, *zone.screened))
+                                                       : CombinationCells{};
   const auto present = commonest_first(combinations_present(zone, {&bare, &screened}), bare_cells);
-  std::string text = std::string("value,farms_seen,bare_km2") + (zone.screened ? ",screened_km2\n" : "\n");
-  const auto km2 = [&](std::uint64_t n) { return static_cast<double>(n) * zone.grid.cell_area() / 1e6; };
+  std::string text = "value,farms_seen,bare_km2";
+  text += zone.screened ? ",screened_km2,bare_undecided_km2,screened_undecided_km2\n" : ",bare_undecided_km2\n";
   for (const Combination& c : present) {
-    text += fmt::format("{},{},{:.6f}", c.farms, csv_cell(c.name), km2(cells_of(bare_cells, c)));
-    text += zone.screened ? fmt::format(",{:.6f}\n", km2(cells_of(screened_cells, c))) : "\n";
+    text += fmt::format("{},{}", c.farms, csv_cell(c.name));
+    const auto add = [&](const CombinationCells& cells) {
+      text += fmt::format(",{:.6f}", static_cast<double>(cells_of(cells, c)) * zone.grid.cell_area() / 1e6);
+    };
+    add(bare_cells);
+    if (zone.screened) add(screened_cells);
+    add(bare_open);
+    if (zone.screened) add(screened_open);
+    text += "\n";
   }
   return text;
 }

@@ -1,7 +1,6 @@
 #include "turbines/radar_survey.hpp"
 
 #include <cmath>
-#include <limits>
 
 #include <itin/grid_units.hpp>
 
@@ -23,30 +22,28 @@ Eye eye_of_radar(const Grid& units, std::optional<double> ground_m, const ZoneRe
 struct RadarSurvey::Screen {
   const FullSurface& ground;
   const RadialSweep::View& view;
-  const VoidShadow* shadow;  ///< what ground without data hides; may be null
+  const std::optional<VoidShadow>& shadow;  ///< behind ground without data; nothing where no line crosses any
 
-  bool shades(Point2 units) const { return shadow != nullptr && shadow->holds(units.x, units.y); }
+  bool shades(Point2 units) const { return shadow && shadow->holds(units.x, units.y); }
 };
 
 RadarSurvey::RadarSurvey(const Grid& units, std::optional<double> ground_m, Zone& zone)
     : zone_(zone), eye_(eye_of_radar(units, ground_m, zone.request)) {
-  RadarView& seen = zone.radar.emplace();
-  seen.ground_m = *ground_m;
-  seen.height_m.assign(zone.grid.cell_count(), std::numeric_limits<float>::quiet_NaN());
-  seen.turbine_m.assign(zone.request.turbines.size(), 0);
+  zone.radar->ground_m = *ground_m;
 }
 
 void RadarSurvey::run(const FullSurface& ground, const ZonePart& part, Stage& stage) {
+  if (part.radar_tiles.empty() && part.radar_turbines.empty()) return;
+  const RadialSweep::View view = ground.view_from(eye_);
   std::optional<VoidShadow> shadow;
   // The part's window is convex: where it ends, no sight line does.
-  if (zone_.request.nodata == NoData::kBlock) shadow.emplace(ground.rim(), eye_.units);
-  const RadialSweep::View view = ground.view_from(eye_);
-  const Screen screen{ground, view, shadow ? &*shadow : nullptr};
+  if (zone_.radar->crosses_voids) shadow.emplace(ground.rim(), eye_.units);
+  const Screen screen{ground, view, shadow};
   stage.for_each(part.radar_tiles.size(), [&](std::size_t i) {
     survey_tile(screen, part.radar_tiles[i]);
     return std::size_t{1};
   });
-  for (const std::size_t turbine : part.radar_turbines) zone_.radar->turbine_m[turbine] = seen_of(screen, turbine);
+  for (const std::size_t turbine : part.radar_turbines) survey_turbine(screen, turbine);
 }
 
 void RadarSurvey::survey_tile(const Screen& screen, std::size_t tile) {
@@ -55,22 +52,27 @@ void RadarSurvey::survey_tile(const Screen& screen, std::size_t tile) {
   for (std::size_t i = 0; i < work->ground.size(); ++i) work->targets[i] = work->ground[i] + kRadarCeiling / resolution;
   screen.ground.raise_from(screen.view, {work->ground, work->ground}, *work);
   for_each_cell(work->tile, [&](std::size_t cell, RasterGrid::Cell place) {
-    if (std::isnan(work->ground[cell]) || std::isnan(work->seen[cell]) || screen.shades(work->centres.at(cell))) return;
+    if (std::isnan(work->ground[cell]) || std::isnan(work->seen[cell])) return;
+    const bool shaded = screen.shades(work->centres.at(cell));
+    std::vector<float>& heights = shaded ? zone_.radar->undecided_height_m : zone_.radar->height_m;
+    if (heights.empty()) return;  // it is hidden
     const bool at_radar = std::isinf(work->seen[cell]);
-    zone_.radar->height_m[zone_.grid.index(place)] =
+    heights[zone_.grid.index(place)] =
         at_radar ? 0 : static_cast<float>((work->seen[cell] - work->ground[cell]) * resolution);
   });
 }
 
-double RadarSurvey::seen_of(const Screen& screen, std::size_t turbine) const {
+void RadarSurvey::survey_turbine(const Screen& screen, std::size_t turbine) {
   const Turbine& t = zone_.request.turbines[turbine];
   const double ground_m = zone_.ground_m[turbine];
   const Grid& units = screen.ground.units();
   const double tip = (ground_m + t.tip_height) / units.resolution;
   const double least = screen.ground.raise_from(screen.view, t.position, ground_m / units.resolution, tip);
-  if (std::isinf(least)) return t.tip_height;
-  const Point2 place{easting_in_units(units, t.position.x), northing_in_units(units, t.position.y)};
-  return screen.shades(place) || std::isnan(least) ? 0 : (tip - least) * units.resolution;
+  if (std::isnan(least)) return;
+  const bool shaded = screen.shades(place_in_units(units, t.position));
+  std::vector<double>& seen = shaded ? zone_.radar->undecided_turbine_m : zone_.radar->turbine_m;
+  if (seen.empty()) return;  // it is hidden
+  seen[turbine] = std::isinf(least) ? t.tip_height : (tip - least) * units.resolution;
 }
 
 }  // namespace itin::viewshed

@@ -27,8 +27,7 @@ class RadarSurvey {
  private:
   struct Screen;
   void survey_tile(const Screen& screen, std::size_t tile);
-  /// The visible part of one turbine, metres from its tip down; 0: hidden.
-  double seen_of(const Screen& screen, std::size_t turbine) const;
+  void survey_turbine(const Screen& screen, std::size_t turbine);
 
   Zone& zone_;
   Eye eye_;

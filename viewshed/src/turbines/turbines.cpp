@@ -5,21 +5,17 @@
 #include <vector>
 
 #include <itin/call_progress.hpp>
-#include <itin/grid_units.hpp>
 #include <itin/silent_progress.hpp>
 #include <viewshed/surface.hpp>
 #include <viewshed/turbines.hpp>
 
-#include "bounds/boundary.hpp"
 #include "progress/stage.hpp"
 #include "progress/stopwatch.hpp"
-#include "request/request.hpp"
-#include "request/request_window.hpp"
-#include "request/void_shadow.hpp"
 #include "scene/full_surface.hpp"
 #include "scene/sweep/radial_sweep.hpp"
 #include "turbines/open_lines.hpp"
 #include "turbines/radar_survey.hpp"
+#include "turbines/turbine_shadows.hpp"
 #include "turbines/zone_parts.hpp"
 #include "turbines/zone_request.hpp"
 #include "turbines/zone_survey.hpp"
@@ -28,26 +24,6 @@
 namespace itin::viewshed {
 
 namespace {
-
-/// Returns what voids hide from each turbine, where they do.
-std::vector<VoidShadow> shadows(const FullSurface& surface, const ZoneRequest& request) {
-  std::vector<VoidShadow> result;
-  if (request.nodata != NoData::kBlock) return result;
-  for (const Turbine& t : request.turbines) {
-    result.emplace_back(surface.rim(), Point3{easting_in_units(surface.units(), t.position.x),
-                                              northing_in_units(surface.units(), t.position.y), 0});
-  }
-  return result;
-}
-
-void warn_of_voids(const Tin& tin, Zone& zone) {
-  if (zone.request.nodata != NoData::kUnknown) return;
-  const std::vector<RimEdge> rim = rim_of(tin, boundary_edges(tin));
-  const bool crossed = std::any_of(zone.request.turbines.begin(), zone.request.turbines.end(), [&](const Turbine& t) {
-    return may_cross_voids(tin.grid, rim, t.position, t.radius);
-  });
-  if (crossed) zone.warnings.emplace_back(kVoidsWarning);
-}
 
 /// Tiles to look from or over, each over the ground and, of the turbines, over what screens.
 std::size_t steps_of(const std::vector<ZonePart>& parts, bool screened) {
@@ -76,22 +52,19 @@ class ZoneWork {
     Stopwatch watch;
     if (!part.tiles.empty()) {
       const ZoneSurvey survey(ground, zone_);
-      observe(survey, {ground}, ground, part, zone_.bare, stage);
-      // The edges of a window of open lines are no voids, and features never reach beyond the ground.
-      if (screen) observe(survey, *screen, screen->open_alone ? ground : screen->surface, part, *zone_.screened, stage);
+      // Features never reach beyond the ground, and the edges of a window of open lines are no voids.
+      const TurbineShadows shadows = shadows_of_turbines(ground, zone_);
+      const auto observe = [&](const FullSurface& over, bool open_alone, Visibility& visibility) {
+        zone_.statistics.lines += survey.run({over.sweep(), shadows, open_alone}, part.tiles, visibility, stage);
+      };
+      observe(ground, false, zone_.bare);
+      if (screen) observe(screen->surface, screen->open_alone, *zone_.screened);
     }
     if (radar_) radar_->run(ground, part, stage);
     zone_.statistics.lines_seconds += watch.lap();
   }
 
  private:
-  void observe(const ZoneSurvey& survey, const Screen& screen, const FullSurface& with_voids, const ZonePart& part,
-               Visibility& visibility, Stage& stage) {
-    const std::vector<VoidShadow> behind_voids = shadows(with_voids, zone_.request);
-    zone_.statistics.lines +=
-        survey.run({screen.surface.sweep(), behind_voids, screen.open_alone}, part.tiles, visibility, stage);
-  }
-
   Zone& zone_;
   std::optional<RadarSurvey> radar_;
 };
@@ -163,7 +136,7 @@ std::optional<Surface> lattice_under(const Store& store, const Zone& zone, Progr
   std::uint64_t most_posts = kAnyLattice;
   if (const auto memory = zone.request.memory_bytes)
     most_posts = (*memory - std::min(*memory, bytes_of_results(zone))) / kBytesPerPost;
-  return retrieve_lattice(store, window_of(zone), zone.request.detail, ThemeChoice::none(),
+  return retrieve_lattice(store, window_of(zone.request), zone.request.detail, ThemeChoice::none(),
                           LatticeReader::Heights::kAll, most_posts, progress);
 }
 
@@ -172,8 +145,7 @@ std::optional<Surface> lattice_under(const Store& store, const Zone& zone, Progr
 Zone survey_turbines(const Tin& ground, const Tin* screened, const ZoneRequest& request, Progress& progress) {
   validate(request);
   const auto height = [&](Point2 p) { return height_on(ground, p); };
-  Zone zone = lay_out(request, ground.bounds(), height, screened != nullptr);
-  warn_of_voids(ground, zone);
+  Zone zone = lay_out(request, ground, height, screened != nullptr);
   ZoneWork work(ground.grid, height, zone);
   const RasterGrid tiles = grid_of_tiles(zone.grid);
   const FullSurface bare(ground, nullptr, request.earth, zone.grid, tiles);
@@ -190,8 +162,7 @@ Zone survey_turbines(const Store& store, const ZoneRequest& request, Progress& p
   const auto height = [&](Point2 p) { return height_at(store, p, ThemeChoice::none(), progress, request.detail); };
   const Tin outline = coverage_of(store, window_of(request), progress);
   const bool screens = request.themes && request.themes->includes_raised(store.metadata().themes);
-  Zone zone = lay_out(request, outline.bounds(), height, screens);
-  warn_of_voids(outline, zone);
+  Zone zone = lay_out(request, outline, height, screens);
   ZoneWork work(store.metadata().grid, height, zone);
 
   CallProgress call(progress);

@@ -12,6 +12,9 @@ namespace itin::viewshed {
 
 /// What tables and styles call cells from which nothing is seen.
 inline constexpr const char* kNoneSeen = "none";
+/// Those of which ground without data leaves open whether anything is; in no colour of a band.
+inline constexpr const char* kUndecidedSeen = "undecided";
+inline constexpr Rgba kUndecidedGrey{140, 140, 140};
 
 /// Values above the last band's limit up to this one.
 struct ValueBand {

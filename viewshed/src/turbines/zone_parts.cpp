@@ -37,12 +37,18 @@ Window::Polygon farm_disc(const std::vector<const Turbine*>& farm) {
   return Window::disc(middle, radius).parts().front();
 }
 
-/// Convex about the radar and all the rest, so that it holds the radar's sight lines.
-Window::Polygon box_with_radar(const std::vector<Window::Polygon>& parts, Point2 radar) {
-  Box box = square_about(radar, 1);
+/// Convex about the radar, the rest and all cells, so that it holds the radar's sight lines.
+Window::Polygon box_with_radar(const std::vector<Window::Polygon>& parts, const ZoneRequest& request) {
+  Box box = square_about(request.radar->position, 1);
   for (const Window::Polygon& part : parts)
     for (const Point2& p : part.outer) box.extend(p);
-  return Window::rectangle(box);
+  if (request.grid) {
+    const Box cells = request.grid->bounds();
+    box.extend(Point2{cells.xmin, cells.ymin}), box.extend(Point2{cells.xmax, cells.ymax});
+  }
+  // Cells that are aligned end less than one beyond the rest.
+  const double beyond = request.cell_size.value_or(0);
+  return Window::rectangle({box.xmin - beyond, box.ymin - beyond, box.xmax + beyond, box.ymax + beyond});
 }
 
 std::vector<Window::Polygon> farm_discs(const ZoneRequest& request) {
@@ -51,11 +57,6 @@ std::vector<Window::Polygon> farm_discs(const ZoneRequest& request) {
   std::vector<Window::Polygon> discs;
   for (const auto& [name, farm] : farms) discs.push_back(farm_disc(farm));
   return discs;
-}
-
-Window with_radar(std::vector<Window::Polygon> parts, const ZoneRequest& request) {
-  if (request.radar) parts = {box_with_radar(parts, request.radar->position)};
-  return Window::polygons(std::move(parts));
 }
 
 std::vector<std::size_t> numbers_to(std::size_t count) {
@@ -188,17 +189,13 @@ class Partition {
 }  // namespace
 
 Window window_of(const ZoneRequest& request) {
-  return with_radar(farm_discs(request), request);
-}
-
-Window window_of(const Zone& zone) {
-  std::vector<Window::Polygon> parts = farm_discs(zone.request);
-  if (zone.request.radar) parts.push_back(Window::rectangle(zone.grid.bounds()));
-  return with_radar(std::move(parts), zone.request);
+  std::vector<Window::Polygon> parts = farm_discs(request);
+  if (request.radar) parts = {box_with_radar(parts, request)};
+  return Window::polygons(std::move(parts));
 }
 
 ZonePart whole_zone(const Zone& zone) {
-  ZonePart whole{window_of(zone), numbers_to(grid_of_tiles(zone.grid).cell_count()), {}, {}};
+  ZonePart whole{window_of(zone.request), numbers_to(grid_of_tiles(zone.grid).cell_count()), {}, {}};
   if (!zone.request.radar) return whole;
   whole.radar_tiles = whole.tiles;
   whole.radar_turbines = numbers_to(zone.request.turbines.size());

@@ -22,11 +22,8 @@ struct ZonePart {
   std::vector<std::size_t> radar_turbines;  ///< indices in zone.request.turbines: those that the radar looks for
 };
 
-/// Holds all lines to every turbine, and from the radar as far as the turbines' radii reach.
+/// Holds all lines to every turbine, and from the radar to them and to every cell.
 Window window_of(const ZoneRequest& request);
-
-/// With a radar it also holds every cell of the zone's grid, where the radar's heights are computed.
-Window window_of(const Zone& zone);
 
 ZonePart whole_zone(const Zone& zone);
 

@@ -3,6 +3,7 @@
 #include <itin/raster_regions.hpp>
 #include <viewshed/zone_files.hpp>
 
+#include "turbines/count_classes.hpp"
 #include "turbines/farm_combinations.hpp"
 #include "turbines/value_bands.hpp"
 #include "turbines/zone_request.hpp"
@@ -11,17 +12,16 @@ namespace itin::viewshed {
 
 namespace {
 
-void write_bands(const std::string& path, const std::string& layer, const Zone& zone,
-                 const std::vector<std::uint16_t>& counts, const ZoneFileOptions& options) {
-  const auto bands = count_bands(zone.request.turbines.size(), zone.request.count_bands);
+void write_bands(const std::string& path, const std::string& layer, const Zone& zone, const CountClasses& counts,
+                 const ZoneFileOptions& options) {
   RegionDescription description{options.crs_wkt, layer, {}, true};
-  for (std::size_t b = 1; b < bands.size(); ++b)
-    description.classes.push_back({static_cast<std::uint32_t>(b), bands[b].label, bands[b].colour});
+  for (std::size_t c = 1; c < counts.classes().size(); ++c)
+    description.classes.push_back(
+        {static_cast<std::uint32_t>(c), counts.classes()[c].label, counts.classes()[c].colour});
   constexpr std::uint8_t kOutsideBands = 255;
-  std::vector<std::uint8_t> banded(counts.size());
-  std::transform(counts.begin(), counts.end(), banded.begin(), [&](std::uint16_t count) {
-    return count == kCountOutside ? kOutsideBands : static_cast<std::uint8_t>(band_of(bands, count));
-  });
+  std::vector<std::uint8_t> banded(zone.grid.cell_count());
+  for (std::size_t i = 0; i < banded.size(); ++i)
+    banded[i] = static_cast<std::uint8_t>(counts.of(i).value_or(kOutsideBands));
   write_regions(path, zone.grid, std::span<const std::uint8_t>(banded), description);
 }
 
@@ -38,13 +38,17 @@ void write_farm_polygons(const std::string& path, const Zone& zone, const std::v
 std::vector<ZoneFile> write_zone_polygons(const std::string& folder, const Zone& zone, const ZoneFileOptions& options) {
   std::vector<ZoneFile> files;
   const std::size_t farms = farms_of(zone).size();
+  const std::string undecided =
+      zone.leaves_open() ? "; the class undecided is where ground without data leaves open whether any is" : "";
   const auto write_all = [&](const Visibility& v, const std::string& suffix) {
-    files.push_back({"tip-count" + suffix + ".gpkg",
-                     "polygons of the areas from which tips are seen, by bands of their number, with the area in m²"});
-    write_bands(folder + "/" + files.back().name, "tip-count", zone, v.tip_count, options);
+    files.push_back(
+        {"tip-count" + suffix + ".gpkg",
+         "polygons of the areas from which tips are seen, by bands of their number, with the area in m²" + undecided});
+    write_bands(folder + "/" + files.back().name, "tip-count", zone, {zone, v.tip_count, v.tip_undecided}, options);
     if (knows_hubs(zone)) {
-      files.push_back({"hub-count" + suffix + ".gpkg", "where a band of turbines has its hubs seen: polygons, m²"});
-      write_bands(folder + "/" + files.back().name, "hub-count", zone, v.hub_count, options);
+      files.push_back(
+          {"hub-count" + suffix + ".gpkg", "where a band of turbines has its hubs seen: polygons, m²" + undecided});
+      write_bands(folder + "/" + files.back().name, "hub-count", zone, {zone, v.hub_count, v.hub_undecided}, options);
     }
     if (farms < 2) return;
     files.push_back({"farms" + suffix + ".gpkg", "where a combination of farms has tips seen: polygons, m²"});

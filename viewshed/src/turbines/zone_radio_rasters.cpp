@@ -10,12 +10,23 @@ namespace itin::viewshed {
 
 std::vector<ZoneFile> write_radar_raster(const std::string& folder, const Zone& zone, const ZoneFileOptions& options) {
   RasterFolder files(folder, zone, options);
-  if (zone.radar)
-    files.write("radar-height",
-                "least height above the ground that the radar sees over bare ground, metres; NaN: above 1000 m, or no "
-                "ground",
-                zone.radar->height_m, with_nodata(kNaN),
+  const auto write = [&](const char* name, const std::string& what, const std::vector<float>& heights) {
+    files.write(name, what, heights, with_nodata(kNaN),
                 banded_style(limit_bands({25, 50, 75, 100, 150, 200, 500}, "m")));
+  };
+  if (!zone.radar) return {};
+  const bool open = zone.radar->leaves_open();
+  write("radar-height",
+        std::string("least height above the ground that the radar sees over bare ground, metres; NaN: above 1000 m, or "
+                    "no ground") +
+            (open ? ", or undecided: see radar-height-undecided.tif" : ""),
+        zone.radar->height_m);
+  // What is to stay out of a radar's sight must stay below this, too.
+  if (open)
+    write("radar-height-undecided",
+          "least height above the ground that the radar may see, where ground without data alone leaves open whether "
+          "it does, metres; NaN: it is known",
+          zone.radar->undecided_height_m);
   return std::move(files).files();
 }
 

@@ -73,14 +73,37 @@ const std::vector<Quantity>& quantities() {
   return kQuantities;
 }
 
-void write_counts(const Zone& zone, const Visibility& v, const std::string& suffix, RasterFolder& folder) {
+/// What is seen over one of the zone's surfaces.
+struct View {
+  const Visibility& seen;
+  std::string suffix;  ///< ends the names of its rasters
+  std::string remark;  ///< what each of them says besides
+};
+
+View view_over(const Zone& zone, const Visibility& seen, const std::string& suffix) {
+  if (!zone.leaves_open()) return {seen, suffix, ""};
+  return {seen, suffix,
+          fmt::format("; what is certainly seen: undecided{}.tif tells what ground without data leaves open", suffix)};
+}
+
+void write_counts(const Zone& zone, const View& view, RasterFolder& folder) {
   const auto bands = count_bands(zone.request.turbines.size(), zone.request.count_bands);
-  const auto what = [](const char* part) {
-    return fmt::format("how many turbines have their {} seen; 65535: {}", part, kNoValue);
+  const auto write = [&](const std::string& name, const std::string& what, const std::vector<std::uint16_t>& counts) {
+    folder.write(name + view.suffix, what, counts, with_nodata(kCountOutside), banded_style(bands));
   };
-  if (knows_hubs(zone))
-    folder.write("hub-count" + suffix, what("hub"), v.hub_count, with_nodata(kCountOutside), banded_style(bands));
-  folder.write("tip-count" + suffix, what("tip"), v.tip_count, with_nodata(kCountOutside), banded_style(bands));
+  const auto what = [&](const char* part) {
+    return fmt::format("how many turbines have their {} seen; 65535: {}{}", part, kNoValue, view.remark);
+  };
+  if (knows_hubs(zone)) write("hub-count", what("hub"), view.seen.hub_count);
+  write("tip-count", what("tip"), view.seen.tip_count);
+  if (!zone.leaves_open()) return;
+  const auto undecided = [](const char* part) {
+    return fmt::format(
+        "how many turbines more have their {} seen, or not: ground without data alone leaves it open; 65535: {}", part,
+        kNoValue);
+  };
+  if (knows_hubs(zone)) write("undecided-hubs", undecided("hub"), view.seen.hub_undecided);
+  write("undecided", undecided("tip"), view.seen.tip_undecided);
 }
 
 /// Whether any turbine of the first 32 is seen: which one it is, QGIS's identify tool tells.
@@ -89,22 +112,23 @@ std::string seen_style() {
       {{0, "none", kTransparent}, {4294967295.0, "some turbine of the first 32 seen", distinct_colour(3)}});
 }
 
-void write_bits(const Zone& zone, const Visibility& v, const std::string& suffix, RasterFolder& folder) {
+void write_bits(const Zone& zone, const View& view, RasterFolder& folder) {
   RasterDescription description;
   const auto name = [](std::size_t word) { return fmt::format("turbines {} to {}", 32 * word + 1, 32 * word + 32); };
   description.band_name = name(0);
   for (std::size_t w = 1; w < zone.words; ++w) description.further_bands.push_back(name(w));
   folder.write(
-      "turbines" + suffix,
+      "turbines" + view.suffix,
       "which turbines have their tip seen: turbine k of the file is bit k - 1, 32 turbines in each band; no nodata "
-      "value, 0 where none is seen",
-      v.turbines, description, seen_style());
+      "value, 0 where none is seen" +
+          view.remark,
+      view.seen.turbines, description, seen_style());
 }
 
-void write_quantities(const Visibility& v, const std::string& suffix, RasterFolder& folder) {
+void write_quantities(const View& view, RasterFolder& folder) {
   for (const Quantity& q : quantities())
-    folder.write(q.name + suffix, fmt::format("{}; NaN: {}", q.what, kNoValue), v.*q.values, with_nodata(kNaN),
-                 banded_style(limit_bands(q.limits, q.unit)));
+    folder.write(q.name + view.suffix, fmt::format("{}; NaN: {}{}", q.what, kNoValue, view.remark), view.seen.*q.values,
+                 with_nodata(kNaN), banded_style(limit_bands(q.limits, q.unit)));
 }
 
 /// Where either has no value there is none: 65535 less 65535 must not become 0.
@@ -151,16 +175,17 @@ std::string style_of_commonest(const std::vector<std::uint32_t>& farms, std::vec
 
 /// Up to seven farms are classes of a Byte raster, with names and colours; more are numbers, whose names farms.csv has.
 void write_farm_raster(const std::vector<std::uint32_t>& farms, const std::vector<Combination>& present,
-                       std::size_t farm_count, const std::string& name, RasterFolder& folder) {
+                       std::size_t farm_count, const View& view, RasterFolder& folder) {
+  const std::string name = "farms" + view.suffix;
   constexpr std::size_t kClasses = 7;
   if (farm_count > kClasses) {
-    const char* what =
+    const std::string what =
         farm_count <= kMostFarms
             ? "which farms have a tip seen: farm f of the list is bit f - 1; farms.csv has the names, the "
               "style colours the commonest; 4294967295: no value"
             : "which farms have a tip seen: the number of their combination in farms.csv; the style "
               "colours the commonest; 4294967295: no value";
-    folder.write(name, what, farms, with_nodata(kOutsideFarms), style_of_commonest(farms, present));
+    folder.write(name, what + view.remark, farms, with_nodata(kOutsideFarms), style_of_commonest(farms, present));
     return;
   }
   constexpr std::uint8_t kOutsideClass = 255;
@@ -173,19 +198,19 @@ void write_farm_raster(const std::vector<std::uint32_t>& farms, const std::vecto
   std::vector<std::uint8_t> classes(farms.size());
   std::transform(farms.begin(), farms.end(), classes.begin(),
                  [](std::uint32_t f) { return f == kOutsideFarms ? kOutsideClass : static_cast<std::uint8_t>(f); });
-  folder.write(name, fmt::format("which farms have a tip seen, by combination; 255: {}", kNoValue), classes,
-               description, class_style(description.classes));
+  folder.write(name, fmt::format("which farms have a tip seen, by combination; 255: {}{}", kNoValue, view.remark),
+               classes, description, class_style(description.classes));
 }
 
-void write_farm_rasters(const Zone& zone, RasterFolder& folder) {
+void write_farm_rasters(const Zone& zone, const std::vector<View>& views, RasterFolder& folder) {
   const std::size_t count = farms_of(zone).size();
   if (count < 2) return;
   const std::vector<std::uint32_t> bare = farm_combinations(zone, zone.bare);
   std::vector<std::uint32_t> screened;
   if (zone.screened) screened = farm_combinations(zone, *zone.screened);
   const auto present = combinations_present(zone, {&bare, &screened});
-  write_farm_raster(bare, present, count, "farms", folder);
-  if (zone.screened) write_farm_raster(screened, present, count, "farms-screened", folder);
+  write_farm_raster(bare, present, count, views.front(), folder);
+  if (zone.screened) write_farm_raster(screened, present, count, views.back(), folder);
 }
 
 /// Beside the others, whose cells without a value may be either.
@@ -206,17 +231,15 @@ void write_study_area(const Zone& zone, RasterFolder& folder) {
 
 std::vector<ZoneFile> write_zone_rasters(const std::string& folder, const Zone& zone, const ZoneFileOptions& options) {
   RasterFolder files(folder, zone, options);
-  const auto write_all = [&](const Visibility& v, const std::string& suffix) {
-    write_counts(zone, v, suffix, files);
-    write_bits(zone, v, suffix, files);
-    write_quantities(v, suffix, files);
-  };
-  write_all(zone.bare, "");
-  if (zone.screened) {
-    write_all(*zone.screened, "-screened");
-    write_differences(zone, files);
+  std::vector<View> views{view_over(zone, zone.bare, "")};
+  if (zone.screened) views.push_back(view_over(zone, *zone.screened, "-screened"));
+  for (const View& view : views) {
+    write_counts(zone, view, files);
+    write_bits(zone, view, files);
+    write_quantities(view, files);
   }
-  write_farm_rasters(zone, files);
+  if (zone.screened) write_differences(zone, files);
+  write_farm_rasters(zone, views, files);
   write_study_area(zone, files);
   return std::move(files).files();
 }

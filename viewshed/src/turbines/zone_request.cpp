@@ -10,7 +10,11 @@
 
 #include <itin/error.hpp>
 
+#include "bounds/boundary.hpp"
+#include "line/infinity.hpp"
 #include "plan/memory.hpp"
+#include "request/request_window.hpp"
+#include "request/void_shadow.hpp"
 
 namespace itin::viewshed {
 
@@ -59,11 +63,27 @@ void place_turbines(const std::function<std::optional<double>(Point2)>& ground, 
   zone.request.turbines = std::move(placed);
 }
 
+/// Finds whether sight lines may cross ground without data, where that does not count as clear.
+void find_voids_of_zone(const Tin& outline, Zone& zone) {
+  const ZoneRequest& request = zone.request;
+  if (request.nodata == NoData::kClear) return;
+  const std::vector<RimEdge> rim = rim_of(outline, boundary_edges(outline));
+  zone.crosses_voids = std::any_of(request.turbines.begin(), request.turbines.end(), [&](const Turbine& t) {
+    return may_cross_voids(outline.grid, rim, t.position, t.radius);
+  });
+  if (!zone.radar) return;
+  Box ends = zone.grid.bounds();
+  for (const Turbine& t : request.turbines) ends.extend(t.position);
+  const Point2 radar = request.radar->position;
+  zone.radar->crosses_voids = surface_resumes(outline.grid, rim, radar, kInfinity, hull_about(radar, ends));
+}
+
 Visibility nothing_seen(const Zone& zone) {
   const std::size_t cells = zone.grid.cell_count();
   Visibility v;
   v.hub_count.assign(cells, kCountOutside);
   v.tip_count.assign(cells, kCountOutside);
+  if (zone.leaves_open()) v.hub_undecided = v.tip_undecided = v.tip_count;
   v.turbines.assign(cells * zone.words, 0);
   for (std::vector<float>* floats :
        {&v.visible_height_m, &v.vertical_angle_deg, &v.vertical_angle_sum_deg, &v.horizontal_angle_deg,
@@ -71,6 +91,13 @@ Visibility nothing_seen(const Zone& zone) {
     floats->assign(cells, std::numeric_limits<float>::quiet_NaN());
   if (!zone.request.weights.empty()) v.height_sums_m.assign(zone.request.turbines.size(), 0);
   return v;
+}
+
+void see_nothing(const Zone& zone, RadarView& radar) {
+  radar.height_m.assign(zone.grid.cell_count(), std::numeric_limits<float>::quiet_NaN());
+  radar.turbine_m.assign(zone.request.turbines.size(), 0);
+  if (!radar.crosses_voids || zone.request.nodata != NoData::kUnknown) return;
+  radar.undecided_height_m = radar.height_m, radar.undecided_turbine_m = radar.turbine_m;
 }
 
 }  // namespace
@@ -112,24 +139,29 @@ Request view_of(const ZoneRequest& zone) {
   return request;
 }
 
-Zone lay_out(const ZoneRequest& request, const Box& coverage,
-             const std::function<std::optional<double>(Point2)>& ground, bool screens) {
+Zone lay_out(const ZoneRequest& request, const Tin& outline, const std::function<std::optional<double>(Point2)>& ground,
+             bool screens) {
   Zone zone;
   zone.request = request;
   place_turbines(ground, zone);
-  zone.grid = grid_of(zone.request, coverage);
+  zone.grid = grid_of(zone.request, outline.bounds());
+  if (zone.request.radar) zone.radar.emplace();
+  find_voids_of_zone(outline, zone);
   for (const Turbine& t : zone.request.turbines) zone.words = std::max(zone.words, bit_grids(t.number));
   if (screens) zone.screened.emplace();
   if (const auto memory = zone.request.memory_bytes)
     require_memory_for_rasters(zone.grid, bytes_of_results(zone), *memory);
   zone.bare = nothing_seen(zone);
+  if (zone.radar) see_nothing(zone, *zone.radar);
   if (screens) zone.screened = zone.bare;
   return zone;
 }
 
 std::uint64_t bytes_of_results(const Zone& zone) {
-  const std::uint64_t surfaces = zone.screened ? 2 : 1;
-  return (surfaces * (36 + 4 * zone.words) + (zone.request.radar ? 4 : 0)) * zone.grid.cell_count();
+  const std::uint64_t surfaces = zone.screened ? 2 : 1, counts = zone.leaves_open() ? 8 : 4,
+                      open_heights = zone.request.nodata == NoData::kUnknown && zone.radar && zone.radar->crosses_voids,
+                      of_radar = zone.radar ? 4 * (1 + open_heights) : 0;
+  return (surfaces * (32 + counts + 4 * zone.words) + of_radar) * zone.grid.cell_count();
 }
 
 }  // namespace itin::viewshed

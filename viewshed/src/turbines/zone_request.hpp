@@ -14,10 +14,11 @@ namespace itin::viewshed {
 void validate(const ZoneRequest& request);
 
 /// The zone before any line of sight: its turbines on their ground, those without any among the misplaced, its grid
-/// over what of the coverage lies within a radius, and no cell seen, nor with what `screens`. `ground` gives metres.
+/// over what of the outline's box lies within a radius, and no cell seen, nor with what `screens`. The outline is a
+/// surface that ends where the ground does, within all sight lines' reach; `ground` gives metres.
 /// Throws InputError where no turbine stands on the ground, and where the memory does not hold the results.
-Zone lay_out(const ZoneRequest& request, const Box& coverage,
-             const std::function<std::optional<double>(Point2)>& ground, bool screens);
+Zone lay_out(const ZoneRequest& request, const Tin& outline, const std::function<std::optional<double>(Point2)>& ground,
+             bool screens);
 
 /// The memory of all results of the cells.
 std::uint64_t bytes_of_results(const Zone& zone);

@@ -22,6 +22,7 @@ struct ZoneSurvey::TileSightings {
   TileSightings(const FullSurface& surface, std::size_t number, std::size_t words)
       : place(surface.begin(number)), tile(place->tile), centres(place->centres), ground(place->ground), seen(words) {
     hubs.fill(kCountOutside), tips.fill(kCountOutside);
+    open_hubs.fill(0), open_tips.fill(0);
     height.fill(0), angle.fill(0), angle_sum.fill(0);
     nearest.fill(kInfinity);
     open.fill(true);
@@ -33,6 +34,7 @@ struct ZoneSurvey::TileSightings {
   const TileValues<double>& ground;  ///< grid units
   TileValues<double> eyes;           ///< elevations, grid units
   TileValues<std::uint16_t> hubs, tips;
+  TileValues<std::uint16_t> open_hubs, open_tips;  ///< counts of what stands in the shadow of voids
   TileValues<double> height, angle, angle_sum, nearest;
   std::vector<TileValues<std::uint32_t>> seen;
   TileValues<bool> open;     ///< lines to the turbine at hand
@@ -138,7 +140,11 @@ void ZoneSurvey::observe(std::size_t turbine, const Screen& screen, const Radial
     work.lines += beneath ? 0 : 1;
     if (std::isnan(least)) return;
     const Point2 eye = work.centres.at(cell);
-    if (!screen.shadows.empty() && screen.shadows[turbine].holds(eye.x, eye.y)) return;
+    if (const auto& shadow = screen.shadows[turbine]; shadow && shadow->holds(eye.x, eye.y)) {
+      ++work.open_tips[cell];
+      if (least <= axis.hub) ++work.open_hubs[cell];
+      return;
+    }
     if (!work.sums.empty())
       work.sums[turbine] += zone_.request.weights[zone_.grid.index(place)] *
                             (axis.tip - (beneath ? axis.base : least)) * ground_.units().resolution;
@@ -172,6 +178,10 @@ void ZoneSurvey::store(const TileSightings& work, Visibility& result) const {
     const std::size_t to = zone_.grid.index(place);
     result.hub_count[to] = work.hubs[from];
     result.tip_count[to] = work.tips[from];
+    if (zone_.leaves_open()) {
+      result.hub_undecided[to] = work.open_hubs[from];
+      result.tip_undecided[to] = work.open_tips[from];
+    }
     for (std::size_t w = 0; w < zone_.words; ++w)
       result.turbines[w * zone_.grid.cell_count() + to] = work.seen[w][from];
     result.visible_height_m[to] = static_cast<float>(work.height[from]);

@@ -11,9 +11,9 @@
 
 #include "line/cell_tiles.hpp"
 #include "progress/stage.hpp"
-#include "request/void_shadow.hpp"
 #include "scene/full_surface.hpp"
 #include "scene/sweep/radial_sweep.hpp"
+#include "turbines/turbine_shadows.hpp"
 
 namespace itin::viewshed {
 
@@ -22,10 +22,10 @@ class ZoneSurvey {
   /// `zone` has its request, grid and ground; eyes stand on `ground`, whose grid is the zone's. All must outlive it.
   ZoneSurvey(const FullSurface& ground, const Zone& zone);
 
-  /// The surface that hides, and each turbine's shadow of voids where these hide; else none.
+  /// The surface that hides, and what voids hide of each turbine or leave undecided.
   struct Screen {
     const RadialSweep& sweep;
-    const std::vector<VoidShadow>& shadows;
+    const TurbineShadows& shadows;
     bool open_alone = false;  ///< lines whose bits the result's `turbines` does not have yet are known to be hidden
   };
   /// Enters what is seen from the cells of these tiles, each a step. Returns how many lines that took.

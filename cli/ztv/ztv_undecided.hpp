@@ -1,0 +1,27 @@
+// From how much ground it is undecided what is seen of the turbines: where ground without data alone could hide them.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <viewshed/turbines.hpp>
+
+namespace itin::cli {
+
+struct UndecidedArea {
+  double any_m2 = 0;   ///< none is certainly seen, but one may be
+  double more_m2 = 0;  ///< some are certainly seen, and more may be
+};
+
+/// Takes the counts of hubs or of tips, and how many more there may be.
+UndecidedArea undecided_area(const viewshed::Zone& zone, const std::vector<std::uint16_t>& counts,
+                             const std::vector<std::uint16_t>& undecided);
+
+/// "whether a blade tip is visible from 1.2 km², and how many more are visible from 3.4 km²"; empty where none is.
+std::string undecided_in_words(const UndecidedArea& tips);
+
+/// The options that decide it.
+inline constexpr const char* kDecidesMissingGround = "--nodata block or clear";
+
+}  // namespace itin::cli
