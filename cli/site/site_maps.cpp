@@ -41,13 +41,10 @@ viewshed::Result as_viewshed(const SiteResult& r) {
     const viewshed::SitePosition& place = r.place_of(site);
     result.request.observers.push_back({place.name, place.position, place.height});
   }
-  for (const std::uint16_t n : r.rasters.redundancy) {
-    const bool outside = n == SiteRasters::kNoDemand, served = !outside && n >= r.options.cover;
-    result.visible.push_back(outside  ? viewshed::Verdict::kOutside
-                             : served ? viewshed::Verdict::kVisible
-                                      : viewshed::Verdict::kHidden);
-    ++(outside ? result.cells.outside : served ? result.cells.visible : result.cells.hidden);
-  }
+  result.visible = r.rasters.served;
+  const auto count = [&](viewshed::Verdict verdict) { return r.rasters.count(verdict); };
+  using enum viewshed::Verdict;
+  result.cells = {count(kVisible), count(kHidden), count(kUndecided), count(kOutside)};
   return result;
 }
 
@@ -101,12 +98,13 @@ ResultSheet sheet_of(const Store& store, const SiteResult& r, const SiteMap& map
   const bool turbines = r.options.placement.given();
   const std::string one = wording_of(r.options).one;
   sheet.title.facts = {
-      {turbines ? "Objective" : "Served", r.options.meaning_of_served()},
+      {turbines ? "Objective" : "Served", r.meaning()},
       {"Targets", map.options.subtitle},
       {"Choice",
        fmt::format("{}, {}", counted(r.choice.chosen.size(), one),
                    turbines ? least_in_words(r) : fmt::format("{:.1f} % of the demand served", r.served_percent()))},
       {"Earth", r.options.earth.earth().convention()}};
+  if (r.undecided > 0) sheet.title.facts.insert(sheet.title.facts.end() - 1, {"Undecided", undecided_in_words(r)});
   sheet.title.sources = sources;
   return sheet;
 }
