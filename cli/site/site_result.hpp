@@ -80,7 +80,7 @@ viewshed::SiteSurvey site_survey(const SiteOptions& options, const SiteInputs& i
 std::vector<double> site_grounds(const Store& store, const SiteInputs& inputs, const viewshed::Choice& choice,
                                  Progress& progress);
 
-/// Of what the chosen and the existing sites serve of cells.
+/// What the chosen and the existing sites serve of cells, as rasters.
 SiteRasters site_rasters(const Store& store, const SiteOptions& options, const SiteInputs& inputs,
                          const viewshed::Choice& choice, const JointCoverage& cells, Progress& progress);
 
