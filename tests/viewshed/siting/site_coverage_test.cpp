@@ -69,7 +69,7 @@ class Sites : public ::testing::Test {
     Request request;
     request.observers = {{place.name, place.position, place.height}};
     request.target_height = survey_.targets.height;
-    request.radius = kRadius;
+    request.radius = survey_.radius;
     request.grid = survey_.targets.grid;
     request.nodata = rule;
     const Result result = test::compute_at_full_detail(*store_, request, {}, progress_).result;
@@ -234,6 +234,23 @@ TEST_F(Sites, NothingIsLeftOpenWhereNoLineCrossesMissingGround) {
   SiteCoverage coverage(*store_, survey_, progress_);
   EXPECT_FALSE(coverage.leaves_open());
   expect_bounds_at_every_stage(coverage, all_precise());
+}
+
+/// From where the hole's rim begins to hide its own ground, 632 m away.
+TEST_F(Sites, MissingGroundCountsAsFarAsTheRadius) {
+  make_terrain(100, 200, true);
+  const Point2 west{kSitesCorner.x + 35 * kSitesStep - 700, kSitesCorner.y - 60 * kSitesStep};
+  survey_.positions = {{"west", west, 300, ground_under(*store_, {west}, ThemeChoice::none(), progress_)[0].value()}};
+  survey_.targets.height = 2;
+  for (const double radius : {550.0, 1200.0}) {
+    survey_.radius = radius;
+    survey_.targets.grid = grid_of_reach(*store_, survey_.positions, radius, 20);
+    const bool reaches = radius > 632;
+    EXPECT_EQ(precise(0, NoData::kUnknown, {Verdict::kUndecided}).empty(), !reaches);
+    SiteCoverage coverage(*store_, survey_, progress_);
+    EXPECT_EQ(coverage.leaves_open(), reaches);
+    expect_bounds_at_every_stage(coverage, all_precise());
+  }
 }
 
 TEST_F(Sites, PointsAreServedAsCellsAtTheSamePlaces) {
