@@ -9,11 +9,6 @@
 
 namespace itin::cli {
 
-/// The help of verbs that cannot leave a line undecided.
-inline constexpr const char* kPassesIfUnknown =
-    "What ground without data does to a sight line: unknown (default) lets it pass, with a warning; block hides the "
-    "target, clear lets it pass";
-
 class NoDataOption {
  public:
   void declare(CLI::App& app);

@@ -9,6 +9,7 @@
 #include <itin/label_places.hpp>
 #include <itin/markup.hpp>
 #include <itin/round_length.hpp>
+#include <itin/void_stripes.hpp>
 
 #include "output/web_layers.hpp"
 
@@ -118,6 +119,15 @@ std::string patch_svg(const std::vector<Rgba>& colours) {
          fmt::format("<rect x=\".5\" y=\".5\" width=\"{}\" height=\"15\" fill=\"none\" stroke=\"#5f5f5f\"/>", kWidth);
 }
 
+/// Striped, as places without ground are.
+std::string void_svg() {
+  return fmt::format(
+      "<rect width=\"24\" height=\"16\" fill=\"{}\"/><path d=\"M-6 16L10 0M0 16L16 0M6 16L22 0M12 16L28 0M18 16L34 0\" "
+      "stroke=\"{}\" stroke-width=\"1.5\"/><rect x=\".5\" y=\".5\" width=\"23\" height=\"15\" fill=\"none\" "
+      "stroke=\"#5f5f5f\"/>",
+      web_colour(itin::kVoid), web_colour(kVoidStripe));
+}
+
 std::string key_html(const SheetKey& key) {
   using enum SheetKey::Sample;
   const std::string text = escaped_markup(key.text);
@@ -127,6 +137,8 @@ std::string key_html(const SheetKey& key) {
     sample = fmt::format("<g transform=\"translate(12 8)\">{}</g>", web_mark(key.symbol, key.colours.front()));
   } else if (key.sample == kPatch) {
     sample = patch_svg(key.colours);
+  } else if (key.sample == SheetKey::Sample::kVoid) {
+    sample = void_svg();
   } else {
     sample = fmt::format("<path d=\"M0 8h24\" stroke=\"{}\" stroke-width=\"2\"{}/>", web_colour(key.colours.front()),
                          key.sample == kDashes ? " stroke-dasharray=\"8 5\"" : "");

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <numeric>
 #include <utility>
 
 #include <fmt/format.h>
@@ -24,6 +25,7 @@
 #include "output/output_path.hpp"
 #include "output/store_document.hpp"
 #include "program/verb.hpp"
+#include "site/joint_coverage.hpp"
 #include "site/site_checkpoint.hpp"
 #include "site/site_inputs.hpp"
 #include "site/site_links.hpp"
@@ -76,21 +78,28 @@ class SiteVerb final : public Verb {
     viewshed::check_goal(inputs.options, goal);
 
     const bool heights = options_.placement.sums_heights();
-    viewshed::Demand shown;
-    if (heights) shown = viewshed::Demand(summed_visible_heights(store, options_, inputs, progress));
+    std::vector<double> heights_m;
+    if (heights) heights_m = certain_heights(store, inputs, progress);
+    const viewshed::Demand shown(heights_m);
     viewshed::SiteCoverage coverage(store, site_survey(options_, inputs), progress);
     SiteCheckpoint checkpoint(options_.path("site.work"), key(), options_.resume, inputs.positions.size(), coverage);
     coverage.on_refined = [&](std::size_t option, int stage, const viewshed::CoverageBounds& bounds) {
       checkpoint.add(option, stage, bounds);
     };
-    SiteResult site{options_, inputs, coverage, heights ? shown : inputs.demand, {}, {}, {}, {}, {}};
+    SiteResult site{options_, inputs, coverage, heights ? shown : inputs.demand, {}, {}, {}, {}, {}, {}};
     site.choice = heights ? choose_by_heights(inputs, coverage, shown, goal, progress)
                           : choose_by_coverage(inputs, coverage, goal, progress);
     coverage.release_surfaces();
     site.network = site_network(store, options_, inputs, site.choice, hub_position, progress);
     site.routes = site_routes(options_, site.network);
     site.ground_m = site_grounds(store, inputs, site.choice, progress);
-    site.rasters = site_rasters(store, options_, inputs, coverage, site.choice, progress);
+    const JointCoverage joint = joint_coverage(store, options_, inputs, coverage, site.choice, progress);
+    site.undecided = heights ? undecided_heights(store, site, heights_m, progress)
+                             : inputs.demand.in_metric(inputs.demand.weight(joint.undecided));
+    site.rasters = site_rasters(
+        store, options_, inputs, site.choice,
+        inputs.targets.grid ? joint : joint_coverage_on_cells(store, options_, inputs, coverage, site.choice, progress),
+        progress);
     Result result = write(store, site, std::move(warnings), progress);
     if (checkpoint.restored() > 0)
       result.text += fmt::format("taken over from an earlier run: {}\n", counted(checkpoint.restored(), "result"));
@@ -99,6 +108,27 @@ class SiteVerb final : public Verb {
   }
 
  private:
+  /// How much each option certainly shows of a turbine.
+  std::vector<double> certain_heights(const Store& store, const SiteInputs& inputs, Progress& progress) const {
+    std::vector<std::size_t> all(inputs.options.size());
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    const NoData rule = options_.nodata.rule() == NoData::kClear ? NoData::kClear : NoData::kBlock;
+    return summed_visible_heights(store, {options_, inputs, all, rule}, progress);
+  }
+
+  /// How much more the chosen turbines show if ground without data hides nothing, metres. `certain` is of each option.
+  double undecided_heights(const Store& store, const SiteResult& site, const std::vector<double>& certain,
+                           Progress& progress) const {
+    if (!site.coverage.leaves_open()) return 0;
+    std::vector<std::size_t> chosen;
+    for (const viewshed::ChosenSite& turbine : site.choice.chosen) chosen.push_back(turbine.option);
+    const std::vector<double> possible =
+        summed_visible_heights(store, {options_, site.inputs, chosen, NoData::kClear}, progress);
+    double sum = 0;
+    for (std::size_t i = 0; i < chosen.size(); ++i) sum += possible[i] - certain[chosen[i]];
+    return sum;
+  }
+
   /// Every file that the result depends on.
   Document hash_inputs(Progress& progress) const {
     Document inputs = Document::array();
@@ -242,13 +272,13 @@ class SiteVerb final : public Verb {
 
   std::string outcome(const SiteResult& site) const {
     if (options_.placement.given()) return least_in_words(site) + "\n";
-    return fmt::format("served: {:.10g} of {:.10g} ({:.1f} %){}; no choice serves more than {:.10g} (gap {:.1f} %)\n",
-                       site.served(), site.in_metric(site.inputs.total), site.served_percent(),
-                       site.choice.existing > 0
-                           ? fmt::format(", {:.10g} of it by existing sites", site.in_metric(site.choice.existing))
-                           : "",
-                       site.in_metric(site.choice.upper_bound + site.choice.existing),
-                       viewshed::gap_percent(site.choice));
+    return fmt::format(
+        "{0}served: {1:.10g} of {2:.10g} ({3:.1f} %){4}; no choice {0}serves more than {5:.10g} (gap {6:.1f} %)\n",
+        certainly(site), site.served(), site.in_metric(site.inputs.total), site.served_percent(),
+        site.choice.existing > 0
+            ? fmt::format(", {:.10g} of it by existing sites", site.in_metric(site.choice.existing))
+            : "",
+        site.in_metric(site.choice.upper_bound + site.choice.existing), viewshed::gap_percent(site.choice));
   }
 
   std::string text(const SiteResult& site, std::size_t files) const {
@@ -262,6 +292,7 @@ class SiteVerb final : public Verb {
                       place.position.y, place.height, site.in_metric(chosen.gain), site.in_metric(chosen.cumulative));
     }
     text += options_.heights_text() + outcome(site);
+    if (site.undecided > 0) text += "undecided: " + undecided_in_words(site) + "\n";
     const std::size_t candidates = site.inputs.candidates.size(), options = site.inputs.options.size();
     text += counted(candidates, "candidate");
     if (options != candidates) text += fmt::format(", {} with their masts", counted(options, "option"));

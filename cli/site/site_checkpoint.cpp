@@ -68,7 +68,7 @@ class RecordReader {
 };
 
 std::string header(const std::string& key) {
-  return "itin site work 1\n" + key + "\n";
+  return "itin site work 2\n" + key + "\n";
 }
 
 /// Puts records back. Returns where the last whole one ends.

@@ -7,6 +7,7 @@
 #include <itin/parallel.hpp>
 #include <itin/triangulate.hpp>
 #include <viewshed/map_image.hpp>
+#include <viewshed/missing_ground.hpp>
 #include <viewshed/result_map.hpp>
 
 #include "output/result_sheet.hpp"
@@ -21,6 +22,7 @@ namespace {
 
 constexpr std::uint64_t kHillshadePoints = 400000;
 constexpr int kMapPixels = 1100;
+constexpr const char* kWithinRadius = "the area within the radius";
 
 int hillshade_level(const Store& store, const RasterGrid& grid) {
   return finest_level_of(store, grid.bounds(), kHillshadePoints);
@@ -37,17 +39,16 @@ viewshed::Result as_viewshed(const SiteResult& r) {
   result.request.earth = r.options.earth.earth();
   result.request.radius = r.options.radius;
   result.request.target_height = r.options.target_height;
+  // A raster of demand is no larger than it was given, whatever lies beyond.
+  if (r.inputs.targets.grid && r.options.demand != "cells") result.request.grid = r.rasters.grid;
   for (const viewshed::ChosenSite& site : r.choice.chosen) {
     const viewshed::SitePosition& place = r.place_of(site);
     result.request.observers.push_back({place.name, place.position, place.height});
   }
-  for (const std::uint16_t n : r.rasters.redundancy) {
-    const bool outside = n == SiteRasters::kNoDemand, served = !outside && n >= r.options.cover;
-    result.visible.push_back(outside  ? viewshed::Verdict::kOutside
-                             : served ? viewshed::Verdict::kVisible
-                                      : viewshed::Verdict::kHidden);
-    ++(outside ? result.cells.outside : served ? result.cells.visible : result.cells.hidden);
-  }
+  result.visible = r.rasters.served;
+  const auto count = [&](viewshed::Verdict verdict) { return r.rasters.count(verdict); };
+  using enum viewshed::Verdict;
+  result.cells = {count(kVisible), count(kHidden), count(kUndecided), count(kOutside)};
   return result;
 }
 
@@ -55,11 +56,15 @@ struct SiteMap {
   const char* name;
   viewshed::Result result;  ///< the choice as a viewshed's, which is what maps are drawn of
   viewshed::MapOptions options;
+  viewshed::MissingGround missing = {};
 };
 
-std::vector<SiteMap> site_maps(const SiteResult& r) {
+std::vector<SiteMap> site_maps(const Store& store, const SiteResult& r, Progress& progress) {
   viewshed::Result result = as_viewshed(r);
+  const viewshed::MissingGround missing = viewshed::missing_ground(store, result, progress);
   viewshed::MapOptions options;
+  options.no_data = viewshed::cells_without_ground(store, result, progress);
+  if (missing.without_ground > 0) options.no_data_text = missing.key_text(kWithinRadius);
   options.map_pixels = kMapPixels;
   // Where demand is weighted, its area is another share than what is served.
   const bool of_area = r.options.demand != "cells";
@@ -75,17 +80,18 @@ std::vector<SiteMap> site_maps(const SiteResult& r) {
       r.options.frequency_ghz ? fmt::format(", {:g} F1 clear at {:g} GHz", r.options.fresnel, *r.options.frequency_ghz)
                               : "",
       r.options.cover > 1 ? fmt::format(", by at least {} sites", r.options.cover) : "");
-  std::vector<SiteMap> maps{{"coverage", result, options}};
+  std::vector<SiteMap> maps{{"coverage", result, options, missing}};
   result.request.mode = viewshed::Mode::kCount;
   result.values = viewshed::Counts{r.rasters.redundancy};
   options.title = wording.how_many;
   options.counts = turbines ? "Turbines" : "Served by sites";
-  maps.push_back({"redundancy", std::move(result), std::move(options)});
+  maps.push_back({"redundancy", std::move(result), std::move(options), missing});
   return maps;
 }
 
 ResultSheet sheet_of(const Store& store, const SiteResult& r, const SiteMap& map,
-                     const std::vector<MapObjects>& objects, const std::vector<std::string>& sources) {
+                     const std::vector<MapObjects>& objects, const std::vector<std::string>& sources,
+                     Progress& progress) {
   const StoreMetadata& metadata = store.metadata();
   ResultSheet sheet{map.result.grid,
                     shown_area(r),
@@ -95,28 +101,31 @@ ResultSheet sheet_of(const Store& store, const SiteResult& r, const SiteMap& map
                              [&](std::size_t cell) { return map.result.visible[cell] != viewshed::Verdict::kOutside; }),
                     objects,
                     {}};
+  sheet.missing =
+      missing_on_sheet(viewshed::places_without_ground(store, map.result, progress), map.missing, kWithinRadius);
   sheet.outside = map.options.outside;
   sheet.title.title = map.options.title;
   sheet.title.statement = statement_of(metadata, r.options.themes.choice(), Detail::tolerance(0));
   const bool turbines = r.options.placement.given();
   const std::string one = wording_of(r.options).one;
   sheet.title.facts = {
-      {turbines ? "Objective" : "Served", r.options.meaning_of_served()},
+      {turbines ? "Objective" : "Served", r.meaning()},
       {"Targets", map.options.subtitle},
       {"Choice",
        fmt::format("{}, {}", counted(r.choice.chosen.size(), one),
                    turbines ? least_in_words(r) : fmt::format("{:.1f} % of the demand served", r.served_percent()))},
       {"Earth", r.options.earth.earth().convention()}};
+  if (r.undecided > 0) sheet.title.facts.insert(sheet.title.facts.end() - 1, {"Undecided", undecided_in_words(r)});
   sheet.title.sources = sources;
   return sheet;
 }
 
 /// One for each map, to which it refers.
 std::vector<ResultSheet> sheets_of(const Store& store, const SiteResult& r, const std::vector<SiteMap>& maps,
-                                   const std::vector<std::string>& sources) {
+                                   const std::vector<std::string>& sources, Progress& progress) {
   const std::vector<MapObjects> objects = site_map_objects(store, r);
   std::vector<ResultSheet> sheets;
-  for (const SiteMap& map : maps) sheets.push_back(sheet_of(store, r, map, objects, sources));
+  for (const SiteMap& map : maps) sheets.push_back(sheet_of(store, r, map, objects, sources, progress));
   return sheets;
 }
 
@@ -132,7 +141,7 @@ void write_site_maps(const Store& store, const SiteResult& r, bool overwrite, Pr
                      std::vector<std::string>& warnings) {
   progress.report("maps", 0);
   const Tin tin = hillshade_surface(store, r.rasters.grid, progress);
-  const std::vector<SiteMap> maps = site_maps(r);
+  const std::vector<SiteMap> maps = site_maps(store, r, progress);
   parallel_for(maps.size(), [&](std::size_t i) {
     const viewshed::MapImage image = draw_map(tin, maps[i].result, maps[i].options);
     write_image(r.options.path(maps[i].name) + ".png", image, overwrite);
@@ -143,8 +152,8 @@ void write_site_maps(const Store& store, const SiteResult& r, bool overwrite, Pr
 
 std::vector<std::string> site_figures(const Store& store, const SiteResult& r, Progress& progress) {
   WebMaps web(store, shown_area(r), progress);
-  const std::vector<SiteMap> maps = site_maps(r);
-  const std::vector<ResultSheet> sheets = sheets_of(store, r, maps, {});
+  const std::vector<SiteMap> maps = site_maps(store, r, progress);
+  const std::vector<ResultSheet> sheets = sheets_of(store, r, maps, {}, progress);
   std::vector<std::string> figures;
   for (std::size_t i = 0; i < maps.size(); ++i) figures.push_back(web.figure(sheets[i], maps[i].options.subtitle));
   return figures;
@@ -154,8 +163,8 @@ void write_site_sheets(const Store& store, const SiteResult& r, const std::vecto
                        Progress& progress) {
   if (!r.options.sheets.given()) return;
   const SheetOptions& options = r.options.sheets;
-  const std::vector<SiteMap> maps = site_maps(r);
-  const std::vector<ResultSheet> sheets = sheets_of(store, r, maps, sources);
+  const std::vector<SiteMap> maps = site_maps(store, r, progress);
+  const std::vector<ResultSheet> sheets = sheets_of(store, r, maps, sources, progress);
   for (const profile::PaperSize paper : options.papers()) {
     const MapBase base = base_of(store, sheets.front(), paper, options, progress);
     for (std::size_t i = 0; i < maps.size(); ++i) {

@@ -113,7 +113,8 @@ void SiteOptions::declare_choice(CLI::App& app) {
       ->type_name("N");
   app.add_flag(
       "--intervisible", intervisible,
-      "Chosen sites reach each other by links between them and existing ones; sites may be chosen as relays alone");
+      "Chosen sites reach each other by links between them and existing ones that are certainly in sight; sites may be "
+      "chosen as relays alone");
   app.add_option("--hub", hub_text_, "Chosen sites reach this place by such links (implies --intervisible)")
       ->type_name("x,y[,h]");
   app.add_option(
@@ -134,7 +135,10 @@ void SiteOptions::declare_work(CLI::App& app) {
       ->type_name("METRES");
   themes.declare(app);
   earth.declare(app);
-  nodata.declare(app, kPassesIfUnknown);
+  nodata.declare(app,
+                 "What ground without data does to a sight line: unknown (default) leaves it undecided unless known "
+                 "ground hides it, and what is undecided neither serves nor links; block hides the target, clear lets "
+                 "it pass");
   engine.declare(app);
   memory.declare(app, kReadInParts);
   sheets.declare(app);

@@ -43,6 +43,17 @@ NamesAndContents files_of_turbines() {
           {"best-server.tif", "the nearest of them that a cell sees"}};
 }
 
+/// What ground without data leaves open, as the value measures it and in cells of the rasters.
+Document undecided_document(const SiteResult& r) {
+  Document document{{"value", r.undecided}};
+  if (!r.options.placement.sums_heights()) document["percent"] = r.undecided_percent();
+  const std::uint64_t cells = r.rasters.count(viewshed::Verdict::kUndecided);
+  document["cells"] = cells;
+  document["area_m2"] = static_cast<double>(cells) * r.rasters.grid.cell_area();
+  document["decided_by"] = "--nodata block or clear";
+  return document;
+}
+
 }  // namespace
 
 std::vector<SiteOutput> site_outputs(const SiteOptions& options, OutputPolicy& policy) {
@@ -91,7 +102,7 @@ Document site_document(const SiteResult& r, const StoreMetadata& metadata) {
   document["surface"] = surface_document(metadata, Detail::tolerance(0), r.options.themes.choice());
   document["refraction"] = earth_document(r.options.earth.earth());
   const bool turbines = r.options.placement.given();
-  document[turbines ? "objective" : "served"] = r.options.meaning_of_served();
+  document[turbines ? "objective" : "served"] = r.meaning();
   document["value"] = r.in_metric(r.choice.value);
   if (turbines) {
     document["lower_bound"] = r.in_metric(r.choice.lower_bound);
@@ -105,6 +116,7 @@ Document site_document(const SiteResult& r, const StoreMetadata& metadata) {
     document[turbines ? "seen_percent" : "served_percent"] = r.served_percent();
     document[turbines ? "seen_by_existing" : "served_by_existing"] = r.in_metric(r.choice.existing);
   }
+  if (r.coverage.leaves_open()) document["undecided"] = undecided_document(r);
   document["chosen"] = Document::array();
   for (std::size_t i = 0; i < r.choice.chosen.size(); ++i) {
     const viewshed::ChosenSite& site = r.choice.chosen[i];

@@ -17,17 +17,15 @@ void write_site_rasters(const SiteResult& r, const std::string& crs_wkt, const s
   description.crs_wkt = crs_wkt;
   description.overwrite = overwrite;
   description.metadata = {{"itin", ITIN_VERSION}, {"parameters", parameters}};
-  std::vector<std::uint8_t> served(rasters.grid.cell_count());
-  for (std::size_t i = 0; i < served.size(); ++i) {
-    const std::uint16_t n = rasters.redundancy[i];
-    served[i] = n == SiteRasters::kNoDemand ? 255 : static_cast<std::uint8_t>(n >= r.options.cover);
-  }
+  std::vector<std::uint8_t> served;
+  for (const viewshed::Verdict verdict : rasters.served) served.push_back(static_cast<std::uint8_t>(verdict));
   RasterDescription classes = description;
   classes.band_name = turbines ? "seen" : "served";
   classes.nodata = 255;
   classes.classes = {{0, turbines ? wording.unserved : "not served", {225, 225, 225}},
                      {1, turbines ? wording.served : "served", {0, 114, 178}},
                      {255, "no data", kTransparent}};
+  if (r.coverage.leaves_open()) classes.classes.insert(classes.classes.end() - 1, {2, "undecided", {230, 159, 0}});
   write_raster(r.options.path("coverage.tif"), rasters.grid, std::span<const std::uint8_t>(served), classes);
   description.nodata = SiteRasters::kNoDemand;
   description.band_name = wording.count;

@@ -85,27 +85,32 @@ std::string exchanges(const SiteResult& r) {
 /// The bound on all choices, where this one does not meet it.
 std::string best_possible(const SiteResult& r) {
   const viewshed::Weight missed = r.choice.upper_bound - r.choice.value;
-  const std::string text = "No choice within the same limits serves more";
+  const std::string text = fmt::format("No choice within the same limits {}serves more", certainly(r));
   if (missed <= 0) return text + ".";
   return text + fmt::format(" than {}, which is {} more.",
                             amount(r.in_metric(r.choice.upper_bound + r.choice.existing)), amount(r.in_metric(missed)));
+}
+
+/// What ground without data leaves open of the summary.
+std::string left_open(const SiteResult& r) {
+  return r.undecided == 0 ? "" : fmt::format("<p>Undecided: {}.</p>\n", escaped_markup(undecided_in_words(r)));
 }
 
 std::string summary(const SiteResult& r) {
   if (r.options.placement.given()) {
     std::string least = least_in_words(r);
     least.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(least.front())));
-    return fmt::format("<p class=\"headline\">{}.</p>\n<p>{}{}</p>\n", escaped_markup(least), times_surveyed(r),
-                       exchanges(r));
+    return fmt::format("<p class=\"headline\">{}.</p>\n{}<p>{}{}</p>\n", escaped_markup(least), left_open(r),
+                       times_surveyed(r), exchanges(r));
   }
   const std::string existing = r.choice.existing > 0
                                    ? fmt::format(", {} of it by {}", amount(r.in_metric(r.choice.existing)),
                                                  counted(r.inputs.existing(), "existing site"))
                                    : "";
-  return fmt::format("<p class=\"headline\">Served: {} of a demand of {}{} ({:.1f} %){}. {}</p>\n<p>{}{}</p>\n",
-                     amount(r.served()), amount(r.in_metric(r.inputs.total)),
-                     r.options.demand == "cells" ? " cells" : "", r.served_percent(), existing, best_possible(r),
-                     times_surveyed(r), exchanges(r));
+  return fmt::format("<p class=\"headline\">{}: {} of a demand of {}{} ({:.1f} %){}. {}</p>\n{}<p>{}{}</p>\n",
+                     r.coverage.leaves_open() ? "Certainly served" : "Served", amount(r.served()),
+                     amount(r.in_metric(r.inputs.total)), r.options.demand == "cells" ? " cells" : "",
+                     r.served_percent(), existing, best_possible(r), left_open(r), times_surveyed(r), exchanges(r));
 }
 
 /// The routes to the hub, where there is one, and by which rule they go.
@@ -144,10 +149,9 @@ void write_site_report(const SiteResult& r, const SiteReportParts& parts, bool o
   html += "<h2>Sources of the ground</h2>\n<ul class=\"note\">\n";
   for (const std::string& source : parts.sources) html += "<li>" + escaped_markup(source) + "</li>\n";
   html += "</ul>\n";
-  html +=
-      fmt::format("<h2>Parameters and inputs</h2>\n<p class=\"note\">{}. {}</p>\n<pre>{}</pre>\n",
-                  escaped_markup(r.options.meaning_of_served()), escaped_markup(r.options.earth.earth().convention()),
-                  escaped_markup(json_text(parts.parameters, 2)));
+  html += fmt::format("<h2>Parameters and inputs</h2>\n<p class=\"note\">{}. {}</p>\n<pre>{}</pre>\n",
+                      escaped_markup(r.meaning()), escaped_markup(r.options.earth.earth().convention()),
+                      escaped_markup(json_text(parts.parameters, 2)));
   html += fmt::format("<p class=\"note\">itin {}</p>\n</body></html>\n", ITIN_VERSION);
   write_file(r.options.path("report.html"), html, overwrite);
 }

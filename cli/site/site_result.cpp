@@ -11,22 +11,18 @@ namespace {
 
 using viewshed::DemandSet;
 using viewshed::SitePosition;
-
-/// Sites that serve, the chosen ones in their order and the existing ones behind them.
-std::vector<std::size_t> serving(const SiteInputs& inputs, const viewshed::Choice& choice) {
-  std::vector<std::size_t> result;
-  for (const viewshed::ChosenSite& site : choice.chosen) result.push_back(site.option);
-  for (std::size_t i = inputs.options.size(); i < inputs.positions.size(); ++i) result.push_back(i);
-  return result;
-}
+using viewshed::Verdict;
 
 /// Best is nearest: in the open that is strongest.
 class BestServer {
  public:
   BestServer(const RasterGrid& grid, const DemandSet& ground)
       : grid_(grid), nearest_(grid.cell_count(), std::numeric_limits<double>::infinity()) {
-    rasters_ = {grid, std::vector<std::uint16_t>(grid.cell_count(), SiteRasters::kNoDemand),
-                std::vector<std::uint16_t>(grid.cell_count(), SiteRasters::kNoDemand)};
+    rasters_ = {grid,
+                std::vector<std::uint16_t>(grid.cell_count(), SiteRasters::kNoDemand),
+                std::vector<std::uint16_t>(grid.cell_count(), SiteRasters::kNoDemand),
+                {}};
+    rasters_.served.reserve(grid.cell_count());
     for_each_cell(ground, [&](std::size_t i, Point2) { rasters_.redundancy[i] = rasters_.best_server[i] = 0; });
   }
 
@@ -38,7 +34,17 @@ class BestServer {
       if (distance < nearest_[i]) nearest_[i] = distance, rasters_.best_server[i] = number;
     });
   }
-  SiteRasters rasters() && { return std::move(rasters_); }
+  /// `undecided`: which of the cells that fewer than `cover` sites serve are so.
+  SiteRasters rasters(int cover, const DemandSet& undecided) && {
+    for (const std::uint16_t n : rasters_.redundancy)
+      rasters_.served.push_back(n == SiteRasters::kNoDemand ? Verdict::kOutside
+                                : n >= cover                ? Verdict::kVisible
+                                                            : Verdict::kHidden);
+    for_each_cell(undecided, [&](std::size_t i, Point2) {
+      if (rasters_.served[i] == Verdict::kHidden) rasters_.served[i] = Verdict::kUndecided;
+    });
+    return std::move(rasters_);
+  }
 
  private:
   void for_each_cell(const DemandSet& set, const auto& visit) const {
@@ -52,31 +58,6 @@ class BestServer {
   std::vector<double> nearest_;
   SiteRasters rasters_;
 };
-
-/// Where demand is points: the cells that each site serves.
-struct OnCells {
-  viewshed::SiteTargets targets;
-  std::vector<DemandSet> served;
-};
-
-OnCells on_cells(const Store& store, const SiteOptions& options, const SiteInputs& inputs,
-                 const std::vector<std::size_t>& sites, Progress& progress) {
-  viewshed::SiteSurvey survey = site_survey(options, inputs);
-  survey.positions.clear();
-  for (const std::size_t site : sites) survey.positions.push_back(inputs.positions[site]);
-  survey.targets.points.clear();
-  survey.targets.grid = viewshed::grid_of_reach(store, sites.empty() ? inputs.positions : survey.positions,
-                                                options.radius, options.cell_size());
-  survey.tolerance = 0;
-  OnCells result{survey.targets, {}};
-  if (sites.empty()) return result;
-  viewshed::SiteCoverage coverage(store, survey, progress);
-  for (std::size_t i = 0; i < sites.size(); ++i) {
-    while (!coverage.bounds(i).exact) coverage.refine({&i, 1});
-    result.served.push_back(coverage.bounds(i).certain);
-  }
-  return result;
-}
 
 }  // namespace
 
@@ -107,6 +88,15 @@ double SiteResult::served() const {
 
 double SiteResult::served_percent() const {
   return inputs.total == 0 ? 0 : 100 * served() / in_metric(inputs.total);
+}
+
+double SiteResult::undecided_percent() const {
+  return inputs.total == 0 ? 0 : 100 * undecided / in_metric(inputs.total);
+}
+
+std::string SiteResult::meaning() const {
+  if (!coverage.leaves_open()) return options.meaning_of_served();
+  return options.meaning_of_served() + "; what only ground without data could hide is undecided, and does not count";
 }
 
 std::size_t SiteResult::refined() const {
@@ -142,19 +132,13 @@ std::string SiteResult::reason(std::size_t option) const {
 }
 
 SiteRasters site_rasters(const Store& store, const SiteOptions& options, const SiteInputs& inputs,
-                         const viewshed::SiteCoverage& coverage, const viewshed::Choice& choice, Progress& progress) {
-  const std::vector<std::size_t> sites = serving(inputs, choice);
-  OnCells cells{inputs.targets, {}};
-  if (inputs.targets.grid) {
-    for (const std::size_t site : sites) cells.served.push_back(coverage.bounds(site).certain);
-  } else {
-    cells = on_cells(store, options, inputs, sites, progress);
-  }
+                         const viewshed::Choice& choice, const JointCoverage& cells, Progress& progress) {
+  const std::vector<std::size_t> sites = serving_sites(inputs, choice);
   BestServer best(*cells.targets.grid,
                   inputs.cells.empty() ? viewshed::with_ground(store, cells.targets, progress) : inputs.cells);
   for (std::size_t i = 0; i < sites.size(); ++i)
-    best.add(inputs.positions[sites[i]], static_cast<std::uint16_t>(i + 1), cells.served[i]);
-  return std::move(best).rasters();
+    best.add(inputs.positions[sites[i]], static_cast<std::uint16_t>(i + 1), cells.certain[i]);
+  return std::move(best).rasters(options.cover, cells.undecided);
 }
 
 std::vector<double> site_grounds(const Store& store, const SiteInputs& inputs, const viewshed::Choice& choice,

@@ -1,12 +1,14 @@
 // The result of a siting run, for tables, maps and the report.
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
 #include <viewshed/site_coverage.hpp>
 #include <viewshed/siting.hpp>
 
+#include "site/joint_coverage.hpp"
 #include "site/site_inputs.hpp"
 #include "site/site_links.hpp"
 #include "site/site_routes.hpp"
@@ -26,7 +28,12 @@ struct SiteRasters {
   RasterGrid grid;
   std::vector<std::uint16_t> redundancy;   ///< how many serve a cell; kNoDemand where nothing is to be served
   std::vector<std::uint16_t> best_server;  ///< 1: the first chosen; 0: none
+  std::vector<viewshed::Verdict> served;   ///< kVisible: by enough sites
   static constexpr std::uint16_t kNoDemand = 65535;
+
+  std::uint64_t count(viewshed::Verdict verdict) const {
+    return static_cast<std::uint64_t>(std::count(served.begin(), served.end(), verdict));
+  }
 };
 
 struct SiteResult {
@@ -37,6 +44,7 @@ struct SiteResult {
   viewshed::Choice choice;
   SiteNetwork network;
   std::vector<SiteRoute> routes;  ///< from the network's sites to the hub; none without one
+  double undecided = 0;           ///< by how much the value would grow if ground without data hid nothing
   SiteRasters rasters;
   std::vector<double> ground_m;  ///< elevation of the ground under each chosen site, which may stand on a roof
 
@@ -52,6 +60,9 @@ struct SiteResult {
   /// By the chosen and the existing sites together, in the demand's own measure, and as a share of all demand.
   double served() const;
   double served_percent() const;
+  double undecided_percent() const;
+  /// How served is meant, or what is to be least.
+  std::string meaning() const;
   std::size_t refined() const;
   /// Whether every option was surveyed exactly from the first, and none by bounds.
   bool all_exact() const { return options.placement.sums_heights() || coverage.last_stage() == 0; }
@@ -69,8 +80,8 @@ viewshed::SiteSurvey site_survey(const SiteOptions& options, const SiteInputs& i
 std::vector<double> site_grounds(const Store& store, const SiteInputs& inputs, const viewshed::Choice& choice,
                                  Progress& progress);
 
-/// From exact coverage (or what is certain of it) of the chosen and the existing sites.
+/// What the chosen and the existing sites serve of cells, as rasters.
 SiteRasters site_rasters(const Store& store, const SiteOptions& options, const SiteInputs& inputs,
-                         const viewshed::SiteCoverage& coverage, const viewshed::Choice& choice, Progress& progress);
+                         const viewshed::Choice& choice, const JointCoverage& cells, Progress& progress);
 
 }  // namespace itin::cli

@@ -85,7 +85,6 @@ void warn_of(const SiteResult& site, const Store& store, std::vector<std::string
     warnings.push_back(fmt::format("{} of the demand cannot be served: there is no ground data",
                                    counted(site.inputs.demand_without_ground, "point")));
   warn_of_too_few(site, warnings);
-  warnings.insert(warnings.end(), site.coverage.warnings().begin(), site.coverage.warnings().end());
 }
 
 }  // namespace itin::cli

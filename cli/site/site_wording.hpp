@@ -23,6 +23,12 @@ struct SiteWording {
 
 SiteWording wording_of(const SiteOptions& options);
 
+/// "certainly " where ground without data leaves something open, or nothing.
+std::string certainly(const SiteResult& result);
+
+/// How much ground without data leaves open, and what decides it.
+std::string undecided_in_words(const SiteResult& result);
+
 /// What sees the turbines, or how much of them is seen, and what is proved of that; a sentence or two.
 std::string least_in_words(const SiteResult& result);
 

@@ -18,32 +18,31 @@ double weight_of(const viewshed::Demand& demand, std::size_t element) {
   return demand.in_metric(demand.weight(block, std::uint64_t{1} << (element % 64)));
 }
 
-/// The options as turbines.
-viewshed::ZoneRequest zone_request(const SiteOptions& options, const SiteInputs& inputs) {
+viewshed::ZoneRequest zone_request(const ShownTurbines& turbines) {
+  const SiteOptions& call = turbines.call;
   viewshed::ZoneRequest request;
-  for (std::size_t i = 0; i < inputs.options.size(); ++i)
-    request.turbines.push_back({.number = i + 1,
-                                .name = inputs.positions[i].name,
+  for (const std::size_t option : turbines.options)
+    request.turbines.push_back({.number = request.turbines.size() + 1,
+                                .name = turbines.inputs.positions[option].name,
                                 .farm = {},
-                                .position = inputs.positions[i].position,
-                                .tip_height = options.placement.tip_height(),
-                                .hub_height = options.placement.hub_height(),
-                                .rotor_diameter = options.placement.rotor_diameter(),
-                                .radius = options.radius});
-  request.observer_height = options.target_height;
-  request.earth = options.earth.earth();
-  // The least is looked for of what may be seen.
-  request.nodata = options.nodata.rule() == NoData::kUnknown ? NoData::kClear : options.nodata.rule();
+                                .position = turbines.inputs.positions[option].position,
+                                .tip_height = call.placement.tip_height(),
+                                .hub_height = call.placement.hub_height(),
+                                .rotor_diameter = call.placement.rotor_diameter(),
+                                .radius = call.radius});
+  request.observer_height = call.target_height;
+  request.earth = call.earth.earth();
+  request.nodata = turbines.nodata;
   return request;
 }
 
-std::vector<double> heights_over_cells(const Store& store, const SiteOptions& options, const SiteInputs& inputs,
-                                       Progress& progress) {
-  viewshed::ZoneRequest request = zone_request(options, inputs);
+std::vector<double> heights_over_cells(const Store& store, const ShownTurbines& turbines, Progress& progress) {
+  const auto& [call, inputs, options, nodata] = turbines;
+  viewshed::ZoneRequest request = zone_request(turbines);
   const RasterGrid& grid = *inputs.targets.grid;
   request.grid = grid;
-  request.memory_bytes = options.memory_bytes;
-  if (options.themes.choice().includes_raised(store.metadata().themes)) request.themes = options.themes.choice();
+  request.memory_bytes = call.memory_bytes;
+  if (call.themes.choice().includes_raised(store.metadata().themes)) request.themes = call.themes.choice();
   request.weights.resize(grid.cell_count());
   for (std::int64_t row = 0; row < grid.rows(); ++row)
     for (std::int64_t column = 0; column < grid.columns(); ++column)
@@ -52,14 +51,14 @@ std::vector<double> heights_over_cells(const Store& store, const SiteOptions& op
   return zone.screened ? zone.screened->height_sums_m : zone.bare.height_sums_m;
 }
 
-std::vector<double> heights_over_points(const Store& store, const SiteOptions& options, const SiteInputs& inputs,
-                                        Progress& progress) {
-  const viewshed::ZoneRequest request = zone_request(options, inputs);
+std::vector<double> heights_over_points(const Store& store, const ShownTurbines& turbines, Progress& progress) {
+  const auto& [call, inputs, options, nodata] = turbines;
+  const viewshed::ZoneRequest request = zone_request(turbines);
   const std::vector<Point2>& points = inputs.targets.points;
   const auto grounds = viewshed::ground_under(store, points, ThemeChoice::none(), progress);
-  const SectionSurface surface(store, Detail::tolerance(0), options.themes.choice(),
-                               section_cache_within(options.memory_bytes));
-  std::vector<double> sums(inputs.options.size());
+  const SectionSurface surface(store, Detail::tolerance(0), call.themes.choice(),
+                               section_cache_within(call.memory_bytes));
+  std::vector<double> sums(options.size());
   for (std::size_t p = 0; p < points.size(); ++p) {
     progress.throw_if_cancelled();
     progress.report("sight lines of candidates", static_cast<double>(p) / static_cast<double>(points.size()));
@@ -69,12 +68,12 @@ std::vector<double> heights_over_points(const Store& store, const SiteOptions& o
     std::vector<std::size_t> numbers;
     for (std::size_t i = 0; i < request.turbines.size(); ++i) {
       const Point2 foot = request.turbines[i].position;
-      if (std::hypot(foot.x - points[p].x, foot.y - points[p].y) > options.radius) continue;
+      if (std::hypot(foot.x - points[p].x, foot.y - points[p].y) > call.radius) continue;
       near.request.turbines.push_back(request.turbines[i]);
-      near.ground_m.push_back(inputs.positions[i].ground);
+      near.ground_m.push_back(inputs.positions[options[i]].ground);
       numbers.push_back(i);
     }
-    const Viewpoint eye{p, {}, points[p], options.target_height, *grounds[p]};
+    const Viewpoint eye{p, {}, points[p], call.target_height, *grounds[p]};
     const std::vector<Sight> sights = sights_to_all(surface, eye, near);
     for (std::size_t k = 0; k < numbers.size(); ++k)
       sums[numbers[k]] += weight_of(inputs.demand, p) * sights[k].visible;
@@ -84,10 +83,9 @@ std::vector<double> heights_over_points(const Store& store, const SiteOptions& o
 
 }  // namespace
 
-std::vector<double> summed_visible_heights(const Store& store, const SiteOptions& options, const SiteInputs& inputs,
-                                           Progress& progress) {
-  return inputs.targets.grid ? heights_over_cells(store, options, inputs, progress)
-                             : heights_over_points(store, options, inputs, progress);
+std::vector<double> summed_visible_heights(const Store& store, const ShownTurbines& turbines, Progress& progress) {
+  return turbines.inputs.targets.grid ? heights_over_cells(store, turbines, progress)
+                                      : heights_over_points(store, turbines, progress);
 }
 
 OwnElements::OwnElements(std::size_t options) {

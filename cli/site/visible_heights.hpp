@@ -11,10 +11,17 @@
 
 namespace itin::cli {
 
+/// Turbines at some options.
+struct ShownTurbines {
+  const SiteOptions& call;
+  const SiteInputs& inputs;
+  std::vector<std::size_t> options;
+  NoData nodata = NoData::kBlock;  ///< kBlock: what is certainly seen; kClear: what may be
+};
+
 /// Metres from its tip down that are seen, times the weight of what sees them, summed over the demand within the
-/// radius; of each option. Cells as `itin ztv` has them, points as its viewpoints. Throws as survey_turbines() does.
-std::vector<double> summed_visible_heights(const Store& store, const SiteOptions& options, const SiteInputs& inputs,
-                                           Progress& progress);
+/// radius; of each turbine. Cells as `itin ztv` has them, points as its viewpoints. Throws as survey_turbines() does.
+std::vector<double> summed_visible_heights(const Store& store, const ShownTurbines& turbines, Progress& progress);
 
 class OwnElements final : public viewshed::Coverage {
  public:

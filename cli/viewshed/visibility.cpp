@@ -153,6 +153,7 @@ class VisibilityVerb final : public Verb {
     document["mean_share"] = index.mean;
     document["mean_share_standard_error"] = index.mean_error;
     document["mean_share_undecided"] = index.mean_undecided;
+    if (index.mean_undecided > 0) document["undecided_decided_by"] = "--nodata block or clear";
     document["sources"] = sources_document(sources);
     document["outputs"] = {output_, style_beside(output_)};
     if (!sheet_.file().empty()) document["outputs"].push_back(sheet_.file());
@@ -178,6 +179,25 @@ class VisibilityVerb final : public Verb {
         100 * index.mean_undecided);
   }
 
+  /// Cells of the area that have no observer, since they have no ground.
+  MissingOnSheet places_without_observers(const StoreMetadata& metadata, const viewshed::VisibilityIndex& index) const {
+    std::vector<std::uint8_t> missing(index.grid.cell_count());
+    const Box data = metadata.grid.box(metadata.bounds);
+    for (std::int64_t row = 0; row < index.grid.rows(); ++row) {
+      for (std::int64_t column = 0; column < index.grid.columns(); ++column) {
+        const Point2 place = index.grid.centre(column, row);
+        const std::size_t i = index.grid.index({column, row});
+        missing[i] = std::isnan(index.share[i]) && data.contains(place) && request_.area.contains(place);
+      }
+    }
+    viewshed::MissingGround share;
+    share.without_ground = static_cast<std::uint64_t>(std::count(missing.begin(), missing.end(), 1));
+    share.with_ground = index.observers;
+    share.cell_area = index.grid.cell_area();
+    return missing_on_sheet(viewshed::PlacesWithoutGround({{index.grid, std::move(missing)}}), share,
+                            "the area of observers");
+  }
+
   void write_sheet(const Store& store, const viewshed::VisibilityIndex& index, std::vector<std::string> sources,
                    Progress& progress) const {
     const StoreMetadata& metadata = store.metadata();
@@ -187,7 +207,8 @@ class VisibilityVerb final : public Verb {
                       "Share of the ground within the radius that is seen",
                       in_cells(index.grid, [&](std::size_t cell) { return !std::isnan(index.share[cell]); }),
                       {},
-                      {}};
+                      {},
+                      places_without_observers(metadata, index)};
     profile::TitleBlock& block = sheet.title;
     block.title = "How much is seen from everywhere";
     block.statement = statement_of(metadata, request_.themes, request_.detail);

@@ -147,7 +147,7 @@ TEST_F(Sites, RefuseHeightsBeyondAll) {
   SiteQuery query = file("masts.csv", "x,y,h\n1,2,3\n1,2,-2e6\n");
   query.height_field = "h";
   EXPECT_THAT([&] { read_sites(query, ""); },
-              ThrowsMessage<InputError>(HasSubstr("feature 2: a height of -2e+06 m is beyond 1000000 m")));
+              ThrowsMessage<InputError>(HasSubstr("feature 2: field 'h': a height of -2e+06 m is beyond 1000000 m")));
   std::vector<std::string> rejected;
   EXPECT_EQ(read_sites(query, "", rejected).size(), 1u);
   EXPECT_EQ(rejected.size(), 1u);

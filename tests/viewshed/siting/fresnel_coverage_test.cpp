@@ -97,7 +97,7 @@ class FresnelSites : public ::testing::Test {
     query.earth = survey_.earth;
     query.themes = themes;
     query.radio = profile::RadioPath{.frequency_ghz = frequency_ghz_, .effective_earth_km = 8500};
-    query.nodata = survey_.nodata == NoData::kBlock ? profile::NoData::kBlock : profile::NoData::kClear;
+    query.nodata = survey_.nodata;
     query.to_on_surface = survey_.targets.on_surface;
     const std::vector<profile::LinkResult> results = survey_links(*store_, links, query, progress_);
     std::vector<std::uint64_t> members(element_count(grid) / 64);

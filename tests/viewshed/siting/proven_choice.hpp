@@ -37,7 +37,7 @@ inline std::vector<DemandSet> exact_coverage(const Store& store, const SiteSurve
   request.radius = survey.radius;
   request.grid = survey.targets.grid;
   request.themes = survey.themes;
-  request.nodata = NoData::kClear;
+  request.nodata = survey.nodata;
   NoProgress progress;
   std::vector<DemandSet> truth;
   for (const SitePosition& place : survey.positions) {

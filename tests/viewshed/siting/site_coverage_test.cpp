@@ -1,4 +1,5 @@
 // Bounds of what sites serve, against precise viewsheds; and the choice made on them, against brute force.
+#include <algorithm>
 #include <iostream>
 #include <numeric>
 #include <random>
@@ -26,6 +27,8 @@ namespace {
 
 constexpr Point2 kSitesCorner{300000, 200000};
 constexpr double kSitesStep = 50, kRadius = 1500;
+/// By 700 m of its middle.
+constexpr Point2 kWestOfTheHole{kSitesCorner.x + 35 * kSitesStep - 700, kSitesCorner.y - 60 * kSitesStep};
 
 class Sites : public ::testing::Test {
  protected:
@@ -59,16 +62,22 @@ class Sites : public ::testing::Test {
     survey_.tolerance = 4;
   }
 
-  /// The answer of test::compute_at_full_detail() for one site.
-  DemandSet precise(std::size_t option) {
+  SitePosition mast(Point2 position, double height) {
+    return {"mast", position, height, ground_under(*store_, {position}, ThemeChoice::none(), progress_)[0].value()};
+  }
+
+  /// The cells that test::compute_at_full_detail() says are certainly in sight of one site.
+  DemandSet precise(std::size_t option) { return precise(option, survey_.nodata, {Verdict::kVisible}); }
+
+  /// Those of one of the verdicts under a rule.
+  DemandSet precise(std::size_t option, NoData rule, const std::vector<Verdict>& verdicts) {
     const SitePosition& place = survey_.positions[option];
     Request request;
     request.observers = {{place.name, place.position, place.height}};
     request.target_height = survey_.targets.height;
-    request.radius = kRadius;
+    request.radius = survey_.radius;
     request.grid = survey_.targets.grid;
-    // Siting counts what is seen across missing ground as served, unless that blocks.
-    request.nodata = survey_.nodata == NoData::kUnknown ? NoData::kClear : survey_.nodata;
+    request.nodata = rule;
     const Result result = test::compute_at_full_detail(*store_, request, {}, progress_).result;
     DemandSet set;
     const RasterGrid& grid = *survey_.targets.grid;
@@ -77,7 +86,7 @@ class Sites : public ::testing::Test {
       for (std::size_t bit = 0; bit < 64; ++bit) {
         const RasterGrid::Cell cell = cell_of(grid, 64 * block + bit);
         if (cell.column < grid.columns() && cell.row < grid.rows() &&
-            result.visible[grid.index(cell)] == Verdict::kVisible)
+            std::find(verdicts.begin(), verdicts.end(), result.visible[grid.index(cell)]) != verdicts.end())
           members |= std::uint64_t{1} << bit;
       }
       set.add(static_cast<std::uint32_t>(block), members);
@@ -190,6 +199,61 @@ TEST_F(Sites, WhatIsMissingHidesIfThatIsAskedFor) {
   SiteCoverage at_once(*store_, survey_, progress_);
   EXPECT_EQ(at_once.last_stage(), 0);
   expect_bounds_at_every_stage(at_once, truth);
+}
+
+/// Served is what single viewsheds certainly see; what they leave undecided is served under kClear besides.
+TEST_F(Sites, WhatIsMissingLeavesOpenWhatViewshedsLeaveUndecided) {
+  make_terrain(100, 200, true);
+  make_survey(7);
+  survey_.positions.push_back(mast(kWestOfTheHole, 300));
+  survey_.targets.grid = grid_of_reach(*store_, survey_.positions, kRadius, 60);
+  const auto exact = [&](std::size_t site, const SiteSurvey& survey, NoData rule) {
+    SiteSurvey under = survey;
+    under.nodata = rule;
+    SiteCoverage coverage(*store_, under, progress_);
+    EXPECT_EQ(coverage.leaves_open(), rule == NoData::kUnknown);
+    while (!coverage.bounds(site).exact) coverage.refine({&site, 1});
+    return test::without_padding(*survey_.targets.grid, coverage.bounds(site).certain);
+  };
+  std::size_t undecided = 0;
+  for (std::size_t site = 0; site < survey_.positions.size(); ++site) {
+    const DemandSet seen = precise(site, NoData::kUnknown, {Verdict::kVisible}),
+                    open = precise(site, NoData::kUnknown, {Verdict::kUndecided});
+    undecided += open.size();
+    for (const SiteSurvey& survey : {survey_, test::survey_of_points(survey_)}) {
+      const DemandSet certain = exact(site, survey, NoData::kUnknown), possible = exact(site, survey, NoData::kClear);
+      EXPECT_EQ(certain, seen);
+      EXPECT_EQ(certain, exact(site, survey, NoData::kBlock));
+      EXPECT_EQ(possible, set_union(certain, open));
+      EXPECT_EQ(difference(possible, certain), open);
+    }
+  }
+  EXPECT_GT(undecided, 0U);
+}
+
+TEST_F(Sites, NothingIsLeftOpenWhereNoLineCrossesMissingGround) {
+  make_terrain(100, 200, true);
+  make_survey(8);
+  survey_.positions = {mast({kSitesCorner.x + 4500, kSitesCorner.y - 500}, 30)};
+  SiteCoverage coverage(*store_, survey_, progress_);
+  EXPECT_FALSE(coverage.leaves_open());
+  expect_bounds_at_every_stage(coverage, all_precise());
+}
+
+/// From where the hole's rim begins to hide its own ground, 632 m away.
+TEST_F(Sites, MissingGroundCountsAsFarAsTheRadius) {
+  make_terrain(100, 200, true);
+  survey_.positions = {mast(kWestOfTheHole, 300)};
+  survey_.targets.height = 2;
+  for (const double radius : {550.0, 1200.0}) {
+    survey_.radius = radius;
+    survey_.targets.grid = grid_of_reach(*store_, survey_.positions, radius, 20);
+    const bool reaches = radius > 632;
+    EXPECT_EQ(precise(0, NoData::kUnknown, {Verdict::kUndecided}).empty(), !reaches);
+    SiteCoverage coverage(*store_, survey_, progress_);
+    EXPECT_EQ(coverage.leaves_open(), reaches);
+    expect_bounds_at_every_stage(coverage, all_precise());
+  }
 }
 
 TEST_F(Sites, PointsAreServedAsCellsAtTheSamePlaces) {
@@ -313,7 +377,6 @@ TEST(SitesInTown, FeaturesOnlyHide) {
     request.radius = survey.radius;
     request.grid = survey.targets.grid;
     request.themes = ThemeChoice::all();
-    request.nodata = NoData::kClear;
     const Result precise = test::compute_at_full_detail(store, request, {}, progress).result;
     std::uint64_t different = 0;
     const RasterGrid& grid = *survey.targets.grid;

@@ -83,6 +83,7 @@ class SitesAmongHouses : public testing::Test {
   SiteSurvey survey_of(std::size_t count, bool on_roofs, bool targets_on_surface) {
     SiteSurvey survey;
     survey.themes = ThemeChoice::all();
+    survey.nodata = NoData::kClear;  // as test::brute_force()
     std::vector<Point2> positions;
     for (std::size_t i = 0; i < 2 * count; ++i) positions.push_back(anywhere());
     const auto ground =

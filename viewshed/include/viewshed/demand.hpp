@@ -53,6 +53,8 @@ void for_each_element(const DemandSet& set, const Visit& visit) {
 DemandSet intersection(const DemandSet& a, const DemandSet& b);
 /// Contains the members of either. O(blocks).
 DemandSet set_union(const DemandSet& a, const DemandSet& b);
+/// Contains the members of the first that the second does not have. O(blocks).
+DemandSet difference(const DemandSet& a, const DemandSet& b);
 
 /// Every element the same, 1, or weights of their own.
 class Demand {

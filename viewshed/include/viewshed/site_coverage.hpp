@@ -17,6 +17,8 @@
 // first: features only raise it, so that what it hides for a target on the ground needs no further stage. (Where flat
 // foundations cut into it, the surface with its features comes first all the same.)
 //
+// Under NoData::kUnknown the bounds are of what is certainly served: by no line across ground without data.
+//
 // With a FresnelCriterion the zone is judged over the same surfaces, after the line (over coarse ones only where the
 // memory does not hold the full one): what the lower one cuts is not served, what clears the upper one is. In the end
 // it is what fresnel_clearance() says of each link's profile.
@@ -62,6 +64,7 @@ struct SiteSurvey {
   SiteTargets targets;
   double radius = 10000;  ///< metres: no site serves farther
   Earth earth;
+  /// Served is what is certainly seen: under kUnknown nothing across ground without data, as under kBlock.
   NoData nodata = NoData::kUnknown;
   ThemeChoice themes = ThemeChoice::none();
   /// Served are targets in sight; with a criterion only those whose link meets it, too.
@@ -121,9 +124,9 @@ class SiteCoverage final : public Coverage {
   std::function<void(std::size_t option, int stage, const CoverageBounds& bounds)> on_refined;
 
   const Statistics& statistics() const;
-  /// What is to be known of sites that were looked at: that their lines may cross ground without data, which counts as
-  /// clear unless the rule is kBlock, where no rule was chosen.
-  const std::vector<std::string>& warnings() const;
+  /// Whether ground without data may leave open what the sites serve: the rule is kUnknown, and a sight line may cross
+  /// it. What they serve if it hides nothing, a survey under kClear tells.
+  bool leaves_open() const;
 
  private:
   class Impl;

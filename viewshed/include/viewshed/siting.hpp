@@ -154,7 +154,9 @@ void check_goal(const std::vector<SiteOption>& options, const ChoiceGoal& goal);
 Choice choose(const Demand& demand, const std::vector<SiteOption>& options, Coverage& coverage, const ChoiceGoal& goal,
               Progress& progress);
 
-/// The weight of what at least `cover` of the sets hold.
+/// What at least `cover` of the sets hold.
+DemandSet served_elements(const Demand& demand, const std::vector<DemandSet>& sets, int cover);
+/// The weight of that.
 Weight served_by(const Demand& demand, const std::vector<DemandSet>& sets, int cover);
 
 /// 100 (upper_bound - lower_bound) / upper_bound; 0 where there is nothing to gain.

@@ -23,6 +23,7 @@ EnvelopeScene::EnvelopeScene(Envelope e, const Request& request, const RasterGri
       drop(request.earth.drop_coefficient() * envelope.lower.grid.resolution),
       tiles_(tiles) {
   if (envelope.bare_ground) ground_bins.emplace(*envelope.bare_ground, tiles);
+  if (rule != NoData::kClear) rim_ = rim_of(envelope.upper, envelope.outline);
 }
 
 EnvelopeScene::View EnvelopeScene::view_from(const Eye& eye) const {
@@ -33,8 +34,7 @@ EnvelopeScene::View EnvelopeScene::view_from(const Eye& eye) const {
     std::iota(all.begin(), all.end(), 0U);
   }
   View view{eye, upper_height(eye, tile ? bins.triangles(tiles_.index(*tile)) : all)};
-  if (rule != NoData::kClear)
-    view.shadow = std::make_shared<const VoidShadow>(rim_of(envelope.upper, envelope.outline), eye.units, rule);
+  if (rule != NoData::kClear) view.shadow = std::make_shared<const VoidShadow>(rim_, eye.units, rule);
   return view;
 }
 

@@ -87,6 +87,7 @@ class EnvelopeScene {
   double upper_height(const Eye& eye, std::span<const std::uint32_t> triangles) const;
 
   const RasterGrid& tiles_;
+  std::vector<RimEdge> rim_;  ///< where the surface ends; empty where missing ground hides nothing
 };
 
 }  // namespace itin::viewshed

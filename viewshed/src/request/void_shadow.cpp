@@ -20,10 +20,6 @@ constexpr double kTurn = 2 * std::numbers::pi;
 
 }  // namespace
 
-NoData decided_missing_ground_rule(NoData rule) {
-  return rule == NoData::kUnknown ? NoData::kClear : rule;
-}
-
 double VoidShadow::cross(const Vector& a, const Vector& b) {
   return a.x * b.y - a.y * b.x;
 }

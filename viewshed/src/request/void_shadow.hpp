@@ -18,12 +18,6 @@
 
 namespace itin::viewshed {
 
-inline constexpr const char* kVoidsWarning =
-    "sight lines may cross ground without data, which counts as clear; give `nodata` block or clear to choose";
-
-/// For answers that leave nothing open: what is not known hides nothing.
-NoData decided_missing_ground_rule(NoData rule);
-
 class VoidShadow {
  public:
   /// Grid units; what lies in it is hidden under kBlock and undecided under kUnknown. Cost: the edges, each as often as

@@ -38,10 +38,9 @@ std::optional<double> number_of_field(const OGRFeature& feature, int field) {
 std::optional<double> height_of(const OGRFeature& feature, int field, const std::string& place) {
   const std::optional<double> height = number_of_field(feature, field);
   if (!height) return std::nullopt;
-  if (!std::isfinite(*height))
-    throw FileError(place,
-                    fmt::format("its height field '{}' holds no number", feature.GetFieldDefnRef(field)->GetNameRef()));
-  require_height(*height, place);
+  const char* const name = feature.GetFieldDefnRef(field)->GetNameRef();
+  if (!std::isfinite(*height)) throw FileError(place, fmt::format("its height field '{}' holds no number", name));
+  require_height(*height, fmt::format("{}: field '{}'", place, name));
   return height;
 }
 

@@ -223,10 +223,14 @@ Choice choose(const Demand& demand, const std::vector<SiteOption>& options, Cove
   return choice;
 }
 
-Weight served_by(const Demand& demand, const std::vector<DemandSet>& sets, int cover) {
+DemandSet served_elements(const Demand& demand, const std::vector<DemandSet>& sets, int cover) {
   Served served(demand, cover);
   for (const DemandSet& set : sets) served.add(set);
-  return served.value();
+  return served.elements();
+}
+
+Weight served_by(const Demand& demand, const std::vector<DemandSet>& sets, int cover) {
+  return demand.weight(served_elements(demand, sets, cover));
 }
 
 double gap_percent(const Choice& choice) {

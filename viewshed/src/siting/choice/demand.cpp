@@ -56,6 +56,17 @@ DemandSet set_union(const DemandSet& a, const DemandSet& b) {
   return result;
 }
 
+DemandSet difference(const DemandSet& a, const DemandSet& b) {
+  DemandSet result;
+  auto other = b.blocks().begin();
+  for (const DemandSet::Block& block : a.blocks()) {
+    while (other != b.blocks().end() && other->number < block.number) ++other;
+    const bool both = other != b.blocks().end() && other->number == block.number;
+    result.add(block.number, both ? block.members & ~other->members : block.members);
+  }
+  return result;
+}
+
 Demand::Demand(const std::vector<double>& weights) : count_(weights.size()) {
   double sum = 0;
   bool whole = true;

@@ -55,12 +55,17 @@ class Served {
   }
   /// The gain of several sets together: the sum over elements of as many of them as still help.
   Weight gain(std::span<const DemandSet* const> sets) const;
-  /// Served by enough sites.
+  /// Served by enough sites, as elements() are.
   Weight value() const {
     Weight sum = 0;
     for (std::size_t b = 0; b < enough_.size(); ++b)
       if (enough_[b] != 0) sum += demand_->weight(static_cast<std::uint32_t>(b), enough_[b]);
     return sum;
+  }
+  DemandSet elements() const {
+    DemandSet set;
+    for (std::size_t b = 0; b < enough_.size(); ++b) set.add(static_cast<std::uint32_t>(b), enough_[b]);
+    return set;
   }
   bool enough(std::size_t element) const { return (enough_[element / 64] >> (element % 64) & 1) != 0; }
 

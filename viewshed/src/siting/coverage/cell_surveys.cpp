@@ -12,7 +12,7 @@ class EnvelopeCells final : public GroupSurvey {
   EnvelopeCells(const SiteSurvey& survey, const Request& request, Envelope envelope, bool zones)
       : survey_(survey),
         tiles_(grid_of_tiles(*survey.targets.grid)),
-        scene_(std::move(envelope), request, tiles_, decided_missing_ground_rule(survey.nodata)) {
+        scene_(std::move(envelope), request, tiles_, survey.nodata) {
     if (zones) zone_.emplace(scene_.envelope.lower, &scene_.envelope.upper, survey.earth, *survey.fresnel);
   }
 
@@ -22,7 +22,6 @@ class EnvelopeCells final : public GroupSurvey {
                               eyes_of(scene_.envelope.lower.grid, survey_, sites));
     return judge_tiles(judge, zone_, survey_, sites, progress, statistics);
   }
-  std::vector<RimEdge> rim() const override { return rim_of(scene_.envelope.upper, scene_.envelope.outline); }
 
  private:
   const SiteSurvey& survey_;
@@ -55,7 +54,6 @@ class ExactCells final : public GroupSurvey {
     for (CoverageBounds& bounds : result) bounds.exact = true;
     return result;
   }
-  std::vector<RimEdge> rim() const override { return surface_.full.rim(); }
 
  private:
   const SiteSurvey& survey_;

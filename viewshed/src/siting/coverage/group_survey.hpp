@@ -6,7 +6,6 @@
 #include <span>
 #include <vector>
 
-#include <itin/lattice_tin.hpp>
 #include <viewshed/site_coverage.hpp>
 #include <viewshed/surface.hpp>
 
@@ -33,8 +32,6 @@ class GroupSurvey {
   /// The new bounds. Throws Cancelled.
   virtual std::vector<CoverageBounds> judge(const SitesToJudge& sites, Progress& progress,
                                             Statistics& statistics) const = 0;
-  /// Where the surface that is judged over ends; empty where it does not tell.
-  virtual std::vector<RimEdge> rim() const { return {}; }
 };
 
 /// Surveys cells over bounds of the surface. The survey must outlive it, as it must all of these. `zones`: whether they

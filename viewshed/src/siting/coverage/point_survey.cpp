@@ -133,7 +133,7 @@ class PointSurvey final : public GroupSurvey {
   PointSurvey(const SiteSurvey& survey, const Request& request, Envelope envelope, bool zones)
       : survey_(survey),
         bins_(bins_of_points(survey.targets.points)),
-        scene_(std::move(envelope), request, bins_, decided_missing_ground_rule(survey.nodata)),
+        scene_(std::move(envelope), request, bins_, survey.nodata),
         grounds_(survey.targets.points.size()) {
     if (zones) {
       zone_.emplace(scene_.envelope.lower, scene_.exact ? nullptr : &scene_.envelope.upper, survey.earth,
@@ -163,7 +163,6 @@ class PointSurvey final : public GroupSurvey {
     statistics.lines += rays;
     return result;
   }
-  std::vector<RimEdge> rim() const override { return rim_of(scene_.envelope.upper, scene_.envelope.outline); }
 
  private:
   const SiteSurvey& survey_;

@@ -11,7 +11,7 @@
 
 #include "progress/stopwatch.hpp"
 #include "request/request.hpp"
-#include "request/void_shadow.hpp"
+#include "siting/coverage/crossed_voids.hpp"
 #include "siting/coverage/demand_blocks.hpp"
 #include "siting/coverage/group_surfaces.hpp"
 #include "siting/coverage/site_window.hpp"
@@ -55,8 +55,9 @@ RasterGrid::Cell cell_of(const RasterGrid& grid, std::size_t element) {
 class SiteCoverage::Impl {
  public:
   Impl(const Store& store, SiteSurvey survey, Progress& progress)
-      : units_(store.metadata().grid),
-        survey_(with_positions(std::move(survey))),
+      : crosses_voids_(may_cross_voids(store, survey, progress)),
+        leaves_open_(crosses_voids_ && survey.nodata == NoData::kUnknown),
+        survey_(certain_survey(std::move(survey), crosses_voids_)),
         progress_(progress),
         stages_(store, survey_),
         surfaces_(store, survey_, stages_, statistics_) {
@@ -114,12 +115,18 @@ class SiteCoverage::Impl {
   void release_surfaces() { surfaces_.release(); }
 
   const Statistics& statistics() const { return statistics_; }
-  const std::vector<std::string>& warnings() const { return warnings_; }
+  bool leaves_open() const { return leaves_open_; }
   std::function<void(std::size_t, int, const CoverageBounds&)>* on_refined = nullptr;
 
  private:
-  static SiteSurvey with_positions(SiteSurvey survey) {
+  static bool may_cross_voids(const Store& store, const SiteSurvey& survey, Progress& progress) {
     if (survey.positions.empty()) throw InputError("no site to look from: give at least one on the data");
+    return survey.nodata != NoData::kClear && sites_may_cross_voids(store, survey, progress);
+  }
+  /// What is seen across ground without data is not certain: there it hides. Where no line crosses any, no look is
+  /// taken at its rim.
+  static SiteSurvey certain_survey(SiteSurvey survey, bool crosses_voids) {
+    survey.nodata = crosses_voids ? NoData::kBlock : NoData::kClear;
     return survey;
   }
 
@@ -165,16 +172,6 @@ class SiteCoverage::Impl {
       record_bounds(options[i], stage, std::exchange(after[i], {}));
     }
     statistics_.lines_seconds += watch.lap();
-    warn_of_voids(options, survey);
-  }
-
-  void warn_of_voids(const std::vector<std::size_t>& options, const GroupSurvey& survey) {
-    if (survey_.nodata != NoData::kUnknown || !warnings_.empty()) return;
-    const std::vector<RimEdge> rim = survey.rim();
-    const bool crossed = std::any_of(options.begin(), options.end(), [&](std::size_t option) {
-      return may_cross_voids(units_, rim, survey_.positions[option].position, survey_.radius);
-    });
-    if (crossed) warnings_.emplace_back(kVoidsWarning);
   }
 
   void record_bounds(std::size_t option, int stage, const CoverageBounds& bounds) {
@@ -182,14 +179,14 @@ class SiteCoverage::Impl {
     if (on_refined != nullptr && *on_refined) (*on_refined)(option, stage, states_[option].bounds);
   }
 
-  const Grid units_;
-  const SiteSurvey survey_;
+  const bool crosses_voids_;  ///< sight lines may do so, and the rule does not let them pass
+  const bool leaves_open_;
+  const SiteSurvey survey_;  ///< its rule is kBlock or kClear
   Progress& progress_;
   Statistics statistics_;
   SurveyStages stages_;
   GroupSurfaces surfaces_;
   std::vector<State> states_;
-  std::vector<std::string> warnings_;
 };
 
 SiteCoverage::SiteCoverage(const Store& store, SiteSurvey survey, Progress& progress)
@@ -228,8 +225,8 @@ void SiteCoverage::restore(std::size_t option, int stage, const CoverageBounds& 
 const Statistics& SiteCoverage::statistics() const {
   return impl_->statistics();
 }
-const std::vector<std::string>& SiteCoverage::warnings() const {
-  return impl_->warnings();
+bool SiteCoverage::leaves_open() const {
+  return impl_->leaves_open();
 }
 
 }  // namespace itin::viewshed

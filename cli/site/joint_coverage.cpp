@@ -1,0 +1,87 @@
+#include "site/joint_coverage.hpp"
+
+#include <algorithm>
+
+#include "site/site_result.hpp"
+
+namespace itin::cli {
+
+namespace {
+
+using viewshed::DemandSet;
+using viewshed::SiteSurvey;
+
+SiteSurvey survey_of_serving(const SiteOptions& options, const SiteInputs& inputs,
+                             const std::vector<std::size_t>& sites) {
+  SiteSurvey survey = site_survey(options, inputs);
+  survey.positions.clear();
+  for (const std::size_t site : sites) survey.positions.push_back(inputs.positions[site]);
+  survey.tolerance = 0;
+  return survey;
+}
+
+/// What each site of the survey serves, exactly.
+std::vector<DemandSet> served_exactly(const Store& store, const SiteSurvey& survey, Progress& progress) {
+  viewshed::SiteCoverage coverage(store, survey, progress);
+  std::vector<DemandSet> served;
+  for (std::size_t i = 0; i < survey.positions.size(); ++i) {
+    while (!coverage.bounds(i).exact) coverage.refine({&i, 1});
+    served.push_back(coverage.bounds(i).certain);
+  }
+  return served;
+}
+
+/// What the sites of the survey serve only if ground without data hides nothing; `certain` is what each serves if that
+/// hides all.
+DemandSet open_to_missing_ground(const Store& store, SiteSurvey survey, const std::vector<DemandSet>& certain,
+                                 int cover, Progress& progress) {
+  survey.nodata = NoData::kClear;
+  const std::vector<DemandSet> possible = served_exactly(store, survey, progress);
+  const viewshed::Demand elements(survey.targets.grid ? viewshed::element_count(*survey.targets.grid)
+                                                      : survey.targets.points.size());
+  return difference(served_elements(elements, possible, cover), served_elements(elements, certain, cover));
+}
+
+}  // namespace
+
+std::vector<std::size_t> serving_sites(const SiteInputs& inputs, const viewshed::Choice& choice) {
+  std::vector<std::size_t> sites;
+  for (const viewshed::ChosenSite& site : choice.chosen) sites.push_back(site.option);
+  for (std::size_t i = inputs.options.size(); i < inputs.positions.size(); ++i) sites.push_back(i);
+  return sites;
+}
+
+JointCoverage joint_coverage(const Store& store, const SiteOptions& options, const SiteInputs& inputs,
+                             const viewshed::SiteCoverage& coverage, const viewshed::Choice& choice,
+                             Progress& progress) {
+  const std::vector<std::size_t> sites = serving_sites(inputs, choice);
+  JointCoverage joint{inputs.targets, {}, {}};
+  for (const std::size_t site : sites) joint.certain.push_back(coverage.bounds(site).certain);
+  if (sites.empty() || !coverage.leaves_open()) return joint;
+  const SiteSurvey survey = survey_of_serving(options, inputs, sites);
+  const bool exact =
+      std::all_of(sites.begin(), sites.end(), [&](std::size_t site) { return coverage.bounds(site).exact; });
+  joint.undecided = open_to_missing_ground(
+      store, survey, exact ? joint.certain : served_exactly(store, survey, progress), options.cover, progress);
+  // Existing sites may serve what no candidate reaches.
+  if (!inputs.cells.empty()) joint.undecided = intersection(joint.undecided, inputs.cells);
+  return joint;
+}
+
+JointCoverage joint_coverage_on_cells(const Store& store, const SiteOptions& options, const SiteInputs& inputs,
+                                      const viewshed::SiteCoverage& coverage, const viewshed::Choice& choice,
+                                      Progress& progress) {
+  const std::vector<std::size_t> sites = serving_sites(inputs, choice);
+  SiteSurvey survey = survey_of_serving(options, inputs, sites);
+  survey.targets.points.clear();
+  survey.targets.grid = viewshed::grid_of_reach(store, sites.empty() ? inputs.positions : survey.positions,
+                                                options.radius, options.cell_size());
+  JointCoverage joint{survey.targets, {}, {}};
+  if (sites.empty()) return joint;
+  joint.certain = served_exactly(store, survey, progress);
+  if (coverage.leaves_open())
+    joint.undecided = open_to_missing_ground(store, survey, joint.certain, options.cover, progress);
+  return joint;
+}
+
+}  // namespace itin::cli
