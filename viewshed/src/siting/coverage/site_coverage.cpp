@@ -55,7 +55,7 @@ RasterGrid::Cell cell_of(const RasterGrid& grid, std::size_t element) {
 class SiteCoverage::Impl {
  public:
   Impl(const Store& store, SiteSurvey survey, Progress& progress)
-      : crosses_voids_(may_cross_voids(store, survey, progress)),
+      : crosses_voids_(voids_matter(store, survey, progress)),
         leaves_open_(crosses_voids_ && survey.nodata == NoData::kUnknown),
         survey_(certain_survey(std::move(survey), crosses_voids_)),
         progress_(progress),
@@ -119,7 +119,7 @@ class SiteCoverage::Impl {
   std::function<void(std::size_t, int, const CoverageBounds&)>* on_refined = nullptr;
 
  private:
-  static bool may_cross_voids(const Store& store, const SiteSurvey& survey, Progress& progress) {
+  static bool voids_matter(const Store& store, const SiteSurvey& survey, Progress& progress) {
     if (survey.positions.empty()) throw InputError("no site to look from: give at least one on the data");
     return survey.nodata != NoData::kClear && sites_may_cross_voids(store, survey, progress);
   }
