@@ -11,7 +11,7 @@
 
 namespace itin::viewshed {
 
-/// NaN where there is no ground.
+/// Heights and shades of the ground at the pixels; NaN where there is no ground.
 struct Relief {
   RasterGrid pixels;
   std::vector<float> heights_m;

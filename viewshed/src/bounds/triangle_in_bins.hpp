@@ -21,8 +21,8 @@
 
 namespace itin::viewshed {
 
-/// Where a surface's vertices lie in a grid, which must both outlive it: columns and rows from the grid's north-west
-/// corner, give or take some 1e-9.
+/// The positions of a surface's vertices in a grid: columns and rows from the grid's north-west corner, give or take
+/// some 1e-9. Surface and grid must outlive this object.
 class VerticesInBins {
  public:
   VerticesInBins(const Tin& tin, const RasterGrid& grid)
