@@ -105,7 +105,7 @@ class HeightPyramid {
     double first = 0, last = 1;
     bool empty() const { return first > last; }
     Stretch operator&(const Stretch& other) const { return {std::max(first, other.first), std::min(last, other.last)}; }
-    /// Leaves what has a + b s <= c.
+    /// Keeps only the fractions s that have a + b s <= c; `per_b` is 1 / b.
     void limit(double a, double per_b, double c) {
       const double s = (c - a) * per_b;
       if (per_b > 0) last = std::min(last, s);

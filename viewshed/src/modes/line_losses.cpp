@@ -18,7 +18,7 @@ Point2 metres(const Grid& grid, const Point3& units) {
   return {grid.origin.x + units.x * grid.resolution, grid.origin.y + units.y * grid.resolution};
 }
 
-/// As seen from the line's other end.
+/// Turns the pieces to be seen from the line's other end.
 void mirror(double length_m, Pieces& pieces) {
   std::reverse(pieces.begin(), pieces.end());
   for (auto& [from, to] : pieces) {
@@ -27,14 +27,15 @@ void mirror(double length_m, Pieces& pieces) {
   }
 }
 
-/// The profile that pieces of a surface make, in order of distance, no two points farther apart than `most_m` where
-/// they are joined. Returns whether all of them are.
+/// Makes the profile of pieces of a surface, in order of distance; no two points are farther apart than `most_m` where
+/// pieces are joined. Returns whether all pieces are joined.
 bool chain(const Pieces& pieces, double most_m, std::vector<PathPoint>& points) {
   points.clear();
   bool whole = true;
   for (const SurfacePieces::Piece& piece : pieces) {
     const PathPoint &from = piece.from, &to = piece.to;
-    // A triangle again, or another beside an edge that the line runs along or a corner that it passes over.
+    // This is a triangle that comes again, or another beside an edge that the line runs along or a corner that it
+    // passes over.
     if (!points.empty() && to.distance_m <= points.back().distance_m) continue;
     const bool joined = !points.empty() && points.back().distance_m == from.distance_m;
     whole = whole && (joined || from.distance_m == 0);
