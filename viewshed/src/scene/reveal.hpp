@@ -31,8 +31,8 @@ struct Revealed {
 Revealed reveal(const Eye& eye, LatticeReader& reader, FullSurface& surface, std::uint64_t most_tiles,
                 Progress& progress);
 
-/// Which heights to read at once of about so many posts: all where it matters how high ground is that nobody sees, and
-/// where leaving some out would save little, since there are many observers or few tiles.
+/// Tells which heights to read at once of about `posts` posts. It is all where it matters how high ground is that
+/// nobody sees, and where leaving some out would save little, since there are many observers or few tiles.
 LatticeReader::Heights heights_for(const Request& request, std::uint64_t posts);
 /// Whether it matters how high ground is that nobody sees.
 bool asks_for_all_heights(const Request& request);

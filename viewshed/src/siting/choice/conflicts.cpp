@@ -9,7 +9,7 @@ namespace itin::viewshed {
 namespace {
 
 constexpr std::size_t kNoGroup = static_cast<std::size_t>(-1);
-/// Pairs of options looked at, over the whole search.
+/// How many pairs of options are looked at, over the whole search.
 constexpr double kPackingWork = 1e8;
 
 /// Closes the option and those that it excludes.

@@ -23,11 +23,11 @@ class Conflicts {
 
   /// As many of the options asked for as were found that can be chosen together.
   const std::vector<std::size_t>& fitting() const { return fitting_; }
-  /// No more can be.
+  /// No more options than this can be chosen together.
   std::size_t most() const { return most_; }
 
-  /// At most `count` of the `open` options that can be chosen together: always the one that excludes the fewest of
-  /// what is left.
+  /// Takes at most `count` of the `open` options that can be chosen together: always the one that excludes the fewest
+  /// of what is left.
   std::vector<std::size_t> pack(std::vector<bool> open, std::size_t count) const;
 
  private:
@@ -42,8 +42,8 @@ class Room {
  public:
   Room(const Conflicts& conflicts, std::size_t count);
 
-  /// Whether as many as are missing can join after the option, which must be compatible with what was taken: certain
-  /// where it says so. Some option always leaves room.
+  /// Tells whether the choice can be filled once this option is taken, which must be compatible with what was taken.
+  /// Certain where the answer is yes. Some option always leaves room.
   bool left_by(std::size_t option);
   void take(std::size_t option);
 

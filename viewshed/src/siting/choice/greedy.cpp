@@ -12,8 +12,7 @@ namespace itin::viewshed {
 
 namespace {
 
-/// The gain of an option with the relays on its way, by the measure of steps; where the least is wanted, less than
-/// nothing.
+/// The gain of an option with the relays on its way, by the measure of steps; negative where the least is wanted.
 struct Bid {
   std::size_t option = 0;
   double upper = 0;
