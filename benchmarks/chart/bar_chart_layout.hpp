@@ -30,7 +30,7 @@ struct BarChartLayout {
   std::vector<PlacedText> texts;
 };
 
-/// No texts overlap, and none leaves the page; those too long for it are cut.
+/// Lays out a chart. No texts overlap, and none leaves the page; texts too long for it are cut.
 BarChartLayout lay_out(const BarChart& chart);
 
 }  // namespace itin::bars

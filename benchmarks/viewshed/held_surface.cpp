@@ -19,7 +19,7 @@ struct Walk {
   Box area;
   double radius = 0;
 
-  /// Around a circle about the middle of the area.
+  /// A request from a place on a circle about the middle of the area.
   Request step(double n) const {
     const double round = std::min(area.width(), area.height()) / 2 - radius - 10;
     Request request;
@@ -38,7 +38,7 @@ std::string data(const std::string& name) {
   return std::string(ITIN_SOURCE_DIR) + "/scripts/demo-data/" + name;
 }
 
-/// Imports it, once per process.
+/// Imports the walk's ground, once per process.
 Walk make_walk(bool town) {
   const std::string name = "itin-walk-" + std::to_string(getpid()) + (town ? "-town.itin" : ".itin");
   Walk walk{(std::filesystem::temp_directory_path() / name).string(), {}, town ? 200.0 : 8000.0};
@@ -85,7 +85,8 @@ void BM_WalkHeld(benchmark::State& state) {
 }
 BENCHMARK(BM_WalkHeld)->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond)->UseRealTime();
 
-/// In strides of a fortieth of the radius: read each time, or by areas in the memory that holds the whole walk.
+/// Walks in strides of a fortieth of the radius. The surface is read each time, or by areas in the memory that holds
+/// the whole walk.
 void BM_Strides(benchmark::State& state, bool paged) {
   const Walk walk = make_walk(state.range(0) != 0);
   const Store store(walk.path);

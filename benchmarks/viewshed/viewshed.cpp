@@ -30,7 +30,7 @@ const Tin& terrain() {
   return tin;
 }
 
-/// This terrain with vertices off the lattice, for what lattices are spared.
+/// The terrain with vertices off the lattice, to measure what lattices are spared.
 const Tin& irregular() {
   static const Tin tin = [] {
     Tin moved = terrain();

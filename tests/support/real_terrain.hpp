@@ -51,7 +51,7 @@ inline std::optional<Tin> pant_y_wal() {
     const GDALDatasetUniquePtr tile(
         GDALDataset::Open(("/vsizip/" + path + "/" + upper + ".asc").c_str(), GDAL_OF_RASTER));
     double* const north_west = z.data() + (std::size_t{kTile} * row + kTile - 1) * kSide + std::size_t{kTile} * column;
-    // From the south upwards.
+    // Rows are stored from the south upwards.
     if (!tile ||
         tile->GetRasterBand(1)->RasterIO(GF_Read, 0, 0, kTile, kTile, north_west, kTile, kTile, GDT_Float64,
                                          sizeof(double), -GSpacing{sizeof(double)} * kSide, nullptr) != CE_None)

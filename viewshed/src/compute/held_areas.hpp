@@ -21,8 +21,9 @@ class HeldAreas {
  public:
   HeldAreas(const Store& store, const Detail& detail, const ThemeChoice& themes, const ComputeOptions& options);
 
-  /// A surface over all of `whole`, of triangles where they are needed, or over `part` of it, where the memory does not
-  /// hold that; null where it does not hold the part either. Reading is a step of the call. Throws what reading throws.
+  /// Returns a surface over all of `whole`, of triangles where they are needed; or over `part` of it, where the memory
+  /// does not hold the whole; or null where it does not hold the part either. Reading is a step of the call. Throws
+  /// what reading throws.
   std::shared_ptr<const HeldSurface> get(const Box& whole, const Box& part, SurfaceForm needed, CallProgress& call);
   /// Drops all areas; areas that running calls use end with these calls.
   void drop_all();

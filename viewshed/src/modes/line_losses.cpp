@@ -72,7 +72,7 @@ LineLosses::Outcome LineLosses::of_line(const Line& line, Scratch& scratch) cons
   outcome.over_missing = !profile(surface_, greatest_spacing_m(length), scratch.tops_);
   if (!reaches_from_end_to_end(scratch.tops_, length)) return outcome;
   PathEnds ends{length, line.from.z * grid.resolution, line.to.z * grid.resolution};
-  // An antenna on the surface stands on it but for rounding.
+  // An antenna on the surface stands on it, up to rounding.
   const double from_top = scratch.tops_.front().height_m, to_top = scratch.tops_.back().height_m;
   if (ends.from_m < from_top - kGrazing || ends.to_m < to_top - kGrazing) return outcome;
   ends.from_m = std::max(ends.from_m, from_top), ends.to_m = std::max(ends.to_m, to_top);

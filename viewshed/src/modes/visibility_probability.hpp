@@ -96,8 +96,7 @@ class VisibilityProbability::Scratch {
  private:
   friend class VisibilityProbability;
   std::vector<Crossing> crossings_;
-  std::optional<std::uint32_t>
-      highest_;  ///< the highest triangle of the last line, most often near that of the next one
+  std::optional<std::uint32_t> highest_;  ///< the last line's highest triangle, often near the next one's
   ErrorsAlongLine errors_;
 };
 
