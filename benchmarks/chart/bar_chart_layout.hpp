@@ -1,4 +1,4 @@
-// Where everything of a bar chart lies, in points, y downwards.
+// The positions of everything in a bar chart, in points, y downwards.
 #pragma once
 
 #include <string>

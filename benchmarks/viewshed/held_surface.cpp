@@ -1,6 +1,6 @@
-// One viewshed after another from an observer who walks: read from the open store each time, or over a surface that is
-// held, or over areas that are read as they are reached. Around Cardiff (a raster of 50 m) 8 km far, and in a town with
-// its buildings 200 m far.
+// One viewshed after another from an observer who walks. The surface is read from the open store each time, or held, or
+// read in areas as they are reached. The walks are around Cardiff (a raster of 50 m), seeing 8 km far, and in a town
+// with its buildings, seeing 200 m far.
 #include <cmath>
 #include <filesystem>
 #include <string>

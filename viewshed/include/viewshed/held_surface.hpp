@@ -68,7 +68,7 @@ class HeldSurface {
   std::unique_ptr<const Impl> impl_;
 };
 
-/// Areas of a store's surface, read as requests leave those that are held. Safe for concurrent use.
+/// Areas of a store's surface, which are read as requests leave the areas held. Safe for concurrent use.
 ///
 /// An area consists of whole squares of a fixed grid. It is larger than the request by an eighth of its width or more
 /// on every side, so that an observer may move on without reading; where the memory does not hold that much, it is

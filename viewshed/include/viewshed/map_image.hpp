@@ -40,10 +40,10 @@ struct MapImage {
   std::vector<std::string> warnings;  ///< one line each; a missing font leaves the map without text
 };
 
-/// `result` must come from `tin`. Colours can be told apart by colour-blind readers and in grey print. Throws
-/// InputError for a size out of range.
+/// Draws a map of a viewshed; `result` must come from `tin`. Colours can be told apart by colour-blind readers and in
+/// grey print. Throws InputError for a size out of range.
 MapImage draw_map(const Tin& tin, const Result& result, const MapOptions& options = {});
-/// Draws the map over the surface that compute_with_surface() kept, and reads those of its heights that have not been
+/// Draws the map over the surface that compute_with_surface() kept, and reads the heights of it that have not been
 /// read.
 MapImage draw_map(Surface& surface, const Result& result, Progress& progress, const MapOptions& options = {});
 
@@ -74,14 +74,14 @@ struct PerspectiveOptions {
   std::vector<ThemeKind> kinds = {};  ///< as ObliqueOptions::kinds
 };
 
-/// Cost and errors are those of draw_oblique(). What is nearer than 0.1 m is not drawn.
+/// Draws what an eye sees. Cost and errors are those of draw_oblique(). Nothing nearer than 0.1 m is drawn.
 MapImage draw_perspective(const Tin& tin, const PerspectiveOptions& options);
 
 /// Throws InputError if OpenImageIO knows no format for the path's ending (png, jpg, tif, ...).
 void require_image_format(const std::string& path);
 
-/// The file appears only when complete. Throws as require_image_format() does, and FileError if the place cannot be
-/// written, or if the file exists and `overwrite` is false.
+/// Writes a picture to a file, which appears only when complete. Throws what require_image_format() throws, and
+/// FileError if the place cannot be written, or if the file exists and `overwrite` is false.
 void write_image(const std::string& path, const MapImage& image, bool overwrite);
 
 }  // namespace itin::viewshed

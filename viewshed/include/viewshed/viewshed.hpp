@@ -38,8 +38,8 @@
 
 namespace itin::viewshed {
 
-/// Degrees. Azimuths are clockwise from grid north and may pass through it (350 to 10); elevations are those of the
-/// straight line after curvature and refraction, -90 to 90, upwards positive.
+/// A range of angles, degrees. Azimuths are clockwise from grid north and may pass through it (350 to 10). Elevations
+/// are those of the straight line after curvature and refraction, -90 to 90, upwards positive.
 struct AngleRange {
   double from = 0;
   double to = 0;
@@ -59,7 +59,7 @@ struct Observer {
 };
 
 /// Under kUnknown a line is undecided if only ground without data could hide it. Modes that count or name observers
-/// take those that certainly see. A value that such ground leaves open is not given.
+/// take the observers that certainly see. A value that such ground leaves open is not given.
 using itin::NoData;
 
 /// The algorithm that decides sight lines to cells. The result never depends on it.
@@ -92,9 +92,9 @@ enum class Verdict : std::uint8_t {
   kOutside = 255   ///< outside every field of view, or no ground to look at
 };
 
-/// The errors of the surface's vertices are normal, with this standard deviation; those of vertices x apart are
-/// correlated as exp(-x / correlation_length), or not at all where that is 0. Between vertices they are linear, and
-/// what stands on the surface moves with it.
+/// The errors of the surface's vertices are normal, with this standard deviation. The errors of vertices x apart are
+/// correlated as exp(-x / correlation_length), or not at all where that length is 0. Between vertices errors are
+/// linear, and what stands on the surface moves with it.
 struct VerticalError {
   double sigma = 0;               ///< metres, positive
   double correlation_length = 0;  ///< metres
@@ -363,14 +363,14 @@ struct GeotiffOptions {
   bool overwrite = false;
 };
 
-/// Writes the result with write_raster(): Byte classes (Verdict, nodata 255; also for kFresnel), UInt16 counts (nodata
-/// 65535), UInt32 bits without nodata (0 where none sees, a band for every 32 observers), Float32 angles (nodata NaN),
-/// Float32 bands of distance and number of the nearest, and of both losses (nodata NaN). Throws FileError, Cancelled.
+/// Writes the result with write_raster(). Byte: classes (Verdict, nodata 255; also for kFresnel). UInt16: counts
+/// (nodata 65535). UInt32: bits without nodata (0 where none sees, a band for every 32 observers). Float32 (nodata
+/// NaN): angles, bands of distance and number of the nearest, and bands of both losses. Throws FileError, Cancelled.
 void write_geotiff(const std::string& path, const Result& result, const GeotiffOptions& options,
                    const Progress& progress = NoProgress());
 
-/// Writes what is seen as polygons to a GeoPackage, one per class as write_regions() does: visible and hidden; the
-/// undecided; those in sight whose zone is cut; a class for every count, nearest observer or theme that hides; and the
+/// Writes what is seen as polygons to a GeoPackage, one per class as write_regions() does. The classes are visible,
+/// hidden and undecided; in sight with the zone cut; one for every count, nearest observer or theme that hides; and the
 /// cells where `no_data`, if it is given, is 1. Throws FileError.
 void write_polygons(const std::string& path, const Result& result, const std::string& crs_wkt, bool overwrite,
                     std::span<const std::uint8_t> no_data = {});

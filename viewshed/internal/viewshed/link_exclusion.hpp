@@ -1,4 +1,4 @@
-// Where a turbine's rotor would come into the second Fresnel zone of a radio link (D. F. Bacon, "Fixed-link
+// The area where a turbine's rotor would come into the second Fresnel zone of a radio link (D. F. Bacon, "Fixed-link
 // wind-turbine exclusion zone method", Ofcom 2002).
 //
 //   const double clear = link_clearance_m(link, {x, y}, 7.5, 45);   // negative: excluded

@@ -74,7 +74,7 @@ class PlacesWithoutGround {
  private:
   std::vector<Cells> parts_;
 };
-/// Throws as cells_without_ground() does.
+/// Returns the places without ground. Throws what cells_without_ground() throws.
 PlacesWithoutGround places_without_ground(const Store& store, const Result& result, Progress& progress);
 PlacesWithoutGround places_without_ground(const Zone& zone);
 

@@ -1,4 +1,4 @@
-// Where turbines may stand: spaced over an area, apart along and across the wind, away from dwellings.
+// Places where turbines may stand: spaced over an area, apart along and across the wind, away from dwellings.
 //
 //   const std::vector<Point2> places = spaced_positions(area, 200);
 //   const TurbineSpacing spacing{.along = 5 * rotor, .across = 3 * rotor, .wind_from_deg = 240};

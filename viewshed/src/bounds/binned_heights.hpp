@@ -40,7 +40,7 @@ class BinnedHeights : public BinBounds {
   struct UpperPlane {
     double middle = -kInfinity;
     double per_column = 0, per_row = 0;
-    /// The height at a position so many bins east and south of the bin's middle; grid units.
+    /// The height at a position `east` and `south` bins from the bin's middle; grid units.
     double at(double east, double south) const { return middle + per_column * east + per_row * south; }
   };
   /// Tells whether a lattice's bin has been read and has no post above a height, grid units: sooner than its upper

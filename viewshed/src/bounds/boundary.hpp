@@ -1,4 +1,4 @@
-// Where the surface ends: edges of a Tin with a triangle on one side only.
+// The boundary of a surface: edges of a Tin with a triangle on one side only.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// Where a surface may rise above sight lines: its triangles in square bins, with the greatest height of every bin and
-// of blocks of 2 x 2, 4 x 4, ... bins. A lattice's bins are its cells.
+// Finds where a surface may rise above sight lines: its triangles in square bins, with the greatest height of every bin
+// and of blocks of 2 x 2, 4 x 4, ... bins. A lattice's bins are its cells.
 //
 //   HeightPyramid pyramid(tin);
 //   LineBundle bundle;

@@ -1,9 +1,9 @@
-// All that maps need of OpenImageIO, loaded when the first map is drawn: it brings some 150 libraries with it, a tenth
-// of a second of every command.
+// What maps need of OpenImageIO, loaded when the first map is drawn. It brings some 150 libraries with it, which would
+// cost every command a tenth of a second.
 //
 //   drawing().draw_text(...);
 //
-// The module (viewshed/drawing) knows nothing of itin but this header; plain types alone pass between the two.
+// The module (viewshed/drawing) knows nothing of itin except this header; plain types alone pass between the two.
 #pragma once
 
 #include <cstddef>

@@ -148,7 +148,7 @@ class MapDrawing {
   };
 
   Shown shown_at(std::int64_t column, std::int64_t row) const {
-    // As many samples as cells along a pixel's side, within reason, so that thin shadows are not lost.
+    // There are as many samples as cells along a pixel's side, within reason, so that thin shadows are not lost.
     const double cells = pixels_.cell_width() / result_.grid.cell_width();
     const int samples = static_cast<int>(std::clamp(std::ceil(cells), 1.0, 4.0));
     Shown shown;

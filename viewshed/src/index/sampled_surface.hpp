@@ -20,7 +20,7 @@
 namespace itin::viewshed {
 
 /// Double precision asks every triangle that may rise above a line (HeightPyramid). Where a Tin is asked about very
-/// many lines, rays find most of those that are hidden (Scene) in less time.
+/// many lines, rays find most of the hidden lines (Scene) in less time.
 class SampledSurface {
  public:
   /// The surface must outlive it and have all its heights; about `lines` lines will be tested. Throws std::bad_alloc.

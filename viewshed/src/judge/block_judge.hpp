@@ -31,7 +31,7 @@ struct ExactNearby {
 
 class BlockJudge final : public TileJudge {
  public:
-  /// `tiles` are those of `grid`; `nearby` may be null. All must outlive it.
+  /// `tiles` are the tiles of `grid`; `nearby` may be null. All must outlive this object.
   BlockJudge(const BoundedEnvelope& surface, const Request& request, const RasterGrid& grid, const RasterGrid& tiles,
              const Eye& eye, const ExactNearby* nearby);
 

@@ -4,10 +4,10 @@
 //   unsigned cut = zone.certainly_cut(to_highest_targets);        // whatever the full surface is: one bit per line
 //   unsigned clear = zone.certainly_clear(to_lowest_targets);
 //
-// Ground that rises above the line lowered by the fraction of the zone's radius cuts the zone. Lowered so, and over the
-// curved Earth, the line is convex in the distance, so that a tangent bounds it from below over whole blocks of
-// triangles; what is left, few triangles near an end or a ridge, is judged one by one in double precision by the
-// definition that lines of sight have (itin/fresnel_zone.hpp). Raising a target only clears more.
+// Ground that rises above the line lowered by the fraction of the zone's radius cuts the zone. Over the curved Earth
+// the lowered line is convex in the distance, so that a tangent bounds it from below over whole blocks of triangles.
+// The few triangles that are left, near an end or a ridge, are judged one by one in double precision, by the definition
+// that lines of sight have (itin/fresnel_zone.hpp). Raising a target only clears more.
 #pragma once
 
 #include <optional>

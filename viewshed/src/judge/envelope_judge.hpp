@@ -16,7 +16,7 @@ class EnvelopeJudge final : public TileJudge {
   /// thread.
   using OnUndecided = std::function<void(std::size_t tile, const EnvelopePacket& packet)>;
 
-  /// `tiles` are those of `grid`. All must outlive it.
+  /// `tiles` are the tiles of `grid`. All must outlive this object.
   EnvelopeJudge(const EnvelopeScene& scene, const RasterGrid& grid, const RasterGrid& tiles,
                 const std::vector<Eye>& eyes, OnUndecided on_undecided = nullptr);
 

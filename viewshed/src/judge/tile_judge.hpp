@@ -17,8 +17,8 @@
 
 namespace itin::viewshed {
 
-/// Where the targets of a tile's cells may be for an eye, grid units; kNoSurface where none is. Over the full surface
-/// `low` and `high` are the same array.
+/// The places where the targets of a tile's cells may be for an eye, grid units; kNoSurface where none is. Over the
+/// full surface `low` and `high` are the same array.
 struct TileTargets {
   const TileCentres& centres;
   const TileValues<double>& low;

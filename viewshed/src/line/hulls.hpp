@@ -32,7 +32,7 @@ inline double area_of(const std::vector<Point2>& hull) {
 }
 
 /// Tells whether a side of the hull, which is counterclockwise, has all these places beyond it. If two convex shapes
-/// are apart, one of them has such a side. So a box meets the hull, or may, if neither has one.
+/// are apart, one of them has such a side; so a box meets the hull, or may, if the hull has none.
 inline bool beyond_a_side(const std::vector<Point2>& hull, std::span<const Point2> places) {
   for (std::size_t i = 0; i < hull.size(); ++i) {
     const Point2 &a = hull[i], &b = hull[(i + 1) % hull.size()];

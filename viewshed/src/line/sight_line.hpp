@@ -43,7 +43,7 @@ class SightLine {
     return under.meets_line() && highest(under) > grazing_;
   }
 
-  /// Where the triangle first hides, as a fraction of the length; nothing where it does not hide.
+  /// Returns where the triangle first hides, as a fraction of the length; nothing where it does not hide.
   std::optional<double> hidden_from(const GridPoint& a, const GridPoint& b, const GridPoint& c) const {
     const Section under = section(a, b, c);
     if (!under.meets_line() || highest(under) <= grazing_) return std::nullopt;
@@ -57,8 +57,8 @@ class SightLine {
   }
 
   /// Calls visit(i, j, weight, fraction of the length, rise of the curved ground above the line) for every edge of a
-  /// triangle that the line crosses between the ends, from corner i to j > i, where j has that weight, and for every
-  /// corner that it passes over, with j = i.
+  /// triangle that the line crosses between the ends. The edge goes from corner i to j > i, where j has that weight.
+  /// Also visits every corner that the line passes over, with j = i.
   template <class Visit>
   void for_each_crossing(const std::array<GridPoint, 3>& triangle, const Visit& visit) const {
     const std::array<Corner, 3> corners{corner(triangle[0]), corner(triangle[1]), corner(triangle[2])};
@@ -98,8 +98,8 @@ class SightLine {
     return Ground{first, last, under.straight(first), under.straight(last)};
   }
 
-  /// Where between the ends the triangle rises highest above the line, as a fraction of the length. Precondition: the
-  /// line passes over the triangle.
+  /// Returns where between the ends the triangle rises highest above the line, as a fraction of the length.
+  /// Precondition: the line passes over the triangle.
   double highest_at(const GridPoint& a, const GridPoint& b, const GridPoint& c) const {
     const Section under = section(a, b, c);
     const double first = std::max(under.low, 0.0), last = std::min(under.high, 1.0);

@@ -49,7 +49,7 @@ class Verdicts {
   bool open(std::size_t cell) const { return values_[cell] != Verdict::kVisible; }
 
   void add(std::size_t cell, Verdict of_observer) {
-    // Without branches, so that many cells are added at once.
+    // There are no branches, so that many cells are added at once.
     const Verdict value = values_[cell];
     const bool kept = of_observer == Verdict::kOutside || value == Verdict::kVisible ||
                       (of_observer == Verdict::kHidden && value != Verdict::kOutside) ||

@@ -3,10 +3,10 @@
 //   const ErrorRealisations realisations;
 //   const std::span<const float, ErrorRealisations::kCount> errors = realisations.of(vertex);  // one per realisation
 //
-// The realisations are a Latin hypercube: in kCount realisations each error takes each of as many equally probable
-// values once, in an order of its own, so that shares vary less than those of independent draws (McKay, Beckman and
-// Conover 1979). The orders are the rows of a table, each begun anywhere: two errors have the same order by a chance of
-// 1 in 131,072.
+// The realisations are a Latin hypercube: in kCount realisations each error takes each of kCount equally probable
+// values once, in an order of its own. So shares vary less than with independent draws (McKay, Beckman and Conover
+// 1979). The orders are the rows of a table, each begun anywhere: two errors have the same order by a chance of 1 in
+// 131,072.
 #pragma once
 
 #include <cstddef>

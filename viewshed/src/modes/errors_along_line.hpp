@@ -6,9 +6,9 @@
 //   errors.begin(under_the_eye, under_the_target);
 //   for (std::uint32_t vertex : ...) use(errors.from(), errors.to(), errors.of(vertex));
 //
-// Vertices' errors are normal, of standard deviation 1, and correlated as exp(-x / L). Each is drawn given those of
-// both ends and of the two vertices asked for before it. With L = 0, and with the edges in their order along the line,
-// this is exact; otherwise it is close, as exp(-x / L) is nearly a Markov process.
+// Vertices' errors are normal, of standard deviation 1, and correlated as exp(-x / L). Each error is drawn given the
+// errors of both ends and of the two vertices asked for before. With L = 0, and with the edges in their order along the
+// line, this is exact; otherwise it is close, as exp(-x / L) is nearly a Markov process.
 #pragma once
 
 #include <array>

@@ -51,7 +51,7 @@ struct Run {
 };
 
 /// Takes as many of `count` pieces, from the first, as fit together, and at least one: a piece that does not fit alone
-/// is a run of its own. add(sum, i) is `sum` with piece `i` as well, `none` the sum of no piece.
+/// is a run of its own. add(sum, i) returns `sum` with piece `i` as well; `none` is the sum of no piece.
 template <class Sum, class Add, class Fits>
 Run<Sum> longest_run(std::size_t count, Sum none, const Add& add, const Fits& fits) {
   Run<Sum> run{0, std::move(none)};

@@ -23,7 +23,7 @@ namespace itin::viewshed {
 namespace {
 
 /// Counts points of the surface that the request asks for: the points of its coarsest level, and within each ring also
-/// those of the ring's level.
+/// the points of the ring's level.
 class SurfacePoints {
  public:
   SurfacePoints(const Store& store, const Request& request)

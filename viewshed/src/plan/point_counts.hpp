@@ -1,4 +1,4 @@
-// How many points a store's surface has under convex places, about.
+// About how many points a store's surface has under convex places.
 #pragma once
 
 #include <cstdint>

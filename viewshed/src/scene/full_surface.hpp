@@ -35,8 +35,8 @@ namespace itin::viewshed {
 
 class FullSurface {
  public:
-  /// `surface` hides; targets stand on it, or on `bare_ground` where that is given. `tiles` are those of `grid`. All
-  /// must outlive this.
+  /// `surface` hides; targets stand on it, or on `bare_ground` where that is given. `tiles` are the tiles of `grid`.
+  /// All must outlive this object.
   FullSurface(const Tin& surface, const Tin* bare_ground, const Earth& earth, const RasterGrid& grid,
               const RasterGrid& tiles);
   FullSurface(const LatticeTin& surface, const Earth& earth, const RasterGrid& grid, const RasterGrid& tiles);

@@ -34,10 +34,10 @@ Revealed reveal(const Eye& eye, LatticeReader& reader, FullSurface& surface, std
 /// Tells which heights to read at once of about `posts` posts. It is all where it matters how high ground is that
 /// nobody sees, and where leaving some out would save little, since there are many observers or few tiles.
 LatticeReader::Heights heights_for(const Request& request, std::uint64_t posts);
-/// Whether it matters how high ground is that nobody sees.
+/// Tells whether it matters how high ground is that nobody sees.
 bool asks_for_all_heights(const Request& request);
 
-/// Whether no tile with ground is left to read.
+/// Tells whether no tile with ground is left to read.
 bool all_read(const LatticeReader& reader);
 
 /// Reads what lies about a position in metres.

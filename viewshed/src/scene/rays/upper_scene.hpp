@@ -1,4 +1,4 @@
-// Which sight lines certainly clear a surface, and where those that do not come near it.
+// Which sight lines certainly clear a surface, and where the other lines come near it.
 //
 //   UpperScene scene(upper, {}, drift, earth);
 //   unsigned doubtful = scene.touched(lines);      // a line whose bit is 0 clears the surface

@@ -29,8 +29,8 @@ class HorizonHierarchy {
   /// all threads.
   void advance(const Quadrant& quadrant, const Sector::Axis& axis, std::size_t slab);
 
-  /// The bound known by now for lines within slopes [from, to] that begin in slab `nearest`: that of the farthest slab
-  /// up to there.
+  /// The bound known by now for lines within slopes [from, to] that begin in slab `nearest`, which is the bound of the
+  /// farthest slab up to there.
   Sector::Horizon known(double from, double to, std::size_t nearest) const;
 
  private:

@@ -8,9 +8,9 @@
 //
 // Method. Horizons of far ground are computed once for all tiles (horizon_hierarchy.hpp). The tile is cut into sectors
 // about the axis, each about a cell wide at its far end. Along a sector the bounds of BinnedHeights say for nearly
-// every slab and eye that it hides the whole axis, or that it hides nothing; what remains, mostly the slabs about a
-// line's silhouette and the ground before the eye, is decided triangle by triangle in double precision. An eye begins
-// with what hid its neighbours, so that bounds leave little to decide.
+// every slab and eye that it hides the whole axis, or that it hides nothing. The rest, mostly the slabs about a line's
+// silhouette and the ground before the eye, is decided triangle by triangle in double precision. An eye begins with
+// what hid its neighbours, so that bounds leave little to decide.
 //
 // Accuracy. Every triangle that may hide more than what is known is looked at exactly, and bounds decide by more than
 // rounding. So the line at the height found has a clearance between -kGrazing and 0, up to rounding, or the height is

@@ -97,7 +97,7 @@ LeastProof prove_least(const ChoiceProblem& problem, std::vector<std::size_t>& c
 /// A bound on the value of every choice of `open` options within the goal, by their gains alone.
 Weight bound_gains(const ChoiceProblem& problem, const std::vector<bool>& open);
 
-/// A bound on the value of every choice within the goal, from those that begin with a prefix of `chosen`.
+/// A bound on the value of every choice within the goal, found from choices that begin with a prefix of `chosen`.
 Weight bound_optimum(const ChoiceProblem& problem, std::span<const std::size_t> chosen);
 
 }  // namespace itin::viewshed
