@@ -2,8 +2,8 @@
 // and on the posts' places alone.
 //
 // Stage k has the posts whose columns and rows are multiples of 2^k. Posts of stage kTopStage have random heights. A
-// post that is new at a finer stage lies amid an edge of the next coarser stage. Its height is the mean of the edge's
-// ends, rounded to a decimetre, and a displacement of at most amplitude(k).
+// post that is new at a finer stage lies amid an edge of the next coarser stage. Its height is the mean of the heights
+// of the edge's ends, rounded to a decimetre, plus a displacement of at most amplitude(k).
 #pragma once
 
 #include <cstdint>

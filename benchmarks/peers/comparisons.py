@@ -130,7 +130,7 @@ def imported(program, name):
 
 
 def comparisons(program, grass):
-    """(group, name, make) of each question."""
+    """Yields (group, name, make) of each question."""
     for place in PLACES:
         yield "viewshed", place.name, lambda place=place: viewsheds(program, place, grass)
     for name, what in (("links", "within 30 km"), ("far_links", "over all of Wales")):

@@ -70,7 +70,7 @@ class Trace {
     const double now = seconds_of(CLOCK_THREAD_CPUTIME_ID);
     current_->stretches.push_back({now - std::exchange(since_, now), nullptr});
   }
-  /// Ends the stretch that runs with a loop.
+  /// Ends the current stretch with a loop.
   Loop& begin_loop() {
     lap();
     current_->stretches.back().loop = std::make_unique<Loop>();

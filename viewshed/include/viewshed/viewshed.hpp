@@ -319,20 +319,20 @@ struct ViewshedWithSurface {
 /// memory holds: all of it; or, of a large raster, the heights that an observer may see, sector by sector about each
 /// observer; or, of another surface, what decides, segment by segment. In segments a certified pass at a coarse level
 /// decides most cells of the full surface, and the others take only the places where their lines come near the ground.
-/// At a tolerance the pass tells which ground is hidden, and only the rest is read; so it is for one observer on a
-/// large surface that is not wanted as a whole. With rings, with themes that stand on the ground at a tolerance, and in
-/// modes that ask more than whether a cell is seen, all ground under the lines is read. The answer is the same to the
-/// last bit, in every mode. Cost, on one core: about a microsecond per point; for rasters a fifth of that, and 9 bytes
-/// per post. Throws what compute() on a Tin and triangulate() throw, and InputError where the line to a single cell
-/// does not fit into the memory, or large rasters leave less than a quarter of it.
+/// At a tolerance the pass tells which ground is hidden, and only the rest is read; the same holds for one observer on
+/// a large surface that is not wanted as a whole. With rings, with themes that stand on the ground at a tolerance, and
+/// in modes that ask more than whether a cell is seen, all ground under the lines is read. The answer is the same to
+/// the last bit, in every mode. Cost, on one core: about a microsecond per point; for rasters a fifth of that, and 9
+/// bytes per post. Throws what compute() on a Tin and triangulate() throw, and InputError where the line to a single
+/// cell does not fit into the memory, or large rasters leave less than a quarter of it.
 ViewshedWithSurface compute_with_surface(const Store& store, const Request& request, const ComputeOptions& options,
                                          Progress& progress);
 
 /// Computes what is certain of the full surface, without reading all of it: no cell called certain differs from the
 /// full surface's exact answer, at request.detail, in request.mode kVisible. Both ends of a sight line stand on the
 /// full surface, whatever the tolerance. The certificates of the store's index cells (law 2) tell how low and how high
-/// the full surface is about the level asked for. A block of cells that rises nowhere above the ground before it is
-/// hidden, and what lies near an observer is decided exactly. All else is undecided: mostly what is in sight, and what
+/// the full surface is about the level asked for. A block of cells is hidden if it rises nowhere above the ground
+/// before it. What lies near an observer is decided exactly. All else is undecided: mostly what is in sight, and what
 /// is nearly so. Features of Request::themes count as in compute_with_surface(), but hide nothing except near the
 /// observer; targets may stand on them. With several observers a cell is certainly visible when it is so to one of
 /// them, and certainly hidden when it is so to all. Under NoData::kUnknown a line across a void and back is never

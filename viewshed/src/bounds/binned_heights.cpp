@@ -121,7 +121,7 @@ void BinnedHeights::bound_lattice() {
 }
 
 void BinnedHeights::add(std::span<const std::uint32_t> tiles) {
-  // Runs at the ends of the tiles to the west and to the north have their neighbours in this tile.
+  // Runs at the ends of the tiles to the west and to the north have their neighbours in these tiles.
   std::vector<std::uint32_t> touched;
   const std::uint32_t columns = lattice_->tile_columns();
   for (const std::uint32_t tile : tiles) {

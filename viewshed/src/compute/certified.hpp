@@ -7,7 +7,7 @@
 
 namespace itin::viewshed {
 
-/// Computes as the compute_certified() that takes certified_way() of its request, but in the given way.
+/// Computes as the public compute_certified() does, but in the given way in place of certified_way()'s.
 ViewshedWithSurface compute_certified(const Store& store, const Request& request, CertifiedWay way,
                                       const ComputeOptions& options, Progress& progress);
 

@@ -1,4 +1,4 @@
-// compute_with_surface(), where its result alone is wanted.
+// The result of compute_with_surface() alone.
 #pragma once
 
 #include <itin/progress.hpp>

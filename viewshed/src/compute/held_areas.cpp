@@ -28,7 +28,7 @@ double side_for(const Box& box) {
   return std::exp2(std::ceil(std::log2(std::max({box.width(), box.height(), 1.0})) - 3));
 }
 
-/// About the share of a call that goes by while it reads, where it reads first.
+/// About the share of a call's time that reading takes, in calls that read first.
 constexpr double kReadingArea = 0.7;
 
 /// Waits for what another thread reads.

@@ -23,7 +23,7 @@ namespace itin::viewshed {
 
 namespace {
 
-/// About the share of a call that goes by while it reads, where it reads first.
+/// About the share of a call's time that reading takes, in calls that read first.
 constexpr double kReading = 0.7;
 
 /// A surface with its heights binned.

@@ -116,8 +116,8 @@ class Merge::Rasters {
     }
   }
 
-  /// Copies the segment's values to their places. No values, as of features that were not named, leave the places as
-  /// they are.
+  /// Copies the segment's values to their places. An empty list of values, as for features that were not named, changes
+  /// nothing.
   template <class T, class Become = std::identity>
   void copy(const Segment& segment, const std::vector<T>& from, std::vector<T>& to, const Become& become = {}) const {
     if (from.empty()) return;

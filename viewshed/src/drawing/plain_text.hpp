@@ -10,7 +10,7 @@ namespace itin::viewshed {
 /// Latin letters lose their accents, a few signs are written out, anything else beyond ASCII becomes '?'.
 std::string plain_text(std::string_view utf8);
 
-/// A piece of a line. The two of square metres is raised, in smaller letters.
+/// A piece of a line of text. A raised piece, such as the two of square metres, is in smaller letters.
 struct PlainPiece {
   std::string text;
   bool raised = false;

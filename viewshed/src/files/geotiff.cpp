@@ -35,8 +35,8 @@ std::string text_of(const AngleRange& range) {
 
 using Metadata = std::vector<std::pair<std::string, std::string>>;
 
-/// Adds each observer's own value or, where it has none, the one of all: once where all are equal, and otherwise one by
-/// one, `-` for none.
+/// Adds each observer's own value or, where it has none, the value for all: once where all are equal, and otherwise one
+/// by one, `-` for none.
 template <class Value>
 void add_of_observers(const std::string& name, const Request& request, std::optional<Value> Observer::*own,
                       const std::optional<Value>& of_all, Metadata& items) {

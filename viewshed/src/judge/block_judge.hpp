@@ -1,5 +1,5 @@
 // Cells judged block by block, by bounds of how low and how high the surface is. A block that the ground before it
-// certainly hides is hidden, even a whole tile; all else stays undecided, except for what is known exactly about the
+// certainly hides is hidden, even a whole tile; all else stays undecided, except for what is known exactly near the
 // eye. No line is cast, so that this takes a few nanoseconds per cell. Features may stand on the surface: they hide
 // more, never less.
 #pragma once

@@ -55,7 +55,7 @@ class ZoneTest {
   double spare(const Ground& g, double s) const {
     return -(g.from_rise + slope(g) * (s - g.from)) - line_.bulge().at(s) - depth() * std::sqrt(s * (1 - s));
   }
-  /// A bound of the lowest spare clearance from below: that is convex, and so above its tangent in the middle.
+  /// A lower bound of the spare clearance, which is convex, and so above its tangent in the middle.
   double lowest_spare(const Ground& g) const {
     const double s = (g.from + g.to) / 2, radius = std::sqrt(s * (1 - s));
     const double middle = -(g.from_rise + g.to_rise) / 2 - line_.bulge().at(s) - depth() * radius;

@@ -10,8 +10,8 @@ namespace {
 constexpr std::size_t kMostGiven = 4;
 using Covariances = std::array<std::array<double, kMostGiven>, kMostGiven>;  ///< the lower triangle
 
-/// How a normal variable depends on others: its mean is the sum of each times its `weight`, and its deviation from that
-/// is `deviation`.
+/// How a normal variable depends on others: its mean is the sum of each times its `weight`, and its standard deviation
+/// about that is `deviation`.
 struct Regression {
   std::array<double, kMostGiven> weight{};
   double deviation = 0;

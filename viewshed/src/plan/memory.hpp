@@ -40,10 +40,10 @@ void require_memory_for_rasters(const Store& store, const Request& request, std:
 /// Tells whether the request's rasters leave enough memory.
 bool holds_rasters(std::uint64_t memory, const Store& store, const Request& request);
 
-/// The memory that rasters of this size leave, and at least a quarter of it.
+/// The memory that rasters of this size leave, but no less than a quarter of all.
 std::uint64_t memory_beside(std::uint64_t raster_bytes, std::uint64_t memory);
 
-/// The memory that the request's rasters leave, and at least a quarter of it.
+/// The memory that the request's rasters leave, but no less than a quarter of all.
 std::uint64_t memory_beside_rasters(std::uint64_t memory, const Store& store, const Request& request);
 
 }  // namespace itin::viewshed

@@ -40,7 +40,7 @@ class SightSectors {
   /// Tells whether all cells of a part are nearer to the eye than `reach` metres, along columns and rows.
   bool within(double reach, const Tile& part) const;
   /// Removes the sector's parts within that reach, which have been decided. The rest of the sector will come in
-  /// narrower ones. Throws InputError where the sector is a single cell.
+  /// narrower ones. Throws InputError where the rest is a single cell.
   void remove_decided(const Sector& sector, double reach);
 
  private:

@@ -36,7 +36,7 @@ class FieldOfView {
   }
 
   /// Tells whether a target at this offset from the observer, metres (Eye::offset_to), is in view. An observer's own
-  /// place has every azimuth. There the eye itself has every elevation, and the rest is straight above or below.
+  /// place has every azimuth. There the eye itself has every elevation, and other targets are straight above or below.
   bool contains(double dx, double dy, double dz) const { return contains(dx, dy, dz, dz).value(); }
   bool faces(double azimuth_deg) const { return !azimuth_ || azimuth_within(azimuth_deg); }
   /// The range of heights above the eye, metres, in which a target at this squared distance is in view; nothing: any

@@ -39,8 +39,8 @@ bool all_bounded(const Request& request);
 bool bounds_elevations(const Request& request);
 
 /// Returns the cells to decide: the given ones; or aligned ones over the extent of all data, or, where every observer
-/// has a radius, over the part of it about the discs within these. So they do not depend on what is read of the data.
-/// Throws InputError if there are none.
+/// has a radius, over the part of it about the discs within the radii. So they do not depend on what is read of the
+/// data. Throws InputError if there are none.
 RasterGrid cells_of(const Request& request, const Box& extent);
 
 /// The name of the rule in options and metadata.

@@ -22,7 +22,7 @@ struct SweptEnd {
   double drop = 0;
 };
 
-// Each class tells the line that is to be cleared by its height at the axis and its slope, outward per bin.
+// Each class gives the line that is to be cleared by its height at the axis and its slope, outward per bin.
 
 /// The end of a line, raised by every triangle that hides what is lower.
 class RaisedEnd {
