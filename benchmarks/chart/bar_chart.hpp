@@ -36,10 +36,11 @@ struct BarChart {
   std::vector<BarGroup> groups;
 };
 
-/// benchmarks/peers/charts.py shows the document. Throws InputError with the field that is missing or wrong.
+/// Reads a chart; benchmarks/peers/charts.py shows the document. Throws InputError with the field that is missing or
+/// wrong.
 BarChart bar_chart_from(const nlohmann::json& document);
 
-/// The file's bytes.
+/// Returns the file's bytes.
 std::string draw(const BarChart& chart, profile::Drawing::Format format);
 
 }  // namespace itin::bars

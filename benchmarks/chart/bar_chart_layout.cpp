@@ -42,7 +42,7 @@ class Page {
     y_ = 48;
   }
 
-  /// The names of the series, in as many lines as they need.
+  /// Places the names of the series, in as many lines as they need.
   void place_legend() {
     double x = kMargin;
     for (std::size_t i = 0; i < chart_.series.size(); ++i) {
@@ -58,7 +58,7 @@ class Page {
     y_ += kLegendLine + kGap;
   }
 
-  /// To the left of the frame is room for the groups' names, to its right for the text of the longest bar.
+  /// Leaves room for the groups' names to the left of the frame, and for the text of the longest bar to its right.
   void place_frame() {
     double names = 0, texts = 0, bars = 0, most = chart_.line.value_or(0);
     for (const BarGroup& group : chart_.groups) {

@@ -1,4 +1,4 @@
-// Where everything of a bar chart lies, in points, y downwards.
+// The positions of everything in a bar chart, in points, y downwards.
 #pragma once
 
 #include <string>
@@ -30,7 +30,7 @@ struct BarChartLayout {
   std::vector<PlacedText> texts;
 };
 
-/// No texts overlap, and none leaves the page; those too long for it are cut.
+/// Lays out a chart. No texts overlap, and none leaves the page; texts too long for it are cut.
 BarChartLayout lay_out(const BarChart& chart);
 
 }  // namespace itin::bars

@@ -1,5 +1,5 @@
-// How far the full surface lies from those of the coarser levels, patch by patch. T_0 - T_k is linear on the triangles
-// of T_0, which divide those of T_k, so its extremes over a patch are found at the posts about it.
+// How far the full surface lies from the surfaces of the coarser levels, patch by patch. T_0 - T_k is linear on the
+// triangles of T_0, which divide those of T_k, so its extremes over a patch are found at the posts about it.
 #pragma once
 
 #include <cstddef>
@@ -22,11 +22,12 @@ class Deviation {
 
   Deviation(const Square& square, const Fractal& fractal, const std::vector<FractalLevel>& levels);
 
-  /// Finds that of all levels over the cell; `heights` of the full surface's posts about it, in decimetres. Safe for
-  /// concurrent use for different cells. About 2 ns per post and level.
+  /// Finds the deviations of all levels over the cell; `heights` has the heights of the full surface's posts about it,
+  /// in decimetres. Safe for concurrent use for different cells. About 2 ns per post and level.
   void find(const Cell& cell, const Posts& heights);
 
-  /// T_k + lo <= T_0 <= T_k + hi over the ground in the cell, k being the level; grid units. Precondition: found there.
+  /// Returns bounds with T_k + lo <= T_0 <= T_k + hi over the ground in the cell, k being the level; grid units.
+  /// Precondition: find() was called there.
   HeightBounds over(const Cell& cell, int level) const;
 
  private:

@@ -23,7 +23,7 @@ std::uint64_t hash(std::uint64_t row_key, std::int32_t column) {
   return mix(row_key + static_cast<std::uint64_t>(column) * kStep);
 }
 
-/// From 0 to count - 1, by the hash's upper half.
+/// A number from 0 to count - 1, by the hash's upper half.
 std::int32_t below(std::uint64_t hash, std::int32_t count) {
   return static_cast<std::int32_t>((hash >> 32) * static_cast<std::uint64_t>(count) >> 32);
 }

@@ -6,7 +6,7 @@ namespace itin::huge {
 
 namespace {
 
-/// The coarsest whose surface lies within the tolerance.
+/// The coarsest stage whose surface lies within the tolerance.
 int coarsest_stage(double tolerance) {
   constexpr double decimetres_per_metre = 10;
   int stage = 0;

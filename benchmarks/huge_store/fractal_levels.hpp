@@ -22,7 +22,8 @@ struct FractalLevel {
   std::int64_t count(const PostBox& box) const { return box.count() - (steps == 0 ? 0 : box.count_of_every(steps)); }
 };
 
-/// Tolerances ascending, in metres, 0 first. Those that no stage of their own meets are left out.
+/// Returns the levels of tolerances, which ascend, in metres, 0 first. Tolerances that no stage of their own meets are
+/// left out.
 std::vector<FractalLevel> levels_of(const std::vector<double>& tolerances);
 
 /// Calls visit(cell) along the curve for each cell over the ground in `from` that is a leaf of the level's quadtree if

@@ -35,7 +35,7 @@ class FractalWriter {
                 const std::vector<FractalLevel>& levels)
       : writer_(writer), square_(square), fractal_(fractal), levels_(levels), deviation_(square, fractal, levels) {}
 
-  /// Finest first.
+  /// Writes a level; the finest must come first.
   void write_level(int number, Progress& progress) {
     const FractalLevel& level = levels_[static_cast<std::size_t>(number)];
     std::vector<Cell> tiles;

@@ -1,4 +1,4 @@
-// Writes a store of a fractal surface as an importer would, only that it knows every level beforehand: nearly at the
+// Writes a store of a fractal surface as an importer would, except that it knows every level beforehand: nearly at the
 // rate of the encoder, in about 75 MB and 64 bytes for each 82 m by 82 m of ground.
 #pragma once
 
@@ -22,9 +22,9 @@ struct FractalStoreReport {
   double lowest = 0, highest = 0;  ///< metres
 };
 
-/// A square of posts 1 m apart, its side rounded up to a multiple of the coarsest level's spacing, so that its border's
-/// ends belong to every level. Any number of threads writes equal bytes, but for the time noted. Throws InputError,
-/// FileError, Cancelled; until it returns, the file at `path` is what it was.
+/// Writes a square of posts 1 m apart. Its side is rounded up to a multiple of the coarsest level's spacing, so that
+/// its border's ends belong to every level. Any number of threads writes equal bytes, except for the time noted. Throws
+/// InputError, FileError, Cancelled; until it returns, the file at `path` is what it was.
 FractalStoreReport write_fractal_store(const std::string& path, const FractalStoreOptions& options, Progress& progress);
 
 }  // namespace itin::huge

@@ -96,7 +96,7 @@ TEST_F(FractalStoreTest, HasTheSurfaceThatAnImportOfItsPostsHas) {
   EXPECT_EQ(ours.triangles, theirs.triangles);
 }
 
-/// Both surfaces are linear between neighbouring positions looked at, but for cells' borders that lie between them.
+/// Both surfaces are linear between neighbouring positions looked at, except where cells' borders lie between them.
 TEST_F(FractalStoreTest, HasCertificatesThatHold) {
   constexpr std::int32_t step = Square::kSpacing / 4;
   const LatticeTin full = lattice(0);
@@ -121,7 +121,7 @@ TEST_F(FractalStoreTest, HasCertificatesThatHold) {
         lo = std::min(lo, difference), hi = std::max(hi, difference);
       }
     }
-    // Tight, too: the level's certificate is no wider than its worst place, but for rounding to the grid.
+    // The certificate is tight, too: no wider than the level's worst place, up to rounding to the grid.
     EXPECT_NEAR(level.certified_error.lo, lo * full.grid.resolution, 0.0101);
     EXPECT_NEAR(level.certified_error.hi, hi * full.grid.resolution, 0.0101);
   }

@@ -11,12 +11,12 @@
 
 namespace itin::huge {
 
-/// Both ends included.
+/// A range of posts, both ends included.
 struct PostRange {
   std::int32_t first = 0, last = -1;
 
   std::int64_t count() const { return std::int64_t{last} - first + 1; }
-  /// How many are multiples of 2^steps.
+  /// How many posts of the range are multiples of 2^steps.
   std::int64_t count_of_every(int steps) const { return (last >> steps) - ((first - 1) >> steps); }
   /// The fewest posts that reach as far on the lattice whose spacing is 2^steps times as large.
   PostRange coarser(int steps) const {
@@ -58,8 +58,8 @@ class Posts {
   std::vector<std::int32_t> z_;
 };
 
-/// The posts about `box`, at half the spacing: kept(z) where there is one, amid(z, z, column, row) between two.
-/// Precondition: `coarse` has box.coarser(1).
+/// Returns the posts about `box`, at half the spacing: kept(z) where there is a coarser post, amid(z, z, column, row)
+/// between two. Precondition: `coarse` has box.coarser(1).
 template <class Kept, class Amid>
 Posts refined(const Posts& coarse, const PostBox& box, const Kept& kept, const Amid& amid) {
   Posts fine(box.coarser(1).finer(1));

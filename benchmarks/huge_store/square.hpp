@@ -17,14 +17,14 @@ class Square {
   static constexpr Grid kGrid{{0, 5368709.12}, 0.01};
   static constexpr std::int32_t kUnitsPerDecimetre = 10;
 
-  /// Its south-western corner is at 400,000 east, 6,000,000 north. Precondition: 1 to 100,000 m.
+  /// The square's south-western corner is at 400,000 east, 6,000,000 north. Precondition: its side is 1 to 100,000 m.
   explicit Square(std::int32_t side_m)
       : ground_{kWest, kSouth, kWest + side_m * kSpacing, kSouth + side_m * kSpacing} {}
 
   const GridBox& ground() const { return ground_; }
   bool meets(const Cell& cell) const { return ground_.meets(cell.box()); }
 
-  /// Those posts of a stage that the cell holds.
+  /// The posts of a stage that the cell holds.
   PostBox within(const Cell& cell, int stage) const {
     const GridBox box = intersection(cell.box(), ground_);
     if (box.empty()) return {};

@@ -28,7 +28,7 @@ std::vector<Sample> sample(bool lattice) {
   for (int k = 0; k < 256; ++k) {
     Sample s{{morton((k % 16) << 17, (k / 16) << 17), 17}, {}, {}};
     std::vector<std::uint64_t> codes;
-    if (lattice) {  // 50 m posts in decimetres, of which the coarser levels have taken 4 in 10
+    if (lattice) {  // 50 m posts in decimetres; the coarser levels have taken 4 in 10
       for (std::int32_t y = 1250; y < 1 << 17; y += 5000) {
         for (std::int32_t x = 3300; x < 1 << 17; x += 5000) {
           if (random() % 10 < 6) codes.push_back(morton(s.cell.box().xmin + x, s.cell.box().ymin + y));

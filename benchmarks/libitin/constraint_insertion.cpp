@@ -42,7 +42,7 @@ void write_rings(const std::string& path) {
   test::write_lines(path, rings);
 }
 
-/// Contours alone, without repair, so that every vertex is a contour's.
+/// A store of contours alone, imported without repair, so that every vertex is a contour's.
 const std::string& contour_store() {
   static const std::string store = [] {
     const std::string path = (std::filesystem::temp_directory_path() / "itin-benchmark-contours.itin").string();
@@ -97,7 +97,7 @@ Lines lines_at(const Store& store, double tolerance) {
   return lines;
 }
 
-/// Into the Delaunay triangulation of all vertices, which is not timed.
+/// Times insertion into the Delaunay triangulation of all vertices, which is not timed itself.
 void constraint_insertion(benchmark::State& state) {
   const Lines lines = lines_at(Store(contour_store()), static_cast<double>(state.range(0)));
   for (auto _ : state) {
@@ -112,7 +112,7 @@ void constraint_insertion(benchmark::State& state) {
 }
 BENCHMARK(constraint_insertion)->ArgName("tolerance")->Arg(0)->Arg(8)->UseManualTime()->Unit(benchmark::kMillisecond);
 
-/// Points and segments read, triangulated, constrained and proved, by one thread.
+/// Times reading, triangulating, constraining and proving points and segments, by one thread.
 void window_with_contours(benchmark::State& state) {
   const std::string& path = contour_store();
   const std::size_t segments = lines_at(Store(path), static_cast<double>(state.range(0))).constraints.size();

@@ -51,7 +51,8 @@ void report(benchmark::State& state, const CrossSection& sum) {
       static_cast<double>(sum.statistics.points_read) / (static_cast<double>(sum.triangles) + 2 * lines);
 }
 
-/// Non-empty leaves that the lines themselves meet, per line: what no retrieval can do without, but for a few.
+/// The number of non-empty leaves that the lines themselves meet, per line: no retrieval can do without them, except
+/// for a few.
 double leaves_on(const Store& store, const std::vector<Line>& lines) {
   constexpr double kStep = 5;
   const Grid& grid = store.metadata().grid;

@@ -20,7 +20,7 @@ namespace {
 constexpr std::int32_t kSide = 256;
 const std::vector<double> kTolerances{0, 50, 100, 200, 400, 800, 1600, 3200};  // centimetres
 
-/// Posts 50 m apart, most of which are in some level, or 5 m apart, few of which are.
+/// A tile of posts 50 m apart, where most are in some level, or 5 m apart, where few are.
 struct Tile {
   explicit Tile(bool smooth) {
     const std::int32_t step = smooth ? 500 : 5000;

@@ -5,7 +5,7 @@
 
 namespace itin {
 
-/// Metres.
+/// The height at a position, all in metres.
 inline double hill_height(double x, double y) {
   double z = 0;
   for (int octave = 0; octave < 7; ++octave) {

@@ -11,7 +11,7 @@ import sys
 
 
 def counts_of_links(path_a, path_b):
-    """How many are visible in both, visible in at least one, and compared."""
+    """Returns how many links are visible in both, visible in at least one, and compared."""
     a, b = ({row["id"]: row["verdict"] == "visible" for row in csv.DictReader(open(path))} for path in (path_a, path_b))
     both = a.keys() & b.keys()
     return sum(a[i] and b[i] for i in both), sum(a[i] or b[i] for i in both), len(both)

@@ -1,4 +1,4 @@
-"""The commands themselves, on the demo's Cardiff, with the program and the tools that CMake names; they skip without."""
+"""The commands themselves, on the demo's Cardiff, with the program and the tools that CMake names; skipped without these."""
 import json
 import os
 import pathlib
@@ -44,7 +44,7 @@ class Commands(unittest.TestCase):
         folder.mkdir()
         (folder / "before.json").write_text(json.dumps(
             {"when": "2026-11-01T12:00:00", "commit": "c1", "machine": "another", "load": 0, "runs": 5, "rows": [before]}))
-        # Without a PATH there are no peers.
+        # There are no peers without a PATH.
         told = self.run_script("all", "--only", "viewshed: Cardiff", "--runs", "1", "--no-grass", "--program", PROGRAM,
                                PATH="/nowhere")
         self.assertIn("left out: gdal_viewshed: gdal_viewshed is not installed", told)

@@ -1,5 +1,5 @@
-"""Finds how rows changed since they were measured last: by more than 3 % in time or memory, or at all in what is not a matter
-of chance."""
+"""Finds how rows changed since they were measured last: by more than 3 % in time or memory, and by any amount in what does
+not depend on chance."""
 from typing import NamedTuple
 
 from results import key, run_name
@@ -28,13 +28,13 @@ def shown(value):
 
 
 def last_rows(runs):
-    """Each row as the last of the runs has it, by key, with the name of that run. A run of a few questions does not hide
-    the others of the run before it."""
+    """Returns each row by key, from the last run that has it, with the name of that run. A run of a few questions does not
+    hide the other rows of the run before it."""
     return {key(row): (row, run_name(run)) for run in runs for row in run["rows"]}
 
 
 def changed(before, now):
-    """(what, before, now) of all that differs between two rows of one key."""
+    """Yields (what, before, now) for all that differs between two rows of one key."""
     for field, what in BY_CHANCE.items():
         a, b = before[field], now[field]
         if max(a, b) > NOTABLE * min(a, b):
@@ -45,7 +45,7 @@ def changed(before, now):
 
 
 def changes(runs, rows):
-    """The changes of the rows since the earlier runs, and the rows that these have not."""
+    """Returns the changes of the rows since the earlier runs, and the rows that the earlier runs do not have."""
     last = last_rows(runs)
     found, new = [], []
     for row in rows:

@@ -1,4 +1,4 @@
-"""Charts of results: what is drawn is chosen here, itin_chart (benchmarks/chart) draws it with the program's own drawing.
+"""Charts of results. What they show is chosen here; itin_chart (benchmarks/chart) draws it with the program's own drawing.
 
     {"title": "...", "note": "...", "axis": "what the bars measure", "line": 1.0, "series": ["exact", ...],
      "groups": [{"name": "fractal", "bars": [{"series": 0, "value": 0.97, "text": "0.97 s"}]}]}
@@ -22,7 +22,7 @@ def bar(series, value, seconds):
 
 
 def viewsheds(results, names, base):
-    """A group for each viewshed that has the base: the seconds of each name in multiples of the base's."""
+    """Returns a group for each viewshed that has the base: the seconds of each name in multiples of the base's."""
     groups = {}
     for row in results["rows"]:
         if row["group"] == "viewshed":
@@ -51,7 +51,7 @@ def by_tolerance(results):
 
 
 def over_runs(runs):
-    """The runs on the machine of the last one, in multiples of the oldest that has the row."""
+    """Returns a chart of the runs on the machine of the last run, in multiples of the oldest run that has the row."""
     runs = [run for run in runs if run["machine"] == runs[-1]["machine"] and any(key(row) in HISTORY for row in run["rows"])]
     runs = runs[-MOST_RUNS:]
     seconds = [{key(row): row["seconds"] for row in run["rows"]} for run in runs]
@@ -67,7 +67,7 @@ def over_runs(runs):
 
 
 def chosen(runs):
-    """(name, description) of the charts that have something to show of the last of the runs."""
+    """Returns (name, description) of each chart that has something to show of the last run."""
     described = {"peers": beside_the_peer(runs[-1]), "tolerances": by_tolerance(runs[-1]), "history": over_runs(runs)}
     return [(name, chart) for name, chart in described.items() if chart["groups"]]
 

@@ -1,4 +1,4 @@
-"""The comparisons of benchmarks/peers/all: questions by name, each with those who answer it.
+"""The comparisons of benchmarks/peers/all: questions by name, each with its contestants, who answer it.
 
     for name, make in comparisons(program, grass=True):
         question = make()       # makes terrain, stores and tables; raises LeftOut where these cannot be made
@@ -18,7 +18,7 @@ SITES, SITE_SAMPLE, TURBINE_SAMPLE = 500, 50, 5
 
 
 class LeftOut(Exception):
-    """A question or one who answers it is left out; the text says why."""
+    """Raised where a question or a contestant is left out; the text says why."""
 
 
 class Contestant(NamedTuple):
@@ -79,7 +79,7 @@ def viewsheds(program, place, grass):
 
 
 def sampled(links):
-    """The links answered by sampling the raster."""
+    """The contestant that answers the links by sampling the raster."""
     out = own(NUMPY) / "result.csv"
     return Contestant(NUMPY, [[PEERS / "section.py", "raster", raster("wales"), table(links), out]], out, tool="numpy")
 
@@ -130,7 +130,7 @@ def imported(program, name):
 
 
 def comparisons(program, grass):
-    """(group, name, make) of each question."""
+    """Yields (group, name, make) of each question."""
     for place in PLACES:
         yield "viewshed", place.name, lambda place=place: viewsheds(program, place, grass)
     for name, what in (("links", "within 30 km"), ("far_links", "over all of Wales")):

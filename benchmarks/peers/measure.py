@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 
 class Failed(Exception):
-    """A command ended with an error; the text says which one and what it wrote."""
+    """Raised where a command ended with an error; the text says which command and what it wrote."""
 
 
 class Cost(NamedTuple):
@@ -23,10 +23,10 @@ class Cost(NamedTuple):
 
 
 def run_once(commands):
-    """The cost of the commands, run one after the other.
+    """Runs the commands one after the other and returns their cost.
 
-    A process counts at least what this one occupies, for the kernel counts from before the program is loaded. So nothing
-    large is imported here, and its output is not kept where nobody reads it.
+    A process counts at least the memory that this one occupies, since the kernel counts from before the program is
+    loaded. So nothing large is imported here, and output is not kept where nobody reads it.
     """
     began, processor, peak, output = time.monotonic(), 0.0, 0, ""
     for command in commands:
@@ -49,8 +49,8 @@ def median(costs):
 
 
 def in_turns(contestants, runs, before_each=lambda which: None):
-    """The medians of each contestant, who is a list of commands. Every other round goes through them backwards, so that
-    none always runs after the same one. Before each run comes before_each(which)."""
+    """Returns the medians of each contestant, who is a list of commands. Every other round goes through the contestants
+    backwards, so that none always runs after the same one. Calls before_each(which) before each run."""
     costs = [[] for _ in contestants]
     for turn in range(runs):
         order = range(len(contestants))

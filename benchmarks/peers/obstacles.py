@@ -6,12 +6,12 @@ from schedule import Loop, longest_chain, makespan, work
 
 
 def short(source):
-    """A source without the folder that all have."""
+    """Returns a source's name without the folder that all sources share."""
     return source.replace("/src/", "/")
 
 
 def why(loops):
-    """The loops of one source in words."""
+    """Describes the loops of one source in words."""
     longest = sum(max(map(longest_chain, loop.tasks), default=0) for loop in loops)
     if len(loops) == 1:
         return f"{len(loops[0].tasks)} tasks, the longest {longest:.3f} s"
@@ -20,7 +20,7 @@ def why(loops):
 
 
 def of_loops(root, workers):
-    """(seconds lost, source and reason) of the loops that give the workers too little to do, the greatest first."""
+    """Returns (seconds lost, source and reason) of the loops that give the workers too little to do, the greatest first."""
     lost, loops = collections.Counter(), collections.defaultdict(list)
     for item in root:
         if isinstance(item, Loop):
@@ -30,11 +30,11 @@ def of_loops(root, workers):
 
 
 def of_one_thread(serial):
-    """(seconds, source) of what one thread does alone, the greatest first."""
+    """Returns (seconds, source) of what one thread does alone, the greatest first."""
     return sorted(((seconds, short(at)) for at, seconds in serial.items()), reverse=True)
 
 
 def line(name, found, most=4):
-    """The obstacles of one kind as a line: all together, and the greatest by name."""
+    """Returns the obstacles of one kind as a line: all together, and the greatest by name."""
     named = ", ".join(f"{seconds:.2f} {text}" for seconds, text in found[:most] if seconds >= 0.005)
     return f"{name} {sum(seconds for seconds, _ in found):.2f} s: {named}"

@@ -15,7 +15,7 @@ def viewshed(*options):
 
 
 def seen_from(place, *options):
-    """A viewshed of the mast at a place: the cells of the raster that the peers read."""
+    """Returns the arguments of a viewshed of the mast at a place, on the cells of the raster that the peers read."""
     return viewshed("--observer", f"{place.x},{place.y},30", "--target-height", "2", "--nodata", "clear", "--radius",
                     str(place.radius or "1e6"), "--like", "{cells}", *options)
 
@@ -91,7 +91,7 @@ def clear_results(folder=OUT):
 
 
 def command(program, folder, out, row):
-    """The program with the row's arguments, over the stores in the folder; None where the terrain is absent."""
+    """Returns the program with the row's arguments, over the stores in the folder; None where the terrain is absent."""
     path = row.store and store(row.store, program, folder)
     if row.store and not path:
         return None
@@ -102,8 +102,8 @@ def command(program, folder, out, row):
 
 
 def commands(word, *programs):
-    """Yields (name, commands) of each question whose name has this word, one command for each (program, folder), where
-    folder is that of its stores. A question whose terrain is absent is left out, which is printed."""
+    """Yields (name, commands) of each question whose name has this word. There is one command for each (program, folder);
+    the folder has the program's stores. A question whose terrain is absent is left out, which is printed."""
     OUT.mkdir(parents=True, exist_ok=True)
     for row in ROWS:
         if word not in row.name:

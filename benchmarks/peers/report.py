@@ -7,14 +7,14 @@ COLUMNS = ["time", "processor", "memory", "of the peer's time", "of its processo
 
 
 def table(header, rows):
-    """A table without the columns that are empty in all rows."""
+    """Returns a table without the columns that are empty in all rows."""
     kept = [i for i in range(len(header)) if i == 0 or any(row[i] for row in rows)]
     lines = [[header[i] for i in kept], ["---"] * len(kept), *([row[i] for i in kept] for row in rows)]
     return "".join("| " + " | ".join(line) + " |\n" for line in lines)
 
 
 def peer_of(rows, row):
-    """The row of the peer that a row is compared with; None where there is none."""
+    """Returns the row of the peer that a row is compared with; None where there is none."""
     peer = next((other for other in rows if key(other) == (row["group"], row["question"], row["peer"])), None)
     return None if peer is row else peer
 
@@ -31,7 +31,7 @@ def rate(row):
 
 
 def cells(row, peer):
-    """The row under COLUMNS."""
+    """Returns the cells of a row, in the order of COLUMNS."""
     return [seconds(row["seconds"]), seconds(row["processor"]), f"{row['megabytes']:.0f} MB",
             f"{row['seconds'] / peer['seconds']:.2f}" if peer else "",
             f"{row['processor'] / max(peer['processor'], 1e-3):.2f}" if peer else "", rate(row),
@@ -40,7 +40,7 @@ def cells(row, peer):
 
 
 def group_table(rows):
-    """The table of one group. Each question is named in its first row."""
+    """Returns the table of one group. Each question is named in its first row."""
     lines, named = [], None
     for row in rows:
         question = row["question"] if row["question"] != named else ""

@@ -16,7 +16,7 @@ import subprocess
 
 
 def commit_of(root):
-    """The commit that is checked out, with a + where sources differ from it."""
+    """Returns the commit that is checked out, with a + where sources differ from it."""
     def git(*arguments):
         try:
             return subprocess.run(["git", "-C", root, *arguments], capture_output=True, text=True).stdout.strip()
@@ -36,14 +36,14 @@ def processor_name():
 
 
 def begin(root, program, runs):
-    """The results of a run that begins now, without rows."""
+    """Returns the results of a run that begins now, which have no rows yet."""
     return {"when": datetime.datetime.now().isoformat(timespec="seconds"), "commit": commit_of(root),
             "machine": f"{processor_name()}, {os.cpu_count()} cores", "load": round(os.getloadavg()[0], 2), "runs": runs,
             "program": str(program), "left_out": [], "rows": []}
 
 
 def write(results, folder):
-    """Writes them into the folder and returns the path."""
+    """Writes results into the folder and returns the path."""
     folder.mkdir(parents=True, exist_ok=True)
     path = folder / f"{results['when'].replace(':', '')}-{results['commit']}.json"
     part = path.with_suffix(".part")
@@ -53,7 +53,7 @@ def write(results, folder):
 
 
 def earlier(folder):
-    """All results in the folder, the oldest first."""
+    """Returns all results in the folder, the oldest first."""
     return sorted((json.loads(path.read_text()) for path in folder.glob("*.json")), key=lambda results: results["when"])
 
 
@@ -66,7 +66,7 @@ def times_run(results):
 
 
 def is_busy(results):
-    """Whether other programs ran when it began."""
+    """Tells whether other programs ran when the run began."""
     return results["load"] > 0.3
 
 

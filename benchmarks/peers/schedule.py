@@ -19,7 +19,7 @@ class Loop(NamedTuple):
 
 
 class Running:
-    """A task that has begun: what of it is left, and what it is part of."""
+    """A task that has begun: what is left of it, and the task that it is part of."""
 
     def __init__(self, task, parent=None):
         self.items = iter(task if isinstance(task, list) else [task])
@@ -28,14 +28,14 @@ class Running:
 
 
 def work(task):
-    """The seconds of a task on one worker."""
+    """Returns the seconds that a task takes on one worker."""
     if not isinstance(task, list):
         return task
     return sum(sum(map(work, item.tasks)) if isinstance(item, Loop) else item for item in task)
 
 
 def longest_chain(task):
-    """The seconds of a task on as many workers as there are tasks."""
+    """Returns the seconds that a task takes on as many workers as there are tasks."""
     if not isinstance(task, list):
         return task
     return sum(max(map(longest_chain, item.tasks), default=0) if isinstance(item, Loop) else item for item in task)
@@ -49,7 +49,7 @@ class Schedule:
         self.order = itertools.count()
 
     def proceed(self, running, now):
-        """An idle worker goes on with a task until it works, forks or has finished it."""
+        """Lets an idle worker go on with a task until it works, forks or has finished it."""
         for item in running.items:
             if isinstance(item, Loop):
                 if not item.tasks:

@@ -30,7 +30,7 @@ def write_links(raster, side, count, length, out):
     rows, columns = heights.shape
     cells = int(side / step)
     if cells < min(rows, columns):
-        # The square with data all over whose mean is highest, of a thousand.
+        # Takes, out of a thousand squares with data all over, the one whose mean is highest.
         best, r, c = -1e9, 0, 0
         for _ in range(1000):
             i, j = random.integers(0, rows - cells), random.integers(0, columns - cells)
@@ -59,7 +59,7 @@ def write_links(raster, side, count, length, out):
 
 
 def heights_around(raster, links):
-    """The heights of the rectangle that holds the links, where its first one lies, and how far apart they are."""
+    """Returns the heights of the rectangle that holds the links, where the first height lies, and how far apart they are."""
     from osgeo import gdal
 
     gdal.UseExceptions()
@@ -73,7 +73,7 @@ def heights_around(raster, links):
 
 
 def sample_raster(raster, links, out):
-    """Whether each link is clear over the effective Earth: bilinear, one sample for each cell, the heights in memory."""
+    """Writes whether each link is clear over the effective Earth: bilinear, a sample for each cell, the heights in memory."""
     heights, x0, y0, step, down = heights_around(raster, links)
     with open(out, "w") as file:
         file.write("id,verdict\n")

@@ -20,7 +20,7 @@ def candidates():
 
 
 def cells_seen(path):
-    """The cells with value 1, each as one number: its row and column on the grid of all multiples of the cell size."""
+    """Returns the cells with value 1, each as a number: its row and column on the grid of all multiples of the cell size."""
     import numpy
     from osgeo import gdal
 

@@ -11,13 +11,13 @@ STAGE = re.compile(r"(.*\D) +\d+ %")
 
 
 def stage_in(line):
-    """The stage that a line of progress names, without the file that it is about; None in other lines."""
+    """Returns the stage that a line of progress names, without the file that it is about; None for other lines."""
     found = STAGE.fullmatch(re.sub(r"\x1b\[K|, .* left$", "", line).strip())
     return found and re.sub(r" \S*[/.]\S*$", "", found[1].strip())
 
 
 def timed(command):
-    """Seconds by the clock of the whole command under "" and of its stages by their names."""
+    """Returns the seconds by the clock of the whole command, under "", and of its stages, under their names."""
     terminal, side = pty.openpty()
     began = stage_began = time.monotonic()
     process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=side)

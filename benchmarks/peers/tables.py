@@ -8,7 +8,7 @@ TIP = 145  # metres, of each turbine
 
 
 def write_links(path, side):
-    """10,000 links of 10 km within a square of `side` metres on high ground."""
+    """Writes 10,000 links of 10 km within a square of `side` metres on high ground."""
     subprocess.run([PEERS / "section.py", "links", raster("wales"), str(side), "10000", "10000", path], check=True)
 
 
@@ -42,7 +42,7 @@ MADE = {
 
 
 def table(name):
-    """The path of the table of this name."""
+    """Returns the path of the table of this name."""
     place, write = MADE[name]
     path = WORK / place
     if not path.exists():

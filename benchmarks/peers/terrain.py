@@ -72,7 +72,7 @@ MADE = {
 
 
 def raster(name):
-    """The path of the raster, made where it is not there yet; None where what it is made of is absent."""
+    """Returns the path of the raster, which is made if it is not there yet; None where its sources are absent."""
     if name == "cardiff":
         return DEMO / "cardiff.tif"
     path = WORK / f"{name}.tif"
@@ -89,7 +89,7 @@ def raster(name):
 
 
 def cut(place):
-    """The raster about a place that the peers read: with its radius, the square that holds the circle."""
+    """Returns the raster about a place that the peers read: the square that holds the circle, if the place has a radius."""
     whole = raster(place.terrain)
     if not whole or not place.radius:
         return whole
@@ -102,7 +102,7 @@ def cut(place):
 
 
 def sources_of(store_name):
-    """The files that the store of this name is imported from; None where they are absent."""
+    """Returns the files that the store of this name is imported from; None where they are absent."""
     if store_name == "lidar-all":
         return LIDAR_TILES if all(tile.exists() for tile in LIDAR_TILES) else None
     if store_name == "town":
@@ -112,7 +112,7 @@ def sources_of(store_name):
 
 
 def store(name, program, folder=WORK):
-    """The store of this name in the folder, imported by the program where it is not there yet; None without its sources."""
+    """Returns the store of this name in the folder, which the program imports if needed; None without its sources."""
     path = folder / f"{name}.itin"
     if path.exists():
         return path

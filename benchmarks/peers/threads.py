@@ -27,7 +27,7 @@ WORKERS = (2, 4, 8, 16, 32)
 
 
 def measure(command, runs):
-    """The medians of one thread and of two, by stage: of those that every run has shown."""
+    """Returns the medians of one thread and of two, for each stage that every run has shown."""
     found = ([], [])
     for _ in range(runs):
         for threads in (1, 2):

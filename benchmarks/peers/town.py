@@ -25,7 +25,7 @@ def heights(data):
 
 
 def copies(data, columns, rows):
-    """The footprints with their heights, and their bounds (west, east, south, north)."""
+    """Returns the footprints with their heights, and their bounds (west, east, south, north)."""
     of_building = heights(data)
     dataset = ogr.Open(f"{data}/bgt/bgt_pand.sqlite")
     layer = dataset.GetLayer(0)

@@ -11,7 +11,7 @@ from typing import NamedTuple
 from measure import Failed
 from schedule import Loop
 
-# The seams that all loops pass.
+# The sources that all loops pass through, which say nothing about a loop.
 SEAMS = re.compile(r"benchmarks/trace/|/base/|/progress/|/usr/|<")
 SOURCE = re.compile(r"(?:libitin|viewshed|profile|cli)/.*")
 
@@ -23,7 +23,7 @@ class Trace(NamedTuple):
 
 
 def sources_of(program, addresses):
-    """The source of each address, for a program with line numbers."""
+    """Returns the source of each address, for a program with line numbers."""
     addresses = sorted(addresses)
     told = subprocess.run(["addr2line", "-e", program], input="".join(f"{a:#x}\n" for a in addresses), text=True,
                           capture_output=True, check=True).stdout.splitlines()
@@ -31,7 +31,7 @@ def sources_of(program, addresses):
 
 
 def name_of(frames, sources):
-    """The innermost source of the project that is no seam."""
+    """Returns the innermost source of the project that is no seam."""
     for frame in frames:
         found = SOURCE.search(os.path.normpath(sources[frame].rsplit(":", 1)[0]))
         if found and not SEAMS.search(found[0]):
@@ -40,7 +40,7 @@ def name_of(frames, sources):
 
 
 def all_frames(task):
-    """The addresses in a task as JSON."""
+    """Yields the addresses in a task that is given as JSON."""
     if isinstance(task, list):
         for item in task:
             if isinstance(item, dict):
@@ -50,7 +50,7 @@ def all_frames(task):
 
 
 def named(task, sources):
-    """The task of schedule.py that JSON stands for."""
+    """Returns the task of schedule.py that JSON stands for."""
     if not isinstance(task, list):
         return task
     return [Loop(name_of(item["at"], sources), [named(inner, sources) for inner in item["tasks"]])

@@ -25,7 +25,8 @@ struct Sample {
 std::atomic<std::size_t> taken = 0;
 const volatile int* paused = nullptr;
 
-/// Made before the first signal, because a handler must not allocate, and gone after whoever began to sample.
+/// The samples are made before the first signal, because a handler must not allocate, and are gone after whoever began
+/// to sample.
 std::vector<Sample>& samples() {
   static std::vector<Sample> all(kMostSamples);
   return all;

@@ -20,7 +20,7 @@ namespace itin::trace {
 
 namespace {
 
-/// Kernels take it for their own tick where that is longer.
+/// The period of sampling, seconds. Kernels take their own tick for it where that is longer.
 constexpr double kPeriod = 0.001;
 
 double seconds_of(clockid_t clock) {
@@ -47,7 +47,7 @@ nlohmann::json json_of(const Task& task) {
   return items;
 }
 
-/// From the program's first loop, or its start, to its end.
+/// The trace of a program from its first loop, or its start, to its end.
 class Trace {
  public:
   Trace() { sample_call_stacks(kPeriod, depth_); }
@@ -70,13 +70,13 @@ class Trace {
     const double now = seconds_of(CLOCK_THREAD_CPUTIME_ID);
     current_->stretches.push_back({now - std::exchange(since_, now), nullptr});
   }
-  /// Ends it with a loop.
+  /// Ends the current stretch with a loop.
   Loop& begin_loop() {
     lap();
     current_->stretches.back().loop = std::make_unique<Loop>();
     return *current_->stretches.back().loop;
   }
-  /// Work from now on belongs to another task; the time since the last lap to none.
+  /// Gives work from now on to another task; the time since the last lap belongs to none.
   void enter(Task& task, int deeper) {
     current_ = &task;
     depth_ = depth_ + deeper;

@@ -1,6 +1,6 @@
-// One viewshed after another from an observer who walks: read from the open store each time, or over a surface that is
-// held, or over areas that are read as they are reached. Around Cardiff (a raster of 50 m) 8 km far, and in a town with
-// its buildings 200 m far.
+// One viewshed after another from an observer who walks. The surface is read from the open store each time, or held, or
+// read in areas as they are reached. The walks are around Cardiff (a raster of 50 m), seeing 8 km far, and in a town
+// with its buildings, seeing 200 m far.
 #include <cmath>
 #include <filesystem>
 #include <string>
@@ -19,7 +19,7 @@ struct Walk {
   Box area;
   double radius = 0;
 
-  /// Around a circle about the middle of the area.
+  /// A request from a place on a circle about the middle of the area.
   Request step(double n) const {
     const double round = std::min(area.width(), area.height()) / 2 - radius - 10;
     Request request;
@@ -38,7 +38,7 @@ std::string data(const std::string& name) {
   return std::string(ITIN_SOURCE_DIR) + "/scripts/demo-data/" + name;
 }
 
-/// Imports it, once per process.
+/// Imports the walk's ground, once per process.
 Walk make_walk(bool town) {
   const std::string name = "itin-walk-" + std::to_string(getpid()) + (town ? "-town.itin" : ".itin");
   Walk walk{(std::filesystem::temp_directory_path() / name).string(), {}, town ? 200.0 : 8000.0};
@@ -85,7 +85,8 @@ void BM_WalkHeld(benchmark::State& state) {
 }
 BENCHMARK(BM_WalkHeld)->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond)->UseRealTime();
 
-/// In strides of a fortieth of the radius: read each time, or by areas in the memory that holds the whole walk.
+/// Walks in strides of a fortieth of the radius. The surface is read each time, or by areas in the memory that holds
+/// the whole walk.
 void BM_Strides(benchmark::State& state, bool paged) {
   const Walk walk = make_walk(state.range(0) != 0);
   const Store store(walk.path);

@@ -30,7 +30,7 @@ const Tin& terrain() {
   return tin;
 }
 
-/// This terrain with vertices off the lattice, for what lattices are spared.
+/// The terrain with vertices off the lattice, to measure what lattices are spared.
 const Tin& irregular() {
   static const Tin tin = [] {
     Tin moved = terrain();
@@ -122,7 +122,7 @@ void BM_Viewshed(benchmark::State& state) {
 }
 BENCHMARK(BM_Viewshed)->Arg(1024)->Arg(4096)->Unit(benchmark::kMillisecond)->UseRealTime();
 
-/// Simulated surfaces, whose errors are independent or correlated over so many metres.
+/// Simulates surfaces whose errors are independent, or correlated over the given number of metres.
 void BM_Probability(benchmark::State& state) {
   Request request = whole(128);
   request.mode = Mode::kProbability;

@@ -8,7 +8,7 @@
 
 namespace itin::test {
 
-/// Its ground, and its buildings as the theme `buildings`.
+/// Imports the town's ground, and its buildings as the theme `buildings`.
 inline void import_alexandria(const std::string& store) {
   const std::string data = std::string(ITIN_SOURCE_DIR) + "/scripts/demo-data/";
   NoProgress progress;

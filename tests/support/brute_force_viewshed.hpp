@@ -15,7 +15,7 @@
 
 namespace itin::test {
 
-/// One observer and clear voids.
+/// A request of one observer, where voids are clear.
 inline viewshed::Request look(Point2 position, double height, double target_height, double cell) {
   viewshed::Request request;
   request.observers = {{"o", position, height}};
@@ -25,8 +25,8 @@ inline viewshed::Request look(Point2 position, double height, double target_heig
   return request;
 }
 
-/// Values of plain viewsheds, of one observer, who stands on `ground` as the targets do, or on `surface` where the
-/// request says so.
+/// Returns the verdicts of a plain viewshed of one observer. Observer and targets stand on `ground`, or on `surface`
+/// where the request says so.
 inline std::vector<viewshed::Verdict> brute_force(const Tin& surface, const Tin& ground,
                                                   const viewshed::Request& request, const RasterGrid& cells) {
   using namespace viewshed;

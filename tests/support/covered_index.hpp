@@ -8,7 +8,7 @@
 
 namespace itin::test {
 
-/// Ground lies where triangles' edges are short: up to `gap` in x and in y.
+/// Surveys the outline: ground lies where triangles' edges are short, up to `gap` in x and in y.
 inline void survey_outline(TestIndex& index, int levels, double gap) {
   std::vector<Segment> edges;
   std::vector<std::uint64_t> isolated;

@@ -13,7 +13,7 @@
 
 namespace itin::test {
 
-/// Calls change(leaves) for each chunk of the tree, and writes what it leaves of them.
+/// Calls change(leaves) for each chunk of the tree, and writes the leaves that it keeps.
 inline void forge_directory(const std::string& path, int tree, const std::function<void(DirectoryChunk&)>& change) {
   using Row = std::pair<std::uint64_t, std::vector<std::uint8_t>>;
   std::vector<std::uint64_t> old_keys;

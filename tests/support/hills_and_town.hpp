@@ -57,7 +57,8 @@ class HillsAndTown {
     return request;
   }
 
-  /// In this mode; for losses, which take all triangles under each line, with half of the observers.
+  /// Returns the request in this mode; for losses, which take all triangles under each line, with half of the
+  /// observers.
   static viewshed::Request in_mode(viewshed::Mode mode, viewshed::Request request) {
     request.mode = mode;
     if (mode != viewshed::Mode::kLoss) return request;
@@ -67,13 +68,13 @@ class HillsAndTown {
   }
 
  private:
-  /// Each store is imported when it is first asked for.
+  /// Imports a store when it is first asked for.
   std::string imported(const std::string& name, const auto& import) const {
     std::string path = file(name);
     if (!std::filesystem::exists(path)) import(path);
     return path;
   }
-  /// 4 km by 4 km.
+  /// Imports 4 km by 4 km of hills.
   static void import_hills(const std::string& raster, const std::string& store) {
     const std::vector<double> z = fractal_heights(257, 200, 0.55, 11);
     write_raster(raster, {300000, 204000, 20, 200, 200, 27700}, [&](int c, int r) {

@@ -28,7 +28,7 @@ class HillsWithGap : public testing::Test {
   static constexpr Point2 kBetweenPosts{kFirstEast + 2400.7, kFirstNorth - 2300.3},
       kOnPost{kFirstEast + 2412.5, kFirstNorth - 2312.5};
 
-  /// The gap's radius is in posts; lower ground lies under the sea.
+  /// Makes hills with a gap, whose radius is in posts; ground lower than `sea` lies under the sea.
   void make(double gap, double roughness = 0.6, double sea = -1e6) {
     gap_ = gap;
     const std::vector<double> z = fractal_heights(257, 300, roughness, random_());
@@ -49,7 +49,7 @@ class HillsWithGap : public testing::Test {
     store_.emplace(directory_.file("t.itin"));
   }
 
-  /// On the hills or in the gap.
+  /// A random place on the hills or in the gap.
   Point2 anywhere() {
     std::uniform_real_distribution<double> share(0.02, 0.98);
     const double east = share(random_) * kPostsPerSide * kPostStep, south = share(random_) * kPostsPerSide * kPostStep;

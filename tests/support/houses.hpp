@@ -26,7 +26,7 @@ inline ImportReport import_raised(const std::string& store, const std::string& f
   return import_lines(store, options, progress);
 }
 
-/// Likewise, as the theme `houses`.
+/// Imports houses in the same way, as the theme `houses`.
 inline void import_houses(const std::string& store, const std::string& file, const std::vector<LineFeature>& houses) {
   import_raised(store, file, ThemeKind::Buildings, "houses", houses);
 }

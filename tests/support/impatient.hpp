@@ -8,7 +8,7 @@
 
 namespace itin::test {
 
-/// Cancels a call once it has asked so many times whether it is cancelled.
+/// Cancels a call once it has asked more than `looks` times whether it is cancelled.
 class Impatient final : public Progress {
  public:
   explicit Impatient(int looks) : looks_(looks) {}

@@ -1,4 +1,4 @@
-// LAS files of every version and point format, as bytes, for tests of the reader. After the ASPRS specification.
+// LAS files of every version and point format, as bytes, for tests of the reader. They follow the ASPRS specification.
 #pragma once
 
 #include <array>
@@ -33,7 +33,7 @@ struct LasContents {
   std::vector<LasRecord> points;
 };
 
-/// Little-endian bytes at the end of a string, or in place.
+/// Writes little-endian bytes at the end of a string, or in place.
 class LittleEndian {
  public:
   template <class T>

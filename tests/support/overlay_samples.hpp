@@ -44,7 +44,7 @@ inline std::set<std::pair<std::uint32_t, std::uint32_t>> edges_of(const Tin& tin
   return edges;
 }
 
-/// Samples of a surface and of a coarser one whose vertices are among its; metres.
+/// Samples the difference between a surface and a coarser one, whose vertices are among its own; metres.
 inline std::vector<Sample> overlay(const Tin& fine, const Tin& coarse) {
   std::vector<Sample> samples;
   for (std::uint32_t v = 0; v < fine.vertices.size(); ++v) {

@@ -41,14 +41,14 @@ inline std::vector<GridPoint> make_points(Pattern pattern, int count, std::mt199
         p = {i % side * 50, i / side * 50, 0};
         break;
       case Pattern::kGappyLattice: {
-        // Rectangles, rounded to the grid, with gaps and strays.
+        // The posts are in rectangles, rounded to the grid, with gaps and strays.
         const int column = i % side, row = i / side;
         p = {column * 50 + column / 3, row * 70 + row / 2, 0};
         if (below(40) == 0) p = {below(50 * side), below(70 * side), 0};
         break;
       }
       case Pattern::kTurnedLattice: {
-        // Rounded to the grid, so that posts along the border are only nearly in line.
+        // The posts are rounded to the grid, so that those along the border are only nearly in line.
         const double column = i % side * 50.0, row = i / side * 50.0;
         p = {static_cast<std::int32_t>(std::lround(column * 0.956 - row * 0.292)),
              static_cast<std::int32_t>(std::lround(column * 0.292 + row * 0.956)), 0};
@@ -69,7 +69,7 @@ inline std::vector<GridPoint> make_points(Pattern pattern, int count, std::mt199
         p = {below(50) * 10, below(3) * 700, 0};
         break;
       case Pattern::kCocircular: {
-        // Pythagorean: many integer points on one circle.
+        // Pythagorean triples give many integer points on one circle.
         static constexpr std::array<std::array<int, 2>, 7> kLegs{
             {{65, 0}, {63, 16}, {60, 25}, {56, 33}, {52, 39}, {33, 56}, {16, 63}}};
         const auto& leg = kLegs[static_cast<std::size_t>(below(7))];

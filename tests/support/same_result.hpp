@@ -13,12 +13,12 @@
 
 namespace itin::test {
 
-/// No number is the same as no number.
+/// Counts NaN as the same as NaN.
 inline bool same_values(const std::vector<float>& a, const std::vector<float>& b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](float x, float y) { return same_bits(x, y); });
 }
 
-/// Whether two modes' values are, of one mode.
+/// Tells whether the values of two results are the same, and of one mode.
 struct SameModeValues {
   bool operator()(std::monostate, std::monostate) const { return true; }
   bool operator()(const viewshed::Counts& a, const viewshed::Counts& b) const { return a.count == b.count; }
@@ -51,7 +51,7 @@ inline bool same_values(const viewshed::ModeValues& a, const viewshed::ModeValue
   return std::visit(SameModeValues{}, a, b);
 }
 
-/// But for the statistics, and for what they were asked to do it with.
+/// Expects results to be the same, except for their statistics and for what they were asked to use.
 inline void expect_same_result(const viewshed::Result& expected, const viewshed::Result& found) {
   EXPECT_TRUE(found.grid == expected.grid);
   EXPECT_EQ(found.certified, expected.certified);

@@ -8,7 +8,8 @@
 
 namespace itin::test {
 
-/// $ITIN_TEST_SEED, or where it is not set another in every process. Printed, so that a failure can be repeated.
+/// Returns $ITIN_TEST_SEED or, where that is not set, another seed in every process. The seed is printed, so that a
+/// failure can be repeated.
 inline std::uint32_t seed() {
   static const std::uint32_t seed = [] {
     const char* given = std::getenv("ITIN_TEST_SEED");

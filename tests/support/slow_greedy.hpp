@@ -1,4 +1,4 @@
-// Greedy choice, plainly.
+// Greedy choice in the plainest way.
 //
 //   test::greedy_by_brute_force(served_by_each, demand, 5)
 #pragma once
@@ -10,8 +10,8 @@
 
 namespace itin::test {
 
-/// The options in the order of their choice, each the first of those that serve most together with the ones before;
-/// fewer than `most` where no further option serves more.
+/// Returns the options in the order of their choice. Each is the first of the options that serve most together with the
+/// ones before. There are fewer than `most` where no further option serves more.
 inline std::vector<std::size_t> greedy_by_brute_force(const std::vector<viewshed::DemandSet>& served_by_each,
                                                       const viewshed::Demand& demand, std::size_t most) {
   std::vector<std::size_t> chosen;

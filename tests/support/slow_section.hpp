@@ -25,7 +25,7 @@ struct ThemedCrossing : SectionCrossing {
   std::uint16_t theme = 0;
 };
 
-/// The theme of an edge or a triangle: its vertices', as far as they have one.
+/// The theme of an edge or a triangle: the least theme of its vertices that have one, or 0.
 inline std::uint16_t theme_of(std::initializer_list<std::uint16_t> vertices) {
   std::uint16_t least = 0;
   for (const std::uint16_t theme : vertices)
@@ -33,7 +33,7 @@ inline std::uint16_t theme_of(std::initializer_list<std::uint16_t> vertices) {
   return least;
 }
 
-/// Where the line, prolonged, meets a closed triangle: its first and last crossing, or the only one.
+/// Returns where the line, prolonged, meets a closed triangle: the first and the last crossing, or the only one.
 inline std::vector<ThemedCrossing> crossings_of(const SectionLine& line, const ThemedTriangle& triangle) {
   std::vector<ThemedCrossing> found;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -94,7 +94,7 @@ inline CrossSection slow_section(const SectionLine& line, const std::vector<Them
   return section;
 }
 
-/// Without features.
+/// Makes the section of triangles without features.
 inline CrossSection slow_section(const SectionLine& line, const std::vector<std::array<GridPoint, 3>>& triangles) {
   std::vector<ThemedTriangle> themed;
   for (const auto& [a, b, c] : triangles) themed.push_back({ThemedPoint{a}, ThemedPoint{b}, ThemedPoint{c}});

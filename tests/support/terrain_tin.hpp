@@ -15,7 +15,7 @@ namespace itin::test {
 /// Heights in metres at column, row; NaN leaves the post out.
 using HeightAt = std::function<double(std::int32_t column, std::int32_t row)>;
 
-/// Where such terrain lies unless a test says otherwise.
+/// The place of such terrain, unless a test says otherwise.
 inline constexpr Point2 kCorner{300000, 200000};
 
 /// columns x rows posts, `spacing` metres apart, the first at `corner`; each square with four posts is cut along one
@@ -57,7 +57,7 @@ inline Tin lattice_tin(std::int32_t columns, std::int32_t rows, double spacing, 
 /// Fractal terrain by midpoint displacement: side = 2^k + 1 posts, heights of about +- `relief` metres.
 inline std::vector<double> fractal_heights(std::int32_t side, double relief, double roughness, std::uint32_t seed) {
   std::mt19937 random(seed);
-  // Not std::normal_distribution: its sequence differs between libraries.
+  // std::normal_distribution is not used: its sequence differs between libraries.
   const auto noise = [&](double scale) { return scale * (static_cast<double>(random()) / 2147483648.0 - 1.0); };
   std::vector<double> z(static_cast<std::size_t>(side) * static_cast<std::size_t>(side));
   const auto at = [&](std::int32_t c, std::int32_t r) -> double& {

@@ -22,19 +22,19 @@ class ToldProgress final : public Progress {
     all_.push_back(fraction);
   }
 
-  /// Whatever the stages.
+  /// All fractions reported, whatever the stage.
   const std::vector<double>& all() const { return all_; }
 
   const std::vector<double>& of(const std::string& stage) { return told_[stage]; }
 
-  /// The call's fraction only grows, and ends at 1.
+  /// Expects that the call's fraction only grows, and ends at 1.
   void expect_whole_call() const {
     ASSERT_FALSE(all_.empty());
     EXPECT_GE(all_.front(), 0);
     EXPECT_TRUE(std::is_sorted(all_.begin(), all_.end()));
     EXPECT_EQ(all_.back(), 1);
   }
-  /// It does so in steps of at most so much.
+  /// Expects that the call's fraction grows in steps of at most `most`.
   void expect_steps_up_to(double most) const {
     double last = 0;
     for (const double fraction : all_) {
@@ -43,7 +43,7 @@ class ToldProgress final : public Progress {
     }
   }
 
-  /// Only grows, and ends at 1.
+  /// Expects that the stage's fraction only grows, and ends at 1.
   void expect_whole(const std::string& stage) {
     const std::vector<double>& told = of(stage);
     ASSERT_FALSE(told.empty()) << stage;

@@ -34,7 +34,7 @@ bool knows_format(const char* path) {
   return known;
 }
 
-// Into memory: several of the libraries beneath take no notice of a full disk, and libjpeg ends the program.
+// Encodes into memory: several of the libraries beneath take no notice of a full disk, and libjpeg ends the program.
 const char* encode(const Picture& picture, const char* path, int quality, void* to, Append append) {
   static thread_local std::string reason;
   OIIO::ImageSpec spec = spec_of(picture);

@@ -18,7 +18,7 @@ namespace itin::viewshed {
 
 using Weight = std::int64_t;
 
-/// Elements of a demand, 64 to a block; only blocks with a member are kept, in ascending order.
+/// A set of elements of a demand, 64 per block; only blocks with a member are kept, in ascending order.
 class DemandSet {
  public:
   struct Block {
@@ -56,7 +56,7 @@ DemandSet set_union(const DemandSet& a, const DemandSet& b);
 /// Contains the members of the first that the second does not have. O(blocks).
 DemandSet difference(const DemandSet& a, const DemandSet& b);
 
-/// Every element the same, 1, or weights of their own.
+/// The weights of a demand's elements: 1 each, or one given for each.
 class Demand {
  public:
   Demand() = default;
@@ -69,7 +69,7 @@ class Demand {
   Weight weight(std::uint32_t block, std::uint64_t members) const;
   Weight weight(const DemandSet& set) const;
   Weight total() const;
-  /// In the units of the weights given.
+  /// Converts a weight to the units of the weights given.
   double in_metric(Weight weight) const { return static_cast<double>(weight) * unit_; }
   /// The least weight that is not below the value.
   Weight at_least(double value) const;

@@ -18,8 +18,8 @@
 //     std::cout << tile.grid.bounds().xmin << ' ' << tile.cells.visible << '\n';
 //   }
 //
-// Retrieval and what prepares a surface for its sight lines are paid once for each area. A call that is cancelled on
-// its way throws Cancelled, and what it was reading is read anew by the next.
+// A surface is retrieved and prepared for its sight lines once for each area. A call that is cancelled throws
+// Cancelled; the next call reads again what it was reading.
 #pragma once
 
 #include <cstddef>
@@ -40,8 +40,8 @@ namespace itin::viewshed {
 /// Immutable, and safe for concurrent use.
 class HeldSurface {
  public:
-  /// All of the store's surface over the area, metres. The store must outlive it. Throws InputError where the area
-  /// takes more than the memory, and what triangulate() throws.
+  /// Reads all of the store's surface over the area, which is in metres. The store must outlive this object. Throws
+  /// InputError where the area takes more than the memory, and what triangulate() throws.
   HeldSurface(const Store& store, const Box& area, const Detail& detail, const ThemeChoice& themes,
               const ComputeOptions& options, Progress& progress);
   HeldSurface(Store&& store, const Box& area, const Detail& detail, const ThemeChoice& themes,
@@ -53,12 +53,13 @@ class HeldSurface {
   const Box& area() const;
   const Detail& detail() const;
   const ThemeChoice& themes() const;
-  /// About what it takes.
+  /// About how much memory the surface takes.
   std::uint64_t bytes() const;
   /// Whether every sight line of the request lies over the area, or beyond all data.
   bool covers(const Request& request) const;
-  /// As compute() on the store with this surface's detail and themes, which count instead of the request's; equal to
-  /// the last bit. Throws InputError for a request that is not covered, and as compute() does.
+  /// Computes as compute() does on the store with this surface's detail and themes, which count instead of the
+  /// request's; the result is equal to the last bit. Throws InputError for a request that is not covered, and what
+  /// compute() throws.
   Result compute(const Request& request, Progress& progress) const;
 
  private:
@@ -67,16 +68,16 @@ class HeldSurface {
   std::unique_ptr<const Impl> impl_;
 };
 
-/// Areas of a store's surface, read as requests leave those that are held. Safe for concurrent use.
+/// Areas of a store's surface, which are read as requests leave the areas held. Safe for concurrent use.
 ///
-/// An area is of whole squares of a fixed grid, and larger than the request by an eighth of its width or more on every
-/// side, so that an observer may move on without reading; where the memory does not hold that much, it is smaller.
-/// Areas that were used longest ago are dropped for a new one, but a call that runs over them keeps them until it ends.
-/// Threads that need the same area read it once.
+/// An area consists of whole squares of a fixed grid. It is larger than the request by an eighth of its width or more
+/// on every side, so that an observer may move on without reading; where the memory does not hold that much, it is
+/// smaller. A new area displaces the areas that were used longest ago, but a call that runs over them keeps them until
+/// it ends. Threads that need the same area read it once.
 class PagedSurface {
  public:
   /// `options.memory_bytes` bounds all areas together, beside what each running call takes for itself. The store must
-  /// outlive it.
+  /// outlive this object.
   PagedSurface(const Store& store, const Detail& detail, const ThemeChoice& themes, const ComputeOptions& options = {});
   PagedSurface(Store&& store, const Detail& detail, const ThemeChoice& themes, const ComputeOptions& options) = delete;
   PagedSurface(PagedSurface&&) noexcept;
@@ -87,12 +88,12 @@ class PagedSurface {
   const ThemeChoice& themes() const;
   /// The areas that are held, the one used last first.
   std::vector<Box> areas() const;
-  /// How many areas have been read since it was made.
+  /// How many areas have been read since this object was made.
   std::uint64_t readings() const;
 
-  /// As compute() on the store with this surface's detail and themes, which count instead of the request's; equal to
-  /// the last bit. A request whose surface exceeds the memory drops all areas and is computed from the store, in
-  /// segments. Throws as compute() does.
+  /// Computes as compute() does on the store with this surface's detail and themes, which count instead of the
+  /// request's; the result is equal to the last bit. A request whose surface exceeds the memory drops all areas and is
+  /// computed from the store, in segments. Throws what compute() throws.
   Result compute(const Request& request, Progress& progress);
 
  private:
@@ -101,11 +102,13 @@ class PagedSurface {
   std::unique_ptr<Impl> impl_;
 };
 
-/// As decide() on the plan's store, equal to the last bit. The surface must be of that store, and has the plan's detail
-/// and themes; that of a certified plan has tolerance 0. Throws InputError where it has others, where its area does not
-/// hold the segment, or where the plan is over a coarse level (see Plan::decides_exactly()), and as compute() does.
+/// Decides a segment as decide() on the plan's store does, equal to the last bit. The surface must be of that store,
+/// and have the plan's detail and themes; for a certified plan its tolerance must be 0. Throws InputError where it has
+/// others, where its area does not hold the segment, or where the plan is over a coarse level (see
+/// Plan::decides_exactly()). Also throws what compute() throws.
 Result decide(const HeldSurface& surface, const Plan& plan, std::size_t segment, Progress& progress);
-/// Reads an area for the whole plan, or for the segment alone where the memory does not hold that.
+/// Decides a segment over an area read for the whole plan, or for the segment alone where the memory does not hold the
+/// plan's.
 Result decide(PagedSurface& surface, const Plan& plan, std::size_t segment, Progress& progress);
 
 }  // namespace itin::viewshed

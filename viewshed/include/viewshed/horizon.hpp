@@ -1,5 +1,5 @@
-// The horizon of an observer: how high the surface reaches in every direction, and where; and what of named places is
-// in sight.
+// The horizon of an observer: how high the surface reaches in every direction, and where; and which named places are in
+// sight.
 //
 //   const Tin tin = triangulate(store, Window::disc({310375, 183525}, 20000), Detail::tolerance(0), progress);
 //   viewshed::Request request;
@@ -7,9 +7,9 @@
 //   const viewshed::Horizon sky = viewshed::horizon(tin, tin, request, {.step_deg = 0.1}, progress);
 //   if (sky.points[900].sky) std::cout << sky.points[900].sky->elevation_deg << " degrees due east\n";
 //
-// Azimuths are clockwise from grid north. Elevations are those of the straight line after curvature and refraction.
-// Exact: the line at an azimuth's elevation touches the surface within a micrometre and rises nowhere into it; nothing
-// is sampled along it.
+// Azimuths are clockwise from grid north. Elevations are those of the straight line after curvature and refraction. The
+// horizon is exact: the line at an azimuth's elevation touches the surface within a micrometre and rises nowhere into
+// it; nothing is sampled along it.
 #pragma once
 
 #include <optional>
@@ -25,7 +25,7 @@ struct HorizonTarget {
   std::string name;
   Point2 position;
   double height = 0;        ///< metres above the ground, or an elevation with Request::target_absolute
-  std::string source = {};  ///< where it was read, for messages: "peaks.csv: feature 7"; empty: they name it alone
+  std::string source = {};  ///< where it was read, for messages, such as "peaks.csv: feature 7"; or empty
 };
 
 struct HorizonOptions {
@@ -36,7 +36,7 @@ struct HorizonOptions {
 struct SkyPoint {
   double elevation_deg = 0;
   double distance_m = 0;    ///< horizontal
-  Point3 position;          ///< on the surface; of several places the nearest
+  Point3 position;          ///< on the surface; the nearest of several places
   std::uint16_t theme = 0;  ///< the theme of the raised feature there; 0: terrain
   bool data_edge = false;   ///< the ground ends there: what lies behind, unknown, may rise higher
 };
@@ -49,7 +49,7 @@ struct HorizonPoint {
 
 struct SightedTarget {
   HorizonTarget target;
-  double elevation_m = 0;  ///< the target's
+  double elevation_m = 0;  ///< the elevation of the target
   double azimuth_deg = 0;
   double elevation_deg = 0;
   double distance_m = 0;
@@ -65,22 +65,22 @@ struct Horizon {
   std::vector<SightedTarget> targets;
 };
 
-/// Computes the horizon of the request's one observer, on `surface` as far as its radius; observer and targets stand on
-/// `ground` unless the request says on the surface. Ground that is missing passes. Cost: a few microseconds per
+/// Computes the horizon of the request's one observer, on `surface` as far as its radius. Observer and targets stand on
+/// `ground` unless the request says on the surface. Lines pass over missing ground. Cost: a few microseconds per
 /// azimuth, besides 0.1 microseconds per triangle. Throws InputError (as require_whole_turn() does; an observer or
 /// target outside the data, an observer beneath a roof), Cancelled.
 Horizon horizon(const Tin& surface, const Tin& ground, const Request& request, const HorizonOptions& options,
                 Progress& progress);
 
-/// As above, on the surface of a store at `request.detail` with `request.themes`, where `request.nodata` tells what is
-/// known of lines over missing ground: targets are as a cross-section along their line has them. As much is read at
-/// once as the memory holds, one wedge of directions after another, and one direction at least. The answer is otherwise
-/// that of above to the last bit. Throws what triangulate() throws, too.
+/// Computes the horizon on the surface of a store at `request.detail` with `request.themes`. `request.nodata` tells
+/// what is known of lines over missing ground: targets are as a cross-section along their line has them. Reads as much
+/// at once as the memory holds, one wedge of directions after another, and at least one direction. Otherwise the answer
+/// is that of the function above to the last bit. Also throws what triangulate() throws.
 Horizon horizon(const Store& store, const Request& request, const HorizonOptions& options,
                 const ComputeOptions& compute_options, Progress& progress);
 
-/// As above, without reading the surface again that a viewshed of the request was computed over, where it is held as a
-/// whole and the memory holds its triangles.
+/// Computes the same, but does not read again the surface that a viewshed of the request was computed over, if it is
+/// held as a whole and the memory holds its triangles.
 Horizon horizon(const Store& store, ViewshedWithSurface& computed, const Request& request,
                 const HorizonOptions& options, const ComputeOptions& compute_options, Progress& progress);
 

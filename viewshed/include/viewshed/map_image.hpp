@@ -40,13 +40,15 @@ struct MapImage {
   std::vector<std::string> warnings;  ///< one line each; a missing font leaves the map without text
 };
 
-/// `result` must come from `tin`. Colours can be told apart by colour-blind readers and in grey print. Throws
-/// InputError for a size out of range.
+/// Draws a map of a viewshed; `result` must come from `tin`. Colours can be told apart by colour-blind readers and in
+/// grey print. Throws InputError for a size out of range.
 MapImage draw_map(const Tin& tin, const Result& result, const MapOptions& options = {});
-/// Over what compute_with_surface() kept; heights of it that have not been read are.
+/// Draws the map over the surface that compute_with_surface() kept, and reads the heights of it that have not been
+/// read.
 MapImage draw_map(Surface& surface, const Result& result, Progress& progress, const MapOptions& options = {});
 
-/// Parallel projection, shaded, what stands on the surface in a colour for each kind of theme.
+/// Options of draw_oblique(), a shaded parallel projection. What stands on the surface has a colour for each kind of
+/// theme.
 struct ObliqueOptions {
   double azimuth = 340;               ///< degrees clockwise from grid north: where the viewer looks
   double elevation = 40;              ///< degrees, above 0 up to 90: how high above the horizon the viewer is
@@ -55,11 +57,12 @@ struct ObliqueOptions {
   std::vector<ThemeKind> kinds = {};  ///< one for each theme of the store, in order; without them all tops are grey
 };
 
-/// Hidden parts are hidden exactly, up to a pixel. O(n) time for n triangles and O(pixels^2) memory, on one thread.
-/// Throws InputError for options out of range and for a surface without triangles.
+/// Draws a surface from afar and above. Hidden parts are hidden exactly, up to a pixel. O(n) time for n triangles and
+/// O(pixels^2) memory, on one thread. Throws InputError for options out of range and for a surface without triangles.
 MapImage draw_oblique(const Tin& tin, const ObliqueOptions& options = {});
 
-/// What an eye sees of a surface, in perspective, over the curved Earth; colours as above.
+/// Options of draw_perspective(): what an eye sees of a surface over the curved Earth, in the colours of
+/// draw_oblique().
 struct PerspectiveOptions {
   Point3 eye;          ///< its z an elevation, metres
   double azimuth = 0;  ///< degrees clockwise from grid north, in the middle of the picture
@@ -71,14 +74,14 @@ struct PerspectiveOptions {
   std::vector<ThemeKind> kinds = {};  ///< as ObliqueOptions::kinds
 };
 
-/// Cost and errors are those of draw_oblique(). What is nearer than 0.1 m is not drawn.
+/// Draws what an eye sees. Cost and errors are those of draw_oblique(). Nothing nearer than 0.1 m is drawn.
 MapImage draw_perspective(const Tin& tin, const PerspectiveOptions& options);
 
 /// Throws InputError if OpenImageIO knows no format for the path's ending (png, jpg, tif, ...).
 void require_image_format(const std::string& path);
 
-/// The file appears only when complete. Throws as require_image_format() does, and FileError if the place cannot be
-/// written, or if the file exists and `overwrite` is false.
+/// Writes a picture to a file, which appears only when complete. Throws what require_image_format() throws, and
+/// FileError if the place cannot be written, or if the file exists and `overwrite` is false.
 void write_image(const std::string& path, const MapImage& image, bool overwrite);
 
 }  // namespace itin::viewshed

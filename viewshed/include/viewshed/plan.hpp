@@ -6,9 +6,9 @@
 //   for (std::size_t i = 0; i < plan.segments().size(); ++i) merge.add(i, viewshed::decide(store, plan, i, progress));
 //   const viewshed::Result result = merge.take();
 //
-// The result is that of compute(), or of compute_certified(), to the last bit. A plan follows from the store, the
-// request, the memory and the most cells of a segment, and from nothing else: who makes it elsewhere from these has the
-// same segments, and results pass between them as files:
+// The result is that of compute(), or of compute_certified(), to the last bit. A plan depends on the store, the
+// request, the memory and the greatest number of cells of a segment, and on nothing else. Anyone who makes it elsewhere
+// from these gets the same segments, so results can be exchanged as files:
 //
 //   viewshed::write_segment("7.segment", plan, 7, viewshed::decide(store, plan, 7, progress));   // on one machine
 //   merge.add(7, viewshed::read_segment("7.segment", plan, 7));                                  // on another
@@ -44,11 +44,11 @@ enum class Certainty { kExact, kCertified };
 
 class Plan {
  public:
-  /// Cuts the request's cells in halves until the surface under the sight lines to a segment fits into the memory (or
-  /// the segment is a single tile of 64 by 64 cells, which decide() then reads piece by piece), and has no more than
-  /// `most_cells` cells. A certified viewshed over a coarse level is one segment: cut differently, the level would
-  /// leave other cells undecided. Reads the store's directory alone. Throws InputError for a request that is refused
-  /// whatever the surface.
+  /// Cuts the request's cells in halves until the surface under the sight lines to a segment fits into the memory, and
+  /// the segment has no more than `most_cells` cells. A single tile of 64 by 64 cells need not fit: decide() reads it
+  /// piece by piece. A certified viewshed over a coarse level is one segment: cut differently, the level would leave
+  /// other cells undecided. Reads the store's directory alone. Throws InputError for a request that is refused whatever
+  /// the surface.
   Plan(const Store& store, const Request& request, const ComputeOptions& options = {},
        std::uint64_t most_cells = kAnyNumberOfCells, Certainty certainty = Certainty::kExact);
 
@@ -57,13 +57,13 @@ class Plan {
   Certainty certainty() const { return certainty_; }
   /// Whether segments are decided over the full surface or that of the request's detail, not over a coarse level.
   bool decides_exactly() const { return exactly_; }
-  /// All cells. Those that belong to no segment are outside of every field of view.
+  /// All cells; the ones that belong to no segment are outside every field of view.
   const RasterGrid& grid() const { return grid_; }
-  /// The nearest to an observer first.
+  /// The segments, the nearest to an observer first.
   const std::vector<Segment>& segments() const { return segments_; }
   /// The request that decide() computes: the viewshed of the segment's observers on its cells.
   Request request_of(std::size_t segment) const;
-  /// Equal for plans with the same segments of the same request on the same store, and for no others.
+  /// A number that is equal for plans with the same segments of the same request on the same store, and for no others.
   std::uint64_t id() const { return id_; }
 
  private:
@@ -76,17 +76,18 @@ class Plan {
   std::uint64_t id_ = 0;
 };
 
-/// The segment's cells alone; `store` is the one that the plan was made for. Cost and errors are those of
+/// Decides the segment's cells alone; `store` is the one that the plan was made for. Cost and errors are those of
 /// compute_with_surface() on Plan::request_of(), or of compute_certified().
 Result decide(const Store& store, const Plan& plan, std::size_t segment, Progress& progress);
 
-/// The results of segments put together, in any order. The plan must outlive it.
+/// Puts the results of segments together, which may come in any order. The plan must outlive it.
 class Merge {
  public:
   explicit Merge(const Plan& plan);
   ~Merge();
 
-  /// Throws InputError for a result that is not this segment's. One that is there already may come again.
+  /// Adds a segment's result, which may have been added before. Throws InputError for a result that is not this
+  /// segment's.
   void add(std::size_t segment, const Result& result);
   /// The segments that have not come, ascending.
   std::vector<std::size_t> missing() const;
@@ -98,8 +99,8 @@ class Merge {
   std::unique_ptr<Rasters> rasters_;
 };
 
-/// Equal results give equal bytes, but for statistics. Throws FileError; an existing file is replaced once the new one
-/// is complete.
+/// Writes a segment's result. Equal results give equal bytes, except for statistics. Throws FileError; an existing file
+/// is replaced once the new one is complete.
 void write_segment(const std::string& path, const Plan& plan, std::size_t segment, const Result& result);
 
 /// Throws FileError where the file cannot be read or is damaged, InputError where it holds another plan's segment or

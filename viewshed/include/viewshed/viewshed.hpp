@@ -9,13 +9,13 @@
 //   viewshed::write_geotiff("out.tif", result, {.crs_wkt = store.metadata().crs_wkt});
 //   const viewshed::Result certain = viewshed::compute_certified(store, request, {}, progress).result;
 //
-// Both ends of a sight line stand on the surface queried: on its ground, that is, without the raised features of the
-// chosen themes, unless the request says on top of these. A cell is decided by its centre (cx, cy): the target is at
+// Both ends of a sight line stand on the ground of the surface queried, without the raised features of the chosen
+// themes, unless the request puts them on top of these. A cell is decided by its centre (cx, cy): the target is at
 // T(cx, cy) + target_height, so one on the ground within a building is hidden. A sight line that grazes the surface
 // sees (law 4).
 //
-// Accuracy. Exact for the surface asked for: each cell has the verdict of its sight line over every triangle, decided
-// in double precision. Ground that rises less than a micrometre above a sight line grazes it.
+// Accuracy: the result is exact for the surface asked for. Each cell has the verdict of its sight line over every
+// triangle, decided in double precision. Ground that rises less than a micrometre above a sight line grazes it.
 #pragma once
 
 #include <array>
@@ -38,8 +38,8 @@
 
 namespace itin::viewshed {
 
-/// Degrees. Azimuths are clockwise from grid north and may pass through it (350 to 10); elevations are those of the
-/// straight line after curvature and refraction, -90 to 90, upwards positive.
+/// A range of angles, degrees. Azimuths are clockwise from grid north and may pass through it (350 to 10). Elevations
+/// are those of the straight line after curvature and refraction, -90 to 90, upwards positive.
 struct AngleRange {
   double from = 0;
   double to = 0;
@@ -50,7 +50,7 @@ struct Observer {
   Point2 position;
   double height = 2;  ///< metres above the surface, or an elevation when `absolute`
   bool absolute = false;
-  // Its own field of view and targets, where they differ from the request's.
+  // The observer's own field of view and targets, where they differ from the request's.
   std::optional<double> target_height = std::nullopt;
   std::optional<double> radius = std::nullopt;
   std::optional<double> min_radius = std::nullopt;
@@ -58,8 +58,8 @@ struct Observer {
   std::optional<AngleRange> elevation = std::nullopt;
 };
 
-/// Under kUnknown lines are undecided that only ground without data could hide; what counts or names observers counts
-/// those that certainly see. A value of which that ground leaves open what it is, is not given.
+/// Under kUnknown a line is undecided if only ground without data could hide it. Modes that count or name observers
+/// take the observers that certainly see. A value that such ground leaves open is not given.
 using itin::NoData;
 
 /// The algorithm that decides sight lines to cells. The result never depends on it.
@@ -92,9 +92,9 @@ enum class Verdict : std::uint8_t {
   kOutside = 255   ///< outside every field of view, or no ground to look at
 };
 
-/// The errors of the surface's vertices are normal, with this standard deviation; those of vertices x apart are
-/// correlated as exp(-x / correlation_length), or not at all where that is 0. Between vertices they are linear, and
-/// what stands on the surface moves with it.
+/// The errors of the surface's vertices are normal, with this standard deviation. The errors of vertices x apart are
+/// correlated as exp(-x / correlation_length), or not at all where that length is 0. Between vertices errors are
+/// linear, and what stands on the surface moves with it.
 struct VerticalError {
   double sigma = 0;               ///< metres, positive
   double correlation_length = 0;  ///< metres
@@ -122,8 +122,8 @@ struct Request {
   Earth earth;
   Detail detail = Detail::tolerance(0);      ///< the surface's level of detail; not used with a Tin
   ThemeChoice themes = ThemeChoice::none();  ///< raised features on the surface; not used with a Tin
-  // Both ends stand on the ground without raised features, or on the surface with them. Without a ground of its own,
-  // compute() takes the surface for both.
+  // Both ends stand on the ground without raised features, or on the surface with them. compute() takes the surface for
+  // both where it is given no ground.
   bool observers_on_surface = false;
   bool targets_on_surface = false;
   NoData nodata = NoData::kUnknown;
@@ -139,7 +139,8 @@ inline constexpr int kDefaultCells = 2048;
 inline constexpr std::uint16_t kCountOutside = 65535;
 
 inline constexpr std::uint32_t kNoBlocker = 0xffffffff;
-/// Ground without data comes first: it hides under NoData::kBlock, and may hide under NoData::kUnknown.
+/// The blocker where ground without data comes first: it hides under NoData::kBlock, and may hide under
+/// NoData::kUnknown.
 inline constexpr std::uint32_t kMissingGround = 0xfffffffe;
 /// A triangle of the surface that hides something.
 struct BlockingTriangle {
@@ -170,7 +171,7 @@ struct Statistics {
   double scene_seconds = 0;
   double lines_seconds = 0;
 
-  /// A surface of so many triangles, or posts, that was retrieved besides.
+  /// Adds the retrieval of another surface, which has `of_triangles` triangles or posts.
   void add_retrieval(const RetrievalStatistics& read, std::uint64_t of_triangles, double seconds) {
     retrieval += read;
     triangles += of_triangles;
@@ -195,7 +196,8 @@ struct Counts {
 struct ObserverSets {
   std::vector<std::uint32_t> words;
 };
-/// kAngle, of the line after curvature and refraction; NaN where none sees.
+/// kAngle: the greatest elevation angle of the lines after curvature and refraction; NaN where no observer sees the
+/// cell.
 struct Angles {
   std::vector<float> angle_deg;
 };
@@ -208,22 +210,24 @@ struct NearestObservers {
 /// kBlocker.
 struct Blockers {
   std::vector<BlockingTriangle> triangles;  ///< those that first hide a cell, ascending
-  /// For hidden cells: which of these rises above the sight line first, kMissingGround, or kNoBlocker; and its theme
-  /// (from 1; 0: terrain), or the same value.
+  /// What hides each hidden cell: which of these triangles rises above the sight line first, kMissingGround, or
+  /// kNoBlocker; and its theme (from 1; 0: terrain), or the same value.
   std::vector<std::uint32_t> triangle;
   std::vector<std::uint32_t> theme;
-  /// From a store: which feature of that theme it is part of, by features_at(); kNoBlocker: of none.
+  /// Which feature of that theme the triangle is part of, by features_at(), if the surface is a store's; kNoBlocker
+  /// where it is part of none.
   std::vector<std::uint32_t> feature;
 };
-/// kHeight: 0 where the ground is seen, NaN where no height is (outside, beyond the elevations in view, or behind
-/// missing ground that blocks) or none is known: where the line crosses ground without data under NoData::kUnknown,
-/// unless another observer certainly sees as low. Exact: the sight line to it touches the surface within a micrometre.
+/// kHeight: 0 where the ground is seen. NaN where there is no height (outside, beyond the elevations in view, or behind
+/// missing ground that blocks). NaN also where none is known: where the line crosses ground without data under
+/// NoData::kUnknown, unless another observer certainly sees as low. Exact: the sight line to that height touches the
+/// surface within a micrometre.
 struct LeastHeights {
   std::vector<float> height_m;
 };
-/// kProbability: that the whole line is clear, with a standard error of at most 0.022, alike in neighbouring cells; 0
-/// for a target at an elevation below the ground, or behind ground without data that blocks; NaN outside, and where
-/// ground without data leaves it open under NoData::kUnknown.
+/// kProbability: the probability that the whole line is clear, with a standard error of at most 0.022, alike in
+/// neighbouring cells. 0 for a target at an elevation below the ground, or behind ground without data that blocks. NaN
+/// outside, and where ground without data leaves it open under NoData::kUnknown.
 struct Probabilities {
   std::vector<float> probability;
 };
@@ -242,8 +246,8 @@ using ModeValues = std::variant<std::monostate, Counts, ObserverSets, Angles, Ne
 struct Result {
   Request request;  ///< as understood
   RasterGrid grid;
-  /// In every mode. Undecided is what only ground without data leaves open, under NoData::kUnknown, and in certified
-  /// results what the level leaves open.
+  /// The verdicts, in every mode. A cell is undecided where only ground without data leaves it open, under
+  /// NoData::kUnknown, and in certified results where the level leaves it open.
   std::vector<Verdict> visible;
   bool certified = false;                ///< made by compute_certified(): verdicts at a level are certain
   bool decided_exactly = false;          ///< a certified one over the full surface, where the level is no cheaper
@@ -266,8 +270,8 @@ struct Result {
   }
 };
 
-/// Where a raster of sets keeps whether thing `number` (from 0) is in the set of a cell: grids of 32-bit words, one for
-/// every 32 things, one grid after the other.
+/// The place of the bit that tells whether thing `number` (from 0) is in the set of a cell. A raster of sets consists
+/// of grids of 32-bit words, one for every 32 things, one grid after the other.
 struct RasterBit {
   std::size_t grid = 0;
   std::uint32_t mask = 0;
@@ -280,30 +284,30 @@ constexpr std::size_t bit_grids(std::size_t count) {
   return (count + 31) / 32;
 }
 
-/// On a given surface. The Tin must hold every triangle that sight lines cross; where it ends there is no data.
-/// Cost: O(n) for n triangles (about 0.1 microseconds each) and about 50 ns per cell and observer, in mode kHeight 150;
-/// in mode kLoss each cell takes all triangles under its line, about 60 nanoseconds each;
-/// memory 9 bytes per post of a raster, 50 per triangle of others, and a tenth of a megabyte per thread. The result
-/// does not depend on the number of threads. Throws InputError (an observer outside the data, by name; an unusable
-/// radius, cell size or angle; more than 65534 observers to count), Cancelled.
+/// Computes a viewshed on a given surface. The Tin must hold every triangle that sight lines cross; where it ends there
+/// is no data. Cost: O(n) for n triangles (about 0.1 microseconds each) and about 50 ns per cell and observer, 150 ns
+/// in mode kHeight; in mode kLoss each cell takes all triangles under its line, about 60 ns each. Memory: 9 bytes per
+/// post of a raster, 50 per triangle of others, and a tenth of a megabyte per thread. The result does not depend on the
+/// number of threads. Throws InputError (an observer outside the data, by name; an unusable radius, cell size or angle;
+/// more than 65534 observers to count), Cancelled.
 Result compute(const Tin& tin, const Request& request, Progress& progress);
 
-/// Ends that are not on the surface stand on `ground`, which must cover what the surface covers. Otherwise as above.
+/// Computes as above, but ends that are not on the surface stand on `ground`, which must cover what the surface covers.
 Result compute(const Tin& tin, const Tin& ground, const Request& request, Progress& progress);
 
 struct ComputeOptions {
-  // Change the speed, never the answer.
+  // These change the speed, never the answer.
   std::uint64_t memory_bytes = std::uint64_t{1} << 30;
   bool lattices = true;  ///< a raster is swept over its posts alone
-  /// ViewshedWithSurface::surface is wanted as a whole, where the memory holds it, for maps and horizons: else no more
-  /// of a large one is read than may be seen.
+  /// Whether ViewshedWithSurface::surface is wanted as a whole, where the memory holds it, for maps and horizons. If
+  /// not, no more of a large surface is read than may be seen.
   bool whole_surface = true;
 };
 
 /// The surface over which sight lines were decided. Opaque: draw_map() and compute_on_surface() take it.
 struct Surface;
 
-/// A result, and what it was made on, for maps and single observers while the store is open.
+/// A result and the surface that it was computed on, for maps and single observers while the store is open.
 struct ViewshedWithSurface {
   std::shared_ptr<Surface> surface;  ///< a coarse one where that of the request was not read as a whole
   std::optional<Tin> ground;         ///< what ends stand on, where that is not the surface
@@ -311,38 +315,38 @@ struct ViewshedWithSurface {
   Result result;
 };
 
-/// On the surface of a store at `request.detail`, of which as much is read at once as the memory holds: all of it; or
-/// of a large raster those heights that an observer may see, sector by sector about each observer; or of another
-/// surface what decides, segment by segment. There a certified pass at a coarse level decides most cells of the full
-/// surface, and the others take the places where their lines come near the ground, and no more. At a tolerance the pass
-/// tells which ground is hidden, and the others take what is not; so does one observer on a large surface that is not
-/// wanted as a whole. With rings, with themes that stand on the ground at a tolerance, and in modes that ask
-/// more than whether a cell is seen, they take all ground under the lines. The answer is the same to the last bit, in
-/// every mode. Cost, on one core: about a microsecond per point; a fifth of that for rasters, and 9 bytes per post.
-/// Throws as compute() on a Tin and triangulate() do, and InputError where the line to a single cell does not fit into
-/// the memory, or large rasters leave less than a quarter of it.
+/// Computes a viewshed on the surface of a store at `request.detail`. Reads as much of the surface at once as the
+/// memory holds: all of it; or, of a large raster, the heights that an observer may see, sector by sector about each
+/// observer; or, of another surface, what decides, segment by segment. In segments a certified pass at a coarse level
+/// decides most cells of the full surface, and the others take only the places where their lines come near the ground.
+/// At a tolerance the pass tells which ground is hidden, and only the rest is read; the same holds for one observer on
+/// a large surface that is not wanted as a whole. With rings, with themes that stand on the ground at a tolerance, and
+/// in modes that ask more than whether a cell is seen, all ground under the lines is read. The answer is the same to
+/// the last bit, in every mode. Cost, on one core: about a microsecond per point; for rasters a fifth of that, and 9
+/// bytes per post. Throws what compute() on a Tin and triangulate() throw, and InputError where the line to a single
+/// cell does not fit into the memory, or large rasters leave less than a quarter of it.
 ViewshedWithSurface compute_with_surface(const Store& store, const Request& request, const ComputeOptions& options,
                                          Progress& progress);
 
 /// Computes what is certain of the full surface, without reading all of it: no cell called certain differs from the
 /// full surface's exact answer, at request.detail, in request.mode kVisible. Both ends of a sight line stand on the
 /// full surface, whatever the tolerance. The certificates of the store's index cells (law 2) tell how low and how high
-/// the full surface is about the level asked for; a block of cells is hidden that rises nowhere above the ground before
-/// it, and what lies near an observer is decided exactly. All else is undecided: what is in sight, mostly, and what is
-/// nearly so. Features of Request::themes count as compute_with_surface() has them: they hide nothing but near the
-/// observer, and targets may stand on them. With several observers a cell is certainly visible when it is to one of
-/// them, and certainly hidden when it is to all. Under NoData::kUnknown a line across a void and back is never
+/// the full surface is about the level asked for. A block of cells is hidden if it rises nowhere above the ground
+/// before it. What lies near an observer is decided exactly. All else is undecided: mostly what is in sight, and what
+/// is nearly so. Features of Request::themes count as in compute_with_surface(), but hide nothing except near the
+/// observer; targets may stand on them. With several observers a cell is certainly visible when it is so to one of
+/// them, and certainly hidden when it is so to all. Under NoData::kUnknown a line across a void and back is never
 /// certainly visible. Cost: about 2 microseconds per point of the level and 10 nanoseconds per cell and observer, and
-/// bounds of 0.1 seconds. Where exact answers cost no more, every cell is decided, but for such lines across voids, as
-/// by compute_with_surface() at tolerance 0. Levels of more than a million and a half points are looked at sector by
-/// sector about each observer. Throws as compute_with_surface() does.
+/// 0.1 seconds for the bounds. Where exact answers cost no more, every cell is decided as by compute_with_surface() at
+/// tolerance 0, except for such lines across voids. Levels of more than a million and a half points are looked at
+/// sector by sector about each observer. Throws what compute_with_surface() throws.
 ViewshedWithSurface compute_certified(const Store& store, const Request& request, const ComputeOptions& options,
                                       Progress& progress);
 
-/// compute_with_surface() with default options, without the surface.
+/// Returns the result of compute_with_surface() with default options, without the surface.
 Result compute(const Store& store, const Request& request, Progress& progress);
 
-/// The request for one of its observers alone, on the cells of all.
+/// Returns the request of a result for one of its observers alone, on the cells of all.
 Request request_for_observer(const Result& result, std::size_t observer);
 
 /// Computes the request of one observer alone on a surface that was retrieved for all from `store`.
@@ -359,14 +363,14 @@ struct GeotiffOptions {
   bool overwrite = false;
 };
 
-/// As write_raster() writes them: Byte classes (Verdict, nodata 255; of kFresnel, too), UInt16 counts (nodata 65535),
-/// UInt32 bits without nodata (0 where none sees, a band for every 32 observers), Float32 angles (nodata NaN), Float32
-/// bands of distance and number of the nearest, and of both losses (nodata NaN). Throws FileError, Cancelled.
+/// Writes the result with write_raster(). Byte: classes (Verdict, nodata 255; also for kFresnel). UInt16: counts
+/// (nodata 65535). UInt32: bits without nodata (0 where none sees, a band for every 32 observers). Float32 (nodata
+/// NaN): angles, bands of distance and number of the nearest, and bands of both losses. Throws FileError, Cancelled.
 void write_geotiff(const std::string& path, const Result& result, const GeotiffOptions& options,
                    const Progress& progress = NoProgress());
 
-/// Writes what is seen as polygons to a GeoPackage, one per class as write_regions() does: visible and hidden; the
-/// undecided; those in sight whose zone is cut; a class for every count, nearest observer or theme that hides; and the
+/// Writes what is seen as polygons to a GeoPackage, one per class as write_regions() does. The classes are visible,
+/// hidden and undecided; in sight with the zone cut; one for every count, nearest observer or theme that hides; and the
 /// cells where `no_data`, if it is given, is 1. Throws FileError.
 void write_polygons(const std::string& path, const Result& result, const std::string& crs_wkt, bool overwrite,
                     std::span<const std::uint8_t> no_data = {});

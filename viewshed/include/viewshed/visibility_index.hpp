@@ -6,9 +6,9 @@
 //   const viewshed::VisibilityIndex index = viewshed::visibility_index(store, request, progress);
 //   viewshed::write_geotiff("index.tif", index, request, {.crs_wkt = store.metadata().crs_wkt});
 //
-// Every cell's centre is an observer's place, and of the ground within the radius a share is seen: its estimate from
-// targets at random, evenly spread over the disc, comes with its standard error. Both ends stand on the ground, and
-// what the themes have standing there hides; each sight line is decided as viewsheds decide theirs.
+// Every cell's centre is an observer's place. The share of the ground within the radius that is seen from it is
+// estimated from targets at random, evenly spread over the disc, and comes with its standard error. Both ends stand on
+// the ground, and what the themes have standing there hides. Each sight line is decided as viewsheds decide theirs.
 #pragma once
 
 #include <cstdint>
@@ -31,7 +31,8 @@ struct IndexRequest {
   Detail detail = Detail::tolerance(0);
   ThemeChoice themes = ThemeChoice::none();
   NoData nodata = NoData::kUnknown;
-  /// To work in, about: where it does not hold all ground at once, this is read block by block of observers.
+  /// About how much memory to work in. Where it does not hold all ground at once, the ground is read for one block of
+  /// observers after another.
   std::uint64_t memory_bytes = ComputeOptions().memory_bytes;
 };
 
@@ -41,22 +42,22 @@ struct VisibilityIndex {
   std::vector<float> standard_error;  ///< sqrt(p (1 - p) / n) of the share p, with one target more of either kind
   std::vector<float> undecided;       ///< share that ground without data alone could hide, under kUnknown; NaN likewise
   double mean = 0;                    ///< the share seen, averaged over the cells
-  double mean_error = 0;              ///< the standard error of that, for these cells
+  double mean_error = 0;              ///< the standard error of the mean, for these cells
   double mean_undecided = 0;
   std::uint64_t observers = 0;
   std::uint64_t targets = 0;  ///< within the radius of all observers, on ground or not
-  std::uint64_t lines = 0;    ///< to those of them on ground
+  std::uint64_t lines = 0;    ///< sight lines to the targets that are on ground
   std::uint64_t triangles = 0;
   RetrievalStatistics retrieval;
 };
 
-/// A store and a request always give the same numbers, whatever the number of threads and the memory: each line is
-/// hidden or not as SightLine, and so every viewshed, has it. Cost: retrieval of the observers' cells and the radius
-/// about them, and one to two microseconds per target. Throws InputError (values out of range, no ground in the area,
-/// too little memory for a single observer or the rasters), and what triangulate() throws.
+/// Computes the visibility index. A store and a request always give the same numbers, whatever the number of threads
+/// and the memory: SightLine decides each line, as in every viewshed. Cost: retrieval of the observers' cells and the
+/// radius about them, and one to two microseconds per target. Throws InputError (values out of range, no ground in the
+/// area, too little memory for a single observer or the rasters), and what triangulate() throws.
 VisibilityIndex visibility_index(const Store& store, const IndexRequest& request, Progress& progress);
 
-/// Three bands, Float32: the share, its standard error and the share undecided; nodata NaN. Throws FileError,
+/// Writes three bands, Float32: the share, its standard error and the share undecided; nodata NaN. Throws FileError,
 /// Cancelled.
 void write_geotiff(const std::string& path, const VisibilityIndex& index, const IndexRequest& request,
                    const GeotiffOptions& options, const Progress& progress = NoProgress());

@@ -7,7 +7,7 @@
 
 namespace itin::viewshed {
 
-/// "366.8 km²", "57960 m²".
+/// Returns an area as text, such as "366.8 km²" or "57960 m²".
 inline std::string area_text(double square_metres) {
   return square_metres >= 1e5 ? fmt::format("{:.4g} km²", square_metres / 1e6)
                               : fmt::format("{:.0f} m²", square_metres);

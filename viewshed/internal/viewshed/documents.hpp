@@ -18,23 +18,23 @@ Document grid_document(const RasterGrid& grid);
 /// `statistics`: what was read, and how many sight lines were decided; without the times.
 Document statistics_document(const Statistics& statistics);
 
-/// How many of the cells within fields of view are decided.
+/// The percentage of the cells within fields of view that are decided.
 double decided_percent(const CellCounts& cells);
 
-/// Cells in view that a mode has no value of.
+/// How many cells in view a mode has no value for.
 struct CellsWithoutValue {
   const char* value;  ///< height, probability or loss
   std::uint64_t cells = 0;
 };
-/// The cells without a value in kHeight, kProbability or kLoss; nothing in other modes.
+/// Returns the cells without a value in kHeight, kProbability or kLoss; nothing in other modes.
 std::optional<CellsWithoutValue> cells_without_value(const Result& result);
 
-/// `crs`, `surface`, `refraction`, `grid`, `cells`, `area_m2`, of a certified one `decided_percent` and
-/// `decided_exactly`, and `statistics`.
+/// Returns `crs`, `surface`, `refraction`, `grid`, `cells`, `area_m2` and `statistics`, and for a certified result
+/// `decided_percent` and `decided_exactly`.
 Document viewshed_document(const StoreMetadata& metadata, const Result& result);
 
-/// Mode kBlocker: the features that hide cells, with their theme, name and id by their source (null where it gives
-/// none), number and cells; what hides most first.
+/// Returns the features that hide cells in mode kBlocker, with their theme, name and id by their source (null where it
+/// gives none), number and cells; the feature that hides most comes first.
 Document blockers_document(const Store& store, const Result& result);
 
 /// Adds to such a document how much of the area looked at has no ground: `no_data` among `cells` and `area_m2`,

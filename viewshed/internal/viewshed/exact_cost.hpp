@@ -1,4 +1,4 @@
-// What a viewshed at a tolerance costs beside the exact one.
+// The cost of a viewshed at a tolerance, compared with that of the exact one.
 #pragma once
 
 #include <itin/store.hpp>
@@ -6,9 +6,9 @@
 
 namespace itin::viewshed {
 
-/// Whether the exact answer is expected to take no longer than one at the request's tolerance: over a lattice, whose
-/// posts need no triangles, unless the tolerance leaves but a few of them. Reads the store's directory and a few
-/// blocks. False for a request of the exact answer, of rings or with features.
+/// Tells whether the exact answer is expected to take no longer than one at the request's tolerance. That is so over a
+/// lattice, whose posts need no triangles, unless the tolerance leaves only a few of them. Reads the store's directory
+/// and a few blocks. False for a request of the exact answer, with rings or with features.
 bool exact_costs_no_more(const Store& store, const Request& request);
 
 }  // namespace itin::viewshed

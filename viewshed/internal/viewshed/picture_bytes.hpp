@@ -9,15 +9,15 @@
 
 namespace itin::viewshed {
 
-/// 8 bits each, row by row from the north-west: one per pixel is grey, three are red, green and blue, the fourth is
-/// alpha, which the colours are not multiplied by.
+/// Samples of 8 bits, row by row from the north-west. One per pixel is grey; three are red, green and blue; a fourth is
+/// alpha, and the colours are not multiplied by it.
 struct PictureSamples {
   std::span<const std::uint8_t> values;
   int width = 0, height = 0, channels = 3;
 };
 
-/// The bytes of a file of the format that the path's ending names; `quality` is that of a JPEG, 1 to 100. Throws
-/// FileError.
+/// Returns the bytes of a file of the format that the path's ending names; `quality` is that of a JPEG, 1 to 100.
+/// Throws FileError.
 std::string picture_bytes(const PictureSamples& picture, const std::string& path, int quality = 98);
 
 }  // namespace itin::viewshed

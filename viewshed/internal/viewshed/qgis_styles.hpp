@@ -1,5 +1,5 @@
-// Layer styles that QGIS takes from beside a raster, NAME.qml: bands of values in colours, where the raster itself can
-// hold no colours.
+// Layer styles, NAME.qml, which QGIS reads from beside a raster: bands of values in colours, where the raster itself
+// can hold no colours.
 //
 //   if (const std::string style = qgis_style(request); !style.empty()) write_file("seen.qml", style, false);
 #pragma once

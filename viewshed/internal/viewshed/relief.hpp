@@ -11,7 +11,7 @@
 
 namespace itin::viewshed {
 
-/// NaN where there is no ground.
+/// Heights and shades of the ground at the pixels; NaN where there is no ground.
 struct Relief {
   RasterGrid pixels;
   std::vector<float> heights_m;
@@ -21,8 +21,8 @@ struct Relief {
 /// The shade of level ground.
 inline constexpr double kLevelShade = 0.643;
 
-/// Reads the coarsest level that a pixel does not tell from the full terrain, at most about 1.5 million points. Throws
-/// what triangulate() throws.
+/// Reads the coarsest level that cannot be told from the full terrain at the size of a pixel, at most about 1.5 million
+/// points. Throws what triangulate() throws.
 Relief relief(const Store& store, const RasterGrid& pixels, Progress& progress);
 
 }  // namespace itin::viewshed

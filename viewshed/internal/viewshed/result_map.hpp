@@ -13,7 +13,7 @@
 
 namespace itin::viewshed {
 
-/// A class's colour, if it has one, through which the relief below it shows.
+/// Makes a class's colour translucent, so that the relief below it shows. A class without a colour stays transparent.
 constexpr Rgba over_relief(const Rgba& colour) {
   return colour.alpha > 0 ? Rgba{colour.red, colour.green, colour.blue, 165} : kTransparent;
 }
@@ -30,7 +30,7 @@ struct ResultMap {
 };
 
 ResultMap result_map(const Result& result, const MapOptions& options);
-/// Its shares in bands; keys tell the area of each, and its part of all observers' cells.
+/// Shows the index's shares in bands; keys tell the area of each band, and its part of all observers' cells.
 ResultMap result_map(const VisibilityIndex& index);
 
 }  // namespace itin::viewshed

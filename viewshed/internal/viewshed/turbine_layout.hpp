@@ -1,4 +1,4 @@
-// Where turbines may stand: spaced over an area, apart along and across the wind, away from dwellings.
+// Places where turbines may stand: spaced over an area, apart along and across the wind, away from dwellings.
 //
 //   const std::vector<Point2> places = spaced_positions(area, 200);
 //   const TurbineSpacing spacing{.along = 5 * rotor, .across = 3 * rotor, .wind_from_deg = 240};
@@ -15,17 +15,17 @@
 
 namespace itin::viewshed {
 
-/// The middles of the squares of this side, metres, whose edges lie on multiples of it: those within the area, from the
-/// north-west. Throws InputError where there is none, or there are too many.
+/// Returns the middles of the squares of this side, metres, whose edges lie on multiples of it, where they are within
+/// the area; from the north-west. Throws InputError where there is none, or there are too many.
 std::vector<Point2> spaced_positions(const Window& area, double side);
 
-/// About every turbine an ellipse stays free of others.
+/// The ellipse about every turbine that stays free of other turbines.
 struct TurbineSpacing {
   double along = 0;   ///< half its axis along the wind, metres
   double across = 0;  ///< half its axis across
   double wind_from_deg = 0;
 
-  /// Whether neither stands within the other's ellipse; up to rounding, on it is outside.
+  /// Tells whether neither stands within the other's ellipse. A place on the ellipse is outside, up to rounding.
   bool keeps_apart(Point2 a, Point2 b) const;
 };
 
@@ -34,7 +34,7 @@ class Dwellings {
  public:
   Dwellings(std::vector<Point2> points, std::optional<Window> polygons);
 
-  /// Whether a dwelling is nearer than `metres`, or the position lies within one.
+  /// Tells whether a dwelling is nearer than `metres`, or the position lies within one.
   bool any_within(Point2 position, double metres) const;
 
  private:

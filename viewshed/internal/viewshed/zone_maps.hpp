@@ -11,7 +11,7 @@
 
 namespace itin::viewshed {
 
-/// Cells without a value have it.
+/// The class of cells without a value.
 inline constexpr std::uint8_t kNoMapClass = 255;
 
 struct ZoneMap {
@@ -31,10 +31,10 @@ struct ZoneMap {
   std::vector<std::uint8_t> class_of_cell;  ///< index of a class, or kNoMapClass
 };
 
-/// Tips seen, hubs where one is known, and combinations of farms where there are several; then all of them screened.
-/// The commonest combinations have classes of their own, `most_combinations` (up to 250) of them, the others one
-/// together. The first class of each map is of cells that certainly see nothing, and where the zone leaves_open() the
-/// last one of those of which that is undecided.
+/// Returns maps of the tips seen, of the hubs seen where a hub is known, and of combinations of farms where there are
+/// several; then all of these screened. The commonest combinations, `most_combinations` (up to 250) of them, have
+/// classes of their own, and the others share one. The first class of each map holds the cells that certainly see
+/// nothing; where the zone leaves_open(), the last holds the cells of which that is undecided.
 std::vector<ZoneMap> zone_maps(const Zone& zone, std::size_t most_combinations = 12);
 
 }  // namespace itin::viewshed

@@ -1,6 +1,6 @@
 // How low and how high a surface is within small squares, its bins: bounds that hold at every point of a square, not
-// only at vertices. What the surface is made of, the classes derived from this know (binned_heights.hpp: triangles, or
-// posts; envelope_bounds.hpp: two surfaces that enclose it).
+// only at vertices. The derived classes know what the surface is made of: triangles or posts (binned_heights.hpp), or
+// two surfaces that enclose it (envelope_bounds.hpp).
 //
 // Positions are in bins, columns counted eastwards and rows southwards from the north-west corner.
 #pragma once
@@ -20,7 +20,7 @@
 
 namespace itin::viewshed {
 
-/// Closed, in bins.
+/// A closed box, in bins.
 struct BinBox {
   double west = 0, north = 0, east = 0, south = 0;
 };
@@ -37,14 +37,14 @@ inline std::int64_t bin_at(double v, std::int64_t count) {
   return whole - (clamped < static_cast<double>(whole) ? 1 : 0);
 }
 
-/// Square bins of this side, metres, over a box of this size and half a bin more all around, so that its edges lie
-/// inside.
+/// Returns square bins of side `bin`, metres, over a box of this size and half a bin more all around, so that the box's
+/// edges lie inside.
 inline RasterGrid bins_over(Point2 north_west, double width, double height, double bin) {
   const auto count = [&](double length) { return static_cast<std::int64_t>(std::ceil(length / bin)) + 1; };
   return {{north_west.x - bin / 2, north_west.y + bin / 2}, bin, bin, count(width), count(height)};
 }
 
-/// Where the bins over a surface of these grid units lie.
+/// The positions of the bins over a surface of these grid units.
 class BinGrid {
  public:
   BinGrid(const Grid& units, const RasterGrid& grid) : units_(units), grid_(grid) {}
@@ -52,13 +52,13 @@ class BinGrid {
   const Grid& units() const { return units_; }
   std::int64_t columns() const { return grid_.columns(); }
   std::int64_t rows() const { return grid_.rows(); }
-  /// Grid units.
+  /// The side of a bin, grid units.
   double bin_size() const { return grid_.cell_width() / units_.resolution; }
-  /// In bins, of a position in grid units.
+  /// The column and the row, in bins, of a position in grid units.
   double column_at(double x) const { return grid_.column_at(units_.origin.x + x * units_.resolution); }
   double row_at(double y) const { return grid_.row_at(units_.origin.y + y * units_.resolution); }
 
-  /// In bins, of a box in metres.
+  /// Converts a box in metres to bins.
   BinBox in_bins(const Box& metres) const {
     return {column_at(easting_in_units(units_, metres.xmin)), row_at(northing_in_units(units_, metres.ymax)),
             column_at(easting_in_units(units_, metres.xmax)), row_at(northing_in_units(units_, metres.ymin))};
@@ -71,7 +71,7 @@ class BinGrid {
             bin_at(box.south + kHair, rows())};
   }
 
-  /// At least as far from a position as any of the surface; grid units.
+  /// A distance from a position that no part of the surface exceeds; grid units.
   double farthest_from(double x, double y) const {
     const double column = column_at(x), row = row_at(y);
     return bin_size() * std::hypot(std::max(std::abs(column), std::abs(column - static_cast<double>(columns()))),
@@ -91,10 +91,10 @@ class BinBounds : public BinGrid {
   BinBounds(const BinBounds&) = delete;
   BinBounds& operator=(const BinBounds&) = delete;
 
-  /// Rounded outwards. Unread ground counts as bare.
+  /// The bounds along runs, rounded outwards. Unread ground counts as bare.
   const RunBounds& runs() const { return runs_; }
-  /// No part of the surface within a box is higher, grid units; nothing where it may not be there throughout. Rounded
-  /// outwards to whole runs.
+  /// A height that no part of the surface within a box exceeds, grid units; nothing where the surface may not be there
+  /// throughout. Rounded outwards to whole runs.
   std::optional<float> highest_where_covered(const BinBox& box) const;
   /// The surface's greatest absolute height, grid units.
   double greatest_magnitude() const { return greatest_magnitude_; }

@@ -19,8 +19,8 @@ namespace {
 
 constexpr std::size_t kTopsPerChunk = 4096;
 
-/// A bin for every two triangles; or, for cells that are far smaller, a bin for so many of them, as long as triangles
-/// have no more bins than that, and all together no more than take but a moment.
+/// A bin for every kTrianglesPerBin triangles. Where cells are far smaller, a bin for every kCellsPerBin cells, but no
+/// more than kBinsPerTriangle per triangle, and no more than kMostFineBins in all, which take only a moment.
 double bin_count(double triangles, double cells) {
   constexpr double kTrianglesPerBin = 2, kCellsPerBin = 16, kBinsPerTriangle = 64, kMostFineBins = 1 << 19;
   return std::max(triangles / kTrianglesPerBin,
@@ -77,7 +77,7 @@ class BinnedHeights::Facet {
   struct Range {
     double low, high;  ///< low > high where the triangle only nearly meets the square
   };
-  /// Lowest and highest above a plane through the middle, over the square at most.
+  /// Bounds of the triangle's heights above a plane through the middle, within the square.
   Range range_above(double plane_x, double plane_y) const {
     const auto above = [&](const Point3& p) { return p.z - plane_x * p.x - plane_y * p.y; };
     const double a = above(corners_[0]), b = above(corners_[1]), c = above(corners_[2]);
@@ -121,7 +121,7 @@ void BinnedHeights::bound_lattice() {
 }
 
 void BinnedHeights::add(std::span<const std::uint32_t> tiles) {
-  // Runs at the ends of those to the west and to the north have their neighbours here.
+  // Runs at the ends of the tiles to the west and to the north have their neighbours in these tiles.
   std::vector<std::uint32_t> touched;
   const std::uint32_t columns = lattice_->tile_columns();
   for (const std::uint32_t tile : tiles) {
@@ -135,10 +135,10 @@ void BinnedHeights::add(std::span<const std::uint32_t> tiles) {
   });
 }
 
-// So that the tiles of both have the same numbers.
+// The tiles of both thus have the same numbers.
 static_assert(RunBounds::kSide == LatticeTin::kSide);
 
-/// In a cell with one triangle, nothing is known outside that.
+/// Nothing is known outside the triangle in a cell that has only one.
 void BinnedHeights::bound_tile(std::uint32_t tile) {
   constexpr std::int32_t kNone = std::numeric_limits<std::int32_t>::lowest();
   using HeightRange = RunBounds::Range<std::int32_t>;
@@ -167,7 +167,7 @@ void BinnedHeights::bound_tile(std::uint32_t tile) {
 
 void BinnedHeights::bound_tin() {
   const Tin& tin = *tin_;
-  // First, while the bins take no memory yet.
+  // This comes first, while the bins take no memory yet.
   const std::vector<BoundaryEdge> boundary = boundary_edges(tin);
   rim_ = rim_of(tin, boundary);
   std::vector<bool> at_boundary(tin.triangles.size());
@@ -216,7 +216,7 @@ BinnedHeights::Range BinnedHeights::bound_bin(RasterGrid::Cell bin, const std::v
     area += facet.doubled_area(), rise_x += facet.rise_x(), rise_y += facet.rise_y();
     covered = covered && !at_boundary[t];
   }
-  // Sloping as the triangles do on average; rows count southwards.
+  // The plane slopes as the triangles do on average; rows count southwards.
   const auto per_column = static_cast<float>(area > 0 ? rise_x / area * bin_size() : 0),
              per_row = static_cast<float>(area > 0 ? -rise_y / area * bin_size() : 0);
   const double slope_x = per_column / bin_size(), slope_y = -per_row / bin_size();
@@ -235,7 +235,7 @@ std::optional<double> BinnedHeights::height_at(Point2 units) const {
     return static_cast<std::int64_t>(std::clamp(v, 0.0, static_cast<double>(count - 1)));
   };
   std::optional<double> height;
-  // One bin, or up to four at its edges.
+  // The position lies in one bin, or in up to four at its edges.
   for (std::int64_t r = at(row - kSlack, rows()); r <= at(row + kSlack, rows()); ++r) {
     for (std::int64_t c = at(column - kSlack, columns()); c <= at(column + kSlack, columns()); ++c) {
       if (lattice_ != nullptr && !lattice_->read(cell({c, r}))) {
@@ -251,8 +251,8 @@ std::optional<double> BinnedHeights::height_at(Point2 units) const {
   return std::nullopt;
 }
 
-/// Where the surface is a lattice, and the position lies within a whole square that has been read, but not on its
-/// sides.
+/// The height where the surface is a lattice, and the position lies within a whole square that has been read, but not
+/// on its sides; nothing elsewhere.
 std::optional<double> BinnedHeights::height_amid_square(double column, double row, Point2 units) const {
   if (lattice_ == nullptr || !(column > 0 && row > 0)) return std::nullopt;
   const auto c = static_cast<std::int64_t>(column), r = static_cast<std::int64_t>(row);
@@ -293,7 +293,7 @@ BinnedHeights::Expanse BinnedHeights::expanse(Point2 north_west, Point2 south_ea
   return bare ? Expanse::kAllBare : Expanse::kAllUnread;
 }
 
-/// Whether a bin that has not been read has ground at a position.
+/// Tells whether a bin that has not been read has ground at a position.
 bool BinnedHeights::unread_at(RasterGrid::Cell bin, Point2 units) const {
   const std::uint32_t number = cell(bin);
   if (lattice_->tiles[number / LatticeTin::kCells].ground == LatticeTin::Ground::kWhole) return true;

@@ -1,5 +1,5 @@
-// How low and how high a surface is within bins (bin_bounds.hpp), and of which triangles that is. A lattice's bins are
-// its cells, and their bounds are told from the posts when they are asked for.
+// How low and how high a surface is within bins (bin_bounds.hpp), and which triangles meet each bin. A lattice's bins
+// are its cells, and their bounds are told from the posts when they are asked for.
 //
 //   BinnedHeights bins(tin);
 //   bins.upper_plane(bin).at(column, row)                            // grid units
@@ -27,12 +27,12 @@ namespace itin::viewshed {
 
 class BinnedHeights : public BinBounds {
  public:
-  /// The surface must outlive it. A bin has about two triangles' worth, at 40 bytes per triangle, or less where cells
-  /// of this area, square metres, are far smaller: many lines are decided by what is known of bins. A lattice's bins
-  /// are its cells, for a fraction of that.
+  /// The surface must outlive this object. A bin has about two triangles, at 40 bytes per triangle, or fewer where
+  /// cells of this area, square metres, are far smaller: many lines are decided by what is known of bins. A lattice's
+  /// bins are its cells, and take a fraction of that.
   explicit BinnedHeights(const Tin& tin, double cell_area = kInfinity);
   explicit BinnedHeights(const LatticeTin& lattice);
-  /// After heights of these tiles of the lattice have been read: they count from now on.
+  /// Takes in heights of these tiles of the lattice that have been read since: they count from now on.
   void add(std::span<const std::uint32_t> tiles);
   bool holds(RasterGrid::Cell bin) const { return bin.column < columns() && bin.row < rows(); }
 
@@ -40,11 +40,11 @@ class BinnedHeights : public BinBounds {
   struct UpperPlane {
     double middle = -kInfinity;
     double per_column = 0, per_row = 0;
-    /// At a position as far from the bin's middle, in bins; grid units.
+    /// The height at a position `east` and `south` bins from the bin's middle; grid units.
     double at(double east, double south) const { return middle + per_column * east + per_row * south; }
   };
-  /// Whether no post of a lattice's bin, if it has been read, is above a height, grid units: told sooner than its
-  /// upper plane.
+  /// Tells whether a lattice's bin has been read and has no post above a height, grid units: sooner than its upper
+  /// plane does.
   bool lies_below(RasterGrid::Cell bin, double height) const {
     if (lattice_ == nullptr || !lattice_->read(cell(bin))) return false;
     const std::int32_t* const upper = lattice_->posts(cell(bin));
@@ -56,8 +56,8 @@ class BinnedHeights : public BinBounds {
     const auto& [middle, per_column, per_row] = listed_->upper_planes[grid_.index(bin)];
     return {middle, per_column, per_row};
   }
-  /// Calls visit(triangle) for those that meet the bin, or nearly meet it, kSlack bins away at least, and may rise
-  /// above a height, grid units. Ends when one call returns false, and returns whether none did.
+  /// Calls visit(triangle) for the triangles that meet the bin, or nearly meet it (up to kSlack bins away at least),
+  /// and may rise above a height, grid units. Ends when one call returns false, and returns whether none did.
   template <class Visit>
   bool for_each_triangle(RasterGrid::Cell bin, double above, const Visit& visit) const {
     if (lattice_ != nullptr) return !lattice_->read(cell(bin)) || lattice_->for_each_triangle(cell(bin), visit);
@@ -69,13 +69,14 @@ class BinnedHeights : public BinBounds {
   std::array<GridPoint, 3> corners(std::uint32_t triangle) const {
     return lattice_ != nullptr ? lattice_->corners(triangle) : tin_->corners(triangle);
   }
-  /// Where the surface ends.
+  /// The edges where the surface ends.
   const std::vector<RimEdge>& rim() const { return rim_; }
   /// Whether each triangle lies in one bin alone.
   bool partition() const { return lattice_ != nullptr; }
   /// The surface's height at a position, if it is there; grid units. kUnread where it has not been read.
   std::optional<double> height_at(Point2 units) const;
-  /// At all positions between two corners: no ground, ground of which none has been read, or what is not told.
+  /// What lies at all positions between two corners: no ground, ground of which none has been read, or something not
+  /// told.
   enum class Expanse : std::uint8_t { kAllBare, kAllUnread, kVarious };
   Expanse expanse(Point2 north_west, Point2 south_east) const;
 
@@ -108,7 +109,7 @@ class BinnedHeights : public BinBounds {
   std::vector<RimEdge> rim_;
 };
 
-/// Sums and halves of whole numbers, all exact.
+/// Takes sums and halves of whole numbers, which are all exact.
 inline BinnedHeights::UpperPlane BinnedHeights::upper_plane_of_cell(const LatticeTin& lattice, std::uint32_t cell) {
   if (!lattice.read(cell)) return {};
   const std::uint8_t there = lattice.halves(cell);

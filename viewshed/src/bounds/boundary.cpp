@@ -17,8 +17,8 @@ namespace {
 
 constexpr std::size_t kFansPerChunk = 1 << 12;
 
-/// The side of each triangle opposite its least corner, by the side's lesser end: the triangles with one at a vertex.
-/// Sides at the least corner need no list, since triangles come in the order of that corner.
+/// The triangles by the lesser end of the side opposite their least corner. Sides at the least corner need no list,
+/// since triangles come in the order of that corner.
 class OppositeSides {
  public:
   explicit OppositeSides(const Tin& tin) : first_(tin.vertices.size() + 1), triangles_(tin.triangles.size()) {
@@ -44,7 +44,7 @@ struct Side {
   std::size_t half_edge;  ///< 3 t + i: from corner i of triangle t
 };
 
-/// Adds those of a vertex's sides that no other triangle has. Orders `sides`.
+/// Adds the sides at a vertex that no other triangle has. Orders `sides`.
 void add_unpaired(std::vector<Side>& sides, std::vector<std::size_t>& unpaired) {
   std::ranges::sort(sides, {}, &Side::other_end);
   for (std::size_t i = 0; i < sides.size(); ++i) {
@@ -58,7 +58,7 @@ Point2 in_units(const Grid& units, Point2 p) {
   return {(p.x - units.origin.x) / units.resolution, (p.y - units.origin.y) / units.resolution};
 }
 
-/// A place of the hull lies to the right of a -> b; whether the hull reaches the segment.
+/// Tells whether the hull reaches the segment. Precondition: a place of the hull lies to the right of a -> b.
 bool meets_segment(const std::vector<Point2>& hull, Point2 a, Point2 b) {
   const bool crosses_straight = std::any_of(hull.begin(), hull.end(), [&](Point2 p) { return left_of(a, b, p) >= 0; });
   return crosses_straight && !beyond_a_side(hull, std::array{a, b});
@@ -119,7 +119,7 @@ bool surface_resumes(const Grid& units, const std::vector<RimEdge>& rim, Point2 
     const Point2 a{static_cast<double>(from.x), static_cast<double>(from.y)};
     const Point2 b{static_cast<double>(to.x), static_cast<double>(to.y)};
     const double side = (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
-    // A millionth of a grid unit, so that a position on the boundary's own line does not count.
+    // A millionth of a grid unit is allowed, so that a position on the boundary's own line does not count.
     const bool outside = side < -1e-6 * std::hypot(b.x - a.x, b.y - a.y);
     return outside && distance_to_segment(p, a, b) * units.resolution < reach && meets_segment(hull, a, b);
   });

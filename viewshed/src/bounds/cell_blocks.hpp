@@ -1,4 +1,4 @@
-// Blocks of a tile's cells that are decided at once where bounds allow, and else quarter by quarter.
+// Blocks of a tile's cells that are decided at once where bounds allow, and otherwise quarter by quarter.
 //
 //   void hide(const CellBlock& block) {
 //     if (horizon.hides(box_about(block, centres, bins), highest)) return mark(block);
@@ -16,7 +16,7 @@
 
 namespace itin::viewshed {
 
-/// From the first rows and columns in the tile to before the last.
+/// A rectangle of a tile's cells; the ends are exclusive.
 struct CellBlock {
   std::size_t row = 0, row_end = 0, column = 0, column_end = 0;
   std::size_t side() const { return std::max(row_end - row, column_end - column); }
@@ -36,14 +36,14 @@ void for_each_quarter(const CellBlock& block, const Visit& visit) {
       if (first_row < row_end && first < end) visit(CellBlock{first_row, row_end, first, end});
 }
 
-/// Calls visit(cell in the tile) for each of its cells, row by row.
+/// Calls visit(cell in the tile) for each of the block's cells, row by row.
 template <class Visit>
 void for_each_cell(const CellBlock& block, const Visit& visit) {
   for (std::size_t row = block.row; row < block.row_end; ++row)
     for (std::size_t column = block.column; column < block.column_end; ++column) visit(row * Tile::kSide + column);
 }
 
-/// About the centres of its cells.
+/// The box about the centres of the block's cells.
 inline BinBox box_about(const CellBlock& block, const TileCentres& at, const BinGrid& bins) {
   return {bins.column_at(at.x[block.column]), bins.row_at(at.y[block.row]), bins.column_at(at.x[block.column_end - 1]),
           bins.row_at(at.y[block.row_end - 1])};

@@ -43,12 +43,12 @@ EnvelopeBounds::EnvelopeBounds(const Tin& lower, const Tin& upper, const std::ve
   bound_runs();
 }
 
-/// Bins.
+/// The slack about triangles, in bins.
 double EnvelopeBounds::slack() const {
   return std::max(1e-6, kStepsBeside / bin_size());
 }
 
-/// In tiles of bins, each by one thread.
+/// Works in tiles of bins, each by one thread.
 void EnvelopeBounds::bound(const Tin& lower, const Tin& upper) {
   const RasterGrid tiles = grid_of_tiles(grid_);
   const TriangleBins triangles(lower, tiles);
@@ -91,8 +91,8 @@ void EnvelopeBounds::lower_along_outline(const Tin& tin, const std::vector<Bound
   }
 }
 
-/// What has been rounded to the nearest float before is rounded outwards now. Nothing is known of how low the ground is
-/// in bins that no triangle meets.
+/// Rounds outwards what was rounded to the nearest float before. Nothing is known of how low the ground is in bins that
+/// no triangle meets.
 void EnvelopeBounds::round_outwards() {
   parallel_for(static_cast<std::size_t>(rows()), [&](std::size_t row) {
     for (std::int64_t column = 0; column < columns(); ++column) {

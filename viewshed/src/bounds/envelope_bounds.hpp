@@ -1,5 +1,6 @@
-// How low and how high a surface is within bins, told by two others that enclose it, such as a coarse level and its
-// certificate. Bins may be far smaller than the triangles of these, so that the bounds follow their slopes.
+// How low and how high a surface is within bins, told by two other surfaces that enclose it, such as a coarse level and
+// its certificate. Bins may be far smaller than the triangles of these surfaces, so that the bounds follow their
+// slopes.
 //
 //   const EnvelopeBounds bounds(lower, upper, outline, box, bin);
 //   if (bounds.covers(box)) ...                      // there is ground all over the box
@@ -20,14 +21,15 @@
 
 namespace itin::viewshed {
 
-/// Metres, of bins within a box that follow the slopes of a level's triangles: many for each of these, but no more in
-/// all than take a moment.
+/// The side, metres, of bins within a box that follow the slopes of a level's triangles: many bins per triangle, but no
+/// more in all than take a moment.
 double side_of_bins(const Tin& level, const Box& box);
 
 class EnvelopeBounds final : public BinBounds {
  public:
-  /// Within a box, metres. Both surfaces have the same triangles; `outline` is where the ground ends. Triangles may
-  /// overlap: then all of their bounds count. `bin` is the side of a bin, metres. Memory: 16 bytes per bin.
+  /// Bounds the surface within a box, metres. Both surfaces have the same triangles; `outline` is where the ground
+  /// ends. Triangles may overlap: then all of their bounds count. `bin` is the side of a bin, metres. Memory: 16 bytes
+  /// per bin.
   EnvelopeBounds(const Tin& lower, const Tin& upper, const std::vector<BoundaryEdge>& outline, const Box& box,
                  double bin);
 

@@ -12,7 +12,7 @@ namespace itin::viewshed {
 
 namespace {
 
-/// Some two triangles' worth per bin; a power of two per side.
+/// Bins for some two triangles each; a power of two per side.
 RasterGrid grid_of_bins(const Tin& tin) {
   const auto wanted = static_cast<std::uint32_t>(std::sqrt(static_cast<double>(tin.triangles.size()) / 2));
   return square_bins_over(tin, std::clamp(std::bit_floor(wanted), 1U, 2048U));
@@ -47,7 +47,7 @@ HeightPyramid::HeightPyramid(const LatticeTin& lattice)
   build_blocks();
 }
 
-/// All levels above the bins.
+/// Computes all levels above the bins.
 void HeightPyramid::build_blocks() {
   for (std::uint32_t level = 1; columns(level - 1) > 1 || rows(level - 1) > 1; ++level) {
     std::vector<std::int32_t> coarser(std::size_t{columns(level)} * rows(level), kNothing);

@@ -1,5 +1,5 @@
-// Where a surface may rise above sight lines: its triangles in square bins, with the greatest height of every bin and
-// of blocks of 2 x 2, 4 x 4, ... bins. A lattice's bins are its cells.
+// Finds where a surface may rise above sight lines: its triangles in square bins, with the greatest height of every bin
+// and of blocks of 2 x 2, 4 x 4, ... bins. A lattice's bins are its cells.
 //
 //   HeightPyramid pyramid(tin);
 //   LineBundle bundle;
@@ -41,7 +41,7 @@ struct LineBundle {
   double margin = 0;  ///< how far below the lines ground matters, too
 
   LineBundle() = default;
-  /// One line, with its own end.
+  /// A bundle of one line, with its own end.
   explicit LineBundle(const SightLine& line) : end(line.to_z()) { add(line); }
 
   void add(const SightLine& line) {
@@ -68,7 +68,7 @@ struct LineBundle {
 
 class HeightPyramid {
  public:
-  /// The surface must outlive it. Takes about 20 bytes per triangle of even size.
+  /// The surface must outlive this object. Takes about 20 bytes per triangle of even size.
   explicit HeightPyramid(const Tin& tin);
   /// All heights of the lattice must have been read. Takes less than two bytes per post.
   explicit HeightPyramid(const LatticeTin& lattice);
@@ -77,20 +77,20 @@ class HeightPyramid {
 
   /// Calls visit(triangle) for every triangle that may rise above a line of the bundle, or come within its margin,
   /// nearest first, some more than once. A block is left out as a whole where the lines run above its highest point.
-  /// `Lines` is a LineBundle, or what has its members and another lowest_over().
+  /// `Lines` is a LineBundle, or a type that has its members and another lowest_over().
   template <class Lines, class Visit>
   void search(const Lines& bundle, const Visit& visit) const;
 
   std::array<GridPoint, 3> corners(std::uint32_t triangle) const {
     return lattice_ != nullptr ? lattice_->corners(triangle) : tin_->corners(triangle);
   }
-  /// Calls visit(triangle) for those near a position in grid units, among them all that hold it, until one call returns
-  /// false; returns whether none did.
+  /// Calls visit(triangle) for the triangles near a position in grid units, among them all that hold it, until one call
+  /// returns false; returns whether none did.
   template <class Visit>
   bool for_each_triangle_near(Point2 units, const Visit& visit) const;
   /// A triangle that holds a position in grid units, if there is one.
   std::optional<std::uint32_t> triangle_at(Point2 units) const;
-  /// The surface's height there, grid units.
+  /// The surface's height at a position, both in grid units.
   std::optional<double> height_at(Point2 units) const;
 
  private:
@@ -105,7 +105,7 @@ class HeightPyramid {
     double first = 0, last = 1;
     bool empty() const { return first > last; }
     Stretch operator&(const Stretch& other) const { return {std::max(first, other.first), std::min(last, other.last)}; }
-    /// Leaves what has a + b s <= c.
+    /// Keeps only the fractions s that have a + b s <= c; `per_b` is 1 / b.
     void limit(double a, double per_b, double c) {
       const double s = (c - a) * per_b;
       if (per_b > 0) last = std::min(last, s);
@@ -173,11 +173,11 @@ class HeightPyramid {
   std::vector<std::vector<std::int32_t>> highest_;  ///< per level, row by row; a lattice's cells tell their own
 };
 
-/// Triangles that a search visited of late: most lie in several bins, and so come again.
+/// Triangles that a search visited lately: most lie in several bins, and so come again.
 class RecentTriangles {
  public:
   RecentTriangles() { triangles_.fill(std::numeric_limits<std::uint32_t>::max()); }
-  /// Whether it remembers that it was asked about this triangle before; it forgets some.
+  /// Tells whether an earlier call for this triangle is remembered; some are forgotten.
   bool seen(std::uint32_t triangle) {
     return std::exchange(triangles_[triangle % triangles_.size()], triangle) == triangle;
   }
@@ -233,7 +233,7 @@ bool HeightPyramid::for_each_triangle_near(Point2 units, const Visit& visit) con
   const auto at = [](double v, std::int64_t count) {
     return static_cast<std::uint32_t>(std::clamp(v, 0.0, static_cast<double>(count - 1)));
   };
-  // One bin; of a lattice's, which know nothing of their neighbours, up to four at its edges.
+  // Visits one bin, or up to four at the edges of a lattice's bins, which know nothing of their neighbours.
   const double slack = lattice_ != nullptr ? kHair : 0;
   const std::uint32_t east = at(column + slack, bin_grid_.columns()), south = at(row + slack, bin_grid_.rows());
   for (std::uint32_t r = at(row - slack, bin_grid_.rows()); r <= south; ++r)

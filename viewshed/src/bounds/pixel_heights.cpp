@@ -14,7 +14,7 @@ namespace itin::viewshed {
 
 namespace {
 
-/// Grid units.
+/// The lattice's height at a position, both in grid units.
 double height_at(const LatticeTin& lattice, double x, double y) {
   const double column = std::floor((x - lattice.west) / lattice.spacing),
                row = std::floor((lattice.north - y) / lattice.spacing);

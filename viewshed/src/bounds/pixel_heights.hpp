@@ -9,10 +9,10 @@
 
 namespace itin::viewshed {
 
-/// At their centres, metres; NaN where there is no surface. O(triangles + pixels).
+/// Returns the heights at the pixels' centres, metres; NaN where there is no surface. O(triangles + pixels).
 std::vector<float> heights_at(const Tin& tin, const RasterGrid& pixels);
 
-/// A lattice takes O(pixels). Precondition: all heights are read.
+/// Returns the heights of a lattice in O(pixels). Precondition: all heights are read.
 std::vector<float> heights_at(const LatticeTin& lattice, const RasterGrid& pixels);
 
 }  // namespace itin::viewshed

@@ -1,5 +1,5 @@
-// How low and how high a surface is along runs of bins, eastwards and southwards: in tiles, so that what is not looked
-// at takes no memory.
+// How low and how high a surface is along runs of bins, eastwards and southwards. Runs are kept in tiles, so that parts
+// that are not looked at take no memory.
 //
 //   RunBounds bounds(columns, rows);
 //   bounds.bound(tile, [&](std::int64_t column, std::int64_t row) { return RunBounds::Range<float>{low, high}; }, ...);
@@ -37,8 +37,8 @@ class RunBounds {
   struct Range {
     Value low, high;
   };
-  /// Sets those of a tile. range_of(column, row) is that of a bin, also of those to the east and to the south of the
-  /// tile; low(Value) and high(Value) make single precision of its ends. For several tiles at once.
+  /// Sets the bounds of a tile. range_of(column, row) is the range of a bin, also of bins to the east and to the south
+  /// of the tile; low(Value) and high(Value) convert its ends to single precision. May run for several tiles at once.
   template <class Value, class RangeOf, class Low, class High>
   void bound(std::size_t tile, const RangeOf& range_of, const Low& low, const High& high);
 
@@ -64,12 +64,12 @@ class RunBounds::Lines {
  public:
   /// The number of runs in a line.
   std::int64_t a_line() const { return a_line_; }
-  /// At most as high as a run and the one beside it in the next line; -infinity where a part of them is bare.
+  /// A height at most as high as a run and the one beside it in the next line; -infinity where a part of them is bare.
   float low(std::int64_t run, std::int64_t line) const {
     const auto r = static_cast<std::size_t>(run), l = static_cast<std::size_t>(line);
     return tile(r, l).low[direction_][place(r, l)];
   }
-  /// At least as high as a run; -infinity where all of it is bare.
+  /// A height at least as high as a run; -infinity where all of it is bare.
   float high(std::int64_t run, std::int64_t line) const {
     const auto r = static_cast<std::size_t>(run), l = static_cast<std::size_t>(line);
     return tile(r, l).high[direction_][place(r, l)];
@@ -108,7 +108,7 @@ inline RunBounds::Lines RunBounds::southwards() const {
 
 template <class Value, class RangeOf, class Low, class High>
 void RunBounds::bound(std::size_t tile, const RangeOf& range_of, const Low& low, const High& high) {
-  // With the bins beside, which are one column and one row more.
+  // The tile's bins and the bins beside it, which are one column and one row more.
   constexpr std::int64_t kStride = kSide + 1;
   static thread_local std::array<Value, kStride * kStride> lows, highs;
   const std::int64_t first_column = static_cast<std::int64_t>(tile) % tile_columns_ * kSide,

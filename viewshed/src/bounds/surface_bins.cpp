@@ -14,9 +14,9 @@ namespace itin::viewshed {
 
 namespace {
 
-/// Grid units, above all rounding of heights and above a grazing.
+/// A margin in grid units, greater than all rounding of heights and than a grazing.
 constexpr double kRoundingMargin = 0.01;
-/// Metres: what rises by less within a bin is no thing that stands there.
+/// The least rise within a bin, metres, of a thing that stands there.
 constexpr double kThing = 0.5;
 
 constexpr SurfaceBins::Range kBounded{kFloatInfinity, -kFloatInfinity};
@@ -103,7 +103,7 @@ void SurfaceBins::forget_depth_along(const std::vector<BoundaryEdge>& outline, c
   }
 }
 
-/// Whether something rises in the bin, and none of the bins around lies upon it: these would hide as well.
+/// Tells whether something rises in the bin, and none of the bins around lies upon it: such a bin would hide as well.
 bool SurfaceBins::is_thin(RasterGrid::Cell bin) const {
   const auto [low, high] = range(bin);
   if (low == -kFloatInfinity || (high - low) * units_.resolution < kThing) return false;

@@ -1,5 +1,5 @@
-// How low and how high a surface is within bins; and within far smaller ones where a thin thing stands on it, such as a
-// garden wall, that no bin lies wholly upon. So houses and walls alike hide for certain, though bins are as wide as a
+// How low and how high a surface is within bins; and within far smaller parts where a thin thing stands on it that no
+// bin lies wholly upon, such as a garden wall. So houses and walls alike certainly hide, though bins are as wide as a
 // wall is high. A surface that the memory does not hold at once is added piece by piece.
 //
 //   SurfaceBins bins(tin.grid, box, side);
@@ -35,13 +35,13 @@ class SurfaceBins final : public BinGrid {
 
   /// Tiles of bins (line/cell_tiles.hpp), as the cells of a grid.
   RasterGrid tiles() const { return grid_of_tiles(grid_); }
-  /// Bounds the bins of these tiles, by a surface that holds all ground that meets them. Each is added once.
+  /// Bounds the bins of these tiles, by a surface that holds all ground that meets them. Each tile is added once.
   void add(const Tin& surface, const CellRectangle& tiles);
 
-  /// -infinity to -infinity where there is no ground, and from -infinity where there may be none. Holds what rises
-  /// above or lies below a place by a tenth of a millimetre.
+  /// The heights within a bin: -infinity to -infinity where there is no ground, and from -infinity where there may be
+  /// none. They include what is a tenth of a millimetre above or below the surface.
   const Range& range(RasterGrid::Cell bin) const { return ranges_[grid_.index(bin)]; }
-  /// Row by row; null where the bin is not divided.
+  /// The parts of a bin, row by row; null where it is not divided.
   const Parts* parts(RasterGrid::Cell bin) const {
     const std::uint32_t number = divided_[grid_.index(bin)];
     return number == 0 ? nullptr : &parts_[number - 1];

@@ -15,7 +15,7 @@
 namespace itin::viewshed {
 
 inline constexpr double kNoSurface = std::numeric_limits<double>::quiet_NaN();
-/// There is ground, but its height was not read, since no eye sees it.
+/// The height of ground that was not read, since no eye sees it.
 inline constexpr double kUnread = -kInfinity;
 
 /// Heights in grid units at the tile's cell centres, kNoSurface where no triangle lies. Each centre is given its height
@@ -23,7 +23,7 @@ inline constexpr double kUnread = -kInfinity;
 void scan_convert(const Tin& tin, std::span<const std::uint32_t> triangles, const Tile& tile,
                   const TileCentres& centres, TileValues<double>& heights);
 
-/// Triangles may overlap here: a centre gets the greatest height.
+/// Does the same for triangles that may overlap: a centre gets the greatest height.
 void scan_convert_highest(const Tin& tin, std::span<const std::uint32_t> triangles, const Tile& tile,
                           const TileCentres& centres, TileValues<double>& heights);
 
@@ -36,8 +36,8 @@ struct FallingSquare {
   std::int32_t sw = 0, se = 0, nw = 0, ne = 0;
 };
 
-/// The height that height_over() gives, to the last bit, over the two triangles of a square, of which the south-western
-/// one comes first. Precondition: the position lies within it, and on none of its sides.
+/// The height that height_over() gives, to the last bit, over the two triangles of a square, the south-western one
+/// first. Precondition: the position lies within the square, and on none of its sides.
 double height_over(const FallingSquare& square, Point2 units);
 
 }  // namespace itin::viewshed

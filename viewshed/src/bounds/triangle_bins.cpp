@@ -39,7 +39,8 @@ TriangleBins::TriangleBins(const Tin& tin, const RasterGrid& grid) {
       for (std::int64_t column = west; column <= east; ++column) visit(grid.index({column, row}));
     }
   };
-  // Chunks of triangles count on their own and then know where to write: ascending numbers, whatever the threads.
+  // Each chunk of triangles counts its entries first, and so knows where to write them: by ascending number, whatever
+  // the number of threads.
   const auto chunks = static_cast<std::size_t>(std::min(16, thread_count()));
   std::vector<std::vector<std::uint32_t>> places(chunks, std::vector<std::uint32_t>(bins));
   const auto for_each_entry = [&](std::size_t chunk, const auto& body) {

@@ -17,7 +17,7 @@ RasterGrid location_grid(const Tin& tin);
 
 class TriangleBins {
  public:
-  /// A triangle is listed in every cell of `grid` that it meets, or nearly meets, by ascending number. O(n) plus the
+  /// Lists a triangle in every cell of `grid` that it meets, or nearly meets, by ascending number. O(n) plus the
   /// entries. Throws std::length_error for 2^32 entries and more.
   TriangleBins(const Tin& tin, const RasterGrid& grid);
 

@@ -21,8 +21,8 @@
 
 namespace itin::viewshed {
 
-/// Where a surface's vertices lie in a grid, which must both outlive it: columns and rows from the grid's north-west
-/// corner, give or take some 1e-9.
+/// The positions of a surface's vertices in a grid: columns and rows from the grid's north-west corner, give or take
+/// some 1e-9. Surface and grid must outlive this object.
 class VerticesInBins {
  public:
   VerticesInBins(const Tin& tin, const RasterGrid& grid)
@@ -49,7 +49,7 @@ class VerticesInBins {
 
 class TriangleInBins {
  public:
-  /// Nearly: `slack` bins away, by default no more than rounding.
+  /// A bin is nearly met if it is at most `slack` bins away; the default is no more than rounding.
   TriangleInBins(const VerticesInBins& vertices, const Triangle& t, double slack = 1e-6)
       : corners_{vertices[t[0]], vertices[t[1]], vertices[t[2]]}, columns_(vertices.columns()), slack_(slack) {
     const auto& [a, b, c] = corners_;
@@ -60,7 +60,8 @@ class TriangleInBins {
   }
 
   const BinRange& box() const { return box_; }
-  /// Most triangles meet nearly all of a small box; a long thin one across many bins only those along it.
+  /// Whether all bins of the box count as met. Most triangles meet nearly all of a small box; a long thin one across
+  /// many bins meets only those along it.
   bool fills_box() const { return box_.east - box_.west < 3 || box_.south - box_.north < 3; }
 
   /// The columns that the triangle meets within a row: inclusive.

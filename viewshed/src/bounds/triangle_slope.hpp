@@ -16,7 +16,7 @@ namespace itin::viewshed {
 
 class TriangleSlope {
  public:
-  /// `half` the side of a square, and what lies beside it as well; grid units.
+  /// `half` is half the side of a square, with what lies beside it as well; grid units.
   TriangleSlope(const Tin& tin, std::uint32_t triangle, double half) {
     const auto [a, b, c] = tin.corners(triangle);
     least_ = std::min({a.z, b.z, c.z}), greatest_ = std::max({a.z, b.z, c.z});

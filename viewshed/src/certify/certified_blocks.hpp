@@ -7,9 +7,9 @@
 
 namespace itin::viewshed {
 
-/// Hides block by block what ground hides that the level is certain of (judge/block_judge.hpp), and decides exactly
-/// what lies near each observer; all else is undecided. Features hide nothing but near the observer. Also returns the
-/// coarse surface. Throws as compute_certified() does.
+/// Hides, block by block, what is hidden by ground that the level is certain of (judge/block_judge.hpp), and decides
+/// exactly what lies near each observer; all else is undecided. Features hide nothing except near the observer. Also
+/// returns the coarse surface. Throws what compute_certified() throws.
 ViewshedWithSurface certify_by_blocks(const Store& store, const Request& request, Progress& progress);
 
 }  // namespace itin::viewshed

@@ -25,11 +25,11 @@ class CertifiedCells {
   CertifiedCells(const RasterGrid& grid, const RasterGrid& tiles, Stage& stage)
       : grid_(grid), tiles_(tiles), stage_(stage), verdicts_(tiles.cell_count()) {}
 
-  /// Judges for the first eye of `judge`. A cell that an eye certainly saw before is not judged again. Throws
+  /// Judges cells for the first eye of `judge`. A cell that an eye certainly saw before is not judged again. Throws
   /// Cancelled.
   void judge(const TileJudge& judge, std::span<const PartsOfTile> cells);
 
-  /// Adds the counts and the sight lines to the result's.
+  /// Writes the verdicts to the result, and adds the counts and the sight lines to the result's.
   void store(Result& result) const;
 
  private:

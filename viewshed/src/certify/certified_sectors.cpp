@@ -71,8 +71,9 @@ class CertifiedSectors {
     }
   }
 
-  /// Restricts the request to a sector, without finer ground that lies beside it. All that lies about the eye belongs
-  /// to it: where the window ends, coarse ground stays beside finer one, and would hide everything.
+  /// Restricts the request to a sector, without finer ground that lies beside the sector. All finer ground about the
+  /// eye belongs to the sector: where the window ends, coarse ground stays beside finer ground, and would hide
+  /// everything.
   static EnvelopeRequest within(std::vector<Point2> sector, const Eye& eye, EnvelopeRequest wanted) {
     for (const FineDisc& disc : wanted.discs)
       if (disc.centre == eye.position) add_corners(square_about(disc.centre, disc.radius), sector);

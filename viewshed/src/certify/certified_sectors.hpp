@@ -9,8 +9,8 @@
 
 namespace itin::viewshed {
 
-/// As certify_by_blocks(), by envelopes of about so many points, or of a few cells. Bins are smaller in a sector, so
-/// that it may decide more. Throws as compute_certified() does.
+/// Certifies as certify_by_blocks() does, by envelopes of about `most_points` points, or of a few cells. Bins are
+/// smaller in a sector, so that it may decide more. Throws what compute_certified() throws.
 ViewshedWithSurface certify_by_sectors(const Store& store, const Request& request, std::uint64_t most_points,
                                        Progress& progress);
 

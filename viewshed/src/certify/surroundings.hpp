@@ -16,8 +16,8 @@ class Surroundings {
   /// All must outlive it.
   Surroundings(const Store& store, const Request& request, const RasterGrid& grid);
 
-  /// Decides cells of the grid; nothing where none lies that near to the observer. Adds the lines that it takes to the
-  /// statistics. Throws as compute_with_surface() does.
+  /// Decides the cells of the grid near an observer; nothing where no cell lies that near. Adds the lines that this
+  /// takes to the statistics. Throws what compute_with_surface() throws.
   std::optional<ExactNearby> decide(const Observer& observer, Statistics& statistics, Progress& progress) const;
 
  private:
@@ -26,7 +26,7 @@ class Surroundings {
   const Store& store_;
   const Request& request_;
   const RasterGrid& grid_;
-  double points_;  ///< how many of the full surface are read about each observer, about
+  double points_;  ///< about how many points of the full surface are read about each observer
 };
 
 }  // namespace itin::viewshed

@@ -17,7 +17,7 @@ namespace itin::viewshed {
 
 namespace {
 
-/// The exact answer, but where ground without data leaves it open.
+/// Gives the exact answer, except where ground without data leaves it open.
 ViewshedWithSurface decide_exactly(const Store& store, const Request& request, const ComputeOptions& options,
                                    Progress& progress) {
   Request exact = request;
@@ -28,8 +28,8 @@ ViewshedWithSurface decide_exactly(const Store& store, const Request& request, c
   return computed;
 }
 
-/// The part of the level read at a time does not depend on the memory, or what it leaves undecided would depend on it,
-/// too.
+/// Refuses too little memory. The part of the level that is read at a time does not depend on the memory, or what it
+/// leaves undecided would depend on it, too.
 void require_memory(const Store& store, const Request& request, CertifiedWay way, std::uint64_t memory) {
   constexpr std::uint64_t kBytesOfBounds = 40000000;
   const int level = level_within(store.metadata(), request.detail.coarsest());

@@ -1,4 +1,4 @@
-// Certified viewsheds, the way that has been chosen.
+// Certified viewsheds, made in the way that has been chosen.
 #pragma once
 
 #include <viewshed/viewshed.hpp>
@@ -7,7 +7,7 @@
 
 namespace itin::viewshed {
 
-/// As compute_certified(), which goes by certified_way() of its request.
+/// Computes as the public compute_certified() does, but in the given way in place of certified_way()'s.
 ViewshedWithSurface compute_certified(const Store& store, const Request& request, CertifiedWay way,
                                       const ComputeOptions& options, Progress& progress);
 

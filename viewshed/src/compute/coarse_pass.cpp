@@ -23,7 +23,8 @@ std::vector<std::size_t> all_of(const TileVerdicts& verdicts) {
   return all;
 }
 
-/// The ground under the lines to each tile's undecided cells: all of it, or what is of a set or under a cell.
+/// The ground under the lines to each tile's undecided cells: all of it, or only what is in the set `of` or under a
+/// cell.
 std::vector<TileSet> under_lines(const CoarsePass::Over& over, const Eye& eye, const TileVerdicts& verdicts,
                                  const TileSet* of = nullptr) {
   const RasterGrid& grid = over.result.grid;
@@ -55,7 +56,7 @@ class Nothing final : public CoarsePass {
   Over over_;
 };
 
-/// What is hidden hides nothing beyond it that is not hidden anyway, and need not be read.
+/// Leaves out hidden ground: it hides nothing beyond it that is not hidden anyway, and need not be read.
 class Blocks final : public CoarsePass {
  public:
   Blocks(Envelope envelope, const Over& over) : over_(over), bounded_(std::move(envelope), over.tiles, no_rises_) {}
@@ -91,7 +92,7 @@ class Rays final : public CoarsePass {
   }
 
  private:
-  /// Under the targets, and where lines come near it.
+  /// Adds the ground under the targets, and where lines come near it.
   void add_ground(const EnvelopePacket& packet, TileSet& tiles) const {
     UpperScene::Stretches stretches;
     scene_.upper.find_stretches(packet.low, packet.starts_under, packet.ends_under, stretches);

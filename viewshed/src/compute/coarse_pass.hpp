@@ -1,5 +1,5 @@
-// What is found out at a coarse level before a surface of triangles is read: which of an eye's cells that decides, and
-// which ground the others need.
+// What is found out at a coarse level before a surface of triangles is read: which of an eye's cells the level decides,
+// and which ground the other cells need.
 //
 //   const auto pass = make_coarse_pass(way, std::move(envelope), {request, ground, rim, tiles, result});
 //   const CoarsePass::Left left = pass->decide(eye, verdicts, stage);
@@ -22,7 +22,7 @@
 
 namespace itin::viewshed {
 
-/// One eye's verdicts on each tile of the cells, on their way.
+/// One eye's verdicts on each tile of the cells, in the making.
 using TileVerdicts = std::vector<TileValues<Verdict>>;
 
 /// Judges what is undecided of these tiles, for the judge's only eye, and advances the stage by the cells that this
@@ -39,7 +39,7 @@ CoarseWay coarse_way(const Store& store, const Request& request);
 
 class CoarsePass {
  public:
-  /// What the surface is read by. All must outlive the pass.
+  /// What a pass works with. All must outlive the pass.
   struct Over {
     const Request& request;
     const GroundTiles& ground;
@@ -50,7 +50,7 @@ class CoarsePass {
   struct Left {
     std::vector<TileSet> needed;  ///< the ground that each tile's undecided lines need; empty: there are none
     std::shared_ptr<const VoidShadow> shadow;
-    std::uint64_t lines = 0;  ///< that this took
+    std::uint64_t lines = 0;  ///< the sight lines that this took
   };
 
   CoarsePass() = default;
@@ -58,11 +58,11 @@ class CoarsePass {
   CoarsePass(const CoarsePass&) = delete;
   CoarsePass& operator=(const CoarsePass&) = delete;
 
-  /// Cells that are Verdict::kUndecided are asked about.
+  /// Decides what it can of the cells that are Verdict::kUndecided.
   virtual Left decide(const Eye& eye, TileVerdicts& verdicts, Stage& stage) = 0;
 };
 
-/// `envelope` encloses the full surface or, for kBlocks, the request's.
+/// Makes the pass; `envelope` encloses the full surface or, for kBlocks, the request's.
 std::unique_ptr<CoarsePass> make_coarse_pass(CoarseWay way, Envelope envelope, const CoarsePass::Over& over);
 
 }  // namespace itin::viewshed

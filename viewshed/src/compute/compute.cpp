@@ -28,12 +28,12 @@ constexpr std::uint64_t kPointsWorthALook = 500000;
 /// given back.
 constexpr std::uint64_t kSectorShare = 2;
 
-/// Whether an irregular surface is large, and little of it may be seen.
+/// Tells whether an irregular surface is large, and little of it may be seen.
 bool may_be_mostly_hidden(const Store& store, const Request& request, std::uint64_t points) {
   return points >= kPointsWorthALook && request.observers.size() == 1 && reads_what_may_be_seen(store, request);
 }
 
-/// The first rung that the memory allows.
+/// Computes in the first way that the memory allows.
 ViewshedWithSurface climb(const Store& store, const Request& request, const ComputeOptions& options,
                           Progress& progress) {
   const std::uint64_t memory = memory_beside_rasters(options.memory_bytes, store, request);

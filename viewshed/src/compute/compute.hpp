@@ -1,4 +1,4 @@
-// The one ladder, where its result alone is wanted.
+// The result of compute_with_surface() alone.
 #pragma once
 
 #include <itin/progress.hpp>
@@ -7,7 +7,7 @@
 
 namespace itin::viewshed {
 
-/// What compute_with_surface() answers, where the surface itself is not wanted.
+/// Returns the result of compute_with_surface(), where the surface itself is not wanted.
 Result compute_result(const Store& store, const Request& request, ComputeOptions options, Progress& progress);
 
 }  // namespace itin::viewshed

@@ -15,20 +15,20 @@ namespace itin::viewshed {
 
 namespace {
 
-/// The whole squares of a fixed grid that a box meets, once it is as much larger on every side. Their side is a power
-/// of two metres.
+/// The whole squares of a fixed grid that a box meets once it is larger by `margin` on every side. `side` is a power of
+/// two metres.
 Box squares_about(const Box& box, double side, double margin) {
   const auto down = [&](double v) { return std::floor((v - margin) / side) * side; };
   const auto up = [&](double v) { return std::ceil((v + margin) / side) * side; };
   return {down(box.xmin), down(box.ymin), up(box.xmax), up(box.ymax)};
 }
 
-/// Between an eighth and a quarter of the box.
+/// A side between an eighth and a quarter of the box's longer side.
 double side_for(const Box& box) {
   return std::exp2(std::ceil(std::log2(std::max({box.width(), box.height(), 1.0})) - 3));
 }
 
-/// The share of a call that reads first, about.
+/// About the share of a call's time that reading takes, in calls that read first.
 constexpr double kReadingArea = 0.7;
 
 /// Waits for what another thread reads.
@@ -90,7 +90,7 @@ std::shared_ptr<HeldAreas::Area> HeldAreas::area_about(const Box& box, SurfaceFo
   return nullptr;
 }
 
-/// Drops as many as the memory does not hold beside it.
+/// Adds an area, and drops as many of the areas used longest ago as the memory does not hold beside it.
 void HeldAreas::add(std::shared_ptr<Area> area) {
   ++readings_;
   areas_.push_front(std::move(area));

@@ -1,4 +1,4 @@
-// The areas of a paged surface: which to read for a request, which to drop for it, and who reads.
+// The areas of a paged surface: which to read for a request, which to drop for it, and which thread reads.
 #pragma once
 
 #include <cstdint>
@@ -21,10 +21,11 @@ class HeldAreas {
  public:
   HeldAreas(const Store& store, const Detail& detail, const ThemeChoice& themes, const ComputeOptions& options);
 
-  /// A surface over all of `whole`, of triangles where they are needed, or over `part` of it, where the memory does not
-  /// hold that; null where it does not hold the part either. Reading is a step of the call. Throws what reading throws.
+  /// Returns a surface over all of `whole`, of triangles where they are needed; or over `part` of it, where the memory
+  /// does not hold the whole; or null where it does not hold the part either. Reading is a step of the call. Throws
+  /// what reading throws.
   std::shared_ptr<const HeldSurface> get(const Box& whole, const Box& part, SurfaceForm needed, CallProgress& call);
-  /// Areas that running calls use end with these calls.
+  /// Drops all areas; areas that running calls use end with these calls.
   void drop_all();
 
   std::vector<Box> areas() const;
@@ -41,7 +42,7 @@ class HeldAreas {
   };
   struct Claim {
     std::shared_ptr<Area> area;  ///< null: none that the memory holds
-    bool to_read = false;        ///< by whoever claims it
+    bool to_read = false;        ///< whoever claims the area must read it
   };
 
   Claim claim(const Box& whole, const Box& part, SurfaceForm needed);
@@ -55,7 +56,7 @@ class HeldAreas {
   Detail detail_;
   ThemeChoice themes_;
   ComputeOptions options_;
-  bool is_full_;  ///< the surface, not a coarser one
+  bool is_full_;  ///< the full surface is held, not a coarser one
   mutable std::mutex mutex_;
   std::list<std::shared_ptr<Area>> areas_;  ///< the one used last first
   std::uint64_t readings_ = 0;

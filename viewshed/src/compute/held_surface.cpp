@@ -23,7 +23,7 @@ namespace itin::viewshed {
 
 namespace {
 
-/// The share of a call that reads first, about.
+/// About the share of a call's time that reading takes, in calls that read first.
 constexpr double kReading = 0.7;
 
 /// A surface with its heights binned.
@@ -114,7 +114,7 @@ class HeldSurface::Impl {
     return over;
   }
 
-  /// The triangles of a lattice are listed when they are first asked for.
+  /// Lists the triangles of a lattice when they are first asked for.
   const Binned& listed(CallProgress& call) const {
     const std::lock_guard lock(listing_);
     if (triangles_) return *triangles_;

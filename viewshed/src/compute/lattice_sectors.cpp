@@ -39,7 +39,7 @@ namespace {
 constexpr double kBytesPerUnreadPost = 0.5;
 /// The share of a sector's tiles that counts as seen before any sector has been computed.
 constexpr double kFirstShareSeen = 0.25;
-/// Its share of the time, about.
+/// About the share of the time that the coarse surface takes.
 constexpr double kCoarseSurface = 0.05;
 /// The surface that maps are drawn over has at most this many points.
 constexpr std::uint64_t kCoarsePoints = 200000;
@@ -90,7 +90,7 @@ class LatticeSectors {
     result.statistics.retrieval_seconds += watch_.lap();
   }
 
-  /// False where the surface is no lattice.
+  /// Observes all that one eye looks at. Returns false where the surface is no lattice.
   bool observe_from(const Eye& eye, std::uint32_t observer) {
     SightSectors sectors(computed_.result.grid, eye);
     while (!sectors.empty()) {
@@ -98,12 +98,12 @@ class LatticeSectors {
         return bytes_of(hull, share_seen_) <= static_cast<double>(memory_) && has_numbers(hull);
       });
       double reach = 0;
-      // The estimate may be wrong, but not by as much.
+      // The estimate may be wrong, but not by a factor of two.
       if (bytes_of(sector.hull, all_heights_ ? 1 : 0) <= 2 * static_cast<double>(memory_)) {
         const auto reader = LatticeReader::open(
             store_, Window::polygons({{sector.hull, {}}}), ThemeChoice::none(),
             all_heights_ ? LatticeReader::Heights::kAll : LatticeReader::Heights::kNone, kAnyLattice, reading_);
-        // Later ones may be of too many tiles.
+        // Later sectors may have too many tiles.
         if (!reader && (!is_lattice_ || sector.parts.size() == 1)) return false;
         if (reader) {
           is_lattice_ = true;
@@ -117,23 +117,23 @@ class LatticeSectors {
     return true;
   }
 
-  /// Whether the lattice about it has no more tiles than can be counted.
+  /// Tells whether the lattice about the hull has no more tiles than can be counted.
   bool has_numbers(const std::vector<Point2>& hull) const {
     Box box;
     for (const Point2& p : hull) box.extend(p);
     return (box.width() / tile_side_m_ + 2) * (box.height() / tile_side_m_ + 2) < LatticeTin::kMostTiles;
   }
 
-  /// The memory of a sector of whose tiles such a share is seen.
+  /// The memory that a sector takes if this share of its tiles is seen.
   double bytes_of(const std::vector<Point2>& hull, double share) const {
     const double posts = area_of(hull) * posts_per_square_metre_;
-    // A convex shape meets so many tiles of a lattice on average, however it is turned.
+    // The number of a lattice's tiles that a convex shape meets on average, over all places and directions.
     const double side = tile_side_m_;
     const double tiles = area_of(hull) / (side * side) + 2 * length_of(hull) / (std::numbers::pi * side) + 1;
     return kBytesPerUnreadPost * posts + share * tiles * LatticeTin::kCells * kBytesPerPost;
   }
 
-  /// The next sector will be like it, but not quite.
+  /// Learns from a sector for the next one, which will be like it, but not quite.
   void learn(const LatticeTin& lattice, bool fits) {
     tile_side_m_ = LatticeTin::kSide * lattice.spacing * lattice.grid.resolution;
     if (all_heights_) return;
@@ -146,7 +146,7 @@ class LatticeSectors {
         std::min(1.0, fits ? (share_seen_ + 1.1 * seen / tiles) / 2 : 1.5 * std::max(share_seen_, seen / tiles));
   }
 
-  /// Decides the cells within a reach, metres, as far as what the eye may see fits into the memory.
+  /// Decides the cells within a reach, as far as what the eye may see fits into the memory. Returns the reach, metres.
   double observe_over(LatticeReader& reader, const Eye& eye, std::uint32_t observer, const SightSectors& sectors,
                       std::span<const Tile> parts) {
     Result& result = computed_.result;
@@ -155,7 +155,7 @@ class LatticeSectors {
     const double tiles =
         (static_cast<double>(memory_) - unread) / static_cast<double>(kBytesPerPost * LatticeTin::kCells);
     Revealed revealed = reveal(eye, reader, surface, static_cast<std::uint64_t>(std::max(0.0, tiles)), reading_);
-    // A bin less, against rounding.
+    // The reach is a bin less, against rounding.
     const double reach = (revealed.reach - 1) * reader.lattice().spacing * reader.lattice().grid.resolution;
     result.statistics.add_retrieval(reader.lattice().statistics, reader.lattice().triangle_count(), watch_.lap());
     std::vector<Tile> decided;

@@ -88,7 +88,7 @@ class Merge::Rasters {
     copy(segment, from.diffraction_db, to.diffraction_db);
     copy(segment, from.free_space_db, to.free_space_db);
   }
-  /// Observers have other numbers among all than among the segment's.
+  /// Renumbers the observers, which have other numbers among all than among the segment's.
   void add(const Segment& segment, const NearestObservers& from, NearestObservers& to) {
     copy(segment, from.distance_m, to.distance_m);
     copy(segment, from.number, to.number,
@@ -100,7 +100,7 @@ class Merge::Rasters {
     copy(segment, from.triangle, to.triangle,
          [&](std::uint32_t blocker) { return blocker < kMissingGround ? numbers[blocker] : blocker; });
   }
-  /// Observers have other bits, too.
+  /// Moves the observers' bits, which are others among all, too.
   void add(const Segment& segment, const ObserverSets& from, ObserverSets& to) {
     for (std::size_t i = 0; i < segment.observers.size(); ++i) {
       const RasterBit bit = raster_bit(i), bit_of_all = raster_bit(segment.observers[i]);
@@ -116,7 +116,8 @@ class Merge::Rasters {
     }
   }
 
-  /// The segment's values to their places; features that were not named are none.
+  /// Copies the segment's values to their places. An empty list of values, as for features that were not named, changes
+  /// nothing.
   template <class T, class Become = std::identity>
   void copy(const Segment& segment, const std::vector<T>& from, std::vector<T>& to, const Become& become = {}) const {
     if (from.empty()) return;

@@ -20,14 +20,14 @@ bool is_bounded(const Request& request) {
   return request.grid || all_bounded(request);
 }
 
-/// Where observers look. A request that does not say so asks about the box of all data: cells on its rim, whose centres
-/// lie beyond it, are there to fill the raster.
+/// The box where observers look. A request that does not limit it asks about the box of all data: cells on the rim of
+/// the raster, whose centres lie beyond that box, are there to fill the raster.
 Box area_of(const Store& store, const Result& result) {
   return is_bounded(result.request) ? result.grid.bounds() : extent_of(store);
 }
 
-/// Calls found(place) on any thread for cells of the area that are in view but for their elevation, and outside the
-/// result. Returns how many they are.
+/// Calls found(place), on any thread, for cells of the area that are in view whatever their elevation, and outside in
+/// the result. Returns the number of these cells.
 template <class Found>
 std::uint64_t for_each_outside(const Result& result, const Box& area, const Found& found) {
   if (result.cells.outside == 0) return 0;
@@ -40,7 +40,7 @@ std::uint64_t for_each_outside(const Result& result, const Box& area, const Foun
       found);
 }
 
-/// Leaves those without ground.
+/// Leaves only the cells without ground.
 void leave_out_ground(const Tin& coverage, const RasterGrid& grid, std::vector<std::uint8_t>& cells) {
   const std::vector<float> heights = heights_at(coverage, grid);
   for (std::size_t i = 0; i < cells.size(); ++i)

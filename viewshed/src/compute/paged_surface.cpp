@@ -22,7 +22,7 @@ class PagedSurface::Impl {
   const ThemeChoice& themes() const { return themes_; }
   const HeldAreas& areas() const { return areas_; }
 
-  /// A part of `whole`.
+  /// Computes a request that is a part of `whole`.
   Result compute(Request request, const Request& whole, Progress& progress) {
     request.detail = detail_, request.themes = themes_;
     validate(request);

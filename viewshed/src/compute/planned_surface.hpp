@@ -1,4 +1,4 @@
-// What a surface that is held must be to decide segments of a plan.
+// Checks whether a surface that is held can decide segments of a plan.
 #pragma once
 
 #include <itin/detail.hpp>

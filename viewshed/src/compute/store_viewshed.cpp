@@ -17,7 +17,7 @@ namespace itin::viewshed {
 
 namespace {
 
-/// Shares of the time that is left, about, for one observer.
+/// About the shares of the time left that reading takes, for one observer.
 constexpr double kReadingPosts = 0.3;
 double share_of_triangulating(const Request& request) {
   return request.mode == Mode::kLoss ? 0.05 : 0.6;
@@ -53,7 +53,8 @@ ViewshedWithSurface compute_over_tin(const Store& store, const Request& request,
                     request.themes);
   computed.surface->extent = extent_of(store);
   const double seconds = watch.lap();
-  // Beside a feature the surface is not to the last digit the ground, also where the window holds no part of it.
+  // Beside a feature the surface differs from the ground in the last digits, even where the window holds no part of the
+  // feature.
   const bool on_ground = !(request.observers_on_surface && request.targets_on_surface);
   if (has_raised_features(store, request) && (on_ground || needs_bare_lines(request)))
     computed.ground = triangulate(store, window_of(request), request.detail, call.step(share_of_triangulating(request)),

@@ -1,4 +1,4 @@
-// Viewsheds over what is retrieved of a store at once: the first two rungs of compute_with_surface()'s ladder.
+// Viewsheds over what is retrieved of a store at once: the first two ways that compute_with_surface() tries.
 #pragma once
 
 #include <cstdint>
@@ -10,11 +10,12 @@
 
 namespace itin::viewshed {
 
-/// Nothing where the surface is no lattice of at most so many posts. Precondition: takes_a_lattice().
+/// Computes over a lattice; nothing where the surface is no lattice of at most `most_posts` posts. Precondition:
+/// takes_a_lattice().
 std::optional<ViewshedWithSurface> compute_over_lattice(const Store& store, const Request& request,
                                                         std::uint64_t most_posts, Progress& progress);
 
-/// Takes every surface, mode and detail.
+/// Computes over triangles: takes every surface, mode and detail.
 ViewshedWithSurface compute_over_tin(const Store& store, const Request& request, Progress& progress);
 
 }  // namespace itin::viewshed

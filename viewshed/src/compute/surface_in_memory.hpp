@@ -12,18 +12,18 @@
 namespace itin::viewshed {
 
 struct SurfaceInMemory {
-  // One of the two.
+  // One of these two is given.
   const Tin* tin = nullptr;
   const LatticeTin* lattice = nullptr;
   LatticeReader* reader = nullptr;                   ///< reads the lattice, where heights may have to be read
   const Tin* bare = nullptr;                         ///< what ends stand on, where that is not the surface
-  Box extent;                                        ///< that cells are laid over
+  Box extent;                                        ///< the box that cells are laid over
   std::shared_ptr<BinnedHeights> heights = nullptr;  ///< the surface's, where they have been binned
 
   const Grid& units() const { return lattice != nullptr ? lattice->grid : tin->grid; }
 };
 
-/// Safe for concurrent use where there is no reader.
+/// Computes a viewshed over the surface. Safe for concurrent use where there is no reader.
 Result compute(const SurfaceInMemory& over, const Request& request, Progress& progress);
 
 }  // namespace itin::viewshed

@@ -37,9 +37,9 @@ namespace itin::viewshed {
 
 namespace {
 
-/// The coarse pass reads so much less than the surface.
+/// How many times fewer points the coarse pass reads than the surface has.
 constexpr std::uint64_t kCoarseShareOfRays = 12, kCoarseShareOfBlocks = 30;
-/// Its share of the time, about.
+/// About the share of the time that the coarse pass takes.
 constexpr double kCoarsePass = 0.1;
 
 class TinSegments {
@@ -75,7 +75,7 @@ class TinSegments {
  private:
   std::uint64_t budget() const { return memory_ / bytes_per_point(request_); }
 
-  /// The level whose surface the coarse one encloses.
+  /// The level whose surface the coarse envelope encloses.
   int enclosed_level() const { return way_ == CoarseWay::kBlocks ? level_ : 0; }
 
   int coarse_level() const {
@@ -94,7 +94,7 @@ class TinSegments {
     return tin;
   }
 
-  /// `targets` is where they stand.
+  /// Retrieves the surface over `window`, and the ground over `targets`, where targets stand on it.
   OwnedSurface retrieve(const Window& window, const Window& targets) {
     Tin tin = triangulated(window, features_ ? request_.themes : ThemeChoice::none());
     std::optional<Tin> ground;
@@ -144,7 +144,7 @@ class TinSegments {
     stage_->advance_to((observer + 1) * result.grid.cell_count());
   }
 
-  /// Whatever the mode asks of the lines to these tiles. Returns how many lines there were.
+  /// Studies what the mode asks of the lines to these tiles. Returns how many lines there were.
   std::uint64_t study(const ExactJudge& judge, const OwnedSurface& segment, std::uint32_t observer,
                       const std::vector<std::size_t>& cells, const TileSet& ground) {
     std::optional<Tin> bare;
@@ -173,7 +173,7 @@ class TinSegments {
     });
   }
 
-  /// Verdict::kUndecided for the cells that the eye looks at, else Verdict::kOutside.
+  /// Returns Verdict::kUndecided for the open cells that the eye looks at, and Verdict::kOutside for others.
   TileVerdicts asked(const Eye& eye, std::uint32_t observer) const {
     const RasterGrid& grid = computed_.result.grid;
     const MapView field{eye.position, eye.view};
@@ -192,11 +192,11 @@ class TinSegments {
   }
 
   struct GroundSegment {
-    std::vector<std::size_t> cells;  ///< tiles of them
-    TileSet ground;                  ///< all that they need
+    std::vector<std::size_t> cells;  ///< the numbers of their tiles
+    TileSet ground;                  ///< all ground that they need
   };
 
-  /// Tiles of cells next to each other in azimuth, as many together as the memory holds.
+  /// Returns segments of tiles of cells next to each other in azimuth, as many tiles together as the memory holds.
   std::vector<GroundSegment> segments(const Eye& eye, const std::vector<TileSet>& needed) const {
     std::vector<std::size_t> order;
     for (std::size_t tile = 0; tile < needed.size(); ++tile)
@@ -229,8 +229,8 @@ class TinSegments {
 
   const Store& store_;
   const Request& request_;
-  bool features_;  ///< stand on the ground
-  int level_;      ///< the surface's, or its coarsest
+  bool features_;  ///< whether features stand on the ground
+  int level_;      ///< the surface's level, or its coarsest one
   CoarseWay way_;
   Box box_;
   std::uint64_t memory_;  ///< bytes, without the rasters

@@ -20,10 +20,10 @@ class Canvas {
   int height() const { return height_; }
   std::vector<std::uint8_t>& rgb() { return rgb_; }
 
-  /// Lays `colour` over a pixel; nothing outside the picture. `opacity` 0 to 1.
+  /// Lays `colour` over a pixel; does nothing outside the picture. `opacity` is 0 to 1.
   void blend(int x, int y, Rgba colour, double opacity);
   void fill_rectangle(int x, int y, int width, int height, Rgba colour, double opacity = 1);
-  /// One pixel wide, inside the rectangle.
+  /// Draws a frame one pixel wide, inside the rectangle.
   void frame(int x, int y, int width, int height, Rgba colour);
   void fill_disc(Point2 centre, double radius, Rgba colour, double opacity = 1);
   void fill_triangle(const std::array<Point2, 3>& corners, Rgba colour);

@@ -12,8 +12,8 @@ namespace {
 
 constexpr const char* kModule = "itin-drawing.so";
 
-/// By its name alone: the dynamic linker looks for it where this library, or the program that it was linked into, says
-/// (RUNPATH: viewshed/CMakeLists.txt), so that it is found wherever an installation has been moved.
+/// Loads the module by its name alone. The dynamic linker looks for it where this library, or the program that it was
+/// linked into, says (RUNPATH: viewshed/CMakeLists.txt), so that it is found wherever an installation has been moved.
 const Drawing& load() {
   void* const module = dlopen(kModule, RTLD_NOW | RTLD_LOCAL);
   void* const found = module == nullptr ? nullptr : dlsym(module, "itin_drawing");

@@ -9,8 +9,8 @@
 
 namespace itin::viewshed {
 
-/// One value per pixel: 0 (darkest) to 1 (brightest), NaN where its height, metres, is. Light comes from the north-west
-/// and, weaker, from the west, north and south-west, so that no slope direction is lost.
+/// Returns one value per pixel: 0 (darkest) to 1 (brightest), NaN where its height, metres, is NaN. Light comes from
+/// the north-west and, weaker, from the west, north and south-west, so that no slope direction is lost.
 std::vector<float> hillshade(std::span<const float> heights, const RasterGrid& pixels);
 
 }  // namespace itin::viewshed

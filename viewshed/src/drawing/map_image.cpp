@@ -44,7 +44,7 @@ void require_possible(const MapOptions& options) {
 
 class MapDrawing {
  public:
-  /// heights_of(pixels) are those of the ground.
+  /// heights_of(pixels) returns the heights of the ground.
   template <class HeightsOf>
   MapDrawing(const HeightsOf& heights_of, const Result& result, const MapOptions& options)
       : result_(result),
@@ -98,7 +98,7 @@ class MapDrawing {
   bool lacks_ground(std::optional<std::size_t> cell) const {
     return cell && *cell < options_.no_data.size() && options_.no_data[*cell] == 1;
   }
-  /// In the middle of some pixel.
+  /// Tells whether the middle of some pixel shows what is outside the field of view.
   bool shows_outside() const {
     for (std::int64_t y = 0; y < pixels_.rows(); ++y)
       for (std::int64_t x = 0; x < pixels_.columns(); ++x)
@@ -148,7 +148,7 @@ class MapDrawing {
   };
 
   Shown shown_at(std::int64_t column, std::int64_t row) const {
-    // As many samples as cells along a pixel's side, within reason, so that thin shadows are not lost.
+    // There are as many samples as cells along a pixel's side, within reason, so that thin shadows are not lost.
     const double cells = pixels_.cell_width() / result_.grid.cell_width();
     const int samples = static_cast<int>(std::clamp(std::ceil(cells), 1.0, 4.0));
     Shown shown;
@@ -202,7 +202,7 @@ class MapDrawing {
     if (labels < named.size()) names_left_out_ = left_out_text(named.size() - labels, named.size());
   }
 
-  /// Returns how many have room.
+  /// Draws the names that have room, and returns their number.
   std::size_t draw_names(const std::vector<const Observer*>& named) {
     constexpr std::size_t kMostLabels = 40;
     if (named.size() > kMostLabels) return 0;
@@ -284,7 +284,7 @@ class MapDrawing {
 
   int y_of_row(int row) const { return top_ + height_ + unit_ + row * key_height(); }
 
-  /// A patch of the map's colours over level ground, and what it means.
+  /// Draws a patch of the map's colours over level ground, and what it means.
   void draw_key(int row, const std::vector<Tint>& tints, double fade, const std::string& text) {
     const int x = left_, y = y_of_row(row);
     const int width = 2 * unit_, height = 5 * unit_ / 4, bands = static_cast<int>(tints.size());
@@ -341,7 +341,7 @@ class MapDrawing {
     if (!overlay_.scale().empty()) draw_scale();
   }
 
-  /// The overlay's steps side by side, in the middle of the lower margin.
+  /// Draws the overlay's steps side by side, in the middle of the lower margin.
   void draw_scale() {
     const std::vector<MapOverlay::Step>& steps = overlay_.scale();
     const int x0 = left_ + width_ * 2 / 5, y = top_ + height_ + unit_, step = 4 * unit_;

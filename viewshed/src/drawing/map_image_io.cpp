@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 std::string find_font() {
   std::vector<fs::path> places{"/usr/share/fonts", "/usr/local/share/fonts", "/Library/Fonts", "/System/Library/Fonts"};
   if (const char* home = std::getenv("HOME")) places.push_back(fs::path(home) / ".local/share/fonts");
-  // The earlier the better: metrics differ little, but a machine should always choose the same.
+  // Earlier names are preferred: metrics differ little, but a machine should always choose the same font.
   constexpr std::array kNames{"DejaVuSans.ttf", "LiberationSans-Regular.ttf", "NotoSans-Regular.ttf", "FreeSans.ttf",
                               "Arial.ttf"};
   std::array<std::string, kNames.size()> found;
@@ -88,7 +88,7 @@ int Lettering::width(const std::string& text, int size) const {
                          [&](int sum, const PlainPiece& piece) { return sum + advance(piece, size); });
 }
 
-/// Blanks at its ends count, which the width leaves out.
+/// The width of a piece with the blanks at its ends, which its drawn width leaves out.
 int Lettering::advance(const PlainPiece& piece, int size) const {
   const auto width_of = [&](const std::string& text) {
     return drawing().text_width(text.c_str(), {font_.c_str(), size_of(piece, size)});

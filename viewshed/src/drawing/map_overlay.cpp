@@ -25,7 +25,7 @@ constexpr double kOpacity = 0.55;  ///< how opaque what is seen is drawn
 constexpr int kSteps = 5;
 constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
 
-/// For observers, features and steps of losses, without amber, which is for the undecided.
+/// The colours of observers, features and steps of losses, without amber, which is for the undecided.
 constexpr std::array<Rgba, 7> kPalette{
     {{0, 114, 178}, {73, 0, 146}, {0, 158, 115}, {204, 121, 167}, {86, 180, 233}, {213, 94, 0}, {240, 228, 66}}};
 
@@ -34,7 +34,7 @@ double opacity_of(int i, int n) {
   return n == 1 ? kOpacity : 0.25 + 0.6 * i / (n - 1);
 }
 
-/// 1, 2 or 5 times a power of ten, at least v.
+/// The least of 1, 2 or 5 times a power of ten that is at least v.
 double round_step(double v) {
   const double decade = std::pow(10, std::floor(std::log10(v)));
   for (const double step : {1.0, 2.0, 5.0})
@@ -62,7 +62,8 @@ Extremes extremes_of(const std::vector<float>& values) {
   return e;
 }
 
-/// The values that are kept, ascending; of many values about a million, which tell as much.
+/// The values that are kept, ascending. Where there are many, these are a sample of about a million, which tells as
+/// much.
 template <class Keep>
 std::vector<float> sorted_sample(const std::vector<float>& values, const Keep& keep) {
   std::vector<float> sample;
@@ -184,7 +185,7 @@ void MapOverlay::scale_angles() {
   const auto at = [&](double share) {
     return static_cast<double>(angles[static_cast<std::size_t>(share * static_cast<double>(angles.size() - 1))]);
   };
-  // Round angles that part the cells into about as many each: most lie near the horizon.
+  // Limits are round angles that part the cells into about equal numbers: most lie near the horizon.
   const double width = round_step(std::max((at(0.9) - at(0.1)) / (2 * kSteps), 0.01));
   std::vector<double> limits;
   for (int i = 1; i < kSteps; ++i) {
@@ -231,7 +232,7 @@ void MapOverlay::scale_blockers() {
     add_step(static_cast<double>(i + 1), {kPalette[1 + i % (kPalette.size() - 1)], theme == 0 ? 0.2 : kOpacity},
              blocker_name(result_, theme));
   }
-  // Its cells have no value: the relief alone shows.
+  // Cells that their own ground hides have no value: the relief alone shows.
   const std::vector<std::uint32_t>& themes = result_.get<Blockers>().theme;
   for (std::size_t i = 0; i < themes.size(); ++i)
     if (result_.visible[i] == Verdict::kHidden && themes[i] == kNoBlocker) return add_step(kInfinity, {}, "own ground");
@@ -242,7 +243,7 @@ void MapOverlay::scale_heights() {
       fmt::format("Least height above {}, metres", result_.request.targets_on_surface ? "the surface" : "the ground");
   const std::vector<float> heights =
       sorted_sample(result_.get<LeastHeights>().height_m, [](float h) { return h > 0 && std::isfinite(h); });
-  // Round heights that part the hidden cells into about as many each.
+  // Limits are round heights that part the hidden cells into about equal numbers.
   std::vector<double> limits;
   for (const double share : {0.2, 0.45, 0.7}) {
     if (heights.empty()) break;
@@ -288,7 +289,7 @@ void MapOverlay::scale_losses() {
 void MapOverlay::make_keys(const MapOptions& options) {
   const CellCounts& cells = result_.cells;
   if (result_.request.mode != Mode::kLoss) add_verdict_keys(options);
-  // Undecided cells have none, either, and a key of their own.
+  // Undecided cells have no value, either, but a key of their own.
   if (const auto without = cells_without_value(result_); without && without->cells > cells.undecided)
     keys_.push_back({{}, fmt::format("No {} known", without->value), without->cells - cells.undecided});
   if (cells.undecided > 0 || result_.certified)
@@ -298,9 +299,9 @@ void MapOverlay::make_keys(const MapOptions& options) {
 void MapOverlay::add_verdict_keys(const MapOptions& options) {
   const CellCounts& cells = result_.cells;
   const Mode mode = result_.request.mode;
-  // Its steps show what is seen and what is hidden alike.
+  // The steps of this mode show what is seen and what is hidden alike.
   if (mode == Mode::kProbability) return;
-  // The first step of these is what is seen, the others what is hidden.
+  // The first step of these modes is what is seen, and the others are what is hidden.
   const bool both = mode == Mode::kBlocker || mode == Mode::kHeight;
   std::vector<Tint> seen, hidden;
   for (const Step& step : steps_) (both && !seen.empty() ? hidden : seen).push_back(step.tint);

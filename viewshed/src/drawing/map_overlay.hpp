@@ -12,8 +12,8 @@
 
 namespace itin::viewshed {
 
-/// From the palette of Okabe and Ito, told apart with every kind of colour blindness; visible is also darker than what
-/// is hidden, for grey print.
+/// Colours from the palette of Okabe and Ito, which can be told apart with every kind of colour blindness. Visible is
+/// also darker than hidden, for grey print.
 inline constexpr Rgba kSeenColour{0, 114, 178};
 inline constexpr Rgba kUndecidedColour{230, 159, 0};
 inline constexpr Rgba kZoneCutColour{204, 121, 167};
@@ -27,7 +27,7 @@ class MapOverlay {
  public:
   MapOverlay(const Result& result, const MapOptions& options);
 
-  /// Nothing outside the field of view.
+  /// The colour of a cell; nothing outside the field of view.
   std::optional<Tint> at(std::size_t cell) const;
 
   /// Classes of the legend: what a patch of colours stands for.

@@ -18,7 +18,7 @@ namespace {
 constexpr double kFrame = 0.02;
 constexpr Rgba kPaper{255, 255, 255};
 
-/// Parallel rays: metres in the picture's plane, and away from the viewer.
+/// Projects by parallel rays: to metres in the picture's plane, and away from the viewer.
 class ParallelView {
  public:
   ParallelView(const Tin& tin, const ObliqueOptions& options) : tin_(tin), options_(options) {

@@ -50,7 +50,8 @@ class PerspectiveView {
  private:
   static double dot(const Point3& a, const Point3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
-  /// To the right of the eye, above it and in front of it. The Earth's curvature, less refraction, lowers what is far.
+  /// How far a point is to the right of the eye, above it and in front of it. The Earth's curvature, less refraction,
+  /// lowers what is far.
   Point3 project(const Point3& p) const {
     Point3 offset{p.x - options_.eye.x, p.y - options_.eye.y, p.z - options_.eye.z};
     offset.z -= drop_ * (offset.x * offset.x + offset.y * offset.y);

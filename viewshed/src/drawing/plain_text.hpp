@@ -10,7 +10,7 @@ namespace itin::viewshed {
 /// Latin letters lose their accents, a few signs are written out, anything else beyond ASCII becomes '?'.
 std::string plain_text(std::string_view utf8);
 
-/// In a line, those that are raised in smaller letters: the two of square metres.
+/// A piece of a line of text. A raised piece, such as the two of square metres, is in smaller letters.
 struct PlainPiece {
   std::string text;
   bool raised = false;

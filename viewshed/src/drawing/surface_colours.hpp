@@ -13,8 +13,8 @@ namespace itin::viewshed {
 
 class SurfaceColours {
  public:
-  /// The light comes over the left shoulder of one who looks to `azimuth`, degrees. `kinds` are those of the themes,
-  /// the first one's first. `tin` must outlive it.
+  /// The light comes over the left shoulder of one who looks to `azimuth`, degrees. `kinds` has the kind of each theme,
+  /// in order. `tin` must outlive this object.
   SurfaceColours(const Tin& tin, double azimuth, const std::vector<ThemeKind>& kinds);
 
   /// Ground has one colour, and so have walls; each kind of theme has its own.

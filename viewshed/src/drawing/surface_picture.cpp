@@ -13,7 +13,7 @@ namespace {
 
 using Corner = SurfacePicture::Corner;
 
-/// Samples to either side of an edge.
+/// How far an edge is drawn to either side, in samples.
 constexpr double kEdge = 0.8;
 constexpr double kEdgeShade = 0.45;
 
@@ -32,7 +32,7 @@ std::array<double, 3> weights_within(double distance, const std::array<Corner, 3
   return weights;
 }
 
-/// Where a row crosses a triangle, from one x to another.
+/// The range of x in which a row crosses a triangle.
 std::pair<double, double> range_in(const std::array<Corner, 3>& s, double y) {
   double from = kInfinity, to = -from;
   for (std::size_t i = 0; i < 3; ++i) {

@@ -20,7 +20,7 @@ void require_drawable(const Tin& tin, int pixels);
 
 class SurfacePicture {
  public:
-  /// Along each side of a pixel.
+  /// Samples along each side of a pixel.
   static constexpr int kSamples = 2;
 
   /// A corner in the picture's plane, samples right and down of its north-west corner, and any measure of how far away
@@ -29,13 +29,13 @@ class SurfacePicture {
     double x = 0, y = 0, depth = 0;
   };
 
-  /// Pixels.
+  /// Width and height are in pixels.
   SurfacePicture(int width, int height, Rgba background);
 
   double width() const { return width_; }    ///< samples
   double height() const { return height_; }  ///< samples
-  /// Takes the samples whose centres the triangle covers and that nothing nearer has taken. With `edges`, those near a
-  /// side are darker.
+  /// Takes the samples whose centres the triangle covers and that nothing nearer has taken. With `edges`, samples near
+  /// a side are darker.
   void fill(const std::array<Corner, 3>& corners, Rgba colour, bool edges);
   MapImage image() const;
 

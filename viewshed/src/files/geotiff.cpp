@@ -35,8 +35,8 @@ std::string text_of(const AngleRange& range) {
 
 using Metadata = std::vector<std::pair<std::string, std::string>>;
 
-/// Adds each observer's own value or, where it has none, that of all: once where all are equal, else one by one, `-`
-/// for none.
+/// Adds each observer's own value or, where it has none, the value for all: once where all are equal, and otherwise one
+/// by one, `-` for none.
 template <class Value>
 void add_of_observers(const std::string& name, const Request& request, std::optional<Value> Observer::*own,
                       const std::optional<Value>& of_all, Metadata& items) {
@@ -85,7 +85,7 @@ Metadata metadata_of(const Result& result) {
   return items;
 }
 
-/// A result's values under one description.
+/// Writes a result's values under one description.
 class Writer {
  public:
   Writer(const std::string& path, const Result& result, RasterDescription description, const Progress& progress)
@@ -94,7 +94,7 @@ class Writer {
   void verdicts(const std::string& band) {
     description_.classes = verdict_classes(result_);
     description_.classes.push_back({code_of(Verdict::kOutside), "outside or no data", kTransparent});
-    // The file lists them in this order.
+    // The file lists the classes in this order.
     std::ranges::sort(description_.classes, {}, &RasterClass::value);
     write<std::uint8_t>({band}, code_of(Verdict::kOutside), codes_of(result_.visible));
   }

@@ -8,7 +8,7 @@ namespace itin::viewshed {
 
 namespace {
 
-/// Where nothing is lost there is a colour, too: only cells without a loss have none.
+/// A loss of 0 has a colour, too: only cells without a loss have none.
 std::vector<ValueBand> loss_bands() {
   std::vector<ValueBand> bands = limit_bands({kLossLimitsDb.begin(), kLossLimitsDb.end()}, "dB");
   bands.front() = {0, "0 dB", {0, 114, 178}};

@@ -126,7 +126,7 @@ class SegmentReader {
   std::size_t at_ = 0;
 };
 
-/// Also tells the order of bytes.
+/// The mark of such a file, which also tells the order of bytes.
 constexpr std::uint64_t kKind = 0x31'74'6e'65'6d'67'65'73;
 
 }  // namespace

@@ -10,10 +10,10 @@ namespace itin::viewshed {
 
 namespace {
 
-/// Cells a side of what is triangulated at once.
+/// Cells per side of what is triangulated at once.
 constexpr std::int64_t kCellsAtOnce = 512;
 
-/// Whether a triangle, its edges included, holds a position.
+/// Tells whether a triangle, its edges included, holds a position.
 bool triangle_holds(const std::array<Point3, 3>& triangle, Point2 p) {
   for (std::size_t i = 0; i < 3; ++i) {
     const Point3 &a = triangle[i], &b = triangle[(i + 1) % 3];
@@ -22,7 +22,7 @@ bool triangle_holds(const std::array<Point3, 3>& triangle, Point2 p) {
   return true;
 }
 
-/// Marks those cells within the box that features stand on.
+/// Marks the cells within the box that features stand on.
 void mark_themes(const Tin& tin, const Box& within, const RasterGrid& grid, std::vector<std::uint8_t>& values) {
   for (const Triangle& t : tin.triangles) {
     const auto theme = static_cast<std::uint8_t>(tin.theme(t));

@@ -39,7 +39,7 @@ using Heights = std::vector<std::optional<double>>;
 /// Sections over missing ground may keep this part of the memory.
 constexpr std::uint64_t kPartForSections = 8;
 
-/// Metres: the request's radius, or as far as there is data.
+/// How far to look, metres: the request's radius, or as far as there is data.
 double greatest_reach(const Request& request, const Box& data) {
   const Observer& observer = request.observers.front();
   const Point2 p = observer.position;
@@ -47,7 +47,7 @@ double greatest_reach(const Request& request, const Box& data) {
   return std::hypot(std::max(p.x - data.xmin, data.xmax - p.x), std::max(p.y - data.ymin, data.ymax - p.y)) + 1;
 }
 
-/// Where to look: to the sky, or at a target.
+/// A direction to look in: to the sky, or at a target.
 struct Direction {
   double clockwise = 0;  ///< degrees from the first
   std::size_t index = 0;
@@ -58,7 +58,7 @@ using Directions = std::span<const Direction>;
 /// A horizon that is being computed, one run of consecutive directions after another.
 class Survey {
  public:
-  /// `ground` is what is below the targets, metres. Request and eye must outlive it.
+  /// `ground` has the heights of what is below the targets, metres. Request and eye must outlive this object.
   Survey(const Request& request, const HorizonOptions& options, const Grid& grid, const Eye& eye, double reach,
          const Heights& ground)
       : request_(request), grid_(grid), eye_(eye), reach_(reach) {
@@ -71,9 +71,9 @@ class Survey {
                      [](const Direction& a, const Direction& b) { return a.clockwise < b.clockwise; });
   }
 
-  /// All of them, clockwise.
+  /// All directions, clockwise.
   Directions directions() const { return directions_; }
-  /// The line in a direction ends there.
+  /// The place where the line in a direction ends.
   Point2 end_of(const Direction& direction) const {
     if (direction.target) return result_.targets[direction.index].target.position;
     const double azimuth = in_radians(result_.points[direction.index].azimuth_deg);
@@ -162,13 +162,13 @@ std::vector<Point2> positions_of(const std::vector<HorizonTarget>& targets) {
   return positions;
 }
 
-/// Surfaces of triangles, with what finds the highest of them and what hides targets.
+/// How many points of a surface the memory holds, with what finds the highest triangles and what hides targets.
 std::uint64_t points_within(std::uint64_t memory, const Store& store, const Request& request) {
   constexpr std::uint64_t kPyramids = 80;
   return memory_beside_rasters(memory, store, request) / (kBytesPerSurfacePoint + kPyramids);
 }
 
-/// Changes what is not known for want of ground along the lines from the eye.
+/// Corrects the horizon for ground that is missing along the lines from the eye.
 void heed_missing_ground(const Store& store, const Request& request, const ComputeOptions& options, Horizon& horizon) {
   if (request.nodata == NoData::kClear) return;
   const SectionSurface surface(store, request.detail, request.themes, {options.memory_bytes / kPartForSections});

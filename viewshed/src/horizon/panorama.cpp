@@ -13,7 +13,7 @@ namespace itin::viewshed {
 
 namespace {
 
-/// Grid units: a step that rounding does not swallow, and that no triangle is thin enough to hide in.
+/// A step in grid units that rounding does not swallow, and that no triangle is thin enough to hide in.
 constexpr double kStepBehind = 1e-2;
 
 }  // namespace
@@ -55,7 +55,7 @@ std::optional<SkyPoint> Panorama::sky(double azimuth) const {
                   ends_behind({eye_.units.x + s * line.dx(), eye_.units.y + s * line.dy()}, line)};
 }
 
-/// Which one of several triangles that touch the line is found first follows from what else has been read.
+/// Takes the nearest: which of several triangles that touch the line is found first depends on what else has been read.
 Panorama::Touch Panorama::nearest_touch(const SightLine& line, const std::vector<std::uint32_t>& triangles) const {
   Touch nearest{kInfinity, 0};
   for (const std::uint32_t triangle : triangles) {

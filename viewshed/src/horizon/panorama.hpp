@@ -24,12 +24,12 @@ class Panorama {
   /// `reach` is how far to look, metres. Surface and eye must outlive it.
   Panorama(const Tin& surface, const Earth& earth, const Eye& eye, double reach);
 
-  /// `azimuth` is in degrees from grid north. Nothing where there is no ground; missing ground passes. Throws
-  /// InputError for an eye beneath a roof.
+  /// Finds how high the surface reaches; `azimuth` is in degrees from grid north. Nothing where there is no ground;
+  /// lines pass over missing ground. Throws InputError for an eye beneath a roof.
   std::optional<SkyPoint> sky(double azimuth) const;
 
  private:
-  /// Where the line touches the surface, as a fraction of its length, and the theme there.
+  /// The place where the line touches the surface, as a fraction of its length, and the theme there.
   using Touch = std::pair<double, std::uint16_t>;
 
   Touch nearest_touch(const SightLine& line, const std::vector<std::uint32_t>& triangles) const;
@@ -39,7 +39,7 @@ class Panorama {
   const Eye& eye_;
   double drop_;     ///< grid units of drop per squared grid unit
   double grazing_;  ///< grid units
-  double reach_;    ///< likewise
+  double reach_;    ///< grid units
   HeightPyramid pyramid_;
 };
 

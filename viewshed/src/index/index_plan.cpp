@@ -35,7 +35,7 @@ class IndexPlan {
   struct Block {
     CellRectangle cells;
     Box ground;                ///< under the sight lines of the observers in the area; empty where there are none
-    std::uint64_t points = 0;  ///< how many that ground has
+    std::uint64_t points = 0;  ///< how many points that ground has
   };
 
   bool fits(Block& block) const {
@@ -58,7 +58,7 @@ class IndexPlan {
                     block.points, request_.memory_bytes));
   }
 
-  /// About the centres in the area.
+  /// The box about the cells' centres that lie in the area.
   Box eyes_of(const CellRectangle& cells) const {
     Box box;
     for (std::size_t i = 0; i < cells.count(); ++i) {

@@ -20,24 +20,24 @@
 namespace itin::viewshed {
 
 /// Double precision asks every triangle that may rise above a line (HeightPyramid). Where a Tin is asked about very
-/// many lines, rays find most of those that are hidden (Scene) in less time.
+/// many lines, rays find most of the hidden lines (Scene) in less time.
 class SampledSurface {
  public:
   /// The surface must outlive it and have all its heights; about `lines` lines will be tested. Throws std::bad_alloc.
   SampledSurface(const Surface& surface, const Earth& earth, std::uint64_t lines);
-  /// The memory that a Tin of so many points takes, bytes, about. A lattice takes kBytesPerPost.
+  /// About how many bytes a Tin of `points` points takes. A lattice takes kBytesPerPost per post.
   static std::uint64_t bytes(std::uint64_t points, std::uint64_t lines);
 
   const Grid& units() const { return pyramid_.units(); }
-  /// At a position in grid units, grid units.
+  /// The height at a position, both in grid units.
   std::optional<double> height(Point2 units) const { return pyramid_.height_at(units); }
-  /// Where it ends.
+  /// The edges where the surface ends.
   std::vector<RimEdge> rim() const;
 
   struct Scratch {
     Occluder occluder;
   };
-  /// One bit per line: 1 hidden. Ends of active lines differ horizontally. Safe for concurrent use.
+  /// Returns one bit per line: 1 if it is hidden. Ends of active lines differ horizontally. Safe for concurrent use.
   unsigned hidden(const SightLines& lines, Scratch& scratch) const;
 
  private:

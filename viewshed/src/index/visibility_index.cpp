@@ -61,7 +61,7 @@ class IndexWork {
     index_.undecided.assign(index_.grid.cell_count(), kNoShare);
   }
 
-  /// Where all ground under a segment is posts of a lattice, there is room for far more of them.
+  /// Plans for posts first: where all ground under a segment is posts of a lattice, there is room for far more of them.
   VisibilityIndex run() {
     const auto posts_fit = [&](std::uint64_t points, std::uint64_t) { return points <= memory_ / kBytesPerPost; };
     const auto segments = plan(all_cells(index_.grid), posts_fit);

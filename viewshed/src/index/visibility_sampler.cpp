@@ -22,7 +22,7 @@ namespace {
 class Random {
  public:
   explicit Random(std::uint64_t seed) : state_(seed) {}
-  /// In [0, 1).
+  /// The next number, in [0, 1).
   double next() {
     std::uint64_t z = (state_ += 0x9e3779b97f4a7c15);
     z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9;
@@ -40,7 +40,7 @@ std::int32_t southern_end(const RimEdge& edge) {
 
 }  // namespace
 
-/// Lines to targets on ground; those at the eye's own place are seen without one.
+/// Lines to targets on ground; targets at the eye's own place are seen without a line.
 struct VisibilitySampler::Packet {
   SightLines lines;
   std::array<Point2, SightLines::kSize> targets;  ///< metres

@@ -37,7 +37,7 @@ class BinJudge::BinWork final : public TileJudge::Work {
   const BinJudge& judge_;
   Tile tile_;
   TileCentres centres_;
-  const Eye* eye_ = nullptr;  ///< that was judged last
+  const Eye* eye_ = nullptr;  ///< the eye that was judged last
   TileValues<double> targets_;
 };
 

@@ -14,8 +14,9 @@ namespace itin::viewshed {
 
 class BinJudge final : public TileJudge {
  public:
-  /// `tiles` are those of `grid`. `ground` is what targets stand on at each of its cells, grid units; kNoSurface where
-  /// there is none. Ground without data hides nothing. All but the eyes must outlive it.
+  /// `tiles` are the tiles of `grid`. `ground` is the height of what targets stand on at each of the grid's cells, grid
+  /// units; kNoSurface where there is none. Ground without data hides nothing. All but the eyes must outlive this
+  /// object.
   BinJudge(const BinWalk& walk, const Grid& units, const RasterGrid& grid, const RasterGrid& tiles,
            const std::vector<double>& ground, std::vector<Eye> eyes);
 

@@ -27,7 +27,7 @@ class Crossing {
   }
 
   std::int64_t number() const { return number_; }
-  /// The fraction at which the line leaves it.
+  /// The fraction at which the line leaves the column, or row.
   double end() const { return next_; }
   void advance() { number_ += step_, next_ += spacing_; }
 
@@ -46,7 +46,7 @@ struct BinWalk::Line {
   double from_z, rise, bulge;
 
   double height(double s) const { return from_z + s * (rise - bulge * (1 - s)); }
-  /// No point of the stretch is lower than this.
+  /// A height that no point of the stretch lies below.
   double lowest(const Stretch& within) const {
     const double length = within.last - within.first;
     return std::min(height(within.first), height(within.last)) - std::max(bulge, 0.0) * length * length / 4;
@@ -66,8 +66,8 @@ struct BinWalk::Line {
     limit(row, rows, static_cast<double>(bins.rows()));
     return all;
   }
-  /// Calls visit(place, stretch) for the squares of this size that it crosses, among those from `first` to `last`,
-  /// until one call returns false; returns whether none did.
+  /// Calls visit(place, stretch) for the squares of this size that the line crosses, among those from `first` to
+  /// `last`, until one call returns false; returns whether none did.
   template <class Visit>
   bool for_each_square(Stretch within, double size, RasterGrid::Cell first, RasterGrid::Cell last,
                        const Visit& visit) const {

@@ -1,5 +1,5 @@
-// What the bins that a sight line crosses tell of it, one after the other: it is hidden for certain where it runs below
-// the least height of one, and visible for certain where it runs above the greatest heights of all.
+// What bins tell of a sight line that crosses them one after the other. The line is certainly hidden where it runs
+// below the least height of one bin, and certainly visible where it runs above the greatest heights of all.
 //
 //   const BinWalk walk(bins, request.earth.drop_coefficient() * resolution);
 //   if (walk.along(eye.units, target) == Verdict::kHidden) ...
@@ -17,16 +17,16 @@ namespace itin::viewshed {
 
 class BinWalk {
  public:
-  /// The bins must be complete, and outlive it. `drop`: grid units per squared grid unit.
+  /// The bins must be complete, and outlive this object. `drop`: grid units per squared grid unit.
   BinWalk(const SurfaceBins& bins, double drop);
 
-  /// Ends are in grid units. kUndecided where bins leave it open. What lies beside all bins hides nothing. Cost: one
-  /// step per bin, or per block of 8 x 8 bins that the line passes above.
+  /// Decides a line between ends in grid units; kUndecided where bins leave it open. What lies beside all bins hides
+  /// nothing. Cost: one step per bin, or per block of 8 x 8 bins that the line passes above.
   Verdict along(const Point3& from, const Point3& to) const;
 
  private:
   struct Line;
-  /// Fractions of the length.
+  /// A part of a line, as fractions of its length.
   struct Stretch {
     double first, last;
   };

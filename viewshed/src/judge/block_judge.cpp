@@ -53,7 +53,7 @@ class BlockJudge::BlockWork final : public TileJudge::Work {
     });
   }
 
-  /// Hides the block where that is certain, else what it can of its quarters, down to about a bin.
+  /// Hides the block where that is certain, and otherwise what it can of its quarters, down to about a bin.
   void hide(const CellBlock& block, const TileValues<Verdict>& asked, TileValues<Verdict>& values) const {
     const BinBox box = box_of(block);
     const double highest = judge_.surface_.bounds().highest(box) + judge_.surface_.rises().over(tile_, block);
@@ -64,7 +64,7 @@ class BlockJudge::BlockWork final : public TileJudge::Work {
     for_each_quarter(block, [&](const CellBlock& quarter) { hide(quarter, asked, values); });
   }
 
-  /// Whether every cell has ground and is in view, and none has a rule of its own.
+  /// Tells whether every cell has ground and is in view, and none has a rule of its own.
   bool is_simple(const CellBlock& block) const {
     const Eye& eye = judge_.eye_;
     if (eye.target_absolute || judge_.shadow_) return false;

@@ -1,7 +1,7 @@
-// Cells judged block by block, by how low and how high the surface is at least and at most: a block that the ground
-// before it hides for certain is hidden, be it a whole tile; all else stays undecided, but for what is known exactly
-// about the eye. It casts no line, so that it takes a few nanoseconds per cell. Features may stand on the surface: they
-// hide more, never less.
+// Cells judged block by block, by bounds of how low and how high the surface is. A block that the ground before it
+// certainly hides is hidden, even a whole tile; all else stays undecided, except for what is known exactly near the
+// eye. No line is cast, so that this takes a few nanoseconds per cell. Features may stand on the surface: they hide
+// more, never less.
 #pragma once
 
 #include <cstdint>
@@ -31,11 +31,11 @@ struct ExactNearby {
 
 class BlockJudge final : public TileJudge {
  public:
-  /// `tiles` are those of `grid`; `nearby` may be null. All must outlive it.
+  /// `tiles` are the tiles of `grid`; `nearby` may be null. All must outlive this object.
   BlockJudge(const BoundedEnvelope& surface, const Request& request, const RasterGrid& grid, const RasterGrid& tiles,
              const Eye& eye, const ExactNearby* nearby);
 
-  /// False where neither the ground in a box, metres, nor any target on it is seen.
+  /// Returns false where neither the ground in a box, metres, nor any target on it is seen.
   bool may_see(const Box& ground) const;
 
   std::unique_ptr<Work> begin(std::size_t tile) const override;

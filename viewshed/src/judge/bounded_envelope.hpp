@@ -1,5 +1,5 @@
-// Two surfaces that enclose the full one, and how low and how high they are within the bins of a box: what
-// block_judge.hpp judges by.
+// Two surfaces that enclose the full one, and how low and how high they are within the bins of a box. Used by
+// block_judge.hpp.
 #pragma once
 
 #include <memory>
@@ -16,18 +16,18 @@ namespace itin::viewshed {
 
 class BoundedEnvelope {
  public:
-  /// `tiles` are those of the cells; targets on these rise above the bare surface. Both must outlive it. Bounds nothing
-  /// yet.
+  /// `tiles` are the tiles of the cells; `rises` tells how far targets rise above the bare surface. Both must outlive
+  /// this object. Bounds nothing yet.
   BoundedEnvelope(Envelope envelope, const RasterGrid& tiles, const TargetRises& rises);
 
-  /// Bounds the ground within a box, metres, and no other: about 16 bytes and 30 ns per bin, of which there are two
-  /// million at most. Costs nothing where that box has been bounded before.
+  /// Bounds the ground within a box, metres, and no other. Takes about 16 bytes and 30 ns per bin, for two million bins
+  /// at most, and nothing where that box has been bounded before.
   void bound(const Box& box);
-  /// The ground that may be in an eye's view.
+  /// Bounds the ground that may be in an eye's view.
   void bound_for(const Eye& eye);
 
   const Envelope& envelope() const { return envelope_; }
-  /// By tile of the cells.
+  /// The triangles by tile of the cells.
   const TriangleBins& triangles() const { return triangles_; }
   /// Precondition: bound() has been called.
   const EnvelopeBounds& bounds() const { return *bounds_; }

@@ -22,8 +22,8 @@ struct BoundedTarget {
   std::optional<bool> in_view = std::nullopt;  ///< nothing where the elevations in view may leave the target out
 };
 
-/// `centre` is the cell's in metres, `place` in grid units; its ground is at `low_ground` at least and at `high_ground`
-/// at most, metres, both not a number where there is none.
+/// `centre` is the cell's centre in metres, and `place` in grid units. The ground there is at `low_ground` at least and
+/// at `high_ground` at most, metres; both are NaN where there is none.
 inline BoundedTarget bounded_target(const Eye& eye, Point2 centre, Point2 place, double low_ground,
                                     double high_ground) {
   if (std::isnan(low_ground)) return {.verdict = Verdict::kOutside};

@@ -15,7 +15,7 @@ namespace {
 
 /// Lines lowered by no more than depth sqrt(s (1 - s)).
 struct LoweredLines : LineBundle {
-  /// Below every line; by the tangent in the middle: never more than the lowest height.
+  /// A height below every line, and never more than the lowest height: found by the tangent in the middle.
   double lowest_over(double first, double last) const {
     const double a = std::max(first, 0.0), b = std::min(last, 1.0), s = (a + b) / 2;
     const double radius = std::sqrt(s * (1 - s));
@@ -29,7 +29,7 @@ struct LoweredLines : LineBundle {
   double depth = 0;
 };
 
-/// Whether one triangle reaches into the zone of one line.
+/// Tests whether one triangle reaches into the zone of one line.
 class ZoneTest {
  public:
   ZoneTest(const SightLine& line, double zone, double fraction, double sure)
@@ -51,11 +51,11 @@ class ZoneTest {
   using Ground = SightLine::Ground;
 
   static double slope(const Ground& g) { return g.to > g.from ? (g.to_rise - g.from_rise) / (g.to - g.from) : 0; }
-  /// Clearance beyond what is asked for.
+  /// The clearance beyond what is asked for.
   double spare(const Ground& g, double s) const {
     return -(g.from_rise + slope(g) * (s - g.from)) - line_.bulge().at(s) - depth() * std::sqrt(s * (1 - s));
   }
-  /// No more than the lowest: that is convex, and so above its tangent in the middle.
+  /// A lower bound of the spare clearance, which is convex, and so above its tangent in the middle.
   double lowest_spare(const Ground& g) const {
     const double s = (g.from + g.to) / 2, radius = std::sqrt(s * (1 - s));
     const double middle = -(g.from_rise + g.to_rise) / 2 - line_.bulge().at(s) - depth() * radius;
@@ -94,7 +94,7 @@ unsigned ClearZone::cut(const Bounded& surface, const SightLines& lines) const {
   bundle.margin = grazing;
   bundle.end = kInfinity;
   for_each_bit(lines.active, [&](unsigned i) {
-    // From the target: what cuts the zone is most often near it.
+    // The line starts at the target: what cuts the zone is most often near it.
     const SightLine line({lines.to_x[i], lines.to_y[i], lines.to_z[i]},
                          {lines.from_x[i], lines.from_y[i], lines.from_z[i]}, drop_, grazing);
     const double zone = std::sqrt(criterion_.wavelength / resolution * std::hypot(line.dx(), line.dy()));

@@ -1,13 +1,13 @@
-// Which sight lines leave so much of the first Fresnel zone clear.
+// Which sight lines leave a given fraction of the first Fresnel zone clear.
 //
 //   const ClearZone zone(lower, &upper, earth, {.wavelength = 0.06, .fraction = 0.6});
 //   unsigned cut = zone.certainly_cut(to_highest_targets);        // whatever the full surface is: one bit per line
 //   unsigned clear = zone.certainly_clear(to_lowest_targets);
 //
-// Ground that rises above the line lowered by the fraction of the zone's radius cuts the zone. Lowered so, and over the
-// curved Earth, the line is convex in the distance, so that a tangent bounds it from below over whole blocks of
-// triangles; what is left, few triangles near an end or a ridge, is judged one by one in double precision by the
-// definition that lines of sight have (itin/fresnel_zone.hpp). Raising a target only clears more.
+// Ground that rises above the line lowered by the fraction of the zone's radius cuts the zone. Over the curved Earth
+// the lowered line is convex in the distance, so that a tangent bounds it from below over whole blocks of triangles.
+// The few triangles that are left, near an end or a ridge, are judged one by one in double precision, by the definition
+// that lines of sight have (itin/fresnel_zone.hpp). Raising a target only clears more.
 #pragma once
 
 #include <optional>
@@ -29,10 +29,10 @@ class ClearZone {
   /// and memory.
   ClearZone(const Tin& lower, const Tin* upper, const Earth& earth, const FresnelCriterion& criterion);
 
-  /// One bit per line; the closer together their ends, the faster. Over the surface itself a zone is either certainly
-  /// cut or certainly clear. From any number of threads.
+  /// Returns one bit per line; the closer together the lines' ends, the faster. Over the surface itself a zone is
+  /// either certainly cut or certainly clear. May be called from any number of threads.
   unsigned certainly_cut(const SightLines& to_highest_targets) const;
-  /// Says nothing of the lines themselves across ground without data.
+  /// Returns one bit per line, and tells nothing of the lines themselves across ground without data.
   unsigned certainly_clear(const SightLines& to_lowest_targets) const;
 
  private:

@@ -30,7 +30,7 @@ BlockValues highest_by_block(const TileValues<double>& heights, const Tile& tile
   for_each_cell(tile, [&](std::size_t cell, RasterGrid::Cell) {
     const std::size_t r = cell / Tile::kSide, c = cell % Tile::kSide;
     const std::size_t block = r / kBlockSide * kBlocks + c / kBlockSide;
-    // Not a number where there is no surface: then nothing is higher.
+    // The height is NaN where there is no surface, and then not higher than anything.
     if (heights[cell] > highest[block]) highest[block] = heights[cell];
   });
   return highest;
@@ -75,7 +75,7 @@ class EnvelopeJudge::EnvelopeWork final : public TileJudge::Work {
   }
 
  private:
-  /// On this ground, grid units. The arithmetic of plain viewsheds, to the last bit.
+  /// The target's elevation on this ground, grid units, by the arithmetic of plain viewsheds to the last bit.
   double target(double ground) const { return view_->eye.target(ground * resolution_) * metre_; }
 
   /// Hides what it can of the four blocks of this side, or of their quarters: most of what an observer on the ground
@@ -118,8 +118,8 @@ class EnvelopeJudge::EnvelopeWork final : public TileJudge::Work {
     return highest;
   }
 
-  /// Aims four lines, the first of them number `first`, at the corners of a flat piece above all targets of the block;
-  /// not where that cannot hide it as a whole.
+  /// Aims four lines, the first of them number `first`, at the corners of a flat piece above all targets of the block.
+  /// Aims none where that cannot hide the block as a whole.
   void aim_at_corners(const CellBlock& block, unsigned first, SightLines& lines) const {
     const Eye& eye = view_->eye;
     const double highest = highest_of(block);
@@ -135,8 +135,8 @@ class EnvelopeJudge::EnvelopeWork final : public TileJudge::Work {
     for (unsigned i = 0; i < 4; ++i) {
       const double x = i % 2 == 0 ? west : east, y = i < 2 ? north : south, distance = squared(x, y);
       farthest = std::max(farthest, distance);
-      // Level as the eye sees it: as far below it as the highest target would be at the nearest place. Rounding is far
-      // less than what a line must be hidden by.
+      // The piece is level as the eye sees it: as far below the eye as the highest target would be at the nearest
+      // place. Rounding is far less than what a line must be hidden by.
       lines.to_x[first + i] = x;
       lines.to_y[first + i] = y;
       lines.to_z[first + i] =
@@ -162,7 +162,7 @@ class EnvelopeJudge::EnvelopeWork final : public TileJudge::Work {
     if (packet.low.active != 0 && judge_.on_undecided_) judge_.on_undecided_(number_, packet);
   }
 
-  /// Aims a line at the cell's target, unless it is decided without.
+  /// Aims a line at the cell's target, unless the cell is decided without a line.
   Verdict aim(std::size_t cell, unsigned i, EnvelopePacket& packet) const {
     const Point2 place = centres_.at(cell);
     const BoundedTarget target =
@@ -192,7 +192,7 @@ class EnvelopeJudge::EnvelopeWork final : public TileJudge::Work {
   TileCentres centres_;
   TileValues<double> low_;   ///< the least height of what targets stand on, grid units
   TileValues<double> high_;  ///< the upper surface
-  BlockValues highest_;      ///< that targets may stand on in each block; -infinity where there is no surface
+  BlockValues highest_;      ///< the highest place of targets in each block; -infinity where there is no surface
   // These belong to the eye that was judged last.
   const EnvelopeScene::View* view_ = nullptr;
   TileValues<double> low_targets_, high_targets_;

@@ -12,10 +12,11 @@ namespace itin::viewshed {
 
 class EnvelopeJudge final : public TileJudge {
  public:
-  /// Is told of each packet of a tile's lines that stay undecided, those active in packet.low. From any thread.
+  /// Called with each packet of a tile's lines that stay undecided, which are active in packet.low. Called from any
+  /// thread.
   using OnUndecided = std::function<void(std::size_t tile, const EnvelopePacket& packet)>;
 
-  /// `tiles` are those of `grid`. All must outlive it.
+  /// `tiles` are the tiles of `grid`. All must outlive this object.
   EnvelopeJudge(const EnvelopeScene& scene, const RasterGrid& grid, const RasterGrid& tiles,
                 const std::vector<Eye>& eyes, OnUndecided on_undecided = nullptr);
 

@@ -6,8 +6,8 @@
 //   scene.aim(view, target, 0, packet);
 //   const EnvelopeScene::Decided decided = scene.decide(packet, occluder);   // packet.low.active is left open
 //
-// A target is between a lowest and a highest place. A line to the lowest that clears the upper surface sees whatever
-// the full surface is; one to the highest that the lower surface hides does not.
+// A target is between a lowest and a highest place. If the line to the lowest clears the upper surface, the target is
+// seen whatever the full surface is; if the lower surface hides the line to the highest, it is not.
 #pragma once
 
 #include <cstdint>
@@ -35,16 +35,16 @@ struct EnvelopePacket {
 
   SightLines low, high;       ///< to the lowest and to the highest target; active in `low`: those that are asked about
   unsigned starts_under = 0;  ///< one bit per line: where the eye is not above the upper surface
-  unsigned ends_under = 0;    ///< where the lowest target is not
-  unsigned behind_void = 0;   ///< left open unless they are hidden
-  unsigned perhaps_outside = 0;  ///< perhaps not in the field of view: left open
+  unsigned ends_under = 0;    ///< one bit per line: where the lowest target is not above it
+  unsigned behind_void = 0;   ///< one bit per line: left open unless it is hidden
+  unsigned perhaps_outside = 0;  ///< one bit per line: perhaps not in the field of view, and left open
 };
 
-/// A target at another place than the eye's; grid units, but for its horizontal distance, squared metres.
+/// A target at another place than the eye's, in grid units, except for its horizontal distance, squared metres.
 struct EnvelopeTarget {
   Point2 place;
   double low = 0, high = 0;
-  double surface = 0;  ///< the upper one under it
+  double surface = 0;  ///< the upper surface under it
   double squared_m = 0;
 };
 
@@ -58,19 +58,19 @@ class EnvelopeScene {
   struct View {
     Eye eye;
     double upper = 0;  ///< grid units: the upper surface there, or -infinity where there is none
-    std::shared_ptr<const VoidShadow> shadow = nullptr;  ///< unless voids are passed
+    std::shared_ptr<const VoidShadow> shadow = nullptr;  ///< null where voids are passed
   };
   View view_from(const Eye& eye) const;
 
   /// Makes line `i` of the packet lead to the target.
   void aim(const View& view, const EnvelopeTarget& target, unsigned i, EnvelopePacket& packet) const;
 
-  /// One bit per line.
+  /// The lines that were decided, one bit per line.
   struct Decided {
     unsigned visible = 0, hidden = 0;
     unsigned lines = 0;  ///< the number of lines that were cast
   };
-  /// Leaves active in packet.low what is not decided.
+  /// Decides the packet's lines; lines that are not decided stay active in packet.low.
   Decided decide(EnvelopePacket& packet, Occluder& occluder) const;
 
   Envelope envelope;
@@ -83,7 +83,7 @@ class EnvelopeScene {
   double drop;                              ///< how far curvature lowers the ground, grid units per squared grid unit
 
  private:
-  /// The upper surface's height, grid units; -infinity where there is none.
+  /// The upper surface's height at the eye, grid units; -infinity where there is none.
   double upper_height(const Eye& eye, std::span<const std::uint32_t> triangles) const;
 
   const RasterGrid& tiles_;

@@ -22,7 +22,7 @@ namespace itin::viewshed {
 /// An eye over a surface in memory.
 struct EyeView {
   Eye eye;
-  RadialSweep::View view;                              ///< the surface's, of this eye
+  RadialSweep::View view;                              ///< the surface's view from this eye
   std::shared_ptr<const VoidShadow> shadow = nullptr;  ///< where ground without data hides, or may
 };
 
@@ -33,7 +33,7 @@ class ExactJudge final : public TileJudge {
   /// Serves one eye.
   ExactJudge(const FullSurface& surface, EyeView view);
 
-  /// With what modes ask about a tile's ground and its lines besides.
+  /// Also holds what modes ask about a tile's ground and its lines.
   class ExactWork final : public Work {
    public:
     ExactWork(const ExactJudge& judge, std::unique_ptr<FullSurface::TileCells> of)
@@ -53,9 +53,9 @@ class ExactJudge final : public TileJudge {
 
   std::unique_ptr<Work> begin(std::size_t tile) const override { return begin_exactly(tile); }
   std::unique_ptr<ExactWork> begin_exactly(std::size_t tile) const;
-  /// Only cells in these parts of the tile are asked about.
+  /// Begins a tile where only cells in these parts are asked about.
   std::unique_ptr<ExactWork> begin_exactly(std::size_t tile, std::span<const Tile> parts) const;
-  /// FullSurface::hides().
+  /// Calls FullSurface::hides() for one of the eyes.
   bool hides(std::size_t eye, std::size_t tile) const {
     return surface_.hides(views_[eye].eye, views_[eye].view, tile);
   }
@@ -67,7 +67,7 @@ class ExactJudge final : public TileJudge {
   const std::vector<EyeView> views_;
 };
 
-/// make(i) for each i in [0, count), on all threads.
+/// Calls make(i) for each i in [0, count) on all threads, and returns the views made.
 template <class Make>
 std::vector<EyeView> make_views(std::size_t count, const Make& make) {
   std::vector<std::optional<EyeView>> made(count);

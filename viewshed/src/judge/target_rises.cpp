@@ -24,7 +24,7 @@ void TargetRises::raise(const Store& store, const ThemeChoice& themes, const Ras
       const Tile box{column, row, std::min(kSide, tile.column + tile.columns - column),
                      std::min(kSide, tile.row + tile.rows - row)};
       const double height = bare ? 0 : store.greatest_feature_height(themes, box_of(grid, box));
-      // A grid unit more, against rounding.
+      // A grid unit is added against rounding.
       rises_[static_cast<std::size_t>(row / kSide * columns_ + column / kSide)] = height / resolution + 1;
     }
   }

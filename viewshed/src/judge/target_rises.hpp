@@ -1,4 +1,4 @@
-// By how much targets stand above the bare surface, box of cells by box of cells: where they stand on features, as much
+// How far targets rise above the bare surface, box of cells by box of cells: where they stand on features, by as much
 // as these are high.
 //
 //   const TargetRises rises(store, request, grid);
@@ -18,12 +18,12 @@ namespace itin::viewshed {
 
 class TargetRises {
  public:
-  /// None does.
+  /// Lets no target rise.
   TargetRises() = default;
   /// Cost: for each tile that has features, 64 look-ups of the store's directory per theme.
   TargetRises(const Store& store, const Request& request, const RasterGrid& grid);
 
-  /// The most in a block of a tile's cells, grid units.
+  /// The greatest rise in a block of a tile's cells, grid units.
   double over(const Tile& tile, const CellBlock& block) const;
 
  private:

@@ -17,8 +17,8 @@
 
 namespace itin::viewshed {
 
-/// Where the targets of a tile's cells may be for an eye, grid units; kNoSurface where none is. Over the full surface
-/// `low` and `high` are one.
+/// The places where the targets of a tile's cells may be for an eye, grid units; kNoSurface where none is. Over the
+/// full surface `low` and `high` are the same array.
 struct TileTargets {
   const TileCentres& centres;
   const TileValues<double>& low;
@@ -41,20 +41,21 @@ class TileJudge {
     Work& operator=(const Work&) = delete;
     virtual ~Work() = default;
 
-    /// Verdict::kUndecided cells become Verdict::kVisible, Verdict::kHidden or Verdict::kOutside, or stay. Returns how
-    /// many sight lines that took.
+    /// Turns Verdict::kUndecided cells to Verdict::kVisible, Verdict::kHidden or Verdict::kOutside, or leaves them.
+    /// Returns how many sight lines that took.
     virtual std::uint64_t judge(std::size_t eye, TileValues<Verdict>& values) = 0;
     /// The targets of the eye that was judged last. Valid until the next eye is judged.
     virtual TileTargets targets() = 0;
   };
-  /// `tile` is one of those of the grid that it judges. Safe for concurrent use.
+  /// Begins a tile of the grid that is judged. Safe for concurrent use.
   virtual std::unique_ptr<Work> begin(std::size_t tile) const = 0;
   virtual const Eye& eye(std::size_t number) const = 0;
 };
 
-/// Judges a tile for one eye after another; what all of them share is made once anything is asked. open(eye, values)
-/// makes Verdict::kUndecided what is asked, of values that are all Verdict::kOutside, and returns whether anything is;
-/// then close(eye, values, work) is called with what has become of them. Returns how many sight lines that took.
+/// Judges a tile for one eye after another; what all eyes share is made once anything is asked. open(eye, values) gets
+/// values that are all Verdict::kOutside, turns what is asked to Verdict::kUndecided, and returns whether anything is.
+/// If so, close(eye, values, work) is called with what has become of the values. Returns how many sight lines that
+/// took.
 template <class Open, class Close>
 std::uint64_t judge_tile(const TileJudge& judge, std::size_t tile, std::size_t eyes, const Open& open,
                          const Close& close) {

@@ -1,4 +1,4 @@
-// Leaves of the cells of a tile that are in sight those whose Fresnel zones are clear.
+// Tells, among the cells of a tile that are in sight, which have clear Fresnel zones.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +10,8 @@
 
 namespace itin::viewshed {
 
-/// Visible cells and undecided ones whose zone is certainly cut become Verdict::kZoneCut; visible ones become
-/// Verdict::kUndecided where it is not certainly clear. A target at the eye's own place has no zone.
+/// Turns visible and undecided cells whose zone is certainly cut to Verdict::kZoneCut, and visible cells whose zone is
+/// not certainly clear to Verdict::kUndecided. A target at the eye's own place has no zone.
 void cut_zones(const ClearZone& zone, const Eye& eye, const TileTargets& targets, TileValues<Verdict>& values);
 
 }  // namespace itin::viewshed

@@ -37,7 +37,7 @@ struct Tile {
 template <class T>
 using TileValues = std::array<T, Tile::kSide * Tile::kSide>;
 
-/// The tiles of a grid as the cells of a coarser one, and the tile that is cell `index` of it.
+/// The tiles of a grid as the cells of a coarser grid, and the tile that is cell `index` of the coarser grid.
 RasterGrid grid_of_tiles(const RasterGrid& cells);
 Tile tile_at(const RasterGrid& cells, const RasterGrid& tiles, std::size_t index);
 
@@ -47,7 +47,7 @@ struct CellRectangle {
   std::int64_t columns = 0, rows = 0;
 
   std::uint64_t count() const { return static_cast<std::uint64_t>(columns * rows); }
-  /// Its cells row by row, the north-west one first.
+  /// The cells row by row, the north-west one first.
   RasterGrid::Cell cell(std::size_t i) const {
     const auto n = static_cast<std::int64_t>(i);
     return {column + n % columns, row + n / columns};
@@ -58,8 +58,8 @@ inline CellRectangle all_cells(const RasterGrid& grid) {
   return {0, 0, grid.columns(), grid.rows()};
 }
 
-/// The cells that the inside of a box meets: those that it only touches are left out. No columns or no rows where it
-/// lies beside the grid.
+/// The cells that the inside of a box meets; cells that it only touches are left out. Has no columns or no rows where
+/// the box lies beside the grid.
 CellRectangle cells_meeting(const RasterGrid& grid, const Box& box);
 
 /// The inverse of RasterGrid::index().
@@ -81,7 +81,7 @@ void for_each_row(const Tile& tile, const Visit& visit) {
     visit(static_cast<std::size_t>(r * Tile::kSide), RasterGrid::Cell{tile.column, tile.row + r});
 }
 
-/// Where a tile's cell centres lie, in grid units.
+/// The positions of a tile's cell centres, in grid units.
 struct TileCentres {
   TileCentres(const Grid& units, const RasterGrid& grid, const Tile& tile);
   Point2 at(std::size_t cell) const { return {x[cell % Tile::kSide], y[cell / Tile::kSide]}; }
@@ -90,15 +90,15 @@ struct TileCentres {
   std::array<double, Tile::kSide> y{};  ///< per row
 };
 
-/// About a tile's cells, or about their centres alone.
+/// The box about a tile's cells, and the box about their centres alone.
 Box box_of(const RasterGrid& grid, const Tile& tile);
 Box box_of_centres(const RasterGrid& grid, const Tile& tile);
-/// About a single cell.
+/// The box about a single cell.
 Box box_of_cell(const RasterGrid& grid, RasterGrid::Cell cell);
 
-/// From a position to the nearest place of a box, metres squared; 0 within it.
+/// The squared distance from a position to the nearest place of a box, metres squared; 0 within the box.
 double squared_distance(Point2 position, const Box& box);
-/// To the farthest place of it.
+/// The squared distance from a position to the farthest place of a box.
 double greatest_squared_distance(Point2 position, const Box& box);
 
 inline Point2 middle_of(const Box& box) {

@@ -18,7 +18,7 @@ inline double left_of(Point2 a, Point2 b, Point2 p) {
   return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
 }
 
-/// Counterclockwise.
+/// Returns the corners of the hull, counterclockwise.
 inline std::vector<Point2> hull_of(std::vector<Point2> points) {
   return convex_hull(
       std::move(points), [](Point2 a, Point2 b) { return std::pair(a.x, a.y) < std::pair(b.x, b.y); },
@@ -31,8 +31,8 @@ inline double area_of(const std::vector<Point2>& hull) {
   return doubled / 2;
 }
 
-/// Whether a side of the hull, counterclockwise, has all these places beyond it. If two convex shapes are apart, one
-/// has such a side; so a box that has none meets the hull, or may.
+/// Tells whether a side of the hull, which is counterclockwise, has all these places beyond it. If two convex shapes
+/// are apart, one of them has such a side; so a box meets the hull, or may, if the hull has none.
 inline bool beyond_a_side(const std::vector<Point2>& hull, std::span<const Point2> places) {
   for (std::size_t i = 0; i < hull.size(); ++i) {
     const Point2 &a = hull[i], &b = hull[(i + 1) % hull.size()];
@@ -41,7 +41,7 @@ inline bool beyond_a_side(const std::vector<Point2>& hull, std::span<const Point
   return false;
 }
 
-/// All around.
+/// The length of the hull's border.
 inline double length_of(const std::vector<Point2>& hull) {
   double length = 0;
   for (std::size_t i = 0; i < hull.size(); ++i) {

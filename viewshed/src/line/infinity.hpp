@@ -1,4 +1,4 @@
-// Above all heights, beyond all distances.
+// Infinity, which is above all heights and beyond all distances.
 #pragma once
 
 #include <limits>

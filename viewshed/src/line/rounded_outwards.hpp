@@ -7,12 +7,12 @@
 
 namespace itin::viewshed {
 
-/// The greatest float that is no more than `v`; with infinities as they are.
+/// The greatest float that is no more than `v`; infinities stay as they are.
 inline float rounded_down(double v) {
   const auto near = static_cast<float>(v);
   return near <= v ? near : std::nextafter(near, -kFloatInfinity);
 }
-/// The least that is no less.
+/// The least float that is no less than `v`.
 inline float rounded_up(double v) {
   return -rounded_down(-v);
 }

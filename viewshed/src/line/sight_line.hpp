@@ -22,7 +22,7 @@ namespace itin::viewshed {
 
 class SightLine {
  public:
-  /// In grid units; `drop` is the drop's coefficient per grid unit, `grazing` is kGrazing in grid units.
+  /// The ends are in grid units; `drop` is the drop's coefficient per grid unit, `grazing` is kGrazing in grid units.
   SightLine(const Point3& from, const Point3& to, double drop, double grazing)
       : from_(from), dx_(to.x - from.x), dy_(to.y - from.y), dz_(to.z - from.z), grazing_(grazing) {
     const double squared = dx_ * dx_ + dy_ * dy_;
@@ -43,7 +43,7 @@ class SightLine {
     return under.meets_line() && highest(under) > grazing_;
   }
 
-  /// Where the triangle first hides, as a fraction of the length; nothing where it does not hide.
+  /// Returns where the triangle first hides, as a fraction of the length; nothing where it does not hide.
   std::optional<double> hidden_from(const GridPoint& a, const GridPoint& b, const GridPoint& c) const {
     const Section under = section(a, b, c);
     if (!under.meets_line() || highest(under) <= grazing_) return std::nullopt;
@@ -57,8 +57,8 @@ class SightLine {
   }
 
   /// Calls visit(i, j, weight, fraction of the length, rise of the curved ground above the line) for every edge of a
-  /// triangle that the line crosses between the ends, from corner i to j > i, where j has that weight, and for every
-  /// corner that it passes over, with j = i.
+  /// triangle that the line crosses between the ends. The edge goes from corner i to j > i, where j has that weight.
+  /// Also visits every corner that the line passes over, with j = i.
   template <class Visit>
   void for_each_crossing(const std::array<GridPoint, 3>& triangle, const Visit& visit) const {
     const std::array<Corner, 3> corners{corner(triangle[0]), corner(triangle[1]), corner(triangle[2])};
@@ -84,13 +84,13 @@ class SightLine {
     return (sa > 0 && sb > 0 && sc > 0) || (sa < 0 && sb < 0 && sc < 0);
   }
 
-  /// The ground over a triangle as far as it lies between the ends: from one fraction of the length to another,
-  /// straight, and so much above the straight line (without the Earth's bulge).
+  /// The ground over a triangle, as far as it lies between the ends: a straight piece from one fraction of the length
+  /// to another, with its heights above the straight line (without the Earth's bulge).
   struct Ground {
     double from = 0, to = 0;
     double from_rise = 0, to_rise = 0;
   };
-  /// Nothing where the line does not pass over the triangle.
+  /// Returns nothing where the line does not pass over the triangle.
   std::optional<Ground> ground_over(const GridPoint& a, const GridPoint& b, const GridPoint& c) const {
     const Section under = section(a, b, c);
     if (!under.meets_line()) return std::nullopt;
@@ -98,8 +98,8 @@ class SightLine {
     return Ground{first, last, under.straight(first), under.straight(last)};
   }
 
-  /// Where between the ends the triangle rises highest above the line, as a fraction of the length. Precondition: the
-  /// line passes over the triangle.
+  /// Returns where between the ends the triangle rises highest above the line, as a fraction of the length.
+  /// Precondition: the line passes over the triangle.
   double highest_at(const GridPoint& a, const GridPoint& b, const GridPoint& c) const {
     const Section under = section(a, b, c);
     const double first = std::max(under.low, 0.0), last = std::min(under.high, 1.0);
@@ -137,8 +137,8 @@ class SightLine {
     return to_z() + result;
   }
 
-  /// Whether the triangle lies to one side of the line, or is below the line to `end` by at least `margin` wherever the
-  /// two meet: then it hides nothing there. Cheaper than clearing_end, which it does not contradict.
+  /// Tells whether the triangle lies to one side of the line, or is below the line to `end` by at least `margin`
+  /// wherever the two meet. If so, it hides nothing there. Cheaper than clearing_end(), and never contradicts it.
   bool apart(const GridPoint& a, const GridPoint& b, const GridPoint& c, double end, double margin) const {
     const double dz = end - from_.z;
     const auto corner_at = [&](const GridPoint& p) {
@@ -163,7 +163,7 @@ class SightLine {
   const Point3& from() const { return from_; }
   double dx() const { return dx_; }
   double dy() const { return dy_; }
-  /// By fractions of the length.
+  /// The Earth's bulge, by fractions of the length.
   const Bulge& bulge() const { return bulge_; }
   double to_z() const { return from_.z + dz_; }
 
@@ -185,7 +185,7 @@ class SightLine {
     }
     bool meets_line() const { return low <= 1 && high >= 0 && low <= high; }
     double slope() const { return high > low ? (high_rise - low_rise) / (high - low) : 0; }
-    /// From the nearer end, so that a steep piece's rise is exact at both.
+    /// The rise at `s`, measured from the nearer end, so that a steep piece's rise is exact at both.
     double straight(double s) const {
       return s - low < high - s ? low_rise + slope() * (s - low) : high_rise - slope() * (high - s);
     }

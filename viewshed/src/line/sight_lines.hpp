@@ -7,14 +7,14 @@
 
 namespace itin::viewshed {
 
-/// In grid units (heights too).
+/// The ends of a packet's lines, in grid units (heights too).
 struct SightLines {
   static constexpr unsigned kSize = 16;
   alignas(64) std::array<double, kSize> from_x{}, from_y{}, from_z{};
   alignas(64) std::array<double, kSize> to_x{}, to_y{}, to_z{};
   unsigned active = 0;  ///< one bit per line; ends of active lines differ horizontally
 
-  /// All from one eye.
+  /// Lets all lines start at one eye.
   void start_at(const Point3& eye) {
     from_x.fill(eye.x);
     from_y.fill(eye.y);

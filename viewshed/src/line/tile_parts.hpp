@@ -1,4 +1,4 @@
-// Some cells of a tile: boxes of them.
+// Some cells of a tile, as boxes of cells.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@
 
 namespace itin::viewshed {
 
-/// The cells of all parts.
+/// The number of cells in all parts.
 std::size_t cell_count(std::span<const Tile> parts);
 
 /// Some parts of a tile.
@@ -20,7 +20,7 @@ struct PartsOfTile {
   std::vector<Tile> parts;
 };
 std::vector<PartsOfTile> by_tile(std::span<const Tile> parts, const RasterGrid& tiles);
-/// These tiles, whole, or every one.
+/// All cells of these tiles, or of every tile of the grid.
 std::vector<PartsOfTile> all_cells(const RasterGrid& grid, const RasterGrid& tiles,
                                    std::span<const std::size_t> numbers);
 std::vector<PartsOfTile> all_cells(const RasterGrid& grid, const RasterGrid& tiles);

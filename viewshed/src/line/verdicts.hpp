@@ -13,21 +13,21 @@
 
 namespace itin::viewshed {
 
-/// As rasters and polygons have it: the command line's contract.
+/// The number of a verdict in rasters and polygons, which is the command line's contract.
 constexpr std::uint8_t code_of(Verdict verdict) {
   return static_cast<std::uint8_t>(verdict);
 }
-/// In the memory of the verdicts, for a verdict is its code.
+/// The codes of the verdicts, in the memory of the verdicts: each is stored as its code.
 inline std::span<const std::uint8_t> codes_of(const std::vector<Verdict>& verdicts) {
   static_assert(std::is_same_v<std::underlying_type_t<Verdict>, std::uint8_t>);
   return {reinterpret_cast<const std::uint8_t*>(verdicts.data()), verdicts.size()};
 }
 
-/// How many of a tile's values are this verdict, which must not be kOutside: that is what lies beyond the cells of a
-/// smaller tile, too.
+/// How many of a tile's values are this verdict. It must not be kOutside, which also fills a smaller tile beyond its
+/// cells.
 inline std::uint64_t count_of(const TileValues<Verdict>& values, Verdict verdict) {
   std::uint64_t all = 0;
-  // A byte holds the number of a few, and the compiler compares as many at once.
+  // A byte holds the number of a few, and the compiler compares that many at once.
   constexpr std::size_t kFew = 128;
   static_assert(Tile::kSide * Tile::kSide % kFew == 0);
   for (std::size_t first = 0; first < values.size(); first += kFew) {
@@ -39,7 +39,7 @@ inline std::uint64_t count_of(const TileValues<Verdict>& values, Verdict verdict
 }
 
 /// Every observer's verdict on a cell, made one: the first of visible, undecided, zone cut, hidden and outside that any
-/// of them has. At first nobody looks.
+/// of them has. At first every cell is outside.
 class Verdicts {
  public:
   Verdicts() { values_.fill(Verdict::kOutside); }
@@ -49,7 +49,7 @@ class Verdicts {
   bool open(std::size_t cell) const { return values_[cell] != Verdict::kVisible; }
 
   void add(std::size_t cell, Verdict of_observer) {
-    // Without branches, so that many cells are added at once.
+    // There are no branches, so that many cells are added at once.
     const Verdict value = values_[cell];
     const bool kept = of_observer == Verdict::kOutside || value == Verdict::kVisible ||
                       (of_observer == Verdict::kHidden && value != Verdict::kOutside) ||
@@ -60,7 +60,7 @@ class Verdicts {
     for (std::size_t cell = 0; cell < values_.size(); ++cell) add(cell, of_observer[cell]);
   }
 
-  /// Counts the cells, and writes them to their places in the result.
+  /// Counts the cells, and writes their verdicts to their places in the result.
   void store(const Tile& tile, Result& result, CellCounts& cells) const {
     for_each_row(tile, [&](std::size_t cell, RasterGrid::Cell first) {
       const auto columns = static_cast<std::size_t>(tile.columns);

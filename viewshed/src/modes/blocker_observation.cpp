@@ -11,7 +11,7 @@ namespace itin::viewshed {
 
 namespace {
 
-/// Whether the line crosses ground without data before it comes to this fraction of its length.
+/// Tells whether the line crosses ground without data before it comes to this fraction of its length.
 bool is_behind_missing_ground(const TileView& tile, const Sight& sight, double at) {
   const auto& shadow = tile.from().shadow;
   return shadow && shadow->holds(std::lerp(sight.from.x, sight.to.x, at), std::lerp(sight.from.y, sight.to.y, at));

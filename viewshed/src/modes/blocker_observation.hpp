@@ -22,7 +22,7 @@ class BlockerObservation final : public Observation {
   void store_row(std::size_t cell, std::size_t columns, std::size_t place, Result& result) const override;
 
   BlockerTable& table_;
-  /// These are of the nearest observer so far; the first of two counts that are equally near.
+  /// The values of the nearest observer so far; if two are equally near, the first counts.
   TileValues<double> squared_;
   TileValues<std::uint32_t> observer_;
   TileValues<std::uint32_t> blocker_;

@@ -17,9 +17,10 @@ namespace itin::viewshed {
 
 class BlockerTable {
  public:
-  /// One for each triangle, in the order of their coming.
+  /// Returns one number for each triangle; triangles are numbered in the order in which they first come.
   std::vector<std::uint32_t> numbers_of(std::span<const BlockingTriangle> triangles);
-  /// Puts the triangles into the result, ascending, and numbers its cells' blockers and names their themes accordingly.
+  /// Puts the triangles into the result, ascending. Numbers the blockers of its cells, and names their themes,
+  /// accordingly.
   void give(Result& result) const;
 
  private:

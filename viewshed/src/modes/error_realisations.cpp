@@ -19,7 +19,7 @@ std::array<float, ErrorRealisations::kCount> equally_probable() {
   return values;
 }
 
-/// Steele, Lea and Flood 2014, the finalizer of SplitMix.
+/// The finalizer of SplitMix (Steele, Lea and Flood 2014).
 std::uint64_t scrambled(std::uint64_t number) {
   number += 0x9e3779b97f4a7c15;
   number = (number ^ number >> 30) * 0xbf58476d1ce4e5b9;
@@ -34,7 +34,7 @@ ErrorRealisations::ErrorRealisations() {
   std::mt19937_64 random(1979);
   rows_.reserve(kRows * 2 * kCount);
   for (std::size_t row = 0; row < kRows; ++row) {
-    // Not std::shuffle, which differs between libraries.
+    // std::shuffle is not used, because it differs between libraries.
     for (std::size_t i = kCount; i-- > 1;) std::swap(values[i], values[random() % (i + 1)]);
     for (int twice = 0; twice < 2; ++twice) rows_.insert(rows_.end(), values.begin(), values.end());
   }

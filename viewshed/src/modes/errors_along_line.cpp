@@ -10,14 +10,15 @@ namespace {
 constexpr std::size_t kMostGiven = 4;
 using Covariances = std::array<std::array<double, kMostGiven>, kMostGiven>;  ///< the lower triangle
 
-/// How a normal variable depends on others: its mean is the sum of `weight` times each, about which it has `deviation`.
+/// How a normal variable depends on others: its mean is the sum of each times its `weight`, and its standard deviation
+/// about that is `deviation`.
 struct Regression {
   std::array<double, kMostGiven> weight{};
   double deviation = 0;
 };
 
 /// Takes the covariances of the others `among` each other and `with` the variable itself, whose variance is `variance`.
-/// Others that those before them determine are passed over.
+/// Passes over others that the ones before them determine.
 Regression regress(std::size_t count, const Covariances& among, const std::array<double, kMostGiven>& with,
                    double variance) {
   constexpr double kTiniest = 1e-9;
@@ -55,7 +56,7 @@ ErrorsAlongLine::ErrorsAlongLine(const Tin& tin, double correlation, const Error
     : tin_(tin), correlation_(correlation), realisations_(realisations) {}
 
 void ErrorsAlongLine::begin(const ErrorSum& from, const ErrorSum& to) {
-  // Until now they are those of no vertex, that is, of a place that does not err.
+  // At first the ends have the errors of no vertex, that is, of a place that does not err.
   if (ends_[0].sum != from) draw_end(0, from, {});
   const std::array<const Drawn*, 1> eye{&ends_[0]};
   draw_end(1, to, eye);
@@ -65,7 +66,7 @@ void ErrorsAlongLine::begin(const ErrorSum& from, const ErrorSum& to) {
 /// First ends in one triangle share their random numbers, and so do second ends.
 void ErrorsAlongLine::draw_end(std::size_t which, const ErrorSum& sum, std::span<const Drawn* const> given) {
   ends_[which].sum = sum;
-  // Numbers beyond those of vertices.
+  // These numbers are beyond those of vertices.
   draw(ends_[which], (which + 1) << 62 | number_of(sum.vertex[0]), given);
 }
 
@@ -86,15 +87,15 @@ const ErrorsAlongLine::Errors& ErrorsAlongLine::of(std::uint32_t vertex) {
   return asked->errors;
 }
 
-/// By its place: a vertex errs alike in every window that it is part of.
+/// A number for the vertex's place, so that a vertex errs alike in every window that it is part of.
 std::uint64_t ErrorsAlongLine::number_of(std::uint32_t vertex) const {
   const GridPoint& p = tin_.vertices[vertex];
   return static_cast<std::uint64_t>(static_cast<std::uint32_t>(p.x + kGridHalfSide)) << 31 |
          static_cast<std::uint32_t>(p.y + kGridHalfSide);
 }
 
-/// Sets the errors of `out.sum`, given those of the ends, or of the first, and of vertices. The realisations of
-/// `number` decide what these leave open.
+/// Sets the errors of `out.sum`, given the errors of both ends, or of the first end, and of vertices. The realisations
+/// of `number` decide what these leave open.
 void ErrorsAlongLine::draw(Drawn& out, std::uint64_t number, std::span<const Drawn* const> given) const {
   Covariances among{};
   std::array<double, kMostGiven> with{};

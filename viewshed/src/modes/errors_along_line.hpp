@@ -6,9 +6,9 @@
 //   errors.begin(under_the_eye, under_the_target);
 //   for (std::uint32_t vertex : ...) use(errors.from(), errors.to(), errors.of(vertex));
 //
-// Vertices' errors are normal, of standard deviation 1, and correlated as exp(-x / L). Each is drawn given those of
-// both ends and of the two vertices asked for before it. With L = 0, and with the edges in their order along the line,
-// this is exact; otherwise it is close, as exp(-x / L) is nearly a Markov process.
+// Vertices' errors are normal, of standard deviation 1, and correlated as exp(-x / L). Each error is drawn given the
+// errors of both ends and of the two vertices asked for before. With L = 0, and with the edges in their order along the
+// line, this is exact; otherwise it is close, as exp(-x / L) is nearly a Markov process.
 #pragma once
 
 #include <array>
@@ -23,7 +23,7 @@
 
 namespace itin::viewshed {
 
-/// An error that is a weighted sum of those of up to three vertices: of none, it is 0.
+/// An error that is a weighted sum of the errors of up to three vertices; the sum of none is 0.
 struct ErrorSum {
   std::array<std::uint32_t, 3> vertex{};
   std::array<double, 3> weight{};
@@ -31,7 +31,7 @@ struct ErrorSum {
   friend bool operator==(const ErrorSum&, const ErrorSum&) = default;
 };
 
-/// For one thread. 10 kB.
+/// Serves one thread at a time. Takes 10 kB.
 class ErrorsAlongLine {
  public:
   using Errors = std::array<float, ErrorRealisations::kCount>;  ///< one per realisation
@@ -39,12 +39,12 @@ class ErrorsAlongLine {
   /// `correlation`: L in grid units. All must outlive it.
   ErrorsAlongLine(const Tin& tin, double correlation, const ErrorRealisations& realisations);
 
-  /// A line between places whose heights have these errors. Values of the eye are reused where the line before began at
-  /// it.
+  /// Begins a line between places whose heights have these errors. Values of the eye are reused where the line before
+  /// began at the same eye.
   void begin(const ErrorSum& from, const ErrorSum& to);
   const Errors& from() const { return ends_[0].errors; }
   const Errors& to() const { return ends_[1].errors; }
-  /// Holds until two other vertices have been asked for.
+  /// Returns the errors of a vertex, which hold until two other vertices have been asked for.
   const Errors& of(std::uint32_t vertex);
 
  private:

@@ -10,8 +10,8 @@
 
 namespace itin::viewshed {
 
-/// Takes names from the store that the result was made of: those of its themes, and the features that its blockers are
-/// part of. Throws Cancelled where `progress` asks for it.
+/// Takes names from the store that the result was made of: the names of its themes, and the features that its blockers
+/// are part of. Throws Cancelled where `progress` asks for it.
 void name_features(const Store& store, Result& result, const Progress& progress);
 
 /// The name of a value of the result's `blocker_theme`, which is not kNoBlocker.

@@ -1,9 +1,9 @@
-// Finds what first hides a target from an eye: of the triangles that rise above the sight line, the nearest to the eye.
+// Finds what first hides a target from an eye: the triangle nearest to the eye that rises above the sight line.
 //
 //   const FirstBlocker blockers(tin, earth);
 //   const std::optional<FirstBlocker::Blocker> blocker = blockers.find(eye, target);
 //
-// Decided in double precision by every triangle that may matter (HeightPyramid), with SightLine's rule for grazing: a
+// Every triangle that may matter (HeightPyramid) is looked at in double precision, with SightLine's rule for grazing: a
 // line that a viewshed reports hidden by ground has a blocker.
 #pragma once
 
@@ -25,10 +25,10 @@ class FirstBlocker {
 
   struct Blocker {
     std::uint32_t triangle = 0;
-    double at = 0;  ///< fraction of the line's length where it first rises above it
+    double at = 0;  ///< fraction of the line's length where the triangle first rises above it
   };
-  /// Ends in grid units. Nothing for a line that no ground hides. If several triangles begin to hide at one place, the
-  /// first by number counts.
+  /// Finds the first blocker between ends in grid units; nothing for a line that no ground hides. If several triangles
+  /// begin to hide at one place, the first by number counts.
   std::optional<Blocker> find(const Point3& from, const Point3& to) const;
 
  private:

@@ -34,7 +34,7 @@ std::uint64_t LeastHeightObservation::observe(const TileView& tile) {
   return lines;
 }
 
-/// Where its line may end, if it needs one.
+/// Sets where the cell's line may end, and returns whether it needs one.
 bool LeastHeightObservation::raise(const TileView& tile, const CellView& view, Ends& ends) {
   const Eye& eye = tile.eye();
   FullSurface::TileCells& cells = tile.cells();

@@ -16,7 +16,7 @@ class LeastHeightObservation final : public Observation {
 
  private:
   void store_row(std::size_t cell, std::size_t columns, std::size_t place, Result& result) const override;
-  /// Where one observer's lines may end, grid units.
+  /// The ends of one observer's lines, grid units.
   struct Ends {
     TileValues<double> lowest;
     TileValues<double> wanted;  ///< the target that counts as visible
@@ -24,9 +24,9 @@ class LeastHeightObservation final : public Observation {
   bool raise(const TileView& tile, const CellView& view, Ends& ends);
   void record(const TileView& tile, const CellView& view, const Ends& ends);
 
-  // Metres above the ground; infinity where no height is seen.
+  // Heights in metres above the ground; infinity where no height is seen.
   TileValues<double> least_;
-  TileValues<double> open_;  ///< what known ground asks for, of observers whose lines cross ground without data
+  TileValues<double> open_;  ///< the heights that known ground asks for, where lines cross ground without data
 };
 
 }  // namespace itin::viewshed

@@ -18,7 +18,7 @@ Point2 metres(const Grid& grid, const Point3& units) {
   return {grid.origin.x + units.x * grid.resolution, grid.origin.y + units.y * grid.resolution};
 }
 
-/// As seen from the line's other end.
+/// Turns the pieces to be seen from the line's other end.
 void mirror(double length_m, Pieces& pieces) {
   std::reverse(pieces.begin(), pieces.end());
   for (auto& [from, to] : pieces) {
@@ -27,14 +27,15 @@ void mirror(double length_m, Pieces& pieces) {
   }
 }
 
-/// The profile that pieces of a surface make, in order of distance, no two points farther apart than `most_m` where
-/// they are joined. Returns whether all of them are.
+/// Makes the profile of pieces of a surface, in order of distance; no two points are farther apart than `most_m` where
+/// pieces are joined. Returns whether all pieces are joined.
 bool chain(const Pieces& pieces, double most_m, std::vector<PathPoint>& points) {
   points.clear();
   bool whole = true;
   for (const SurfacePieces::Piece& piece : pieces) {
     const PathPoint &from = piece.from, &to = piece.to;
-    // A triangle again, or another beside an edge that the line runs along or a corner that it passes over.
+    // This is a triangle that comes again, or another beside an edge that the line runs along or a corner that it
+    // passes over.
     if (!points.empty() && to.distance_m <= points.back().distance_m) continue;
     const bool joined = !points.empty() && points.back().distance_m == from.distance_m;
     whole = whole && (joined || from.distance_m == 0);
@@ -71,7 +72,7 @@ LineLosses::Outcome LineLosses::of_line(const Line& line, Scratch& scratch) cons
   outcome.over_missing = !profile(surface_, greatest_spacing_m(length), scratch.tops_);
   if (!reaches_from_end_to_end(scratch.tops_, length)) return outcome;
   PathEnds ends{length, line.from.z * grid.resolution, line.to.z * grid.resolution};
-  // An antenna on the surface stands on it but for rounding.
+  // An antenna on the surface stands on it, up to rounding.
   const double from_top = scratch.tops_.front().height_m, to_top = scratch.tops_.back().height_m;
   if (ends.from_m < from_top - kGrazing || ends.to_m < to_top - kGrazing) return outcome;
   ends.from_m = std::max(ends.from_m, from_top), ends.to_m = std::max(ends.to_m, to_top);

@@ -4,8 +4,8 @@
 //   LineLosses::Scratch scratch;  // for many lines
 //   if (const auto loss = losses.of_line({eye, target}, scratch)) ...
 //
-// The profile has the places where the line crosses the surface's edges, as SectionLine finds them for cross-sections,
-// and further ones between them as a report of the line has them: both come to one loss (itin/diffraction.hpp).
+// The profile has the places where the line crosses the surface's edges, as SectionLine finds them for cross-sections.
+// Between these it has further places, as a report of the line has them: both come to one loss (itin/diffraction.hpp).
 #pragma once
 
 #include <optional>
@@ -25,7 +25,7 @@ class LineLosses {
   /// memory: those of SurfacePieces.
   LineLosses(const Tin& surface, const Tin* bare, const RadioPath& path);
 
-  /// Grid units; they differ horizontally.
+  /// The ends of a line, grid units; they differ horizontally.
   struct Line {
     Point3 from, to;
   };
@@ -38,7 +38,7 @@ class LineLosses {
     bool over_missing = false;  ///< the line crosses ground without data
   };
   class Scratch;
-  /// Cost: all triangles under the line, about 60 nanoseconds each.
+  /// Computes the loss of a line. Cost: all triangles under the line, about 60 nanoseconds each.
   Outcome of_line(const Line& line, Scratch& scratch) const;
 
  private:

@@ -35,7 +35,7 @@ void LossObservation::study(const TileView& tile, const CellView& view, const Si
   if (!outcome.loss || (outcome.over_missing && nodata_ != NoData::kClear)) return;
   const auto diffraction = static_cast<float>(outcome.loss->diffraction_db);
   const auto free_space = static_cast<float>(outcome.loss->free_space_db);
-  // Among observers with one sum the one with the clearer line counts, whichever comes first.
+  // If observers have equal sums, the one with the clearer line counts, whichever comes first.
   float& least = diffraction_[view.cell];
   float& beside = free_space_[view.cell];
   if (std::pair(diffraction + free_space, diffraction) < std::pair(least + beside, least))

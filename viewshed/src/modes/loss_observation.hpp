@@ -19,9 +19,9 @@ class LossObservation final : public Observation {
   void store_row(std::size_t cell, std::size_t columns, std::size_t place, Result& result) const override;
 
   NoData nodata_;
-  LineLosses::Scratch scratch_;                     ///< empty but while an observer looks
+  LineLosses::Scratch scratch_;                     ///< empty except while an observer looks
   TileValues<float> diffraction_, free_space_;      ///< infinity where no observer has a known one
-  std::bitset<Tile::kSide * Tile::kSide> unknown_;  ///< where an observer's is not
+  std::bitset<Tile::kSide * Tile::kSide> unknown_;  ///< cells where an observer's loss is not known
 };
 
 }  // namespace itin::viewshed

@@ -7,7 +7,7 @@
 
 namespace itin::viewshed {
 
-/// The values of the request's mode for so many cells that are outside every field of view.
+/// The values of the request's mode for `cells` cells that are outside every field of view.
 ModeValues values_outside(const Request& request, std::size_t cells);
 
 }  // namespace itin::viewshed

@@ -65,20 +65,20 @@ class Observation {
   Observation(const Observation&) = delete;
   Observation& operator=(const Observation&) = delete;
 
-  /// Whether it could matter that the target is seen, whatever its height.
+  /// Tells whether it could matter that the target is seen, whatever its height.
   virtual bool open(const CellView&) const { return true; }
-  /// One observer's verdict, where that is all that is known.
+  /// Adds one observer's verdict, where that is all that is known.
   void add(const CellView& view, Verdict verdict) {
     verdicts_.add(view.cell, verdict);
     if (verdict == Verdict::kVisible) keep(view);
   }
-  /// Whether it asks more of a hidden target than that it is hidden.
+  /// Tells whether more is asked of a hidden target than that it is hidden.
   virtual bool asks_of_the_hidden() const { return false; }
-  /// Adds that all cells of these parts of the tile are hidden. Returns how many they are.
+  /// Adds all cells of these parts of the tile as hidden, and returns their number.
   std::uint64_t hide(const Tile& tile, std::span<const Tile> parts);
   /// Adds what the observer sees of every cell that is open. Returns how many sight lines that took.
   virtual std::uint64_t observe(const TileView& tile);
-  /// Counts the cells, and writes them to their places in the result.
+  /// Counts the cells, and writes their values to their places in the result.
   void store(const Tile& tile, Result& result, CellCounts& cells) const;
 
   /// Makes room in the result for what store() writes: rasters of cells that are outside.
@@ -91,27 +91,27 @@ class Observation {
  private:
   /// Qualifies an eye's verdicts by what else the mode asks of its lines, before they are added.
   virtual void qualify(const TileView&, TileValues<Verdict>&) {}
-  /// The target is seen; its verdict has been added.
+  /// Keeps what the mode wants of a target that is seen, and whose verdict has been added.
   virtual void keep(const CellView&) {}
   /// Studies a target that the eye looks at, and that is not straight above or below it.
   virtual void study(const TileView&, const CellView& view, const Sight& sight) {
     if (sight.verdict == Verdict::kVisible) keep(view);
   }
-  /// A row of `columns` cells, from `cell` in the tile to `place` in the grid.
+  /// Stores a row of `columns` cells, from `cell` in the tile to `place` in the grid.
   virtual void store_row(std::size_t, std::size_t, std::size_t, Result&) const {}
 
   Verdicts verdicts_;
 };
 
-/// Makes the Observations of a request's mode. The request must outlive this, and this must outlive them.
+/// Makes the Observations of a request's mode. The request must outlive this, and this must outlive the observations.
 class Observations {
  public:
   explicit Observations(const Request& request) : request_(request) {}
 
   std::unique_ptr<Observation> of_tile();
-  /// One for each tile.
+  /// Makes one for each tile.
   std::vector<std::unique_ptr<Observation>> of_tiles(const RasterGrid& tiles);
-  /// After the last of them has been stored: completes what tiles have in common.
+  /// Completes what tiles have in common, after the last of them has been stored.
   void finish(Result& result) const;
 
  private:

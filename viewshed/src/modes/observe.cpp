@@ -13,7 +13,7 @@ struct TileTally {
   std::uint64_t lines = 0;
 };
 
-/// Whether nothing of a tile is seen, which is all that is asked then.
+/// Tells whether nothing of a tile is seen, where no more is asked of hidden cells.
 bool is_hidden(const ExactJudge& judge, std::size_t eye, std::size_t tile, const Observation& observation) {
   return !observation.asks_of_the_hidden() && judge.hides(eye, tile);
 }
@@ -61,7 +61,7 @@ class AllEyes {
             shadow_of(eye, surface_.rim(), result_)};
   }
 
-  /// For the group; after the last one the tile is done.
+  /// Observes a tile from the group's eyes; after the last group the tile is done.
   void observe(const ExactJudge& judge, std::size_t tile) {
     const Tile cells = tile_at(surface_.grid(), surface_.tiles(), tile);
     std::unique_ptr<Observation>& observation = kept_[tile];

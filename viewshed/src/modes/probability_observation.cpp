@@ -17,7 +17,7 @@ std::uint64_t ProbabilityObservation::observe(const TileView& tile) {
   return lines;
 }
 
-/// At the eye itself, where nothing can come between.
+/// Keeps a target at the eye itself, where nothing can come between.
 void ProbabilityObservation::keep(const CellView& view) {
   known_[view.cell] = 1;
 }

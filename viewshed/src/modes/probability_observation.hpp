@@ -23,7 +23,7 @@ class ProbabilityObservation final : public Observation {
 
   std::optional<VisibilityProbability::Scratch> scratch_;  ///< made for the surface looked at
   TileValues<float> known_;                                ///< the greatest over several observers
-  TileValues<float> open_;                                 ///< and of those whose lines ground without data may hide
+  TileValues<float> open_;                                 ///< the greatest, of lines that ground without data may hide
 };
 
 }  // namespace itin::viewshed

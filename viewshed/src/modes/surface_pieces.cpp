@@ -13,7 +13,7 @@ namespace itin::viewshed {
 
 namespace {
 
-/// A place on the line counts as left of it.
+/// Tells whether a place lies left of the line; a place on the line does.
 bool lies_left(const SectionLine& line, const GridPoint& p) {
   return line.side(p) >= 0;
 }

@@ -30,25 +30,25 @@ class SurfacePieces {
 
   const Grid& grid() const { return tin_.grid; }
 
-  /// Metres from the line's start (SectionLine::start()), and heights.
+  /// The ends of a piece: metres from the line's start (SectionLine::start()), and heights.
   struct Piece {
     PathPoint from, to;
   };
-  /// In order of distance; some of length 0, and some more than once. Cost: about 40 nanoseconds per triangle, five
-  /// times that where the line leaves the surface.
+  /// Finds the pieces in order of distance; some have length 0, and some come more than once. Cost: about 40
+  /// nanoseconds per triangle, five times that where the line leaves the surface.
   void along(const SectionLine& line, std::vector<Piece>& pieces) const;
 
-  // The two ways to do so.
-  /// False where the line leaves the surface; then the pieces are those up to there.
+  // The two ways of along().
+  /// Returns false where the line leaves the surface; then the pieces are those up to there.
   bool walk(const SectionLine& line, std::vector<Piece>& pieces) const;
   void search(const SectionLine& line, std::vector<Piece>& pieces) const;
 
  private:
-  /// A triangle that a line passes through, and by which edge, from that corner to the next, it leaves.
+  /// A triangle that a line passes through, and the edge by which the line leaves: from corner `exit` to the next.
   struct Stop {
     std::uint32_t triangle = 0;
     std::uint32_t exit = 0;
-    SectionCrossing in;  ///< where it enters
+    SectionCrossing in;  ///< where the line enters
   };
   std::optional<Stop> first_stop(const SectionLine& line) const;
   const GridPoint& corner(std::uint32_t triangle, std::uint32_t i) const {

@@ -58,13 +58,13 @@ double VisibilityProbability::share_seen(const Margins& least) {
   return static_cast<double>(seen) / static_cast<double>(least.size());
 }
 
-/// By how far a fixed end is above ground, grid units.
+/// Narrows the margins by how far a fixed end is above ground; `above` is in grid units.
 void VisibilityProbability::narrow(Margins& least, double above, const ErrorsAlongLine::Errors& ground) const {
   const auto middle = static_cast<float>((grazing_ + above) / sigma_);
   for (std::size_t w = 0; w < least.size(); ++w) least[w] = std::min(least[w], middle - ground[w]);
 }
 
-/// By how far a line passes above an edge.
+/// Narrows the margins by how far a line passes above an edge.
 void VisibilityProbability::narrow(Margins& least, const Line& line, const Crossing& c, ErrorsAlongLine& errors) const {
   const auto& a = errors.of(c.a);
   const auto& b = errors.of(c.b);
@@ -78,10 +78,10 @@ void VisibilityProbability::narrow(Margins& least, const Line& line, const Cross
     least[w] = std::min(least[w], middle + by_from * from[w] + by_to * to[w] - by_a * a[w] - by_b * b[w]);
 }
 
-/// Finds the edges that come near the line, in order. False where one surely hides.
+/// Finds the edges that come near the line, in order. Returns false where one surely hides it.
 bool VisibilityProbability::cross(const Line& line, Scratch& scratch) const {
-  // No clearance varies by more than twice a vertex' variance; nor, as correlations fall with distance, by more than if
-  // there were none.
+  // The variance of a clearance is at most twice that of a vertex. As correlations fall with distance, it is also at
+  // most what it would be without them.
   const double sure = kSure * std::numbers::sqrt2 * sigma_, hidden = kHidden * std::numbers::sqrt2 * sigma_;
   const auto surely_below = [&](double rise, double at) {
     const double rest = 1 - at;
@@ -95,7 +95,7 @@ bool VisibilityProbability::cross(const Line& line, Scratch& scratch) const {
   double highest = -sure;
   const auto add = [&](std::uint32_t triangle) {
     Triangle t = tin_.triangles[triangle];
-    // So that an edge's two triangles see it alike.
+    // The corners are sorted so that an edge's two triangles see it alike.
     std::sort(t.begin(), t.end());
     sight.for_each_crossing({tin_.vertices[t[0]], tin_.vertices[t[1]], tin_.vertices[t[2]]},
                             [&](std::size_t i, std::size_t j, double weight, double at, double rise) {
@@ -113,7 +113,7 @@ bool VisibilityProbability::cross(const Line& line, Scratch& scratch) const {
   return true;
 }
 
-/// Far below, where there is no ground.
+/// The ground under an end; far below where there is none.
 VisibilityProbability::Footing VisibilityProbability::under(const Point3& end) const {
   const auto triangle = pyramid_.triangle_at({end.x, end.y});
   if (!triangle) return {{}, std::numeric_limits<float>::max()};

@@ -4,13 +4,13 @@
 //   VisibilityProbability::Scratch scratch(odds);  // for many lines
 //   odds.of_line({eye, target}, scratch).probability
 //
-// Model. The height of every vertex has a normal error of standard deviation sigma; those of two vertices x metres
-// apart have the correlation exp(-x / L), none for L = 0. Between vertices errors are as heights are, linear over each
-// triangle. Ends of a line that stand on the surface move with it; those at a given elevation do not.
+// Model. The height of every vertex has a normal error of standard deviation sigma. The errors of two vertices x metres
+// apart have the correlation exp(-x / L), none for L = 0. Between vertices errors are, as heights are, linear over each
+// triangle. Ends of a line that stand on the surface move with it; ends at a given elevation do not.
 //
-// Method. Share of realisations (error_realisations.hpp) in which the line passes above every edge that it crosses,
-// their errors drawn along it (errors_along_line.hpp). So the probability is joint: that of the whole line, not of its
-// worst place. The Earth's bulge within a single triangle is left out.
+// Method. The probability is the share of realisations (error_realisations.hpp) in which the line passes above every
+// edge that it crosses; errors are drawn along the line (errors_along_line.hpp). So the probability is joint: that of
+// the whole line, not of its worst place. The Earth's bulge within a single triangle is left out.
 //
 // Accuracy. The share's standard error is at most 0.022, that of independent draws; the same realisations serve all
 // lines, so that neighbours err alike.
@@ -37,7 +37,7 @@ class VisibilityProbability {
   /// The Tin must outlive it. Cost and memory: HeightPyramid's, and 1 MB.
   VisibilityProbability(const Tin& tin, const Earth& earth, const VerticalError& error);
 
-  /// Grid units; they differ horizontally.
+  /// The ends of a line, grid units; they differ horizontally.
   struct Line {
     Point3 from, to;
     bool from_stands = true, to_stands = true;  ///< on the surface, and moves with it
@@ -47,19 +47,20 @@ class VisibilityProbability {
     bool clear = false;  ///< no ground is in the way, as the heights are
   };
   class Scratch;
-  /// Cost: about half a microsecond per edge that comes near the line, 20 microseconds per line over rolling ground.
+  /// Computes the odds of a line. Cost: about half a microsecond per edge that comes near the line, 20 microseconds per
+  /// line over rolling ground.
   Odds of_line(const Line& line, Scratch& scratch) const;
 
  private:
-  /// Standard deviations: what lies farther below a line hides it in no realisation, and what rises farther above it
-  /// hides it in all realisations but at most one.
+  /// Distances in standard deviations: ground farther below a line hides it in no realisation, and ground that rises
+  /// farther above it hides it in all realisations, except for at most one.
   static constexpr double kSure = 4, kHidden = 3.1;
   static constexpr std::size_t kCrossingsPerCount = 8;
 
-  /// Where a line crosses an edge, or passes over a vertex, which is then both of the edge's.
+  /// A place where a line crosses an edge, or passes over a vertex, which is then both ends of the edge.
   struct Crossing {
-    double at = 0;    ///< fraction of its length
-    double rise = 0;  ///< above it, grid units
+    double at = 0;    ///< fraction of the line's length
+    double rise = 0;  ///< above the line, grid units
     std::uint32_t a = 0, b = 0;
     double weight_b = 0;
     friend auto operator<=>(const Crossing&, const Crossing&) = default;
@@ -67,7 +68,7 @@ class VisibilityProbability {
   /// The ground under an end.
   struct Footing {
     ErrorSum error;
-    double above = 0;  ///< how far the end is, grid units
+    double above = 0;  ///< how far the end is above the ground, grid units
   };
   using Margins = std::array<float, ErrorRealisations::kCount>;  ///< how far a line is clear, in sigmas
 
@@ -89,13 +90,13 @@ class VisibilityProbability {
 /// Memory to use again, for one thread; fastest for lines from one eye to neighbours.
 class VisibilityProbability::Scratch {
  public:
-  /// For lines of those odds, which must outlive it.
+  /// Serves lines of these odds, which must outlive this object.
   explicit Scratch(const VisibilityProbability& odds) : errors_(odds.tin_, odds.correlation_, odds.realisations_) {}
 
  private:
   friend class VisibilityProbability;
   std::vector<Crossing> crossings_;
-  std::optional<std::uint32_t> highest_;  ///< triangle, of the last line: most often near the next one's too
+  std::optional<std::uint32_t> highest_;  ///< the last line's highest triangle, often near the next one's
   ErrorsAlongLine errors_;
 };
 

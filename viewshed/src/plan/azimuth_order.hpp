@@ -11,7 +11,7 @@
 
 namespace itin::viewshed {
 
-/// Clockwise from north, radians from -pi to pi.
+/// The azimuth clockwise from north, radians from -pi to pi.
 inline double azimuth(Point2 from, Point2 to) {
   return std::atan2(to.x - from.x, to.y - from.y);
 }

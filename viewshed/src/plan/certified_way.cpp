@@ -14,14 +14,15 @@ namespace {
 
 /// A level that leaves out less than this share of the points is looked at exactly.
 constexpr std::uint64_t kLeastShare = 2;
-/// Costs as those of exact answers over so many posts: of a point that is triangulated; of bounds, blocks and finer
-/// levels about the observer.
+/// Costs, counted in posts of an exact answer: of a point that is triangulated; of bounds, blocks and finer levels
+/// about the observer.
 constexpr std::uint64_t kPostsPerPoint = 40, kPostsPerBlocks = 2500000;
-/// A point that is triangulated for a viewshed at a tolerance costs as much, where most of the ground is hidden.
+/// The cost, in posts, of a point that is triangulated for a viewshed at a tolerance, where most of the ground is
+/// hidden.
 constexpr std::uint64_t kPostsPerPlainPoint = 16;
-/// Bounds know nothing of features, and decide far less among them: then they must be cheaper by this factor.
+/// Bounds know nothing of features, and decide far less among them, where they must be cheaper by this factor.
 constexpr std::uint64_t kFeaturesFactor = 4;
-/// More take over a gigabyte: larger levels are looked at in sectors, where they leave out nearly everything.
+/// More points take over a gigabyte: larger levels are looked at in sectors, if they leave out nearly everything.
 constexpr std::uint64_t kMostPoints = 1500000, kVastShare = 128;
 
 bool may_be_lattice(const Store& store, const Request& request, std::uint64_t points) {

@@ -14,10 +14,10 @@ enum class CertifiedWay {
   kBySectors,  ///< over the level, sector by sector about each observer
 };
 
-/// Exactly for level 0 itself, for levels that leave out little, where the exact answer costs less, and for levels that
-/// are too large for the memory, but for a small share of a vast surface. It follows from the whole
-/// request, not from a segment of it, nor from the memory that there is: what a level leaves undecided would follow it,
-/// too.
+/// Chooses the way. It is kExactly for level 0 itself, for levels that leave out little, where the exact answer costs
+/// less, and for levels that are too large for the memory, unless they are a small share of a vast surface. The choice
+/// depends on the whole request, not on a segment of it, nor on the memory that there is: otherwise, what a level
+/// leaves undecided would depend on these, too.
 CertifiedWay certified_way(const Store& store, const Request& request);
 
 /// Points of the level that are looked at together in a sector.

@@ -121,7 +121,7 @@ void GroundTiles::add_lines(Point2 from, const Box& to, TileSet& tiles) const {
 }
 
 Window GroundTiles::window(const TileSet& tiles) const {
-  // Runs down each column: fewer parts.
+  // Runs down each column make fewer parts.
   std::vector<Window::Polygon> parts;
   for (std::int64_t column = 0; column < grid_.columns(); ++column) {
     for (std::int64_t row = 0; row < grid_.rows(); ++row) {

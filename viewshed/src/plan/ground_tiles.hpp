@@ -1,4 +1,4 @@
-// The ground cut into square tiles, and sets of them: what lines pass over.
+// The ground cut into square tiles, and sets of tiles that lines pass over.
 #pragma once
 
 #include <cstdint>
@@ -32,21 +32,23 @@ class TileSet {
 
 class GroundTiles {
  public:
-  /// Over the box, each with about so many points of the level's surface, or more where there would be too many tiles.
+  /// Cuts the box into tiles with about `points_of_tile` points each of the level's surface, or more where there would
+  /// be too many tiles.
   GroundTiles(const Store& store, int level, const Box& box, double points_of_tile = 512);
 
   std::size_t count() const { return grid_.cell_count(); }
   Box box(std::size_t tile) const;
-  /// Points of that surface, about.
+  /// About how many points of that surface lie in a tile, or in some tiles.
   std::uint64_t points(std::size_t tile) const { return points_[tile]; }
   std::uint64_t points(const TileSet& tiles) const;
-  /// The tiles for whose box a test holds, which is made by all threads.
+  /// Returns the tiles for whose box a test holds; all threads run the test.
   TileSet those(const std::function<bool(const Box&)>& test) const;
-  /// Every tile that the line between two positions meets, or passes within a metre and the grid's resolution.
+  /// Adds every tile that the line between two positions meets, or passes within a metre and the grid's resolution.
   void add_line(Point2 from, Point2 to, TileSet& tiles) const;
-  /// What add_line() adds for lines from a position to every place of a box, and perhaps tiles between these lines.
+  /// Adds what add_line() adds for lines from a position to every place of a box, and perhaps tiles between these
+  /// lines.
   void add_lines(Point2 from, const Box& to, TileSet& tiles) const;
-  /// Their union.
+  /// The union of the tiles.
   Window window(const TileSet& tiles) const;
 
  private:

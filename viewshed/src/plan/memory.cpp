@@ -14,7 +14,7 @@ namespace itin::viewshed {
 
 namespace {
 
-/// Counts what is kept of a cell on the way and in the end.
+/// Counts the bytes that are kept of a cell on the way and in the end.
 std::uint64_t bytes_per_cell(const Request& request) {
   constexpr std::uint64_t kVerdict = 6;
   switch (request.mode) {
@@ -38,7 +38,7 @@ std::uint64_t bytes_per_cell(const Request& request) {
   return kVerdict;
 }
 
-/// Rasters of so few bytes are never too large: the program takes as much by itself.
+/// Rasters of no more bytes are never too large: the program takes as much by itself.
 constexpr std::uint64_t kSmallRasters = 64000000;
 
 bool holds(std::uint64_t memory, std::uint64_t raster_bytes) {
@@ -52,7 +52,7 @@ std::uint64_t bytes_of_rasters(const Store& store, const Request& request) {
 }  // namespace
 
 bool takes_a_lattice(const Store& store, const Request& request) {
-  // At coarser levels nothing of the full one is looked at.
+  // A lattice is the full surface, and at coarser levels nothing of that is looked at.
   return !needs_triangles(request) && !casts_rays(request) &&
          level_within(store.metadata(), request.detail.coarsest()) == 0;
 }

@@ -11,7 +11,7 @@
 //     left = left.subspan(run.count);
 //   }
 //
-// Parts follow from the work and from what fits alone, and keep its order.
+// Parts depend on the work and on what fits alone, and keep the work's order.
 #pragma once
 
 #include <cstddef>
@@ -22,9 +22,9 @@
 
 namespace itin::viewshed {
 
-/// The parts of `work` for which fits(part) holds. It is called once for each part, and may note in it what it finds.
-/// cut(part), a pair of parts, is called where it does not hold: it throws where the part cannot be cut, unless all
-/// such parts fit.
+/// Returns the parts of `work` for which fits(part) holds. fits() is called once for each part, and may note in it what
+/// it finds. cut(part) returns a pair of parts, and is called where fits() does not hold. It must throw where the part
+/// cannot be cut, unless all such parts fit.
 template <class Work, class Fits, class Cut>
 std::vector<Work> parts_that_fit(Work work, const Fits& fits, const Cut& cut) {
   std::vector<Work> parts, left;
@@ -50,8 +50,8 @@ struct Run {
   Sum sum;
 };
 
-/// As many of `count` pieces, from the first, as fit together, and at least one of them: a piece that does not fit
-/// alone is a run of its own. add(sum, i) is `sum` with piece `i` as well, `none` the sum of no piece.
+/// Takes as many of `count` pieces, from the first, as fit together, and at least one: a piece that does not fit alone
+/// is a run of its own. add(sum, i) returns `sum` with piece `i` as well; `none` is the sum of no piece.
 template <class Sum, class Add, class Fits>
 Run<Sum> longest_run(std::size_t count, Sum none, const Add& add, const Fits& fits) {
   Run<Sum> run{0, std::move(none)};
@@ -63,14 +63,14 @@ Run<Sum> longest_run(std::size_t count, Sum none, const Add& add, const Fits& fi
   return run;
 }
 
-/// The pieces of an ordered list in two, the first of which is no longer.
+/// Halves an ordered list of pieces; the first half is no longer than the second.
 template <class Piece>
 std::pair<std::span<Piece>, std::span<Piece>> halves(std::span<Piece> pieces) {
   return {pieces.first(pieces.size() / 2), pieces.subspan(pieces.size() / 2)};
 }
 
-/// A rectangle of cells in two, across its longer side; half(n) of the n columns or rows come first. Precondition:
-/// there are at least two cells.
+/// Halves a rectangle of cells across its longer side; half(n) of the n columns or rows come first. Precondition: there
+/// are at least two cells.
 template <class Cells, class Half>
 std::pair<Cells, Cells> halves(const Cells& cells, const Half& half) {
   Cells first = cells, rest = cells;

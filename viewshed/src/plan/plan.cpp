@@ -22,8 +22,8 @@ namespace itin::viewshed {
 
 namespace {
 
-/// Points of the surface that the request asks for, wherever it asks: those of its coarsest level, and within each ring
-/// those of its own.
+/// Counts points of the surface that the request asks for: the points of its coarsest level, and within each ring also
+/// the points of the ring's level.
 class SurfacePoints {
  public:
   SurfacePoints(const Store& store, const Request& request)
@@ -47,7 +47,7 @@ class SurfacePoints {
   PointCounts coarsest_;
 };
 
-/// The request for some of its observers on a part of the cells.
+/// Returns the request for some of its observers on a part of the cells.
 Request request_on(const Request& whole, const RasterGrid& grid, const Segment& segment) {
   Request request = whole;
   request.observers.clear();
@@ -63,7 +63,7 @@ std::vector<std::uint32_t> all_observers(const Request& request) {
   return all;
 }
 
-/// Every cell for every observer.
+/// Returns a segment of every cell for every observer.
 Segment whole_of(const Request& request, const RasterGrid& grid) {
   return {{0, 0}, grid.columns(), grid.rows(), all_observers(request), 0, 0};
 }
@@ -94,7 +94,7 @@ class Division {
   }
 
  private:
-  /// A tile is read piece by piece where it does not fit.
+  /// Takes a tile even where it does not fit: it is read piece by piece.
   bool fits_or_is_tile(Segment& segment) const {
     leave_those_that_reach(segment);
     const bool tile = segment.columns <= Tile::kSide && segment.rows <= Tile::kSide;
@@ -122,7 +122,7 @@ class Division {
            segment.points <= memory_beside_rasters(memory_, store_, request) / bytes_per_point_;
   }
 
-  /// Between tiles, for those who reach the whole.
+  /// Halves a segment between tiles; both halves have its observers.
   static std::pair<Segment, Segment> halves_of(const Segment& whole) {
     const CellRectangle cells{whole.north_west.column, whole.north_west.row, whole.columns, whole.rows};
     const auto [first, rest] = halves(cells, [](std::int64_t n) { return (n / Tile::kSide + 1) / 2 * Tile::kSide; });
@@ -132,7 +132,7 @@ class Division {
     return {segment(first), segment(rest)};
   }
 
-  /// Observers that reach no cell are looked for on the ground as all are: the first segment has them.
+  /// Gives observers that reach no cell to the first segment, so that they are looked for on the ground as all are.
   void place_the_rest() {
     std::vector<bool> placed(request_.observers.size());
     for (const Segment& segment : segments_)

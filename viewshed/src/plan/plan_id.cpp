@@ -10,7 +10,7 @@ namespace itin::viewshed {
 
 namespace {
 
-/// Values one after the other as text, numbers to the last bit.
+/// Writes values one after the other as text, numbers to the last bit.
 class Text {
  public:
   template <class... Values>

@@ -7,7 +7,7 @@
 
 namespace itin::viewshed {
 
-/// Identifies all that the results of the plan's segments follow from.
+/// Identifies all that the results of the plan's segments depend on.
 std::uint64_t id_of(const StoreMetadata& store, const Plan& plan);
 
 }  // namespace itin::viewshed

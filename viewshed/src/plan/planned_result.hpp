@@ -1,4 +1,4 @@
-// Results of a plan: what they say of themselves follows from the plan.
+// Results of a plan, which say of themselves what follows from the plan.
 #pragma once
 
 #include <cstddef>
@@ -7,7 +7,7 @@
 
 namespace itin::viewshed {
 
-/// The rasters of `result` as the plan's segment: with its request, and how certainly they were decided.
+/// Returns `result` as a segment of the plan: with the segment's request, and how certainly it was decided.
 Result as_planned(const Plan& plan, std::size_t segment, Result result);
 
 /// Says of a result of the plan how certainly it was decided.

@@ -1,4 +1,4 @@
-// How many points a store's surface has under convex places, about.
+// About how many points a store's surface has under convex places.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,8 @@ class PointCounts {
   /// Counts the points of this level's surface within the box. Reads the directory of the store alone.
   PointCounts(const Store& store, int level, const Box& box);
 
-  /// About as many as a query of this window reads there, or more. Its parts must be convex and have no holes.
+  /// About as many points as a query of this window reads there, or more. The window's parts must be convex and have no
+  /// holes.
   std::uint64_t within(const Window& window) const;
 
  private:

@@ -15,14 +15,14 @@ namespace itin::viewshed {
 
 namespace {
 
-/// Along the side of the boxes of cells, at first: the sectors of wider ones overlap more, and of smaller ones each is
-/// looked at with many others anyway.
+/// How many cells the boxes have along their side at first: the sectors of wider boxes overlap more, and each smaller
+/// box is looked at with many others anyway.
 constexpr std::int64_t kFirstSide = 16;
 static_assert(Tile::kSide % kFirstSide == 0);
 
 }  // namespace
 
-/// By rings of doubling distances, for nearer cells span wide sectors.
+/// Sorts the boxes by rings of doubling distances, since nearer cells span wide sectors.
 SightSectors::SightSectors(const RasterGrid& cells, const Eye& eye) : cells_(cells), eye_(eye) {
   struct Place {
     int ring;

@@ -25,7 +25,7 @@ namespace itin::viewshed {
 
 class SightSectors {
  public:
-  /// Both must outlive it.
+  /// Both must outlive this object.
   SightSectors(const RasterGrid& cells, const Eye& eye);
 
   bool empty() const { return parts_.empty(); }
@@ -35,12 +35,12 @@ class SightSectors {
     std::vector<Point2> hull;     ///< counterclockwise, metres
   };
   using Fits = std::function<bool(const std::vector<Point2>& hull)>;
-  /// The widest one whose hull fits, or else the narrowest. Valid until remove_decided().
+  /// Returns the widest sector whose hull fits, or else the narrowest. Valid until remove_decided().
   Sector next(const Fits& fits) const;
-  /// Whether all cells of a part are nearer to the eye than so many metres, along columns and rows.
+  /// Tells whether all cells of a part are nearer to the eye than `reach` metres, along columns and rows.
   bool within(double reach, const Tile& part) const;
-  /// The sector's parts within that reach have been decided. The rest of it will come in narrower ones. Throws
-  /// InputError where it is but a single cell.
+  /// Removes the sector's parts within that reach, which have been decided. The rest of the sector will come in
+  /// narrower ones. Throws InputError where the rest is a single cell.
   void remove_decided(const Sector& sector, double reach);
 
  private:
@@ -48,7 +48,7 @@ class SightSectors {
 
   const RasterGrid& cells_;
   const Eye& eye_;
-  std::vector<Tile> parts_;  ///< that are left, the next one last
+  std::vector<Tile> parts_;  ///< the parts that are left, the next one last
   std::size_t most_;         ///< parts of the next sector
 };
 

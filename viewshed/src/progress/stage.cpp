@@ -30,7 +30,7 @@ void Stage::for_each(std::size_t count, const std::function<std::size_t(std::siz
   });
 }
 
-/// Within the lock: else a thread could report what another has long passed.
+/// Must run within the lock: else a thread could report what another has long passed.
 void Stage::report() {
   const double share = steps_ == 0 ? 1 : static_cast<double>(done_) / static_cast<double>(steps_);
   const int thousandths = static_cast<int>(1000 * share);

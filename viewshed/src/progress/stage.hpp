@@ -24,11 +24,11 @@ class Stage {
   /// The stage has `steps` steps. `progress` must outlive it.
   Stage(std::string_view name, std::size_t steps, Progress& progress);
 
-  /// Adds `steps` finished steps; `advance_to` sets their total. From any thread.
+  /// Adds `steps` finished steps; `advance_to` sets their total. Both may be called from any thread.
   void advance(std::size_t steps);
   void advance_to(std::size_t step);
 
-  /// Runs body(i) for i in [0, count) on all threads; it returns how many steps it has made. Throws Cancelled.
+  /// Runs body(i) for i in [0, count) on all threads; body returns how many steps it has made. Throws Cancelled.
   void for_each(std::size_t count, const std::function<std::size_t(std::size_t)>& body);
 
  private:
@@ -42,7 +42,7 @@ class Stage {
   int reported_ = -1;  ///< thousandths
 };
 
-/// Runs body(i) for i in [0, count) on all threads, as a stage of so many steps. Throws Cancelled.
+/// Runs body(i) for i in [0, count) on all threads, as a stage of `count` steps. Throws Cancelled.
 void for_each_step(std::size_t count, std::string_view stage, Progress& progress,
                    const std::function<void(std::size_t)>& body);
 

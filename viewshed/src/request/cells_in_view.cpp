@@ -9,7 +9,7 @@ namespace itin::viewshed {
 
 namespace {
 
-/// Nothing where an observer has no radius.
+/// The box about all observers' radii; empty where an observer has no radius.
 Box box_of_radii(const Request& request) {
   Box box;
   for (const Observer& observer : request.observers) {

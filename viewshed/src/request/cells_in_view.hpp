@@ -20,7 +20,7 @@
 
 namespace itin::viewshed {
 
-/// Calls visit(cell, Eye::offset_to() it) for every cell of a tile.
+/// Calls visit(cell, offset) for every cell of a tile; the offset is that of Eye::offset_to().
 template <class Visit>
 void for_each_offset(const Eye& eye, const RasterGrid& grid, const Tile& tile, const TileCentres& centres,
                      const Visit& visit) {
@@ -50,7 +50,7 @@ struct MapView {
   }
 };
 
-/// What of a tile's cells observers look at.
+/// The cells of a tile that observers look at.
 class TileInView {
  public:
   TileInView(const std::vector<MapView>& views, const Box& centres);
@@ -65,8 +65,8 @@ class TileInView {
 
 std::vector<MapView> views_of(const Request& request);
 
-/// Calls found(place) on any thread for those cells that asked(place) holds for and that some observer looks at.
-/// Returns how many they are.
+/// Calls found(place), on any thread, for each cell for which asked(place) holds and that some observer looks at.
+/// Returns the number of these cells.
 template <class Asked, class Found>
 std::uint64_t for_each_cell_in_view(const Request& request, const RasterGrid& grid, const Asked& asked,
                                     const Found& found) {
@@ -88,15 +88,15 @@ std::uint64_t for_each_cell_in_view(const Request& request, const RasterGrid& gr
 
 /// Cells beyond a grid.
 struct CellsBeyond {
-  RasterGrid grid;                  ///< its cells are as large, or larger where they would be many
+  RasterGrid grid;                  ///< its cells are as large as the other grid's, or larger where they would be many
   std::vector<std::uint8_t> cells;  ///< 1 where an observer looks; empty: none
   double each = 1;                  ///< how many cells of the other grid fit into one
 
   double count() const;  ///< in cells of the other grid
 };
 
-/// What observers look at beyond the grid, where the request names no cells and the grid is cut to the data. None where
-/// an observer has no radius.
+/// Returns the cells that observers look at beyond the grid, where the request names no cells and the grid is cut to
+/// the data; none where an observer has no radius.
 CellsBeyond cells_beyond(const Request& request, const RasterGrid& grid);
 
 }  // namespace itin::viewshed

@@ -25,7 +25,7 @@ class FieldOfView {
     nearest_ = nearest * nearest;
   }
 
-  /// Nothing farther away is in view, metres.
+  /// The distance beyond which nothing is in view, metres.
   double farthest() const { return std::sqrt(farthest_); }
   /// Whether anything at this squared distance or beyond it can be in view.
   bool reaches(double squared) const { return squared <= farthest_; }
@@ -35,11 +35,12 @@ class FieldOfView {
     return !azimuth_ && !elevation_ && nearest >= nearest_ && farthest <= farthest_;
   }
 
-  /// Metres from the observer to the target (Eye::offset_to). An observer's own place has every azimuth; of it the eye
-  /// has every elevation, and the rest is straight above or below.
+  /// Tells whether a target at this offset from the observer, metres (Eye::offset_to), is in view. An observer's own
+  /// place has every azimuth. There the eye itself has every elevation, and other targets are straight above or below.
   bool contains(double dx, double dy, double dz) const { return contains(dx, dy, dz, dz).value(); }
   bool faces(double azimuth_deg) const { return !azimuth_ || azimuth_within(azimuth_deg); }
-  /// From how far to how far above the eye a target at this squared distance is in view, metres; nothing: any.
+  /// The range of heights above the eye, metres, in which a target at this squared distance is in view; nothing: any
+  /// height.
   std::optional<std::pair<double, double>> heights_at(double squared) const {
     if (!elevation_) return std::nullopt;
     const double distance = std::sqrt(squared), drop = drop_ * squared, slack = squared == 0 ? kGrazing : 0;
@@ -47,9 +48,10 @@ class FieldOfView {
     return std::pair(elevation_->from <= -90 ? -kInfinity : height(elevation_->from) - slack,
                      elevation_->to >= 90 ? kInfinity : height(elevation_->to) + slack);
   }
-  /// Degrees; of an observer's own place -90 or 90, and 0 of the eye.
+  /// The elevation of a place in degrees: -90 or 90 for an observer's own place, and 0 for the eye itself.
   double elevation(double dx, double dy, double dz) const { return elevation_at(dx * dx + dy * dy, dz); }
-  /// A target somewhere from `low` to `high` above the observer; nothing where that decides.
+  /// Tells whether a target somewhere from `low` to `high` above the observer is in view; nothing where that depends on
+  /// its height.
   std::optional<bool> contains(double dx, double dy, double low, double high) const {
     const double squared = dx * dx + dy * dy;
     if (squared > farthest_ || squared < nearest_) return false;
@@ -65,7 +67,7 @@ class FieldOfView {
  private:
   bool azimuth_within(double degrees) const {
     const double width = within_turn(azimuth_->to - azimuth_->from);
-    // A range of a whole turn is given as such, not as nothing.
+    // A whole turn has width 0, but is no empty range.
     if (width == 0 && azimuth_->to != azimuth_->from) return true;
     return within_turn(degrees - azimuth_->from) <= width;
   }

@@ -17,7 +17,7 @@ bool positive(double v) {
   return std::isfinite(v) && v > 0;
 }
 
-/// The observer's field of view and targets, its own or the request's.
+/// Checks the observer's field of view and targets, its own or the request's.
 void validate_view(const Request& request, const Observer& observer) {
   const double target = observer.target_height.value_or(request.target_height);
   if (!std::isfinite(target) || (!request.target_absolute && target < 0))
@@ -109,7 +109,7 @@ void validate_errors(const VerticalError& e) {
         fmt::format("correlation length {:g}: give 0 or a positive number of metres", e.correlation_length));
 }
 
-/// The zone ends at both ends of a line: on the ground nothing of it is clear.
+/// Requires both ends above the ground: the zone ends at both ends of a line, and on the ground nothing of it is clear.
 void validate_zones(const Request& request) {
   const FresnelCriterion& zone = request.fresnel;
   if (!positive(zone.wavelength))

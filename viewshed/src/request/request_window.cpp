@@ -36,7 +36,7 @@ Window::Polygon part_of(const Request& request, const Observer& observer) {
 /// From this many observers on, those that stand within half a radius of each other share a part of the window.
 constexpr std::size_t kCrowd = 256;
 
-/// Observers of about the same radius in the same square of a grid, whose side is about half of it.
+/// Groups observers of about the same radius in the same square of a grid, whose side is at most half the radius.
 std::map<std::array<double, 3>, std::vector<const Observer*>> crowds_of(const Request& request) {
   std::map<std::array<double, 3>, std::vector<const Observer*>> crowds;
   for (const Observer& observer : request.observers) {
@@ -78,7 +78,7 @@ Box area_under(const Store& store, const Request& request) {
 
 Box box_of_window(const Store& store, const Request& request) {
   const Box within = area_under(store, request);
-  // An observer outside the data is told so later on.
+  // An error tells later on that an observer is outside the data.
   return within.empty() ? window_of(request).bounds() : within;
 }
 

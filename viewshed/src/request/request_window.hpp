@@ -9,15 +9,16 @@
 
 namespace itin::viewshed {
 
-/// Holds the sight lines from an observer to places in the box, which may be empty. Convex, counterclockwise.
+/// A hull that holds the sight lines from an observer to places in the box, which may be empty. Convex,
+/// counterclockwise.
 std::vector<Point2> hull_about(Point2 observer, const Box& box);
 
 /// The region that holds every sight line of the request: a convex one about each observer, or about observers that
 /// stand close together.
 Window window_of(const Request& request);
-/// The part of the data that these lines lie over; empty where they lie over none.
+/// The part of the data that the request's sight lines lie over; empty where they lie over none.
 Box area_under(const Store& store, const Request& request);
-/// About all that the window may hold of the store.
+/// A box about all that the request's window may hold of the store.
 Box box_of_window(const Store& store, const Request& request);
 
 }  // namespace itin::viewshed

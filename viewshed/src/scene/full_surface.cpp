@@ -110,7 +110,8 @@ std::uint64_t FullSurface::judge(const Eye& eye, const RadialSweep::View& view, 
   return lines;
 }
 
-/// As RadialSweep::decide(): `work.seen` of a target is the eye's height, or no number where it is hidden.
+/// Sets `work.seen` as RadialSweep::decide() does: to the eye's height for a target that is seen, and to NaN where it
+/// is hidden.
 void FullSurface::cast_rays_to_targets(const Eye& eye, TileCells& work) const {
   const auto rows = static_cast<std::size_t>(work.tile.rows), columns = static_cast<std::size_t>(work.tile.columns);
   SightLines lines;
@@ -171,7 +172,7 @@ void FullSurface::find_ground(std::span<const Tile> parts, TileCells& work) cons
   }
 }
 
-/// Where undecided cells have their targets; those that need no line are decided.
+/// Computes where undecided cells have their targets, and decides the cells that need no line.
 void FullSurface::raise_targets(const Eye& eye, TileValues<Verdict>& values, TileCells& work) const {
   const double resolution = units().resolution, metre = 1 / resolution, grazing = kGrazing / resolution;
   work.targets.fill(kNoSurface);

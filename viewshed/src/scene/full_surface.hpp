@@ -35,19 +35,19 @@ namespace itin::viewshed {
 
 class FullSurface {
  public:
-  /// `surface` hides; targets stand on it, or on `bare_ground` where that is given. `tiles` are those of `grid`. All
-  /// must outlive this.
+  /// `surface` hides; targets stand on it, or on `bare_ground` where that is given. `tiles` are the tiles of `grid`.
+  /// All must outlive this object.
   FullSurface(const Tin& surface, const Tin* bare_ground, const Earth& earth, const RasterGrid& grid,
               const RasterGrid& tiles);
   FullSurface(const LatticeTin& surface, const Earth& earth, const RasterGrid& grid, const RasterGrid& tiles);
-  /// Over heights that have been binned before, and are shared; `surface` is null where they are a lattice's.
+  /// Uses heights that have been binned before, and are shared; `surface` is null where they are a lattice's.
   FullSurface(std::shared_ptr<BinnedHeights> heights, const Tin* surface, const Tin* bare_ground, const Earth& earth,
               const RasterGrid& grid, const RasterGrid& tiles);
   FullSurface(const FullSurface&) = delete;
   FullSurface& operator=(const FullSurface&) = delete;
 
-  /// From now on rays decide the lines to cells; eyes stand at these positions, metres. Precondition: the surface is a
-  /// Tin. Throws std::bad_alloc.
+  /// Lets rays decide the lines to cells from now on; eyes stand at these positions, metres. Precondition: the surface
+  /// is a Tin. Throws std::bad_alloc.
   void cast_rays(const Earth& earth, const std::vector<Point2>& eyes);
   bool casts_rays() const { return rays_ != nullptr; }
 
@@ -57,7 +57,7 @@ class FullSurface {
   const RasterGrid& tiles() const { return tiles_; }
   /// The height of what hides, metres, if there is any at that position.
   std::optional<double> height(Point2 position) const;
-  /// Where it ends.
+  /// The edges where the surface ends.
   const std::vector<RimEdge>& rim() const { return heights_->rim(); }
 
   /// Holds what a tile's cells share between eyes, for one thread.
@@ -66,7 +66,7 @@ class FullSurface {
     Tile tile;
     TileCentres centres;
     TileValues<double> ground;   ///< grid units; kNoSurface where none is, kUnread where no eye sees it
-    bool unread = false;         ///< all of the ground
+    bool unread = false;         ///< all of the ground is unread
     TileValues<double> targets;  ///< where the last eye's lines end; kNoSurface where none was needed
     RadialSweep::Heights seen;
     RadialSweep::Scratch scratch;
@@ -77,34 +77,34 @@ class FullSurface {
     }
   };
   std::unique_ptr<TileCells> begin(std::size_t tile) const;
-  /// Only cells in these parts of the tile are asked about: others may have no ground.
+  /// Begins a tile where only cells in these parts are asked about: others may have no ground.
   std::unique_ptr<TileCells> begin(std::size_t tile, std::span<const Tile> parts) const;
 
-  /// Holds what all tiles share of an eye; rays share nothing.
+  /// Returns what all tiles share of an eye; with rays they share nothing.
   RadialSweep::View view_from(const Eye& eye) const {
     return rays_ ? sweep_.beginning(axis_of(eye)) : sweep_.view_of(axis_of(eye));
   }
-  /// Surveys the ground towards the cells alone: what is beyond and beside them costs nothing.
+  /// Surveys the ground towards the cells alone: ground beyond and beside them costs nothing.
   RadialSweep::View view_of_cells(const Eye& eye) const;
-  /// Begins such a view, to be advanced.
+  /// Begins a view of the eye, to be advanced.
   RadialSweep::View begin_view(const Eye& eye) const { return sweep_.beginning(axis_of(eye)); }
-  /// After heights of tiles of the lattice have been read: they count from now on.
+  /// Takes in heights of tiles of the lattice that have been read since: they count from now on.
   void add(std::span<const std::uint32_t> tiles) { heights_->add(tiles); }
 
-  /// Whether a tile is certainly hidden from an eye, which looks at all of it, and has ground at every cell: told by
-  /// bounds, so that no height of it needs to be known.
+  /// Tells whether a tile has ground at every cell and is certainly hidden from an eye, which looks at all of it.
+  /// Bounds tell that, so that no height of the tile needs to be known.
   bool hides(const Eye& eye, const RadialSweep::View& view, std::size_t tile) const;
 
-  /// Verdict::kUndecided cells become Verdict::kVisible, Verdict::kHidden, or Verdict::kOutside where there is no
+  /// Turns Verdict::kUndecided cells to Verdict::kVisible, Verdict::kHidden, or Verdict::kOutside where there is no
   /// ground or the eye does not look. Returns how many sight lines that took.
   std::uint64_t judge(const Eye& eye, const RadialSweep::View& view, TileValues<Verdict>& values,
                       TileCells& work) const;
 
-  /// RadialSweep::raise_from() up to work.targets; the heights are work.seen.
+  /// Calls RadialSweep::raise_from() up to work.targets; work.seen gets the heights.
   void raise_from(const RadialSweep::View& view, const RadialSweep::Lowest& lowest, TileCells& work) const {
     sweep_.raise_from(view, {work.tile, work.centres, work.targets}, lowest, work.scratch, work.seen);
   }
-  /// Raises to a single place, given in metres; heights are in grid units.
+  /// Does so for a single place, given in metres; heights are in grid units.
   double raise_from(const RadialSweep::View& view, Point2 position, double lowest, double highest) const;
 
  private:
@@ -127,7 +127,7 @@ class FullSurface {
   std::unique_ptr<const ExactRays> rays_;
 };
 
-/// Together with what it is made of.
+/// A FullSurface together with the surface that it is made of.
 struct OwnedSurface {
   /// Rays decide the lines to cells where their eyes are given, metres: then the surface must be a Tin.
   OwnedSurface(Surface of, std::optional<Tin> bare_ground, const Earth& earth, const RasterGrid& grid,

@@ -58,7 +58,7 @@ Revealed reveal(const Eye& eye, LatticeReader& reader, FullSurface& surface, std
   std::sort(left.begin(), left.end(), std::greater<>());
   view.narrow(boxes);
   const double resolution = lattice.grid.resolution;
-  // Each tile after those before it.
+  // Each tile comes after the tiles before it.
   for (double reach = 0; !left.empty(); reach += LatticeTin::kSide) {
     progress.throw_if_cancelled();
     view.advance(reach);

@@ -3,10 +3,9 @@
 //   reveal_place(observer.position, reader, surface, progress);         // so that its height is known
 //   const RadialSweep::View view = reveal(eye, reader, surface, kAnyTiles, progress).view;
 //
-// From the eye outwards, as far each time as what has been read tells what is hidden: a tile that does not rise above
-// the horizon before it, nor do targets on its highest post, is left alone. To the eye it is bare: no line passes
-// into it that does not end on the way, by far more than rounding, so that every answer is what it would be with the
-// tile.
+// Reading goes from the eye outwards, each time as far as what has been read tells what is hidden. A tile is left alone
+// if neither it nor targets on its highest post rise above the horizon before it. To the eye such a tile is bare: every
+// line into it ends on the way, by far more than rounding, so that every answer is what it would be with the tile.
 #pragma once
 
 #include <cstdint>
@@ -25,20 +24,20 @@ namespace itin::viewshed {
 inline constexpr std::uint64_t kAnyTiles = std::numeric_limits<std::uint64_t>::max();
 struct Revealed {
   RadialSweep::View view;
-  double reach;  ///< ends that are not as far away along columns or rows may be looked at; bins
+  double reach;  ///< ends nearer than this along columns or rows may be looked at; bins
 };
-/// `surface` is the reader's. Cost: the tiles, and the view. Ends short of all where it would have to read more than
-/// `most_tiles`.
+/// Reads what the eye may see; `surface` is the reader's. Cost: the tiles, and the view. Ends early where it would have
+/// to read more than `most_tiles`.
 Revealed reveal(const Eye& eye, LatticeReader& reader, FullSurface& surface, std::uint64_t most_tiles,
                 Progress& progress);
 
-/// Which heights to read at once of about so many posts: all where it matters how high ground is that nobody sees, and
-/// where leaving some out would save little, since there are many observers or few tiles.
+/// Tells which heights to read at once of about `posts` posts. It is all where it matters how high ground is that
+/// nobody sees, and where leaving some out would save little, since there are many observers or few tiles.
 LatticeReader::Heights heights_for(const Request& request, std::uint64_t posts);
-/// Whether it matters how high ground is that nobody sees.
+/// Tells whether it matters how high ground is that nobody sees.
 bool asks_for_all_heights(const Request& request);
 
-/// Whether no tile with ground is left to read.
+/// Tells whether no tile with ground is left to read.
 bool all_read(const LatticeReader& reader);
 
 /// Reads what lies about a position in metres.

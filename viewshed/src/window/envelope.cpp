@@ -94,7 +94,7 @@ class DiscIndex {
 
   bool hold(const Tin& tin, const Triangle& t) const {
     const Point3 p = tin.point(t[0]);
-    if (!all_.contains(Point2{p.x, p.y})) return false;  // as most are
+    if (!all_.contains(Point2{p.x, p.y})) return false;  // most triangles are outside
     const auto bin = bins_.cell_at({p.x, p.y});
     if (!bin) return false;
     const std::vector<std::uint32_t>& near = of_bin_[bins_.index(*bin)];
@@ -108,12 +108,12 @@ class DiscIndex {
   }
 
   const std::vector<FineDisc>& discs_;
-  Box all_;  ///< about them
+  Box all_;  ///< about all discs
   RasterGrid bins_;
   std::vector<std::vector<std::uint32_t>> of_bin_;
 };
 
-/// A level over a window, in place of what coarser ones have within the discs.
+/// A level over a window, which replaces coarser levels within the discs.
 struct WantedPiece {
   Window window;
   int level = 0;
@@ -141,7 +141,7 @@ std::vector<WantedPiece> wanted_pieces(const EnvelopeRequest& request) {
   return wanted;
 }
 
-/// All at once, for each of them alone hardly keeps the threads at work.
+/// Retrieves all pieces at once, since each of them alone hardly keeps the threads at work.
 std::vector<Piece> retrieve_pieces(const Store& store, const std::vector<WantedPiece>& wanted,
                                    const EnvelopeRequest& request, Progress& progress) {
   std::vector<Piece> pieces(wanted.size());
@@ -180,7 +180,7 @@ class Builder {
 
   void mark_outline() { outline_ = boundary_edges(lower_); }
 
-  /// Leaves out what lies within a disc, but for triangles at the outline.
+  /// Leaves out triangles that lie within a disc, except at the outline.
   void clear(const std::vector<FineDisc>& discs) {
     const DiscIndex index(discs);
     std::vector<std::uint8_t> drop(lower_.triangles.size());
@@ -214,7 +214,7 @@ class Builder {
   Tin lower_;
   std::vector<std::int32_t> upper_;  ///< heights
   std::vector<BoundaryEdge> outline_;
-  std::vector<std::uint32_t> firsts_;  ///< triangles, of each piece
+  std::vector<std::uint32_t> firsts_;  ///< the first triangle of each piece
 };
 
 }  // namespace

@@ -5,8 +5,8 @@
 //
 // Every vertex of a level's triangulation is raised by the greatest upper bound, and lowered by the least lower bound,
 // of all index cells that its triangles meet: between its vertices a bound then holds too (law 2). Pieces of finer
-// levels lie about observers, where coarse ground would hide everything; coarser triangles that lie wholly within are
-// left out, the others overlap, which is right as well: every piece's bounds hold.
+// levels lie about observers, where coarse ground would hide everything. Coarser triangles that lie wholly within these
+// pieces are left out. Others overlap them, which is right as well, since every piece's bounds hold.
 #pragma once
 
 #include <cstdint>
@@ -33,16 +33,16 @@ struct FineDisc {
 struct EnvelopeRequest {
   Window window = Window::all();
   int level = 0;
-  int surface = 0;                ///< the level whose surface they hold between them; no piece is finer
+  int surface = 0;                ///< the level whose surface lies between the two; no piece is finer
   std::vector<FineDisc> discs;    ///< in any order
   std::vector<Point2> observers;  ///< rays start here: `upper` is raised for what single precision does sideways
   ThemeChoice themes = ThemeChoice::none();          ///< what stands on the ground; at level 0 alone, without discs
   ThemeChoice cut_by = ThemeChoice::none();          ///< not read, but `lower` is as low as their foundations cut
   ThemeChoice enclosed = ThemeChoice::none();        ///< features that both surfaces hold between them, at any level
-  std::optional<Window> bare_ground = std::nullopt;  ///< where the ground without it is wanted too
+  std::optional<Window> bare_ground = std::nullopt;  ///< where the ground without features is wanted too
 };
 
-/// Both have the same triangles, in the same order.
+/// The two surfaces. Both have the same triangles, in the same order.
 struct Envelope {
   Tin lower;
   Tin upper;
@@ -53,7 +53,8 @@ struct Envelope {
   std::optional<Tin> bare_ground;     ///< the full surface without what stands on it
 };
 
-/// Cost: as triangulate(), and about a microsecond per triangle. Throws as triangulate() does.
+/// Makes the two surfaces. Cost: that of triangulate(), and about a microsecond per triangle. Throws what triangulate()
+/// throws.
 Envelope envelop(const Store& store, const EnvelopeRequest& request, Progress& progress);
 
 }  // namespace itin::viewshed

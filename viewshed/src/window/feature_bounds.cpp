@@ -28,7 +28,7 @@ Box box_near(const Tin& tin, const Triangle& t) {
   return {box.xmin - margin, box.ymin - margin, box.xmax + margin, box.ymax + margin};
 }
 
-/// Grid units, over both surfaces that the bounds make of the triangle.
+/// The steepest slope of both surfaces that the bounds make of the triangle; heights and distances are grid units.
 double steepest(const Tin& tin, const Triangle& t, const std::vector<HeightBounds>& bounds) {
   const auto slope = [&](std::int32_t HeightBounds::*const bound) {
     const auto corner = [&](int i) {
@@ -50,7 +50,7 @@ std::vector<Feature> features_in(const Store& store, const ThemeChoice& themes, 
       const Triangle& t = tin.triangles[i];
       const double height = store.greatest_feature_height(themes, box_near(tin, t)) / tin.grid.resolution;
       if (height == 0) continue;
-      // Twice, for the slopes of triangles next to a vertex's own.
+      // The bend is doubled, for the slopes of triangles next to a vertex's own.
       features[i] = {static_cast<std::int32_t>(std::ceil(height)),
                      2 * kStepsBeside * steepest(tin, t, bounds) + kStepsUp};
     }

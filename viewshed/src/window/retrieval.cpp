@@ -15,7 +15,7 @@ namespace itin::viewshed {
 
 namespace {
 
-/// Points of one level about one observer, and about all of them; never more than this share of the full surface.
+/// Points of one level about one observer, and about all observers; never more than this share of the full surface.
 constexpr double kNearPoints = 16000, kAllNearPoints = 400000, kNearShare = 1.0 / 64;
 
 }  // namespace
@@ -56,7 +56,7 @@ double radius_with(const Store& store, int level, Point2 centre, double points) 
   const Box all = extent_of(store);
   const double greatest = std::max(all.width(), all.height());
   double radius = store.metadata().grid.resolution;
-  // In steps of a square root of 2.
+  // The radius grows in steps of a square root of 2.
   while (radius < greatest &&
          static_cast<double>(store.points_about(level, square_about(centre, std::sqrt(2) * radius))) <= points)
     radius *= std::sqrt(2);

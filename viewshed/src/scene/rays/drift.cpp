@@ -11,7 +11,7 @@ namespace itin::viewshed {
 
 namespace {
 
-/// What rays in single precision do sideways between eyes, metres, and places of a surface.
+/// How far rays in single precision run sideways between eyes, metres, and places of a surface.
 class Drift {
  public:
   Drift(const std::vector<Point2>& eyes, const Tin& tin) : resolution_(tin.grid.resolution), bounds_(tin.bounds()) {

@@ -48,7 +48,7 @@ void RayFrame::cast(const SightLines& lines, unsigned active, RTCRay16& rays,
     rays.org_x[i] = static_cast<float>(fx);
     rays.org_y[i] = static_cast<float>(fy);
     rays.org_z[i] = static_cast<float>(fz + up);
-    // From the rounded origin, so that the other end is where it should be.
+    // The direction is taken from the rounded origin, so that the other end is where it should be.
     rays.dir_x[i] = static_cast<float>(tx - static_cast<double>(rays.org_x[i]));
     rays.dir_y[i] = static_cast<float>(ty - static_cast<double>(rays.org_y[i]));
     rays.dir_z[i] = static_cast<float>(tz + up - static_cast<double>(rays.org_z[i]));

@@ -1,4 +1,4 @@
-// Embree behind one door: scenes of triangles in single precision, and packets of sight lines as rays.
+// Wraps Embree: scenes of triangles in single precision, and packets of sight lines as rays.
 #pragma once
 
 #include <array>
@@ -21,7 +21,7 @@ namespace itin::viewshed {
 inline constexpr double kRounding = 0x1p-24;
 inline constexpr double kRoundings = 16;  ///< how many Embree's edge functions make; see scene.hpp
 
-/// u (4 extent + 16 length).
+/// The bound u (4 extent + 16 length).
 constexpr double rounding_error(double extent, double length) {
   return kRounding * (4 * extent + kRoundings * length);
 }
@@ -42,7 +42,8 @@ class EmbreeScene {
   /// Throws std::bad_alloc.
   EmbreeScene();
 
-  /// Three floats per vertex, three indices per triangle; `owner` is what filters get as geometryUserPtr.
+  /// Makes a geometry of three floats per vertex and three indices per triangle; filters get `owner` as
+  /// geometryUserPtr.
   Geometry triangles(const std::vector<float>& vertices, const std::vector<std::uint32_t>& indices, void* owner);
   void attach(const Geometry& geometry);
   /// Throws std::bad_alloc when Embree ran out of memory.
@@ -60,8 +61,8 @@ class EmbreeScene {
   std::unique_ptr<std::remove_pointer_t<RTCScene>, SceneRelease> scene_;
 };
 
-/// A packet as rays: about `centre`, lowered by the Earth's curvature, and both ends raised by `raise` (a line of
-/// length 0) and `raise_per_length`, grid units. `valid` is -1 for the lines of `active`, 0 for the others.
+/// Turns a packet into rays about `centre`, lowered by the Earth's curvature. Both ends are raised by `raise`, and by
+/// `raise_per_length` times the line's length, grid units. `valid` is -1 for the lines of `active`, 0 for the others.
 struct RayFrame {
   GridPoint centre;
   double drop = 0;
@@ -71,7 +72,8 @@ struct RayFrame {
   void cast(const SightLines& lines, unsigned active, RTCRay16& rays, std::array<int, SightLines::kSize>& valid) const;
 };
 
-/// Which rays something occludes: their tfar becomes negative. `context` is the first member of what filters see.
+/// Finds the rays that something occludes: their tfar becomes negative. `context` is the first member of what filters
+/// see.
 void occluded(RTCScene scene, const std::array<int, SightLines::kSize>& valid, RayContext& context, RTCRay16& rays);
 
 }  // namespace itin::viewshed

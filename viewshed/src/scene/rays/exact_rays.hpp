@@ -37,7 +37,8 @@ class ExactRays {
   struct Scratch {
     Occluder occluder;
   };
-  /// One bit per line: 1 hidden. Lines start at one eye, and their ends differ horizontally. Safe for concurrent use.
+  /// Returns one bit per line: 1 if it is hidden. Lines start at one eye, and their ends differ horizontally. Safe for
+  /// concurrent use.
   unsigned hidden(const SightLines& lines, Scratch& scratch) const;
 
  private:

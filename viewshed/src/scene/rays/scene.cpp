@@ -22,11 +22,11 @@ struct HiddenPacket {
   const SightLines* lines;
   const SightLine* exact;
   std::array<std::uint32_t, SightLines::kSize> by{};  ///< triangles that hide a line
-  unsigned by_triangle = 0;                           ///< one bit per line: one of these does
-  unsigned doubtful = 0;  ///< one bit per line: Embree took a triangle for hiding that does not
+  unsigned by_triangle = 0;                           ///< one bit per line: a triangle in `by` hides it
+  unsigned doubtful = 0;  ///< one bit per line: Embree took a triangle for hiding that does not hide
 };
 
-/// Keeps those of Embree's hits that hide: where `hides(packet, line, primitive)`.
+/// Keeps Embree's hits that hide, for which hides(packet, line, primitive) is true.
 template <class Hides>
 void keep_hits_that_hide(const RTCFilterFunctionNArguments* arguments, const Hides& hides) {
   auto& packet = *reinterpret_cast<HiddenPacket*>(arguments->context);
@@ -55,7 +55,7 @@ class Scene::Impl {
     attach_surface();
     attach_walls();
     embree_.commit();
-    // Fewer, larger arrays for the ray casting that follows; Embree has its own copy of what it needs.
+    // Frees memory for the ray casting that follows; Embree has its own copy of what it needs.
     tessellation_.indices = {};
   }
 
@@ -168,7 +168,7 @@ class Scene::Impl {
     return line.hidden_by(tin_.vertices[t[0]], tin_.vertices[t[1]], tin_.vertices[t[2]]);
   }
 
-  /// The slow way, for the few lines that run along an edge: every triangle in the bins under a part of the line.
+  /// Asks every triangle in the bins under a part of the line: the slow way, for the few lines that run along an edge.
   bool hidden_by_any(const SightLines& lines, unsigned i, const SightLine& line, double start, double end) const {
     const auto bin_at = [&](double s) {
       const double x = lines.from_x[i] + s * (lines.to_x[i] - lines.from_x[i]);
@@ -177,7 +177,7 @@ class Scene::Impl {
                     location_.row_at(tin_.grid.origin.y + y * tin_.grid.resolution)};
     };
     const Point2 from = bin_at(start), to = bin_at(end);
-    // Steps of half a bin and the bins about each: more than needed, none left out.
+    // Steps of half a bin, with the bins about each, take more bins than needed and leave none out.
     const double steps = std::ceil(2 * std::max(std::abs(to.x - from.x), std::abs(to.y - from.y))) + 1;
     std::array<std::size_t, 4> before{kNoBin, kNoBin, kNoBin, kNoBin};
     for (double step = 0; step <= steps; ++step) {

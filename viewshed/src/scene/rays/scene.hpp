@@ -33,7 +33,7 @@
 
 namespace itin::viewshed {
 
-/// The triangle that hid the last line: it most often hides the next ones too.
+/// The triangle that hid the last line: it most often hides the next lines, too.
 struct Occluder {
   std::optional<std::uint32_t> triangle;
 };
@@ -46,16 +46,16 @@ class Scene {
   Scene& operator=(Scene&&) noexcept;
   ~Scene();
 
-  /// One bit per line: 1 hidden. Only bits of active lines are set. From any number of threads, each with its own
-  /// occluder.
+  /// Returns one bit per line: 1 if it is hidden. Only bits of active lines are set. May be called from any number of
+  /// threads, each with its own occluder.
   unsigned hidden(const SightLines& lines, Occluder& occluder) const;
-  /// One bit for each four lines, all four active or none: 1 where one triangle hides them all, and so whatever lies at
-  /// or below their ends' convex hull: what a convex body hides from a point is convex, and with heights less the drop
-  /// at their distance lines are straight and the ground under a triangle is convex. (Where refraction bends lines more
-  /// than the Earth does it is not, and no bit is set.)
+  /// Returns one bit for each four lines, which must be all active or all not: 1 where one triangle hides all four. It
+  /// then also hides whatever lies at or below the convex hull of their ends. For what a convex body hides from a point
+  /// is convex, and with heights less the drop at their distance lines are straight and the ground under a triangle is
+  /// convex. (Where refraction bends lines more than the Earth does, the ground is not convex, and no bit is set.)
   unsigned hidden_together(const SightLines& lines, Occluder& occluder) const;
-  /// Whether the part of a line between two fractions of its length is hidden, decided in double precision by every
-  /// triangle thereabouts. Cost: the triangles under it.
+  /// Tells whether the part of a line between two fractions of its length is hidden, decided in double precision by
+  /// every triangle thereabouts. Cost: the triangles under that part.
   bool hidden_between(const SightLines& lines, unsigned line, double from, double to) const;
   /// Height of the surface in metres, if there is any at that position.
   std::optional<double> ground(Point2 position) const;

@@ -45,7 +45,7 @@ Point3 midpoint(const Point3& a, const Point3& b) {
 
 using SpaceCorners = std::array<Point3, 3>;
 
-/// Rotates the longest edge to lie between the first two corners; its squared length.
+/// Rotates the longest edge to lie between the first two corners, and returns its squared length.
 double longest_edge_first(SpaceCorners& t) {
   const std::array<double, 3> lengths{squared_length(t[0], t[1]), squared_length(t[1], t[2]),
                                       squared_length(t[2], t[0])};

@@ -10,7 +10,7 @@ namespace itin::viewshed {
 
 namespace {
 
-/// Where a line goes beneath the surface, or comes out.
+/// A place where a line goes beneath the surface, or comes out.
 struct Event {
   double along;
   bool enters;
@@ -36,14 +36,15 @@ void filter(const RTCFilterFunctionNArguments* arguments, const Take& take) {
   }
 }
 
-/// Piece by piece: each is one sheet, so that lines go beneath it and come out by turns. Whatever is missed on one side
-/// of a crossing is made up for: an end without a start begins at the crossing before.
+/// Joins events into stretches, piece by piece: each piece is one sheet, so that lines go beneath it and come out by
+/// turns. An event that is missed on one side of a crossing is made up for: an end without a start begins at the
+/// crossing before.
 void join(std::vector<Event>& events, bool starts_under, bool ends_under, std::vector<Stretch>& stretches) {
   std::sort(events.begin(), events.end(), [](const Event& a, const Event& b) {
     return std::tuple(a.piece, a.along, !a.enters) < std::tuple(b.piece, b.along, !b.enters);
   });
   stretches.clear();
-  // Beneath some piece from end to end, perhaps, without a crossing.
+  // The line may run beneath some piece from end to end, without a crossing.
   if (starts_under && ends_under) stretches.push_back({0, 1});
   if (starts_under) stretches.push_back({0, 0});
   if (ends_under) stretches.push_back({1, 1});
@@ -122,7 +123,7 @@ class UpperScene::Impl {
   using CrossingOf = Crossing (Impl::*)(const RTCFilterFunctionNArguments* arguments, const PacketContext& packet,
                                         unsigned line, unsigned i) const;
 
-  /// Takes down crossings where the packet collects them, and else keeps the hit.
+  /// Records crossings where the packet collects them, and otherwise keeps the hit.
   template <CrossingOf crossing_of>
   void attach(const std::vector<float>& vertices, const std::vector<std::uint32_t>& indices) {
     if (indices.empty()) return;
@@ -181,7 +182,7 @@ class UpperScene::Impl {
     const double dx = lines.to_x[line] - lines.from_x[line], dy = lines.to_y[line] - lines.from_y[line];
     return dx * outwards.x + dy * outwards.y <= 0;
   }
-  /// Where the outside of an upright face is.
+  /// The direction to the outside of an upright face.
   Point2 outwards(std::size_t edge, BoxFace face) const {
     const GridPoint &a = tin_.vertices[boundary_[edge].from], &b = tin_.vertices[boundary_[edge].to];
     const Point2 ahead{static_cast<double>(b.x) - a.x, static_cast<double>(b.y) - a.y};

@@ -1,4 +1,4 @@
-// Which sight lines certainly clear a surface, and where those that do not come near it.
+// Which sight lines certainly clear a surface, and where the other lines come near it.
 //
 //   UpperScene scene(upper, {}, drift, earth);
 //   unsigned doubtful = scene.touched(lines);      // a line whose bit is 0 clears the surface
@@ -32,17 +32,17 @@ struct Stretch {
 /// Safe for concurrent use.
 class UpperScene {
  public:
-  /// The Tin must outlive the scene, and may consist of overlapping pieces: `pieces` has the first triangle of each but
-  /// the first. `drift` is how far rays may run beside their lines, grid units. Throws std::bad_alloc.
+  /// The Tin must outlive the scene, and may consist of overlapping pieces: `pieces` has the first triangle of each
+  /// piece except the first. `drift` is how far rays may run beside their lines, grid units. Throws std::bad_alloc.
   UpperScene(const Tin& tin, std::vector<std::uint32_t> pieces, double drift, const Earth& earth);
   UpperScene(UpperScene&&) noexcept;
   UpperScene& operator=(UpperScene&&) noexcept;
   ~UpperScene();
 
-  /// One bit per line: 0 clears the surface, 1 may not.
+  /// Returns one bit per line: 0 if it clears the surface, 1 if it may not.
   unsigned touched(const SightLines& lines) const;
-  /// For each active line what holds every part that does not clear the surface, but for a millimetre at its ends.
-  /// `starts_under` and `ends_under`: lines whose end is not above the surface.
+  /// For each active line, stretches that hold every part that does not clear the surface, except for a millimetre at
+  /// its ends. `starts_under` and `ends_under`: lines whose end is not above the surface.
   using Stretches = std::array<std::vector<Stretch>, SightLines::kSize>;
   void find_stretches(const SightLines& lines, unsigned starts_under, unsigned ends_under, Stretches& result) const;
   /// e(l) in grid units for a line of `length` grid units.

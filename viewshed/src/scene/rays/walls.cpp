@@ -27,7 +27,7 @@ class WallEdges {
     barrier.vertices.insert(barrier.vertices.end(), {x, y, bottom_, x, y, v[2] + bulge});
   }
 
-  /// From its one end to the other, grid units.
+  /// The direction of an edge, from one end to the other, grid units.
   Point2 direction(const BoundaryEdge& edge) const {
     const GridPoint &a = tin_.vertices[edge.from], &b = tin_.vertices[edge.to];
     return {static_cast<double>(b.x) - a.x, static_cast<double>(b.y) - a.y};
@@ -74,7 +74,7 @@ Barrier boxes_about(const Tin& tin, const std::vector<BoundaryEdge>& boundary, c
       edges.add(edge, edge.from, {side.x - ahead.x, side.y - ahead.y}, boxes);
       edges.add(edge, edge.to, {side.x + ahead.x, side.y + ahead.y}, boxes);
     }
-    // In the order of BoxFace.
+    // The faces come in the order of BoxFace.
     add_face(first, {0, 2, 3, 1}, boxes);
     add_face(first, {4, 6, 7, 5}, boxes);
     add_face(first, {2, 6, 7, 3}, boxes);

@@ -16,7 +16,7 @@ namespace {
 constexpr std::size_t kFirst = 16;  ///< slabs up to where sectors are twice as many for the first time
 /// Sectors per slab of distance: they are a bin wide where they become twice as many.
 constexpr std::size_t kSectorsPerSlab = 2 * Quadrant::kRun;
-constexpr std::size_t kRings = 8;  ///< up to there
+constexpr std::size_t kRings = 8;  ///< how many rings are kept up to there
 static_assert(kFirst % kRings == 0);
 constexpr std::size_t kSectorsPerTask = 64;
 
@@ -47,7 +47,7 @@ void HorizonHierarchy::advance(const Quadrant& quadrant, const Sector::Axis& axi
   }
 }
 
-/// Twice as many sectors, or the first ones.
+/// Makes twice as many sectors, or the first ones.
 void HorizonHierarchy::widen() {
   widest_ = widest_ == 0 ? kFirst : 2 * widest_;
   for (std::vector<float>* const of : {&front_.below, &front_.above}) {
@@ -57,7 +57,7 @@ void HorizonHierarchy::widen() {
   }
 }
 
-/// The first of the front's sectors that lines may lie in, and the end of them: a few more, against rounding.
+/// The first and the end of the front's sectors that lines may lie in, with a few more against rounding.
 std::pair<std::size_t, std::size_t> HorizonHierarchy::sectors() const {
   const auto count = static_cast<double>(front_.below.size());
   const auto at = [&](double slope, double more) {
@@ -68,7 +68,7 @@ std::pair<std::size_t, std::size_t> HorizonHierarchy::sectors() const {
 }
 
 Sector::Horizon HorizonHierarchy::Ring::known(double from, double to) const {
-  // Rounding may make it one sector less: by far less than sectors look at beside them.
+  // Rounding may give a neighbouring sector, but errs by far less than sectors look at beside them.
   const auto sector_at = [&](double slope) {
     const double at = (slope + 1) * static_cast<double>(below.size()) / 2;
     return static_cast<std::ptrdiff_t>(std::clamp(at, 0.0, static_cast<double>(below.size() - 1)));

@@ -1,10 +1,10 @@
 // Bounds below which lines up to an axis are hidden, and above which none is, in all directions of a quadrant and up to
 // distances that double, so that far away sectors need not be looked along from the axis.
 //
-// A sector one bin wide at some distance spans hardly more lines of bins nearer by than one that is one bin wide there.
-// So a fan knows, for every distance, sectors one to two bins wide at their ends, each looked along from where the
-// wider one of half the distance ends: every slab is looked at about twice. It remembers what it knew at eighths of
-// each of these distances.
+// Nearer by, a sector one bin wide at some distance spans hardly more lines of bins than a sector that is one bin wide
+// there. So a fan keeps, for every distance, sectors one to two bins wide at their ends. Each is looked along only from
+// where the wider sector of half the distance ends, so that every slab is looked at about twice. The fan remembers what
+// it knew at eighths of each of these distances.
 #pragma once
 
 #include <cstddef>
@@ -18,17 +18,19 @@ namespace itin::viewshed {
 
 class HorizonHierarchy {
  public:
-  /// Only lines within these slopes that begin up to this slab will be asked about; none if `from` exceeds `to`.
+  /// Promises that only lines within these slopes that begin up to this slab will be asked about; none if `from`
+  /// exceeds `to`.
   void narrow(double from, double to, std::size_t slab = std::numeric_limits<std::size_t>::max()) {
     slopes_ = {from, to};
     farthest_ = from <= to ? slab : 0;
   }
 
-  /// Looks on up to a slab, if it has not come as far yet. Memory: at most 1280 bytes per slab. Uses all threads.
+  /// Looks along the sectors up to a slab, if it has not come that far yet. Memory: at most 1280 bytes per slab. Uses
+  /// all threads.
   void advance(const Quadrant& quadrant, const Sector::Axis& axis, std::size_t slab);
 
-  /// The bound known by now for lines within slopes [from, to] that begin in slab `nearest`: that of the farthest slab
-  /// up to there.
+  /// The bound known by now for lines within slopes [from, to] that begin in slab `nearest`, which is the bound of the
+  /// farthest slab up to there.
   Sector::Horizon known(double from, double to, std::size_t nearest) const;
 
  private:

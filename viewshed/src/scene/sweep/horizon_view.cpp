@@ -11,7 +11,7 @@ HorizonView::HorizonView(const BinBounds& bins, const Axis& axis, double drop, d
   const double bin = bins.bin_size();
   sector_axis_.top = axis.top;
   sector_axis_.drop = drop * bin * bin;
-  // Above all single precision's rounding of heights and of drops.
+  // The margin is above all single precision's rounding of heights and of drops.
   const double greatest =
       bins.greatest_magnitude() + std::abs(axis.top) + 4 * std::abs(drop) * axis.radius * axis.radius;
   sector_axis_.margin = 100 * grazing + greatest * 0x1p-21;
@@ -38,7 +38,7 @@ std::optional<HorizonView::Extent> HorizonView::extent(const Quadrant& quadrant,
   const auto [low, high] = range(quadrant.across(box.west, box.north), quadrant.across(box.east, box.south));
   const double across = std::max({low, -high, 0.0}), nearest = std::max(near, across);
   if (quadrant.slabs() == 0 || far <= 0 || nearest > far) return std::nullopt;
-  // A hair more, against rounding.
+  // The range is a hair wider, against rounding.
   Extent ends{std::max(low / (low < 0 ? nearest : far), -1.0) - 1e-9,
               std::min(high / (high > 0 ? nearest : far), 1.0) + 1e-9, nearest, far, 0};
   const double drop = sector_axis_.drop, farthest = std::max(-low, high);

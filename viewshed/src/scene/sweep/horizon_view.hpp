@@ -5,7 +5,7 @@
 //   view.advance(kInfinity);
 //   if (view.hides(box, highest)) ...           // every target in the box up to that height is hidden
 //
-// It knows of the surface only how low and how high that is within bins, and decides by more than rounding.
+// The view knows only how low and how high the surface is within bins, and decides by more than rounding.
 #pragma once
 
 #include <algorithm>
@@ -21,35 +21,36 @@ namespace itin::viewshed {
 
 class HorizonView {
  public:
-  /// Grid units.
+  /// An axis, in grid units.
   struct Axis {
     double x = 0, y = 0;
-    double base = 0, top = 0;  ///< elevations; what of it is seen below its base does not count
+    double base = 0, top = 0;  ///< elevations; parts that are seen below the base do not count
     double radius = 0;         ///< eyes farther away do not look
   };
-  /// An eye that looks as far as there is surface, but no farther than `radius` grid units.
+  /// The axis of an eye that looks as far as there is surface, but no farther than `radius` grid units.
   static Axis axis_at(const BinBounds& bins, const Point3& eye, double radius) {
     return {eye.x, eye.y, eye.z, eye.z, std::min(radius, bins.farthest_from(eye.x, eye.y) + 1)};
   }
 
-  /// At first it knows of nothing that hides.
+  /// At first the view knows of nothing that hides.
   HorizonView(const BinBounds& bins, const Axis& axis, double drop, double grazing);
 
   /// Whether a box lies within the axis' radius, at least in part.
   bool reaches(const BinBox& box) const;
   /// How far a box is away from the axis, in bins along columns or rows.
   double distance(const BinBox& box) const;
-  /// Ends will be asked about in these boxes only, and near the axis.
+  /// Promises that ends will be asked about in these boxes only, and near the axis.
   void narrow(std::span<const BinBox> boxes);
-  /// Looks on at what hides up to so many bins away along columns and rows; what is farther away will be asked about
-  /// later. Infinity completes it.
+  /// Looks at what hides up to `reach` bins away along columns and rows; ends farther away will be asked about later.
+  /// Infinity completes the view.
   void advance(double reach);
-  /// Whether every end in the box up to an elevation, grid units, is certainly hidden, by what has been looked at.
+  /// Tells whether every end in the box up to an elevation, grid units, is certainly hidden, by what has been looked
+  /// at.
   bool hides(const BinBox& box, double elevation) const;
 
  private:
   friend class RadialSweep;  // decides the lines that the horizon leaves
-  /// Ends within a quadrant: between slopes, and as far along.
+  /// A range of ends within a quadrant: between two slopes, and between two distances along.
   struct Extent {
     double from = 0, to = 0;
     double nearest = 0, farthest = 0;

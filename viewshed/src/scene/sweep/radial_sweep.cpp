@@ -22,10 +22,10 @@ std::size_t number(std::int64_t i) {
 
 }  // namespace
 
-/// One axis and one tile, seen from the axis towards one side at a time.
+/// Judges one axis and one tile, seen from the axis towards one side at a time.
 class RadialSweep::Task {
  public:
-  /// `lowest` is that of Kind::kHeight.
+  /// `lowest` is for Kind::kHeight, and null for others.
   Task(const RadialSweep& sweep, const View& view, Kind kind, const Ends& ends, const Lowest* lowest, Scratch& scratch,
        Heights& heights)
       : sweep_(sweep),
@@ -64,7 +64,7 @@ class RadialSweep::Task {
     if (farthest_ <= 0 || quadrant.slabs() == 0) return;
     auto [from, to] = slopes();
     if (from > to) return;
-    // A hair more, against rounding.
+    // The slopes are a hair wider, against rounding.
     from -= 1e-9, to += 1e-9;
     // Ground before the tile may hide even the highest of its ends.
     if (view_.hides(fan.known(from, to, quadrant.slab_at(nearest_)).hidden,
@@ -72,12 +72,12 @@ class RadialSweep::Task {
       for_each_cell(quadrant, -kInfinity, kInfinity, [&](const Cell& cell) { heights_[cell.index] = kHidden; });
       return;
     }
-    // Sectors one cell wide at the tile's far end.
+    // Sectors are one cell wide at the tile's far end.
     const double width = std::max(1.0, 1 / cells_per_bin_) / farthest_;
     silhouettes_.fill(kNoSilhouette);
     for (std::size_t i = 0; from + static_cast<double>(i) * width <= to; ++i) {
       const Slopes sector{from + static_cast<double>(i) * width, from + static_cast<double>(i + 1) * width};
-      // The outer ones have all that is left: near the axis a cell's slope may err by more than a hair.
+      // The outermost sectors take all cells that are left: near the axis a cell's slope may err by more than a hair.
       sweep(quadrant, fan, sector, {i == 0 ? -kInfinity : sector.from, sector.to > to ? kInfinity : sector.to});
     }
   }
@@ -126,7 +126,7 @@ class RadialSweep::Task {
     return drop > 0 ? drop * (*near_along + *near_across) : drop * (*far_along + *far_across);
   }
 
-  /// Calls visit(cell) for those with slopes in [from, to) whose ends are looked at, nearest first.
+  /// Calls visit(cell) for the cells with slopes in [from, to) whose ends are looked at, nearest first.
   template <class Visit>
   void for_each_cell(const Quadrant& quadrant, double from, double to, const Visit& visit) const {
     const bool columns = quadrant.along_columns(), grows = along_[0] < along_[number(majors_ - 1)];
@@ -259,7 +259,7 @@ class RadialSweep::Task {
   bool clears(const Quadrant& quadrant, std::size_t slab, const Cell& cell, Sight& sight) const {
     const double slope = cell.across / cell.along, minor = quadrant.minor();
     const double drop = view_.sector_axis_.drop * (1 + slope * slope);
-    // How high the line is less what curvature bends within a bin; it rises where the sight is raised.
+    // The height of the line, less what curvature bends within a bin; it rises where the sight is raised.
     const auto height = [&](double along) {
       return sight.at_axis() + sight.slope() * along + drop * along * along - std::max(drop, 0.0) -
              view_.sector_axis_.margin;
@@ -330,7 +330,7 @@ class RadialSweep::Task {
   std::int64_t majors_ = 0, minors_ = 0;
   double highest_ = 0;  ///< the highest of the tile's ends
   double farthest_ = 0, nearest_ = 0, cells_per_bin_ = 1;
-  // The triangles that hid the last eye of this sector, and the last eye as far away.
+  // The triangle that hid the last eye of this sector, and the triangles that hid the last eye at each distance.
   std::uint32_t last_ = kNoSilhouette;
   std::array<std::uint32_t, Tile::kSide> silhouettes_{};
 };

@@ -16,7 +16,7 @@ Quadrant::Quadrant(const BinBounds& bins, double axis_column, double axis_row, S
       minor_(along_columns_ ? axis_row : axis_column),
       first_run_(static_cast<std::int64_t>(std::floor(major_ / static_cast<double>(kRun)))),
       lines_(along_columns_ ? bins.rows() : bins.columns()) {
-  // From an axis beside the bins, those in front of it.
+  // An axis beside the bins begins with the run in front of it.
   first_run_ = outward_ > 0 ? std::max<std::int64_t>(0, first_run_) : std::min(runs_.a_line() - 1, first_run_);
   const double inside = major_ - static_cast<double>(first_run_) * static_cast<double>(kRun);
   first_end_ = outward_ > 0 ? static_cast<double>(kRun) - inside : inside;
@@ -71,7 +71,7 @@ void SectorProfile::survey(const Sector& sector, const Sector::Horizon& known, s
   });
 }
 
-/// Computes the highs of a block's slabs when they are needed: most lines are decided by those before them.
+/// Computes the highs of a block's slabs when they are needed: most lines are decided by the blocks before.
 void SectorProfile::survey_highs(std::size_t block) {
   highs_known_[block] = true;
   block_high_[block] = -kFloatInfinity;

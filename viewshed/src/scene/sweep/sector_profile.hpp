@@ -1,8 +1,8 @@
-// The surface along a narrow sector of the horizon about an upright axis: how low and how high it is from slab to slab,
-// the slabs being one bin wide along the sector's main direction.
+// The surface along a narrow sector of the horizon about an upright axis: how low and how high it is from slab to slab.
+// A slab is one run of bins long, along the sector's main direction.
 //
-// Heights are grid units, lowered by the drop at their distance from the axis: then sight lines to the axis are
-// straight, and two heights that a surface keeps between are all it takes to decide most of them.
+// Heights are grid units, lowered by the drop at their distance from the axis, so that sight lines to the axis are
+// straight. The lowest and the highest height of a slab are all it takes to decide most of them.
 #pragma once
 
 #include <algorithm>
@@ -29,7 +29,7 @@ class Quadrant {
   bool along_columns() const { return along_columns_; }
   double along(double column, double row) const { return ((along_columns_ ? column : row) - major_) * outward_; }
   double across(double column, double row) const { return (along_columns_ ? row : column) - minor_; }
-  /// Column and row.
+  /// The column and the row of a place.
   Point2 position(double along, double across) const {
     const double major = major_ + along * static_cast<double>(outward_), minor = minor_ + across;
     return along_columns_ ? Point2{major, minor} : Point2{minor, major};
@@ -39,7 +39,8 @@ class Quadrant {
   /// where the bins do.
   double begin(std::size_t slab) const { return end(slab) - static_cast<double>(kRun); }
   double end(std::size_t slab) const { return first_end_ + static_cast<double>(slab * kRun); }
-  /// The last one beyond the bins, or the reach. Preconditions: along >= 0, and there are slabs.
+  /// The slab at a distance; the last one for distances beyond the bins, or the reach. Preconditions: along >= 0, and
+  /// there are slabs.
   std::size_t slab_at(double along) const {
     if (along <= first_end_) return 0;
     return std::min(slabs() - 1, static_cast<std::size_t>((along - first_end_) / static_cast<double>(kRun)) + 1);
@@ -52,7 +53,7 @@ class Quadrant {
   double minor() const { return minor_; }
   std::int64_t lines() const { return lines_; }
   static constexpr std::size_t kRun = RunBounds::kRun;
-  /// As RunBounds::Lines has them.
+  /// The bounds of a slab, as RunBounds::Lines has them.
   float low(std::size_t slab, std::int64_t line) const { return runs_.low(run_of(slab), line); }
   float high(std::size_t slab, std::int64_t line) const { return runs_.high(run_of(slab), line); }
   /// The i-th bin of a run, nearest first; it reaches from begin(slab) + i one bin along. May lie just outside all
@@ -101,7 +102,8 @@ class Sector {
   template <class Visit>
   Hidden continue_horizon(Hidden hidden, std::size_t end, const Visit& visit) const;
 
-  /// And of those to the top itself that rise by at least `above` it certainly hides none.
+  /// What is hidden, and what is not: of the lines to the top itself that rise by at least `above`, certainly none is
+  /// hidden by what lies nearer than the slab.
   struct Horizon {
     Hidden hidden;
     double above = -kInfinity;
@@ -113,7 +115,8 @@ class Sector {
   template <class Visit>
   void for_each_slab(std::size_t first, std::size_t end, const Visit& visit) const;
 
-  /// The highest of a slab between two lines, less the drop; grid units. Ground that is bare counts for nothing.
+  /// The greatest height of a slab between two lines of bins, less the drop; grid units. Bare ground counts for
+  /// nothing.
   float highest(std::size_t slab, std::int64_t first, std::int64_t last) const {
     // Rounding is within the margin.
     float high = -kFloatInfinity;
@@ -122,11 +125,11 @@ class Sector {
   }
 
  private:
-  // Within a slab, grid units.
+  // The least and the greatest drop within a slab, grid units.
   double least_drop(std::size_t slab) const;
   double greatest_drop(std::size_t slab) const;
   double drop_at(double along, double squared) const { return axis_.drop * squared * along * along; }
-  /// Past the next slab.
+  /// Takes in the next slab.
   void pass(Hidden& hidden, std::int64_t first, std::int64_t last, bool inside) const;
 
   const Quadrant& quadrant_;
@@ -138,17 +141,17 @@ class Sector {
 /// How low and how high a sector is, slab by slab.
 class SectorProfile {
  public:
-  /// Surveys the slabs before `count`; hidden_below() holds for those from `nearest` on. `known` is of slabs up to
-  /// there. Reuses what memory it has.
+  /// Surveys the slabs before `count`; hidden_below() holds for the slabs from `nearest` on. `known` is the horizon of
+  /// slabs up to there. Reuses the memory that it has.
   void survey(const Sector& sector, const Sector::Horizon& known, std::size_t nearest, std::size_t count);
 
   /// Lines up to the axis' top that rise by less than this outward per bin, and begin in this slab, are certainly
   /// hidden.
   double hidden_below(std::size_t slab) const { return hidden_below_[slab - nearest_]; }
 
-  /// Calls visit(slab) from `last` inwards for every slab that may rise above a line of height line.at_axis() at the
-  /// axis that rises by line.slope() outward per bin; both may change meanwhile, and visit ends the search by returning
-  /// false.
+  /// Calls visit(slab), from `last` inwards, for every slab that may rise above the line. The line's height at the axis
+  /// is line.at_axis(), and it rises by line.slope() outward per bin; both may change meanwhile. visit ends the search
+  /// by returning false.
   template <class Line, class Visit>
   void search(std::size_t last, const Line& line, const Visit& visit);
 
@@ -162,7 +165,7 @@ class SectorProfile {
   std::size_t nearest_ = 0, count_ = 0;
   std::vector<float> high_, group_high_, block_high_;  ///< the highest in a slab, in 8, in 64
   std::vector<bool> highs_known_;                      ///< one for each block of 64
-  std::vector<double> hidden_below_;  ///< entry i: below it what is nearer than slab nearest_ + i hides
+  std::vector<double> hidden_below_;  ///< entry i: lines below it are hidden by what is nearer than slab nearest_ + i
 };
 
 template <class Visit>
@@ -192,7 +195,7 @@ void Sector::for_each_slab(std::size_t first_slab, std::size_t end, const Visit&
 inline void Sector::pass(Hidden& hidden, std::int64_t first, std::int64_t last, bool inside) const {
   const std::size_t k = hidden.slab++;
   float low = inside ? kFloatInfinity : -kFloatInfinity;
-  // Each covers two lines.
+  // Each entry of low() covers two lines.
   const std::int64_t last_pair = std::max(first, last - 1);
   for (std::int64_t line = first + 2; line < last_pair; line += 2) low = std::min(low, quadrant_.low(k, line));
   low = std::min({low, quadrant_.low(k, first), quadrant_.low(k, last_pair)});

@@ -22,7 +22,7 @@ struct SweptEnd {
   double drop = 0;
 };
 
-// Each tells the line that is to be cleared by its height at the axis and its slope, outward per bin.
+// Each class gives the line that is to be cleared by its height at the axis and its slope, outward per bin.
 
 /// The end of a line, raised by every triangle that hides what is lower.
 class RaisedEnd {
@@ -40,7 +40,8 @@ class RaisedEnd {
       : line_(line), highest_(highest), margin_(margin), least_(least) {}
   const SightLine& line() const { return line_; }
 
-  /// Whether the highest can still be seen over this triangle, too. Calls raised() where the least one is higher then.
+  /// Tells whether the highest end can still be seen over this triangle, too. Calls raised() if the least end becomes
+  /// higher.
   template <class Raised>
   bool clears(std::uint32_t triangle, const Corners& corners, const Raised& raised) {
     const auto& [a, b, c] = corners;
@@ -62,7 +63,7 @@ class RaisedEnd {
   std::uint32_t silhouette_ = kNoSilhouette;
 };
 
-/// From an eye to the top of an axis: how far down it is seen.
+/// A line from an eye to the top of an axis: how far down the axis is seen.
 class AxisSight : public RaisedEnd {
  public:
   AxisSight(const SightLine& from_eye, double base, const SweptEnd& eye, double margin)
@@ -83,7 +84,7 @@ class AxisSight : public RaisedEnd {
   double slope_ = 0;
 };
 
-/// From a point to a target: whether it is seen.
+/// A line from a point to a target: whether the target is seen.
 class PointSight {
  public:
   PointSight(const SightLine& to_target, const SweptEnd& target)
@@ -107,12 +108,12 @@ class PointSight {
   std::uint32_t silhouette_ = kNoSilhouette;
 };
 
-/// From a point to what may stand on the ground: how low that is seen.
+/// A line from a point to what may stand on the ground: how low that is seen.
 class HeightSight : public RaisedEnd {
  public:
   struct Range {
     double lowest = 0, highest = 0;
-    double hidden_below = 0;  ///< is known to be hidden
+    double hidden_below = 0;  ///< ends below are known to be hidden
   };
   HeightSight(const SightLine& to_lowest, const Range& range, const SweptEnd& end, double margin)
       : RaisedEnd(to_lowest, std::max(range.lowest, std::min(range.hidden_below, range.highest)), range.highest,

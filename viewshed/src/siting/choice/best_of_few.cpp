@@ -26,14 +26,14 @@ class EveryChoice {
   EveryChoice(const ChoiceProblem& problem, Weight known)
       : problem_(problem), served_(ServedBounds(problem, {}).least), best_value_(known) {}
 
-  /// Empty where none is better than what is known; the first among equals.
+  /// Returns the best choice, the first among equals; empty where none is better than what is known.
   std::vector<std::size_t> best() && {
     extend(0);
     return std::move(best_);
   }
 
  private:
-  /// By options from this one on.
+  /// Extends the choice by options from this one on.
   void extend(std::size_t first) {
     for (std::size_t option = first; option < problem_.options.size(); ++option) {
       if (problem_.place_taken(option, choice_) || !problem_.may_join(option, choice_) ||

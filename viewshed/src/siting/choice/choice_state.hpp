@@ -23,7 +23,7 @@ struct ChoiceRules {
     return !goal.compatible ||
            std::all_of(chosen.begin(), chosen.end(), [&](std::size_t c) { return goal.compatible(option, c); });
   }
-  /// Whether a whole choice is allowed, but for its cost.
+  /// Tells whether a whole choice is allowed, apart from its cost.
   bool holds_together(std::span<const std::size_t> chosen) const;
   double cost_of(std::span<const std::size_t> chosen) const {
     double sum = 0;
@@ -64,7 +64,7 @@ struct ServedBounds {
   void add(const CoverageBounds& bounds) { least.add(bounds.certain), most.add(bounds.possible); }
 };
 
-/// What greedy steps are compared by: a step takes an option, over a network with the relays on its way.
+/// The measure that greedy steps are compared by: a step takes an option, over a network with the relays on its way.
 enum class StepMeasure { kGain, kGainPerSite, kGainPerCost };
 
 /// Adds sites to `chosen` until the goal is reached or nothing is gained: the best by the measure, or the one that adds
@@ -72,12 +72,12 @@ enum class StepMeasure { kGain, kGainPerSite, kGainPerCost };
 void extend_greedily(const ChoiceProblem& problem, StepMeasure measure, std::vector<std::size_t>& chosen,
                      std::vector<std::optional<Margin>>& closest);
 
-/// Exchanges chosen sites for better ones, the best exchange first, until none gains. Returns how many. Every chosen
-/// one must be exact.
+/// Exchanges chosen sites for better ones, the best exchange first, until none gains. Returns the number of exchanges.
+/// Every chosen site must be exact.
 std::size_t swap(const ChoiceProblem& problem, std::vector<std::size_t>& chosen);
 
-/// Looks at every choice within the goal where a count allows few, and puts the best in place of `chosen` where that is
-/// better. Returns whether it is. Every option becomes exact then.
+/// Looks at every choice within the goal where a count allows only few, and puts the best in place of `chosen` where
+/// that is better. Returns whether it is. Every option becomes exact then.
 bool take_best_of_few(const ChoiceProblem& problem, std::vector<std::size_t>& chosen);
 
 /// Leaves out sites, the least useful first, as long as the wanted value is reached without them.
@@ -87,17 +87,17 @@ void drop_needless(const ChoiceProblem& problem, std::vector<std::size_t>& chose
 std::size_t drop_idle(const ChoiceProblem& problem, std::vector<std::size_t>& chosen);
 
 /// Searches for a better choice where the least is wanted, puts it in place of `chosen` where there is one, and returns
-/// a bound on the value of every choice within the goal. Every chosen one must be exact.
+/// a bound on the value of every choice within the goal. Every chosen site must be exact.
 struct LeastProof {
   Weight bound = 0;
-  std::size_t swaps = 0;  ///< that followed
+  std::size_t swaps = 0;  ///< the exchanges that followed
 };
 LeastProof prove_least(const ChoiceProblem& problem, std::vector<std::size_t>& chosen);
 
 /// A bound on the value of every choice of `open` options within the goal, by their gains alone.
 Weight bound_gains(const ChoiceProblem& problem, const std::vector<bool>& open);
 
-/// A bound on the value of every choice within the goal, from those that begin with a prefix of `chosen`.
+/// A bound on the value of every choice within the goal, found from choices that begin with a prefix of `chosen`.
 Weight bound_optimum(const ChoiceProblem& problem, std::span<const std::size_t> chosen);
 
 }  // namespace itin::viewshed

@@ -22,10 +22,10 @@ Weight value_of(const ChoiceProblem& problem, std::span<const std::size_t> chose
 struct Attempt {
   std::vector<std::size_t> chosen;
   std::size_t swaps = 0;
-  std::optional<std::size_t> start{};  ///< what it began with
+  std::optional<std::size_t> start{};  ///< the option that it began with
 };
 
-/// Greedy, and swaps until neither changes anything.
+/// Chooses greedily and swaps, until neither changes anything.
 Attempt attempt(const ChoiceProblem& problem, StepMeasure measure, std::vector<std::optional<Margin>>& closest) {
   Attempt result;
   std::vector<std::size_t>& chosen = result.chosen;
@@ -42,8 +42,9 @@ Attempt attempt(const ChoiceProblem& problem, StepMeasure measure, std::vector<s
   return result;
 }
 
-/// Under a budget by gain per unit of cost and by gain alone, of which the better is within a constant factor of the
-/// best (Khuller, Moss and Naor 1999); over a network also by gain per site, since ways take several.
+/// Returns the measures to try. Under a budget they are gain per unit of cost and gain alone, since the better of the
+/// two choices is within a constant factor of the best (Khuller, Moss and Naor 1999). Over a network gain per site is
+/// tried too, since ways take several sites.
 std::vector<StepMeasure> measures_for(const ChoiceGoal& goal) {
   std::vector<StepMeasure> measures;
   if (goal.budget) measures.push_back(StepMeasure::kGainPerCost);
@@ -52,7 +53,7 @@ std::vector<StepMeasure> measures_for(const ChoiceGoal& goal) {
   return measures;
 }
 
-/// Choices that are left to look among: of options that links may join.
+/// A part of the choices that are left to look among: choices of options that links may join.
 struct Part {
   std::size_t number = 0;
   std::vector<bool> barred;  ///< all the other options
@@ -60,8 +61,8 @@ struct Part {
   std::size_t starts = 1;    ///< how many more attempts begin here
 };
 
-/// Where a hub does not say where a choice begins, the best site by itself may be a dead end: other starts follow, as
-/// long as a choice without the earlier ones can be better.
+/// Attempts from several starts. Where no hub says where a choice begins, the best site by itself may be a dead end:
+/// other starts follow, as long as a choice without the earlier ones can be better.
 class Attempts {
  public:
   Attempts(const ChoiceProblem& problem, std::vector<std::optional<Margin>>& closest)
@@ -130,7 +131,7 @@ class Attempts {
   std::size_t part_ = 0;
 };
 
-/// The order in which they gain most (or add least), each linked with those before it, and what they gain.
+/// Orders sites as they gain most (or add least), each linked with the sites before it, and tells what each gains.
 std::vector<ChosenSite> in_order(const ChoiceProblem& problem, std::vector<std::size_t> rest, bool keep) {
   ServedBounds served(problem, {});
   const Weight existing = served.least.value();
@@ -156,8 +157,8 @@ std::vector<ChosenSite> in_order(const ChoiceProblem& problem, std::vector<std::
   return result;
 }
 
-/// What excludes each other of the options, of which the least can be asked. Throws what check_goal() does of
-/// Objective::kLeast.
+/// Checks that the least can be asked of the options, and returns which of them exclude each other. Throws what
+/// check_goal() throws for Objective::kLeast.
 Conflicts checked_conflicts(const std::vector<SiteOption>& options, const ChoiceGoal& goal) {
   if (!goal.count || goal.budget || goal.wanted || goal.cover != 1 || goal.network || !goal.exact_chosen)
     throw InputError("the least is asked of a `count` of sites alone, whose coverage is exact");
@@ -172,7 +173,7 @@ Conflicts checked_conflicts(const std::vector<SiteOption>& options, const Choice
                                             found, options.size(), conflicts.most())));
 }
 
-/// As check_goal(). Returns the conflicts of Objective::kLeast.
+/// Checks as check_goal() does. Returns the conflicts for Objective::kLeast.
 std::optional<Conflicts> checked(const std::vector<SiteOption>& options, const ChoiceGoal& goal) {
   if (!goal.count && !goal.budget && !goal.wanted)
     throw InputError("the choice has no end: give a count, a budget or a share of the demand");

@@ -9,16 +9,16 @@ namespace itin::viewshed {
 namespace {
 
 constexpr std::size_t kNoGroup = static_cast<std::size_t>(-1);
-/// Pairs of options looked at, over the whole search.
+/// How many pairs of options are looked at, over the whole search.
 constexpr double kPackingWork = 1e8;
 
-/// Closes the option and those that it excludes.
+/// Closes the option and the options that it excludes.
 void leave_out_with(const Conflicts& conflicts, std::size_t option, std::vector<bool>& open) {
   open[option] = false;
   for (const std::size_t other : conflicts.with(option)) open[other] = false;
 }
 
-/// Puts each open option into the first group all of which it excludes. Returns the number of groups.
+/// Puts each open option into the first group whose members it all excludes. Returns the number of groups.
 std::size_t group_open(const Conflicts& conflicts, const std::vector<bool>& open, std::vector<std::size_t>& groups) {
   std::vector<std::vector<std::size_t>> members;
   groups.assign(conflicts.size(), kNoGroup);

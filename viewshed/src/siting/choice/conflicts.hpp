@@ -10,24 +10,24 @@ namespace itin::viewshed {
 
 class Conflicts {
  public:
-  /// Looks for `count` options that can be chosen together: first those that exclude the fewest others, then by branch
-  /// and bound for as long as a second or so. O(n^2) calls of `compatible`.
+  /// Looks for `count` options that can be chosen together: first takes the options that exclude the fewest others,
+  /// then searches by branch and bound for a second or so. O(n^2) calls of `compatible`.
   Conflicts(const ChoiceRules& rules, std::size_t count);
 
   std::size_t size() const { return with_.size(); }
   bool between(std::size_t a, std::size_t b) const { return pairs_[a * size() + b]; }
   /// The options that this one excludes, ascending.
   const std::vector<std::size_t>& with(std::size_t option) const { return with_[option]; }
-  /// Each option's group, any two of which exclude each other.
+  /// The group of each option; any two options of a group exclude each other.
   const std::vector<std::size_t>& groups() const { return groups_; }
 
-  /// As many of the options asked for as were found that can be chosen together.
+  /// Options that can be chosen together: as many as were asked for, or as many as were found.
   const std::vector<std::size_t>& fitting() const { return fitting_; }
-  /// No more can be.
+  /// No more options than this can be chosen together.
   std::size_t most() const { return most_; }
 
-  /// At most `count` of the `open` options that can be chosen together: always the one that excludes the fewest of
-  /// what is left.
+  /// Takes at most `count` of the `open` options that can be chosen together: always the one that excludes the fewest
+  /// of what is left.
   std::vector<std::size_t> pack(std::vector<bool> open, std::size_t count) const;
 
  private:
@@ -42,8 +42,8 @@ class Room {
  public:
   Room(const Conflicts& conflicts, std::size_t count);
 
-  /// Whether as many as are missing can join after the option, which must be compatible with what was taken: certain
-  /// where it says so. Some option always leaves room.
+  /// Tells whether the choice can be filled once this option is taken, which must be compatible with what was taken.
+  /// Certain where the answer is yes. Some option always leaves room.
   bool left_by(std::size_t option);
   void take(std::size_t option);
 

@@ -14,7 +14,7 @@ namespace itin::viewshed {
 
 namespace {
 
-/// Sums stay whole in a double too.
+/// Sums up to this stay whole in a double too.
 constexpr double kGreatestSum = 0x1p53;
 constexpr double kFinestUnit = 0x1p-30;
 

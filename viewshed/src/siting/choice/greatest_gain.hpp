@@ -8,7 +8,7 @@
 namespace itin::viewshed {
 
 struct GreatestGain {
-  Weight sum = 0;        ///< so many sites gain no more: gains only fall as sites are added (submodularity)
+  Weight sum = 0;        ///< `count` sites gain no more than this: gains only fall as sites are added (submodularity)
   std::size_t best = 0;  ///< the option that alone gains most
 };
 
@@ -16,9 +16,9 @@ struct GreatestGain {
 GreatestGain greatest_gain(const ChoiceProblem& problem, const Served& served, const std::vector<bool>& open,
                            std::size_t count, double spent);
 
-/// Branch and bound from the best bound down, for as long as a second or so lasts: a bound on the sum of
-/// min(served, cover) of every choice of `count` sites within the budget, and the optimum itself in small cases.
-/// `known` is the sum that some choice has.
+/// Searches by branch and bound from the best bound down, for a second or so. Returns a bound on the sum of min(served,
+/// cover) of every choice of `count` sites within the budget, and the optimum itself in small cases. `known` is the sum
+/// that some choice has.
 Weight search_optimum(const ChoiceProblem& problem, std::size_t count, Weight known);
 
 }  // namespace itin::viewshed

@@ -12,8 +12,7 @@ namespace itin::viewshed {
 
 namespace {
 
-/// The gain of an option with the relays on its way, by the measure of steps; where the least is wanted, less than
-/// nothing.
+/// The gain of an option with the relays on its way, by the measure of steps; negative where the least is wanted.
 struct Bid {
   std::size_t option = 0;
   double upper = 0;
@@ -116,7 +115,7 @@ class Greedy {
 
   bool joins(const Bid& b) { return problem_.may_join(b.option, chosen_) && (!room_ || room_->left_by(b.option)); }
 
-  /// The option that exact coverage would have chosen; nothing where none gains.
+  /// Returns the option that exact coverage would choose; nothing where none gains.
   std::optional<Bid> best() {
     std::vector<Bid> bids = all_bids();
     for (;;) {
@@ -127,7 +126,7 @@ class Greedy {
       const auto may_join = [&](const Bid& b) { return joins(b); };
       const auto first = std::find_if(order.begin(), order.end(), may_join);
       if (first == order.end()) return std::nullopt;
-      // One whose gain may be nothing is not taken before that is known.
+      // An option whose gain may be nothing is not taken before its gain is known.
       const auto second = std::find_if(first + 1, order.end(), may_join);
       if ((least() || first->lower > 0) && (second == order.end() || first->surely_before(*second))) {
         remember(order, *first);
@@ -137,7 +136,7 @@ class Greedy {
     }
   }
 
-  /// The first of the order and those that may come before it.
+  /// Refines the first of the order and the options that may come before it.
   void refine(std::span<const Bid> order, std::vector<Bid>& bids) {
     std::vector<std::size_t> batch;
     double known = -kInfinity;
@@ -151,14 +150,14 @@ class Greedy {
       for (Bid& b : bids) b = bid(b.option);
       return;
     }
-    // Both are exact: what the chosen ones serve is not.
+    // Both are exact, but what the chosen sites serve is not.
     add_open(chosen_, batch);
     problem_.coverage.refine(batch);
     served_ = ServedBounds(problem_, chosen_);
     bids = all_bids();
   }
 
-  /// Adds those of the options whose bounds are open.
+  /// Adds the options whose bounds are open.
   void add_open(std::span<const std::size_t> options, std::vector<std::size_t>& batch) const {
     for (const std::size_t option : options)
       if (!problem_.coverage.bounds(option).exact && std::find(batch.begin(), batch.end(), option) == batch.end())

@@ -8,7 +8,7 @@ namespace itin::viewshed {
 
 namespace {
 
-/// Classes of the demand looked at, over all searches: a second or so.
+/// How many classes of the demand are looked at, over all searches: a second or so.
 constexpr double kLeastWork = 3e8;
 
 /// What the options serve by themselves, besides existing sites.

@@ -16,7 +16,7 @@ constexpr std::size_t kMostLeastNodes = 5000;
 /// How often shares are raised, and by how much: chosen by trial on simulated viewsheds.
 constexpr int kRootRounds = 40, kRounds = 5;
 constexpr double kRaise = 1.3;
-/// Far beyond what shares differ by, far below what a double holds.
+/// A greatest share far beyond what shares differ by, and far below what a double holds.
 constexpr double kGreatestShare = 1e100;
 
 /// The least whole weight that is not below a sum of payments, whatever its rounding.
@@ -35,7 +35,7 @@ struct LeastNode {
   }
 };
 
-/// The open options that cost least, one of a group.
+/// The open options that cost least, at most one per group.
 template <class Cost>
 struct Cheapest {
   std::vector<std::size_t> taken;  ///< places among the open options, the cheapest first
@@ -95,8 +95,8 @@ class LeastSearch {
   }
 
  private:
-  /// Bounds what the choices of the node serve, and finds where to branch. Returns whether a better one than is known
-  /// may be among them.
+  /// Bounds what the choices of the node serve, and finds where to branch. Returns whether a choice better than what is
+  /// known may be among them.
   bool evaluate(LeastNode& node) {
     OpenChoice& choice = node.choice;
     const std::size_t missing = question_.count - choice.chosen.size();
@@ -133,7 +133,7 @@ class LeastSearch {
     choice.open = std::move(rest);
   }
 
-  /// What the open options serve, after those that serve as much as the limit by themselves are left out.
+  /// Returns what the open options serve, after leaving out those that serve as much as the limit by themselves.
   std::vector<Weight> gains_of(OpenChoice& choice, Weight limit) {
     std::vector<Weight> gains;
     for (const std::size_t option : choice.open) gains.push_back(payments_.gain(option));

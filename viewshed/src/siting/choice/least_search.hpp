@@ -14,13 +14,13 @@ struct LeastQuestion {
   const SharedDemand& demand;
   std::vector<std::size_t> open;  ///< options that may be chosen, ascending
   std::size_t count = 0;
-  Weight known = 0;  ///< that some choice serves: only smaller ones are of interest
+  Weight known = 0;  ///< what some choice serves: only smaller values are of interest
 };
 
 struct LeastAnswer {
   Weight bound = 0;  ///< no choice serves less, unless it serves `known` or more
   std::optional<std::vector<std::size_t>> better{};
-  double work = 0;  ///< done
+  double work = 0;  ///< the work done
 };
 
 /// Ends when the least is found, or once `work` is done. The root is always looked at.

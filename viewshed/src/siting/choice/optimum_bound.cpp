@@ -12,7 +12,7 @@ namespace itin::viewshed {
 
 namespace {
 
-/// By at most this much, since fractions of options count, the sum of gains may be more.
+/// An upper bound on the sum of gains within the budget, in which fractions of options count.
 Weight knapsack(std::vector<std::pair<Weight, double>> gains_and_costs, double budget) {
   std::sort(gains_and_costs.begin(), gains_and_costs.end(), [](const auto& a, const auto& b) {
     return static_cast<double>(a.first) * b.second > static_cast<double>(b.first) * a.second;
@@ -91,7 +91,7 @@ Weight bound_optimum(const ChoiceProblem& problem, std::span<const std::size_t> 
   const auto tighten = [&](Weight most) { bound = std::min(bound, most / cover - existing); };
   for (const std::size_t option : chosen) {
     tighten(sum + greatest_gain(problem, served, open, count, 0).sum);
-    // With open bounds: what may be served counts in the sum, what certainly is leaves nothing to gain.
+    // Bounds may be open: what may be served counts in the sum, and what certainly is served leaves nothing to gain.
     const CoverageBounds& bounds = problem.coverage.bounds(option);
     sum += served.gain(bounds.possible);
     known += served.gain(bounds.certain);

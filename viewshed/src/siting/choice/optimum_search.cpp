@@ -11,7 +11,7 @@ namespace itin::viewshed {
 
 namespace {
 
-/// Words of coverage looked at, over the whole search: a second or so.
+/// How many words of coverage are looked at, over the whole search: a second or so.
 constexpr double kWork = 3e8;
 constexpr std::size_t kMostNodes = 5000;
 
@@ -43,7 +43,7 @@ class Search {
     most_nodes_ = std::min(kMostNodes, static_cast<std::size_t>(kWork / node));
   }
 
-  /// A bound on the sum of min(served, cover); `known` is the sum of a choice at hand.
+  /// Returns a bound on the sum of min(served, cover); `known` is the sum of a choice at hand.
   Weight run(std::size_t count, Weight known) {
     std::priority_queue<Node> open;
     open.push(evaluate({}, {}, count));
@@ -84,7 +84,7 @@ class Search {
   }
 
   const ChoiceProblem& problem_;
-  Served nothing_;  ///< but what existing sites serve
+  Served nothing_;  ///< only what existing sites serve
   Weight existing_ = 0;
   std::size_t most_nodes_ = 0;
 };

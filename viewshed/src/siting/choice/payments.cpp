@@ -28,7 +28,7 @@ Weight Payments::gain(std::size_t option) {
 std::vector<double> Payments::of(const OpenChoice& choice, std::size_t count) {
   std::fill(sums_.begin(), sums_.end(), 0);
   std::fill(payers_.begin(), payers_.end(), 0);
-  // Those of the greatest shares first: a choice brings together no more of them than the first `count`.
+  // The greatest shares come first: a choice brings together no more payers than the first `count`.
   std::vector<std::size_t> order = choice.open;
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return choice.shares[a] > choice.shares[b]; });

@@ -11,7 +11,7 @@ namespace itin::viewshed {
 /// Options among which a choice is to be completed.
 struct OpenChoice {
   std::vector<std::size_t> chosen;
-  std::vector<std::size_t> open;  ///< none of which a chosen one excludes, ascending
+  std::vector<std::size_t> open;  ///< options that no chosen one excludes, ascending
   std::vector<double> shares;     ///< by option: the multipliers u
 };
 
@@ -21,12 +21,12 @@ class Payments {
 
   /// Takes what the chosen ones serve as served. Returns its weight.
   Weight serve(const std::vector<std::size_t>& chosen);
-  /// What an option serves besides.
+  /// Returns what an option serves besides.
   Weight gain(std::size_t option);
-  /// What each open option pays where `count` of them are still to be chosen.
+  /// Returns what each open option pays where `count` of them are still to be chosen.
   std::vector<double> of(const OpenChoice& choice, std::size_t count);
 
-  /// Classes looked at so far.
+  /// How many classes have been looked at so far.
   double work() const { return work_; }
 
  private:

@@ -44,7 +44,7 @@ class Served {
     }
     return sum;
   }
-  /// By how much value() grows where the set is added: the weight of those of its elements that one more site serves.
+  /// How much value() grows if the set is added: the weight of its elements that one more site serves.
   Weight completed_by(const DemandSet& set) const {
     Weight sum = 0;
     for (const DemandSet::Block& block : set.blocks()) {
@@ -55,7 +55,7 @@ class Served {
   }
   /// The gain of several sets together: the sum over elements of as many of them as still help.
   Weight gain(std::span<const DemandSet* const> sets) const;
-  /// Served by enough sites, as elements() are.
+  /// The weight of the elements that enough sites serve, those of elements().
   Weight value() const {
     Weight sum = 0;
     for (std::size_t b = 0; b < enough_.size(); ++b)
@@ -74,7 +74,7 @@ class Served {
   int cover_;
   std::vector<std::uint16_t> counts_;
   std::vector<std::uint64_t> enough_;  ///< elements that `cover` sites serve
-  std::vector<std::uint64_t> nearly_;  ///< elements that one less serves, and those of enough_
+  std::vector<std::uint64_t> nearly_;  ///< elements that one site less serves, and the elements of enough_
 };
 
 }  // namespace itin::viewshed

@@ -6,7 +6,7 @@ namespace itin::viewshed {
 
 namespace {
 
-/// Members of all sets together: four bytes each.
+/// How many members all sets may have together, at four bytes each.
 constexpr std::size_t kMostMembers = std::size_t{1} << 23;
 constexpr std::size_t kNoOption = static_cast<std::size_t>(-1);
 constexpr std::uint32_t kNoClass = 0;
@@ -69,7 +69,7 @@ class Classes {
     });
   }
 
-  /// Numbers the classes anew, for those that were divided into others may have nothing left.
+  /// Numbers the classes anew, since classes that were divided into others may have nothing left.
   void forget_empty() {
     std::vector<std::uint32_t> numbers(parts_.size(), kNoClass);
     std::uint32_t count = kNoClass;
@@ -90,7 +90,7 @@ class Classes {
     return weights;
   }
 
-  /// Leaves classes without weight out.
+  /// Leaves out classes without weight.
   void number_without_gaps(std::vector<Weight>& weights) {
     numbers_.assign(weights.size(), kNoClass);
     std::size_t count = 0;

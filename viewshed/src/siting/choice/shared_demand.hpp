@@ -1,4 +1,4 @@
-// The demand by who serves it: elements that the same options serve are one.
+// The demand by the options that serve it: elements that the same options serve form one class.
 #pragma once
 
 #include <cstdint>
@@ -14,8 +14,8 @@ struct SharedDemand {
   std::vector<std::vector<std::uint32_t>> of_option;
 };
 
-/// The options that are not `open` get no classes. Where all would take too much memory, the last elements are left
-/// out: bounds from below stay true. O(members of the sets).
+/// Divides the demand into classes; options that are not `open` get none. Where all would take too much memory, the
+/// last elements are left out: bounds from below stay true. O(members of the sets).
 SharedDemand shared_demand(const ChoiceProblem& problem, const std::vector<bool>& open);
 
 }  // namespace itin::viewshed

@@ -8,7 +8,7 @@ namespace itin::viewshed {
 
 namespace {
 
-/// An exchange of the chosen site number `out` for option `in`. It betters the choice by as much as this.
+/// An exchange of the chosen site number `out` for option `in`. It betters the choice by `lower` to `upper`.
 struct Exchange {
   std::size_t out = 0;
   std::size_t in = 0;
@@ -26,7 +26,7 @@ std::vector<std::size_t> after(const Exchange& exchange, std::vector<std::size_t
   return chosen;
 }
 
-/// Those that may gain, in order.
+/// Returns the exchanges that may gain, in order.
 std::vector<Exchange> exchanges(const ChoiceProblem& problem, const std::vector<std::size_t>& chosen) {
   const Served all = ServedBounds(problem, chosen).least;
   const bool least = problem.goal.objective == Objective::kLeast;

@@ -25,7 +25,7 @@ void follow_links(LinkNetwork& network, std::size_t source, std::vector<std::siz
       follow(site, other);
       frontier.emplace(length(other), other);
     }
-    // Both are in one order.
+    // Both lists are in the same order.
     auto reached = next.begin();
     std::erase_if(unreached, [&](std::size_t other) {
       if (reached == next.end() || *reached != other) return false;
@@ -41,7 +41,7 @@ std::vector<std::size_t> existing_sites(const LinkNetwork& network) {
   return sites;
 }
 
-/// Whether the source reaches all of the options by them and by existing sites.
+/// Tells whether the source reaches all of the options, by way of these and of existing sites.
 bool all_reached(LinkNetwork& network, std::size_t source, std::span<const std::size_t> options) {
   std::vector<std::size_t> sites = existing_sites(network);
   sites.insert(sites.end(), options.begin(), options.end());
@@ -98,11 +98,11 @@ class WaySearch {
     for (const std::size_t option : chosen_) ways_[option].reset();
   }
 
-  /// On the way to a site, itself if it is to be added.
+  /// The last option on the way to a site, which is the site itself if it is to be added.
   std::optional<std::size_t> last_option(std::size_t site) const {
     return is_free_[site] ? ways_[site]->before : std::optional(site);
   }
-  /// Whether the way that ends with `last` may go on to the option.
+  /// Tells whether the way that ends with `last` may go on to the option.
   bool fits(std::optional<std::size_t> last, const Way& way, std::size_t option) const {
     const bool few = chosen_.size() + way.sites < way_.most_sites;
     const bool cheap = rules_.affordable(spent_ + (way.cost + rules_.options[option].cost));

@@ -17,12 +17,12 @@ struct Way {
   double cost = 0;                      ///< what these cost together
 };
 
-/// To each option that can be added.
+/// The ways to the options that can be added.
 class Ways {
  public:
   explicit Ways(std::vector<std::optional<Way>> ways) : ways_(std::move(ways)) {}
   const std::optional<Way>& operator[](std::size_t option) const { return ways_[option]; }
-  /// The options on the way, from the choice on. Precondition: there is one.
+  /// The options on the way to an option, from the choice on. Precondition: there is a way.
   std::vector<std::size_t> to(std::size_t option) const;
 
  private:
@@ -32,24 +32,26 @@ class Ways {
 struct WayRules {
   std::size_t most_sites = 0;  ///< the choice and the way together have no more
   bool by_cost = false;        ///< the cheapest way, otherwise the one of fewest options
-  /// For bounds: ways lead to every option that any allowed choice may hold besides the given one. They keep within the
-  /// budget if they are by cost, otherwise within the number of sites, and may hold options that exclude each other.
+  /// Whether the ways are for bounds. If so, they lead to every option that any allowed choice may hold besides the
+  /// given one. They keep within the budget if they are by cost, otherwise within the number of sites, and may hold
+  /// options that exclude each other.
   bool relaxed = false;
 };
 
-/// From a connected choice (from the hub where it is empty; without a hub everything may begin), over options that are
-/// not barred. Options that `compatible` forbids are left out only where there is a network.
+/// Finds ways from a connected choice, over options that are not barred. Where the choice is empty, ways begin at the
+/// hub; without a hub any option may begin. Options that `compatible` forbids are left out only where there is a
+/// network.
 Ways ways_to_options(const ChoiceRules& rules, std::span<const std::size_t> chosen, const WayRules& way);
 
-/// What choices of at most `count` sites may hold that hold all of `chosen`.
+/// What choices of at most `count` sites may hold if they hold all of `chosen`.
 struct Extensions {
   std::vector<bool> open;
   std::vector<std::size_t> first;  ///< for each open option what a way to it begins with
 };
 Extensions extensions(const ChoiceRules& rules, std::span<const std::size_t> chosen, std::size_t count);
 
-/// The options that links may ever join in one choice: a set for each connected part. Where there is no network, or a
-/// hub, one set of all.
+/// Returns the options that links may ever join in one choice: a set for each connected part. Where there is no
+/// network, or a hub, it is one set of all.
 std::vector<std::vector<bool>> separate_parts(const ChoiceRules& rules);
 
 }  // namespace itin::viewshed
