@@ -103,7 +103,7 @@ void PolygonSides::for_each_cell(Point2 p, Point2 q, const Visit& visit) const {
   const auto [left, right] = std::minmax(a.x, b.x);
   const std::int64_t last = cell(b.y + 1, rows_);
   for (std::int64_t row = cell(a.y - 1, rows_); row <= last; ++row) {
-    // The columns are those of a piece a step wider than the part of the segment in the row.
+    // The columns are those that the segment's part in the row meets, with a step to spare.
     const auto along = [&](double y) { return b.y > a.y ? std::clamp((y - a.y) / (b.y - a.y), 0.0, 1.0) : 0.0; };
     double from = left, to = right;
     if (b.y > a.y) {

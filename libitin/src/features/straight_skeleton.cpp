@@ -31,7 +31,7 @@ class QuietCgal {
   CGAL::Failure_function error_, warning_;
 };
 
-/// The ring relative to the origin, its first vertex: inexact constructions do best near zero.
+/// The ring relative to the origin, the outline's first vertex: inexact constructions do best near zero.
 Polygon local(const GridRing& ring, Position origin) {
   Polygon polygon;
   for (const Position& p : ring)
