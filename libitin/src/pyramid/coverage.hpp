@@ -24,9 +24,9 @@ std::vector<std::array<double, 4>> gap_bases_of(const std::vector<SourceInfo>& s
 /// The full surface about one tile, and the part of the coverage that the tile's own points have.
 struct TileSurvey {
   /// Every triangle about the tile's points, ground or not; perhaps no triangles where the points are posts of a
-  /// the surface's vertices, where they are a lattice's posts and no lines exist
+  /// lattice.
   RegionMesh surface;
-  std::optional<LatticePosts> posts;    ///< its vertices, where they are those of a lattice, and no lines are there
+  std::optional<LatticePosts> posts;    ///< the surface's vertices, where they are a lattice's posts and no lines exist
   GridBox verge;                        ///< the tile's points and half the fringe seen around them
   std::vector<Candidacy> candidacy;     ///< per vertex: corners of the outline are kCorner, isolated points kNone
   std::vector<Segment> outline;         ///< edges with ground to the left, each in one tile only

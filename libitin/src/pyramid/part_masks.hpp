@@ -12,7 +12,7 @@
 namespace itin {
 
 struct WrittenParts {
-  std::vector<Segment> masked;                     ///< the ones that make way, as FORMAT.md has it in edge trees
+  std::vector<Segment> masked;                     ///< segments that make way, as in parts' edge trees (FORMAT.md)
   std::map<std::uint16_t, PartClusters> clusters;  ///< by number of part
 };
 
