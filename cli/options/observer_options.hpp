@@ -25,8 +25,8 @@ class ObserverOptions {
   bool absolute_heights() const { return absolute_heights_; }
   bool on_surface() const { return observer_on_ == "surface"; }
   const InCrs& in_crs() const { return in_crs_; }
-  /// Returns at least one observer, in the store's CRS. `request` holds what is said of all of them. `warnings` gets one
-  /// where a file's heights are not used. Throws InputError, FileError.
+  /// Returns at least one observer, in the store's CRS. `request` holds what is said of all of them. `warnings` gets a
+  /// line where a file's heights are not used. Throws InputError, FileError.
   std::vector<viewshed::Observer> observers(const StoreMetadata& metadata, const viewshed::Request& request,
                                             std::vector<std::string>& warnings);
   /// The parameters, with the fields that heights and names were taken from; known after observers().
