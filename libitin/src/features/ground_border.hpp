@@ -52,7 +52,7 @@ struct PlacedBorder {
 
 class GroundBorder {
  public:
-  /// Who the owners of lines are.
+  /// The owners of lines.
   struct Owners {
     std::vector<std::uint32_t> theme;  ///< by owner; those after the themes stand on the ground
     std::vector<bool> terrain;         ///< by theme: whether it is part of the full surface

@@ -83,7 +83,7 @@ class StorePass {
   const ImportOptions& options_;
   ImportReport& report_;
   const bool repair_;                ///< whether contours are repaired
-  std::vector<SourceInfo> sources_;  ///< of the new store; the last one stands for inferred points if repair_ is true
+  std::vector<SourceInfo> sources_;  ///< the new store's; the last one stands for inferred points where repair_ is true
   const Sources replacing_;          ///< the sources whose ground lines make room for
   PointIntake points_;
   LineCollection collection_;

@@ -140,8 +140,8 @@ class CellVerification {
   static std::optional<std::uint64_t> first_remedy(const RegionMesh& coarse,
                                                    std::span<const FailingCrossing> crossings) {
     for (const FailingCrossing& c : crossings) {
-      // One vertex is not in the coarse surface yet, or both full triangles would be coarse ones as well, unless lines
-      // differ.
+      // At least one vertex is not in the coarse surface yet, or both full triangles would be coarse ones as well,
+      // unless lines differ.
       const auto v =
           std::find_if(c.vertices.begin(), c.vertices.end(), [&](std::uint64_t code) { return !has(coarse, code); });
       if (v != c.vertices.end()) return *v;

@@ -29,7 +29,7 @@ struct Task {
 
 struct CellOutcome {
   RaisedLevels raised;
-  /// Points of other cells, with levels, that would mend what still fails here. Those cells see the same failure.
+  /// Points of other cells, with levels, that would mend what still fails here. The other cells see this failure, too.
   std::vector<std::pair<std::uint64_t, int>> left_to_others;
   /// Shortcuts that fail where no point would mend that.
   std::vector<LineHierarchy::Shortcut> failing;

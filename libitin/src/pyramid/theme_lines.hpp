@@ -67,7 +67,7 @@ struct PlacedLines {
   std::vector<SegmentFeature> of_features;  ///< features that `terrain` and `features` belong to; ascending
   std::vector<std::uint64_t> feature_ends;  ///< ascending Morton codes: where a theme's line goes on as another feature
   std::vector<Segment> raised;              ///< lines of parts
-  std::vector<Segment> ground;              ///< edges of the full surface about these, at level 0
+  std::vector<Segment> ground;              ///< edges of the full surface about lines of parts, at level 0
   std::vector<std::uint64_t> ends;          ///< ends of `terrain` and `features`, ascending Morton codes
   std::vector<std::uint64_t> on_outline;    ///< the ends that lie on the ground's outline
   std::vector<std::uint64_t> strays;        ///< vertices of terrain lines beyond the ground
@@ -81,7 +81,8 @@ std::vector<Segment> raised_segments(const ThemeLines& lines);
 Segment segment_of(const BorderEdge& border);
 /// The segments that keep the ground about raised features.
 std::vector<Segment> ground_segments(const ThemeLines& lines);
-/// Vertices that this has got from crossing other lines, ascending. They may be vertices of the full surface.
+/// Vertices that lines which keep the ground got from crossing other lines, ascending. They may be vertices of the full
+/// surface.
 std::vector<ThemeVertex> crossings_of_ground(const ThemeLines& lines);
 
 /// Leaves out every segment that is not wholly on the ground of the given sources, whose outline is `outline`.
@@ -90,8 +91,8 @@ PlacedLines place_lines(const ThemeLines& lines, const WorkingIndex& index, cons
                         const Sources& ground, const std::vector<std::array<double, 4>>& gap_bases,
                         const std::vector<Segment>& outline, Progress& progress);
 
-/// The full surface's heights at positions (ascending Morton codes) on the ground that have no vertex of it; those that
-/// have are left out.
+/// The full surface's heights at the positions (ascending Morton codes) on the ground where it has no vertex; positions
+/// where it has one are left out.
 std::vector<GridPoint> drape(const std::vector<std::uint64_t>& codes, const WorkingIndex& index,
                              const std::vector<CurveRange>& tiles, Progress& progress);
 

@@ -18,9 +18,10 @@ namespace itin {
 
 class WholeLattice {
  public:
-  /// Returns all squares that meet the box; touching counts. Returns nothing where anything but these squares meets the
-  /// box, or comes near enough to change them: gaps, other points, lines, or ground that ends elsewhere than all ground
-  /// does. Returns nothing, too, where the fullest leaf at the box has fewer than two columns or rows.
+  /// Returns the lattice of all squares that meet the box; touching counts. Returns nothing where anything but these
+  /// squares meets the box, or comes near enough to change them: gaps, other points, lines, or ground that ends
+  /// elsewhere than all ground does. Returns nothing, too, where the fullest leaf at the box has fewer than two columns
+  /// or rows.
   static std::optional<WholeLattice> about(const PointIndex& index, const GridBox& box);
 
   /// The number of posts each way, two at least. Columns and rows are counted from the lower left post.

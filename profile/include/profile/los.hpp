@@ -169,7 +169,7 @@ struct LosReport : LineFindings {
   std::optional<double> table_spacing_m;
 
   // These are known only for a line over a store:
-  std::vector<SourceInfo> sources;  ///< of the surface under the line, as triangulated along it
+  std::vector<SourceInfo> sources;  ///< the surface's under the line, as triangulated along it
   RetrievalStatistics statistics;
   std::uint64_t triangles = 0;  ///< crossed by the line
 };

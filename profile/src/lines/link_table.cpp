@@ -112,7 +112,7 @@ Columns columns_of(const std::vector<std::string>& names, const std::string& pat
                                  path, fmt::join(missing, ", ")));
   const auto id = id_column(names);
   columns.numbered = columns.named && !id;
-  const std::size_t first = id.value_or(h1.value_or(0));  // h1 besides: any column that is not taken for something else
+  const std::size_t first = id.value_or(h1.value_or(0));  // h1 a second time, so that no other column is taken
   if (columns.written) columns.of = {first, *position1, *position1, *h1, *position2, *position2, *h2};
   if (from && to) columns.of = {first, from->x, from->y, *h1, to->x, to->y, *h2};
   add_further(names, columns);

@@ -29,7 +29,8 @@ class TerrainSource {
   virtual ~TerrainSource() = default;
   /// Streams every point, heights in grid units. Throws FileError, InputError, Cancelled.
   virtual ReadCounts read(const Sink& sink, Progress& progress) = 0;
-  /// Complete (gap_basis, spacing, ...) only after read(); `vertices` is left to the importer.
+  /// The source's information, complete (gap_basis, spacing, ...) only after read(); `vertices` is left to the
+  /// importer.
   virtual SourceInfo info() const = 0;
   /// How much there is to read, in bytes or posts, whatever is at hand; progress is measured by it.
   virtual double size_hint() const = 0;
