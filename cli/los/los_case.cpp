@@ -40,7 +40,7 @@ void add_names(const LosHeader& header, Document& document) {
   if (!header.to_name.empty()) document["to"]["name"] = header.to_name;
 }
 
-/// What the report says of the call.
+/// Adds what the report says about the call.
 void complete(profile::LosReport& report, const LosHeader& header) {
   report.title = header.title;
   report.table_spacing_m = header.table_spacing_m;

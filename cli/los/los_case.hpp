@@ -1,4 +1,4 @@
-// One line of sight worked out: its report, and the document that says the same to machines.
+// One line of sight as computed: its report, and the document that says the same to machines.
 #pragma once
 
 #include <optional>
@@ -19,12 +19,12 @@ struct LosCase {
   Result result;
 };
 
-/// What the reports of all lines of a call begin with.
+/// The data that the reports of all lines of a call begin with.
 struct LosHeader {
   std::string title;
-  std::vector<std::pair<std::string, std::string>> facts = {};  ///< that come first: name, value
-  std::string from_name = {}, to_name = {};                     ///< what the ends are called; may be empty
-  std::optional<double> table_spacing_m = {};                   ///< as LosReport has it
+  std::vector<std::pair<std::string, std::string>> facts = {};  ///< the first facts: name, value
+  std::string from_name = {}, to_name = {};                     ///< names of the ends; may be empty
+  std::optional<double> table_spacing_m = {};                   ///< as in LosReport
 };
 
 /// The case of a profile from a file.

@@ -24,7 +24,7 @@ using profile::Link;
 using profile::LinkResult;
 using profile::LinkTable;
 
-/// The first error in rows that cannot be read, else in links.
+/// The first error: of rows that cannot be read or, if there are none, of links.
 std::string first_error(const LinkTable& table, const std::vector<LinkResult>& results, const StoreMetadata& metadata) {
   if (!table.bad.empty()) return fmt::format("{}: {}", table.bad.front().place, table.bad.front().message);
   const auto first = std::find_if(results.begin(), results.end(), [](const LinkResult& r) { return !r.found; });

@@ -22,19 +22,19 @@ class LosLinks {
   void declare(CLI::App& app);
   bool given() const { return !path_.empty(); }
   const std::vector<std::string>& outputs() const { return outputs_; }
-  /// `object`: what stands at each second end, whose tip is then the height of those that the file does not tell.
-  /// Throws InputError.
+  /// Checks the options. `object` is what stands at each second end; its tip is then the height of second ends for
+  /// which the file gives none. Throws InputError.
   void validate(const std::optional<profile::TallObject>& object);
-  /// Without --links. Throws InputError where an option is given that is of use with it only.
+  /// Requires, for a call without --links, that no option is given that works only with it. Throws InputError.
   void require_none() const;
   Document parameters() const;
-  /// In the store's CRS. Throws FileError, InputError.
+  /// Reads the links, in the store's CRS. Throws FileError, InputError.
   profile::LinkTable table(const Store& store, const LosStoreOptions& surface) const;
 
-  /// What is asked of every link that does not ask for something else itself.
+  /// The query for every link that does not ask for something else itself.
   static profile::LinkQuery query(const profile::LosQuery& line, const LosStoreOptions& surface);
 
-  /// What the page says besides the links.
+  /// The contents of the page besides the links.
   struct Page {
     std::string title;
     std::vector<std::pair<std::string, std::string>> facts;
@@ -43,7 +43,7 @@ class LosLinks {
     Result result;
     std::vector<bool> computed;  ///< for each link, whether it has a verdict
   };
-  /// Writes the outputs. Where a link could not be computed the result says so as its failure. Throws FileError,
+  /// Writes the outputs. Where a link could not be computed, the result's failure says so. Throws FileError,
   /// InputError, CorruptStore, Cancelled.
   Survey run(const Store& store, const profile::LinkTable& table, const profile::LinkQuery& query, const Page& page,
              bool overwrite, Progress& progress) const;

@@ -1,4 +1,4 @@
-// Whose report of a line it is: project, operator, date, and the names of its ends.
+// The people behind a report of a line: project, operator, date, and the names of its ends.
 #pragma once
 
 #include <optional>
@@ -17,13 +17,13 @@ namespace itin::cli {
 class LosPeople {
  public:
   void declare(CLI::App& app);
-  /// Throws InputError: names of ends where a table of links has its own.
+  /// Checks the options. Throws InputError for names of ends where `links` have their own.
   void validate(bool links);
-  /// What the report begins with: name, value.
+  /// The facts that the report begins with: name, value.
   std::vector<std::pair<std::string, std::string>> facts() const;
-  /// The day for which magnetic azimuths are given; nothing where the date is no day.
+  /// The day for which magnetic azimuths are given; nothing where the date is not a day.
   std::optional<CalendarDay> day() const;
-  /// Why there are no magnetic azimuths, where a date is given; else empty.
+  /// The reason why there are no magnetic azimuths for the given date; empty where there are some, or no date is given.
   std::string warning() const;
   const std::string& from_name() const { return from_name_; }
   const std::string& to_name() const { return to_name_; }

@@ -28,7 +28,7 @@ struct Written {
   std::string failure;  ///< why the first report that failed could not be written
 };
 
-/// The first of many, by name, and how many more.
+/// Names the first of many failures, and the number of further ones.
 std::string failure_of(const std::vector<Written>& all) {
   std::size_t failed = 0;
   std::string first;
@@ -81,7 +81,7 @@ void LosReports::validate_links() {
 std::string LosReports::title(const std::string& of) const {
   std::string title = title_.empty() ? "Line-of-sight report" : title_;
   if (!of.empty()) title += ": " + of;
-  // Line ends and the like have no glyphs.
+  // Line ends and other control characters have no glyphs.
   std::replace_if(
       title.begin(), title.end(), [](unsigned char c) { return c < ' '; }, ' ');
   return title;

@@ -27,20 +27,20 @@ class LosReports {
   void validate(bool has_positions);
   /// Checks the options for links, each of which needs a file name of its own. Throws InputError.
   void validate_links();
-  /// The title given, or "Line-of-sight report", of what.
+  /// The title given, or "Line-of-sight report"; then a colon and `of`, if that is not empty.
   std::string title(const std::string& of = {}) const;
-  /// Metres between the rows of the printed profile, as LosReport has it.
+  /// The spacing, in metres, of the rows of the printed profile, as in LosReport.
   const std::optional<double>& table_spacing_m() const { return table_spacing_m_; }
 
-  /// `command`: the verb and its parameters, as documents have them. Throws FileError.
+  /// Writes the report. `command` is the verb and its parameters, as documents have them. Throws FileError.
   void write(const LosCase& one, const Document& command, const std::vector<std::string>& paths, bool overwrite) const;
 
   struct Job {
-    std::size_t link;  ///< its place among the links
+    std::size_t link;  ///< the link's place among all links
     std::vector<std::string> paths;
   };
-  /// One per link, in order. Throws InputError where two files would be one, FileError where one
-  /// cannot be written.
+  /// Returns one job per link, in order. Throws InputError where two files would be one, FileError where one cannot be
+  /// written.
   std::vector<Job> jobs(const std::vector<profile::Link>& links, OutputPolicy& policy) const;
   /// Writes the reports in parallel and lists them in `result`, in the links' order. A report that cannot be written is
   /// not listed, and becomes the result's failure. Throws CorruptStore, Cancelled.

@@ -20,16 +20,17 @@
 
 namespace itin::cli {
 
-/// `--from`, `--to` and how the surface between them is asked for.
+/// The options `--from`, `--to` and those that choose the surface between them.
 class LosStoreOptions {
  public:
   void declare(CLI::App& app);
   bool given() const { return !from_text_.empty() || !to_text_.empty(); }
-  /// Without a store. Throws InputError where one of the options is given.
+  /// Requires, for a call without a store, that none of the options is given. Throws InputError.
   void require_none() const;
-  /// Throws InputError. `object_tip_m`: the height of what stands at --to, where it does not say.
+  /// Checks the options. `object_tip_m` is the height at --to where --to gives none: that of the object there. Throws
+  /// InputError.
   void validate(std::optional<double> object_tip_m);
-  /// For links, which bring their own ends: everything but --from and --to. Throws InputError.
+  /// Checks everything but --from and --to, for links, which bring their own ends. Throws InputError.
   void validate_surface();
   Document surface_parameters() const;
   Detail detail() const { return detail_.detail({}); }
@@ -41,7 +42,7 @@ class LosStoreOptions {
   const std::string& in_crs() const { return in_crs_.crs; }
   Document parameters() const;
 
-  /// In the store's CRS; heights as --absolute-heights says.
+  /// Two ends in the store's CRS; --absolute-heights says what their heights mean.
   struct Ends {
     Point2 from, to;
     double from_height, to_height;
@@ -51,9 +52,9 @@ class LosStoreOptions {
     profile::StoreLine line;
     std::vector<std::string> warnings;
   };
-  /// Completes the query by what the options say, and works out the report. Throws InputError, CorruptStore, FileError.
+  /// Completes the query by the options, and computes the report. Throws InputError, CorruptStore, FileError.
   Result run(const Store& store, profile::LosQuery query) const;
-  /// As above, between other ends.
+  /// Does the same between other ends.
   Result run(const Store& store, profile::LosQuery query, const Ends& ends) const;
 
  private:

@@ -1,4 +1,4 @@
-// How much detail: `--tolerance`, or `--rings` about a centre.
+// The level of detail: `--tolerance`, or `--rings` about a centre.
 #pragma once
 
 #include <optional>
@@ -15,7 +15,8 @@ namespace itin::cli {
 
 class DetailOptions {
  public:
-  /// `rings_about`: where rings lie, such as "the observer". Empty: the verb refuses them, and its help has none.
+  /// `rings_about` says where rings lie, such as "the observer". If it is empty, the verb refuses rings, and its help
+  /// has none.
   void declare(CLI::App& app, const std::string& rings_about);
   /// Throws InputError.
   void validate();

@@ -15,14 +15,14 @@ namespace itin::cli {
 class EarthOptions {
  public:
   void declare(CLI::App& app);
-  /// `--effective-earth-km` besides.
+  /// Declares `--effective-earth-km`, too.
   void declare_radius(CLI::App& app);
   /// Throws InputError.
   void validate();
   const Earth& earth() const { return earth_; }
   /// Whether nothing was said about refraction.
   bool is_default() const { return refraction_text_.empty() && effective_text_.empty() && effective_km_text_.empty(); }
-  /// Where nothing was said about refraction, and radio is asked for.
+  /// Warns where nothing was said about refraction, and radio is asked for.
   void warn_of_light(std::vector<std::string>& warnings) const;
 
  private:

@@ -16,10 +16,10 @@ struct InCrs {
   std::string crs;  ///< empty: the store's
 
   void declare(CLI::App& app);
-  /// For a place that may say its CRS itself.
+  /// The CRS option for a place that may state its CRS itself.
   InCrs of(const Place& place) const { return place.crs.empty() ? *this : InCrs{place.crs}; }
-  /// Takes points to the CRS `wkt`. Throws InputError for an unknown CRS, and when called for a point that has no
-  /// place in it.
+  /// Returns a function that takes points to the CRS `wkt`. Throws InputError for an unknown CRS; the function throws
+  /// it for a point that has no place in that CRS.
   std::function<Point2(Point2)> transform_to(const std::string& wkt) const;
 };
 

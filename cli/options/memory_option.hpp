@@ -1,4 +1,4 @@
-// `--memory SIZE`: what a call may take to work in. The result never depends on it.
+// `--memory SIZE`: the memory that a call may use. The result never depends on it.
 #pragma once
 
 #include <cstdint>
@@ -14,9 +14,9 @@ namespace itin::cli {
 
 class MemoryOption {
  public:
-  /// `help` says what happens where it does not hold all at once, and the default.
+  /// `help` says what happens where not everything fits, and gives the default.
   void declare(CLI::App& app, const std::string& help);
-  /// Nothing where it is not given. Throws InputError.
+  /// The memory; nothing where it is not given. Throws InputError.
   std::optional<std::uint64_t> bytes() const;
 
  private:
@@ -33,9 +33,9 @@ inline constexpr const char* kReadInParts =
     "Memory to work in, for example 2G. Surfaces that exceed it are read in parts, and rasters that do are refused; "
     "the result does not depend on it (default: 1G)";
 
-/// What is kept of a store's blocks: at most a quarter of the memory, where that is bounded.
+/// Returns store options that keep blocks in at most a quarter of the memory, where that is bounded.
 StoreOptions cache_within(std::optional<std::uint64_t> memory_bytes);
-/// What each surface keeps for cross-sections: at most an eighth.
+/// Returns options that keep at most an eighth of the memory for the cross-sections of each surface.
 SectionSurface::Options section_cache_within(std::optional<std::uint64_t> memory_bytes);
 
 }  // namespace itin::cli

@@ -12,7 +12,7 @@ namespace itin::cli {
 class NoDataOption {
  public:
   void declare(CLI::App& app);
-  /// With a help of its own, which says the default.
+  /// Declares the option with a help of its own, which says the default.
   void declare(CLI::App& app, const std::string& help);
   /// Throws InputError.
   NoData rule() const;

@@ -25,13 +25,13 @@ class ObserverOptions {
   bool absolute_heights() const { return absolute_heights_; }
   bool on_surface() const { return observer_on_ == "surface"; }
   const InCrs& in_crs() const { return in_crs_; }
-  /// At least one, in the store's CRS. `request`: what is said of all of them. `warnings` gets one where a file's
-  /// heights are not used. Throws InputError, FileError.
+  /// Returns at least one observer, in the store's CRS. `request` holds what is said of all of them. `warnings` gets a
+  /// line where a file's heights are not used. Throws InputError, FileError.
   std::vector<viewshed::Observer> observers(const StoreMetadata& metadata, const viewshed::Request& request,
                                             std::vector<std::string>& warnings);
-  /// The fields that heights and names were taken from; after observers().
+  /// The parameters, with the fields that heights and names were taken from; known after observers().
   Document parameters() const;
-  /// A line about heights that a file gives unasked; empty where it gives none. After observers().
+  /// A line about heights that a file gives unasked; empty where it gives none. Known after observers().
   std::string text() const;
 
  private:
@@ -47,9 +47,9 @@ class ObserverOptions {
   bool absolute_heights_ = false;
   InCrs in_crs_;
   ViewFields views_;
-  bool took_heights_ = false;  ///< from the usual field, for which the call did not ask
+  bool took_heights_ = false;  ///< from the usual field, which the call did not ask for
 
-  double height_ = 2;  ///< taken for observers that have none of their own
+  double height_ = 2;  ///< for observers that have none of their own
   std::vector<Place> given_;
 };
 

@@ -15,7 +15,7 @@ namespace {
 
 constexpr const char* kLonLat = "EPSG:4326";
 
-/// In the store's CRS; nothing where it has no place in it. Throws InputError for an unknown CRS.
+/// The point in the store's CRS; nothing where it has no place in it. Throws InputError for an unknown CRS.
 std::optional<Point2> transformed(Point2 p, const InCrs& in_crs, const StoreMetadata& metadata) {
   const auto transform = in_crs.transform_to(metadata.crs_wkt);
   try {
@@ -30,7 +30,7 @@ bool within(Point2 p, const InCrs& in_crs, const StoreMetadata& metadata) {
   return place && is_on_the_data(*place, metadata);
 }
 
-/// A place read from a file, as it stands there; where that cannot be told, in the store's CRS.
+/// A place read from a file, as it stands in the file; in the store's CRS where that cannot be told.
 Point2 as_given(Point2 place, const InCrs& in_crs, const StoreMetadata& metadata) {
   if (in_crs.crs.empty()) return place;
   try {

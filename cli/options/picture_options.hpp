@@ -16,14 +16,15 @@ namespace itin::cli {
 
 class PictureOptions {
  public:
-  /// `of` is what it shows: "the surface".
+  /// `of` names what the picture shows: "the surface".
   void declare(CLI::App& app, const std::string& of);
   /// Throws InputError.
   void validate();
 
-  /// Empty where no picture is asked for.
+  /// The picture's file; empty where no picture is asked for.
   const std::string& path() const { return path_; }
-  /// Throws InputError where the eye has no ground below it, and what write_image() throws.
+  /// Draws and writes the picture. Throws InputError where the eye has no ground below it, and what write_image()
+  /// throws.
   void write(const Store& store, const Tin& tin, const Detail& detail, bool overwrite, Progress& progress) const;
 
  private:

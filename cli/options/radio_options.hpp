@@ -19,9 +19,10 @@ class RadioOptions {
   void declare(CLI::App& app);
   /// Throws InputError.
   void validate();
-  /// Throws InputError where a criterion takes a frequency and there is none: links may bring their own.
+  /// Throws InputError where a criterion requires a frequency and none is given. Links may bring their own.
   void require_frequency() const;
-  /// With the effective radius of this Earth; nothing without a frequency. Throws InputError for a flat Earth.
+  /// The radio path, with the effective radius of this Earth; nothing without a frequency. Throws InputError for a flat
+  /// Earth.
   std::optional<RadioPath> radio(const Earth& earth) const { return wave_.path(earth); }
   const std::vector<profile::Criterion>& criteria() const { return criteria_; }
   const std::optional<profile::TallObject>& object() const { return object_; }

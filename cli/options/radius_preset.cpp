@@ -14,7 +14,7 @@ namespace itin::cli {
 
 namespace {
 
-// Facts collected from guidance, not confirmed from the primary text: an assumption, then.
+// These facts were collected from guidance, and not confirmed from the primary text: an assumption, then.
 constexpr const char* kBuiltinSource = "radii by tip height assumed after UK practice";
 
 }  // namespace

@@ -1,4 +1,4 @@
-// How far turbines are looked for, by the height of their tips: `--radius`, `--radius-preset FILE`.
+// The distance up to which turbines are looked for, by the height of their tips: `--radius`, `--radius-preset FILE`.
 #pragma once
 
 #include <limits>
@@ -19,11 +19,11 @@ class RadiusOptions {
   void validate();
   /// Reads the preset's file, where one is given. Throws FileError.
   void load();
-  /// Metres.
+  /// The radius, in metres, for a height of tips.
   double radius(double tip_height) const;
   /// The rule in force, in the form of a preset's file, so that it can be edited and given again.
   Document document() const;
-  /// One sentence.
+  /// Describes the rule in one sentence.
   std::string text() const;
 
  private:

@@ -15,9 +15,9 @@ namespace itin::cli {
 
 class SheetOptions {
  public:
-  /// `--sheets`: every map on every paper.
+  /// Declares `--sheets`: every map on every paper.
   void declare(CLI::App& app);
-  /// `--sheet` and `--paper`: one map in a file of its own.
+  /// Declares `--sheet` and `--paper`: one map in a file of its own.
   void declare_file(CLI::App& app);
   /// Throws InputError.
   void validate();
@@ -29,7 +29,7 @@ class SheetOptions {
   double scale() const { return scale_; }
   const std::string& project() const { return project_; }
   const std::string& date() const { return date_; }
-  /// A picture in place of the shaded relief; empty: none.
+  /// A picture in place of the shaded relief; empty if there is none.
   const std::string& basemap() const { return basemap_; }
 
  private:

@@ -1,4 +1,4 @@
-// How true lengths in a store are, for documents and warnings.
+// Tells how true lengths in a store are, for documents and warnings.
 #pragma once
 
 #include <optional>
@@ -15,10 +15,10 @@ namespace itin::cli {
 /// The scale of the store's CRS over its bounds; nothing where the CRS does not tell.
 std::optional<GridScale> scale_of(const StoreMetadata& metadata);
 
-/// `scale`: `least` and `greatest`, or null.
+/// The document `scale`: `least` and `greatest`, or null.
 Document scale_document(const std::optional<GridScale>& scale);
 
-/// Adds a line where lengths are not true, as in stores made before imports minded it.
+/// Warns where lengths are not true, as in stores from before imports refused that.
 void warn_of_scale(const StoreMetadata& metadata, std::vector<std::string>& warnings);
 
 }  // namespace itin::cli

@@ -11,7 +11,7 @@
 
 namespace itin::cli {
 
-/// `--themes all|none|name,name`: what was imported counts, unless a call leaves it out.
+/// `--themes all|none|name,name`: everything that was imported counts, unless a call leaves it out.
 class ThemeOptions {
  public:
   void declare(CLI::App& app);

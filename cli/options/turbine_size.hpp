@@ -1,4 +1,4 @@
-// `--hub-height`, `--rotor-diameter`, `--tip-height`: how high a turbine is.
+// The size of a turbine: `--hub-height`, `--rotor-diameter`, `--tip-height`.
 #pragma once
 
 #include <optional>
@@ -10,23 +10,24 @@
 
 namespace itin::cli {
 
-/// Metres; two imply the third.
+/// Sizes in metres; two imply the third.
 struct TurbineSize {
   std::optional<double> hub, rotor, tip;
 
-  /// Completes what the other two imply. Throws InputError where the tip stays open, or they contradict each other.
+  /// Completes the size that the other two imply. Throws InputError where the tip stays open, or they contradict each
+  /// other.
   void complete();
 };
 
 class TurbineSizeOptions {
  public:
-  /// `which` says in the help whose these are: "of turbines whose row gives none".
+  /// `which` says in the help which turbines these sizes are for: "of turbines whose row gives none".
   void declare(CLI::App& app, const std::string& which);
   /// Throws InputError.
   void validate();
-  /// As given: not completed.
+  /// The sizes as given, not completed.
   const TurbineSize& size() const { return size_; }
-  /// Throws InputError where the options are not enough, or no turbine can have these.
+  /// The completed sizes. Throws InputError where the options are not enough, or no turbine can have these sizes.
   TurbineSize completed() const;
   Document parameters() const;
 

@@ -26,7 +26,7 @@ void require_view(const viewshed::Observer& observer, const std::string& where) 
     refuse("azimuths", *observer.azimuth, "for the whole circle leave them empty");
 }
 
-/// What a field holds of one observer.
+/// The value of a field for one observer.
 struct FieldValue {
   const std::string& where;
   const std::string& field;
@@ -35,25 +35,25 @@ struct FieldValue {
   [[noreturn]] void refuse(const std::string& expected) const {
     throw InputError(fmt::format("{}: field '{}' holds {:.10g}: expected {}", where, field, value, expected));
   }
-  /// The value, a height or an elevation.
+  /// Returns the value, a height or an elevation, if it is valid.
   double elevation() const {
     require_height(value, fmt::format("{}: field '{}'", where, field));
     return value;
   }
-  /// `metres`, which the value stands for.
+  /// Returns `metres`, which the value stands for, if it is a valid distance.
   double distance(double metres) const {
     if (metres > kFarthest) refuse(fmt::format("at most {:.0f} metres", kFarthest));
     if (metres < 0) refuse("0 or a positive number of metres");
     return metres;
   }
-  /// The value, from -most to most.
+  /// Returns the value if it is from -most to most.
   double angle(int most) const {
     if (std::abs(value) > most) refuse(fmt::format("degrees from {} to {}", -most, most));
     return value;
   }
 };
 
-/// A range of which one end is given is open to the other.
+/// Returns the range, made from `all` if there is none yet: where one end is given, the range is open at the other.
 viewshed::AngleRange& range_of(std::optional<viewshed::AngleRange>& angles, viewshed::AngleRange all) {
   return angles ? *angles : angles.emplace(all);
 }

@@ -1,4 +1,4 @@
-// Fields of a file of observers that say what each of them looks at: named one by one, or as ArcGIS names them.
+// Fields of a file of observers that say what each observer looks at: named one by one, or as ArcGIS names them.
 #pragma once
 
 #include <optional>
@@ -20,14 +20,13 @@ class ViewFields {
   bool given() const { return !fields_.empty() || !text_given().empty(); }
   bool arcgis() const { return arcgis_; }
   bool reads_radii() const { return arcgis_ || !radius_.empty(); }
-  /// The fields to read, in the order that fill() takes them.
+  /// The fields to read, in the order in which fill() takes them.
   std::vector<NumberField> numbers() const;
-  /// Gives the observer what its fields say; it keeps what it has where they are empty. Throws InputError for a value
-  /// out of range, saying `where`, the field and the value.
+  /// Gives the observer the values of its fields; where they are empty it keeps its own. Throws InputError for a value
+  /// out of range, which names `where`, the field and the value.
   void fill(viewshed::Observer& observer, const std::vector<std::optional<double>>& numbers,
             const std::string& where) const;
-  /// Throws InputError, as fill() does, where what the fields hold and what the request says of all observers exclude
-  /// each other.
+  /// Throws InputError, as fill() does, where the fields' values and the request for all observers exclude each other.
   void require_agreement(const viewshed::Observer& observer, const viewshed::Request& request,
                          const std::string& where) const;
 
@@ -49,7 +48,7 @@ class ViewFields {
   };
 
   std::string text_given() const;
-  /// "field 'reach'", or the option where the value is not the observer's own.
+  /// Returns "field 'reach'", or the option where the value is not the observer's own.
   std::string source_of(Role role, bool is_own, const char* option) const;
   void add_pair(const char* option, const std::string& text, Role from, Role to);
 

@@ -12,11 +12,11 @@
 
 namespace itin::cli {
 
-/// The value of --frequency, GHz. Throws InputError.
+/// Reads the value of --frequency, in GHz. Throws InputError.
 double parse_frequency(const std::string& text);
 
-/// The value of --fresnel, the part of the first Fresnel zone's radius that must be clear: above 0, at most 1. Throws
-/// InputError.
+/// Reads the value of --fresnel, the part of the first Fresnel zone's radius that must be clear: above 0, at most 1.
+/// Throws InputError.
 double parse_fresnel(const std::string& text);
 
 /// Throws InputError where rays at a frequency would run over a flat Earth.
@@ -24,14 +24,15 @@ void require_curved(const Earth& earth);
 
 class WaveOptions {
  public:
-  /// `frequency_help` is what the verb does at that frequency.
+  /// `frequency_help` says what the verb does at that frequency.
   void declare(CLI::App& app, const std::string& frequency_help);
   /// Throws InputError.
   void validate();
   bool has_frequency() const { return wave_.has_value(); }
   /// Whether more than a frequency was given.
   bool is_detailed() const { return !polarisation_text_.empty() || !over_sea_text_.empty(); }
-  /// With the effective radius of this Earth; nothing without a frequency. Throws as require_curved() does.
+  /// The radio path, with the effective radius of this Earth; nothing without a frequency. Throws what require_curved()
+  /// throws.
   std::optional<RadioPath> path(const Earth& earth) const;
   Document parameters() const;
 

@@ -25,9 +25,9 @@ class WindowOptions {
     Window window;
     Point2 centre;  ///< for rings: a disc's centre, a wedge's apex, else the middle of the bounds
   };
-  /// In the store's CRS. Throws InputError, FileError.
+  /// The region, in the store's CRS. Throws InputError, FileError.
   Region region(const StoreMetadata& metadata) const;
-  /// The message for a window that holds no ground: where it lies and where the data does.
+  /// The message for a window that holds no ground: it says where the window lies and where the data does.
   std::string no_ground(const StoreMetadata& metadata) const;
   Document parameters() const;
 

@@ -13,10 +13,10 @@ namespace itin::cli {
 
 class FileNames {
  public:
-  /// The name as file_name() has it, with the number behind it where another differs by the case of ASCII letters at
-  /// most.
+  /// Returns the name as file_name() gives it, with the number behind it where another name is the same but for the
+  /// case of ASCII letters.
   std::string add(const std::string& name, std::size_t number);
-  /// Whether no other differs by the case of ASCII letters at most.
+  /// Adds a path, and tells whether no other is the same but for the case of ASCII letters.
   bool insert(const std::string& path);
 
  private:

@@ -1,4 +1,4 @@
-// Observers and masts whose eyes are within what stands on the ground.
+// Finds observers and masts whose eyes are within what stands on the ground.
 #pragma once
 
 #include <string>
@@ -11,9 +11,9 @@
 
 namespace itin::cli {
 
-/// Places of eyes, z is their elevation, over one surface.
+/// Places of eyes over one surface; z is their elevation.
 struct Eyes {
-  std::string what;  ///< one of them: "observer"
+  std::string what;  ///< the name of a single one: "observer"
   std::vector<Point3> places;
   Detail detail;
   ThemeChoice themes;

@@ -18,7 +18,7 @@ namespace itin::cli {
 
 namespace {
 
-constexpr std::int64_t kCoarser = 3;  ///< pixels per side, whose mean contours follow
+constexpr std::int64_t kCoarser = 3;  ///< pixels along the side of a square, whose mean contours follow
 constexpr Rgba kContour{150, 105, 60, 150};
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 
@@ -27,7 +27,7 @@ struct Heights {
   std::vector<float> values;
 };
 
-/// Means of squares of pixels; none where one of them has none.
+/// Returns the means of squares of pixels; none for a square where a pixel has no height.
 Heights smoothed(const viewshed::Relief& ground) {
   const RasterGrid& fine = ground.pixels;
   const std::int64_t columns = std::max<std::int64_t>(1, fine.columns() / kCoarser),
@@ -45,7 +45,7 @@ Heights smoothed(const viewshed::Relief& ground) {
   return result;
 }
 
-/// The least interval usual in maps that draws at most some 16 lines between the lowest and the highest ground.
+/// The least interval usual on maps that draws at most about 16 lines between the lowest and the highest ground.
 double contour_interval(double relief) {
   for (const double interval : {2.0, 5.0, 10.0, 20.0, 25.0, 50.0, 100.0})
     if (relief <= 16 * interval) return interval;
@@ -72,7 +72,7 @@ void add_contours(const Heights& heights, MapBase& base) {
   base.keys.push_back({profile::SheetKey::Sample::kLine, {kContour}, fmt::format("Contours every {:g} m", interval)});
 }
 
-/// Clear where there is no ground.
+/// Shades the ground. Cells without ground are clear.
 profile::SheetCells shaded(const viewshed::Relief& ground) {
   constexpr double kLevelGrey = 226, kContrast = 90;
   profile::SheetCells cells{ground.pixels, std::vector<Rgba>(ground.pixels.cell_count(), kTransparent)};

@@ -1,4 +1,4 @@
-// A folder for outputs that is gone again if none of them came about.
+// A folder for outputs that is removed again if it stays empty.
 #pragma once
 
 #include <filesystem>
@@ -13,14 +13,14 @@ namespace itin::cli {
 
 class NewFolder {
  public:
-  /// Makes it where it is missing. Throws FileError where that fails, or something else has the name.
+  /// Makes the folder where it is missing. Throws FileError where that fails, or something else has the name.
   explicit NewFolder(const std::string& path) {
     std::error_code error;
     if (std::filesystem::create_directory(path, error)) made_.emplace(path, Unfinished::Kind::folder_if_empty);
     if (!std::filesystem::is_directory(path)) throw FileError(path, "the directory cannot be made; name another place");
   }
 
-  /// Whether it was not there before.
+  /// Whether the folder was not there before.
   bool made() const { return made_.has_value(); }
 
  private:

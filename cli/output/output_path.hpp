@@ -10,7 +10,7 @@
 
 namespace itin::cli {
 
-/// `--overwrite`, and what it allows.
+/// The option `--overwrite`, and what it allows.
 class OutputPolicy {
  public:
   bool overwrite = false;
@@ -18,8 +18,8 @@ class OutputPolicy {
   void declare(CLI::App& app);
   /// Throws FileError if `path` exists and may not be replaced, is a directory, or lies where nothing can be written.
   void require_writable(const std::string& path) const;
-  /// As require_writable(), for a file whose name no option gives as it stands. Throws InputError, too, where the call
-  /// reads or writes that file already.
+  /// Does what require_writable() does, for a file whose name no option gives in full. Throws InputError, too, where
+  /// the call reads or writes that file already.
   void claim(const std::string& path);
 
  private:
@@ -33,7 +33,7 @@ bool names_geotiff(const std::string& path);
 /// The QGIS style that is written beside a raster.
 std::string style_beside(const std::string& raster);
 
-/// The name with an underscore for each character that some file systems do not allow.
+/// Returns the name with an underscore for each character that some file systems do not allow.
 std::string file_name(const std::string& name);
 
 }  // namespace itin::cli

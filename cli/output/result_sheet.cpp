@@ -18,7 +18,7 @@ using profile::SheetKey;
 
 constexpr Rgba kNoGroundColour{237, 237, 242, 255}, kFadedColour{255, 255, 255, 153};
 
-/// Without layers, legend and title.
+/// A sheet that has no layers, legend and title yet.
 profile::MapSheet empty_sheet(const Store& store, const ResultSheet& content, profile::PaperSize paper,
                               const SheetOptions& options) {
   profile::MapSheet sheet;
@@ -29,7 +29,7 @@ profile::MapSheet empty_sheet(const Store& store, const ResultSheet& content, pr
 
 struct Beyond {
   std::size_t all = 0;
-  std::vector<std::string> names;  ///< the names of what lies wholly beyond the frame
+  std::vector<std::string> names;  ///< names of objects that lie wholly beyond the frame
 
   void add(const Box& extent, const std::string& name, const Box& frame) {
     ++all;
@@ -61,7 +61,7 @@ void add_objects(const profile::SheetLines& lines, const Box& frame, Beyond& bey
 }
 void add_objects(const profile::SheetCells&, const Box&, Beyond&) {}
 
-/// What a legend adds to a key: "; 2 of 5 beyond the map: 3 Inn, 5 Church".
+/// The text that a legend adds to a key: "; 2 of 5 beyond the map: 3 Inn, 5 Church".
 std::string beyond_the_map(const MapObjects& objects, const SheetKey& key, const Box& frame) {
   constexpr std::size_t kMostNames = 12;
   Beyond beyond;

@@ -17,7 +17,7 @@
 
 namespace itin::cli {
 
-/// Lines or marks, the lowest first, and what stands for them in the legend.
+/// Lines or marks, the lowest first, and their keys in the legend.
 struct MapObjects {
   std::vector<profile::SheetLayer> layers;
   std::vector<profile::SheetKey> keys;
@@ -27,7 +27,8 @@ inline constexpr Rgba kMastColour{213, 94, 0, 255};
 /// Masts or eyes, as all maps mark them.
 MapObjects mast_objects(std::vector<profile::SheetMark> masts, std::string key);
 
-/// Where the map is striped as without ground, and what the legend says of it; both empty: nowhere.
+/// The places where the map is striped as without ground, and what the legend says about them; both empty if there are
+/// none.
 struct MissingOnSheet {
   std::function<bool(Point2)> there;
   std::string text;
@@ -37,43 +38,43 @@ MissingOnSheet missing_on_sheet(viewshed::PlacesWithoutGround places, const view
 
 struct ResultSheet {
   RasterGrid grid;
-  Box area;                             ///< that the map shows at least, metres
+  Box area;                             ///< the least area that the map shows, metres
   viewshed::ResultMap map;              ///< colours and keys of the cells
-  std::string heading;                  ///< heads the map's keys
-  std::function<bool(Point2)> studied;  ///< whether a place is part of the study: the others' relief is faded
+  std::string heading;                  ///< the heading over the map's keys
+  std::function<bool(Point2)> studied;  ///< whether a place is part of the study; elsewhere the relief is faded
   std::vector<MapObjects> objects;      ///< over the cells, the lowest first
-  profile::TitleBlock title;            ///< without what every sheet says: coordinates, project, date, maker
+  profile::TitleBlock title;            ///< without the parts that every sheet has: coordinates, project, date, maker
   MissingOnSheet missing = {};
-  std::string outside = {};  ///< what the legend calls the ground that is faded; empty: nothing
+  std::string outside = {};  ///< the legend's name for faded ground; empty: none
 };
 
-/// Holds in the grid's cells of which `studied` holds.
+/// Returns a test that holds in the grid's cells for which `studied` holds.
 std::function<bool(Point2)> in_cells(const RasterGrid& grid, std::function<bool(std::size_t)> studied);
 
-/// What screens on a map of a surface of this detail, and what does not.
+/// Says what screens on a map of a surface of this detail, and what does not.
 std::string statement_of(const StoreMetadata& metadata, const ThemeChoice& themes, const Detail& detail);
 
-/// The fact of how exact a map's surface is.
+/// The fact that says how exact a map's surface is.
 std::pair<std::string, std::string> terrain_fact(const StoreMetadata& metadata, const Detail& detail);
 
 /// The base faded outside the study, and striped where the study has no ground.
 MapBase fitted(MapBase base, const ResultSheet& content);
 
-/// What lies below a result's map on this paper. Results of one area and study may share it. Throws
-/// FileError (a basemap), InputError (a scale that is too large), Cancelled.
+/// Makes the base of a result's map on this paper. Results of one area and study may share it. Throws FileError (a
+/// basemap), InputError (a scale that is too large), Cancelled.
 MapBase base_of(const Store& store, const ResultSheet& content, profile::PaperSize paper, const SheetOptions& options,
                 Progress& progress);
 
-/// All that is drawn over such a base, the base lowest, and its legend.
+/// All layers of the result's map, the base lowest.
 std::vector<profile::SheetLayer> layers_of(const MapBase& base, const ResultSheet& content);
-/// It says which objects lie beyond the frame, on the ground.
+/// The legend. It says which objects lie beyond the frame, given as a box of ground.
 std::vector<profile::SheetKey> keys_of(const MapBase& base, const ResultSheet& content, const Box& frame);
 
-/// The sheet, for profile::draw_map_sheet().
+/// Makes the sheet, for profile::draw_map_sheet().
 profile::MapSheet map_sheet(const Store& store, const ResultSheet& content, const MapBase& base,
                             profile::PaperSize paper, const SheetOptions& options);
 
-/// The bytes of a .pdf or .png, by the ending of `name`. Throws as base_of() does.
+/// Returns the bytes of a .pdf or .png, by the ending of `name`. Throws what base_of() throws.
 std::string draw_result_sheet(const Store& store, const ResultSheet& content, profile::PaperSize paper,
                               const SheetOptions& options, const std::string& name, Progress& progress);
 

@@ -1,4 +1,4 @@
-// What files of triangles, lines and topologies say besides these.
+// What files of triangles, lines and topologies say besides their geometry.
 #pragma once
 
 #include <itin/document.hpp>

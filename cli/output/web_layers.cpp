@@ -20,7 +20,7 @@ constexpr SvgPrecision kTenthOfAPixel{.tolerance = 1, .step = 1};
 constexpr double kPixelsPerMillimetre = 96 / 25.4, kMarkPixels = 14;
 constexpr Rgba kNoGround{237, 237, 242, 255};
 
-/// The cells themselves, or where they are many, those at the centres of as many pixels as a page shows.
+/// Returns the cells themselves or, where they are many, the cells at the centres of as many pixels as a page shows.
 profile::SheetCells few_enough(const profile::SheetCells& cells) {
   const std::int64_t longer = std::max(cells.grid.columns(), cells.grid.rows());
   if (longer <= kWebMostCells) return cells;
@@ -47,7 +47,7 @@ std::string embedded(const RasterGrid& grid, const std::vector<std::uint8_t>& sa
                      base64(viewshed::picture_bytes(picture, "map." + type, kJpegQuality)));
 }
 
-/// In grey where the ground is relief.
+/// Makes an opaque picture, in grey where the ground is relief.
 std::string opaque_picture(const profile::SheetCells& cells) {
   std::vector<std::uint8_t> grey, colours;
   bool coloured = false;

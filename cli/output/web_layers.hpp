@@ -1,5 +1,5 @@
-// Layers of a map as parts of an SVG whose places are percentages of its size: pictures and lines are stretched with
-// it, marks and letters are not.
+// Draws layers of a map as parts of an SVG whose places are percentages of its size: pictures and lines are stretched
+// with the SVG, marks and letters are not.
 //
 //   std::string svg = web_layer(frame, layer, WebPicture::kCells);
 #pragma once
@@ -11,22 +11,23 @@
 
 namespace itin::cli {
 
-/// The pixels of a picture's longer side: of the ground, and at most of cells.
+/// The pixels of a picture's longer side: of the ground's, and the most of cells'.
 inline constexpr int kWebGroundPixels = 1000, kWebMostCells = 1200;
 
-/// How cells are kept: the ground's as a JPEG, which is opaque, others as a PNG with alpha, whose edges stay sharp.
+/// The format of cells. The ground becomes a JPEG, which is opaque; others become a PNG with alpha, whose edges stay
+/// sharp.
 enum class WebPicture { kGround, kCells };
 
-/// What a layer shows of a frame, without the labels of marks. Throws FileError where a picture cannot be made.
+/// Draws what a layer shows of a frame, without the labels of marks. Throws FileError where a picture cannot be made.
 std::string web_layer(const Box& frame, const profile::SheetLayer& layer, WebPicture picture);
 
-/// A mark about the origin of an SVG.
+/// Draws a mark about the origin of an SVG.
 std::string web_mark(profile::SheetSymbol symbol, const Rgba& colour);
 
-/// "#d55e00"
+/// Writes a colour: "#d55e00".
 std::string web_colour(const Rgba& colour);
 
-/// A share, 0 to 1: "23.40%".
+/// Writes a share from 0 to 1: "23.40%".
 std::string web_percent(double share);
 
 }  // namespace itin::cli

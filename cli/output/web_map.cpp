@@ -29,7 +29,7 @@ namespace {
 using profile::SheetKey;
 using profile::SheetMark;
 
-constexpr double kPageWidth = 990, kPhoneWidth = 358;  ///< how wide a map is, pixels
+constexpr double kPageWidth = 990, kPhoneWidth = 358;  ///< the widths of a map, pixels
 constexpr double kLetterWidth = 7.2, kLetterHeight = 14, kBeside = 10;
 
 RasterGrid ground_pixels(const Box& frame) {
@@ -43,17 +43,17 @@ RasterGrid ground_pixels(const Box& frame) {
           rows};
 }
 
-/// The labels of marks, beside them and none over another; on a phone, where there is less room, fewer.
+/// The labels of marks, beside them and none over another. There are fewer on a phone, which has less room.
 class WebLabels {
  public:
   WebLabels(const Box& frame, const std::vector<profile::SheetLayer>& layers) : frame_(frame) {
-    // What is drawn last matters most.
+    // Layers that are drawn last matter most.
     for (std::size_t i = layers.size(); i-- > 0;)
       if (const auto* some = std::get_if<profile::SheetMarks>(&layers[i]))
         for (const SheetMark& mark : some->marks) marks_.push_back(&mark);
   }
 
-  /// A phrase about names that have no room even on a page; empty where all have.
+  /// A phrase about names that have no room even on a page; empty where all names have room.
   std::string left_out() const {
     const auto names = static_cast<std::size_t>(
         std::count_if(marks_.begin(), marks_.end(), [](const SheetMark* mark) { return !mark->label.empty(); }));
@@ -105,7 +105,7 @@ class WebLabels {
   std::vector<const SheetMark*> marks_;
 };
 
-/// Over level ground.
+/// Draws a patch of the legend, over level ground.
 std::string patch_svg(const std::vector<Rgba>& colours) {
   constexpr double kWidth = 23;
   std::string svg = fmt::format("<rect x=\".5\" y=\".5\" width=\"{}\" height=\"15\" fill=\"#d6d6d6\"/>", kWidth);

@@ -32,7 +32,7 @@ namespace itin::cli {
 
 namespace {
 
-/// Appends what lies beyond a corner of the path; the corner itself is there already.
+/// Appends the part of the path beyond a corner; the corner itself is in `whole` already.
 void append(profile::Profile& whole, const profile::Profile& part) {
   for (const profile::ProfilePoint& p : part.points) {
     profile::ProfilePoint moved = p;

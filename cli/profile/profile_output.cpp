@@ -41,7 +41,7 @@ std::string csv(const std::vector<SurfaceProfile>& profiles, const StoreMetadata
   return text;
 }
 
-/// Lines over ground without gap, of one theme; what is a single point is left out.
+/// Lines over ground without gaps, of one theme; single points are left out.
 Document lines_of(const Profile& profile, std::uint16_t theme) {
   const auto place = [&](std::size_t i) {
     const ProfilePoint& p = profile.points[i];
@@ -58,7 +58,7 @@ Document lines_of(const Profile& profile, std::uint16_t theme) {
   return lines;
 }
 
-/// The terrain, and those that the profile meets.
+/// The terrain, and the themes that the profile meets.
 std::set<std::uint16_t> themes_of(const Profile& profile) {
   std::set<std::uint16_t> themes{0};
   for (const ProfilePoint& p : profile.points) themes.insert(p.theme);

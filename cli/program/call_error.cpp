@@ -22,8 +22,8 @@ std::vector<std::string> option_names(const CLI::App& verb) {
   return names;
 }
 
-/// The message about arguments that no option or place in the call takes. A misspelt option comes first: what follows
-/// it is often its value.
+/// The message about arguments that no option or place in the call takes. A misspelt option comes first, for the
+/// argument that follows it is often its value.
 std::string unexpected(const CLI::App& verb, const std::vector<std::string>& arguments) {
   const auto option = std::find_if(arguments.begin(), arguments.end(), is_option);
   if (option == arguments.end())
@@ -36,7 +36,7 @@ std::string named(const CLI::Option& option) {
   return option.get_positional() ? option.get_name() : option.get_name() + " " + option.get_type_name();
 }
 
-/// The options that are required and not given.
+/// The options that are required but not given.
 std::vector<std::string> missing(const CLI::App& verb) {
   std::vector<std::string> names;
   for (const CLI::Option* option : verb.get_options())
@@ -44,7 +44,7 @@ std::vector<std::string> missing(const CLI::App& verb) {
   return names;
 }
 
-/// An option whose values are too many, or one without the value it takes.
+/// The message about an option with too many values, or without the value it takes.
 std::string mismatch(const CLI::App& verb, const CLI::ParseError& error) {
   for (const CLI::Option* option : verb.get_options()) {
     const auto most = static_cast<std::size_t>(option->get_items_expected_max());
@@ -58,7 +58,7 @@ std::string mismatch(const CLI::App& verb, const CLI::ParseError& error) {
   return fmt::format("{} has no value; give {}", option->get_name(), named(*option));
 }
 
-/// A flag with something other than a truth behind its equals sign.
+/// The message about a flag with something other than a truth behind its equals sign.
 std::string bad_flag(const CLI::App& verb) {
   for (const CLI::Option* option : verb.get_options())
     if (option->get_items_expected_max() == 0 && option->count() > 0 && option->results().back() != "true")

@@ -1,4 +1,4 @@
-// Messages about calls that cannot be parsed, in our own words: CLI11's are for its callers.
+// Writes messages about calls that cannot be parsed, in our own words, for CLI11's are for its callers.
 #pragma once
 
 #include <string>
@@ -7,10 +7,10 @@
 
 namespace itin::cli {
 
-/// One line, without the way to the help. `verb` is the one whose options were being parsed.
+/// Returns one line, without the advice to see the help. `verb` is the one whose options were being parsed.
 std::string call_error(const CLI::App& verb, const CLI::ParseError& error);
 
-/// The message about a lack of memory. It names the verb's options that reduce how much is worked on at once.
+/// The message about a lack of memory. It names the verb's options that reduce the work done at once.
 std::string out_of_memory(const CLI::App& verb);
 
 }  // namespace itin::cli

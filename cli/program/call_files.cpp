@@ -20,7 +20,8 @@ constexpr const char* kReads = "reads";
 constexpr const char* kWrites = "writes";
 constexpr const char* kReplaces = "replaces";
 
-/// CLI11 keeps no notes of its callers' but the names of validators; this one lets everything pass.
+/// Marks an option with a role. CLI11 keeps no notes of its callers except the names of validators; this one lets
+/// everything pass.
 CLI::Option* marked(CLI::Option* option, const char* role) {
   return option->check(CLI::Validator().name(role));
 }
@@ -42,14 +43,14 @@ bool names_files(const CLI::Option& option) {
                      [&](const char* name) { return type.find(name) != std::string::npos; });
 }
 
-/// The place of a name with all links followed.
+/// The place of a path with all links followed.
 std::string place_of(const std::string& path) {
   std::error_code unknown;
   const fs::path place = fs::weakly_canonical(fs::absolute(path, unknown), unknown);
   return unknown ? path : place.string();
 }
 
-/// An identity that all names of one file share, be it there or to come.
+/// An identity that all names of one file share, whether the file exists or is to come.
 std::string identity(const std::string& path) {
   struct stat status = {};
   if (::stat(path.c_str(), &status) == 0) return fmt::format("{}:{}", status.st_dev, status.st_ino);
@@ -66,7 +67,7 @@ bool lies_within(const fs::path& file, const fs::path& folder) {
   return end == folder.end();
 }
 
-/// The files that are read where one is named: itself, and those that a virtual one stands for.
+/// The files that are read where one is named: the file itself and, for a virtual one, the files behind it.
 std::vector<std::string> read_for(const std::string& path) {
   std::vector<std::string> files{path};
   if (!path.ends_with(".vrt")) return files;
@@ -75,7 +76,7 @@ std::vector<std::string> read_for(const std::string& path) {
   return files;
 }
 
-/// A sidecar that goes with its raster where that is replaced.
+/// A sidecar, which goes with its raster where the raster is replaced.
 std::string sidecar(const std::string& path) {
   return path + ".aux.xml";
 }

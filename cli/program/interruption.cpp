@@ -17,19 +17,19 @@ namespace itin::cli {
 
 namespace {
 
-/// When the first signal came, in milliseconds of the monotonic clock; 0 before it.
+/// The time of the first signal, in milliseconds of the monotonic clock; 0 before it.
 std::atomic<long long> first_signal{0};
 static_assert(std::atomic<long long>::is_always_lock_free, "a signal handler may only touch lock-free atomics");
 /// Posted when first_signal is set.
 sem_t signalled;
-/// Set by the thread that ends the program, be it by itself or not.
+/// Set by the thread that ends the program, whether by itself or not.
 std::atomic<bool> ending{false};
 
-/// The time that a call has to stop and clean up. Less than a second, for the system takes back gigabytes no faster
-/// than that.
+/// The time that a call has to stop and clean up. It is less than a second, for the system takes about that long to
+/// take back gigabytes.
 constexpr std::chrono::milliseconds kTimeToStop{750};
-/// timeout(1) and terminals tell the process and then its group: repetitions within this time are no second
-/// interruption.
+/// The milliseconds within which repeated signals are not a second interruption: timeout(1) and terminals tell the
+/// process and then its group.
 constexpr long long kPatience = 1000;
 
 extern "C" void note_interruption(int) {
@@ -44,7 +44,8 @@ extern "C" void note_interruption(int) {
   }
 }
 
-/// Not by a stream: the thread that holds its lock may be the one that does not stop.
+/// Says that the program was interrupted, but not by a stream: the thread that holds its lock may be the one that does
+/// not stop.
 void say_interrupted() {
   const std::string wipe_progress = isatty(STDERR_FILENO) != 0 ? "\r\x1b[K" : "";
   const std::string line = wipe_progress + "itin: error: " + Cancelled().what() + "\n";
@@ -68,14 +69,14 @@ void catch_interruptions() {
   try {
     std::thread(end_what_does_not_stop).detach();
   } catch (const std::system_error&) {
-    // As the header says.
+    // The header says what happens without this thread.
   }
   struct sigaction action {};
   action.sa_handler = note_interruption;
-  // Restart system calls: a write that fails with EINTR would look like a full disk.
+  // System calls are restarted: a write that fails with EINTR would look like a full disk.
   action.sa_flags = SA_RESTART;
   for (const int signal : {SIGINT, SIGTERM}) sigaction(signal, &action, nullptr);
-  // Whoever started us under nohup means us to outlive the terminal.
+  // Whoever started the program under nohup wants it to outlive the terminal.
   struct sigaction hangup {};
   sigaction(SIGHUP, nullptr, &hangup);
   if (hangup.sa_handler != SIG_IGN) sigaction(SIGHUP, &action, nullptr);

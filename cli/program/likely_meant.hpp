@@ -1,4 +1,4 @@
-// The name that somebody meant who misspelt one.
+// Finds the name that a misspelt one was meant to be.
 #pragma once
 
 #include <optional>
@@ -8,11 +8,11 @@
 
 namespace itin::cli {
 
-/// The name that is nearest to `given` in letters left out, added, exchanged or swapped with their neighbour, or that
-/// `given` begins; nothing where none is near. The first of several. O(length^2) per name.
+/// Returns the name that is nearest to `given` in letters left out, added, exchanged or swapped with their neighbour,
+/// or that `given` begins; nothing where none is near. Among several it is the first. O(length^2) per name.
 std::optional<std::string> likely_meant(std::string_view given, const std::vector<std::string>& names);
 
-/// "; did you mean NAME?", or nothing.
+/// Returns "; did you mean NAME?", or an empty text.
 std::string did_you_mean(std::string_view given, const std::vector<std::string>& names);
 
 }  // namespace itin::cli

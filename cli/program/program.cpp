@@ -68,7 +68,7 @@ std::vector<std::unique_ptr<Verb>> make_verbs() {
   return verbs;
 }
 
-/// CLI11 would call an unknown verb an unexpected argument.
+/// Throws InputError for an unknown verb, which CLI11 would call an unexpected argument.
 void require_known_verb(const std::vector<std::string>& arguments, const std::vector<std::unique_ptr<Verb>>& verbs) {
   std::vector<std::string> names;
   for (const auto& verb : verbs) names.push_back(verb->name());
@@ -81,8 +81,8 @@ void require_known_verb(const std::vector<std::string>& arguments, const std::ve
   }
 }
 
-/// `--observer 1,2,3 4,5,6` means what `--observer 1,2,3 --observer 4,5,6` does. Left to CLI11, an option with any
-/// number of values would swallow the arguments behind it and stop at a negative number.
+/// Repeats the option, since `--observer 1,2,3 4,5,6` means what `--observer 1,2,3 --observer 4,5,6` does. CLI11 by
+/// itself would let an option with any number of values swallow the arguments behind it and stop at a negative number.
 std::vector<std::string> repeat_observer(const std::vector<std::string>& arguments) {
   const std::string option = "--observer";
   std::vector<std::string> repeated;
@@ -120,7 +120,7 @@ void print(const std::string& text) {
   if (!std::cout) throw FileError("standard output", "could not be written; check the disk or pipe behind it");
 }
 
-/// Refuses an empty value, which an unset variable of a script gives: it must not silently mean the default.
+/// Refuses an empty value, which an unset variable of a script gives; it must not silently mean the default.
 void require_values(const CLI::App& verb) {
   for (const CLI::Option* option : verb.get_options()) {
     const std::vector<std::string>& values = option->results();
@@ -133,7 +133,7 @@ void run_verb(Verb& verb, CLI::App& options, const Everywhere& everywhere) {
   const auto start = std::chrono::steady_clock::now();
   verb.complete();
   require_values(options);
-  static_cast<void>(CallFiles(options));  // throws where one of them would be lost
+  static_cast<void>(CallFiles(options));  // throws where a file would be lost
   everywhere.apply();
   verb.validate();
   require_threads();

@@ -3,7 +3,8 @@
 
 namespace itin::cli {
 
-/// 0 done; 1 it could not be done; 2 the call or its input is wrong; 130 interrupted. Never throws.
+/// Runs the program. Returns 0: done; 1: it could not be done; 2: the call or its input is wrong; 130: interrupted.
+/// Never throws.
 int run(int argc, char** argv);
 
 }  // namespace itin::cli

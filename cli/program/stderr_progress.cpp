@@ -33,7 +33,7 @@ StderrProgress::~StderrProgress() {
 
 void StderrProgress::report(std::string_view stage, double reported) {
   if (style_ == Style::kSilent) return;
-  // Workers must not queue up here: whoever finds the line busy has nothing urgent to say.
+  // Workers must not queue up here: a worker that finds the line busy has nothing urgent to say.
   const std::unique_lock lock(mutex_, std::try_to_lock);
   if (!lock.owns_lock()) return;
   const auto now = Clock::now();

@@ -26,7 +26,7 @@ class StderrProgress final : public Progress {
 
   void report(std::string_view stage, double fraction) override;
   bool cancelled() const override;
-  /// Wipes the line, so that what is printed next starts at its beginning. Called again at destruction.
+  /// Wipes the line, so that the next output starts at its beginning. The destructor calls it, too.
   void clear();
 
  private:

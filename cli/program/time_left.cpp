@@ -8,7 +8,8 @@ namespace itin::cli {
 
 namespace {
 
-/// Too early to estimate: the first twentieth of a call may run many times faster or slower than the rest.
+/// Limits below which it is too early to estimate: the first twentieth of a call may run many times faster or slower
+/// than the rest.
 constexpr double kLeastDone = 0.05;
 constexpr std::chrono::seconds kLeastTime{2};
 

@@ -1,4 +1,4 @@
-// How long a call will go on, from how it has gone so far.
+// Estimates how long a call will go on, from how it has gone so far.
 #pragma once
 
 #include <chrono>
@@ -11,20 +11,20 @@ class TimeLeft {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// The time left for a call of which `fraction` is done `now`. Nothing until enough is done to tell. A fraction that
-  /// falls back is another call's.
+  /// Returns the time left for a call of which `fraction` is done `now`; nothing until enough is done to tell. A
+  /// fraction that falls back begins another call.
   std::optional<std::chrono::seconds> after(double fraction, Clock::time_point now);
 
  private:
   struct Call {
     Clock::time_point begun;
-    double first = 0;  ///< the fraction then
+    double first = 0;  ///< the fraction at that time
     double last = 0;
   };
   std::optional<Call> call_;
 };
 
-/// "12 s", "3 min", "1 h 20 min": no finer than the estimate is good for.
+/// Writes a duration: "12 s", "3 min", "1 h 20 min". It is no more precise than the estimate.
 std::string about(std::chrono::seconds duration);
 
 }  // namespace itin::cli

@@ -8,7 +8,8 @@
 
 namespace itin::cli {
 
-/// Throws InputError where one of `options` is given: its name, and `why` it is of no use ("works only with a STORE").
+/// Throws InputError where one of `options` is given. It names the option, and says `why` that is of no use ("works
+/// only with a STORE").
 void require_not_given(const CLI::App& app, std::initializer_list<const char*> options, std::string_view why);
 
 }  // namespace itin::cli

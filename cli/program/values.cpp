@@ -18,7 +18,8 @@ namespace {
   throw InputError(fmt::format("{} '{}': {}", option, text, expected));
 }
 
-/// std::from_chars ignores the locale, but accepts no leading plus sign, and accepts inf and nan.
+/// Reads a number that is the whole text. std::from_chars ignores the locale, but accepts no leading plus sign, and
+/// accepts inf and nan.
 template <typename Number>
 std::optional<Number> whole_text_as(std::string_view text) {
   if (text.size() > 1 && text.front() == '+' && text[1] != '-') text.remove_prefix(1);
@@ -176,7 +177,7 @@ std::vector<Ring> parse_rings(std::string_view option, std::string_view text) {
 
 namespace {
 
-/// A position that says its CRS itself, and a height behind a comma.
+/// Reads a position that states its CRS itself, and a height behind a comma.
 std::optional<Place> written_place(std::string_view option, std::string_view text) {
   if (const auto alone = written_position(text)) return Place{alone->position, std::nullopt, alone->crs};
   const std::size_t comma = text.rfind(',');

@@ -1,6 +1,6 @@
-// Option values: text to numbers, lists, sizes, points and rings; strictly, and whatever the locale.
+// Reads option values: numbers, lists, sizes, points and rings from text; strictly, and whatever the locale.
 //
-// `option` is what the error calls the value, for instance "--radius". Every function throws InputError, one line:
+// `option` is what the error calls the value, for instance "--radius". Every function throws InputError, in one line:
 // which option, what was given, what was expected.
 #pragma once
 
@@ -19,68 +19,68 @@
 
 namespace itin::cli {
 
-/// Which numbers an option takes.
+/// The numbers that an option takes.
 enum class Range { kAny, kNotNegative, kPositive };
 
-/// A finite decimal number and nothing else.
+/// Reads a finite decimal number and nothing else.
 double parse_number(std::string_view option, std::string_view text, Range range = Range::kAny);
 
-/// Degrees clockwise from north, 0 to 360.
+/// Reads degrees clockwise from north, 0 to 360.
 double parse_bearing(std::string_view option, std::string_view text);
 
-/// Metres up to kFarthestHeight.
+/// Reads metres up to kFarthestHeight.
 double parse_height(std::string_view option, std::string_view text, Range range = Range::kAny);
 
-/// Farther than any ground reaches, metres.
+/// A distance in metres that is farther than any ground reaches.
 inline constexpr double kFarthest = 1e9;
 
-/// How far to look: a positive number of metres, at most kFarthest.
+/// Reads how far to look: a positive number of metres, at most kFarthest.
 double parse_radius(std::string_view option, std::string_view text);
 
-/// A ratio `a/b`, or a number; positive.
+/// Reads a ratio `a/b`, or a number; positive.
 double parse_ratio(std::string_view option, std::string_view text);
 
-/// A whole number in [least, most].
+/// Reads a whole number in [least, most].
 int parse_whole(std::string_view option, std::string_view text, int least, int most);
 
-/// Numbers separated by commas, at least one.
+/// Reads numbers separated by commas, at least one.
 std::vector<double> parse_numbers(std::string_view option, std::string_view text, Range range = Range::kAny);
 
-/// Heights in metres, separated by commas, at least one.
+/// Reads heights in metres, separated by commas, at least one.
 std::vector<double> parse_heights(std::string_view option, std::string_view text, Range range = Range::kAny);
 
-/// Exactly `count` numbers separated by commas; `shape` is the expected form, for instance "x,y,r".
+/// Reads exactly `count` numbers separated by commas; `shape` is the expected form, for instance "x,y,r".
 std::vector<double> parse_tuple(std::string_view option, std::string_view text, std::size_t count,
                                 std::string_view shape);
 
-/// Whole numbers in [least, most] separated by commas, at least one.
+/// Reads whole numbers in [least, most] separated by commas, at least one.
 std::vector<int> parse_wholes(std::string_view option, std::string_view text, int least, int most);
 
-/// Bytes, with an optional K, M, G or T for powers of 1024.
+/// Reads bytes, with an optional K, M, G or T for powers of 1024.
 std::uint64_t parse_bytes(std::string_view option, std::string_view text);
 
-/// `on` or `off`.
+/// Reads `on` or `off`.
 bool parse_switch(std::string_view option, std::string_view text);
 
-/// The index in `choices` of `text`.
+/// Returns the index in `choices` of `text`.
 std::size_t parse_choice(std::string_view option, std::string_view text, const std::vector<std::string_view>& choices);
 
-/// `xmin,ymin,xmax,ymax` with xmin < xmax and ymin < ymax.
+/// Reads `xmin,ymin,xmax,ymax` with xmin < xmax and ymin < ymax.
 Box parse_box(std::string_view option, std::string_view text);
 
-/// `radius:tolerance,...`, nearest first.
+/// Reads `radius:tolerance,...`, nearest first.
 std::vector<Ring> parse_rings(std::string_view option, std::string_view text);
 
-/// `x,y` or `x,y,h` with h as parse_height() has it; for x,y also what written_position() understands, which says its
-/// CRS itself.
+/// A place `x,y` or `x,y,h`, with h as parse_height() reads it. A position that written_position() understands may
+/// stand for x,y; it states its CRS itself.
 struct Place {
   Point2 position;
   std::optional<double> height;
-  std::string crs = {};  ///< the position's CRS; empty: as the call says
+  std::string crs = {};  ///< the position's CRS; empty: that of the call
 };
 Place parse_place(std::string_view option, std::string_view text);
 
-/// The value that a library's parse(text) makes of an option's text; its complaint names the option.
+/// Returns the value that a library's parse(text) makes from an option's text. An error names the option.
 template <class Parse>
 auto parsed_by(std::string_view option, const std::string& text, const Parse& parse) {
   try {
@@ -90,7 +90,7 @@ auto parsed_by(std::string_view option, const std::string& text, const Parse& pa
   }
 }
 
-/// Whether `text` could be a place: no more than a hint, to tell it from a file name.
+/// Whether `text` could be a place; only a hint, to tell it from a file name.
 bool may_be_place(std::string_view text);
 
 }  // namespace itin::cli

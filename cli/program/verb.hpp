@@ -31,14 +31,14 @@ class Verb {
   virtual void complete() {}
   /// Understands every option, touching no file. Throws InputError.
   virtual void validate() = 0;
-  /// The parameters as understood, defaults included, without those that cannot change the result. Asked for after
-  /// execute().
+  /// The parameters as understood, defaults included, without parameters that cannot change the result. To be called
+  /// after execute().
   virtual Document parameters() const = 0;
-  /// Throws itin::Error.
+  /// Runs the verb. Throws itin::Error.
   virtual Result execute(Progress& progress) = 0;
 };
 
-/// The head of every document: `itin`, and `command` with the verb and its parameters. Called after execute().
+/// The head of every document: `itin`, and `command` with the verb and its parameters. To be called after execute().
 Document call_document(const Verb& verb);
 
 std::unique_ptr<Verb> make_import_verb();

@@ -16,7 +16,7 @@ namespace itin::cli {
 
 namespace {
 
-/// Tiles that --quick verifies of the ground, and of each part of what stands on it.
+/// The number of tiles that --quick verifies, of the ground and of each part of what stands on it.
 constexpr std::size_t kSample = 16;
 
 class CheckVerb final : public Verb {
@@ -38,7 +38,7 @@ class CheckVerb final : public Verb {
   Result execute(Progress& progress) override {
     const Store store(store_);
     std::vector<Damage> damages = check(store, progress);
-    // Only what can be read can be triangulated.
+    // Surfaces are verified only if everything can be read.
     std::optional<Verification> surfaces;
     if (damages.empty()) surfaces = verify(store, {quick_ ? kSample : 0}, progress);
     if (surfaces) damages = surfaces->damage;

@@ -108,7 +108,7 @@ class ImportVerb final : public Verb {
   }
 
  private:
-  /// What is imported, and what its numbers mean.
+  /// Declares the sources, and what their numbers mean.
   void declare_sources(CLI::App& app) {
     writes(app.add_option("STORE", store_, "The store, created if there is none")->required());
     reads(app.add_option("SOURCE", options_.sources, "Rasters, point files, LAS, or layers of lines and polygons")
@@ -144,7 +144,7 @@ class ImportVerb final : public Verb {
         ->type_name("TEXT");
   }
 
-  /// What stands on the terrain, and how high.
+  /// Declares the options about what stands on the terrain, and how high.
   void declare_raised(CLI::App& app) {
     app.add_option("--height-field", options_.height_field,
                    "Buildings, walls, vegetation: the field of their height above the base, in the unit of the CRS's "
@@ -186,7 +186,7 @@ class ImportVerb final : public Verb {
         ->type_name("WAY");
   }
 
-  /// What the store keeps of lines and footprints besides their shape.
+  /// Declares what the store keeps of lines and footprints besides their shape.
   void declare_features(CLI::App& app) {
     app.add_option("--id-field", options_.id_field,
                    "Lines, footprints and CityJSON: the field of a feature's id, for exports and reports (default: the "
@@ -203,7 +203,7 @@ class ImportVerb final : public Verb {
         ->delimiter(',');
   }
 
-  /// Which points are ground, and where ground is.
+  /// Declares which points are ground, and where ground is.
   void declare_terrain(CLI::App& app) {
     app.add_option("--band", band_, "The band of rasters that holds heights (default: their only one)")->type_name("N");
     app.add_option("--class", classes_, "LAS: only these classes (default: all but noise, 7 and 18)")
@@ -237,7 +237,7 @@ class ImportVerb final : public Verb {
               ->type_name("WKT|FILE"));
   }
 
-  /// What a new store is like, and the memory to work in.
+  /// Declares what a new store is like, and the memory to work in.
   void declare_store(CLI::App& app) {
     app.add_option("--levels", levels_,
                    "Tolerances of a new store's levels (default: those of 0.5,1,2,4,8,16,32 that are no less than "

@@ -31,7 +31,7 @@ Document heights_document(const std::optional<HeightAxis>& heights) {
           {"direction", heights->down ? "down" : "up"}};
 }
 
-/// Whether lines with heights stay where finer ground takes the place of others.
+/// Whether lines with heights stay where finer ground takes the place of other ground.
 bool stays(const SourceInfo& source) {
   return !source.theme.empty() && is_terrain(theme_kind(source.kind)) && !source.makes_room;
 }

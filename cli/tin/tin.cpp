@@ -110,7 +110,7 @@ class TinVerb final : public Verb {
   }
 
  private:
-  /// Without the names of files: what is written must not depend on them.
+  /// The query without the names of files, on which the output must not depend.
   Document query() const {
     Document query = window_.parameters();
     query.update(detail_.parameters());
@@ -120,7 +120,8 @@ class TinVerb final : public Verb {
     return query;
   }
 
-  /// Throws InputError where the memory does not hold the triangulation of so many points, and what is made of it.
+  /// Throws InputError where the memory does not hold the triangulation of this number of points, and what is made of
+  /// it.
   void require_memory(std::uint64_t points) const {
     constexpr std::uint64_t kMesh = 180, kTopology = 300;  ///< bytes per point at the peak, measured
     constexpr std::uint64_t kPicture = std::uint64_t{160} << 20;
@@ -153,7 +154,7 @@ class TinVerb final : public Verb {
     return numbers;
   }
 
-  /// About the theme lines_[i], of which no line was written.
+  /// A message about the theme lines_[i], of which no line was written.
   std::string no_lines(const WindowLines& lines, std::size_t i) const {
     const bool is_there = std::any_of(lines.tin.lines.begin(), lines.tin.lines.end(),
                                       [&](const LineEdge& e) { return e.theme == lines.themes[i]; });

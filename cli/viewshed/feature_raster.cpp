@@ -16,7 +16,7 @@ namespace itin::cli {
 
 namespace {
 
-/// A Byte raster has no more numbers, and 255 means no data in those beside it.
+/// A Byte raster has no more numbers, for 255 means no data in the rasters beside it.
 constexpr std::size_t kMostThemes = 254;
 
 RasterClass class_of(int number, const std::string& name) {

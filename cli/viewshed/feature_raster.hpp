@@ -1,4 +1,4 @@
-// `--features FILE`: which raised theme is under each cell of a viewshed.
+// `--features FILE`: a raster of the raised theme under each cell of a viewshed.
 #pragma once
 
 #include <string>
@@ -30,9 +30,9 @@ class FeatureRaster {
     Detail detail;
     ThemeChoice themes;
   };
-  /// Writes the number of the theme that the surface is part of at each cell's centre, 0 for ground and where there is
-  /// none; where several meet, the first. The document tells how many cells each has; null where no file is asked for.
-  /// Memory follows the raster. Throws FileError, CorruptStore, Cancelled.
+  /// Writes, at each cell's centre, the number of the theme that the surface is part of: 0 for ground and where there
+  /// is no surface; the first where several themes meet. The document tells the number of cells of each theme; it is
+  /// null where no file is asked for. Memory follows the raster. Throws FileError, CorruptStore, Cancelled.
   Document write(const Store& store, const RasterGrid& grid, const Surface& surface, bool overwrite,
                  Progress& progress) const;
 

@@ -21,15 +21,15 @@ class HorizonOutput {
   /// Throws InputError.
   void validate();
   const std::vector<std::string>& paths() const { return paths_; }
-  /// Reads the targets. `height_given`: whether the call states the height of targets. `warnings` gets one where the
-  /// file's heights are not used. Throws FileError, InputError.
+  /// Reads the targets. `height_given` tells whether the call states the height of targets. `warnings` gets one where
+  /// the file's heights are not used. Throws FileError, InputError.
   void read_targets(const viewshed::Request& request, bool height_given, const InCrs& in_crs,
                     const StoreMetadata& metadata, std::vector<std::string>& warnings);
-  /// The targets' file and its fields.
+  /// The parameters: the targets' file and its fields.
   Document parameters() const;
 
-  /// Computes and writes what was asked for, if anything; the document of the horizon's targets, or null. `warnings`
-  /// gets one where the sky line is the edge of the data. Throws InputError, FileError.
+  /// Computes and writes the files asked for, if any. Returns the document of the horizon's targets, or null.
+  /// `warnings` gets one where the sky line is the edge of the data. Throws InputError, FileError.
   Document write(const Store& store, viewshed::ViewshedWithSurface& computed, const viewshed::Request& request,
                  const viewshed::ComputeOptions& options, bool overwrite, Progress& progress,
                  std::vector<std::string>& warnings) const;

@@ -168,7 +168,7 @@ class ViewshedVerb final : public Verb {
     // Certified and exact answers are about the full surface.
     viewshed::Request answered = computed.result.request;
     if (precise_ || certified_) answered.detail = Detail::tolerance(0);
-    // Before the other files: it refuses targets that no line reaches.
+    // The horizon comes before the other files, for it refuses targets that no line reaches.
     const Document targets =
         horizon_.write(store, computed, answered, compute_options_, outputs_.overwrite(), progress, result.warnings);
     outputs_.write(store, computed, context, result.warnings, progress);
@@ -202,7 +202,7 @@ class ViewshedVerb final : public Verb {
     return paths;
   }
 
-  /// The names of viewshed::Mode's values, in order; radio's come last, and have options of their own.
+  /// The names of viewshed::Mode's values, in order. The modes of radio come last, and have options of their own.
   static constexpr std::string_view kModes[] = {"visible", "count",  "which",       "angle",   "nearest",
                                                 "blocker", "height", "probability", "fresnel", "loss"};
   static constexpr std::size_t kModesOfRadio = 2;
@@ -211,7 +211,7 @@ class ViewshedVerb final : public Verb {
     if (radio_.is_given())
       throw InputError("--frequency judges Fresnel zones, or losses with --loss, and nothing else: leave out --mode");
     std::vector<std::string_view> choices(std::begin(kModes), std::end(kModes) - kModesOfRadio);
-    choices.emplace_back("certified");  // what tells the visible by certificates
+    choices.emplace_back("certified");  // the name by which certificates tell the visible
     const std::size_t mode = parse_choice("--mode", mode_text_, choices);
     certified_ = choices[mode] == "certified";
     request_.mode = certified_ ? viewshed::Mode::kVisible : static_cast<viewshed::Mode>(mode);
@@ -239,7 +239,7 @@ class ViewshedVerb final : public Verb {
           "--precise is exact, and --mode certified says what a tolerance leaves open: give one of the two");
     if (precise_ && !exact)
       throw InputError("--precise is exact for the full surface: leave out --tolerance and --rings");
-    precise_ = exact;  // whether or not it was asked for by this name
+    precise_ = exact;  // even if it was not asked for by this name
   }
   bool request_detail_given() const { return detail_.detail({}).coarsest() > 0; }
 
@@ -254,7 +254,7 @@ class ViewshedVerb final : public Verb {
                      : survey(store, request, progress).result;
   }
 
-  /// Completes the request by what depends on the store's CRS and on the fields of files.
+  /// Completes the request from the store's CRS and the fields of files.
   void complete_request(const StoreMetadata& metadata, std::vector<std::string>& warnings) {
     targets_.complete(metadata, request_);
     request_.observers = observers_.observers(metadata, request_, warnings);

@@ -1,4 +1,4 @@
-// The files a viewshed is written to: rasters and polygons by -o, a map, and rasters of single observers.
+// Writes the files of a viewshed: rasters and polygons by -o, a map, and rasters of single observers.
 #pragma once
 
 #include <deque>
@@ -24,24 +24,24 @@ class ViewshedOutputs {
   void declare(CLI::App& app);
   /// `others` are files that something else writes. Throws InputError.
   void validate(const std::vector<std::string>& others);
-  /// Throws FileError where something cannot be written. Makes the directory of single observers, of which nothing is
-  /// left unless write_each() completes it.
+  /// Throws FileError where something cannot be written. Makes the directory of single observers, which is removed
+  /// again unless write_each() completes it.
   void prepare(const viewshed::Request& request);
 
   struct Context {
     std::string crs_wkt;
     Document surface;
-    std::vector<std::pair<std::string, std::string>> parameters;  ///< that a result does not tell
+    std::vector<std::pair<std::string, std::string>> parameters;  ///< parameters that a result does not tell
     const viewshed::MissingGround& missing;
     std::vector<std::string> sources;  ///< where the surface comes from, sort by sort
   };
   void write(const Store& store, viewshed::ViewshedWithSurface& computed, const Context& context,
              std::vector<std::string>& warnings, Progress& progress) const;
-  /// Calls compute(observer) for every observer whose own raster is wanted.
+  /// Computes the viewshed of one observer; called for every observer whose own raster is wanted.
   using Compute = std::function<viewshed::Result(std::size_t)>;
   void write_each(const Compute& compute, const Context& context, const Progress& progress);
 
-  /// In the order of the options, the others last.
+  /// The files in the order of the options, the others last.
   std::vector<std::string> paths() const;
   bool overwrite() const { return policy_.overwrite; }
   bool draws_map() const { return !image_.empty(); }
@@ -54,7 +54,7 @@ class ViewshedOutputs {
   std::vector<std::string> outputs_;
   std::string image_, each_;
   std::vector<std::string> others_;
-  std::vector<std::string> single_;  ///< a path an observer, with --each
+  std::vector<std::string> single_;  ///< one path per observer, with --each
   std::vector<std::string> styles_;  ///< beside rasters
   std::optional<NewFolder> folder_;  ///< the folder of single observers' rasters
   std::deque<Unfinished> in_new_folder_;

@@ -15,9 +15,9 @@ class ViewshedRadio {
   void declare(CLI::App& app);
   /// Throws InputError.
   void validate();
-  /// Whether it is radio that is asked for, which has modes of its own.
+  /// Whether radio is asked for, which has modes of its own.
   bool is_given() const { return wave_.has_frequency(); }
-  /// Precondition: it is given. Throws InputError for a flat Earth.
+  /// Completes the request. Precondition: is_given(). Throws InputError for a flat Earth.
   void complete(viewshed::Request& request) const;
   Document parameters() const;
 
@@ -28,10 +28,10 @@ class ViewshedRadio {
   double fraction_ = 0.6;
 };
 
-/// What the cells of a map of radio are judged by; nothing in other modes.
+/// The criterion by which the cells of a map of radio are judged; nothing in other modes.
 std::optional<std::string> radio_criterion(const viewshed::Request& request);
 
-/// The line of a call's text that says how many cells each class has.
+/// The line of a call's text that gives the number of cells in each class.
 std::string radio_text(const viewshed::Result& result);
 
 }  // namespace itin::cli

@@ -12,13 +12,13 @@
 
 namespace itin::cli {
 
-/// What it says besides what the result tells.
+/// The facts on the sheet besides those of the result.
 struct ViewshedSheetFacts {
   const viewshed::MissingGround& missing;
   const std::vector<std::string>& sources;  ///< the sources of the surface, in words
 };
 
-/// Throws FileError, InputError (a scale that is too large), Cancelled.
+/// Draws and writes the sheet. Throws FileError, InputError (a scale that is too large), Cancelled.
 void write_viewshed_sheet(const Store& store, const viewshed::Result& result, const SheetOptions& options,
                           const ViewshedSheetFacts& facts, bool overwrite, Progress& progress);
 

@@ -1,4 +1,4 @@
-// The options of `itin viewshed` that say which cells are looked at, and where in a cell the target is.
+// The options of `itin viewshed` that choose the cells looked at, and the place of the target in a cell.
 #pragma once
 
 #include <string>
@@ -24,7 +24,7 @@ class ViewshedTargets {
   bool height_given() const { return !height_text_.empty(); }
   /// "ground" or "surface".
   const std::string& on() const { return on_; }
-  /// How the request came to its targets.
+  /// Tells how the request came to its targets.
   Document parameters(const viewshed::Request& request) const;
 
  private:

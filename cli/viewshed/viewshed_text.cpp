@@ -27,7 +27,7 @@ std::string certified_text(const viewshed::Result& result) {
   return text;
 }
 
-/// The cells whose value only ground without data leaves unknown, in modes that have one of every cell.
+/// The cells whose value is unknown only because of ground without data, in modes that give every cell a value.
 std::string unknown_values_text(const viewshed::Result& result) {
   const auto without = viewshed::cells_without_value(result);
   if (!without || without->cells == 0 || !result.crosses_voids || result.request.nodata != NoData::kUnknown) return "";

@@ -1,4 +1,4 @@
-// What `itin viewshed` prints for people.
+// Writes the text that `itin viewshed` prints for people.
 #pragma once
 
 #include <string>
@@ -9,8 +9,8 @@
 
 namespace itin::cli {
 
-/// How many cells have which verdict, on which surface, what would decide the others, what has no ground data, and what
-/// that took; a line each.
+/// Tells, in a line each, the number of cells by verdict, the surface, what would decide the other cells, what has no
+/// ground data, and the work that all of it took.
 std::string viewshed_text(const StoreMetadata& metadata, const viewshed::Result& result,
                           const viewshed::MissingGround& missing);
 

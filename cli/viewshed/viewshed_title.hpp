@@ -1,4 +1,4 @@
-// What maps of a viewshed are called, by mode.
+// Titles of maps of a viewshed, by mode.
 #pragma once
 
 #include <string>

@@ -23,10 +23,10 @@ namespace itin {
 
 namespace {
 
-constexpr double kMillimetres = 1000;  ///< in a metre
-/// Memory while patches are raised, for each corner of theirs. Measured, rounded up.
+constexpr double kMillimetres = 1000;  ///< per metre
+/// Bytes that raising patches takes for each of their corners; measured, rounded up.
 constexpr std::uint64_t kBytesPerCorner = 2000;
-constexpr std::size_t kPortion = 64;  ///< parts of rasters
+constexpr std::size_t kPortion = 64;  ///< parts of rasters that are cut at once
 
 /// A part of a raster on the ground about it.
 class CellsOnGround {
@@ -44,7 +44,7 @@ class CellsOnGround {
     whole_ = outline_.empty() && terrain_->height_at(square(0, 0).outline.front());
   }
 
-  /// Row by row.
+  /// Returns the number of steps of each cell, row by row.
   std::vector<std::int32_t> steps() {
     std::vector<std::int32_t> steps;
     steps.reserve(cells_.heights.size());
@@ -137,7 +137,7 @@ CellFeatures with_patches(const Store& ground, std::span<const StoredFootprint> 
   if (!result.any) return result;
   std::map<std::pair<std::uint16_t, std::string>, std::uint64_t> beyond;
   std::uint64_t patches = 0, corners = 0;
-  // In portions, so that a raster which makes too many patches is refused before it has made them all.
+  // Rasters are cut in portions, so that one which makes too many patches is refused before it has made them all.
   for (std::size_t first = 0; first < footprints.size(); first += kPortion) {
     const auto some = footprints.subspan(first, std::min(kPortion, footprints.size() - first));
     std::vector<CutPart> parts(some.size());

@@ -7,7 +7,7 @@ namespace itin {
 
 namespace {
 
-constexpr std::array<int, 4> kRight{1, 0, -1, 0}, kDown{0, 1, 0, -1};  ///< the way in a direction: each turns right
+constexpr std::array<int, 4> kRight{1, 0, -1, 0}, kDown{0, 1, 0, -1};  ///< step in each direction; the next turns right
 
 /// A corner of cells, counted from the first, and the direction in which an edge leaves it.
 struct EdgeOfCell {
@@ -88,8 +88,8 @@ class PatchCutter {
            static_cast<std::size_t>(e.direction);
   }
 
-  /// Where two cells of a patch meet at a corner alone the ring turns left, and stays with the cell outside: so it does
-  /// not come to that corner again.
+  /// Where two cells of a patch meet at a corner alone, the ring turns left and stays with the cell outside, so that it
+  /// does not come to that corner again.
   EdgeOfCell after(const EdgeOfCell& e, std::uint32_t patch) const {
     const EdgeOfCell end = e.at_its_end();
     for (const int quarters : {3, 0}) {

@@ -14,8 +14,8 @@
 
 namespace itin {
 
-/// Outlines follow the cells' edges, and have vertices where they turn only. No ring passes through a place twice, and
-/// two of them meet in single places at most.
+/// A patch of equally high cells. Its rings follow the cells' edges, and have vertices only where they turn. No ring
+/// passes through a place twice, and two of them meet in single places at most.
 struct CellPatch {
   std::vector<PlanRing> rings;  ///< the outline and its holes
   std::int32_t steps = 0;
@@ -24,8 +24,8 @@ struct CellPatch {
 /// The number of steps that stand for a height above the ground (millimetres); 0 below the threshold, and below zero.
 std::int32_t steps_of(std::int64_t above_ground, const HeightCells& rule);
 
-/// Patches in the order of their first cells. `steps` has a number for each cell, row by row: nothing stands where it
-/// is 0. Cells that meet at a corner alone are in different patches.
+/// Returns the patches in the order of their first cells. `steps` has a number for each cell, row by row; nothing
+/// stands where it is 0. Cells that meet at a corner alone are in different patches.
 std::vector<CellPatch> patches_of(const HeightCells& cells, std::span<const std::int32_t> steps);
 
 }  // namespace itin

@@ -12,11 +12,11 @@ namespace {
 
 using TerrainEdge = std::pair<std::uint32_t, std::uint32_t>;
 
-/// Where rings and edges meet they are rounded, the edges by up to a step and once more where they are made planar: an
-/// edge that no ring meets may so get a vertex.
+/// How far rounding may move an edge, in grid steps: by up to one where a ring meets it, and once more where lines are
+/// made planar. So even an edge that no ring meets may get a vertex.
 constexpr std::int32_t kRounded = 2;
 
-/// The edges of all triangles at the plan's rings. They hide every new vertex from the triangles within.
+/// The edges of all triangles at the plan's rings. They shield the triangles further inside from every new vertex.
 std::set<TerrainEdge> edges_at_rings(const GridPolygon& plan, const TerrainHeights& terrain) {
   std::set<TerrainEdge> edges;
   for_each_edge(plan, [&](Position p, Position q) {

@@ -11,8 +11,8 @@ namespace itin {
 
 namespace {
 
-/// In offsets. Beside acuter corners of the outline eaves are further away, and bend by so much that nothing runs
-/// straight along both of them.
+/// The longest way across, in offsets. Beside acuter corners of the outline the eaves are further away, and bend so
+/// much that nothing runs straight along both of their lines.
 constexpr double kFurthest = 1.5;
 
 /// The position on a line of eaves that is nearest to a place, rounded to the grid.
@@ -40,7 +40,7 @@ struct Way {
   Nearest end;
 };
 
-/// Either line will do where both end at the nearest position.
+/// Compares distances, then positions. Where two lines end at the nearest position, either will do.
 bool nearer(const Nearest& a, const Nearest& b) {
   return std::tie(a.squared_distance, a.at) < std::tie(b.squared_distance, b.at);
 }
@@ -80,7 +80,7 @@ void split_abreast(std::vector<RoofLine>& lines, std::vector<Position> places, d
     return std::tie(a.end.line, a.end.along) < std::tie(b.end.line, b.end.along);
   });
   for (const Way& way : found) {
-    // What is left of a line stays in its place.
+    // The rest of a cut line keeps the line's index.
     RoofLine& rest = lines[way.end.line];
     const GridPoint& vertex = way.end.at;
     if (same_position(rest.a, vertex) || same_position(rest.b, vertex)) continue;

@@ -15,7 +15,7 @@ namespace {
 
 using Meeting = std::pair<std::uint32_t, std::uint32_t>;  ///< two owners that meet
 
-/// Takes owners away, those with most meetings first.
+/// Takes owners away, the one with most meetings first.
 class Untangling {
  public:
   explicit Untangling(const std::vector<Meeting>& meetings) : left_(meetings.size()) {
@@ -26,7 +26,7 @@ class Untangling {
     for (const auto& [owner, others] : others_) order_.insert({others.size(), owner});
   }
 
-  /// Calls gone(owner, meetings) for each that goes.
+  /// Calls gone(owner, meetings) for each owner that goes.
   template <class Gone>
   void run(std::uint64_t most, const Gone& gone) {
     while (left_ > most) {
@@ -54,7 +54,7 @@ class Untangling {
   }
 
   std::uint64_t left_;
-  std::map<std::uint32_t, std::vector<std::uint32_t>> others_;  ///< by owner, once for every meeting
+  std::map<std::uint32_t, std::vector<std::uint32_t>> others_;  ///< whom each owner meets, once for every meeting
   std::set<std::pair<std::size_t, std::uint32_t>> order_;       ///< how many meetings each owner has, and the owner
 };
 

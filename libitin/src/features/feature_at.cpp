@@ -16,7 +16,7 @@ namespace itin {
 
 namespace {
 
-/// Metres: how far a place may be outside of a footprint that it belongs to.
+/// How far, in metres, a place may be outside of a footprint that it belongs to.
 constexpr double kNear = 1;
 
 Point2 in_plan(const Point2& p) {
@@ -33,7 +33,7 @@ double squared_distance(Point2 p, Point2 a, Point2 b) {
   return ex * ex + ey * ey;
 }
 
-/// A place against rings, read by the even-odd rule.
+/// How near a place is to rings, read by the even-odd rule.
 class Nearness {
  public:
   explicit Nearness(Point2 place) : place_(place) {}
@@ -49,7 +49,7 @@ class Nearness {
     }
   }
 
-  /// Metres; 0 inside.
+  /// The distance in metres; 0 inside.
   double distance() const { return inside_ ? 0 : std::sqrt(squared_); }
 
  private:
@@ -80,7 +80,7 @@ Box extent_of(const FootprintFeature& feature) {
   return box;
 }
 
-/// Numbers of places from west to east, so that few are asked about a footprint.
+/// Returns the numbers of places from west to east, so that a footprint is compared with few of them.
 std::vector<std::size_t> from_west(const std::vector<Point2>& places) {
   std::vector<std::size_t> order(places.size());
   std::iota(order.begin(), order.end(), std::size_t{0});

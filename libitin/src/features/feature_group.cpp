@@ -75,7 +75,7 @@ class GroupBuilder {
     for (std::uint32_t f = 0; f < features_.size(); ++f) {
       if (!has_ground[f]) objections_[f] = "left out: lies wholly under others that are as high or higher";
     }
-    // Those without a top first lose what covers them; only then are they judged.
+    // Features without a top are judged only after those without ground have gone.
     if (!objections_.empty()) return;
     for (std::uint32_t f = 0; f < features_.size(); ++f)
       if (!has_top[f]) objections_[f] = "left out: nowhere as wide as twice the wall offset";
@@ -102,7 +102,8 @@ class GroupBuilder {
     }
   }
 
-  /// With the vertices that feet have where they cross the terrain's edges: rounded, those lie off the straight line.
+  /// Returns the polygon with the vertices that feet have where they cross the terrain's edges: rounded, these lie off
+  /// the straight line.
   GridPolygon along_feet(const GridPolygon& polygon) const {
     const auto with_feet = [&](const GridRing& ring) {
       GridRing way;
@@ -207,7 +208,7 @@ class GroupBuilder {
     return std::move(made.lines);
   }
 
-  /// The promise of planarity, kept by construction in all but the narrowest places.
+  /// Keeps the promise of planarity, which construction keeps in all but the narrowest places.
   void ensure_planar() {
     std::vector<GridEdge> edges;
     for (const PlacedSegment& s : mesh_.segments) edges.push_back(edge_in_plan(s));
@@ -267,7 +268,7 @@ class GroupBuilder {
   GroupMesh mesh_;
 };
 
-/// As run(); where the group as a whole is beyond GEOS, all its features object.
+/// Runs the builder; where GEOS cannot handle the group as a whole, all its features object.
 std::map<std::uint32_t, std::string> attempt(GroupBuilder& builder, std::size_t count) {
   try {
     return builder.run();

@@ -13,7 +13,7 @@
 
 namespace itin {
 
-/// A feature on the grid. Heights in grid units.
+/// A feature on the grid. Heights are in grid units.
 struct PreparedFeature {
   std::uint32_t number = 0;  ///< the feature's number in the call
   FeatureKind kind = FeatureKind::building;
@@ -43,13 +43,13 @@ struct GroupMesh {
   std::uint64_t flat_instead = 0;
 };
 
-/// `offset` in grid units. Throws Cancelled.
+/// Builds the lines of a group; `offset` is in grid units. Throws Cancelled.
 GroupMesh build_group(std::vector<PreparedFeature> features, double offset, const TerrainHeights* terrain,
                       const Progress& progress);
 
-/// Lines of the terrain raised over a plan: its rings as eaves, and the terrain's edges near them as creases, so that
-/// the terrain's triangles inside come out as they are. Appends the vertices that stand by themselves.
-/// False, with nothing appended, where the plan reaches beyond the terrain.
+/// Makes lines of the terrain raised over a plan: the plan's rings as eaves, and the terrain's edges near them as
+/// creases, so that the terrain's triangles inside come out as they are. Appends the vertices that stand by
+/// themselves. Returns false, and appends nothing, where the plan reaches beyond the terrain.
 bool drape(const GridPolygon& plan, double above, const TerrainHeights& terrain, std::vector<RoofLine>& lines,
            std::vector<GridPoint>& loose, const Progress& progress);
 

@@ -19,7 +19,7 @@ namespace itin {
 
 namespace {
 
-/// Tells edges from the segments that they may lie on.
+/// The theme number by which edges differ from the segments that they may lie on.
 constexpr std::uint16_t kEdge = 0;
 
 /// A theme's edges that meet the window, and the segments that they are pieces of.
@@ -35,8 +35,8 @@ class ThemeEdges {
     }
   }
 
-  /// The edges of each feature. An edge is of the features of the segment that it lies on: a vertex of the terrain may
-  /// split one.
+  /// The edges of each feature. An edge belongs to the features of the segment that it lies on, which a vertex of the
+  /// terrain may split.
   std::map<std::optional<std::uint32_t>, std::vector<LineEnds>> by_feature(const Store& store,
                                                                            const Selection& selection) const {
     const std::vector<SegmentFeature> features = selected_features(store, selection);

@@ -10,10 +10,10 @@
 // gets the ground where footprints overlap, and where walls stand between those that touch, is the rule of
 // footprint_arrangement.hpp.
 //
-// The segments are planar: they meet only at vertices, all of which lie on the grid, one per position. That is verified
-// exactly, and made so by snap rounding where it does not hold (and reported). Vertices without segments are ground
-// repeated at the top of what drapes. The result depends on the features' order (which settles ties) but not on
-// threads.
+// The segments are planar: they meet only at vertices, all of which lie on the grid, one per position. This is verified
+// exactly; where it does not hold, snap rounding makes it so (and that is reported). Vertices without segments are
+// ground repeated at the top of features that drape. The result depends on the features' order (which settles ties) but
+// not on threads.
 #pragma once
 
 #include <cstdint>
@@ -31,7 +31,7 @@
 
 namespace itin {
 
-/// `wall`: between feet and eaves.
+/// The class of a line; `wall` lies between feet and eaves.
 enum class SegmentClass : std::uint8_t { foot, eaves, roof, wall };
 
 struct FeatureSegment {
@@ -40,7 +40,7 @@ struct FeatureSegment {
   SegmentClass kind;
 };
 
-/// Ground that a feature covers, its border included: terrain vertices there make way. Feet run along the border
+/// Ground that a feature covers, its border included; terrain vertices there are left out. Feet run along the border
 /// (within a grid step of it, where lines had to be joined).
 struct FeatureMask {
   std::uint32_t feature;
@@ -64,7 +64,7 @@ struct FeatureMesh {
   std::uint64_t flat_instead = 0;        ///< roofs that were refused, each with a finding
 };
 
-/// Throws InputError unless it lies between two steps of the grid and 10 m.
+/// Throws InputError unless the offset lies between two steps of the grid and 10 m.
 void require_wall_offset(double metres, const Grid& grid);
 
 struct FeatureOptions {
@@ -73,13 +73,13 @@ struct FeatureOptions {
   double pitch_degrees = 35;  ///< taken for roofs that do not say theirs
 };
 
-/// Without terrain only buildings with a base of their own stand. Throws InputError for an offset or pitch out of range
-/// and for terrain on another grid, Cancelled. Errors in single features are reported, not thrown.
+/// Builds the mesh. Without terrain only buildings with a base of their own stand. Throws Cancelled, and InputError for
+/// an offset or pitch out of range and for terrain on another grid. Errors in single features are reported, not thrown.
 FeatureMesh build_feature_mesh(std::span<const FootprintFeature> features, const FeatureOptions& options,
                                const TerrainHeights* terrain, Progress& progress);
 
-/// A band about a line: the footprint of a wall, fence or hedge. Thickness in metres. Empty where the line has no
-/// length.
+/// Returns a band about a line: the footprint of a wall, fence or hedge. The thickness is in metres. The result is
+/// empty where the line has no length.
 std::vector<PlanRing> band_about(const PlanRing& line, double thickness, const Grid& grid);
 
 }  // namespace itin

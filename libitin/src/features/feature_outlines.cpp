@@ -18,7 +18,7 @@ namespace itin {
 
 namespace {
 
-/// The numbers of the features of a theme that triangles of the surface are part of, ascending.
+/// The numbers of a theme's features that have triangles of the surface, ascending.
 std::vector<std::int64_t> features_in(const Tin& tin, std::uint16_t theme, const Store& store,
                                       const Progress& progress) {
   std::vector<Point2> middles;
@@ -62,8 +62,8 @@ std::vector<std::vector<GridPoint>> rings_of(const FootprintFeature& feature, co
   return rings;
 }
 
-/// The runs of consecutive sides that are there: each by the numbers of its corners, the first of them again at the end
-/// of a whole ring.
+/// The runs of consecutive sides that are present. Each run lists the numbers of its corners; a whole ring ends with
+/// its first corner again.
 std::vector<std::vector<std::size_t>> runs_of(const std::vector<bool>& sides) {
   const std::size_t count = sides.size();
   const auto gap = static_cast<std::size_t>(std::find(sides.begin(), sides.end(), false) - sides.begin());

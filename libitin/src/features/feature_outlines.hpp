@@ -7,7 +7,8 @@
 
 namespace itin {
 
-/// feature_lines() of one theme that stands, by its number from 1; by the numbers of its features.
+/// Returns what feature_lines() returns for one theme that stands, in the order of its features' numbers. `theme`
+/// counts from 1.
 std::vector<FeatureLine> feature_outlines(const Store& store, const WindowLines& window_lines, std::uint16_t theme,
                                           Progress& progress);
 

@@ -41,7 +41,7 @@ bool strictly_inside(const GridPoint& a, const GridPoint& b, const GridPoint& c,
   return orientation(a, b, p) == side && orientation(b, c, p) == side && orientation(c, a, p) == side;
 }
 
-/// Heights are relative to the region's.
+/// A node of the skeleton. Its height is relative to the region's.
 struct Node {
   Point2 place;
   double height = kUnknown;
@@ -79,7 +79,7 @@ class NearestSide {
 
  private:
   using Ends = std::pair<GridPoint, GridPoint>;
-  std::vector<Ends> sides_;  ///< each from left to right; by their left end
+  std::vector<Ends> sides_;  ///< each from left to right; sorted by left end
   double widest_ = 0;
 };
 
@@ -212,7 +212,7 @@ class Skeleton {
     contours_.sort();
   }
 
-  /// How far the ground strays from the contour's height at a place away from it: within `most`.
+  /// How far the ground at a place is from the contour's height, at most `most`.
   double extrapolated(Point2 place, double most) const {
     return std::isnan(around_.slope) ? most : std::min(around_.slope * contours_.distance_from(place), most);
   }
@@ -262,7 +262,7 @@ class Skeleton {
     }
   }
 
-  /// Where ways to exits meet: the farther node of the link between them.
+  /// Adds a trunk where ways to exits meet. It starts at the farther node of the link between them.
   void add_pass(std::uint32_t n, std::uint32_t other, std::vector<Trunk>& trunks) const {
     const Way &way = ways_[n], &to = ways_[other];
     if (way.before == other || to.before == n) return;
@@ -277,7 +277,8 @@ class Skeleton {
     return std::copysign(extrapolated(nodes_[n].place, most), here);
   }
 
-  /// Even heights from a terminal by way of `next` to the first node on the way to the exit that has a height.
+  /// Gives even heights to the nodes from a terminal by way of `next` to the first node on the way to the exit that has
+  /// a height.
   void lay(std::uint32_t terminal, std::uint32_t next) {
     std::vector<std::pair<std::uint32_t, double>> passed;
     double length = next == terminal ? 0 : distance(nodes_[terminal].place, nodes_[next].place);

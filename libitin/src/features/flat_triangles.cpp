@@ -36,7 +36,7 @@ FlatTriangles::FlatTriangles(std::vector<LevelEdge> edges) {
 void FlatTriangles::find_triangles(const std::vector<LevelEdge>& edges) {
   for (const LevelEdge& e : edges) {
     const std::array<GridPoint, 3> corners = corners_of(e);
-    // Each comes once: with the edge opposite its last corner.
+    // Each triangle is added once: with the edge opposite its last corner.
     if (e.flat && code_of(corners[2]) == code_of(e.opposite)) triangles_.push_back({corners, {}});
   }
   std::sort(triangles_.begin(), triangles_.end(), [](const Triangle& s, const Triangle& t) {

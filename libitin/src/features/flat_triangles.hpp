@@ -22,8 +22,8 @@ struct LevelEdge {
   GridPoint a, b;      ///< the one with the lesser Morton code first
   GridPoint opposite;  ///< the triangle's third vertex
   bool constrained = false;
-  bool flat = false;                 ///< whether the triangle is
-  bool opposite_on_contour = false;  ///< and so tells the contour interval
+  bool flat = false;                 ///< whether the triangle is flat
+  bool opposite_on_contour = false;  ///< whether `opposite` is on a contour, and so tells the contour interval
 };
 
 class FlatTriangles {
@@ -37,8 +37,8 @@ class FlatTriangles {
     Passage passage = Passage::kClosed;
     bool ground_beyond = false;
     bool contour_beyond = false;           ///< whether vertex `beyond` is on a contour
-    std::uint32_t triangle = kNoTriangle;  ///< beyond, if that is flat as well and there is no line between
-    GridPoint beyond;                      ///< the opposite vertex there
+    std::uint32_t triangle = kNoTriangle;  ///< the triangle beyond, if it is flat as well and no line lies between
+    GridPoint beyond;                      ///< the third vertex of the triangle beyond
   };
   struct Triangle {
     std::array<GridPoint, 3> corners;  ///< in Morton order
@@ -47,7 +47,7 @@ class FlatTriangles {
   /// Triangles that are connected through their sides, ascending.
   using Region = std::vector<std::uint32_t>;
 
-  /// In any order, each triangle's edges once. The result depends on the set alone.
+  /// Takes the edges in any order, each triangle's edges once. The result depends on the set alone.
   explicit FlatTriangles(std::vector<LevelEdge> edges);
 
   const std::vector<Triangle>& triangles() const { return triangles_; }

@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::uint32_t kNobody = 0xffffffff;
 
-/// In offsets: how far from the end of a border a corner of the top beside it may be, where they meet at an angle.
+/// How far, in offsets, a corner of the top may be from the end of the border beside it, where they meet at an angle.
 constexpr double kCornerReach = 3;
 
 std::vector<GridEdge> noded_outlines(const std::vector<Patch>& patches, const Progress* progress) {
@@ -37,7 +37,7 @@ std::vector<GridEdge> noded_outlines(const std::vector<Patch>& patches, const Pr
   return edges;
 }
 
-/// Which boxes may hold a position: as many cells as boxes, each with those that meet it.
+/// Tells which boxes may hold a position. There are about as many cells as boxes; each knows the boxes that meet it.
 class BoxCells {
  public:
   explicit BoxCells(const std::vector<GridBox>& boxes) {
@@ -50,7 +50,7 @@ class BoxCells {
         for (int c = column(boxes[i].xmin); c <= column(boxes[i].xmax); ++c) cells_[number(c, r)].push_back(i);
     }
   }
-  /// Ascending.
+  /// The numbers of the boxes that may hold p, ascending.
   const std::vector<std::uint32_t>& at(Point2 p) const { return cells_[number(column(p.x), row(p.y))]; }
 
  private:
@@ -152,7 +152,7 @@ class Arranging {
     return other == left_of_.end() ? kNobody : other->second;
   }
 
-  /// Ascending.
+  /// The corners of a top's rings, ascending.
   static std::vector<Position> corners_of(const GridPolygons& top) {
     std::vector<Position> corners;
     for (const GridPolygon& polygon : top)
@@ -178,7 +178,8 @@ class Arranging {
 
   void find_joints(std::uint32_t i) {
     ArrangedPatch& patch = result_.patches[i];
-    // Beside lower neighbours the walls are theirs. There the top reaches to its outline, and bends where they begin.
+    // Beside a lower neighbour the wall stands in that neighbour. There the top reaches to its outline, and bends where
+    // the wall begins.
     const auto rises = [&](std::uint32_t n) { return n == kNobody || !lower(n, i); };
     const auto add_joint = [&](Position p, std::uint32_t n) {
       if (!rises(n)) return;
@@ -219,7 +220,7 @@ Arrangement arrange(const std::vector<Patch>& patches, double offset, const Prog
 }
 
 std::vector<std::vector<std::uint32_t>> groups_of(const std::vector<GridBox>& boxes) {
-  // A sweep along x with the open boxes ordered by their least y: only those that begin below a box's top are tried.
+  // Sweeps along x with the open boxes ordered by their least y: only boxes that begin below a box's top are tried.
   std::vector<std::uint32_t> order(boxes.size());
   std::iota(order.begin(), order.end(), 0U);
   std::sort(order.begin(), order.end(),
@@ -231,7 +232,7 @@ std::vector<std::vector<std::uint32_t>> groups_of(const std::vector<GridBox>& bo
   std::multimap<std::int32_t, std::uint32_t> open;
   for (const std::uint32_t i : order) {
     if (boxes[i].empty()) continue;
-    // Nothing that begins further below than the tallest box is high reaches this one.
+    // No box that begins further below than the tallest box is high reaches this one.
     const std::int64_t from = std::int64_t{boxes[i].ymin} - tallest - 2;
     auto at = open.lower_bound(static_cast<std::int32_t>(std::max<std::int64_t>(from, -kGridHalfSide)));
     while (at != open.end() && at->first <= boxes[i].ymax + 1) {

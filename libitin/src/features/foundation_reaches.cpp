@@ -11,9 +11,10 @@ namespace itin {
 
 namespace {
 
-/// Grid steps: feet that were rounded, or joined with other lines, may reach into the triangles beside theirs.
+/// How far, in grid steps, feet that were rounded, or joined with other lines, may reach into the triangles beside
+/// theirs.
 constexpr std::int32_t kFootReach = 3;
-/// Grid steps of height, against rounding.
+/// A margin of height against rounding, in grid steps.
 constexpr std::int32_t kHeightMargin = 2;
 
 }  // namespace

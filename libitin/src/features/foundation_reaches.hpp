@@ -19,7 +19,7 @@
 
 namespace itin {
 
-/// Refers to all that it is made of.
+/// Refers to all arguments of its constructor, which must outlive it.
 class FoundationReaches {
  public:
   FoundationReaches(const FeatureMesh& mesh, const TerrainHeights& terrain,
@@ -29,7 +29,7 @@ class FoundationReaches {
         features_(features),
         any_(std::any_of(features.begin(), features.end(), founded)) {}
 
-  /// The box of the mask alone, with no height, for what leaves the ground about it as it is.
+  /// The reach of a mask: its box alone, with no height, where the feature leaves the ground about it as it is.
   FeatureReach of(std::size_t mask) const;
 
  private:

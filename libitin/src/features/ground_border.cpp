@@ -23,7 +23,7 @@ void ChangedGround::append(const ChangedGround& other) {
   border.insert(border.end(), other.border.begin(), other.border.end());
 }
 
-/// Whom each border meets.
+/// The lines that each border edge meets.
 class GroundBorder::Contacts {
  public:
   struct Contact {
@@ -52,7 +52,7 @@ class GroundBorder::Contacts {
  private:
   void meet() {
     std::vector<GridEdge> edges;
-    std::vector<std::size_t> first_line, first_border;  // by distinct edge; and one behind the last
+    std::vector<std::size_t> first_line, first_border;  // by distinct edge, and one more behind the last
     for (std::size_t i = 0; i < lines_.edges.size(); ++i) {
       const GridEdge e = edge_of(lines_.edges[i]);
       if (!edges.empty() && edges.back() == e) continue;
@@ -102,7 +102,7 @@ void GroundBorder::add(std::uint32_t theme, const ChangedGround& changed) {
   themes_[theme].border.insert(changed.border.begin(), changed.border.end());
 }
 
-/// Heights come from the ground anyway.
+/// Makes a border edge an inner one and returns it as a line, at height 0, for heights come from the ground anyway.
 OwnedSegment GroundBorder::keep(std::uint32_t theme, const GridEdge& edge) {
   themes_[theme].border.erase(edge);
   themes_[theme].border.erase(reversed(edge));
@@ -139,7 +139,7 @@ std::vector<OwnedSegment> GroundBorder::widen(const Contacts& contacts, const Ow
     const auto& [from, to] = contact.edge;
     const std::optional<Position> beyond = apex(to, from);
     const OwnedSegment line = keep(contact.theme, contact.edge);
-    if (!beyond) continue;  // the outline of the ground is there in any case
+    if (!beyond) continue;  // the edge is part of the ground's outline, and a line in any case
     kept.push_back(line);
     for (const GridEdge& e : {GridEdge{from, *beyond}, GridEdge{*beyond, to}}) {
       if (of_theme.border.contains(reversed(e)))

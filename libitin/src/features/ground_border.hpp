@@ -1,6 +1,6 @@
-// The border of the ground that raised features change: edges of the full surface that no feature of their theme
-// cuts. Where that theme is there alone nothing may cut them, or the triangles beyond would change. Where another
-// theme's lines cross such an edge, it makes way for them when they are there.
+// The border of the ground that raised features change: edges of the full surface that no feature of their theme cuts.
+// While no other theme is present nothing may cut these edges, or the triangles beyond would change. Where another
+// theme's lines cross such an edge, the edge is left out when that theme is present.
 //
 //   GroundBorder border(themes);
 //   border.add(theme, changed);                     // what each piece of each theme changes
@@ -9,7 +9,7 @@
 //   fit.placed                                      // in the end
 //
 // Making lines planar leads them past vertices of other themes, less than a grid step aside, and so now and then onto a
-// border or over it. The triangle beyond is changed ground then as well: the border moves on, around it.
+// border or over it. Then the triangle beyond is changed ground as well, and the border moves on, around it.
 #pragma once
 
 #include <cstdint>
@@ -25,9 +25,9 @@ namespace itin {
 
 /// Triangles of the full surface that raised features change, by their edges.
 struct ChangedGround {
-  std::vector<GridEdge> pieces;  ///< pieces left of edges between them, or nearly: cut where features' lines cross
-  std::vector<GridEdge> inner;   ///< edges between them or under roofs, whole, the lesser end first
-  std::vector<GridEdge> border;  ///< edges with one of them to the left and none to the right
+  std::vector<GridEdge> pieces;  ///< what features' lines leave of the edges between them, rounded to the grid
+  std::vector<GridEdge> inner;   ///< whole edges between them or under roofs, the lesser end first
+  std::vector<GridEdge> border;  ///< edges with such a triangle to the left and none to the right
 
   void append(const ChangedGround& other);
 };
@@ -38,7 +38,7 @@ struct BorderEdge {
   friend auto operator<=>(const BorderEdge&, const BorderEdge&) = default;
 };
 
-/// Whose line something is: of an owner, and of which of its clusters where the owner stands on the ground.
+/// The owner of a line and, where the owner stands on the ground, the line's cluster.
 struct LineOwner {
   std::uint32_t owner = 0;
   std::uint32_t cluster = kNoFeature;
@@ -52,23 +52,23 @@ struct PlacedBorder {
 
 class GroundBorder {
  public:
-  /// Who the owners of lines are.
+  /// The owners of lines.
   struct Owners {
     std::vector<std::uint32_t> theme;  ///< by owner; those after the themes stand on the ground
     std::vector<bool> terrain;         ///< by theme: whether it is part of the full surface
   };
-  /// The full surface's third vertex left of an edge of it; nothing at the end of the ground.
+  /// Finds the full surface's third vertex left of an edge of it; nothing at the end of the ground.
   using Apex = std::function<std::optional<Position>(Position from, Position to)>;
 
   explicit GroundBorder(std::size_t themes) : themes_(themes) {}
   void add(std::uint32_t theme, const ChangedGround& changed);
 
-  /// Where the changed ground of two pieces of a theme meets: edges to be kept as lines, owned by themes.
+  /// Returns the edges where the changed ground of two pieces of a theme meets, to be kept as lines, owned by themes.
   std::vector<OwnedSegment> seams();
   struct Fit {
     std::vector<OwnedSegment> lines;   ///< edges to keep where their own theme's lines cut the border, which moved on
-    std::vector<PlacedBorder> placed;  ///< where there are none: the borders still needed, for a line of the terrain or
-                                       ///< one of the same theme does as well
+    std::vector<PlacedBorder> placed;  ///< if there are none: the borders still needed; a line of the terrain or
+                                       ///< of their own theme makes them needless
   };
   Fit fit(const PlanarLines& lines, const Owners& owners, const Apex& apex);
 

@@ -10,7 +10,7 @@ namespace itin {
 
 namespace {
 
-/// Closed segments.
+/// Tells whether closed segments touch.
 bool touch(const Segment& s, Position p, Position q) {
   const Position a = s.a(), b = s.b();
   return crosses(s, p, q) || on_segment(a, b, p) || on_segment(a, b, q) || on_segment(p, q, a) || on_segment(p, q, b);

@@ -1,4 +1,4 @@
-// Whether something lies wholly on the ground of a store: against the outline of what its sources cover.
+// Tells whether something lies wholly on the ground of a store, by the outline of what the store's sources cover.
 #pragma once
 
 #include <vector>

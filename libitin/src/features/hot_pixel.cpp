@@ -69,7 +69,7 @@ Position crossing_pixel(Position a, Position b, Position c, Position d) {
 }
 
 bool meets_pixel(Position a, Position b, Position p) {
-  // Doubled, so that the pixel's sides are whole.
+  // Coordinates are doubled, so that the pixel's sides are whole.
   const std::int64_t ax = 2 * std::int64_t{a.x}, ay = 2 * std::int64_t{a.y};
   const std::int64_t dx = 2 * std::int64_t{b.x} - ax, dy = 2 * std::int64_t{b.y} - ay;
   const std::int64_t px = 2 * std::int64_t{p.x}, py = 2 * std::int64_t{p.y};

@@ -20,7 +20,7 @@ GridBox box_of_piece(std::span<const Position> vertices, std::size_t from, std::
   return box_of(vertices.subspan(from, to - from + 1));
 }
 
-/// Whether p lies in the closed polygon of the chain's piece and its shortcut, which is simple.
+/// Whether p lies in the closed polygon, a simple one, of the chain's piece and its shortcut.
 bool in_pocket(const std::vector<Position>& vertices, std::size_t from, std::size_t to, Position p) {
   bool inside = false;
   for (std::size_t i = from; i <= to; ++i) {
@@ -49,7 +49,7 @@ double misfit(Position a, std::int32_t za, Position b, std::int32_t zb, Position
 
 }  // namespace
 
-/// Which vertices are joined, by which themes.
+/// The graph of the lines: which vertices are joined, and by which themes.
 class LineHierarchy::Graph {
  public:
   Graph(const std::vector<Segment>& segments, const std::vector<Segment>& whole,
@@ -122,8 +122,8 @@ class LineHierarchy::Graph {
     }
   }
 
-  /// Closed lines are cut at their node or, if they may start `anywhere`, their least vertex; at the vertex farthest
-  /// from it; and at the one farthest from the line through both.
+  /// Cuts a closed line at its node or, if it may start `anywhere`, at its least vertex; at the vertex farthest from
+  /// there; and at the one farthest from the line through both.
   static void cut_ring(const Chain& ring, bool anywhere, std::vector<Chain>& out) {
     std::vector<Position> v(ring.vertices.begin(), ring.vertices.end() - 1);
     if (anywhere) std::rotate(v.begin(), std::min_element(v.begin(), v.end()), v.end());
@@ -252,7 +252,7 @@ void LineHierarchy::for_each_edge(const Chain& chain, const Visit& visit) const 
         visit(from, to, static_cast<std::uint8_t>(k), coarsest == coarsest_ ? std::uint8_t{0xff} : coarsest,
               edge.extent);
       }
-      // Widened alike on all sides, so that what it stands for stays within when it is read again.
+      // The extent is widened alike on all sides, so that the edge's piece stays within when the extent is read again.
       const GridBox plain = box_of(std::array{chain.vertices[from], chain.vertices[to]});
       const std::int32_t reach = std::max({plain.xmin - edge.extent.xmin, edge.extent.xmax - plain.xmax,
                                            plain.ymin - edge.extent.ymin, edge.extent.ymax - plain.ymax});

@@ -9,7 +9,7 @@
 // These vertices stay at every level. A shortcut may take the place of a piece of a chain where the piece's vertices
 // lie within the level's tolerances of it, where it does not cross the piece, and where no other vertex of any line
 // lies in the closed region between both (D. H. Douglas and T. K. Peucker, 1973, choose the pieces). So a shortcut
-// crosses no other line and no other line's shortcut, of whatever levels: what crosses it would have to end in that
+// crosses no other line, and no other line's shortcut at any level: whatever crossed it would have to end in that
 // region.
 #pragma once
 
@@ -24,7 +24,7 @@
 
 namespace itin {
 
-/// By level, level 0 first, in grid units.
+/// The tolerances of a level's lines, in grid units; lists of them hold level 0 first.
 struct LineTolerance {
   double vertical = 0;
   double lateral = 0;
@@ -34,16 +34,17 @@ class LineHierarchy {
  public:
   using HeightAt = std::function<std::int32_t(Position)>;
 
-  /// `segments` must be planar, of themes; those of `whole` themes are not generalised. `nodes`: further vertices to
-  /// keep at every level, and to keep away from.
+  /// `segments`, the lines of themes, must be planar. `whole`: segments of themes that are not generalised. `nodes`:
+  /// further vertices to keep at every level, and to keep away from.
   LineHierarchy(const std::vector<Segment>& segments, const std::vector<Segment>& whole,
                 const std::vector<std::uint64_t>& nodes, const HeightAt& height,
                 const std::vector<LineTolerance>& tolerances);
 
-  /// The segments of all levels, ascending; without those of `whole`.
+  /// The segments of all levels, ascending, without `whole`.
   std::vector<Segment> segments() const;
-  /// Which features the segments of all levels are of, ascending; `of_whole` tells it of the segments that it was made
-  /// of. Precondition: `nodes` has all vertices where a theme's line goes on as another feature's.
+  /// Returns the features that the segments of all levels are part of, ascending. `of_whole` tells the features of the
+  /// segments given to the constructor. Precondition: `nodes` has all vertices where a theme's line goes on as another
+  /// feature's.
   std::vector<SegmentFeature> features(const std::vector<SegmentFeature>& of_whole) const;
 
   struct VertexLevel {
@@ -51,23 +52,23 @@ class LineHierarchy {
     std::uint8_t level;
     friend auto operator<=>(const VertexLevel&, const VertexLevel&) = default;
   };
-  /// The coarsest level that needs each vertex, ascending by code; without those of `whole` alone.
+  /// The coarsest level that needs each vertex, ascending by code, without vertices of `whole` alone.
   std::vector<VertexLevel> levels() const;
 
-  /// An edge of a line at a level, between these vertices, the lesser first; where they are one, the edge that stands
-  /// for this vertex.
+  /// An edge of a line at a level, between these vertices, the lesser first. Where both are one vertex, the edge that
+  /// leaves this vertex out.
   struct Shortcut {
     int level;
     Position a, b;
     friend auto operator<=>(const Shortcut&, const Shortcut&) = default;
   };
-  /// Vertices that are part of their line at the levels from `finest` to `coarsest` as well now, and their box.
+  /// Vertices that are now part of their line at the levels from `finest` to `coarsest` too, and their box.
   struct Restored {
     GridBox box;
     int finest, coarsest;
   };
-  /// Puts the vertices that these shortcuts (ascending) stand for back into their levels and all finer ones. What is no
-  /// shortcut at its level is passed over.
+  /// Puts the vertices that these shortcuts (ascending) leave out back into the shortcuts' levels and all finer ones.
+  /// An edge that is no shortcut at its level is passed over.
   std::vector<Restored> restore(const std::vector<Shortcut>& shortcuts);
 
  private:

@@ -1,4 +1,4 @@
-// Which of many polygons a position lies in, borders included. For polygons that overlap little.
+// Tells in which of many polygons a position lies, borders included. It is made for polygons that overlap little.
 #pragma once
 
 #include <cstdint>
@@ -12,8 +12,8 @@
 
 namespace itin {
 
-/// Independent of the polygons once made. Safe for concurrent use. A look-up costs O(1) away from borders, and time
-/// proportional to the edges nearby at them.
+/// An index that does not need the polygons once made. Safe for concurrent use. A look-up costs O(1) away from borders,
+/// and at borders time proportional to the edges nearby.
 class MaskIndex {
  public:
   explicit MaskIndex(std::span<const GridPolygon> polygons);
@@ -22,9 +22,9 @@ class MaskIndex {
   std::optional<std::uint32_t> at(Position p) const;
   /// Whether a polygon has the position inside, not on its border.
   bool strictly_inside(Position p) const;
-  /// Whether a polygon has the place inside, as PolygonSides has it.
+  /// Whether a polygon has the place inside, as PolygonSides::encloses() tells.
   bool encloses(Point2 p) const;
-  /// The first polygon that has the middle between two positions inside, as PolygonSides has it.
+  /// The first polygon that has the middle between two positions inside, as PolygonSides::encloses_middle() tells.
   std::optional<std::uint32_t> about_middle(Position a, Position b) const;
   bool middle_inside(Position a, Position b) const { return about_middle(a, b).has_value(); }
 
@@ -37,7 +37,7 @@ class MaskIndex {
 
   std::vector<PolygonSides> polygons_;
   std::int64_t side_ = 64;
-  std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> buckets_;  ///< the polygons whose boxes meet them
+  std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> buckets_;  ///< the polygons whose boxes meet a bucket
 };
 
 GridBox box_about(const GridPolygon& polygon);

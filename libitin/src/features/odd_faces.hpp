@@ -5,8 +5,9 @@
 
 namespace itin {
 
-/// The faces that a ring winds about an odd number of times, as polygons that meet at vertices only. By snap rounding,
-/// so that every edge lies within a grid step of the ring. O((n + k) log n) for n edges and k crossings: bound k first.
+/// The faces that a ring winds about an odd number of times, as polygons that meet at vertices only. Snap rounding
+/// makes them, so that every edge lies within a grid step of the ring. O((n + k) log n) for n edges and k crossings:
+/// bound k first.
 GridPolygons odd_faces(const GridRing& ring);
 
 }  // namespace itin

@@ -36,7 +36,7 @@ std::vector<PartVertex> part_vertices(const RaisedPart& part, const std::vector<
     const GridPoint point{p.x, p.y, kHeightUnknown};
     if (!std::binary_search(part.vertices.begin(), part.vertices.end(), point, before_by_code)) fresh.push_back(point);
   }
-  // By x, so that a segment finds those beside it.
+  // Sorted by x, so that a segment finds the vertices beside it.
   sort_unique(fresh);
   std::vector<double> nearest(fresh.size(), std::numeric_limits<double>::infinity());
   std::vector<bool> on_foot(fresh.size());

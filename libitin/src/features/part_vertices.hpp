@@ -1,5 +1,5 @@
-// The heights of a raised part's vertices after its lines were made planar with all others: crossings have given it
-// new ones.
+// The heights of a raised part's vertices after its lines were made planar with all others. Crossings have given the
+// part new vertices.
 #pragma once
 
 #include <vector>
@@ -10,12 +10,12 @@ namespace itin {
 
 struct PartVertex {
   GridPoint point;
-  bool outline = false;  ///< between a feature and the ground
+  bool outline = false;  ///< whether it lies between a feature and the ground
 };
 
-/// The part's own vertices and those at `ends` (any order, repetitions allowed), each once, in Morton order. A new one
-/// lies within a grid step of some of the part's segments and has the greatest height of these there; of feet, where it
-/// lies on one: what rises beside them is steep.
+/// Returns the part's own vertices and those at `ends` (any order, repetitions allowed), each once, in Morton order. A
+/// new vertex lies within a grid step of some of the part's segments and takes their greatest height there. Where it
+/// lies on feet only these count, for what rises beside them is steep.
 std::vector<PartVertex> part_vertices(const RaisedPart& part, const std::vector<Position>& ends);
 
 }  // namespace itin

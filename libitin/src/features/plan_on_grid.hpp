@@ -13,8 +13,8 @@
 
 namespace itin {
 
-/// Rings of Point2 or Point3, by the even-odd rule; nothing where one has coordinates beyond the grid. Throws
-/// OverlayError.
+/// Returns the plan of rings of Point2 or Point3, by the even-odd rule; nothing where one has coordinates beyond the
+/// grid. Throws OverlayError.
 template <class Rings>
 std::optional<EvenOdd> plan_on_grid(const Rings& rings, const Grid& grid) {
   std::vector<GridRing> on_grid;
@@ -29,7 +29,7 @@ std::optional<EvenOdd> plan_on_grid(const Rings& rings, const Grid& grid) {
   return even_odd(on_grid);
 }
 
-/// What these cover together, without those beyond the grid. Throws OverlayError.
+/// Returns the plan that these surfaces cover together, without surfaces beyond the grid. Throws OverlayError.
 inline GridPolygons plan_of(const std::vector<RoofSurface>& surfaces, const Grid& grid) {
   GridPolygons all;
   for (const RoofSurface& surface : surfaces)

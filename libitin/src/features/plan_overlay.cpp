@@ -27,12 +27,12 @@ bool asked_to_stop() {
   return progress != nullptr && progress->cancelled();
 }
 
-/// GEOS calls it from within its loops.
+/// Interrupts GEOS if that was asked for. GEOS calls it from within its loops.
 void interrupt_if_asked() {
   if (asked_to_stop()) GEOS_interruptRequest();
 }
 
-/// GEOS keeps its state in a handle; one per thread.
+/// GEOS's handle, which keeps its state; there is one per thread.
 class Geos {
  public:
   Geos() : handle_(GEOS_init_r()) {
@@ -146,7 +146,7 @@ void add_polygons(const GEOSGeometry* g, GridPolygons& out) {
     }
     out.push_back(std::move(polygon));
   } else if (type >= GEOS_MULTIPOINT) {
-    // Lines and points are what has no area: of no interest.
+    // Lines and points have no area and are passed over.
     for (int i = 0; i < GEOSGetNumGeometries_r(geos(), g); ++i) add_polygons(GEOSGetGeometryN_r(geos(), g, i), out);
   }
 }
@@ -209,7 +209,7 @@ bool covers(const GridPolygons& polygons, Point2 p) {
 
 namespace {
 
-/// Without repetitions; nothing of what encloses no area in any case.
+/// The rings without repeated positions, and without rings that can enclose no area.
 std::vector<GridRing> bare_rings(const std::vector<GridRing>& rings) {
   std::vector<GridRing> result;
   for (GridRing ring : rings) {
@@ -250,7 +250,8 @@ EvenOdd even_odd(const std::vector<GridRing>& rings) {
     shells.back() = to_geos(odd_faces(ring));
     result.repaired = true;
   }
-  // Parity: what two rings both enclose is outside. In pairs, for many rings.
+  // The areas are combined by parity: what two rings both enclose is outside. They are combined in pairs, which suits
+  // many rings.
   for (std::size_t step = 1; step < shells.size(); step *= 2) {
     for (std::size_t i = 0; i + step < shells.size(); i += 2 * step)
       shells[i] = checked(GEOSSymDifferencePrec_r(geos(), shells[i].get(), shells[i + step].get(), kGridSize));
@@ -284,7 +285,7 @@ std::vector<PlanFace> faces_of(const std::vector<GridEdge>& edges) {
 
 GridPolygons united(const GridPolygons& faces) {
   if (faces.size() < 2) return faces;
-  // Edges between two faces go; of the rest every face to the left of one is inside. Nothing may be snapped again:
+  // Edges between two faces go. Every face to the left of a remaining edge is inside. Nothing may be snapped again:
   // edges that pass a vertex closely would move.
   std::set<GridEdge> border;
   for (const GridPolygon& face : faces) {

@@ -1,9 +1,9 @@
 // Polygons on the grid, and what footprints need done to them. The only place that knows GEOS.
 //
-// Coordinates are grid positions throughout: what is computed between them is rounded to the grid as by snap rounding,
-// so results are valid polygons whose edges lie within a grid step of the exact ones. Every function is free of shared
-// state and may run on many threads. All of them can be stopped (stoppable.hpp), though GEOS takes some seconds to
-// notice within an outline of a million corners (the program does not wait for it).
+// Coordinates are grid positions throughout. Computed places are rounded to the grid as by snap rounding, so results
+// are valid polygons whose edges lie within a grid step of the exact ones. Every function is free of shared state and
+// may run on many threads. All of them can be stopped (stoppable.hpp), though GEOS takes some seconds to notice within
+// an outline of a million corners (the program does not wait for it).
 #pragma once
 
 #include <utility>
@@ -16,14 +16,14 @@
 
 namespace itin {
 
-/// GEOS gave up, as it does on a few outlines about as small as the grid, or lines cross too often. The functions below
-/// may throw it.
+/// Tells that GEOS gave up, as it does on a few outlines about as small as the grid, or that lines cross too often. The
+/// functions below may throw it.
 class OverlayError : public Error {
  public:
   using Error::Error;
 };
 
-/// Open: the first position is not repeated.
+/// A ring of positions, of which the first is not repeated at the end.
 using GridRing = std::vector<Position>;
 
 /// The outline runs counterclockwise, holes clockwise: the inside is always to the left.
@@ -49,22 +49,23 @@ void for_each_edge(const GridPolygon& polygon, const Visit& visit) {
   });
 }
 
-/// Square grid units.
+/// The area in square grid units.
 double area(const GridPolygon& polygon);
 double area(const GridPolygons& polygons);
 
 enum class Side { outside, border, inside };
-/// Exact.
+/// Tells the side, exactly.
 Side side_of(const GridPolygon& polygon, Position p);
-/// By the even-odd rule; p anywhere, borders as floating point has it. For many positions see polygon_sides.hpp.
+/// Tells by the even-odd rule whether p, which may lie anywhere, is inside. Borders are as exact as floating point. For
+/// many positions see polygon_sides.hpp.
 bool covers(const GridPolygons& polygons, Point2 p);
 
 struct EvenOdd {
   GridPolygons polygons;
   bool repaired = false;  ///< the rings crossed or touched themselves or each other
 };
-/// The area that rings enclose; may be empty. Throws OverlayError where they cross more often than most_conflicts()
-/// (planarity.hpp), before any memory is spent on it.
+/// The area that rings enclose, which may be empty. Throws OverlayError where they cross more often than
+/// most_conflicts() (planarity.hpp), before any memory is spent on it.
 EvenOdd even_odd(const std::vector<GridRing>& rings);
 
 /// A bounded face of an arrangement, with a position inside it.
@@ -72,7 +73,7 @@ struct PlanFace {
   GridPolygon polygon;
   Point2 inside;
 };
-/// The faces of edges that meet only at their ends, without regard to edges that bound none.
+/// The faces of edges that meet only at their ends; edges that bound no face are passed over.
 std::vector<PlanFace> faces_of(const std::vector<GridEdge>& edges);
 
 /// The union of polygons that have no area in common and meet at shared edges; vertices stay.

@@ -109,7 +109,7 @@ class SnapRounding {
   }
 
  private:
-  /// Asks now and then only: costs next to nothing.
+  /// Looks for cancellation now and then only, so that it costs next to nothing.
   void check_cancelled() {
     if (progress_ != nullptr && ++steps_ % 1024 == 0) progress_->throw_if_cancelled();
   }
@@ -130,7 +130,7 @@ class SnapRounding {
     std::set<std::pair<Segment, Segment>> crossing;
     for_each_edge_leaf(std::move(plain), [&](const Cell&, const std::vector<Segment>& near) {
       check_cancelled();
-      // Ascending by ax, and ax <= bx: what begins right of s's end does not meet it.
+      // The segments ascend by ax, and ax <= bx: one that begins right of s's end does not meet s.
       for (std::size_t i = 0; i < near.size(); ++i) {
         for (std::size_t j = i + 1; j < near.size() && near[j].ax <= near[i].bx; ++j) {
           const Segment &s = near[i], &t = near[j];
@@ -143,8 +143,8 @@ class SnapRounding {
     for (const auto& [s, t] : crossing) hot_.push_back(code_of(crossing_pixel(s.a(), s.b(), t.a(), t.b())));
   }
 
-  /// Leads a segment through the centres of the hot pixels it meets. It visits pixels in steps that never turn back
-  /// in x or y, so their order is that of the way made in both.
+  /// Leads a segment through the centres of the hot pixels it meets. It visits pixels in steps that never turn back in
+  /// x or y, so the sum of the ways made in x and y gives their order.
   void round(const OwnedSegment& s, const SortedPositions& hot) {
     const Position a = position(s.a), b = position(s.b);
     std::vector<std::pair<std::int64_t, Position>> way;
@@ -170,7 +170,7 @@ class SnapRounding {
     return {code_of(p), s.owner, true, -std::clamp<std::int64_t>(s.a.z + rise, low, high)};
   }
 
-  /// `of` is the segment or the piece that it is part of.
+  /// Adds the piece pq; `of` is the segment that it is part of, or a longer piece.
   template <class Whole>
   void add_piece(Position p, Position q, const Whole& of) {
     if (q < p) std::swap(p, q);

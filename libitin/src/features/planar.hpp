@@ -11,8 +11,8 @@
 // alone. Everything is decided in integers. Lines that are planar already may be moved again, for a segment may have
 // been led past a vertex at less than half a step.
 //
-// Heights. A vertex takes the height of the owner that comes first in order; of one owner's, the height of an end
-// rather than one interpolated along a segment; among several such, the greatest.
+// Heights. A vertex takes the height of the owner that comes first in order. Where this owner gives several, the height
+// of a segment's end goes before one interpolated along a segment, and then the greatest counts.
 #pragma once
 
 #include <cstdint>
@@ -25,8 +25,8 @@
 
 namespace itin {
 
-/// A piece of a line. Owners are themes, say, in the order in which they decide about heights; a feature is one of its
-/// owner's, or kNoFeature.
+/// A piece of a line. Owners (themes, for example) are numbered in the order in which they decide about heights.
+/// `feature` is a feature of the owner, or kNoFeature.
 struct OwnedSegment {
   GridPoint a, b;
   std::uint32_t owner = 0;
@@ -40,7 +40,7 @@ struct PlanarEdge {
   friend auto operator<=>(const PlanarEdge&, const PlanarEdge&) = default;
 };
 
-/// An edge, by its number, is part of a feature of its owner.
+/// An edge, by its number, and a feature of its owner that it is part of.
 struct EdgeFeature {
   std::uint32_t edge, feature;
   friend auto operator<=>(const EdgeFeature&, const EdgeFeature&) = default;
@@ -48,7 +48,7 @@ struct EdgeFeature {
 
 struct PlanarLines {
   std::vector<GridPoint> vertices;    ///< in Morton order, distinct, each an end of an edge
-  std::vector<PlanarEdge> edges;      ///< ascending; one that several owners share is listed for each
+  std::vector<PlanarEdge> edges;      ///< ascending; an edge that several owners share is listed for each
   std::vector<EdgeFeature> features;  ///< ascending
   std::uint64_t crossings = 0;        ///< pairs of segments that crossed between their ends
 };

@@ -14,7 +14,7 @@ namespace itin {
 
 namespace {
 
-/// Two different edges, each with its lesser end first.
+/// Tells whether two different edges, each with its lesser end first, conflict.
 bool in_conflict(const GridEdge& s, const GridEdge& t) {
   const int tc = orientation(s.first, s.second, t.first), td = orientation(s.first, s.second, t.second);
   const int sa = orientation(t.first, t.second, s.first), sb = orientation(t.first, t.second, s.second);
@@ -31,7 +31,8 @@ std::int64_t floored_quotient(Int128 numerator, Int128 denominator) {
   return static_cast<std::int64_t>(quotient - (numerator % denominator < 0));
 }
 
-/// The Morton code of the grid square in which edges cross: it lies in one cell of the quadtree, and so do both there.
+/// The Morton code of the grid square in which two edges cross. The square lies in one cell of the quadtree, which both
+/// edges meet.
 std::uint64_t crossing_square(const Segment& s, const Segment& t) {
   const Position a = s.a(), b = s.b(), c = t.a(), d = t.b();
   const Int128 from = doubled_area(c, d, a), whole = from - doubled_area(c, d, b);

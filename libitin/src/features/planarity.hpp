@@ -1,4 +1,4 @@
-// Whether segments meet only at their ends: exactly, in integers.
+// Tells whether segments meet only at their ends, exactly, in integers.
 #pragma once
 
 #include <algorithm>
@@ -12,19 +12,19 @@
 
 namespace itin {
 
-/// Pairs of indices of edges that have more in common than one end of each, or are the same edge, ascending. Each pair
-/// once. O((n + k) log n) while edges are not much denser than 64 in 256 grid steps.
+/// Returns the pairs of indices of edges that have more in common than one end of each, or are the same edge. The pairs
+/// are ascending, each comes once. O((n + k) log n) while edges are not much denser than 64 in 256 grid steps.
 std::vector<std::pair<std::uint32_t, std::uint32_t>> conflicts(std::span<const GridEdge> edges);
 
 /// Calls visit(i, j) for every place where edges i and j cross, or touch other than at ends of both, until it returns
-/// false. An edge that is given twice is visited as one. In the memory of a few times the edges.
+/// false. An edge that is given twice is visited as one. Memory is a few times that of the edges.
 void visit_conflicts(std::span<const GridEdge> edges, const std::function<bool(std::uint32_t, std::uint32_t)>& visit);
 
-/// How many such places there are, counted until there are more than `most`.
+/// Counts the places that visit_conflicts() visits, until there are more than `most`.
 std::uint64_t count_conflicts(std::span<const GridEdge> edges, std::uint64_t most);
 
-/// Outlines that meet each other or themselves more often are not taken apart: time and memory follow the number of
-/// places where they do, which grows with the square of the edges. No real outline comes near.
+/// The most conflicts at which outlines are taken apart. Time and memory follow the number of places where outlines
+/// meet each other or themselves, which grows with the square of the edges. No real outline comes near.
 constexpr std::uint64_t most_conflicts(std::size_t edges) {
   return std::max<std::uint64_t>(20'000, 2 * std::uint64_t{edges});
 }

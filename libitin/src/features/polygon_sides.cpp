@@ -58,7 +58,7 @@ PolygonSides::PolygonSides(std::vector<GridEdge> edges) : edges_(std::move(edges
   find_references();
 }
 
-/// About as many cells as edges, and on average few cells for an edge.
+/// Chooses the cells: about as many as edges, and on average few for an edge.
 void PolygonSides::choose_cells(const GridBox& box) {
   origin_ = {box.xmin, box.ymin};
   extent_ = place({box.xmax, box.ymax});
@@ -78,7 +78,8 @@ PolygonSides::Place PolygonSides::place(Position p) const {
   return {(std::int64_t{p.x} - origin_.x) * kScale, (std::int64_t{p.y} - origin_.y) * kScale};
 }
 
-/// Odd: no vertex, and no middle between two, has such a coordinate.
+/// The coordinate of a cell's reference place. It is odd, unlike the coordinates of vertices and of the middles between
+/// them.
 std::int64_t PolygonSides::reference(std::int64_t cell) const {
   return cell * side_ + side_ / 2 + 1;
 }
@@ -102,7 +103,7 @@ void PolygonSides::for_each_cell(Point2 p, Point2 q, const Visit& visit) const {
   const auto [left, right] = std::minmax(a.x, b.x);
   const std::int64_t last = cell(b.y + 1, rows_);
   for (std::int64_t row = cell(a.y - 1, rows_); row <= last; ++row) {
-    // A step wider than the part of the segment in the row.
+    // The columns are those that the segment's part in the row meets, with a step to spare.
     const auto along = [&](double y) { return b.y > a.y ? std::clamp((y - a.y) / (b.y - a.y), 0.0, 1.0) : 0.0; };
     double from = left, to = right;
     if (b.y > a.y) {
@@ -123,7 +124,8 @@ void PolygonSides::fill_cells() {
                     }};
 }
 
-/// Row by row: every edge that crosses the height of a row's references turns inside and outside to its right.
+/// Finds the references that are inside, row by row: every edge that crosses the height of a row's references swaps
+/// inside and outside to its right.
 void PolygonSides::find_references() {
   inside_.assign(static_cast<std::size_t>(columns_ * rows_), false);
   for (const GridEdge& e : edges_) {
@@ -147,7 +149,7 @@ void PolygonSides::find_references() {
     if (i % static_cast<std::size_t>(columns_) != 0) inside_[i] = inside_[i] != inside_[i - 1];
 }
 
-/// From the cell's reference along its row to what lies next to p's column to the right, and from there to p.
+/// Walks from the cell's reference along its row to what lies next to p's column to the right, and from there to p.
 bool PolygonSides::encloses(const Place& p) const {
   if (!in_box(p)) return false;
   const std::size_t cell = cell_of(p);
@@ -199,7 +201,7 @@ std::vector<std::pair<Point2, Point2>> PolygonSides::inside_parts(Point2 p, Poin
       const double t = ((x - p.x) * dx + (y - p.y) * dy) / (dx * dx + dy * dy);
       if (t > 0 && t < 1) cuts.push_back(t);
     };
-    if (sa == sb) {  // along the segment: what is inside may end at either corner
+    if (sa == sb) {  // the edge runs along the segment: what is inside may end at either corner
       cut(a.x, a.y), cut(b.x, b.y);
     } else {
       const double s = sa / (sa - sb);

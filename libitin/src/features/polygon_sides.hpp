@@ -1,10 +1,11 @@
-// Where positions lie relative to one polygon, or one area, however many corners it has.
+// Tells where positions lie relative to one polygon, or one area, however many corners it has.
 //
 //   const PolygonSides sides(polygon);
 //   if (sides.at(p) == Side::inside) ...
 //
-// A grid of cells over the polygon's box: each knows the edges that meet it, and whether a reference place in it is
-// inside. A look-up walks from there, and crosses only edges of the cell. Everything is decided in integers.
+// A grid of cells covers the polygon's box. Each cell knows the edges that meet it, and whether a reference place in it
+// is inside. A look-up walks from the reference place, and crosses only edges of the cell. Everything is decided in
+// integers.
 #pragma once
 
 #include <cstdint>
@@ -17,26 +18,26 @@
 
 namespace itin {
 
-/// Independent of the polygon once made. Some 40 bytes per edge; a look-up takes time proportional to the edges nearby.
-/// Safe for concurrent use.
+/// An index that does not need the polygon once made. It takes some 40 bytes per edge; a look-up takes time
+/// proportional to the edges nearby. Safe for concurrent use.
 class PolygonSides {
  public:
   explicit PolygonSides(const GridPolygon& polygon);
   /// The sides of the area that closed lines bound, by the even-odd rule.
   explicit PolygonSides(std::vector<GridEdge> edges);
 
-  /// As side_of().
+  /// Tells the side as side_of() does.
   Side at(Position p) const;
-  /// Whether the middle between two positions is inside. On the border, whether what lies next to it to the right (and
-  /// a little above) is.
+  /// Whether the middle between two positions is inside. A middle on the border counts as what lies next to it to the
+  /// right (and a little above).
   bool encloses_middle(Position a, Position b) const;
-  /// Whether a place, to 2^-16 grid steps, is inside; its border counts as for encloses_middle().
+  /// Whether a place, to 2^-16 grid steps, is inside; on the border it counts as for encloses_middle().
   bool encloses(Point2 p) const;
-  /// The pieces of the segment pq inside, in order from p, as floating point has it.
+  /// The pieces of the segment pq that lie inside, in order from p, computed in floating point.
   std::vector<std::pair<Point2, Point2>> inside_parts(Point2 p, Point2 q) const;
 
  private:
-  /// Grid units times kScale, from the lower left corner of the box.
+  /// A place in grid units times kScale, from the lower left corner of the box.
   struct Place {
     std::int64_t x, y;
   };
@@ -60,7 +61,7 @@ class PolygonSides {
   std::int64_t side_ = 0;  ///< the side of a cell, in the units of Place
   std::int64_t columns_ = 0, rows_ = 0;
   BucketLists edges_of_cell_;
-  std::vector<bool> inside_;  ///< by cell: whether the reference place is
+  std::vector<bool> inside_;  ///< by cell: whether the reference place is inside
 };
 
 }  // namespace itin

@@ -48,7 +48,7 @@ class Preparing {
     return false;
   }
 
-  /// The plan. A measured roof without an outline of its own has that of its surfaces.
+  /// Finds the plan. A measured roof without an outline of its own has the plan of its surfaces.
   bool place() {
     auto plan = plan_on_grid(source_.rings, options_.grid);
     if (!plan) return refuse("has coordinates beyond the grid");

@@ -31,9 +31,9 @@ namespace itin {
 
 namespace {
 
-/// Metres: the side of the pieces of ground that are triangulated at once.
+/// The side, in metres, of the pieces of ground that are triangulated at once.
 constexpr double kPiece = 1000;
-/// Memory of the ground's triangulation while features are raised on it. Measured, rounded up.
+/// Bytes per point that the ground's triangulation takes while features are raised on it; measured, rounded up.
 constexpr std::uint64_t kBytesPerPoint = 400;
 /// The most points of ground that are triangulated at once, for several groups of features.
 constexpr std::uint64_t kMostPoints = 500'000;
@@ -53,7 +53,7 @@ GridBox box_on_grid(const FootprintFeature& feature, const Grid& grid) {
   return box;
 }
 
-/// Where a feature stands wall to wall with a higher one, whose eaves its wall reaches up to.
+/// A wall that a feature shares with a higher one, whose eaves the wall reaches up to.
 struct PartyWall {
   std::uint32_t higher = 0, lower = 0;
   std::int32_t height = 0;  ///< how high the eaves are above the ground, grid units
@@ -70,7 +70,7 @@ std::vector<PartyWall> party_walls(const FeatureMesh& mesh, const MaskIndex& mas
     if (s.kind != SegmentClass::eaves) continue;
     const GridPoint &a = mesh.vertices[s.from], &b = mesh.vertices[s.to];
     const double x = double{1} * b.x - a.x, y = double{1} * b.y - a.y, length = std::hypot(x, y);
-    // One and a half grid steps beside the middle: within the wall.
+    // A place one and a half grid steps beside the middle lies within the wall.
     const auto dx = static_cast<std::int32_t>(std::lround(3 * y / length)),
                dy = static_cast<std::int32_t>(std::lround(-3 * x / length));
     for (const int side : {1, -1}) {
@@ -84,7 +84,7 @@ std::vector<PartyWall> party_walls(const FeatureMesh& mesh, const MaskIndex& mas
 
 class ThemeRaiser {
  public:
-  /// `is_patch` by footprint, or empty.
+  /// `is_patch` has an entry for each footprint, or is empty.
   ThemeRaiser(const Store& ground, std::span<const StoredFootprint> footprints, std::vector<bool> is_patch,
               double wall_offset, std::uint64_t memory_bytes)
       : ground_(ground),
@@ -142,7 +142,7 @@ class ThemeRaiser {
     return pieces;
   }
 
-  /// In halves as long as there is much ground about several groups.
+  /// Builds the groups, split in halves as long as there is much ground about several of them.
   void build(Groups groups, const Progress& progress) {
     progress.throw_if_cancelled();
     GridBox box;
@@ -191,7 +191,7 @@ class ThemeRaiser {
     const std::vector<Segment> outline = outline_near(ground_, box);
     FeatureMesh mesh = build_feature_mesh(features, options_, &terrain, quiet);
     std::set<std::uint32_t> left_out;
-    // Without these, others may reach over the ground that they had covered.
+    // After some features are refused, others may reach over the ground that those had covered.
     for (auto beyond = beyond_ground(mesh, outline, terrain); !beyond.empty();
          beyond = beyond_ground(mesh, outline, terrain)) {
       for (const std::uint32_t f : beyond) {
@@ -219,7 +219,7 @@ class ThemeRaiser {
     ++at->second.first;
   }
 
-  /// A raster has thousands of patches: what is found of several of them is said once.
+  /// Reports each finding of several patches once, for a raster has thousands of patches.
   void report_patches() {
     for (const auto& [found, of] : of_patches_) {
       const auto& [source, finding] = found;
@@ -262,7 +262,7 @@ class ThemeRaiser {
       stop_if_asked();
       const GridPoint& p = mesh.vertices[v];
       if (level_of_vertex[v] < 0) {
-        // It has no segments: the feature is the one on whose ground it stands.
+        // The vertex has no segments: its feature is the one on whose ground it stands.
         const auto mask = index.at({p.x, p.y});
         if (!mask) continue;
         const std::uint32_t feature = mesh.masks[*mask].feature;
@@ -339,7 +339,7 @@ class ThemeRaiser {
   const Store& ground_;
   std::span<const StoredFootprint> footprints_;
   std::vector<bool> is_patch_;
-  /// Findings of patches by source, each with how many it is of and the first one's name.
+  /// Findings of patches by source and text, each with the number of patches that it is about and the first one's name.
   std::map<std::pair<std::uint16_t, std::string>, std::pair<std::uint64_t, std::string>> of_patches_;
   std::uint64_t memory_bytes_;
   Grid grid_;

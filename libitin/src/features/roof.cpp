@@ -41,7 +41,7 @@ struct RectangleRise {
     std::vector<std::pair<Point2, Point2>> lines;
     if (end > 0) lines.emplace_back(position(-end, 0), position(end, 0));
     if (!hipped) return lines;
-    // A step beyond the corners, so that hips reach a ring that was rounded.
+    // Hips go a step beyond the corners, so that they reach a ring that was rounded.
     for (const double s : {-1.0, 1.0})
       for (const double t : {-1.0, 1.0})
         lines.emplace_back(position(s * end, 0), position(s * (length + 1), t * (width + 1)));
@@ -127,7 +127,8 @@ bool stays_inside(const GridPolygon& plan, const std::vector<RoofLine>& lines) {
                       [&](const RoofLine& line) { return !line.eaves && (strays(line.a) || strays(line.b)); });
 }
 
-/// Skeletons take time that grows with the square of the corners and more; no house has so many.
+/// The most corners of a plan that gets a skeleton, which takes time that grows with the square of the corners and
+/// more. No house has that many.
 constexpr std::size_t kMostCorners = 1000;
 
 /// Why a plan is not fit for CGAL, which does not check: it crashes or runs for ever where rings touch.

@@ -22,7 +22,7 @@
 
 namespace itin {
 
-/// Heights of a roof, grid units above the grid's zero.
+/// Heights of a roof, in grid units above the grid's zero.
 ///
 /// Eaves and ridge together determine the slope. If only the ridge is given (the total height), the pitch determines
 /// the eaves, which lie at least half way up from the base; a roof that would begin lower gets flatter. If only the
@@ -36,7 +36,7 @@ struct RoofHeights {
 
 struct RoofLine {
   GridPoint a, b;
-  bool eaves;  ///< along the plan's rings, otherwise a crease
+  bool eaves;  ///< whether it runs along the plan's rings; otherwise it is a crease
 };
 
 struct RoofLines {
@@ -46,7 +46,7 @@ struct RoofLines {
 
 RoofLines make_roof(RoofKind kind, const GridPolygon& plan, const RoofHeights& heights);
 
-/// A roof's crease or eave with its distances from the eaves, grid units.
+/// A roof's crease or eave with its distances from the eaves, in grid units.
 struct SkeletonArc {
   Point2 a, b;
   double rise_a = 0, rise_b = 0;

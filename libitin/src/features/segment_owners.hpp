@@ -16,7 +16,7 @@ namespace itin {
 
 class SegmentOwners {
  public:
-  using Owner = std::pair<SegmentClass, std::uint32_t>;  ///< and the feature
+  using Owner = std::pair<SegmentClass, std::uint32_t>;  ///< the class and the feature
 
   SegmentOwners() = default;
   explicit SegmentOwners(const std::vector<PlacedSegment>& segments) {
@@ -40,7 +40,7 @@ class SegmentOwners {
   std::vector<Owner> owners_;
 };
 
-/// Edges are in order, so that the first owner has what several share.
+/// Tells whether an earlier owner has edge i as well: edges are in order, and the first owner has what several share.
 inline bool of_later_owner(const std::vector<PlanarEdge>& edges, std::size_t i) {
   return i > 0 && edges[i - 1].from == edges[i].from && edges[i - 1].to == edges[i].to;
 }

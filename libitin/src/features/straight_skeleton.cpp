@@ -15,7 +15,7 @@ namespace {
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Polygon = CGAL::Polygon_2<Kernel>;
 
-/// While one lives, CGAL reports by exceptions alone.
+/// Makes CGAL report by exceptions alone as long as it lives.
 class QuietCgal {
  public:
   QuietCgal() : error_(CGAL::set_error_handler(ignore)), warning_(CGAL::set_warning_handler(ignore)) {}
@@ -31,7 +31,7 @@ class QuietCgal {
   CGAL::Failure_function error_, warning_;
 };
 
-/// About the first vertex: inexact constructions do best near zero.
+/// The ring relative to the origin, the outline's first vertex: inexact constructions do best near zero.
 Polygon local(const GridRing& ring, Position origin) {
   Polygon polygon;
   for (const Position& p : ring)

@@ -26,7 +26,7 @@ double plane_height(const GridPoint& a, const GridPoint& b, const GridPoint& c, 
 }
 
 struct Integral {
-  double area = 0, x = 0, y = 0;  ///< and first moments
+  double area = 0, x = 0, y = 0;  ///< the area and its first moments
 };
 
 /// The integral over a closed ring about `origin`; signed, counterclockwise positive.
@@ -44,8 +44,8 @@ Integral integral(const std::vector<Point2>& ring, Point2 origin) {
   return sum;
 }
 
-/// Sutherland and Hodgman. A ring that enters several times comes out as one with coinciding edges there and back,
-/// which is all the same to an integral.
+/// Clips a ring to the left of ab (Sutherland and Hodgman). A ring that enters several times comes out as one with
+/// coinciding edges there and back, which makes no difference to an integral.
 void clip_to_half_plane(std::vector<Point2>& ring, Point2 a, Point2 b) {
   const auto side = [&](const Point2& p) { return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x); };
   std::vector<Point2> kept;
@@ -162,7 +162,7 @@ bool separated(const std::array<Position, 3>& triangle, Position p, Position q, 
 }  // namespace
 
 std::vector<std::uint32_t> TerrainHeights::triangles_along(Position a, Position b, std::int32_t reach) const {
-  // Piece by piece: the box of a long slanting segment holds many more than it meets.
+  // The segment is taken piece by piece: the box of a long slanting one holds many more triangles than it meets.
   const std::int64_t dx = std::int64_t{b.x} - a.x, dy = std::int64_t{b.y} - a.y;
   const std::int64_t pieces = std::max(std::abs(dx), std::abs(dy)) / (4 * bucket_side_) + 1;
   std::vector<std::uint32_t> found;
@@ -194,7 +194,7 @@ std::optional<double> TerrainHeights::height_at(Position p) const {
   return std::nullopt;
 }
 
-/// In order from a; one at an edge of two triangles is found twice.
+/// The crossings in order from a; one at an edge of two triangles is found twice.
 std::vector<TerrainHeights::Crossing> TerrainHeights::all_crossings(Position a, Position b) const {
   const double dx = double{1} * b.x - a.x, dy = double{1} * b.y - a.y;
   std::vector<Crossing> found;
@@ -229,8 +229,8 @@ std::vector<Position> TerrainHeights::crossings(Position a, Position b) const {
   return ordered;
 }
 
-/// The integral of the triangulation over a footprint. Where both are large, quarter by quarter of their box, so that a
-/// triangle meets no edges but those near it.
+/// The integral of the triangulation over a footprint. Where both are large, each quarter of their box is taken by
+/// itself, so that a triangle is combined with edges near it alone.
 class TerrainHeights::FootprintIntegral {
  public:
   using Rings = std::vector<std::vector<Point2>>;
@@ -247,7 +247,7 @@ class TerrainHeights::FootprintIntegral {
       add_part(part, rings, triangles);
   }
 
-  /// Metres.
+  /// The mean height in metres; nothing where no triangle meets the footprint.
   std::optional<double> mean() const {
     if (area_ <= 0) return std::nullopt;
     return volume_ / area_ * terrain_.grid().resolution;

@@ -28,23 +28,25 @@ class TerrainHeights {
   const Grid& grid() const { return tin_->grid; }
   std::optional<double> height_at(Position p) const;
 
-  /// Where an edge of the triangulation meets the open segment ab, rounded to the grid, in order from a. Edges along ab
-  /// give their ends.
+  /// The positions where edges of the triangulation meet the open segment ab, rounded to the grid, in order from a. An
+  /// edge along ab gives its ends.
   std::vector<Position> crossings(Position a, Position b) const;
 
   /// Indices, ascending, of the triangles whose boxes meet the box.
   std::vector<std::uint32_t> triangles_near(const GridBox& box) const;
-  /// Whether triangles near a box are all equally high and level. False also where only those a little further are not.
+  /// Whether the triangles near a box are all level and equally high. May be false where only triangles a little
+  /// further away are not.
   bool level_about(const GridBox& box) const;
-  /// All those within `reach` grid steps of the closed segment ab, and perhaps some a little further off, ascending.
+  /// The triangles within `reach` grid steps of the closed segment ab, and perhaps some a little further off,
+  /// ascending.
   std::vector<std::uint32_t> triangles_along(Position a, Position b, std::int32_t reach = 0) const;
   const Triangle& triangle(std::uint32_t t) const { return tin_->triangles[t]; }
   const GridPoint& vertex(std::uint32_t v) const { return tin_->vertices[v]; }
   GridBox box_of_triangle(std::uint32_t t) const { return box_of(tin_->corners(t)); }
 
-  /// Extremes and mean over the part of the footprint that lies on the triangulation, nothing if there is none. Least
-  /// and greatest are those at vertices inside, at the outline's vertices and where it crosses edges; the mean is the
-  /// integral over the area. terrain_following asks for the mean.
+  /// The height in metres that the rule asks for, over the part of the footprint that lies on the triangulation;
+  /// nothing if there is none. The least and greatest heights are found at vertices inside, at the outline's vertices
+  /// and where the outline crosses edges. The mean is the integral over the area. terrain_following asks for the mean.
   std::optional<double> base_height(const GridPolygons& footprint, BaseRule rule) const;
 
  private:
@@ -53,7 +55,7 @@ class TerrainHeights {
   struct Crossing {
     double along;  ///< 0 to 1
     Position at;
-    double height;  ///< grid units, where the edges meet: `at` is rounded
+    double height;  ///< grid units, where the edges meet, while `at` is rounded
     friend auto operator<=>(const Crossing&, const Crossing&) = default;
   };
   std::vector<Crossing> all_crossings(Position a, Position b) const;

@@ -31,7 +31,7 @@ class TopSurface {
   TopSurface(const TopSurface&) = delete;
   TopSurface& operator=(const TopSurface&) = delete;
 
-  /// Grid units; nothing beyond the top, as far as it is not level.
+  /// The height in grid units; nothing beyond the top, unless the top is level.
   std::optional<double> at(Position p) const {
     if (level_) return *level_;
     const auto z = heights_->height_at(p);
@@ -116,7 +116,7 @@ class Overlaying {
   }
 
  private:
-  /// Tops of which the terrain may be higher somewhere.
+  /// Finds the tops that the terrain may pierce.
   void find_pierced(const std::vector<PlacedSegment>& segments) {
     std::vector<std::vector<PlacedSegment>> of_top(covered_.size());
     for (const PlacedSegment& s : segments) {
@@ -192,7 +192,7 @@ class Overlaying {
     return static_cast<std::int32_t>(std::llround(*metres / terrain_.grid().resolution + above));
   }
 
-  /// What stands on a flat foundation stays where it is, though the ground was higher.
+  /// Lifts p to the ground. A feature on a flat foundation stays where it is, though the ground was higher.
   void lift(GridPoint& p, std::int32_t ground, std::uint32_t feature) {
     if (p.z >= ground || bases_.contains(feature)) return;
     std::int32_t& depth = pierced_[feature];
@@ -200,7 +200,7 @@ class Overlaying {
     p.z = ground;
   }
 
-  /// Over level ground nothing is to be kept but heights, and what lies beyond.
+  /// Raises segments over level ground, where only heights are kept, and edges to what lies beyond.
   OverlaidLines raised(std::vector<PlacedSegment> segments) {
     for (PlacedSegment& s : segments) {
       stop_if_asked();
@@ -211,7 +211,7 @@ class Overlaying {
     return {std::move(segments), changed(), std::move(pierced_)};
   }
 
-  /// The terrain comes last.
+  /// The lines of all owners; the terrain is the last owner.
   std::vector<OwnedSegment> owned(const std::set<TerrainEdge>& edges) {
     owners_ = SegmentOwners(segments_);
     std::vector<OwnedSegment> result = owners_.owned(segments_);
@@ -234,7 +234,7 @@ class Overlaying {
     return false;
   }
 
-  /// The terrain has the next number.
+  /// The owner number of the ways across walls. The terrain has the next number.
   std::uint32_t owner_of_ways() const { return owners_.count(); }
 
   Position position(std::uint32_t v) const { return {lines_.vertices[v].x, lines_.vertices[v].y}; }
@@ -308,7 +308,7 @@ class Overlaying {
   ChangedGround changed() {
     ChangedGround ground;
     ground.inner = std::move(inner_);
-    // Under a roof nothing is to be kept, whoever else changes what lies beyond.
+    // Under a roof no edge is to be kept, whoever else changes the ground beyond.
     for (const GridEdge& e : border_) {
       stop_if_asked();
       if (carries_terrain(e))

@@ -38,7 +38,7 @@ std::string what_became(const ImportReport& report, const ImportOptions& options
 void require_points(ImportReport& report, const ImportOptions& options, bool may_be_void) {
   if (report.read > 0 || report.read_features > 0) return;
   std::string why = what_became(report, options);
-  // They tell why heights and places were not taken.
+  // The warnings tell why heights and places were not taken.
   for (const std::string& warning : report.warnings) why += "; " + warning;
   if (report.filtered > 0 || !may_be_void) throw InputError("nothing to import: " + why);
   report.warnings.push_back("nothing was added: " + why);

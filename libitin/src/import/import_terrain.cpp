@@ -29,7 +29,7 @@ namespace {
 
 const std::vector<double> kDefaultTolerances{0.5, 1, 2, 4, 8, 16, 32};
 
-/// Level 0 first. An existing store's levels stay as they are.
+/// The tolerances, level 0 first. An existing store's levels stay as they are.
 std::vector<double> tolerances_of(const ImportOptions& options, const Store* existing) {
   if (existing != nullptr) {
     std::vector<double> stored;
@@ -67,7 +67,7 @@ void check_resolution(const ImportOptions& options, const Store* existing) {
   }
 }
 
-/// Names stand in lists with commas, beside `all` and `none`.
+/// Refuses names that would be mistaken: they stand in lists with commas, beside `all` and `none`.
 void require_theme_name(const std::string& name) {
   if (name == "all" || name == "none" || name == "terrain" || name.find(',') != std::string::npos)
     throw InputError(fmt::format("theme '{}': choose a name without commas, other than all, none and terrain", name));
@@ -97,12 +97,12 @@ Additions plan_additions(const ImportOptions& options, const Store* store, Progr
   return additions;
 }
 
-/// Features are raised at most this many times. After that, few vertices that they give to lines of the ground are
-/// left, within a grid step or two of others.
+/// The most times that features are raised. After that, few vertices that they give to lines of the ground are left,
+/// and these lie within a grid step or two of others.
 constexpr int kMostRaised = 3;
 
-/// Whether a store's ground, which may be null, is that of its terrain and lines alone, as they were imported: nothing
-/// that stands has cut any.
+/// Whether a store's ground, which may be null, is that of its terrain and lines alone, as they were imported: no
+/// feature that stands has cut any of it.
 bool has_uncut_ground(const Store* store) {
   if (store == nullptr) return false;
   const std::vector<ThemeInfo>& themes = store->metadata().themes;
@@ -115,7 +115,8 @@ bool has_raised(const Store* store) {
   return ThemeChoice::all().includes_raised(store->metadata().themes);
 }
 
-/// Raised features need their ground finished first, and give vertices to lines of the ground where they cross them.
+/// Writes the store in passes. Raised features need their ground finished first, and give vertices to lines of the
+/// ground where they cross them.
 void write_in_passes(Target target, const Store* existing, Additions additions, const ImportOptions& options,
                      ImportReport& report, CallProgress& call) {
   const bool raises = !additions.footprints.empty() || has_raised(existing);
@@ -144,8 +145,8 @@ ImportReport import_sources(const std::string& store_path, const ImportOptions& 
   if (options.sources.empty()) throw InputError("no source given: name at least one file to import");
   const Stoppable stoppable(progress);
   static_cast<void>(utc_now());  // a wrong SOURCE_DATE_EPOCH is noticed before hours of work
-  // First of all: another import could change the store once it has been opened. And a place that cannot be written is
-  // known before hours of work.
+  // The file comes first, for another import could change the store once it has been opened. A place that cannot be
+  // written is noticed before hours of work, too.
   auto file = std::make_unique<ReplacementFile>(store_path);
   std::optional<Store> existing;
   if (std::filesystem::exists(store_path)) existing.emplace(store_path);

@@ -31,7 +31,8 @@ constexpr double kHighestSea = 10000;  // metres, above or below zero
 
 using OpenedFiles = std::vector<const OpenedFile*>;
 
-// Finer, and heights of 20 km would not fit; coarser, and the posts of detailed models would fall together.
+// A finer resolution would not fit heights of 20 km; with a coarser one the posts of detailed models would fall
+// together.
 constexpr double kFinestResolution = 0.0001, kCoarsestResolution = 10;
 
 bool is_las(const std::string& path) {
@@ -40,7 +41,7 @@ bool is_las(const std::string& path) {
   return std::string_view(magic.data(), magic.size()) == "LASF";
 }
 
-/// The files that a source stands for: those in an archive, or itself.
+/// The files that a source stands for: the files in an archive, or itself.
 struct Identified {
   std::vector<std::string> paths;
   SourceKind kind;
@@ -94,7 +95,7 @@ Crs metric_crs(const std::string& text, const std::string& place) {
 struct StoreCrs {
   Crs crs;
   bool chosen = false;
-  std::string why = {};  ///< it was chosen, though the source's own is metric
+  std::string why = {};  ///< why it was chosen, though the source's own is metric
 };
 
 StoreCrs choose_crs(const ImportOptions& options, const StoreMetadata* existing, const OpenedFile& first) {
@@ -141,7 +142,7 @@ Grid choose_grid(const ImportOptions& options, const StoreMetadata* existing, co
   return {{std::round(centre.x / step) * step + 0.0, std::round(centre.y / step) * step + 0.0}, options.resolution};
 }
 
-/// All that the files' posts are known to lie in, in the store's CRS.
+/// The box that all of the files' posts are known to lie in, in the store's CRS.
 Box box_about(const OpenedFiles& files, const Crs& crs) {
   Box box;
   for (const OpenedFile* file : files) {
@@ -158,7 +159,7 @@ Box box_about(const OpenedFiles& files, const Crs& crs) {
   return box;
 }
 
-/// A store has one sea: where two overlapped at different heights, neither would be level.
+/// Requires that a store has one sea: where two overlapped at different heights, neither would be level.
 void require_one_sea(double level, const StoreMetadata* existing) {
   if (existing == nullptr) return;
   for (const SourceInfo& source : existing->sources)
@@ -215,7 +216,7 @@ ImportPlan plan_import(const ImportOptions& options, const StoreMetadata* existi
     std::vector<std::string> warnings = file->warnings();
     std::move(warnings.begin(), warnings.end(), std::back_inserter(plan.warnings));
   }
-  const Box box = options.sea_level ? box_about(opened, crs) : Box{};  // asked for before they are bound
+  const Box box = options.sea_level ? box_about(opened, crs) : Box{};  // needed before the files are bound
   for (const auto& file : points) plan.sources.push_back(file->bind({plan.grid, plan.crs_wkt}));
   if (options.sea_level || !options.sea_area.empty()) fill_sea(options, existing, box, crs, plan);
   return plan;

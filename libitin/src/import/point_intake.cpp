@@ -15,7 +15,7 @@ namespace {
 std::vector<SourceRank> ranks_for_sorting(const std::vector<SourceInfo>& sources) {
   const std::vector<std::uint32_t> order = ranks_of(sources);
   std::vector<SourceRank> ranks;
-  // Where the sea has a post and the ground, too, the ground's counts.
+  // Where both the sea and the ground have a post, the ground's counts.
   const auto spacing = [](const SourceInfo& s) {
     return is_sea(s) ? std::numeric_limits<double>::infinity() : s.spacing;
   };

@@ -1,4 +1,4 @@
-// All points of an import on their way into order, and those of ground that lines make room for once more.
+// Collects and sorts all points of an import, and once more those of the ground that lines make room for.
 #pragma once
 
 #include <cstdint>
@@ -18,15 +18,17 @@ namespace itin {
 
 class PointIntake {
  public:
-  /// `replacing`: the sources whose ground lines make room for; none where no lines do. Otherwise as PointSorter.
+  /// `replacing` are the sources whose ground lines make room for; none where no lines do. The other arguments are
+  /// those of PointSorter.
   PointIntake(const std::string& directory, std::uint64_t memory_bytes, Sources replacing);
 
   void add(const RawPoint& point) { add({&point, 1}); }
   void add(std::span<const RawPoint> points);
-  /// The ground that lines make room for; nothing where there is none. Once, after all points of the ground.
+  /// Finds the ground that lines make room for; nothing where there is none. To be called once, after all points of the
+  /// ground.
   std::optional<ReplacingGround> replacing_ground(const std::vector<SourceInfo>& sources, const Grid& grid,
                                                   Progress& progress);
-  /// All points, as PointSorter has them.
+  /// Sorts all points as PointSorter does.
   SortedPoints finish(const std::vector<SourceInfo>& sources, Progress& progress, std::uint64_t* duplicates);
 
  private:

@@ -1,4 +1,4 @@
-// Warnings about features that stand: all about those of this import, only new ones about older features.
+// Warns about features that stand: all findings about features of this import, but only new ones about older features.
 #pragma once
 
 #include <string>

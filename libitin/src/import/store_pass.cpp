@@ -25,7 +25,8 @@ namespace itin {
 
 namespace {
 
-/// As the store names it: without the folder, which says nothing of the data, nor anything to whoever gets the store.
+/// Returns a source as the store names it: without the folder, which says nothing of the data, and nothing to whoever
+/// gets the store.
 SourceInfo recorded(SourceInfo source, const ImportOptions& options) {
   const std::filesystem::path path(source.path);
   source.path = (path.has_filename() ? path : path.parent_path()).filename().string();
@@ -45,7 +46,7 @@ SourceInfo inferred_source() {
   return source;
 }
 
-/// Files may not say how far they reach, or say it wrongly.
+/// Requires true lengths where the points lie: files may not say how far they reach, or say it wrongly.
 void require_true_scale(const ImportPlan& plan, const std::string& path, const GridBox& bounds) {
   if (!bounds.empty()) plan.scale->require(path, plan.grid.box(bounds));
 }
@@ -55,7 +56,7 @@ std::string directory_of(const std::string& path) {
   return parent.empty() ? "." : parent;
 }
 
-/// Sums over the parts of each theme.
+/// Returns the themes with counts summed over their parts.
 std::vector<ThemeInfo> counted_themes(const LineCollection& collection, const ThemeLines& lines,
                                       const PyramidReport& pyramid) {
   std::vector<ThemeInfo> themes;
@@ -72,8 +73,9 @@ std::vector<ThemeInfo> counted_themes(const LineCollection& collection, const Th
   return themes;
 }
 
-/// Shares of an import's time, as rasters of millions of posts took it: of all of it; with features, of what is then
-/// left; where lines make room, of that; and of the rest.
+/// The shares of an import's time that steps take, measured with rasters of millions of posts. Each is a share of what
+/// is left: collecting of all of it, raising (with features) of the rest, then replacing (where lines make room), and
+/// then sorting.
 constexpr double kCollecting = 0.05, kRaising = 0.6, kReplacing = 0.2, kSorting = 0.03;
 
 }  // namespace
@@ -118,7 +120,7 @@ bool StorePass::run(RaisedFeaturesReport& raised, Progress& progress) {
   return done;
 }
 
-/// The sources whose ground lines make room for, where any do. Lines that lie on a ground have done so already.
+/// The sources whose ground lines make room for, if any lines do. Lines that lie on a ground have done so already.
 Sources StorePass::replacing_lines() const {
   const auto& [plan, footprints] = additions_;
   const bool make_room =
@@ -136,7 +138,7 @@ Sources StorePass::replacing_lines() const {
 void StorePass::require_numbers() const {
   const std::size_t added =
       additions_.plan.sources.size() + additions_.plan.lines.size() + additions_.footprints.size();
-  // One more may stand for inferred points.
+  // One more source may stand for inferred points.
   if (sources_.size() + added >= format::kMaxSources)
     throw InputError("a store holds at most 32,766 sources; merge some of them first");
 }
@@ -220,7 +222,7 @@ void StorePass::add_footprints(FootprintFile& file) {
   collection_.require_room(file.info.path);
 }
 
-/// The vertices of the terrain's lines are points of the full surface.
+/// Adds the vertices of the terrain's lines, which are points of the full surface.
 void StorePass::add_line_vertices(const ThemeLines& lines) {
   for (const std::uint32_t v : lines.terrain_vertices()) {
     const GridPoint& p = lines.lines.vertices[v];
@@ -234,7 +236,7 @@ PyramidReport StorePass::build(const ThemeLines& lines, const std::vector<double
   std::uint64_t duplicates = 0;
   SortedPoints points = points_.finish(sources_, call.step(kSorting), &duplicates);
   report_.duplicates += duplicates;
-  // Ground that features stand on stays as it is.
+  // The ground that features stand on stays as it is.
   const bool keep = ground_ != nullptr && collection_.is_raised();
   return build_pyramid({points, sources_, additions_.plan.grid, tolerances, lines, keep ? &stored_.inferred : nullptr},
                        writer, call.step(1));
@@ -249,14 +251,14 @@ void StorePass::set_aside(const PyramidReport& pyramid, const ThemeLines& lines,
                           ground_ != nullptr ? before.crossings : lines.lines.crossings});
 }
 
-/// Whether terrain that replaces or lines that make room are added.
+/// Whether the import adds terrain that replaces, or lines that make room.
 bool StorePass::changes_made_room() const {
   const auto& [plan, footprints] = additions_;
   return std::any_of(plan.sources.begin(), plan.sources.end(), [&](const auto& s) { return replaces(*s, options_); }) ||
          std::any_of(plan.lines.begin(), plan.lines.end(), [](const auto& layer) { return layer->info().makes_room; });
 }
 
-/// Whoever imports lines learns that they are not in the surface.
+/// Reports lines that made room: whoever imports lines learns that they are not in the surface.
 void StorePass::count_made_room() {
   const std::vector<std::uint64_t>& made_room = collection_.made_room();
   report_.made_room = std::accumulate(made_room.begin(), made_room.end(), std::uint64_t{0});

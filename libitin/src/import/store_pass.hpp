@@ -1,4 +1,4 @@
-// One pass of an import: a store is written of all that another one holds and of what is added to it.
+// One pass of an import: it writes a store of all that another one holds and of what is added to it.
 //
 //   const Target target{writer, path, tolerances, interim};
 //   const bool done = StorePass(target, {base, ground, additions}, options, report).run(raised, progress);
@@ -28,34 +28,35 @@ struct Additions {
   ImportPlan plan;
   std::vector<FootprintFile> footprints;
 
-  /// As in every pass after the first.
+  /// Whether nothing is added, as in every pass after the first.
   bool empty() const { return plan.sources.empty() && plan.lines.empty() && footprints.empty(); }
 };
 
-/// Where the store goes, and where what comes before it.
+/// The place of the store, and the place of an interim store that precedes it.
 struct Target {
   StoreWriter& writer;
   std::string path;
   std::vector<double> tolerances;
-  std::string interim = {};  ///< the path of what comes before it
-  bool last = false;         ///< it goes where it is to go, whatever
+  std::string interim = {};  ///< the path of the interim store
+  bool last = false;         ///< whether the pass must write the store itself, whatever is left to do
 };
 
-/// The stores may be null.
+/// What a pass makes the store from. The stores may be null.
 struct PassSources {
-  const Store* base;    ///< it is in the new store
+  const Store* base;    ///< the store whose contents the new one takes over
   const Store* ground;  ///< features are raised on it; null: lines are laid as they were imported, footprints only kept
   Additions& additions;
 };
 
 class StorePass {
  public:
-  /// All must outlive it. Counts into the report.
+  /// All arguments must outlive it. The counts are added to the report.
   StorePass(const Target& target, const PassSources& of, const ImportOptions& options, ImportReport& report);
 
-  /// Features with heights are raised on the ground, and cut its lines there. Returns false where features need another
-  /// pass, on the ground of the interim store that was written instead, which has no points at other levels: this one
-  /// has other ground than they were raised on, or they were not.
+  /// Runs the pass. Features with heights are raised on the ground, and cut its lines there. Returns false where
+  /// features need another pass: they were not raised, or the ground that comes out is another one than they were
+  /// raised on. Then an interim store was written instead, which has no points at other levels than the full surface's,
+  /// and the next pass goes on from it.
   bool run(RaisedFeaturesReport& raised, Progress& progress);
 
  private:
@@ -89,7 +90,7 @@ class StorePass {
   StoredPoints stored_;
 };
 
-/// The numbers of what a store, which may be null, sets aside.
+/// The counts of what a store, which may be null, sets aside.
 SetAsideCounts counts_of(const Store* store);
 
 }  // namespace itin

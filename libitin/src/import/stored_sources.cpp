@@ -11,7 +11,7 @@ namespace itin {
 
 namespace {
 
-/// The points of the surface that come neither from lines nor from what was inferred.
+/// Adds the points of the surface that are neither from lines nor inferred.
 void add_surface(const Store& store, PointIntake& intake, LineCollection& lines, StoredPoints& stored,
                  Progress& progress) {
   const std::size_t inferred = imported_sources(&store).size();
@@ -20,7 +20,7 @@ void add_surface(const Store& store, PointIntake& intake, LineCollection& lines,
   std::vector<RawPoint> points;
   for (std::size_t i = 0; i < leaves.size(); ++i) {
     progress.throw_if_cancelled();
-    if (leaves[i].theme > store.metadata().themes.size()) continue;  // a part's, and parts are made again
+    if (leaves[i].theme > store.metadata().themes.size()) continue;  // a part's leaf, and parts are made again
     const auto block = store.points().block(leaves[i]);
     points.clear();
     for (std::size_t k = 0; k < block->points.size(); ++k) {

@@ -1,4 +1,4 @@
-// The sources that a store was made of, read back for another import.
+// Reads back the sources that a store was made from, for another import.
 #pragma once
 
 #include <cstdint>
@@ -15,10 +15,11 @@ namespace itin {
 
 /// Whether a store's contours are repaired. The store may be null, here and below.
 bool repairs(const Store* store);
-/// Whether they will be after an import into it: unless any import of contours said otherwise.
+/// Whether a store's contours will be repaired after an import into it: yes, unless any import of contours said
+/// otherwise.
 bool will_repair(const ImportOptions& options, const Store* store);
 
-/// All but the last one if that stands for inferred points.
+/// The sources of a store, without the last one if that stands for inferred points.
 std::vector<SourceInfo> imported_sources(const Store* store);
 
 struct StoredPoints {
@@ -26,7 +27,7 @@ struct StoredPoints {
   std::vector<GridPoint> inferred;  ///< from contours; in Morton order
 };
 
-/// Adds the points of the ground that a store has imported, also those that its surface leaves out, and takes its lines
+/// Adds the points of the ground that a store has imported, even those that its surface leaves out, and takes its lines
 /// and footprints over. Throws CorruptStore, Cancelled.
 StoredPoints add_stored(const Store& store, PointIntake& intake, LineCollection& lines, Progress& progress);
 

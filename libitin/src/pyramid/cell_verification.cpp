@@ -38,7 +38,7 @@ class RaisedIndex final : public PointIndex {
     base_.leaves(finest, box, out);
     out.erase(std::remove_if(out.begin() + first, out.end(), [&](const Leaf& leaf) { return any_raised(leaf); }),
               out.end());
-    // They may hold points of this level only now.
+    // Leaves with raised points may hold points of this level only now.
     std::copy_if(leaves_.begin(), leaves_.end(), std::back_inserter(out),
                  [&](const Leaf& leaf) { return leaf.cell.box().meets(box); });
   }
@@ -108,8 +108,9 @@ class CellVerification {
     return true;
   }
 
-  /// If `mend`, raises the worst point of each coarse face and what breaks up each coarse edge that is too far off, as
-  /// far as they are the cell's own. True when there was any. A line's vertex is put back with its line.
+  /// If `mend`, raises the worst point of each coarse face, and a point that breaks up each coarse edge that is too far
+  /// off, if these are points of the cell. Returns whether any point was raised. A line's vertex is put back with its
+  /// line instead.
   bool raise(int k, bool mend, const RegionMesh& coarse, const Failures& failures) {
     bool any = false;
     forget(k);
@@ -134,12 +135,13 @@ class CellVerification {
     return any;
   }
 
-  /// The point that breaks up a coarse edge at the place where it is most off, among those where any point does.
+  /// The point that breaks up a coarse edge at the place where the edge is most off, among the places where a point
+  /// does.
   static std::optional<std::uint64_t> first_remedy(const RegionMesh& coarse,
                                                    std::span<const FailingCrossing> crossings) {
     for (const FailingCrossing& c : crossings) {
-      // There is one that is not in the coarse surface yet, or both full triangles would be coarse ones as well, unless
-      // lines differ.
+      // At least one vertex is not in the coarse surface yet, or both full triangles would be coarse ones as well,
+      // unless lines differ.
       const auto v =
           std::find_if(c.vertices.begin(), c.vertices.end(), [&](std::uint64_t code) { return !has(coarse, code); });
       if (v != c.vertices.end()) return *v;
@@ -151,7 +153,7 @@ class CellVerification {
     return find_by_code(coarse.vertices, code) != coarse.vertices.end();
   }
 
-  /// What failed before points were raised.
+  /// Forgets what failed before points were raised.
   void forget(int k) {
     std::erase_if(left_to_others_, [&](const auto& p) { return p.second == k; });
     std::erase_if(failing_, [&](const LineHierarchy::Shortcut& s) { return s.level == k; });
@@ -167,7 +169,7 @@ class CellVerification {
     });
   }
 
-  /// A vertex that a line hid is seen past its shortcut, perhaps from afar.
+  /// Notes the nearest shortcuts: a vertex that a line hid is seen past its shortcut, perhaps from afar.
   void note_shortcuts_about(int k, const FailingCrossing& c) {
     GridBox place = box_of(c.vertices, [](std::uint64_t code) { return position_of(code); });
     while (true) {
@@ -225,7 +227,7 @@ class CellVerification {
     for (const auto& [t, leaf] : triangles_of_leaves_) bounds.at(leaf, k).add(of_triangle[t]);
   }
 
-  /// Which of the leaves each fine triangle may meet.
+  /// Finds the leaves that each fine triangle may meet.
   void find_leaves() {
     std::vector<std::uint32_t> leaves;
     for (std::uint32_t t = 0; t < fine_.mesh.triangles.size(); ++t) {
@@ -242,7 +244,7 @@ class CellVerification {
   const std::vector<std::int32_t>& tolerances_;
   Task task_;
   std::optional<LatticeDifference> lattice_;  ///< where the full surface is a lattice
-  RegionMesh fine_;                           ///< else, and where a level fails
+  RegionMesh fine_;                           ///< where it is no lattice, and where a level fails
   std::unique_ptr<FineEdges> edges_;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> triangles_of_leaves_;
   RaisedLevels raised_;

@@ -1,4 +1,4 @@
-// Verification of a pyramid's levels in one cell, against law 2, and their mending there.
+// Verifies a pyramid's levels in one cell, against law 2, and mends them there.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ using RaisedLevels = std::unordered_map<std::uint64_t, int>;  ///< by Morton cod
 /// Selects level k and coarser.
 Selection levels_from(int k, const std::vector<std::int32_t>& tolerances);
 
-/// A task of verification: those leaves of the cell that lie in the box, for these levels.
+/// A task of verification: the leaves of the cell that lie in the box, for these levels.
 struct Task {
   CurveRange cell;
   GridBox box;
@@ -29,15 +29,16 @@ struct Task {
 
 struct CellOutcome {
   RaisedLevels raised;
-  /// Points of other cells, with levels, that would mend what still fails here. Their cells see the same failure.
+  /// Points of other cells, with levels, that would mend what still fails here. The other cells see this failure, too.
   std::vector<std::pair<std::uint64_t, int>> left_to_others;
-  /// Where no point would.
+  /// Shortcuts that fail where no point would mend that.
   std::vector<LineHierarchy::Shortcut> failing;
 };
 
 /// Replaces the bounds of the task's leaves at its levels. If `mend`, points of the cell are raised until the levels
-/// hold in the box, as far as they can. Shortcuts that are too far off are failing, along themselves or at a vertex
-/// that they stand for; if `mend`, so are those about other edges that no point would break up.
+/// hold in the box, as far as points can mend them. A shortcut fails if it is too far off, along itself or at a vertex
+/// that it leaves out. If `mend`, the shortcuts about another edge fail too, where the edge is too far off and no point
+/// would break it up.
 CellOutcome verify_cell(const WorkingIndex& index, const std::vector<std::int32_t>& tolerances, const Task& task,
                         bool mend, LeafBounds& bounds);
 

@@ -18,13 +18,14 @@ namespace itin {
 
 namespace {
 
-/// Points of a cell in rounds that only look.
+/// The most points of a cell in rounds that measure without mending.
 constexpr std::uint32_t kFirstCell = 1 << 15;
-/// A cell of the rounds that mend where a level does not hold has about so many of the level's points. The full surface
-/// under it has to be made anew, so it is no larger than it must be.
+/// A cell of the rounds that mend has about this many points of the level that does not hold. The full surface under it
+/// has to be made anew, so it is no larger than it must be.
 constexpr double kLevelPoints = 128;
 constexpr std::uint32_t kLeastCell = 1 << 11, kGreatestCell = 1 << 15;
-/// From this many lines per leaf on, verifying everything again takes no longer than finding what the lines changed.
+/// With this many lines per leaf or more, verifying everything again takes no longer than finding what the lines
+/// changed.
 constexpr double kManyLines = 0.25;
 
 /// Which levels of which leaves must be verified again.
@@ -33,7 +34,7 @@ class Disturbed {
   explicit Disturbed(std::size_t leaves) : levels_(leaves) {}
 
   void mark(std::uint32_t leaf, unsigned levels) { levels_[leaf].fetch_or(levels, std::memory_order_relaxed); }
-  /// The part of these levels that must be verified in the cell: the least box around it, perhaps empty.
+  /// The part of the cell to verify at these levels: the least box around the marked leaves, perhaps empty.
   Task in(const WorkingIndex& index, const CurveRange& cell, unsigned levels) const {
     Task task{cell, {}, 0};
     for (std::uint32_t leaf = index.leaf_of(cell.cell.code);
@@ -55,7 +56,7 @@ class Disturbed {
   std::vector<std::atomic<unsigned>> levels_;
 };
 
-/// Cells of this size for these levels.
+/// The capacity of the cells in which these levels are verified.
 struct Tiling {
   std::uint32_t capacity;
   unsigned levels;
@@ -91,7 +92,7 @@ std::vector<Task> disturbed_cells(const WorkingIndex& index, const std::vector<T
 struct Raise {
   std::uint64_t code;
   int from, to;
-  Task by;  ///< whose bounds know of it
+  Task by;  ///< the task whose bounds take it into account
 };
 
 /// A raised vertex changes the surface within its star, for every level it newly belongs to.
@@ -110,7 +111,7 @@ void mark_star(const WorkingIndex& index, const std::vector<std::int32_t>& toler
   }
 }
 
-/// So do lines where they were put back; as good as everywhere, if they are many.
+/// Marks where lines that were put back change the surface; nearly everything, if they are many.
 void mark_lines(const WorkingIndex& index, const std::vector<std::int32_t>& tolerances,
                 const std::vector<LineHierarchy::Restored>& lines, Disturbed& disturbed) {
   struct Neighbours {
@@ -151,7 +152,7 @@ void apply(const RaisedLevels& raised, const Task& task, WorkingIndex& index, st
   index.write(task.cell, points);
 }
 
-/// Returns whether there are any.
+/// Marks the leaves that fail, and returns whether there are any.
 bool mark_failures(const LeafBounds& bounds, const std::vector<std::int32_t>& tolerances, std::size_t leaves,
                    Disturbed& disturbed) {
   bool any = false;
@@ -173,7 +174,7 @@ std::vector<LineHierarchy::Shortcut> failing_shortcuts(const std::vector<CellOut
   return result;
 }
 
-/// The share of a round that looks at everything.
+/// The share of the time that a round takes which looks at everything.
 constexpr double kFirstRound = 0.6;
 
 }  // namespace
@@ -188,13 +189,13 @@ LeafBounds certify(WorkingIndex& index, const std::vector<std::int32_t>& toleran
   for (std::uint32_t leaf = 0; leaf < index.ranges().size(); ++leaf) disturbed.mark(leaf, (1u << levels) - 2);
 
   bool mend = false;    // points are raised once no shortcut is too far off along itself
-  bool changed = true;  // since all that fails was looked at
+  bool changed = true;  // since all failing leaves were marked
   while (true) {
     const std::vector<Task> tasks =
         disturbed_cells(index, mend ? tilings(index) : std::vector<Tiling>{{kFirstCell, ~0u}}, disturbed);
     if (tasks.empty()) {
       if (!mark_failures(bounds, tolerances, index.ranges().size(), disturbed)) return bounds;
-      // No store is written that promises what does not hold.
+      // A store that promises what does not hold must not be written.
       if (!changed)
         throw Error("a level could not be brought within its tolerance; nothing was written; please report this");
       mend = true;

@@ -1,4 +1,4 @@
-// Verification of the pyramid against law 2, and the certificates that come of it.
+// Verification of the pyramid against law 2, and the certificates that it gives.
 #pragma once
 
 #include <cstdint>
@@ -13,18 +13,18 @@
 
 namespace itin {
 
-/// Puts what these shortcuts (ascending) stand for back into the index, and says what.
+/// Puts the vertices that these shortcuts (ascending) leave out back into the index, and says which.
 using RestoreLines = std::function<std::vector<LineHierarchy::Restored>(const std::vector<LineHierarchy::Shortcut>&)>;
 
 /// Raises levels in the index until |T_0 - T_k| <= tolerances[k] everywhere, for each k >= 1, and returns the bounds by
-/// leaf. `tolerances` in whole grid units, level 0 first. Leaves without ground keep empty bounds.
+/// leaf. `tolerances` are in whole grid units, level 0 first. Leaves without ground keep empty bounds.
 ///
-/// In rounds. The first ones measure everything, against real windows of the whole, and put back what shortcuts stand
-/// for that are too far off, along themselves or at a vertex that they stand for. In the later ones each cell that
-/// fails raises its own points until its part holds while its neighbours stay as they were; where no point would help,
-/// shortcuts about the place are put back, too. Cells near which a neighbour raised something, or lines were put back,
-/// are verified again. So the outcome depends on the points alone, not on threads. Throws Error where a level fails and
-/// nothing is left to put back.
+/// The work goes in rounds. The first rounds measure everything, against real windows of the whole. They put back the
+/// vertices of shortcuts that are too far off, along themselves or at a vertex that they leave out. In the later rounds
+/// each cell that fails raises its own points until its part holds while its neighbours stay as they were. Where no
+/// point would help, shortcuts about the place are put back, too. Cells near which a neighbour raised something, or
+/// lines were put back, are verified again. So the outcome depends on the points alone, not on threads. Throws Error
+/// where a level fails and nothing is left to put back.
 LeafBounds certify(WorkingIndex& index, const std::vector<std::int32_t>& tolerances, const RestoreLines& restore,
                    Progress& progress);
 

@@ -12,11 +12,11 @@ namespace itin {
 
 namespace {
 
-/// How far changes reach beyond lines, mostly, as a share of the box of those near each other.
+/// How far changes mostly reach beyond lines, as a share of the box about lines near each other.
 constexpr double kMargin = 0.1;
 
-/// The box of the mesh's triangles that meet `line`, and of those that are joined to them, by edges of no line, with
-/// circumdiscs that reach `line`.
+/// The box of the mesh's triangles that meet `line`, and of the triangles with circumdiscs that reach `line` that are
+/// joined to these by edges of no line.
 GridBox joined_to(const RegionMesh& about, const GridBox& line) {
   const PlaneMesh& mesh = about.mesh;
   const auto corner = [&](std::uint32_t t, int i) { return about.vertices[mesh.triangles[t][i]].position(); };
@@ -44,7 +44,7 @@ GridBox joined_to(const RegionMesh& about, const GridBox& line) {
 }
 
 GridBox changed_by_line(const PointIndex& index, const Selection& selection, const GridBox& line) {
-  // Triangles whose neighbours are not in the mesh may leave the box: then it was too small.
+  // Triangles that lack neighbours in the mesh may leave the box, which then was too small.
   for (GridBox box = line;;) {
     const GridBox joined = joined_to(triangulate_region(index, selection, box), line);
     if (box.contains(joined)) return joined;

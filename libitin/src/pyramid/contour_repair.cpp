@@ -26,7 +26,7 @@ Codes ends_of(const std::vector<Segment>& segments) {
   return codes;
 }
 
-/// The level edges of the triangles whose first vertex along the curve is the tile's.
+/// The level edges of the triangles whose first vertex along the curve lies in the tile.
 class ContourTile {
  public:
   ContourTile(const RegionMesh& region, const Codes& contours, const Codes& water) : region_(region) {

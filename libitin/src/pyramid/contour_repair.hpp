@@ -15,13 +15,13 @@ namespace itin {
 /// vertices of the contours, as all work on lines does: about 240 bytes each.
 class FlatSurvey {
  public:
-  /// The index has its lines already. `contours` and `water` are segments of them: what lies between the vertices of
-  /// water is not flat by mistake.
+  /// The index has its lines already. `contours` and `water` are segments of these lines. A triangle between the
+  /// vertices of water is rightly flat.
   FlatSurvey(const WorkingIndex& index, const std::vector<CurveRange>& tiles, const std::vector<Segment>& contours,
              const std::vector<Segment>& water, Progress& progress);
 
   std::uint64_t triangles() const { return flat_.triangles().size(); }
-  /// In Morton order, distinct, where no vertex is.
+  /// The inferred points in Morton order, distinct, at places without a vertex.
   std::vector<GridPoint> inferred() const;
 
  private:

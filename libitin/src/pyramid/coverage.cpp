@@ -17,10 +17,10 @@ namespace itin {
 
 namespace {
 
-/// Mean spacings. A wider fringe leaves less to mend along the tiles' borders, and costs more here.
+/// The fringe in mean spacings. A wider one leaves less to mend along the tiles' borders, and costs more here.
 constexpr double kFringe = 16;
 
-/// Ends of the straight runs, ascending.
+/// The ends of the straight runs, ascending.
 std::vector<std::uint64_t> corners_of(const std::vector<Segment>& edges) {
   std::vector<std::uint64_t> corners;
   for (const Segment& s : join_collinear(edges)) {
@@ -38,13 +38,13 @@ GridBox widened(const GridBox& box, double margin) {
   return {inside(box.xmin - margin), inside(box.ymin - margin), inside(box.xmax + margin), inside(box.ymax + margin)};
 }
 
-/// Some mean spacings, by which neighbouring tiles see the same surface and choose alike.
+/// The width of the fringe: some mean spacings, by which neighbouring tiles see the same surface and choose alike.
 double fringe(const GridBox& box, std::size_t points) {
   const double area = (1.0 + box.xmax - box.xmin) * (1.0 + box.ymax - box.ymin);
   return std::ceil(kFringe * std::sqrt(area / static_cast<double>(points)));
 }
 
-/// In ascending Morton order.
+/// The points in the box, in ascending Morton order.
 std::vector<SelectedVertex> points_in(const PointIndex& index, const GridBox& box) {
   std::vector<SelectedVertex> points;
   std::vector<Leaf> leaves;
@@ -59,10 +59,10 @@ std::vector<SelectedVertex> points_in(const PointIndex& index, const GridBox& bo
   return points;
 }
 
-/// Nothing where there are not only posts of one lattice, whose squares are the ground.
+/// Surveys a tile whose points are all posts of one lattice, with squares that are the ground; nothing for any other.
 std::optional<GroundEdges> survey_lattice(const PointIndex& points, const GridBox& box, double reach,
                                           const GapRule& gaps, TileSurvey& survey) {
-  // No source that bridges a step reaches less far, and what lies two steps away does not change any square.
+  // A source that bridges a step reaches at least as far, and points two steps away do not change any square.
   survey.surface.vertices = points_in(points, widened(box, 2 * reach));
   survey.posts = LatticePosts::of(survey.surface.vertices);
   return survey.posts ? ground_edges(survey.surface.vertices, *survey.posts, gaps, box) : std::nullopt;
@@ -88,7 +88,7 @@ std::vector<Candidacy> candidacy_of(const std::vector<SelectedVertex>& vertices,
   return candidacy;
 }
 
-/// Points that no ground meets, or no triangle at all: fewer than three, or all in line.
+/// The points that no ground meets, or no triangle at all: fewer than three, or all in line.
 std::vector<std::uint64_t> isolated_of(const std::vector<RawPoint>& points, const TileSurvey& survey) {
   std::vector<std::uint64_t> codes, grounded, isolated;
   for (const RawPoint& p : points) codes.push_back(p.code);

@@ -1,7 +1,7 @@
-// Where a coarse surface is too far from the full one, and which vertices of the full one would mend that.
+// Tells where a coarse surface is too far from the full one, and which vertices of the full one would mend that.
 //
-// Vertices are told by their Morton codes. So cells that see the same failure, each within a mesh of its own, agree on
-// what would mend it.
+// Vertices are identified by their Morton codes. So cells that see the same failure, each within a mesh of its own,
+// agree on the vertices that would mend it.
 #pragma once
 
 #include <algorithm>
@@ -14,24 +14,24 @@
 
 namespace itin {
 
-/// An edge of the full surface crosses one of the coarse surface, too far above or below it.
+/// A place where an edge of the full surface crosses one of the coarse surface, too far above or below it.
 struct FailingCrossing {
   std::uint32_t coarse_from, coarse_to;  ///< the coarse edge's ends, the lesser first
   std::int32_t size;                     ///< how far apart in height the two are, grid units, rounded up
-  /// The full edge's end that is nearer to the coarse edge, its other end, and the corners of the triangles at it,
-  /// ascending. Where the edge has one triangle, its corner stands twice.
+  /// The full edge's end that is nearer to the coarse edge, its other end, and the opposite corners of the triangles at
+  /// the full edge, ascending. Where the edge has one triangle, its corner stands twice.
   std::array<std::uint64_t, 4> vertices;
 };
 
 struct Failures {
-  /// The vertex that is farthest off of each coarse triangle with any that are too far off; ties go to the least code.
+  /// The vertex that is farthest off, of each coarse triangle that has vertices too far off; ties go to the least code.
   std::vector<std::uint64_t> worst_of_faces;
   std::vector<FailingCrossing> crossings;
 
   void clear() { worst_of_faces.clear(), crossings.clear(); }
 
-  /// Calls visit with the crossings along each coarse edge, the worst one first. Ties go to the first place by its
-  /// ends' codes: cells that leave points to each other agree on them, or none would ever raise any.
+  /// Calls visit with the crossings along each coarse edge, the worst one first. Ties go to the crossing that comes
+  /// first by its ends' codes. Cells that leave points to each other must agree on them, or none would ever raise any.
   template <class Visit>
   void for_each_edge(const Visit& visit) const {
     const auto coarse_edge = [](const FailingCrossing& c) { return std::pair(c.coarse_from, c.coarse_to); };
@@ -55,7 +55,7 @@ class WorstVertex {
   void add(std::int32_t size, std::uint64_t code) {
     if (size > size_ || (size == size_ && code < code_)) size_ = size, code_ = code;
   }
-  /// Whether any was added.
+  /// Whether any vertex was added.
   bool found() const { return size_ > 0; }
   std::uint64_t code() const { return code_; }
 

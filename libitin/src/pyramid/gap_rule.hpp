@@ -13,7 +13,7 @@ namespace itin {
 
 class GapRule {
  public:
-  /// Per source, grid units; they must outlive it.
+  /// `bases` holds a basis per source, in grid units, and must outlive the rule.
   explicit GapRule(const std::vector<std::array<double, 4>>& bases) : bases_(bases) {}
 
   bool bridges(const SelectedVertex& p, const SelectedVertex& q) const {
@@ -42,7 +42,7 @@ class GapRule {
 
  private:
   bool bridges(std::uint16_t source, double x, double y) const { return within(bases_[source], x, y); }
-  /// e = a u + b v with |a| <= 1 and |b| <= 1, by Cramer's rule without the division.
+  /// Tells whether e = a u + b v with |a| <= 1 and |b| <= 1, by Cramer's rule without the division.
   static bool within(const std::array<double, 4>& basis, double x, double y) {
     const auto& [ux, uy, vx, vy] = basis;
     const double determinant = std::abs(ux * vy - uy * vx);

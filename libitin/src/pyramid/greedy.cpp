@@ -17,7 +17,8 @@ namespace {
 std::vector<std::uint32_t> hull_of(std::span<const SelectedVertex> vertices, std::vector<std::uint32_t> candidates) {
   if (candidates.empty()) return candidates;
   const auto at = [&](std::uint32_t v) { return vertices[v].position(); };
-  // Nothing within the outermost ones along both diagonals is on the hull (Akl and Toussaint 1978): most of a raster.
+  // No vertex within the outermost ones along both diagonals is on the hull (Akl and Toussaint 1978); this covers most
+  // of a raster.
   const auto sum = [&](std::uint32_t v) { return std::int64_t{at(v).x} + at(v).y; };
   const auto difference = [&](std::uint32_t v) { return std::int64_t{at(v).x} - at(v).y; };
   const auto by = [](const auto& key) { return [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); }; };

@@ -4,9 +4,9 @@
 //
 // A ground knows the full surface and its vertices, by number, and says how far a coarse face or edge is off it:
 //   point(v), size()                the vertices
-//   begin(triangulation, open)      before the first face is looked at
-//   take(faces, v)                  these make way for the star about vertex v
-//   assign_to_star(centre, faces)   that star's, which share the vertices of those that made way
+//   begin(triangulation, open)      called before the first face is looked at
+//   take(faces, v)                  called before the star about vertex v replaces these faces
+//   assign_to_star(centre, faces)   called with the star's faces, which share the vertices of the faces replaced
 //   worst_point(face)               the open vertex in the face that is farthest off it
 //   compare_edge(a, b, worst)       offers worst what would break up edge ab where it crosses full edges
 // Include only where CGAL may appear.
@@ -42,7 +42,8 @@ using CoarseTriangulation = CGAL::Delaunay_triangulation_2<
                                          CGAL::Triangulation_face_base_with_info_2<CoarseFaceInfo, GridTraits>>>;
 using CoarseFace = CoarseTriangulation::Face_handle;
 
-/// A finite face that holds p; a point on the hull may be found in an infinite one, whose neighbour holds it, too.
+/// Finds a finite face that holds p. A point on the hull may be found in an infinite face, whose neighbour holds it,
+/// too.
 inline CoarseFace locate(const CoarseTriangulation& triangulation, const TraitsPoint& p, CoarseFace hint) {
   const CoarseFace f = triangulation.locate(p, hint);
   return triangulation.is_infinite(f) ? f->neighbor(f->index(triangulation.infinite_vertex())) : f;
@@ -73,7 +74,7 @@ struct Insertion {
   CoarseFace face;         ///< null for an edge's proposal
   std::uint32_t from, to;  ///< the ends of the edge
   bool of_edge() const { return face == CoarseFace(); }
-  /// Greatest error first, then the first vertex in order; the rest only makes the order one.
+  /// Compares by the greatest error first, then by the first vertex; the rest only makes the order unique.
   bool operator<(const Insertion& p) const {
     if (error != p.error) return error < p.error;
     if (point != p.point) return point > p.point;
@@ -81,17 +82,17 @@ struct Insertion {
   }
 };
 
-/// What is to be inserted, level by level: a level's queue holds nothing that waits for a finer one.
+/// The insertions to come, level by level: a level's queue holds nothing that waits for a finer level.
 class Insertions {
  public:
-  /// `tolerances` ascending, that of level 0 first. Begins with the coarsest level.
+  /// `tolerances` are ascending, level 0 first. Begins with the coarsest level.
   explicit Insertions(std::span<const double> tolerances)
       : tolerances_(tolerances), level_(tolerances.size() - 1), waiting_(tolerances.size()) {}
 
-  /// Whether any level asks for what is so far off.
+  /// Whether any level asks for a vertex that is so far off.
   bool asks_for(double error) const { return tolerances_.size() > 1 && error > tolerances_[1]; }
 
-  /// What no level asks for is forgotten.
+  /// Adds an insertion; one that no level asks for is forgotten.
   void push(const Insertion& insertion) {
     if (!asks_for(insertion.error)) return;
     const auto above = std::lower_bound(tolerances_.begin(), tolerances_.end(), insertion.error) - tolerances_.begin();
@@ -104,7 +105,7 @@ class Insertions {
     }
   }
 
-  /// The worst one that is more than this level's tolerance off; nothing where none is.
+  /// Takes the worst insertion that is more than this level's tolerance off; nothing where there is none.
   std::optional<Insertion> pop() {
     if (queue_.empty()) return std::nullopt;
     std::pop_heap(queue_.begin(), queue_.end());
@@ -113,7 +114,7 @@ class Insertions {
     return worst;
   }
 
-  /// From now on for this level, the next finer one. Forgets what is_stale().
+  /// Begins the given level, the next finer one. Forgets insertions for which is_stale() holds.
   template <class IsStale>
   void begin_level(std::size_t level, const IsStale& is_stale) {
     level_ = level;
@@ -130,11 +131,11 @@ class Insertions {
   std::vector<std::vector<Insertion>> waiting_;  ///< by level
 };
 
-/// `Ground` as above.
+/// `Ground` is a class as described above.
 template <class Ground>
 class GreedyInsertion {
  public:
-  /// All of these must outlive it.
+  /// All arguments must outlive it.
   GreedyInsertion(Ground& ground, std::span<const Candidacy> candidacy, std::span<const double> tolerances)
       : ground_(ground), candidacy_(candidacy), vertices_(ground.size()), insertions_(tolerances) {}
 
@@ -159,7 +160,7 @@ class GreedyInsertion {
     return true;
   }
 
-  /// Before the vertices of each level are inserted, from the coarsest to level 1.
+  /// Begins a level: to be called before its vertices are inserted, from the coarsest level to level 1.
   void begin_level(std::size_t level) {
     insertions_.begin_level(level, [&](const Insertion& insertion) { return is_stale(insertion); });
   }
@@ -174,7 +175,7 @@ class GreedyInsertion {
     }
   }
 
-  /// Inserts what is worst until nothing is more than the level's tolerance off; calls on_insert(vertex) for each.
+  /// Inserts the worst vertex until nothing is more than the level's tolerance off; calls on_insert(vertex) for each.
   template <class OnInsert>
   void refine(const OnInsert& on_insert) {
     while (const auto worst = insertions_.pop()) {
@@ -197,13 +198,13 @@ class GreedyInsertion {
   TraitsPoint position(std::uint32_t v) const { return {ground_.point(v).x, ground_.point(v).y, v}; }
   bool is_inserted(std::uint32_t v) const { return vertices_[v] != Vertex(); }
   bool is_open(std::uint32_t v) const { return !is_inserted(v) && candidacy_[v] != Candidacy::kNone; }
-  /// Whether its face or edge is no more.
+  /// Whether the insertion's face or edge is no more.
   bool is_stale(const Insertion& insertion) const {
     return insertion.of_edge() ? !triangulation_.is_edge(vertices_[insertion.from], vertices_[insertion.to])
                                : insertion.face->info().version != insertion.version;
   }
 
-  /// Returns a face at v.
+  /// Inserts v and returns a face at it.
   Face insert(std::uint32_t v, Face start) {
     conflicts_.clear();
     boundary_.clear();
@@ -240,14 +241,14 @@ class GreedyInsertion {
       insertions_.push({worst.error - kPointError, worst.point, face->info().version, face, kNoVertex, kNoVertex});
   }
 
-  /// Where an edge is most off, among the places at which a vertex would break it up.
+  /// The place where an edge is most off, among the places at which a vertex would break it up.
   class WorstCrossing {
    public:
     explicit WorstCrossing(const GreedyInsertion& greedy) : greedy_(greedy) {}
     bool asks_for(double error) const {
       return error > worst_.error && greedy_.insertions_.asks_for(error + kCrossingError);
     }
-    /// The first of these vertices that is open is the remedy. After asks_for(error).
+    /// Offers a place; the first of these vertices that is open is the remedy. To be called after asks_for(error).
     void offer(double error, std::initializer_list<std::uint32_t> vertices) {
       const auto remedy = std::find_if(vertices.begin(), vertices.end(),
                                        [&](std::uint32_t v) { return v != kNoVertex && greedy_.is_open(v); });
@@ -260,7 +261,7 @@ class GreedyInsertion {
     WorstPoint worst_{-1, kNoVertex};
   };
 
-  /// Proposes what would break up this edge.
+  /// Proposes a vertex that would break up this edge.
   void propose_edge(Vertex from, Vertex to) {
     const std::uint32_t a = from->point().vertex, b = to->point().vertex;
     WorstCrossing worst(*this);
@@ -274,7 +275,7 @@ class GreedyInsertion {
   CoarseTriangulation triangulation_;
   std::vector<Vertex> vertices_;  ///< by vertex of the ground; null until it is inserted
   Insertions insertions_;
-  // Kept between insertions for their memory.
+  // These are kept between insertions for their memory.
   std::vector<Face> conflicts_;
   std::vector<CoarseTriangulation::Edge> boundary_;
   std::vector<StarFace> star_;

@@ -17,7 +17,7 @@ class EdgeList {
   }
 
   void touch(std::uint32_t v) { found_.touched[v] = 1; }
-  /// All triangles at a vertex in the box are known, so its edges are; farther away some neighbours are missing.
+  /// All triangles at a vertex in the box are known, and so are its edges; farther away some neighbours are missing.
   void add(std::uint32_t from, std::uint32_t to) {
     const GridPoint &a = vertices_[from].point, &b = vertices_[to].point;
     if (box_.contains(a.x, a.y) || box_.contains(b.x, b.y))
@@ -31,8 +31,8 @@ class EdgeList {
   GroundEdges found_;
 };
 
-/// The ground among posts of a lattice. Three posts of a square are a triangle, and four are two, for no other point
-/// lies in the circle about it.
+/// The ground among posts of a lattice. Three posts of a square make one triangle, and four make two, for no other
+/// point lies in the circle about the square.
 class LatticeSurvey {
  public:
   LatticeSurvey(std::span<const SelectedVertex> vertices, const LatticePosts& posts, const GridBox& box)
@@ -49,7 +49,7 @@ class LatticeSurvey {
   }
 
  private:
-  /// Its posts from the lower left one on, counterclockwise; kNoVertex where there are none.
+  /// The square's posts from the lower left one on, counterclockwise; kNoVertex where there is no post.
   std::array<std::uint32_t, 4> square(std::int64_t column, std::int64_t row) const {
     return {posts_.vertex({column, row}), posts_.vertex({column + 1, row}), posts_.vertex({column + 1, row + 1}),
             posts_.vertex({column, row + 1})};

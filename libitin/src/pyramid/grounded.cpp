@@ -20,7 +20,7 @@ namespace {
 
 using Corners = std::array<Position, 3>;
 
-/// The Delaunay triangulation of positions in Morton order, those of squares of a lattice within `known` first.
+/// The Delaunay triangulation of positions in Morton order; the triangles of lattice squares within `known` come first.
 PlaneMesh triangulated(const std::vector<Position>& positions, const LatticeSquares& squares) {
   std::vector<Position> rest;
   for (const std::uint32_t v : squares.rest()) rest.push_back(positions[v]);
@@ -39,8 +39,8 @@ bool disturbed(const Corners& c, ApexSearch& search) {
   return false;
 }
 
-/// The ground triangles that meet a box, and some about it. They are among the triangles of what lies within the gap
-/// about the box, where a triangle is one of the whole unless a vertex beyond lies in its circle.
+/// The ground triangles that meet a box, and some about it. They are among the triangles of the points within the gap
+/// about the box. Such a triangle is one of the whole triangulation unless a vertex beyond lies in its circle.
 std::vector<Corners> ground_about(const GridBox& box, const SourceIndex& points,
                                   const std::vector<std::array<double, 4>>& gap_bases) {
   const GapRule gaps(gap_bases);

@@ -1,4 +1,4 @@
-// Where a straight line from one post of a lattice to another crosses the sides of the lattice's triangles.
+// Finds where a straight line from one post of a lattice to another crosses the sides of the lattice's triangles.
 //
 //   for_each_crossing(from, to, columns, rows, [](const LatticeSide& side, double part, double along) { ... });
 //
@@ -14,12 +14,13 @@
 
 namespace itin {
 
-/// Counted from the lattice's lower left post, which is {0, 0}.
+/// A place on a lattice, counted from its lower left post, which is {0, 0}.
 struct LatticePlace {
   std::int64_t column = 0, row = 0;
 };
 
-/// From post u to post v: a side of the lower left triangle of one square, and of the upper right triangle of another.
+/// A side from post u to post v. It belongs to the lower left triangle of one square, and the upper right triangle of
+/// another.
 struct LatticeSide {
   LatticePlace u, v;
   LatticePlace lower_left, upper_right;  ///< the lower left posts of these squares
@@ -27,8 +28,9 @@ struct LatticeSide {
 };
 
 /// Calls visit(line, whole, part, along) for each whole line within [least, greatest] that lies strictly between `from`
-/// and `to`, in ascending order. What goes from `start` on line `from` to `end` on line `to` crosses it at whole +
-/// part, where 0 < part < 1, having gone `along` of its way. Lines that are crossed at a whole number are passed over.
+/// and `to`, in ascending order. A way from `start` on line `from` to `end` on line `to` crosses the line at whole +
+/// part, where 0 < part < 1, after the share `along` of its length. Lines that are crossed at a whole number are passed
+/// over.
 template <class Visit>
 void cross_lines(std::int64_t from, std::int64_t to, std::int64_t start, std::int64_t end, std::int64_t least,
                  std::int64_t greatest, const Visit& visit) {
@@ -49,8 +51,9 @@ void cross_lines(std::int64_t from, std::int64_t to, std::int64_t start, std::in
   }
 }
 
-/// Calls visit(side, part, along) for each side between two posts of a lattice of so many columns and rows that the way
-/// between these places crosses properly: at `part` of the side, having gone `along` of its way. Both in (0, 1).
+/// Calls visit(side, part, along) for each side between two posts of a lattice of these columns and rows that the way
+/// between these places crosses properly. It crosses at `part` of the side, after the share `along` of its own length.
+/// Both are in (0, 1).
 template <class Visit>
 void for_each_crossing(const LatticePlace& from, const LatticePlace& to, std::int64_t columns, std::int64_t rows,
                        const Visit& visit) {
@@ -64,7 +67,7 @@ void for_each_crossing(const LatticePlace& from, const LatticePlace& to, std::in
                 if (c < 0 || c >= columns - 1) return;
                 visit(LatticeSide{{c, r}, {c + 1, r}, {c, r}, {c, r - 1}, {c, r + 1}, {c + 1, r - 1}}, part, along);
               });
-  // Column and row of a diagonal's posts have the same sum.
+  // The column and row of a diagonal's posts have a constant sum.
   cross_lines(from.column + from.row, to.column + to.row, from.column, to.column, 1, columns + rows - 3,
               [&](std::int64_t sum, std::int64_t c, double part, double along) {
                 const std::int64_t r = sum - c - 1;

@@ -72,8 +72,8 @@ bool LatticeDifference::fits(const RegionMesh& coarse) const {
   });
 }
 
-/// Difference times doubled area is a whole number, and so their quotient is exact where it is whole, and lies between
-/// the right whole numbers elsewhere.
+/// The difference times the doubled area is a whole number. So their quotient is exact where it is whole, and lies
+/// between the right whole numbers elsewhere.
 void LatticeDifference::compare_posts(const std::array<std::uint32_t, 3>& face) {
   const Corner &a = corners_[face[0]], &b = corners_[face[1]], &c = corners_[face[2]];
   const std::int64_t bx = b.column - a.column, by = b.row - a.row, bz = b.z - a.z, cx = c.column - a.column,
@@ -130,11 +130,11 @@ bool LatticeDifference::is_square(Place lower_left) const {
 }
 
 void LatticeDifference::note_failure(std::uint32_t from, std::uint32_t to, const LatticeSide& side, double above) {
-  if (is_left_out(side.u) || is_left_out(side.v)) return;  // so is their only triangle
+  if (is_left_out(side.u) || is_left_out(side.v)) return;  // their only triangle is left out, too
   std::tie(from, to) = std::minmax({from, to});
   const Corner &p = corners_[from], &q = corners_[to];
   const auto code = [&](Place post) { return code_of(posts_.position(post)); };
-  // Where both ends are as near it is the one with the lesser code, as in meshes.
+  // Where both ends are equally near, the one with the lesser code counts, as in meshes.
   const auto distance = [&](Place v) {
     const std::int64_t area = (q.column - p.column) * (v.row - p.row) - (q.row - p.row) * (v.column - p.column);
     return std::pair(std::abs(area), code(v));

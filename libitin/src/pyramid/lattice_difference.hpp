@@ -4,8 +4,8 @@
 //   LatticeDifference difference(*WholeLattice::about(index, box));
 //   if (difference.compare(coarse, allowed)) difference.over(square)        // T_0 - T_k there
 //
-// The posts within a coarse triangle are gone through row by row, and the lattice's lines that a coarse edge crosses
-// one by one.
+// The posts within a coarse triangle are visited row by row, and the lattice's lines that a coarse edge crosses one by
+// one.
 #pragma once
 
 #include <array>
@@ -23,15 +23,15 @@ class LatticeDifference {
 
   const WholeLattice& posts() const { return posts_; }
 
-  /// Measures the difference to this surface, which must cover the lattice; what is greater than `allowed` is a
-  /// failure. False where that takes triangles: where vertices of the coarse surface are no posts, or numbers become
-  /// too large.
+  /// Measures the difference to this surface, which must cover the lattice. A difference greater than `allowed` is a
+  /// failure. Returns false where triangles are needed for that: where vertices of the coarse surface are no posts, or
+  /// numbers become too large.
   bool compare(const RegionMesh& coarse, std::int32_t allowed);
 
-  /// What difference() and over_triangles() say of those of the triangles about the lattice's box whose own boxes meet
-  /// the square, but for rounding in the last places of crossings. After compare().
+  /// Returns what difference() and over_triangles() tell about the triangles at the lattice's box whose own boxes meet
+  /// the square, except for rounding in the last places of crossings. To be called after compare().
   DifferenceRange over(const GridBox& square) const;
-  /// What difference() says, too, but that a post on a coarse edge counts for both faces there.
+  /// The failures that difference() would tell, except that a post on a coarse edge counts for both faces there.
   const Failures& failures() const { return failures_; }
 
  private:
@@ -68,9 +68,9 @@ class LatticeDifference {
   std::int32_t allowed_ = 0;
   Failures failures_;
   std::vector<Corner> corners_;
-  std::vector<double> at_post_;  ///< not a number where it does not count
-  /// Where coarse edges cross the sides of a square's lower left triangle, and of its upper right one: by the square's
-  /// lower left post.
+  std::vector<double> at_post_;  ///< by post; not a number where a post does not count
+  /// The ranges where coarse edges cross the sides of a square's lower left triangle, and of its upper right one, by
+  /// the square's lower left post.
   std::vector<Range> lower_left_, upper_right_;
 };
 

@@ -29,9 +29,9 @@ WorstPoint LatticeGround::worst_point(CoarseFace face) const {
   const double bx = b.column - a.column, by = b.row - a.row, bz = b.z - a.z;
   const double cx = c.column - a.column, cy = c.row - a.row, cz = c.z - a.z;
   const double area = bx * cy - by * cx;
-  if (area == 1) return {};  // it holds no other post (Pick 1899)
+  if (area == 1) return {};  // the triangle holds no other post (Pick 1899)
   const double rise_x = (bz * cy - cz * by) / area, rise_y = (bx * cz - cx * bz) / area;
-  // Sides as seen counterclockwise: a rising one bounds rows on the east, a falling one on the west.
+  // A side is seen counterclockwise: a rising one bounds rows on the east, a falling one on the west.
   struct Bound {
     double column, row, slope;
     double at(double r) const { return column + (r - row) * slope; }

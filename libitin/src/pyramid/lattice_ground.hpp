@@ -2,8 +2,8 @@
 // lattice, perhaps with gaps.
 //
 // Posts within a coarse face are found row by row, and crossings with the sides of the lattice's triangles by
-// arithmetic (lattice_crossings.hpp). Sides of which a post is missing are passed over: beside gaps, full triangles
-// have other edges, too, which only verification sees.
+// arithmetic (lattice_crossings.hpp). A side with a missing post is passed over. Beside gaps, full triangles have other
+// edges, too, which only verification sees.
 #pragma once
 
 #include <cmath>
@@ -20,7 +20,7 @@ namespace itin {
 
 class LatticeGround {
  public:
-  /// `posts` are those of `vertices`. All must outlive it.
+  /// `posts` must be the posts of `vertices`. All arguments must outlive it.
   LatticeGround(std::span<const SelectedVertex> vertices, const LatticePosts& posts,
                 std::span<const Candidacy> candidacy);
 
@@ -33,7 +33,7 @@ class LatticeGround {
 
   WorstPoint worst_point(CoarseFace face) const;
 
-  /// At a crossing, the nearer post of the side, or the other one, or a post opposite.
+  /// Offers, at a crossing, the nearer post of the side, or the other one, or a post opposite.
   template <class Worst>
   void compare_edge(std::uint32_t a, std::uint32_t b, Worst& worst) const {
     const double from = point(a).z, rise = static_cast<double>(point(b).z) - from;

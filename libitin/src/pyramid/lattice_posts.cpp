@@ -9,9 +9,9 @@ namespace itin {
 
 namespace {
 
-/// Far fewer posts than places would cost memory, and rows that are walked in vain.
+/// The least share of places that have a post. Far fewer would cost memory, and rows that are walked in vain.
 constexpr double kLeastShare = 1.0 / 16;
-/// The share of posts with neighbours to the east and north.
+/// The least share of posts with neighbours to the east and north.
 constexpr double kLeastWithNeighbours = 0.5;
 
 /// The greatest step that leads from `first` to all coordinates; 1 where they are all the same.
@@ -27,14 +27,14 @@ std::optional<LatticePosts> LatticePosts::of(std::span<const SelectedVertex> ver
   LatticePosts posts;
   if (!posts.find_lattice(vertices)) return std::nullopt;
   posts.place(vertices);
-  // In a single row there is nobody to the north.
+  // In a single row no post has a neighbour to the north.
   const bool in_line = posts.columns_ == 1 || posts.rows_ == 1;
   const double wanted = kLeastWithNeighbours * static_cast<double>(vertices.size());
   if (!in_line && static_cast<double>(posts.count_with_neighbours()) < wanted) return std::nullopt;
   return posts;
 }
 
-/// Whether it is full enough.
+/// Finds the lattice, and tells whether it is full enough.
 bool LatticePosts::find_lattice(std::span<const SelectedVertex> vertices) {
   const GridBox box = box_of(vertices, &SelectedVertex::point);
   if (box.empty()) return false;
@@ -56,7 +56,7 @@ void LatticePosts::place(std::span<const SelectedVertex> vertices) {
   }
 }
 
-/// Posts with neighbours to the east and north.
+/// Counts the posts with neighbours to the east and north.
 std::size_t LatticePosts::count_with_neighbours() const {
   std::size_t count = 0;
   for (std::int64_t row = 0; row + 1 < rows_; ++row) {

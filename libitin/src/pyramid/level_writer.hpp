@@ -1,4 +1,4 @@
-// One level's quadtree on its way into a store.
+// Writes one level's quadtree into a store.
 //
 //   LevelWriter level(index, bounds, k, writer);
 //   for (const RawPoint& p : points_of_level_k) level.add(p);   // in Morton order
@@ -18,10 +18,10 @@
 
 namespace itin {
 
-/// Leaves take the bounds of the working leaves in them.
+/// Writes a level. Its leaves take the bounds of the working leaves in them.
 class LevelWriter {
  public:
-  /// All must outlive it.
+  /// All arguments must outlive it.
   LevelWriter(const WorkingIndex& index, const LeafBounds& bounds, int level, StoreWriter& writer);
   LevelWriter(const LevelWriter&) = delete;
   LevelWriter& operator=(const LevelWriter&) = delete;

@@ -68,7 +68,7 @@ class MeshGround {
     return worst;
   }
 
-  /// At a crossing with a full edge, the end of that edge nearer to it, or the other end, or a corner opposite.
+  /// Offers, at a crossing with a full edge, the end of that edge nearer to it, or the other end, or a corner opposite.
   template <class Worst>
   void compare_edge(std::uint32_t a, std::uint32_t b, Worst& worst) const {
     const GridPoint &pa = point(a), &pb = point(b);

@@ -14,8 +14,8 @@ namespace itin {
 
 namespace {
 
-/// How far v lies above the triangle's plane. The weights are exact, so the double result is off by less than 1e-6;
-/// next to a whole number integers decide.
+/// How far v lies above the triangle's plane. The weights are exact, so the double result is off by less than 1e-6.
+/// Next to a whole number integers decide.
 DifferenceRange above_plane(const RegionMesh& m, std::uint32_t triangle, const GridPoint& v) {
   const auto& [a, b, c] = m.mesh.triangles[triangle];
   const GridPoint &pa = m.vertices[a].point, &pb = m.vertices[b].point, &pc = m.vertices[c].point;
@@ -34,7 +34,8 @@ DifferenceRange above_plane(const RegionMesh& m, std::uint32_t triangle, const G
           static_cast<std::int32_t>(ceil_divide(numerator, weight))};
 }
 
-/// T0 - Tk where fine edge uv crosses coarse edge pq: weights exact, heights below 2^31, so rounding stays below 1e-5.
+/// T0 - Tk where fine edge uv crosses coarse edge pq. The weights are exact and heights below 2^31, so rounding stays
+/// below 1e-5.
 DifferenceRange above_crossing(const GridPoint& u, const GridPoint& v, const GridPoint& p, const GridPoint& q) {
   const auto pu = static_cast<double>(doubled_area(p, q, u)), pv = static_cast<double>(doubled_area(p, q, v));
   const auto up = static_cast<double>(doubled_area(u, v, p)), uq = static_cast<double>(doubled_area(u, v, q));
@@ -72,7 +73,7 @@ class CoarseWalk {
   }
 
  private:
-  /// Edge through which uv leaves the face, or kStays where v lies in it.
+  /// The edge through which uv leaves the face, or kStays where v lies in it.
   struct Exit {
     std::uint32_t face;
     int edge;
@@ -92,7 +93,7 @@ class CoarseWalk {
     return neighbour;
   }
 
-  /// v lies beyond both edges at corner i: uv leaves by the one on the side of the corner where it passes.
+  /// v lies beyond both edges at corner i: uv leaves by the edge on the side of the corner where it passes.
   Exit leave_around(Position u, std::uint32_t t, int i, Position v) const {
     return {t, orientation(u, v, corner(t, i)) > 0 ? next(i) : previous(i)};
   }
@@ -114,11 +115,11 @@ class CoarseWalk {
         inside = i;
         continue;
       }
-      if (orientation(corner(t, next(i)), corner(t, previous(i)), u) == 0)  // on the very edge: nothing is crossed
+      if (orientation(corner(t, next(i)), corner(t, previous(i)), u) == 0)  // u is on the very edge: nothing is crossed
         return leave_entered(u, beyond({t, i}), mesh_.triangles[t][previous(i)], v);
       last = last == kStays ? i : kBoth;
     }
-    // Beyond all edges but one is beyond both at the corner opposite to it.
+    // A v that lies beyond all edges but one lies beyond both edges at the corner opposite that one.
     return last == kBoth ? leave_around(u, t, inside, v) : Exit{t, last};
   }
 
@@ -134,9 +135,9 @@ class CoarseWalk {
 
   int corner_at(std::uint32_t t, Position u) const { return corner(t, 0) == u ? 0 : corner(t, 1) == u ? 1 : 2; }
 
-  /// Through the triangles that hang together about u.
+  /// Finds the exit through the triangles that hang together about u.
   std::optional<Exit> leave_fan(Position u, std::uint32_t start, Position v) const {
-    for (const int step : {1, 2}) {  // counterclockwise, and clockwise from where a border stopped that
+    for (const int step : {1, 2}) {  // counterclockwise, and then clockwise from the start if a border stopped that
       std::uint32_t t = start;
       do {
         const int i = corner_at(t, u);
@@ -149,7 +150,7 @@ class CoarseWalk {
     return std::nullopt;
   }
 
-  /// Where ground meets ground at a mere vertex, as voids do corner to corner, its triangles are several fans.
+  /// Where ground meets ground at a single vertex, as voids do corner to corner, its triangles are several fans.
   void find_pinches() {
     std::vector<std::uint32_t> fan(coarse_.vertices.size(), kNoTriangle);
     for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
@@ -189,7 +190,7 @@ class DifferenceSweep {
   Difference run() {
     seed_at_coarse_vertices();
     for (std::uint32_t v = 0; v < face_.size(); ++v) {
-      // Breadth first from vertex to vertex; what no coarse vertex reaches is located the slow way.
+      // Vertices are visited breadth first; one that no coarse vertex reaches is located the slow way.
       if (visited_[v]) continue;
       if (face_[v] == kNoTriangle) locate(v);
       spread_from(v);
@@ -244,7 +245,7 @@ class DifferenceSweep {
 
   void follow(std::uint32_t e, std::uint32_t u, std::uint32_t v) {
     DifferenceRange& range = result_.along_edge[e];
-    if (!range.empty()) return;  // followed from its other end
+    if (!range.empty()) return;  // it was followed from its other end
     const GridPoint &pu = fine_.vertices[u].point, &pv = fine_.vertices[v].point;
     if (face_[v] == face_[u]) {  // a triangle is convex: nothing is crossed
       range.add(at_vertex_[u]);
@@ -267,7 +268,7 @@ class DifferenceSweep {
   void note(std::uint32_t e, std::pair<std::uint32_t, std::uint32_t> coarse_edge, std::int32_t size) {
     const FineEdges::Edge& edge = edges_.edges()[e];
     const GridPoint &from = coarse_.vertices[coarse_edge.first].point, &to = coarse_.vertices[coarse_edge.second].point;
-    // Where both ends are as near it is the one with the lesser code, in whatever region that is asked.
+    // Where both ends are equally near, the one with the lesser code counts, in whatever region that is asked.
     const auto distance = [&](std::uint32_t v) {
       return std::pair(std::abs(doubled_area(from, to, fine_.vertices[v].point)), v);
     };

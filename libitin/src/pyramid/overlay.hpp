@@ -1,4 +1,4 @@
-// The difference between the full surface and a coarse one, exactly where its extremes lie.
+// Computes the difference between the full surface and a coarse one, exactly where its extremes lie.
 //
 // T0 - Tk is linear on every face of the overlay of both triangulations. The overlay's vertices are T0's vertices and
 // the crossings of T0's edges with Tk's (Tk's vertices are T0's as well). So the extremes over a triangle of T0 lie on
@@ -24,12 +24,12 @@ struct DifferenceRange {
   std::int32_t hi = std::numeric_limits<std::int32_t>::min();
 
   bool empty() const { return lo > hi; }
-  /// The larger of both sides.
+  /// The larger of both sides, as a distance.
   std::int32_t size() const { return empty() ? 0 : std::max(-lo, hi); }
   void add(const DifferenceRange& r) { lo = std::min(lo, r.lo), hi = std::max(hi, r.hi); }
 };
 
-/// The edges of a fine mesh, each once, and which of them leave each vertex.
+/// The edges of a fine mesh, each once, and the edges at each vertex.
 class FineEdges {
  public:
   struct Edge {
@@ -39,7 +39,7 @@ class FineEdges {
   explicit FineEdges(const RegionMesh& fine);
 
   const std::vector<Edge>& edges() const { return edges_; }
-  /// Their numbers.
+  /// The numbers of the edges at a vertex.
   std::span<const std::uint32_t> at_vertex(std::uint32_t v) const { return at_vertex_.in(v); }
 
  private:
@@ -52,8 +52,8 @@ struct Difference {
   Failures failures;
 };
 
-/// The coarse mesh's vertices must be among the full surface's, and it must cover every vertex of the fine mesh.
-/// A greater difference than `allowed` at a vertex or a crossing is a failure.
+/// Measures the difference. The coarse mesh's vertices must be among the full surface's, and it must cover every vertex
+/// of the fine mesh. A difference greater than `allowed` at a vertex or a crossing is a failure.
 Difference difference(const RegionMesh& fine, const FineEdges& edges, const RegionMesh& coarse, std::int32_t allowed);
 
 /// The difference over each fine triangle.

@@ -20,10 +20,10 @@ bool among(const Codes& ascending, std::uint64_t code) {
   return std::binary_search(ascending.begin(), ascending.end(), code);
 }
 
-/// One part on its way to the store.
+/// One part as it is written to the store.
 class PartMask {
  public:
-  /// `clusters`: what of them the part's lines tell.
+  /// `clusters` holds what the part's lines tell about them.
   PartMask(const PlacedPart& part, PartClusters clusters)
       : part_(part), index_(part.masks), clusters_(std::move(clusters)) {
     for (const PartVertex& v : part.vertices) own_.push_back(code_of(v.point));
@@ -32,17 +32,17 @@ class PartMask {
   int rank() const { return part_.rank; }
   bool has_clusters() const { return !part_.mask_clusters.empty() && part_.mask_clusters.front() != kNoCluster; }
   bool covers(std::uint64_t code) const { return index_.at(position_of(code)).has_value() && !among(own_, code); }
-  /// In any order, also twice.
+  /// Adds masked positions, in any order; they may repeat.
   void add(std::span<const std::uint64_t> codes) { masked_.insert(masked_.end(), codes.begin(), codes.end()); }
   void finish() {
     sort_unique(masked_);
     if (has_clusters()) find_places();
   }
-  /// Puts a segment that makes way for the part among those of clusters.
+  /// Adds a segment that makes way for the part to those of the cluster.
   void add_masked_for(const Segment& entry, std::uint32_t cluster) {
     if (has_clusters()) clusters_.of_segments.push_back({entry, cluster});
   }
-  /// `ground`: it keeps the ground.
+  /// Adds a segment that makes way for the part to those of its clusters; `ground` tells whether it keeps the ground.
   void add_masked(const Segment& entry, bool ground) {
     if (!has_clusters()) return;
     for (const std::uint64_t end : {code_of(entry.a()), code_of(entry.b())})
@@ -56,10 +56,10 @@ class PartMask {
     sort_unique(segments);
     return std::move(clusters_);
   }
-  /// Lines end at feet, so a segment lies inside or outside as a whole.
+  /// Tells whether the part covers a segment. Lines end at feet, so a segment lies inside or outside as a whole.
   bool covers(const Segment& s) const { return hides_end(s) || index_.middle_inside(s.a(), s.b()); }
-  /// A line that keeps the ground makes way only where it has to: between vertices that rise it keeps tops above the
-  /// ground.
+  /// Tells whether an end of the segment is masked. A line that keeps the ground makes way only in that case: between
+  /// vertices that rise it keeps tops above the ground.
   bool hides_end(const Segment& s) const { return among(masked_, code_of(s.a())) || among(masked_, code_of(s.b())); }
 
   void write(std::uint16_t number, StoreWriter& writer) const {
@@ -68,7 +68,7 @@ class PartMask {
       const auto mark = static_cast<std::uint16_t>(v.outline ? format::kOnOutline : 0);
       entries.emplace_back(v.point, static_cast<std::uint16_t>(part_.source | mark));
     }
-    // Masks have no height; any near those of vertices takes the least room.
+    // Masks have no height; a height near those of vertices takes the least room.
     const std::int32_t z = part_.vertices.front().point.z;
     for (const std::uint64_t code : masked_)
       entries.emplace_back(GridPoint{morton_x(code), morton_y(code), z}, format::kMask);
@@ -120,7 +120,7 @@ class PartMask {
   PartClusters clusters_;
 };
 
-/// By part: what of its clusters its lines are of.
+/// The places and segments of each part's clusters that lines tell, by part.
 std::vector<PartClusters> clusters_of_lines(const ThemeLines& lines) {
   std::vector<PartClusters> clusters(lines.parts.size());
   for (const auto& [edge, cluster] : lines.lines.features) {

@@ -12,12 +12,12 @@
 namespace itin {
 
 struct WrittenParts {
-  std::vector<Segment> masked;                     ///< what makes way, as FORMAT.md has it in the parts' edge trees
+  std::vector<Segment> masked;                     ///< segments that make way, as in parts' edge trees (FORMAT.md)
   std::map<std::uint16_t, PartClusters> clusters;  ///< by number of part
 };
 
 /// Writes the vertices of all parts, with the positions where vertices of the terrain, of lines on the ground
-/// (`draped`) and of parts of greater rank make way for them. Of all given segments returns those that make way.
+/// (`draped`) and of parts of greater rank make way for them. Returns the given segments that make way.
 WrittenParts write_parts(const ThemeLines& lines, const WorkingIndex& index, const std::vector<CurveRange>& tiles,
                          const std::vector<GridPoint>& draped, const std::vector<Segment>& segments,
                          StoreWriter& writer, Progress& progress);

@@ -1,4 +1,4 @@
-// Which positions lie in which triangles.
+// Finds which positions lie in which triangles.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 namespace itin {
 
 /// Calls visit(t, position) for every triangle t of `count` (counterclockwise; `corners(t)` are its three positions)
-/// and every position of those Morton codes in it, borders included.
+/// and every position with one of the Morton codes that lies in it, borders included.
 template <class Corners, class Visit>
 void for_each_inside(std::size_t count, const Corners& corners, std::span<const std::uint64_t> codes,
                      const Visit& visit) {

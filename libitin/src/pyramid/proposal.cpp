@@ -44,7 +44,8 @@ TileProposal propose(WorkingIndex& index, const CurveRange& tile, TileSurvey sur
   return proposal;
 }
 
-/// Waves of tiles: in each, no tile lies within another one's reach. First come, first served along the curve.
+/// Waves of tiles: in each, no tile lies within another one's reach. Tiles are served first come, first served along
+/// the curve.
 std::vector<std::vector<std::size_t>> waves(const std::vector<CurveRange>& tiles) {
   std::vector<GridBox> reaches;
   for (const CurveRange& tile : tiles) reaches.push_back(reach_of(tile));

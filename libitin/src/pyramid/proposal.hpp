@@ -14,27 +14,28 @@
 namespace itin {
 
 struct Proposal {
-  std::vector<Segment> outline;         ///< the ground's, in short pieces (coverage.hpp)
-  std::vector<std::uint64_t> isolated;  ///< points of no ground triangle, as Morton codes
+  std::vector<Segment> outline;         ///< the outline of the ground, in short pieces (coverage.hpp)
+  std::vector<std::uint64_t> isolated;  ///< Morton codes of points that no ground triangle has
 };
 
 /// Writes the levels that the points should have, as far as one tile can tell; certify.hpp has the last word.
 ///
 /// A tile's greedy insertion starts from the levels that its neighbours have already, so that both sides of a border
-/// agree. Hence the tiles come in waves: tiles of one wave are so far apart that none sees another's points, and the
+/// agree. Hence the tiles come in waves. Tiles of one wave are so far apart that none sees another's points, and the
 /// outcome depends on the points alone, not on threads. A tile may also raise points just across its border that
 /// earlier waves left too fine.
 ///
-/// `gap_bases` per source and `tolerances` per level, grid units.
+/// `gap_bases` (per source) and `tolerances` (per level) are in grid units.
 Proposal propose_levels(WorkingIndex& index, const std::vector<CurveRange>& tiles,
                         const std::vector<std::array<double, 4>>& gap_bases, std::span<const double> tolerances,
                         Progress& progress);
 
-/// The coverage alone, by the points of the given sources, or of all.
+/// Finds the coverage alone, by the points of the given sources, or of all.
 Proposal find_ground(const WorkingIndex& index, const std::vector<CurveRange>& tiles,
                      const std::vector<std::array<double, 4>>& gap_bases, const Sources* ground, Progress& progress);
 
-/// The levels alone, where the index has its lines already. Points that have a level keep it, or get a coarser one.
+/// Proposes the levels alone, where the index has its lines already. Points that have a level keep it, or get a coarser
+/// one.
 void propose_levels_with_lines(WorkingIndex& index, const std::vector<CurveRange>& tiles,
                                std::span<const double> tolerances, Progress& progress);
 

@@ -27,7 +27,7 @@ namespace itin {
 
 namespace {
 
-/// The codes of the vertices of the terrain's lines, ascending, as those are in Morton order.
+/// The codes of the vertices of the terrain's lines, ascending, since the vertices are in Morton order.
 std::vector<std::uint64_t> terrain_codes(const ThemeLines& lines) {
   std::vector<std::uint64_t> codes;
   for (const std::uint32_t v : lines.terrain_vertices()) codes.push_back(code_of(lines.lines.vertices[v]));
@@ -75,8 +75,8 @@ std::vector<RawPoint> raw_points(const std::vector<GridPoint>& points, std::size
   return result;
 }
 
-/// The vertices that each theme has besides those of the full surface, with the themes they belong to. `crossings`:
-/// those of lines that keep the ground with other lines.
+/// Writes the vertices that each theme has besides those of the full surface, with the themes they belong to.
+/// `crossings`: the vertices at which lines that keep the ground cross other lines.
 void write_features(const PlacedLines& placed, const std::vector<ThemeVertex>& crossings, const ThemeLines& lines,
                     const std::vector<GridPoint>& draped, StoreWriter& writer, PyramidReport& report) {
   std::vector<std::pair<std::uint16_t, std::uint64_t>> ends;  // theme, code
@@ -119,7 +119,8 @@ void count_lines(const PlacedLines& placed, std::size_t themes, PyramidReport& r
   }
 }
 
-/// A vertex that covers a point of the ground stands for it while levels are made, and is its line's in the store.
+/// The source of a point in the store. A vertex that covers a point of the ground stands for it while levels are made,
+/// and belongs to its line's source in the store.
 std::uint16_t own_source(const RawPoint& p, const std::vector<CoveredPoint>& covered) {
   const auto at = std::lower_bound(covered.begin(), covered.end(), p.code,
                                    [](const CoveredPoint& c, std::uint64_t code) { return c.point.code < code; });
@@ -137,7 +138,7 @@ void append(std::vector<Segment>& segments, const std::vector<Segment>& more) {
   segments.insert(segments.end(), more.begin(), more.end());
 }
 
-/// In this order, each step once.
+/// Builds a pyramid in numbered steps, each of which is run once and in this order.
 class PyramidBuild {
  public:
   PyramidBuild(const PyramidSources& of, StoreWriter& writer, Progress& progress)
@@ -180,7 +181,7 @@ class PyramidBuild {
   }
 
  private:
-  /// What a step takes of the time that is left, about.
+  /// About the share that a step takes of the time that is left.
   static constexpr double kGroundAlone = 0.8, kGroundUnderLines = 0.2, kLines = 0.1, kProposal = 0.7,
                           kCertificates = 0.85;
 
@@ -189,10 +190,10 @@ class PyramidBuild {
     tiles_ = index_->work_tiles();
   }
 
-  /// All points that were imported, also where those of the surface are more by now.
+  /// All points that were imported, even where the surface's points have become more.
   const SortedPoints& imported() const { return imported_ ? *imported_ : points_; }
 
-  /// 1. Without lines the levels are proposed in the same go.
+  /// Step 1: finds the coverage. Without lines the levels are proposed in the same go.
   void find_coverage() {
     report_.replaced = drop_replaced(*index_, tiles_, sources_, bases_, terrain_codes(lines_), progress_);
     const Sources* const only = ground_.size() < sources_.size() ? &ground_ : nullptr;
@@ -202,14 +203,14 @@ class PyramidBuild {
     outline_ = join_collinear(std::move(proposal.outline));
   }
 
-  /// 2. Lines lie on the ground.
+  /// Step 2: lays lines on the ground.
   void place() {
     if (lines_.empty()) return;
     placed_ = place_lines(lines_, *index_, tiles_, ground_, bases_, outline_, progress_);
     index_->drop(placed_.strays);
   }
 
-  /// 3. Points are inferred where contours leave the surface flat.
+  /// Step 3: infers points where contours leave the surface flat.
   void repair_contours() {
     if (of_kind(placed_.terrain, ThemeKind::Contours, lines_).empty()) return;
     const FlatSurvey flat = survey_flat(*index_, tiles_, placed_, outline_, lines_, progress_);
@@ -225,7 +226,7 @@ class PyramidBuild {
     report_.flat_after = survey_flat(*index_, tiles_, placed_, outline_, lines_, progress_).triangles();
   }
 
-  /// 4. The terrain's lines at all levels.
+  /// Step 4: gives the terrain's lines at all levels.
   void generalise() {
     placed_.raised = raised_segments(lines_);
     placed_.ground = ground_segments(lines_);
@@ -244,7 +245,8 @@ class PyramidBuild {
     index_->set_segments(std::move(segments));
   }
 
-  /// 5. Every end of the outline and of lines on the ground is in all levels.
+  /// Step 5: proposes the levels where there are lines. Every end of the outline and of lines on the ground is in all
+  /// levels.
   void propose_with_lines() {
     if (lines_.empty()) return;
     std::vector<Segment> whole = outline_;
@@ -259,7 +261,7 @@ class PyramidBuild {
     if (hierarchy_) lead_lines_through();
   }
 
-  /// A line goes through those of its vertices that a level has.
+  /// Leads a line through those of its vertices that a level has.
   void lead_lines_through() {
     std::vector<LineHierarchy::Shortcut> passed_by;
     const std::vector<LineHierarchy::VertexLevel> on_lines = hierarchy_->levels();
@@ -281,13 +283,13 @@ class PyramidBuild {
     return restored;
   }
 
-  /// 6.
+  /// Step 6: certifies the levels.
   LeafBounds certify_levels() {
     return certify(
         *index_, whole_units_, [&](const auto& shortcuts) { return restore(shortcuts); }, progress_);
   }
 
-  /// 7. Points and bounds, level by level.
+  /// Step 7: writes points and bounds, level by level.
   void write_ground(LeafBounds bounds) {
     for (std::uint32_t leaf = 0; leaf < index_->ranges().size(); ++leaf) {
       // The full surface differs from itself by nothing, wherever there is ground.
@@ -312,7 +314,7 @@ class PyramidBuild {
     }
   }
 
-  /// 8. Features with their vertices, parts, and the segments of all lines.
+  /// Step 8: writes features with their vertices, parts, and the segments of all lines.
   void write_lines() {
     const std::vector<GridPoint> draped = write_draped();
     count_lines(placed_, lines_.themes() + lines_.parts.size(), report_);
@@ -328,7 +330,8 @@ class PyramidBuild {
     writer_.add_segments(segments, segment_features(), parts.clusters);
   }
 
-  /// The features of all segments. The hierarchy has those of the terrain's lines; others are whole at all levels.
+  /// The features of all segments. The hierarchy has the segments of the terrain's lines; others are whole at all
+  /// levels.
   std::vector<SegmentFeature> segment_features() const {
     std::vector<SegmentFeature> features;
     if (hierarchy_) features = hierarchy_->features(placed_.of_features);
@@ -338,7 +341,7 @@ class PyramidBuild {
     return features;
   }
 
-  /// The vertices of lines on the ground.
+  /// Writes the vertices of lines on the ground, and returns them.
   std::vector<GridPoint> write_draped() {
     const std::vector<ThemeVertex> crossings = crossings_of_ground(lines_);
     if (placed_.features.empty() && crossings.empty()) return {};
@@ -361,7 +364,7 @@ class PyramidBuild {
   const Sources ground_ = ground_sources(sources_);
   std::vector<double> units_;  ///< tolerances in grid units
   std::vector<std::int32_t> whole_units_;
-  std::optional<SortedPoints> imported_;  ///< where `points_` has become those of the surface
+  std::optional<SortedPoints> imported_;  ///< where `points_` has become the points of the surface
   std::optional<WorkingIndex> index_;
   std::vector<CurveRange> tiles_;
   std::vector<Segment> outline_;

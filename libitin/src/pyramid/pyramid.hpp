@@ -20,24 +20,24 @@ inline constexpr const char* kInferred = "inferred";
 inline constexpr const char* kSea = "sea";
 bool is_sea(const SourceInfo& source);
 
-/// Whether a source's points are ground by themselves: all but those of lines that add to it, and what is inferred in
-/// it.
+/// Whether a source's points are ground by themselves: all but the points of lines that add to it, and points inferred
+/// in it.
 bool is_ground(const SourceInfo& source);
 
 struct PyramidReport {
-  std::uint64_t replaced = 0;  ///< coarser points that made room
-  std::uint64_t isolated = 0;  ///< points left out: no ground about them
+  std::uint64_t replaced = 0;  ///< coarser points that were dropped for finer ones
+  std::uint64_t isolated = 0;  ///< points left out because there is no ground about them
   std::vector<std::uint64_t> vertices_of_source;
   std::uint64_t left_out = 0;                ///< segments of lines that are not wholly on the ground
-  std::vector<std::uint64_t> segments;       ///< how many the full surface has, by theme and then by part
+  std::vector<std::uint64_t> segments;       ///< number of segments of the full surface, by theme and then by part
   std::vector<std::uint64_t> line_vertices;  ///< by theme and then by part
   std::vector<Segment> placed;               ///< lines on the ground, as segments of the full surface
-  std::vector<SegmentFeature> of_features;   ///< which features they are of
+  std::vector<SegmentFeature> of_features;   ///< the features that the placed segments belong to
   std::uint64_t flat_before = 0;             ///< flat triangles of contours (features/flat_triangles.hpp)
-  std::uint64_t flat_after = 0;              ///< those that the repair did not mend
+  std::uint64_t flat_after = 0;              ///< flat triangles that the repair did not mend
 };
 
-/// What a pyramid is built of.
+/// The sources that a pyramid is built from.
 struct PyramidSources {
   SortedPoints& points;  ///< the vertices of terrain lines among them; where contours are repaired, points are added
   const std::vector<SourceInfo>& sources;  ///< they give the gap bases
@@ -47,10 +47,11 @@ struct PyramidSources {
   const std::vector<GridPoint>* inferred = nullptr;  ///< points from an earlier repair of contours, in Morton order
 };
 
-/// Finds the coverage, gives every point its level, certifies the levels and writes it all. Out of core: memory follows
-/// the leaves (about 100 bytes for 512 points) and the tiles in work, not the points. The result depends on the set of
-/// points, the lines and the gap bases alone. Contours are repaired (contour_repair.hpp) where one of the sources is
-/// kInferred: it gets the points, those of an earlier repair if they are given. Throws FileError, Cancelled.
+/// Finds the coverage, gives every point its level, certifies the levels and writes it all. Works out of core: memory
+/// follows the leaves (about 100 bytes for 512 points) and the tiles in work, not the points. The result depends on the
+/// set of points, the lines and the gap bases alone. Contours are repaired (contour_repair.hpp) where one of the
+/// sources is kInferred. This source gets the inferred points, or those of an earlier repair if they are given. Throws
+/// FileError, Cancelled.
 PyramidReport build_pyramid(const PyramidSources& of, StoreWriter& writer, Progress& progress);
 
 }  // namespace itin

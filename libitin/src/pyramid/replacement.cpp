@@ -13,15 +13,16 @@ namespace itin {
 
 namespace {
 
-/// All ground takes the place of the sea, and nothing makes room for it. Ground of equal spacing, a new survey for
-/// instance, takes the place of what does not replace itself.
+/// Whether a source takes the place of another. All ground takes the place of the sea, and nothing makes room for the
+/// sea. Ground of equal spacing, a new survey for instance, takes the place of ground that does not replace others
+/// itself.
 bool takes_place(const SourceInfo& source, const SourceInfo& of) {
   if (is_sea(source)) return false;
   if (is_sea(of)) return is_ground(source);
   return source.replaces && (source.spacing < of.spacing || (source.spacing == of.spacing && !of.replaces));
 }
 
-/// For each source, those that take its place. Empty sets are left out.
+/// Returns for each source the sources that take its place. Empty sets are left out.
 std::map<std::uint16_t, Sources> replacing(const std::vector<SourceInfo>& sources) {
   std::map<std::uint16_t, Sources> result;
   for (std::size_t s = 0; s < sources.size(); ++s) {
@@ -42,7 +43,7 @@ std::uint64_t drop_replaced(WorkingIndex& index, const std::vector<CurveRange>& 
   if (replaced_by.empty()) return 0;
   std::map<Sources, SourceIndex> finer;
   for (const auto& [source, by] : replaced_by) finer.try_emplace(by, index, by);
-  // All tiles are read before any is written: what is dropped here must not change what covers it there.
+  // All tiles are read before any is written: a point dropped here must not change what covers another tile's points.
   std::vector<std::vector<std::uint64_t>> dropped(tiles.size());
   std::atomic<std::size_t> done = 0;
   parallel_for(tiles.size(), [&](std::size_t i) {

@@ -14,12 +14,12 @@ namespace itin {
 
 class ReplacingGround {
  public:
-  /// The coverage (coverage.hpp) of these points: those of all sources that replace, and no others.
+  /// Finds the coverage (coverage.hpp) of these points: the points of all sources that replace, and no others.
   ReplacingGround(SortedPoints points, const std::vector<SourceInfo>& sources, const Grid& grid, Progress& progress);
 
   using Piece = std::pair<GridPoint, GridPoint>;
-  /// The pieces of a line from a to b that lie outside, in order; the line itself where none of it lies inside. Ends at
-  /// the border are rounded to the grid, and their heights are those of the line.
+  /// Returns the pieces of a line from a to b that lie outside, in order; the line itself where none of it lies inside.
+  /// Ends at the border are rounded to the grid, and take their heights from the line.
   std::vector<Piece> outside(const GridPoint& a, const GridPoint& b) const;
 
  private:

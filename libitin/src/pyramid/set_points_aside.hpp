@@ -11,8 +11,8 @@
 
 namespace itin {
 
-/// Writes the points of the ground that were dropped, and those under vertices of lines. `points` as the surface was
-/// made of them.
+/// Writes the points of the ground that were dropped, and the points under vertices of lines. `points` must be as the
+/// surface was made of them.
 void set_points_aside(const SortedPoints& points, const std::vector<SourceInfo>& sources, StoreWriter& writer,
                       Progress& progress);
 

@@ -18,7 +18,7 @@ namespace {
 constexpr std::uint64_t kPointBytes = sizeof(RawPoint);
 constexpr std::uint64_t kIndexStep = 1024;            // points between two entries of the sparse index
 constexpr std::uint64_t kLargestChunk = 1 << 22;      // points sorted as one run
-constexpr std::uint64_t kChunksInMemory = 8;          // sorted in parallel
+constexpr std::uint64_t kChunksInMemory = 8;          // chunks sorted in parallel
 constexpr std::uint64_t kSmallestMergeBuffer = 1024;  // points; below this, reading costs more than another pass
 constexpr std::uint64_t kLargestMergeBuffer = 1 << 18;
 constexpr std::uint64_t kProgressStep = 1 << 20;  // points between two reports
@@ -45,7 +45,7 @@ class RunReader {
     refill();
   }
   const RawPoint& point() const { return buffer_[at_]; }
-  /// False at the end of the run.
+  /// Moves to the next point; false at the end of the run.
   bool next() {
     if (++at_ < filled_) return true;
     if (rest_.first == rest_.last) return false;
@@ -77,7 +77,7 @@ class RunWriter {
     buffer_.push_back(point);
     if (buffer_.size() == buffer_.capacity()) flush();
   }
-  /// Returns the end of what was written.
+  /// Writes the buffer, and returns the end of what was written.
   std::uint64_t flush() {
     write_points(*file_, next_, buffer_);
     next_ += buffer_.size();
@@ -104,7 +104,7 @@ void merge(const TemporaryFile& file, std::span<const Run> runs, std::uint64_t b
   std::vector<Head> heap;
   for (RunReader& reader : readers) heap.push_back({reader.point().code, &reader});
   std::sort(heap.begin(), heap.end(), [](const Head& a, const Head& b) { return a.code < b.code; });
-  // The head is replaced in place and sifted down: half the work of popping and pushing.
+  // The head is replaced in place and sifted down, which is half the work of popping and pushing.
   const auto sift_down = [&] {
     const Head moved = heap[0];
     std::size_t hole = 0;
@@ -141,7 +141,7 @@ class SortedPoints::Impl {
  public:
   explicit Impl(const std::string& temporary_directory) : directory(temporary_directory), file(directory) {}
 
-  /// Through a writer on the file, from its beginning.
+  /// Appends a point through a writer on the file that began at the file's beginning.
   void append(const RawPoint& point, RunWriter& writer) {
     if (size++ % kIndexStep == 0) index.push_back(point.code);
     writer.append(point);

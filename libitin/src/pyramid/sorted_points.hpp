@@ -1,4 +1,4 @@
-// Points on their way into a store: sorted along the Morton curve in a temporary file, never all in memory.
+// Points to be stored: sorted along the Morton curve in a temporary file, never all in memory.
 //
 //   PointSorter sorter(directory, memory_bytes);
 //   sorter.add({code_of(p), p.z, source});           // any order
@@ -23,14 +23,14 @@ struct RawPoint {
 };
 static_assert(sizeof(RawPoint) == 16);
 
-/// A point of the ground as it came, and the source of the line whose vertex is there instead.
+/// A point of the ground as imported, and the source of the line whose vertex takes its place.
 struct CoveredPoint {
   RawPoint point;
   std::uint16_t line = 0;
 };
 
-/// A temporary file of points in ascending order of code, all codes distinct; removed with the object.
-/// Reading is safe from any thread; writing is safe for disjoint ranges.
+/// A temporary file of points in ascending order of code, all codes distinct; it is removed with the object. Reading is
+/// safe from any thread; writing is safe for disjoint ranges.
 class SortedPoints {
  public:
   SortedPoints(SortedPoints&&) noexcept;
@@ -40,15 +40,15 @@ class SortedPoints {
   std::uint64_t size() const;
   /// Reads points [first, first + out.size()). Throws FileError.
   void read(std::uint64_t first, std::span<RawPoint> out) const;
-  /// Overwrites points [first, first + points.size()); codes must stay what they are.
+  /// Overwrites points [first, first + points.size()); their codes must not change.
   void write(std::uint64_t first, std::span<const RawPoint> points);
-  /// The number of points whose code is below `code`. One small read, thanks to a sparse index in memory.
+  /// The number of points whose code is below `code`. Costs one small read, thanks to a sparse index in memory.
   std::uint64_t lower_bound(std::uint64_t code) const;
-  /// Points that are not among these because a line has a vertex at their positions; ascending by code. Known after
-  /// sorting, not of what with() makes.
+  /// The points that are not among these because a line has a vertex at their positions; ascending by code. They are
+  /// known after sorting, but not in the result of with().
   const std::vector<CoveredPoint>& covered() const;
-  /// A new file of these points without those whose level is `dropped`, and with `more`, ascending by code, where there
-  /// is no point yet. Throws FileError.
+  /// Makes a new file of these points, without points whose level is `dropped`, and with the points of `more`
+  /// (ascending by code) at positions that have no point yet. Throws FileError.
   SortedPoints with(std::span<const RawPoint> more, std::uint16_t dropped) const;
 
  private:
@@ -62,25 +62,25 @@ class SortedPoints {
 struct SourceRank {
   double spacing = 0;       ///< metres
   bool ground = true;       ///< its points are ground by themselves, not only where others are
-  bool line = false;        ///< its points are vertices of lines, which come before all others
-  std::uint32_t order = 0;  ///< the least comes first, where nothing else decides
-  bool replaces = false;    ///< comes before others of its spacing
+  bool line = false;        ///< whether its points are vertices of lines, which come before all others
+  std::uint32_t order = 0;  ///< the source with the least comes first, where nothing else decides
+  bool replaces = false;    ///< whether it comes before others of its spacing
 };
 
-/// External merge sort. Temporary files are unlinked at once where the system allows, so that none outlives a kill.
+/// An external merge sort. Temporary files are unlinked at once where the system allows, so that none outlives a kill.
 class PointSorter {
  public:
   /// Uses at most about `memory_bytes` for its buffers.
   PointSorter(std::string directory, std::uint64_t memory_bytes);
   ~PointSorter();
-  /// Not thread-safe.
+  /// Adds points; not thread-safe.
   void add(const RawPoint& point);
   void add(std::span<const RawPoint> points);
-  /// Among several points at one position one of a line stays, else the one whose source has the finest spacing, among
-  /// equal spacings one of a source that replaces others, among those the highest, among equal heights the one whose
-  /// source comes first: a rule on the points alone.
-  /// Where it is not ground and one of the others is, it becomes a point of that one's source, or there would be a
-  /// hole. `duplicates`, if given, receives the number dropped and not covered. Throws FileError, Cancelled.
+  /// Sorts the points, and keeps one at each position. A point of a line goes first, then one whose source has the
+  /// finest spacing. Among equal spacings a source that replaces others goes first, then the highest point, and then
+  /// the point whose source comes first. So the rule is one on the points alone.
+  /// If the point kept is not ground but another one there is, the kept one takes that one's source, or there would be
+  /// a hole. `duplicates`, if given, receives the number dropped and not covered. Throws FileError, Cancelled.
   SortedPoints finish(std::span<const SourceRank> sources, Progress& progress, std::uint64_t* duplicates = nullptr);
 
  private:

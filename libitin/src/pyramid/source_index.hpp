@@ -12,7 +12,7 @@ namespace itin {
 
 using Sources = std::set<std::uint16_t>;
 
-/// The sources that the points are of. Points of one source mostly follow each other.
+/// The sources of the points. Points of one source mostly follow each other.
 template <class Points>
 Sources sources_of(const Points& points) {
   Sources sources;
@@ -22,10 +22,11 @@ Sources sources_of(const Points& points) {
   return sources;
 }
 
-/// Knows which leaves hold such points, so that searches pass over all others: O(points) to make.
+/// An index of the sources' points. It knows which leaves hold such points, so that searches pass over all others.
+/// Making it takes O(points).
 class SourceIndex final : public PointIndex {
  public:
-  /// Both must outlive it. Points that the base drops later must not be asked for any more.
+  /// Both must outlive it. Points that the base drops later must not be looked up any more.
   SourceIndex(const WorkingIndex& base, const Sources& sources);
   const Sources& sources() const { return sources_; }
 

@@ -32,7 +32,7 @@ std::span<const std::uint64_t> in_cell(const Codes& codes, const Cell& cell) {
   return {first, std::lower_bound(first, codes.end(), cell.end())};
 }
 
-/// Runs of codes, one per tile, put together again in ascending order.
+/// Puts runs of codes, one per tile, together again in ascending order.
 template <class T, class OfTile>
 std::vector<T> by_tile(const Codes& codes, const std::vector<CurveRange>& tiles, const char* stage, Progress& progress,
                        const OfTile& of_tile) {
@@ -49,7 +49,7 @@ std::vector<T> by_tile(const Codes& codes, const std::vector<CurveRange>& tiles,
   return all;
 }
 
-/// How segments whose ends lie on the ground stand to its outline.
+/// Tells how segments whose ends lie on the ground relate to its outline.
 class OutlineTest {
  public:
   OutlineTest(const std::vector<Segment>& outline, const std::vector<Segment>& segments) : outline_(outline) {
@@ -65,8 +65,8 @@ class OutlineTest {
     });
   }
 
-  /// Whether the segment lies in the closed coverage. One that leaves it through a corner does not, nor does one that
-  /// passes through a corner inside.
+  /// Whether the segment lies in the closed coverage. A segment that leaves it through a corner does not, nor does one
+  /// that passes through a corner inside.
   bool inside(const Segment& s) const {
     const auto found = contacts_.find(s);
     if (found == contacts_.end()) return true;
@@ -94,7 +94,7 @@ class OutlineTest {
     if (contact != 0) contacts_[s] |= contact;
   }
 
-  /// By the winding number of the outline about the segment's middle, in doubled coordinates.
+  /// Whether the segment's middle is inside, by the winding number of the outline about it, in doubled coordinates.
   bool middle_inside(const Segment& s) const {
     const std::int64_t x = std::int64_t{s.ax} + s.bx, y = std::int64_t{s.ay} + s.by;
     int winding = 0;
@@ -141,7 +141,7 @@ std::vector<Segment> ground_segments(const ThemeLines& lines) {
   for (const PlanarEdge& e : lines.lines.edges) {
     if (!lines.keeps_ground(e)) continue;
     const GridPoint &a = lines.lines.vertices[e.from], &b = lines.lines.vertices[e.to];
-    // Coarser surfaces have other edges.
+    // Such edges are in level 0 alone, for coarser surfaces have other edges.
     segments.push_back({a.x, a.y, b.x, b.y, static_cast<std::uint16_t>(e.owner + 1), 0, 0});
   }
   for (const PlacedBorder& b : lines.borders) segments.push_back(segment_of(b.border));
@@ -169,8 +169,8 @@ std::vector<ThemeVertex> crossings_of_ground(const ThemeLines& lines) {
 
 namespace {
 
-/// Where a theme's line goes on as another feature's: of the theme's segments that meet there, not all are of the same
-/// features.
+/// The ends where a theme's line goes on as another feature's: not all of the theme's segments that meet there belong
+/// to the same features.
 Codes ends_of_features(const std::vector<Segment>& segments, const std::vector<SegmentFeature>& of_features) {
   using End = std::pair<std::uint64_t, std::uint16_t>;  // code, theme
   std::vector<End> all;
@@ -185,7 +185,7 @@ Codes ends_of_features(const std::vector<Segment>& segments, const std::vector<S
   for (auto at = own.begin(); at != own.end();) {
     const auto next = std::upper_bound(at, own.end(), *at);
     const auto [first, last] = std::equal_range(all.begin(), all.end(), at->first);
-    // Lines that only lie on the ground are not among them: they are whole at every level.
+    // Lines that only lie on the ground are not among these ends: they are whole at every level.
     if (first != last && last - first != next - at) codes.push_back(at->first.first);
     at = next;
   }
@@ -212,7 +212,7 @@ PlacedLines place_lines(const ThemeLines& lines, const WorkingIndex& index, cons
   const auto lies = [&](std::uint32_t v) { return std::binary_search(on_ground.begin(), on_ground.end(), codes[v]); };
 
   std::vector<Segment> candidates;
-  std::vector<std::uint32_t> edges;  // their numbers
+  std::vector<std::uint32_t> edges;  // the candidates' numbers
   for (std::uint32_t i = 0; i < lines.lines.edges.size(); ++i) {
     const PlanarEdge& e = lines.lines.edges[i];
     if (!lines.lies(e) || !lies(e.from) || !lies(e.to)) continue;

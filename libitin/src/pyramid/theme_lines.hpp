@@ -1,4 +1,4 @@
-// Lines on their way into a store: planar already, and to be laid on the ground.
+// Lines to be stored: they are planar already, and have yet to be laid on the ground.
 #pragma once
 
 #include <algorithm>
@@ -17,12 +17,12 @@
 
 namespace itin {
 
-/// A part of a raised theme, its lines in one plane with all others.
+/// A part of a raised theme, whose lines are planar with all others.
 struct PlacedPart {
   ThemePart part;
-  int rank = 0;  ///< it takes the ground of those with a greater one
+  int rank = 0;  ///< it takes the ground of parts with a greater rank
   std::uint16_t source = 0;
-  std::vector<PartVertex> vertices;  ///< with its own heights, in Morton order
+  std::vector<PartVertex> vertices;  ///< with heights of its own, in Morton order
   std::vector<GridPolygon> masks;
   std::vector<std::uint32_t> mask_clusters;  ///< kNoCluster for all where no level leaves the part out
   std::vector<FeatureReach> reaches;
@@ -37,20 +37,20 @@ struct ThemeVertex {
 /// The lines of all themes; owner i is theme i + 1. The parts of raised themes are numbered after the themes.
 struct ThemeLines {
   PlanarLines lines;
-  std::vector<bool> terrain;           ///< by theme: whether they are part of the full surface
+  std::vector<bool> terrain;           ///< by theme: whether its lines are part of the full surface
   std::vector<ThemeKind> kinds;        ///< by theme
   std::vector<bool> raised;            ///< by theme: whether its features are parts, and its own lines keep the ground
-  std::vector<std::uint16_t> sources;  ///< by vertex: where it comes from
+  std::vector<std::uint16_t> sources;  ///< by vertex: the source that it comes from
   std::vector<PlacedPart> parts;
-  /// Ascending: the ends of what keeps the ground, all vertices of the full surface or of the theme's parts.
+  /// The ends of lines that keep the ground, ascending: all vertices of the full surface or of the theme's parts.
   std::vector<ThemeVertex> ground_ends;
-  std::vector<PlacedBorder> borders;  ///< the borders of this ground
+  std::vector<PlacedBorder> borders;  ///< the borders of the ground kept so
 
   std::size_t themes() const { return terrain.size(); }
   bool is_raised(const PlanarEdge& e) const { return e.owner >= themes(); }
-  /// Whether it is an edge of the full surface about features: it changes nothing where these are not there.
+  /// Whether an edge is one of the full surface about features, which changes nothing where the features are absent.
   bool keeps_ground(const PlanarEdge& e) const { return !is_raised(e) && raised[e.owner]; }
-  /// Whether it is a line on the ground.
+  /// Whether an edge lies on the ground.
   bool lies(const PlanarEdge& e) const { return !is_raised(e) && !raised[e.owner]; }
   /// The numbers of the vertices of the terrain's lines, ascending: points of the full surface.
   std::vector<std::uint32_t> terrain_vertices() const;
@@ -60,14 +60,14 @@ struct ThemeLines {
   }
 };
 
-/// The lines as far as they lie on the ground.
+/// The lines so far as they lie on the ground.
 struct PlacedLines {
   std::vector<Segment> terrain;             ///< part of the full surface; their ends are points of the index
-  std::vector<Segment> features;            ///< on it
-  std::vector<SegmentFeature> of_features;  ///< which features `terrain` and `features` are of; ascending
+  std::vector<Segment> features;            ///< lines on the full surface
+  std::vector<SegmentFeature> of_features;  ///< features that `terrain` and `features` belong to; ascending
   std::vector<std::uint64_t> feature_ends;  ///< ascending Morton codes: where a theme's line goes on as another feature
   std::vector<Segment> raised;              ///< lines of parts
-  std::vector<Segment> ground;              ///< edges of the full surface about these, at level 0
+  std::vector<Segment> ground;              ///< edges of the full surface about lines of parts, at level 0
   std::vector<std::uint64_t> ends;          ///< ends of `terrain` and `features`, ascending Morton codes
   std::vector<std::uint64_t> on_outline;    ///< the ends that lie on the ground's outline
   std::vector<std::uint64_t> strays;        ///< vertices of terrain lines beyond the ground
@@ -81,7 +81,8 @@ std::vector<Segment> raised_segments(const ThemeLines& lines);
 Segment segment_of(const BorderEdge& border);
 /// The segments that keep the ground about raised features.
 std::vector<Segment> ground_segments(const ThemeLines& lines);
-/// Vertices that this has got from crossing other lines, ascending. They may be vertices of the full surface.
+/// Vertices that lines which keep the ground got from crossing other lines, ascending. They may be vertices of the full
+/// surface.
 std::vector<ThemeVertex> crossings_of_ground(const ThemeLines& lines);
 
 /// Leaves out every segment that is not wholly on the ground of the given sources, whose outline is `outline`.
@@ -90,8 +91,8 @@ PlacedLines place_lines(const ThemeLines& lines, const WorkingIndex& index, cons
                         const Sources& ground, const std::vector<std::array<double, 4>>& gap_bases,
                         const std::vector<Segment>& outline, Progress& progress);
 
-/// The full surface's heights at positions (ascending Morton codes) on the ground that have no vertex of it; those that
-/// have are left out.
+/// The full surface's heights at the positions (ascending Morton codes) on the ground where it has no vertex; positions
+/// where it has one are left out.
 std::vector<GridPoint> drape(const std::vector<std::uint64_t>& codes, const WorkingIndex& index,
                              const std::vector<CurveRange>& tiles, Progress& progress);
 

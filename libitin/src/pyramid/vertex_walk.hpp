@@ -1,4 +1,4 @@
-// The straight way from one vertex of a mesh to another: the edges it crosses and the vertices it passes through.
+// Walks straight from one vertex of a mesh to another, and finds the edges that the way crosses.
 #pragma once
 
 #include <vector>
@@ -59,8 +59,8 @@ class VertexWalk {
     int edge;
   };
 
-  /// Turns about u counterclockwise, and then clockwise from where a border stopped that. The edge between a triangle
-  /// and the one before has been looked at already.
+  /// Turns about u counterclockwise, and then clockwise from the start if a border stopped that. The edge between a
+  /// triangle and the one before has been looked at already.
   Start leave(std::uint32_t u, Position from, Position to) const {
     const auto side = [&](std::uint32_t v) { return orientation(from, to, positions_[v]); };
     for (const int step : {1, 2}) {

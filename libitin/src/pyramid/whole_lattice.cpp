@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::int32_t kMissing = std::numeric_limits<std::int32_t>::min();
 
-/// The least distance between two different ones of the values; 0 where all are equal.
+/// The least distance between two different values; 0 where all are equal.
 std::int64_t least_step(std::vector<std::int32_t> values) {
   std::sort(values.begin(), values.end());
   std::int64_t step = 0;
@@ -22,18 +22,18 @@ std::int64_t least_step(std::vector<std::int32_t> values) {
   return step;
 }
 
-/// Posts of one axis: the first one and how many, among origin + i step.
+/// Posts of one axis: the first one and their number, among origin + i step.
 struct Extent {
   std::int64_t first = 0, count = 0;
 };
 
-/// The posts within [least, greatest], where all data ends, of all that squares at [from, to] have.
+/// The posts within [least, greatest], where all data ends, that squares at [from, to] have.
 std::optional<Extent> extent(std::int64_t origin, std::int64_t step, std::int64_t from, std::int64_t to,
                              std::int64_t least, std::int64_t greatest) {
   const std::int64_t first = std::max(ceil_divide(from - step - origin, step), ceil_divide(least - origin, step)),
                      last = std::min(floor_divide(to + step - origin, step), floor_divide(greatest - origin, step));
   const std::int64_t low = origin + first * step, high = origin + last * step;
-  // Where ground ends before the interval does, it must be the end of all.
+  // Where ground ends before the interval does, all ground must end there.
   if ((low >= from && low != least) || (high <= to && high != greatest) || last - first < 1) return std::nullopt;
   return Extent{low, last - first + 1};
 }
@@ -54,7 +54,7 @@ std::optional<WholeLattice> WholeLattice::about(const PointIndex& index, const G
   return lattice;
 }
 
-/// Guesses from the fullest leaf; read() finds out.
+/// Guesses the steps from the fullest leaf; read() finds out whether they are right.
 bool WholeLattice::find_steps(const PointIndex& index, const std::vector<Leaf>& leaves) {
   const auto fullest =
       std::max_element(leaves.begin(), leaves.end(), [](const Leaf& a, const Leaf& b) { return a.points < b.points; });
@@ -78,7 +78,7 @@ bool WholeLattice::find_extent(const GridBox& box, const GridBox& all) {
   return true;
 }
 
-/// Only the sides of the lattice where all ground ends may be segments.
+/// Tells whether segments cross the lattice: only the sides of the lattice where all ground ends may be segments.
 bool WholeLattice::is_crossed(const PointIndex& index, const GridBox& near, const GridBox& all) const {
   std::vector<Segment> segments;
   index.segments(near, segments);
@@ -111,7 +111,7 @@ bool WholeLattice::read(const PointIndex& index, const GridBox& near) {
 }
 
 void WholeLattice::find_corners(const GridBox& box) {
-  // Above the diagonal's line, or below it, of a square with this corner.
+  // Positive above, and negative below, the line of the diagonal of a square with this corner.
   const auto above_diagonal = [&](std::int64_t x, std::int64_t y, std::int64_t west, std::int64_t south) {
     return (x - west) * step_y_ + (y - south) * step_x_ - step_x_ * step_y_;
   };
@@ -139,7 +139,7 @@ std::optional<WholeLattice::Place> WholeLattice::place(Position p) const {
 
 namespace {
 
-/// Which of `count` intervals between posts meet [from, to].
+/// Finds which of `count` intervals between posts meet [from, to].
 std::pair<std::int32_t, std::int32_t> intervals(std::int64_t from, std::int64_t to, std::int64_t step,
                                                 std::int32_t count) {
   const auto inside = [&](std::int64_t i) { return static_cast<std::int32_t>(std::clamp<std::int64_t>(i, 0, count)); };

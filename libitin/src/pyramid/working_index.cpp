@@ -13,7 +13,8 @@ namespace itin {
 namespace {
 
 constexpr std::size_t kReadAhead = 1 << 16;
-/// A tenth of all points has a coarse level over smooth ground: those of 20 million points find room.
+/// Room for the blocks of coarse points. Over smooth ground a tenth of all points has a coarse level; those of 20
+/// million points fit.
 constexpr std::uint64_t kCoarseBlockBytes = 32 << 20;
 /// Marks the key of a leaf's points of level 1 and coarser.
 constexpr std::uint64_t kCoarse = std::uint64_t{1} << 32;
@@ -170,7 +171,7 @@ std::uint64_t WorkingIndex::selected_points(int level) const {
 std::vector<CurveRange> WorkingIndex::tiles(std::uint32_t capacity) const {
   std::vector<CurveRange> result;
   for (std::size_t i = 0; i < ranges_.size();) {
-    // Grow from the leaf to the largest aligned ancestor that is not too full: siblings follow on the curve.
+    // Tiles grow from the leaf to the largest aligned ancestor that is not too full: siblings follow on the curve.
     CurveRange tile = ranges_[i];
     std::size_t end = i + 1;
     while (tile.cell.log2_side < kRootLog2Side) {

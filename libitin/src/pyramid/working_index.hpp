@@ -30,8 +30,8 @@ struct LevelRaise {
   int level;
 };
 
-/// Any thread may read. Several threads may call write() at once, each for ranges of its own; meanwhile nobody may read
-/// those ranges, and of other ranges only level 0.
+/// Any thread may read. Several threads may call write() at once, each for ranges of its own. Meanwhile nobody may read
+/// those ranges, and only level 0 of other ranges.
 class WorkingIndex final : public PointIndex {
  public:
   WorkingIndex(SortedPoints& points, int level_count, std::uint32_t leaf_capacity);
@@ -57,17 +57,17 @@ class WorkingIndex final : public PointIndex {
 
   std::vector<RawPoint> read(const CurveRange& range) const;
   void write(const CurveRange& range, std::span<const RawPoint> points);
-  /// Leaves these points out of the surface; codes may come in any order and may repeat. Returns how many they are. Not
-  /// thread-safe.
+  /// Leaves these points out of the surface; codes may come in any order and may repeat. Returns the number of points
+  /// left out. Not thread-safe.
   std::uint64_t drop(std::vector<std::uint64_t> codes);
   /// Raises these points' levels; they may come in any order and may repeat, and need not exist. Not thread-safe.
   void promote(std::vector<LevelRaise> raises);
 
-  /// From now on a leaf's points of level 1 and coarser are a block of their own where coarse levels are read, and are
-  /// kept in memory: coarse surfaces need few points of each of many leaves. Not thread-safe.
+  /// Makes a block of its own of a leaf's points of level 1 and coarser, from now on, for where coarse levels are read.
+  /// These blocks are kept in memory: coarse surfaces need few points of each of many leaves. Not thread-safe.
   void keep_coarse_points() { keeps_coarse_points_ = true; }
 
-  /// The coverage outline, once known.
+  /// Sets the outline of the coverage, once it is known.
   void set_segments(std::vector<Segment> segments);
   const std::vector<Segment>& all_segments() const { return segments_; }
 
@@ -79,7 +79,7 @@ class WorkingIndex final : public PointIndex {
     return selected_[std::size_t{leaf} * static_cast<std::size_t>(level_count_) + static_cast<std::size_t>(level)].load(
         std::memory_order_relaxed);
   }
-  /// The leaves with points of this level (not 0) or a coarser one: few, for the coarse levels.
+  /// The leaves with points of this level (not 0) or a coarser one; there are few of them for coarse levels.
   const std::vector<std::uint32_t>& occupied(int level) const;
   /// Calls visit(leaf) for each of these leaves, in ascending order, that holds a position of the box.
   template <class Visit>
@@ -92,7 +92,7 @@ class WorkingIndex final : public PointIndex {
   int level_count_;
   GridBox bounds_;
   std::vector<CurveRange> ranges_;
-  /// Per range and level: how many of its points have that level or a coarser one.
+  /// The number of points that have a level or a coarser one, per range and level.
   std::vector<std::atomic<std::uint32_t>> selected_;
   bool keeps_coarse_points_ = false;
   mutable BlockCache coarse_blocks_;

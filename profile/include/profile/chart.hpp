@@ -1,5 +1,5 @@
-// Charts: of profiles, elevation over distance, several surfaces on one pair of axes; and of horizons, the sky line
-// over azimuth with named places above or below it.
+// Draws charts: of profiles, elevation over distance, with several surfaces on one pair of axes; and of horizons, the
+// sky line over azimuth with named places above or below it.
 //
 //   profile::Chart chart;
 //   chart.title = "Garth Hill";
@@ -21,17 +21,18 @@ struct ChartSeries {
 
 struct Chart {
   std::string title;
-  std::string note;                 ///< below the title, smaller
+  std::string note;                 ///< smaller, below the title
   std::vector<ChartSeries> series;  ///< the first is drawn as ground, the others as lines over it
   Profile ground;                   ///< the first one's ground, without raised features; no points where it has none
-  std::vector<std::string> themes;  ///< names by ProfilePoint::theme, of those features
-  std::vector<double> corners_m;    ///< where along the profile its path turns
+  std::vector<std::string> themes;  ///< names of the features' themes, by ProfilePoint::theme
+  std::vector<double> corners_m;    ///< distances along the profile at which its path turns
 };
 
 /// Throws InputError unless the name ends in .svg, .pdf or .png.
 void require_chart_format(const std::string& path);
 
-/// The bytes of a file of the format its name tells. Vertical exaggeration is stated on the chart. Throws InputError.
+/// Returns the bytes of a file in the format that its name tells. The chart states the vertical exaggeration. Throws
+/// InputError.
 std::string draw_chart(const Chart& chart, const std::string& path);
 
 struct SkylinePoint {
@@ -51,17 +52,17 @@ struct PanoramaPlace {
 
 struct Panorama {
   std::string title;
-  std::string note;                   ///< below the title, smaller
+  std::string note;                   ///< smaller, below the title
   std::vector<SkylinePoint> skyline;  ///< clockwise and evenly spaced; may pass through north
-  std::vector<PanoramaPlace> places;  ///< those beyond the sky line's azimuths are left out
+  std::vector<PanoramaPlace> places;  ///< places beyond the sky line's azimuths are left out
 };
 
 /// Throws InputError unless the name ends in .svg, .pdf or .png.
 void require_panorama_format(const std::string& path);
 
-/// The bytes of a file of the format its name tells. Near ground is darker than far ground; places in sight are filled
-/// marks, hidden ones hollow. Names that have no room near their places are left out and counted: those of hidden and
-/// far places first. Throws InputError.
+/// Returns the bytes of a file in the format that its name tells. Near ground is darker than far ground; places in
+/// sight are filled marks, hidden ones hollow. Names that have no room near their places are left out and counted,
+/// first those of hidden and far places. Throws InputError.
 std::string draw_panorama(const Panorama& panorama, const std::string& path);
 
 }  // namespace itin::profile

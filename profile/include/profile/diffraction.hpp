@@ -1,5 +1,6 @@
 // Losses of a radio path over a profile: free space, knife edges, and delta-Bullington with its smooth and spherical
-// parts, every intermediate value included; the edges that they were worked out from, and the point of reflection.
+// parts, every intermediate value included. Further, the edges that they were computed from, and the point of
+// reflection.
 //
 //   profile::RadioPath path;
 //   path.frequency_ghz = 2.5;
@@ -8,12 +9,12 @@
 //
 // Sources: ITU-R P.525-4 (free space), P.526-15 section 4.1 (knife edge), P.452-17 section 4.2 and attachment 2, which
 // P.1812-6 section 4.3 and its attachment 1 repeat word for word (delta-Bullington), P.526-12 section 4.4.2 (cascaded
-// edges after Deygout). Distances of formulas are km, heights m, frequencies GHz, as there. The wavelength is
-// 0.299792458 / f throughout, where some published examples have 0.3 / f: that moves losses by less than 0.01 dB.
+// edges after Deygout). As in these, distances in formulas are km, heights m, frequencies GHz. The wavelength is
+// 0.299792458 / f throughout, where some published examples have 0.3 / f: that changes losses by less than 0.01 dB.
 //
 // Clutter is added to the ground for the losses, except nearer than kClutterFreeM to an end (P.452-18); horizons and
-// smooth heights use bare ground. Features that stand on a surface are no clutter: they are edges like the terrain's,
-// and horizons, and only the smooth heights do without them. A profile's points are taken as they are: see
+// smooth heights use bare ground. Features that stand on a surface are not clutter: like the terrain, they count for
+// edges and horizons, and only the smooth heights leave them out. A profile's points are taken as they are: see
 // with_spacing().
 #pragma once
 
@@ -33,25 +34,25 @@ using itin::Polarisation;
 using itin::RadioPath;
 
 inline constexpr double kClutterFreeM = 50;
-/// Elevation of the obstacle at a point of the profile: its ground, and its clutter unless an end is too near.
+/// The elevation of the obstacle at a point of the profile: its ground and, unless an end is too near, its clutter.
 double clutter_top_m(const Profile& profile, const ProfilePoint& point);
 
-/// P.525-4 section 2.3: 20 log10(4 pi d / lambda), dB.
+/// Free space loss in dB, P.525-4 section 2.3: 20 log10(4 pi d / lambda).
 double free_space_loss_db(double distance_m, double wavelength);
 
-/// P.526-15 section 4.1, equation (31): J(v) for v > -0.78, 0 otherwise; dB.
+/// Knife edge loss in dB, P.526-15 section 4.1, equation (31): J(v) for v > -0.78, 0 otherwise.
 double knife_edge_loss_db(double v);
 
-/// Bullington's loss, P.452-17 section 4.2.1 (P.1812-6 section 4.3.1): `smooth` takes all heights as 0, as section
-/// 4.2.3 has it. Elevations of the antennas in metres.
+/// Bullington's loss, P.452-17 section 4.2.1 (P.1812-6 section 4.3.1). `smooth` takes all heights as 0, as section
+/// 4.2.3 requires. Elevations of the antennas are in metres.
 double bullington_loss_db(const Profile& profile, const Antennas& antennas, const RadioPath& path, bool smooth = false);
 
 /// First-term spherical-Earth loss with its interpolation within the horizon, P.452-17 sections 4.2.2 and 4.2.2.1
-/// (P.526-15 section 3.2, P.1812-6 sections 4.3.2 and 4.3.3). Heights above the smooth surface, metres.
+/// (P.526-15 section 3.2, P.1812-6 sections 4.3.2 and 4.3.3). Heights are above the smooth surface, in metres.
 double spherical_earth_loss_db(double distance_km, double from_height_m, double to_height_m, const RadioPath& path);
 
-/// Three edges at most: J(vp) + T (J(vt) + J(vr) + C), P.526-12 section 4.4.2 with its empirical (Causebrook-like)
-/// correction T = 1 - exp(-J(vp) / 6), C = 10 + 0.04 D. A value to compare with.
+/// Deygout's loss with three edges at most: J(vp) + T (J(vt) + J(vr) + C), P.526-12 section 4.4.2 with its empirical
+/// (Causebrook-like) correction T = 1 - exp(-J(vp) / 6), C = 10 + 0.04 D. A value to compare with.
 double deygout_loss_db(const Profile& profile, const Antennas& antennas, const RadioPath& path);
 
 /// The surface that fits the path best, P.452-17 attachment 2 section 5.1.6 (P.1812-6 attachment 1 section 5.6).
@@ -64,14 +65,14 @@ SmoothHeights smooth_heights(const Profile& profile, const Antennas& antennas);
 /// The radio horizon of each antenna, P.452-17 attachment 2 sections 4 and 5.1 to 5.3.
 struct Horizons {
   bool trans_horizon = false;
-  double theta_t_mrad = 0, theta_r_mrad = 0;  ///< elevation angles; within sight towards the other antenna
-  /// Distances of the horizons from their own ends; within sight those of the point of largest v. Nothing where the
-  /// profile has no point between its ends.
+  double theta_t_mrad = 0, theta_r_mrad = 0;  ///< elevation angles; in sight, those towards the other antenna
+  /// Distances of the horizons from their own ends; in sight, the distances of the point of largest v. Nothing where
+  /// the profile has no point between its ends.
   std::optional<double> dlt_km, dlr_km;
 };
 Horizons horizons(const Profile& profile, const Antennas& antennas, const RadioPath& path);
 
-/// An edge in the way of a path, alone between two others or the antennas.
+/// An edge in the way of a path, taken alone between two other edges or the antennas.
 struct DiffractionEdge {
   double distance_m = 0, elevation_m = 0;
   double v = 0;        ///< its diffraction parameter, greater than -0.78
@@ -88,41 +89,41 @@ struct PathLosses {
   double ldsph_db = 0;              ///< spherical Earth
   double ld_db = 0;                 ///< delta-Bullington: lba + max(ldsph - lbs, 0)
   double deygout_db = 0;
-  /// The single edge that Bullington puts in place of the terrain, where it costs anything: where the two horizons'
-  /// lines meet or, within sight, the point of the largest v.
+  /// The single edge that Bullington puts in place of the terrain, if it costs anything. It lies where the two
+  /// horizons' lines meet or, in sight, at the point of the largest v.
   std::optional<DiffractionEdge> bullington;
-  /// The edges after Deygout that cost anything: the main one, and the largest of the spans before and behind it.
+  /// The edges after Deygout that cost anything: the main one, and the largest in the spans before and behind it.
   std::vector<DiffractionEdge> deygout;
 };
 
-/// P.452-17 section 4.2.3, P.1812-6 section 4.3.4. Throws InputError unless the path's length is positive, the
-/// frequency and the radius are, the share over sea is within [0, 1], no antenna is below its ground, and the profile
-/// has ground at both ends. `bare`: the same line's ground without what stands on it, for the smooth heights; null
-/// where the profile is that.
+/// Computes the losses by P.452-17 section 4.2.3, P.1812-6 section 4.3.4. Throws InputError unless the path's length,
+/// the frequency and the radius are positive, the share over sea is within [0, 1], no antenna is below its ground, and
+/// the profile has ground at both ends. `bare` is the line's ground without the features on it, for the smooth heights;
+/// null where the profile is bare itself.
 PathLosses path_losses(const Profile& profile, const Antennas& antennas, const RadioPath& path,
                        const Profile* bare = nullptr);
 
-/// Where smooth ground reflects a path.
+/// The place where smooth ground reflects a path.
 struct Reflection {
   double distance_m = 0;           ///< from the first antenna
-  std::optional<double> ground_m;  ///< elevation of what stands there; nothing where that is without data
-  std::uint16_t theme = 0;         ///< the theme of what stands there
+  std::optional<double> ground_m;  ///< elevation of what stands at the place; nothing where data is missing
+  std::uint16_t theme = 0;         ///< the theme of what stands at the place
   double grazing_deg = 0;          ///< angle between the path and the ground
-  double longer_by_m = 0;          ///< than the direct path
-  /// The place itself, where what stands there rises above the direct path; else where the profile rises highest above
-  /// the two straight lines from the antennas to the ground there; nothing where it does not, and where ground_m is
-  /// nothing.
+  double longer_by_m = 0;          ///< how much longer the reflected path is than the direct one
+  /// The point that screens the reflected path. It is the place itself where what stands at it rises above the direct
+  /// path. Otherwise it is where the profile rises highest above the two straight lines from the antennas to the ground
+  /// at the place; nothing where the profile does not rise above them, and where ground_m is nothing.
   std::optional<ProfilePoint> screen;
-  double screen_depth_m = 0;  ///< how far the screen rises above that; 0 without a screen
+  double screen_depth_m = 0;  ///< how far the screen rises above the path or the lines; 0 without a screen
 };
-/// The specular point on the straight surface that fits the ground best (smooth_heights(), hst and hsr) over the
-/// effective Earth: angles of incidence and reflection are equal there. The profile is looked at as it is, with no
-/// points added: nothing is sampled. Nothing where an antenna is below that surface or the antennas do not see each
-/// other over it. `bare`: as for path_losses(). O(n).
+/// Finds the specular point on the straight surface that fits the ground best (smooth_heights(), hst and hsr) over the
+/// effective Earth: the angles of incidence and reflection are equal there. The profile is taken as it is, with no
+/// points added: nothing is sampled. Returns nothing where an antenna is below that surface or the antennas do not see
+/// each other over it. `bare` is as for path_losses(). O(n).
 std::optional<Reflection> reflection(const Profile& profile, const Antennas& antennas, const RadioPath& path,
                                      const Profile* bare = nullptr);
 
-/// Adds points until no two neighbours are farther apart than `most_m`, metres: a triangulated surface is straight
+/// Adds points until no two neighbours are farther apart than `most_m`, in metres. A triangulated surface is straight
 /// between breakpoints, but the Earth below it is not, and the formulas look at points only.
 Profile with_spacing(const Profile& profile, double most_m);
 

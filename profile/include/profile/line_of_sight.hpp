@@ -6,8 +6,8 @@
 //   if (!sight.visible()) std::cout << "hidden at " << sight.critical.x << ", " << sight.critical.y << '\n';
 //
 // The vertical plane through both ends cuts the surface into straight pieces, one per triangle. Within a piece the
-// clearance, the height of the ray above the surface, is a quadratic of the distance (the ray and the piece are
-// straight, the drop of the earth's curvature is quadratic), so that its least value is found in closed form: nothing
+// clearance, the height of the ray above the surface, is a quadratic of the distance: the ray and the piece are
+// straight, and the drop of the earth's curvature is quadratic. So its least value is found in closed form, and nothing
 // is sampled. Refraction bends the ray by the same quadratic; see itin/earth.hpp. With a wavelength, the clear part of
 // the first Fresnel zone is found as well.
 #pragma once
@@ -24,35 +24,36 @@ namespace itin::profile {
 
 struct SightLine {
   double length = 0;  ///< metres, horizontal
-  /// Metres, the least height of the ray above the surface between the ends, both included; nothing where no ground
-  /// lies between them. At one place (nearer than a step of the grid) of the ends alone.
+  /// The least height, in metres, of the ray above the surface between the ends, both included; nothing where no ground
+  /// lies between them. Where the ends are at one place (nearer than a step of the grid), only the ends count.
   std::optional<double> clearance;
-  /// The least clearance / F1 between the ends, as fresnel_clearance() has it; nothing without a wavelength, and where
-  /// no ground lies between them.
+  /// The least clearance / F1 between the ends, as fresnel_clearance() gives it; nothing without a wavelength, and
+  /// where no ground lies between them.
   std::optional<double> fresnel_fraction;
-  /// Where on the surface the clearance is least; among several places, the one nearest to the end that comes first in
-  /// (x, y, z).
+  /// The place on the surface where the clearance is least; among several places, the one nearest to the end that comes
+  /// first in (x, y, z).
   Point3 critical;
 
-  /// A ray that grazes the surface is visible, and so is one over ground without data.
+  /// Whether the line is visible. A ray that grazes the surface is, and so is one over ground without data.
   bool visible() const;
   /// Whether it is visible, and at least this fraction of the first Fresnel zone is clear.
   bool clears(double fraction) const { return visible() && (!fresnel_fraction || *fresnel_fraction >= fraction); }
 };
 
-/// Immutable and safe for concurrent use. Refers to the Tin, which must outlive it.
+/// Finds lines of sight on a surface. Immutable and safe for concurrent use. Refers to the Tin, which must outlive it.
 class SightLines {
  public:
-  /// O(n) time and memory in the triangles.
+  /// Takes O(n) time and memory in the triangles.
   SightLines(const Tin& tin, const Earth& earth, std::optional<double> wavelength = std::nullopt);
   SightLines(const Tin&& tin, const Earth& earth, std::optional<double> wavelength = std::nullopt) = delete;
   SightLines(SightLines&&) noexcept;
   SightLines& operator=(SightLines&&) noexcept;
   ~SightLines();
 
-  /// Both ends are positions with an elevation, metres. Exchanging them gives the same result to the last bit.
-  /// Cost: the triangles near the line, about the square root of n for one across the whole surface. Accuracy: double
-  /// precision throughout; clearances are good to 1e-6 m over 1000 km and to 1e-9 m over 1 km.
+  /// Looks from one end to the other. Both are positions with an elevation, in metres. Exchanging them gives the same
+  /// result to the last bit. Cost: the triangles near the line, about the square root of n for one across the whole
+  /// surface. Accuracy: double precision throughout; clearances are good to 1e-6 m over 1000 km and to 1e-9 m over 1
+  /// km.
   SightLine between(Point3 a, Point3 b) const;
 
  private:

@@ -1,4 +1,4 @@
-// Everything a report says about one line of sight, worked out over a store or on a profile.
+// Computes everything that a report says about one line of sight, over a store or on a profile.
 //
 //   profile::LosQuery query;
 //   query.from_height_m = 12, query.to_height_m = 15, query.earth = Earth::effective_earth(4.0 / 3);
@@ -33,18 +33,18 @@
 namespace itin::profile {
 
 enum class SightVerdict { kVisible, kHidden, kUndecided };
-/// The certified error of a coarse surface, or ground without data, leaves a criterion undecided.
+/// The verdict on a criterion. The certified error of a coarse surface, or ground without data, leaves it undecided.
 enum class CriterionVerdict { kMeets, kFails, kUndecided };
 using itin::NoData;
 const char* name_of(SightVerdict verdict);
 const char* name_of(CriterionVerdict verdict);
 
-/// Ground above the ray, from where it enters to where it leaves.
+/// A stretch of ground above the ray, from where the ray enters it to where it leaves.
 struct Obstruction {
   double from_m = 0, to_m = 0;  ///< distances
   double peak_at_m = 0;         ///< where it is deepest
-  double peak_m = 0;            ///< elevation of the ground there
-  double depth_m = 0;           ///< how far the ray lies below the ground there, > 0
+  double peak_m = 0;            ///< elevation of the ground at that distance
+  double depth_m = 0;           ///< how far the ray lies below the ground at that distance, > 0
   std::uint16_t theme = 0;      ///< the theme of what stands at peak_at_m
   std::int64_t feature = -1;    ///< as in ProfilePoint
 };
@@ -53,23 +53,23 @@ struct Obstruction {
 struct Criterion {
   double k = 4.0 / 3;
   double fraction = 1;
-  bool fade = false;  ///< in place of k, fade_factor() of the line's length
+  bool fade = false;  ///< whether fade_factor() of the line's length takes the place of k
 
   friend bool operator==(const Criterion&, const Criterion&) = default;
 };
-/// The effective Earth factor that is exceeded for 99.9 % of the worst month on a path of this length, with d its
-/// kilometres: ke = 157 / (144 + 2670 / d), after the curve of ITU-R P.530 section 2.2, which begins at 10 km; nearer
-/// it is continued. The formula has not been confirmed from the recommendation's text.
+/// The effective Earth factor that is exceeded for 99.9 % of the worst month on a path of this length. With d as its
+/// kilometres, ke = 157 / (144 + 2670 / d), after the curve of ITU-R P.530 section 2.2. The curve begins at 10 km; for
+/// shorter paths it is continued. The formula has not been confirmed from the recommendation's text.
 double fade_factor(double length_m);
 struct CriterionResult {
   Criterion criterion;
   double k = 0;  ///< the effective Earth factor by which it was judged
   CriterionVerdict verdict = CriterionVerdict::kMeets;
-  // Over known ground, at the critical point on this Earth.
+  // The following are over known ground, at the critical point on this Earth.
   std::optional<double> clearance_m;
   std::optional<double> clearance_f1;  ///< least ratio to F1; nothing without a frequency
-  std::optional<double> margin_m;      ///< clearance beyond the fraction wanted there; negative: it is missing
-  std::optional<double> margin_f1;     ///< likewise, as a fraction of F1
+  std::optional<double> margin_m;      ///< clearance beyond the fraction wanted at the point; negative: it is missing
+  std::optional<double> margin_f1;     ///< the margin as a fraction of F1
 };
 struct NamedHeights {
   std::string name;  ///< "line of sight", "0.6 F1", "K = 1.333, 1 F1"
@@ -81,24 +81,24 @@ struct NamedHeights {
 
 struct LosQuery {
   double from_height_m = 0, to_height_m = 0;  ///< above what the ends stand on
-  /// Whether an end within a raised feature stands on it, or else on the ground under it.
+  /// Whether an end within a raised feature stands on the feature, or else on the ground under it.
   bool from_on_surface = false, to_on_surface = false;
   Earth earth;
   std::optional<RadioPath> radio;
   std::vector<Criterion> criteria;   ///< with fraction > 0 only if there is a frequency
   std::optional<TallObject> object;  ///< at the second end
-  /// How far the clearance over the full surface may lie from the one on this profile, metres: the width of the
+  /// How far, in metres, the clearance over the full surface may lie from the one on this profile: the width of the
   /// surface's certified error. A clearance nearer to 0 leaves the verdict undecided.
   double clearance_error_m = 0;
   NoData nodata = NoData::kUnknown;
-  /// The losses take the profile's points alone, as published cases have them; otherwise points are added on the
+  /// Whether the losses take the profile's points alone, as published cases do. Otherwise points are added on the
   /// straight ground between them, at most 100 m and a 50th of the length apart.
   bool points_as_given = false;
   /// The day of the magnetic azimuths of a line over a store.
   std::optional<std::chrono::year_month_day> day;
 };
 
-/// Where a line over a store runs, and over which surface.
+/// The course of a line over a store, and the surface that it runs over.
 struct StoreLine {
   Point2 from, to;                           ///< in the store's CRS
   Detail detail = Detail::tolerance(0);      ///< the surface's level of detail
@@ -106,11 +106,11 @@ struct StoreLine {
   bool elevations = false;  ///< the query's heights are elevations, not heights above what the ends stand on
 };
 
-/// One end of a line, as far as it is known: a profile from a file has no positions.
+/// One end of a line, so far as it is known: a profile from a file has no positions.
 struct LosEnd {
   double ground_m = 0;              ///< elevation of the ground without raised features
-  std::optional<double> surface_m;  ///< elevation with them, where they are known
-  bool on_surface = false;          ///< whether height_m counts from that
+  std::optional<double> surface_m;  ///< elevation with raised features, where they are known
+  bool on_surface = false;          ///< whether height_m counts from surface_m
   double height_m = 0;              ///< the antenna's height
   double elevation_m = 0;           ///< the antenna's elevation
   double elevation_angle_deg = 0;   ///< the angle at which the other antenna appears
@@ -118,7 +118,7 @@ struct LosEnd {
     Point2 position;                                    ///< in the store's CRS
     Point2 lon_lat;                                     ///< degrees on WGS 84
     double azimuth_grid_deg = 0, azimuth_true_deg = 0;  ///< towards the other end
-    /// Likewise from magnetic north, which lies `declination_deg` east of true north (World Magnetic Model 2025).
+    /// The azimuth from magnetic north, which lies `declination_deg` east of true north (World Magnetic Model 2025).
     /// Nothing without a day, on a day outside 2025 to 2029, and close to the magnetic poles.
     std::optional<double> azimuth_magnetic_deg, declination_deg;
   };
@@ -129,24 +129,24 @@ struct LosEnd {
 struct LineFindings {
   SightVerdict verdict = SightVerdict::kVisible;
   SightVerdict known_verdict = SightVerdict::kVisible;  ///< over known ground alone
-  /// Where the ray is cut deepest or, if it is free, where its clearance is the least fraction of the Fresnel zone (of
-  /// any frequency): never the foot of a mast that stands free. Nothing where no ground lies between the ends.
+  /// The point where the ray is cut deepest or, if it is free, where its clearance is the least fraction of the Fresnel
+  /// zone (of any frequency): never the foot of a mast that stands free. Nothing where no ground lies between the ends.
   std::optional<ProfilePoint> critical;
-  std::optional<double> clearance_m;  ///< there; negative where the ray is cut
-  /// Where the ray is least above the surface, the feet of the antennas included.
+  std::optional<double> clearance_m;  ///< at the critical point; negative where the ray is cut
+  /// The point where the ray is least above the surface, the feet of the antennas included.
   std::optional<ProfilePoint> lowest;
-  std::optional<double> least_clearance_m;  ///< there
+  std::optional<double> least_clearance_m;  ///< at the lowest point
   std::vector<Obstruction> obstructions;
   std::vector<CriterionResult> criteria;
   std::vector<NamedHeights> required;
   std::optional<FresnelClearance> fresnel;  ///< nothing without a frequency
 };
 
-/// The findings are about all that stands on the ground, clutter included.
+/// The report on a line. Its findings are about all that stands on the ground, clutter included.
 struct LosReport : LineFindings {
   LosQuery query;
-  Profile profile;                   ///< with raised features, of which clutter is one
-  Profile ground;                    ///< without them; no points where the profile has none either
+  Profile profile;                   ///< with raised features, clutter among them
+  Profile ground;                    ///< without raised features; no points where the profile has none either
   std::optional<LineFindings> bare;  ///< over the ground without the profile's clutter, where it has any
   EndGrounds stands_on;              ///< elevations of what the ends stand on
   Antennas antennas;                 ///< elevations
@@ -155,70 +155,76 @@ struct LosReport : LineFindings {
   std::optional<Reflection> reflection;  ///< nothing without a frequency, and where there is none
   std::optional<VisibleHeight> visible;
 
-  // For the report's header and maps. Over a store analyse() fills in all but the title, otherwise the caller does.
+  // These are for the report's header and maps. Over a store analyse() fills in all but the title, otherwise the caller
+  // does.
   std::string title;
   std::vector<std::pair<std::string, std::string>> facts;  ///< the input and the settings: name, value
   std::vector<std::string> from_lines, to_lines;           ///< about the ends
   std::string crs_wkt;                                     ///< empty: the profile has no positions
   std::optional<double> geodesic_m;                        ///< between the ends on WGS 84, where they have positions
   std::vector<std::string> themes;                         ///< names by ProfilePoint::theme; 0 is the terrain
-  std::vector<ThemeKind> theme_kinds;                      ///< by ProfilePoint::theme - 1; over a store alone
+  std::vector<ThemeKind> theme_kinds;                      ///< by ProfilePoint::theme - 1; only over a store
   std::map<std::pair<std::uint16_t, std::int64_t>, FeatureAt> features;  ///< by theme and feature
-  /// Metres between the rows of the printed profile; nothing: about 30 rows; 0: no such table.
+  /// The spacing, in metres, of the rows of the printed profile; nothing: about 30 rows; 0: no such table.
   std::optional<double> table_spacing_m;
 
-  // Known for a line over a store alone:
-  std::vector<SourceInfo> sources;  ///< the surface's under the line, as triangulated there
+  // These are known only for a line over a store:
+  std::vector<SourceInfo> sources;  ///< the surface's under the line, as triangulated along it
   RetrievalStatistics statistics;
   std::uint64_t triangles = 0;  ///< crossed by the line
 };
 
-/// The elevation under each end: of the surface or of the ground, as the query says.
+/// The elevation under each end, of the surface or of the ground as the query says.
 EndGrounds stands_on(const Profile& profile, const Profile& ground, const LosQuery& query);
 
-/// `ground`: the same line without raised features, for a profile that has them. The clutter of a profile without
-/// `ground` stands on it, but nearer to an end than kClutterFreeM. Throws InputError where there is no
-/// ground at an end, a height is negative, or a criterion asks for a part of the Fresnel zone without a frequency. O(n)
-/// but for logarithmic factors.
+/// Analyses a line over a profile. `ground` is the same line without raised features, for a profile that has them. The
+/// clutter of a profile without `ground` stands on that profile, except nearer to an end than kClutterFreeM. Throws
+/// InputError where there is no ground at an end, a height is negative, or a criterion asks for a part of the Fresnel
+/// zone without a frequency. O(n) except for logarithmic factors.
 LosReport analyse(Profile profile, const LosQuery& query, Profile ground = {});
 
-/// What analyse() finds of a profile without clutter, but for obstructions and required heights: whether a line is
-/// free, in a small part of the time. Throws likewise.
+/// Finds what analyse() finds on a profile without clutter, except obstructions and required heights: whether a line is
+/// free, in a small part of the time. Throws what analyse() throws.
 LineFindings judge(const Profile& profile, const LosQuery& query, const Profile& ground = {});
 
-/// Judges a line over a store, with what stands on its ground. The surface's certified error about the line is
-/// added to query.clearance_error_m, so that over a coarse surface a verdict is certain or undecided; the report's
-/// query has the sum, and heights above what the ends stand on. Throws InputError also for an elevation below that, for
-/// themes that the store does not have, and for an end that has no longitude and latitude; CorruptStore, FileError.
+/// Analyses a line over a store, with what stands on its ground. The surface's certified error about the line is added
+/// to query.clearance_error_m, so that over a coarse surface a verdict is certain or undecided. The report's query has
+/// the sum, and heights above what the ends stand on. Throws what the other analyse() throws, InputError also for an
+/// elevation below what its end stands on, for themes that the store does not have, and for an end that has no
+/// longitude and latitude; CorruptStore, FileError.
 LosReport analyse(const Store& store, const StoreLine& line, LosQuery query);
 
-/// The JSON document that `itin los --json` prints, without the call and its outputs: of a profile, and of a line over
-/// a store, with what was read of it.
+/// The JSON document that `itin los --json` prints, without the call and its outputs. The first is for a profile; the
+/// second is for a line over a store, and tells what was read of it.
 std::string json_of(const LosReport& report);
 std::string json_of(const Store& store, const StoreLine& line, const LosReport& report);
 
 /// The position at a distance along the line, in the profile's CRS.
 Point2 position_at(const LosReport& report, double distance_m);
 
-/// Elevation and distance of the ray at a distance, metres; a straight line in the drawing's effective Earth.
+/// Elevation of the ray at a distance, both in metres; a straight line in the drawing's effective Earth.
 double ray_elevation_m(const LosReport& report, double distance_m);
 
-/// "terrain", or the theme's name, and of a feature that is known: "buildings, Town Hall".
+/// Returns "terrain", or the theme's name with the name of a known feature: "buildings, Town Hall".
 std::string cause_of(const LosReport& report, std::uint16_t theme, std::int64_t feature = -1);
 
-/// A report as a file that a planner can hand in. By the name's ending: .json (the document as given), .csv (one row
-/// for each point of the profile), .txt (the profile for other programs: distance km, ground m, height of what stands
-/// there m, its kind, T vegetation, B anything else, N nothing), .svg, .pdf, .png (the drawing; the PDF has more pages,
-/// which are numbered: the drawing over the Earth of the worst fade that a criterion asks about, tables, the trade-off
-/// chart, the profile as a table), .html (all of it, self-contained), .kml and .gpkg (the line, its ends, the critical
-/// point, the point of reflection, the edges and the obstructions; for profiles with positions). Equal reports give
-/// equal bytes. Throws as require_report() does, and FileError.
+/// Writes a report as a file that a planner can hand in. The name's ending gives the format:
+/// - .json: the document as given
+/// - .csv: one row for each point of the profile
+/// - .txt: the profile for other programs: distance km, ground m, height of what stands there m, its kind (T
+///   vegetation, B anything else, N nothing)
+/// - .svg, .pdf, .png: the drawing; the PDF has more pages, which are numbered: the drawing over the Earth of the worst
+///   fade that a criterion asks about, tables, the trade-off chart, the profile as a table
+/// - .html: all of it, self-contained
+/// - .kml and .gpkg: the line, its ends, the critical point, the point of reflection, the edges and the obstructions;
+///   for profiles with positions
+/// Equal reports give equal bytes. Throws what require_report() throws, and FileError.
 void write_report(const LosReport& report, const std::string& json, const std::string& path, bool overwrite);
 
 /// Throws InputError for another ending, and for .kml and .gpkg of a profile without positions.
 void require_report_format(const std::string& path, bool has_positions);
-/// Besides, for a .txt of a profile with gaps, and for a `table_spacing_m` that is negative, or of which the line has
-/// more than 10,000.
+/// Throws InputError as require_report_format() does, and for a .txt of a profile with gaps, and for a
+/// `table_spacing_m` that is negative, or that would give the line more than 10,000 rows.
 void require_report(const LosReport& report, const std::string& path);
 
 }  // namespace itin::profile

@@ -1,4 +1,4 @@
-// A profile: the ground along a line, as everything about lines of sight takes it.
+// A profile: the ground along a line, in the form that everything about lines of sight uses.
 //
 //   const profile::Profile line =
 //       profile::from_section(cross_section(store, {310375, 183525}, {322300, 190000}, Detail::tolerance(0)));
@@ -28,20 +28,21 @@ struct ProfilePoint {
   double x = 0;
   double y = 0;
   double ground_m = 0;        ///< elevation of the surface
-  double clutter_m = 0;       ///< on top of it, for diffraction only
-  std::uint16_t theme = 0;    ///< the theme of the feature that it is within, as in Breakpoint; 0: terrain
-  std::int64_t feature = -1;  ///< none
+  double clutter_m = 0;       ///< on top of the ground, for diffraction only
+  std::uint16_t theme = 0;    ///< the theme of the feature around the point, as in Breakpoint; 0: terrain
+  std::int64_t feature = -1;  ///< the feature around the point; -1: none
 };
 
-/// In order of distance; two points at one distance are a vertical face. Between points the ground is straight, except
-/// in the gaps, where there is none. Not every profile has positions: one read from a file has x = y = 0.
+/// A profile, its points in order of distance; two points at one distance are a vertical face. Between points the
+/// ground is straight, except in the gaps, where there is none. A profile read from a file may have no positions: then
+/// x = y = 0.
 struct Profile {
   std::vector<ProfilePoint> points;
   std::vector<std::pair<double, double>> gaps;  ///< metres from, to; in order
   double length_m = 0;
   bool one_place = false;  ///< the ends are nearer to each other than a step of the store's grid
 
-  /// Whether anything lies between the ends.
+  /// Whether the profile has a length, so that something lies between the ends.
   bool has_length() const { return length_m > 0 && !one_place; }
   double gap_length_m() const;
   /// Whether the ground is continuous from point i to point i + 1.
@@ -63,7 +64,7 @@ struct EndGrounds {
   double from_m = 0;
   double to_m = 0;
 };
-/// The profile's own ends. Precondition: it has points.
+/// The elevations of the profile's own ends. Precondition: it has points.
 EndGrounds ends_of(const Profile& profile);
 /// The profile's height at a distance, the greater one at a vertical face; nothing in a gap. O(log n).
 std::optional<double> height_at(const Profile& profile, double distance_m);
@@ -75,9 +76,9 @@ Profile from_section(const CrossSection& section);
 /// The names of a store's themes by ProfilePoint::theme; 0 is the terrain.
 std::vector<std::string> theme_names(const StoreMetadata& metadata);
 
-/// A profile that others hand in: `d_km,h_m[,clutter_m]`, one row per point, a header line optional. Columns are
-/// separated by commas, semicolons or tabs, whichever the first line has; a first line that is not numbers is a header,
-/// whose names (of any case, in this order) are checked; empty lines and lines that begin with # are skipped; the
+/// Reads a profile from others: `d_km,h_m[,clutter_m]`, one row per point, a header line optional. Columns are
+/// separated by commas, semicolons or tabs, whichever the first line has. A first line that is not numbers is a header,
+/// whose names (of any case, in this order) are checked. Empty lines and lines that begin with # are skipped. The
 /// decimal sign is a point, or a comma where commas separate nothing. Distances ascend (two equal ones are a vertical
 /// face) and begin anywhere: the first is the profile's origin. Throws InputError, naming `name` and the line, for
 /// anything else, for numbers that are not finite, negative clutter, and fewer than two rows.
@@ -91,12 +92,13 @@ struct SurfaceProfile {
   std::string name;  ///< "tolerance 2 m"
   Profile profile;
 };
-/// The JSON document that `itin profile --json` prints, without the call and its outputs: `surface` is the first
-/// profile's, with these themes. Precondition: at least one profile.
+/// The JSON document that `itin profile --json` prints, without the call and its outputs. `surface` in it is the
+/// surface of the first profile, with these themes. Precondition: at least one profile.
 std::string json_of(const StoreMetadata& metadata, const ThemeChoice& themes,
                     const std::vector<SurfaceProfile>& profiles);
 
-/// The profile as seen from the other end. Exact for distances that are multiples of 2^-30 m, as a CrossSection's are.
+/// The profile as seen from the other end. Exact for distances that are multiples of 2^-30 m, as the distances of a
+/// CrossSection are.
 Profile reversed(const Profile& profile);
 
 }  // namespace itin::profile

@@ -1,14 +1,14 @@
-// How high antennas must stand: one end alone, both equally, and one height against the other.
+// Finds how high antennas must stand: one end alone, both equally, and one height against the other.
 //
 //   const profile::Requirement six_tenths{Earth(), 0.6, 0.03997};  // part of F1, at 7.5 GHz
 //   const profile::RequiredHeights heights = profile::required_heights(line, {10, 15}, six_tenths);
 //   // The first end's height, the second one's staying at 15 m.
 //   if (heights.from_alone_m) std::cout << *heights.from_alone_m << " m\n";
 //
-// A requirement asks that everywhere between the ends the ray stand `fraction` first Fresnel radii above the ground, on
-// an Earth of its own: two-criterion planning after ITU-R P.530-18 section 2.2 is two of them, the greater height
-// rules. Heights are metres above what the ends stand on (`grounds`; without it, the profile there) and least ones: at
-// exactly this height the requirement is met.
+// A requirement asks that everywhere between the ends the ray stands `fraction` first Fresnel radii above the ground,
+// on an Earth of its own. Two-criterion planning after ITU-R P.530-18 section 2.2 has two requirements, of which the
+// greater height rules. Heights are metres above what the ends stand on (`grounds`; without it, the profile there).
+// They are least heights: at exactly this height the requirement is met.
 #pragma once
 
 #include <optional>
@@ -27,52 +27,53 @@ struct Requirement {
 
 struct HeightPair {
   double from_m = 0;
-  std::optional<double> to_m;  ///< nothing: no height at the second end makes up for this one at the first
+  std::optional<double> to_m;  ///< nothing: no height of the second end makes up for from_m
 };
 
 struct RequiredHeights {
   std::optional<double> from_alone_m;  ///< nothing: no height is enough while the other end stands where it does
-  std::optional<double> to_alone_m;    ///< nothing: as for from_alone_m
+  std::optional<double> to_alone_m;    ///< nothing: no height is enough while the other end stands where it does
   std::optional<double> both_equal_m;  ///< nothing: ground in the way at an end itself
 };
 
-/// `from_m`, `to_m`: heights of the two ends as planned, above their ground. Precondition: the profile has ground at
-/// both ends and length_m > 0. Every height is good to 1e-9 relative to the profile's range of elevations; nothing is
-/// sampled. O(n) for each height.
+/// Heights of the two ends as planned, above their ground.
 struct PlannedHeights {
   double from_m = 0;
   double to_m = 0;
 };
+/// Finds the required heights. Precondition: the profile has ground at both ends and length_m > 0. Every height is good
+/// to 1e-9 relative to the profile's range of elevations; nothing is sampled. O(n) for each height.
 RequiredHeights required_heights(const Profile& profile, const PlannedHeights& planned, const Requirement& requirement,
                                  const std::optional<EndGrounds>& grounds = {});
 
 inline constexpr int kCurvePoints = 25;
-/// The second end's height against the first's, at kCurvePoints heights ascending in from_m; descending in to_m. Empty
-/// where `both_equal_m`, which required_heights() found, is nothing. Precondition and cost: as there.
+/// Returns the second end's height against the first's, at kCurvePoints heights ascending in from_m; descending in
+/// to_m. Empty where `both_equal_m`, which required_heights() found, is nothing. Precondition and cost are those of
+/// required_heights().
 std::vector<HeightPair> height_curve(const Profile& profile, const PlannedHeights& planned,
                                      const Requirement& requirement, const std::optional<double>& both_equal_m,
                                      const std::optional<EndGrounds>& grounds = {});
 
 /// A tall upright object, such as a wind turbine.
 struct TallObject {
-  std::optional<double> hub_m;  ///< above its ground, no higher than the tip; nothing: it has none
+  std::optional<double> hub_m;  ///< above its ground, no higher than the tip; nothing: no hub
   double tip_m = 0;             ///< above its ground
 };
 
 /// A part of an object that reaches from its ground up to some height.
 struct VisiblePart {
-  double visible_m = 0;  ///< seen of it, from its top down
+  double visible_m = 0;  ///< length of the part that is seen, from its top down
   double fraction = 0;   ///< the visible part of its height, 0 to 1
 };
 
 /// The visible part of an object at the second end, seen from an antenna or eye at the first.
 struct VisibleHeight {
-  double from_m = 0;               ///< above the object's ground: below this it is hidden
+  double from_m = 0;               ///< above the object's ground: anything below it is hidden
   VisiblePart tip;                 ///< up to the tip
   std::optional<VisiblePart> hub;  ///< up to the hub, where there is one
 };
 
-/// `eye_m` above the ground at the first end.
+/// Finds the visible part. `eye_m` is above the ground at the first end.
 VisibleHeight visible_height(const Profile& profile, double eye_m, const TallObject& object, const Earth& earth,
                              const std::optional<EndGrounds>& grounds = {});
 

@@ -8,7 +8,8 @@
 //   std::ofstream("view.svg") << profile::draw_wireline(view, "view.svg");
 //
 // The drawing is a cylinder rolled out: a degree of azimuth is as long as a degree of elevation. Seen from the distance
-// that it states, one eye on the horizon's middle, it covers what the eye sees. Nothing is sampled along a line of
+// that it states, with one eye level with the horizon's middle, it covers what the eye sees. Nothing is sampled along a
+// line of sight; across, there is a line every `step_deg`.
 // sight; across, there is a line every `step_deg`.
 #pragma once
 
@@ -23,21 +24,21 @@
 
 namespace itin::profile {
 
-/// Heights are metres above its ground.
+/// A turbine. Heights are metres above its ground.
 struct WirelineTurbine {
   std::string label;
   Point2 position;
   double ground_m = 0;
   std::optional<double> hub_m;  ///< nothing: drawn as a mast
   double tip_m = 0;
-  bool seen = true;      ///< labelled
-  std::string farm;      ///< each has its colour
+  bool seen = true;      ///< whether it is seen, and so labelled
+  std::string farm;      ///< the farm that it belongs to; each has its colour
   double blade_deg = 0;  ///< how far a blade is turned from upright
 };
 
 struct WirelineQuery {
   std::string title;
-  std::vector<std::string> notes;  ///< lines below it
+  std::vector<std::string> notes;  ///< lines below the title
   Point2 eye;
   double eye_elevation_m = 0;
   Earth earth;
@@ -45,7 +46,7 @@ struct WirelineQuery {
   double width_deg = 53.5;  ///< in (0, 360]
   double step_deg = 0.05;
   double reach_m = 40000;
-  bool hidden_dashed = false;  ///< draws what the terrain hides of turbines as well
+  bool hidden_dashed = false;  ///< also draws, dashed, what the terrain hides of turbines
   std::vector<WirelineTurbine> turbines;
 };
 
@@ -58,17 +59,18 @@ struct WirelineBand {
 
 struct Wireline {
   WirelineQuery query;
-  std::vector<WirelineBand> bands;  ///< from the nearest; every turbine stands between two of them
+  std::vector<WirelineBand> bands;  ///< from the nearest on; every turbine stands between two of them
 };
 
 /// Elevation angle of a point, degrees above the horizontal, after curvature and refraction.
 double apparent_angle_deg(const Earth& earth, double distance_m, double above_eye_m);
 
-/// Cost: one cross-section per line of sight. Throws what SectionSurface throws, Cancelled; InputError for a field of
-/// view that makes no sense.
+/// Surveys a wireline. Cost: one cross-section per line of sight. Throws what SectionSurface throws, Cancelled, and
+/// InputError for a field of view that makes no sense.
 Wireline survey_wireline(const SectionSurface& surface, const WirelineQuery& query, Progress& progress);
 
-/// The bytes of a file: .svg, .pdf or .png by the name's ending. Equal views give equal bytes. Throws InputError.
+/// Returns the bytes of a file: .svg, .pdf or .png by the name's ending. Equal views give equal bytes. Throws
+/// InputError.
 std::string draw_wireline(const Wireline& view, const std::string& path);
 
 }  // namespace itin::profile

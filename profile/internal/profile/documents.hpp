@@ -1,4 +1,4 @@
-// Profiles, lines of sight and links as JSON documents, in the names that stay.
+// Profiles, lines of sight and links as JSON documents, with names that stay the same from release to release.
 #pragma once
 
 #include <cstddef>
@@ -11,24 +11,25 @@
 
 namespace itin::profile {
 
-/// `crs`, `surface`, `length_m` and `gaps` of the first profile, and `profiles`.
+/// The document of profiles: `crs`, `surface`, `length_m` and `gaps` of the first profile, and `profiles`.
 Document profile_document(const StoreMetadata& metadata, const ThemeChoice& themes,
                           const std::vector<SurfaceProfile>& profiles);
 Document gaps_document(const Profile& profile);
 
-/// `crs`, `refraction`, `from`, `to`, `magnetic_north`, `distance_m`, `verdict`, `known_verdict`, `clearance_m`,
-/// `critical`, `tightest`, `obstructions`, `criteria`, `required_heights`, likewise in `bare` for the ground without
-/// its clutter; `cover`, `radio`, `visible_height`, `gaps`, `gap_m`. Positions are null in a profile without any.
+/// The document of a report: `crs`, `refraction`, `from`, `to`, `magnetic_north`, `distance_m`, `verdict`,
+/// `known_verdict`, `clearance_m`, `critical`, `tightest`, `obstructions`, `criteria`, `required_heights`; these
+/// findings again in `bare` for the ground without its clutter; `cover`, `radio`, `visible_height`, `gaps`, `gap_m`.
+/// Positions are null in a profile without any.
 Document los_document(const LosReport& report);
-/// Adds `surface`, `sources` and `statistics`.
+/// Makes the same document with `surface`, `sources` and `statistics` in addition.
 Document los_document(const StoreMetadata& metadata, const StoreLine& line, const LosReport& report);
 
 struct LinkCounts {
   std::size_t visible = 0, hidden = 0, undecided = 0, error = 0;
 };
-/// Rows that cannot be understood are errors, too.
+/// Counts the links by verdict. Rows that cannot be understood are errors, too.
 LinkCounts counts_of(const LinkTable& table, const std::vector<LinkResult>& results);
-/// `crs`, `surface`, `refraction`, and in `links` how many have which verdict.
+/// The document of links: `crs`, `surface`, `refraction`, and in `links` the number of links by verdict.
 Document links_document(const StoreMetadata& metadata, const LinkTable& table, const std::vector<LinkResult>& results,
                         const LinkQuery& query);
 

@@ -1,4 +1,4 @@
-// Where on the Earth the ends of many links are, and the geodesics between them.
+// Finds where on the Earth the ends of many links are, and the geodesics between them.
 //
 //   std::future<LinkCourses> courses = beside([&] { return link_courses(links, crs_wkt, progress); });
 //   const std::vector<LinkResult> results = survey_links(store, links, query, progress);
@@ -18,11 +18,11 @@ struct LinkCourse {
   Point2 from, to;  ///< longitude and latitude
   Geodesic geodesic;
 };
-/// One per link, in order; nothing where an end is no place on the Earth.
+/// One course per link, in order; nothing where an end is no place on the Earth.
 using LinkCourses = std::vector<std::optional<LinkCourse>>;
 
-/// The courses of links in a CRS, given as WKT. Reports nothing. Throws InputError for a CRS that has no longitude and
-/// latitude, Cancelled.
+/// Finds the courses of links in a CRS, given as WKT. Reports no progress. Throws InputError for a CRS that has no
+/// longitude and latitude, Cancelled.
 LinkCourses link_courses(const std::vector<Link>& links, const std::string& crs_wkt, const Progress& progress);
 
 }  // namespace itin::profile

@@ -7,7 +7,7 @@
 //   sheet.title.title = "Zone of theoretical visibility: blade tips";
 //   write("ztv.pdf", profile::draw_map_sheet(sheet, "ztv.pdf"));
 //
-// It knows nothing of what the layers mean: viewsheds, zones and sites are all drawn by it.
+// A sheet knows nothing of what its layers mean: it draws viewsheds, zones and sites alike.
 #pragma once
 
 #include <cstdint>
@@ -22,9 +22,9 @@
 
 namespace itin::profile {
 
-/// Landscape, as ISO 216 has them.
+/// The sizes of paper in landscape, as in ISO 216.
 enum class PaperSize { kA4, kA3, kA1 };
-/// "A3"
+/// Returns a name like "A3".
 const char* name_of(PaperSize paper);
 
 /// The cells of a grid, row by row from the north-west, each in its colour.
@@ -46,11 +46,11 @@ struct SheetLines {
 };
 
 enum class SheetSymbol { kTurbine, kViewpoint, kMast, kRelay, kExistingMast, kHub };
-/// About its place, y downwards, for a height of 1. Empty for discs and for turbines.
+/// The corners of a symbol about its place, y downwards, for a height of 1. Empty for discs and for turbines.
 std::span<const Point2> corners_of(SheetSymbol symbol);
 
-/// Labels that would cover another label or a mark are left out, those of later marks first, and counted below the
-/// legend.
+/// A mark with its label. Labels that would cover another label or a mark are left out, first those of later marks, and
+/// counted below the legend.
 struct SheetMark {
   Point2 at;
   std::string label;
@@ -65,25 +65,25 @@ using SheetLayer = std::variant<SheetCells, SheetLines, SheetMarks>;
 
 /// The side of a pixel of the pictures that are made for sheets: relief, and stripes where there is no ground.
 inline constexpr double kSheetPixelMm = 0.25;
-/// How far apart those stripes are.
+/// The distance between these stripes.
 inline constexpr int kVoidStripePixels = 10;
 
-/// One row of the legend; what is shown before the text looks as it does on the map.
+/// One row of the legend. The sample before the text looks as it does on the map.
 struct SheetKey {
   enum class Sample { kPatch, kVoid, kLine, kDashes, kMark, kHeading };
   Sample sample = Sample::kPatch;
   std::vector<Rgba>
       colours;  ///< one, or in a patch several side by side; none for a heading or where there is no ground
   std::string text;
-  SheetSymbol symbol = SheetSymbol::kMast;  ///< what is drawn for a mark
+  SheetSymbol symbol = SheetSymbol::kMast;  ///< the symbol that is drawn for a mark
 };
 
 struct TitleBlock {
   std::string project;                                     ///< may be empty
   std::string title;                                       ///< what the map shows
-  std::string figure;                                      ///< its number; may be empty
+  std::string figure;                                      ///< the figure's number; may be empty
   std::string date;                                        ///< as it is to be printed
-  std::string statement;                                   ///< what the result takes into account and what not
+  std::string statement;                                   ///< what the result takes into account and what it does not
   std::vector<std::pair<std::string, std::string>> facts;  ///< name, value
   std::vector<std::string> sources;                        ///< where the data comes from, with licences
   std::string made_by;
@@ -93,13 +93,13 @@ struct MapSheet {
   PaperSize paper = PaperSize::kA3;
   double scale = 0;                ///< 1 : scale; 0: the largest of the usual ones at which the frame holds `area`
   Box area;                        ///< in the middle of the frame, metres
-  std::string crs_wkt;             ///< whose grid is marked; the National Grid by its letters
+  std::string crs_wkt;             ///< the CRS whose grid is marked; the National Grid is marked by its letters
   std::vector<SheetLayer> layers;  ///< the lowest first
   std::vector<SheetKey> legend;
   TitleBlock title;
 };
 
-/// The scale at which it is drawn.
+/// The scale at which a sheet is drawn.
 double scale_of(const MapSheet& sheet);
 /// The ground inside the frame at that scale: what layers may fill.
 Box ground_in_frame(const MapSheet& sheet);
@@ -107,7 +107,7 @@ Box ground_in_frame(const MapSheet& sheet);
 /// Throws InputError unless the name ends in .pdf or .png.
 void require_sheet_format(const std::string& path);
 
-/// The bytes of a file: .pdf or .png (200 dots per inch) by the name's ending. Equal sheets give equal bytes.
+/// Returns the bytes of a file: .pdf or .png (200 dots per inch) by the name's ending. Equal sheets give equal bytes.
 /// Throws InputError for another ending, and for a scale at which the area is larger than the frame.
 std::string draw_map_sheet(const MapSheet& sheet, const std::string& path);
 

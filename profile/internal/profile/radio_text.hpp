@@ -8,17 +8,17 @@
 
 namespace itin::profile {
 
-/// GHz: "7.5", "7.5 GHz", "7500MHz". Throws InputError, which says what is wrong with the text, also for a number
-/// without a unit that would be beyond all radio.
+/// Reads a frequency in GHz: "7.5", "7.5 GHz", "7500MHz". Throws InputError, which says what is wrong with the text,
+/// also for a number without a unit that would be beyond all radio.
 double parse_frequency_ghz(std::string_view text);
 
-/// "4/3:1.0" or "1.33:0.6": K and the fraction of F1; "ke:0.3": with the K of the worst fade on the line. Throws
-/// InputError.
+/// Reads K and the fraction of F1, "4/3:1.0" or "1.33:0.6"; "ke:0.3" stands for the K of the worst fade on the line.
+/// Throws InputError.
 Criterion parse_criterion(std::string_view text);
-/// "1.333", or "0.5657 (ke)" of the worst fade.
+/// Writes K: "1.333", or "0.5657 (ke)" for the K of the worst fade.
 std::string factor_text(const Criterion& criterion, double k);
 
-/// "h" or "v", or the words. Throws InputError.
+/// Reads "h" or "v", or the words. Throws InputError.
 Polarisation parse_polarisation(std::string_view text);
 
 }  // namespace itin::profile

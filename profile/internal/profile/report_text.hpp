@@ -11,21 +11,22 @@
 
 namespace itin::profile {
 
-/// "no data over 1.200 km of the line, which leaves it undecided; known ground does not hide it"; empty without
-/// gaps.
+/// Tells of gaps: "no data over 1.200 km of the line, which leaves it undecided; known ground does not hide it". Empty
+/// without gaps.
 std::string gap_text(const LosReport& report);
-/// What is to be said of the factor ke; empty where no criterion asks for it.
+/// A note about the factor ke; empty where no criterion asks for it.
 std::string fade_note(const LineFindings& found);
-/// What gap_text() says; else why the verdict is undecided; empty where neither needs words.
+/// The text of gap_text() or, where that is empty, why the verdict is undecided; empty where neither needs words.
 std::string reason_of(const LosReport& report);
-/// "Visible", or "Undecided: " and why; after a colon as well what is without data.
+/// Returns "Visible", or "Undecided: " with the reason. Any verdict may have a colon and a note on missing data after
+/// it.
 std::string verdict_text(const LosReport& report);
-/// "meets by 0.40 F1 (3.10 m)", "fails by ...", "undecided".
+/// Returns "meets by 0.40 F1 (3.10 m)", "fails by ...", "undecided".
 std::string outcome_text(const CriterionResult& result);
-/// "clear", "screened by terrain at 5.310 km, 12.00 m above it", or that nothing is known; of a report with a
-/// reflection.
+/// Tells about the reflection: "clear", "screened by terrain at 5.310 km, 12.00 m above it", or that nothing is known.
+/// Precondition: the report has a reflection.
 std::string screen_text(const LosReport& report);
-/// Metres with two decimals, never less than the height that is required; "no height is enough".
+/// Returns metres with two decimals, never less than the height that is required; or "no height is enough".
 std::string required_text(const std::optional<double>& height_m);
 
 }  // namespace itin::profile

@@ -1,4 +1,4 @@
-// What is seen along a route, as steps over its length: how many hubs and tips.
+// A chart of what is seen along a route, as steps over its length: the numbers of hubs and tips.
 #pragma once
 
 #include <optional>
@@ -17,11 +17,12 @@ struct RouteStep {
 
 struct RouteChart {
   std::string title, note;
-  std::vector<RouteStep> steps;  ///< one after the other
+  std::vector<RouteStep> steps;  ///< in order along the route
   std::size_t turbines = 1;      ///< the chart's top
 };
 
-/// The bytes of a file: .svg, .pdf or .png by the name's ending. Throws InputError for another ending and for no steps.
+/// Returns the bytes of a file: .svg, .pdf or .png by the name's ending. Throws InputError for another ending and for
+/// no steps.
 std::string draw_route_chart(const RouteChart& chart, const std::string& path);
 
 }  // namespace itin::profile

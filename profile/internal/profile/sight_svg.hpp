@@ -9,7 +9,8 @@
 
 namespace itin::profile {
 
-/// Terrain, ray, zones, critical point and legend as an SVG of this size, points. Throws Error when drawing fails.
+/// Returns terrain, ray, zones, critical point and legend as an SVG of this size, in points. Throws Error when drawing
+/// fails.
 std::string sight_svg(const LosReport& report, double width, double height);
 
 }  // namespace itin::profile

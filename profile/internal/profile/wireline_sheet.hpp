@@ -21,7 +21,7 @@ struct WirelineSheet {
   double centre_deg = 0;                                   ///< bearing of the middle, from grid north
 };
 
-/// One sheet, 53.5 degrees about the middle, planar. As PDF. `view` must hold that field. Throws InputError.
+/// Draws one planar sheet, 53.5 degrees about the middle, as PDF. `view` must hold that field. Throws InputError.
 std::string draw_planar_sheet(const Wireline& view, const WirelineSheet& sheet, const std::string& path);
 
 /// A field of 90 degrees.
@@ -32,17 +32,18 @@ struct WirelineField {
 };
 /// The middles of so many fields next to each other about a bearing.
 std::vector<double> cylinder_centres(double centre_deg, int fields);
-/// Two fields on a page, cylindrical; the last one's farms are named. Likewise.
+/// Draws two cylindrical fields on a page, as PDF; the farms of the last one are named. Throws InputError.
 std::string draw_cylindrical_sheets(const std::vector<WirelineField>& fields, const WirelineSheet& sheet,
                                     const std::string& path);
 
-/// What a viewpoint's sheet holds besides a wireline of 90 degrees: facts, what is seen of each farm, where it lies.
+/// The contents of a viewpoint's sheet besides a wireline of 90 degrees: facts, what is seen of each farm, and the
+/// location.
 struct ViewpointSheet {
   WirelineSheet wireline;
   std::vector<std::vector<std::string>> farms;  ///< a table, its header first
-  MapSheet map;                                 ///< its layers, scale and the middle of its area
+  MapSheet map;                                 ///< gives the location map its layers, scale and middle
 };
-/// The ground that its map shows: what layers may fill.
+/// The ground that the sheet's map shows: what layers may fill.
 Box ground_in_location_map(const MapSheet& map);
 std::string draw_viewpoint_sheet(const Wireline& view, const ViewpointSheet& sheet, const std::string& path);
 

@@ -27,7 +27,7 @@ std::vector<double> Axis::ticks(int most) const {
 
 std::string tick_label(double value, double step) {
   const int decimals = std::max(0, static_cast<int>(-std::floor(std::log10(step) + 1e-9)));
-  // Not minus nought.
+  // The label must not be minus nought.
   const std::string label = fmt::format("{:.{}f}", value, decimals);
   return label.find_first_not_of("-0.") == std::string::npos && label[0] == '-' ? label.substr(1) : label;
 }

@@ -1,4 +1,4 @@
-// One axis of a chart: data to drawing, and round numbers to mark.
+// One axis of a chart: it maps data to the drawing, and finds round numbers to mark.
 #pragma once
 
 #include <string>
@@ -8,13 +8,13 @@ namespace itin::profile {
 
 struct Axis {
   double low = 0, high = 1;  ///< data
-  double from = 0, to = 1;   ///< where those are in the drawing
+  double from = 0, to = 1;   ///< the places of low and high in the drawing
 
   double at(double value) const { return from + (value - low) / (high - low) * (to - from); }
 
   /// Multiples of 1, 2 or 5 times a power of ten within [low, high], at most `most` (at least 2) of them.
   std::vector<double> ticks(int most) const;
-  /// The ticks' distance.
+  /// The distance between ticks.
   double step(int most) const;
 };
 

@@ -31,7 +31,7 @@ cairo_surface_t* make_page(Drawing::Format format, double width, double height, 
     return cairo_image_surface_create(CAIRO_FORMAT_RGB24, static_cast<int>(std::lround(width * pixels_per_point)),
                                       static_cast<int>(std::lround(height * pixels_per_point)));
   cairo_surface_t* pdf = cairo_pdf_surface_create_for_stream(append, bytes, width, height);
-  // A fixed date: the same input gives the same bytes.
+  // The date is fixed, so that the same input gives the same bytes.
   cairo_pdf_surface_set_metadata(pdf, CAIRO_PDF_METADATA_CREATE_DATE, "2000-01-01T00:00:00Z");
   return pdf;
 }
@@ -46,7 +46,7 @@ void set_colour(cairo_t* cairo, const Colour& c) {
   cairo_set_source_rgba(cairo, c.red, c.green, c.blue, c.alpha);
 }
 
-/// As Cairo wants it: colours times their alpha.
+/// Returns the colour as Cairo takes it: multiplied by its alpha.
 std::uint32_t times_alpha(std::uint32_t argb) {
   const std::uint32_t alpha = argb >> 24;
   const auto part = [&](unsigned shift) { return ((argb >> shift & 0xff) * alpha + 127) / 255 << shift; };

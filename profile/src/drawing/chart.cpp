@@ -19,7 +19,7 @@ namespace {
 
 constexpr double kChartWidth = 780, kChartHeight = 360;
 constexpr Colour kGround{0.86, 0.83, 0.76}, kVoid{0.95, 0.95, 0.95};
-// From the palette of Okabe and Ito, told apart with every kind of colour blindness.
+// Colours from the palette of Okabe and Ito, which differ with every kind of colour blindness.
 constexpr std::array<Colour, 6> kLines{{{0.30, 0.24, 0.15},
                                         {0.00, 0.45, 0.70},
                                         {0.84, 0.37, 0.00},
@@ -61,7 +61,7 @@ class ChartPage {
         empty_ = false;
       }
     }
-    // Not less than a metre, lest rounding errors look like hills.
+    // The margins are at least a metre together, lest rounding errors look like hills.
     const double margin = std::max(0.06 * (high - low), 0.5);
     in_km_ = length >= 2000;
     x_ = {0, length > 0 ? length / unit() : 1, frame_.xmin, frame_.xmax};
@@ -71,7 +71,7 @@ class ChartPage {
   double unit() const { return in_km_ ? 1000 : 1; }
   Point2 at(const ProfilePoint& p) const { return {x_.at(p.distance_m / unit()), y_.at(p.ground_m)}; }
 
-  /// Points of ground without gap.
+  /// Returns the points of each stretch of ground without gaps.
   static std::vector<std::vector<ProfilePoint>> stretches(const Profile& profile) {
     std::vector<std::vector<ProfilePoint>> result;
     for (std::size_t i = 0; i < profile.points.size(); ++i) {
@@ -101,7 +101,7 @@ class ChartPage {
     drawing_.unclip();
   }
 
-  /// Numbered as far as there is room.
+  /// Numbers the corners so far as there is room.
   void draw_corners() {
     constexpr double kRoom = 44;
     double labelled = frame_.xmin - kRoom;
@@ -121,7 +121,7 @@ class ChartPage {
     return points;
   }
 
-  /// Features first: the ground covers what of them is in it.
+  /// Draws features first: the ground covers the parts of them within it.
   void fill_first() {
     const Profile& profile = chart_.series.front().profile;
     for (const FeatureRun& run : feature_runs(profile)) {
@@ -190,7 +190,7 @@ class ChartPage {
   Axis x_, y_;
   bool in_km_ = false;
   bool empty_ = true;
-  std::set<std::uint16_t> themes_;  ///< met
+  std::set<std::uint16_t> themes_;  ///< themes met on the profile
 };
 
 }  // namespace

@@ -60,7 +60,7 @@ std::string Drawing::fitted(std::string text, double width, const Lettering& let
   if (text_width(text, lettering) <= width) return text;
   const std::string dots = "\xE2\x80\xA6";
   while (!text.empty() && text_width(text + dots, lettering) > width) {
-    // Whole characters of UTF-8.
+    // Only whole characters of UTF-8 are removed.
     while (text.size() > 1 && (static_cast<unsigned char>(text.back()) & 0xC0) == 0x80) text.pop_back();
     text.pop_back();
   }

@@ -46,10 +46,10 @@ inline constexpr Colour kRim{1, 1, 1, 0.85};
 class Drawing {
  public:
   enum class Format { kSvg, kPdf, kPng };
-  /// By the ending of a file's name, whatever its case; nothing for another ending.
+  /// The format for a file's name, by its ending in whatever case; nothing for another ending.
   static std::optional<Format> format_of(const std::string& path);
 
-  /// `pixels_per_point` is that of PNG.
+  /// `pixels_per_point` is the resolution of PNG.
   Drawing(Format format, double width, double height, double pixels_per_point = 2);
   ~Drawing();
   Drawing(const Drawing&) = delete;
@@ -63,10 +63,10 @@ class Drawing {
   void rectangle(const Box& box, const Colour& fill);
   void outline(const Box& box, const Stroke& stroke);
   void circle(Point2 centre, double radius, const Colour& fill);
-  /// Cells of equal size over a box, unsmoothed, row by row from the top: 0xAARRGGBB, no colour yet times its alpha.
-  /// Only for PDF and PNG.
+  /// Draws cells of equal size over a box, unsmoothed, row by row from the top. Colours are 0xAARRGGBB, not yet
+  /// multiplied by alpha. Only for PDF and PNG.
   void cells(const Box& box, int columns, int rows, std::span<const std::uint32_t> argb);
-  /// The anchor is on the baseline, at the text's left end, centre or right end.
+  /// Draws a text. The anchor is on the baseline, at the text's left end, centre or right end.
   void text(Point2 anchor, const std::string& text, const Lettering& lettering);
   double text_width(const std::string& text, const Lettering& lettering) const;
   /// The text cut to a width, with an ellipsis.
@@ -74,16 +74,17 @@ class Drawing {
 
   /// The text broken at blanks into lines of a width.
   std::vector<std::string> lines(const std::string& text, double width, const Lettering& lettering) const;
-  /// This lettering, or one as much smaller as lets the text stand in `most` lines of a width; 5 points at least.
+  /// Returns this lettering, or one just small enough for the text to stand in `most` lines of a width; 5 points at
+  /// least.
   Lettering lettering_for(const std::string& text, double width, std::size_t most, Lettering lettering) const;
 
-  /// Until unclip(), nothing is drawn outside the box.
+  /// Keeps everything from being drawn outside the box, until unclip().
   void clip(const Box& box);
   void unclip();
   /// Starts another page. Only for PDF.
   void new_page();
 
-  /// The file's bytes. Nothing can be drawn afterwards. Throws Error when Cairo fails.
+  /// Returns the file's bytes. Nothing can be drawn afterwards. Throws Error when Cairo fails.
   std::string finish();
 
  private:

@@ -8,7 +8,7 @@ namespace itin::profile {
 
 namespace {
 
-/// Whether there is room for all, in the order along the row: each as far left as it can stand.
+/// Whether there is room for all names, in the order along the row: each stands as far left as it can.
 bool have_room(const std::vector<RowPlace>& places, const std::vector<std::size_t>& row, const RowSpace& space) {
   double free = space.from;
   return std::all_of(row.begin(), row.end(), [&](std::size_t i) {
@@ -31,7 +31,7 @@ std::vector<RowLabel> label_row(const std::vector<RowPlace>& places, const RowSp
     if (!have_room(places, row, space)) row.erase(added);
   }
   std::vector<RowLabel> labels(row.size());
-  // The rightmost at which there is room for all that follow.
+  // Each name is put at the rightmost place that leaves room for all that follow.
   double limit = std::numeric_limits<double>::infinity();
   for (std::size_t k = row.size(); k-- > 0;) {
     labels[k] = {row[k], std::min({limit, places[row[k]].at + space.most, space.to})};

@@ -22,7 +22,7 @@ namespace {
 constexpr double kPanoramaWidth = 1260, kPanoramaHeight = 420;
 constexpr double kLongestName = 260;
 const Lettering kPlaceNames{.size = 8, .colour = kInk, .rotation_deg = 50};
-// From the palette of Okabe and Ito, told apart with every kind of colour blindness.
+// Colours from the palette of Okabe and Ito, which differ with every kind of colour blindness.
 constexpr Colour kSky{0.93, 0.96, 0.98}, kSeen{0.00, 0.45, 0.70}, kHidden{0.84, 0.37, 0.00};
 constexpr std::array<Colour, 5> kNearToFar{
     {{0.36, 0.36, 0.33}, {0.47, 0.48, 0.46}, {0.57, 0.59, 0.60}, {0.67, 0.70, 0.72}, {0.77, 0.80, 0.83}}};
@@ -77,7 +77,7 @@ class PanoramaPage {
   }
 
  private:
-  /// Azimuths that grow all the way.
+  /// Turns the azimuths into ones that grow all the way.
   void unwrap() {
     double turns = 0, before = -1;
     for (const SkylinePoint& p : panorama_.skyline) {
@@ -88,7 +88,7 @@ class PanoramaPage {
     step_ = (azimuths_.back() - azimuths_.front()) / static_cast<double>(azimuths_.size() - 1);
   }
 
-  /// The page grows upwards and to the right with the names.
+  /// Finds the places of names. The page grows upwards and to the right with them.
   void place_names(Drawing::Format format) {
     const Drawing measure(format, 1, 1);
     std::vector<RowPlace> wanted;
@@ -97,7 +97,7 @@ class PanoramaPage {
       if (!x) continue;
       const std::string text = place.name + ", " + rounded_distance(place.distance_m);
       marks_.push_back({&place, measure.fitted(text, kLongestName, kPlaceNames), *x, *x});
-      // What is seen matters more than what is hidden, and what is near more than what is far.
+      // A place that is seen matters more than one that is hidden, and a near one more than a far one.
       wanted.push_back({*x, (place.visible ? 1 : 0) + 1 / (2 + place.distance_m)});
     }
     const double turn = in_radians(kPlaceNames.rotation_deg);
@@ -126,7 +126,7 @@ class PanoramaPage {
     y_ = {low - 2 * margin, high + margin, frame_.ymax, frame_.ymin};
   }
 
-  /// Limits between the shades, so that each has as much of the sky line.
+  /// Sets limits between the shades, so that each has an equal share of the sky line.
   void sort_distances() {
     std::vector<double> distances;
     for (const SkylinePoint& p : panorama_.skyline)
@@ -141,11 +141,11 @@ class PanoramaPage {
     return kNearToFar[static_cast<std::size_t>(limit - limits_.begin())];
   }
 
-  /// The ground below the sky line from one azimuth to the next.
+  /// Draws the ground below the sky line from one azimuth to the next.
   void draw_piece(std::size_t i) {
     const SkylinePoint &p = panorama_.skyline[i], &q = panorama_.skyline[i + 1];
     if (std::isnan(p.elevation_deg) || std::isnan(q.elevation_deg)) return;
-    // A hair wider, lest the paper shines through between two pieces.
+    // The piece is a hair wider, lest the paper shines through between two pieces.
     const double from = x_.at(azimuths_[i]), to = x_.at(azimuths_[i + 1]) + 0.15;
     const double a = y_.at(p.elevation_deg), b = y_.at(q.elevation_deg);
     const std::array<Point2, 4> piece{Point2{from, a}, {to, b}, {to, frame_.ymax}, {from, frame_.ymax}};
@@ -185,7 +185,7 @@ class PanoramaPage {
     drawing_->polyline(outline, {kInk, 0.8, {}});
   }
 
-  /// Where a place lies on the axis; nothing beyond its ends.
+  /// The place of an azimuth on the axis; nothing beyond its ends.
   std::optional<double> column_of(double azimuth) const {
     for (const double turned : {azimuth, azimuth + 360})
       if (turned >= x_.low - step_ && turned <= x_.high + step_)
@@ -242,7 +242,7 @@ class PanoramaPage {
   const Panorama& panorama_;
   std::optional<Drawing> drawing_;
   Box frame_;
-  std::vector<PlaceName> marks_, names_;  ///< all places in view, and those that are named, from left to right
+  std::vector<PlaceName> marks_, names_;  ///< all places in view, and the named ones, from left to right
   std::vector<double> azimuths_;
   double step_ = 0;
   std::vector<double> limits_;

@@ -1,5 +1,4 @@
-// What a Drawing draws on: a page of Cairo's, or the text of an SVG. Lengths, anchors and colours are those of
-// drawing.hpp.
+// What a Drawing draws on: a page of Cairo, or the text of an SVG. Lengths, anchors and colours are as in drawing.hpp.
 //
 //   const std::unique_ptr<Surface> page = cairo_surface(Drawing::Format::kPdf, 842, 595, 1);
 #pragma once
@@ -28,7 +27,7 @@ class Surface {
   virtual std::string finish() = 0;
 };
 
-/// A PDF or a PNG.
+/// Makes a PDF or a PNG.
 std::unique_ptr<Surface> cairo_surface(Drawing::Format format, double width, double height, double pixels_per_point);
 std::unique_ptr<Surface> svg_surface(double width, double height);
 

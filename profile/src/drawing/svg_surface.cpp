@@ -1,4 +1,4 @@
-// An SVG that is small and can be searched: text is text, and lines have no points that nobody would miss.
+// Writes an SVG that is small and can be searched: text is text, and lines have no points that nobody would miss.
 #include <cmath>
 
 #include <fmt/format.h>
@@ -64,7 +64,7 @@ class SvgSurface final : public Surface {
     throw Error("drawing failed: an SVG holds no cells");
   }
 
-  /// As wide as in a PDF, which `textLength` makes it in whatever font the reader has.
+  /// The width of the text in a PDF; `textLength` gives it the same width in whatever font the reader has.
   double text_width(const std::string& text, const Lettering& lettering) const override {
     return page_->text_width(text, lettering);
   }

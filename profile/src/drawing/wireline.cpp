@@ -15,10 +15,11 @@ namespace itin::profile {
 
 namespace {
 
-constexpr double kNearest = 20;   ///< metres: what is nearer is the ground at the viewer's feet
+constexpr double kNearest = 20;   ///< metres: anything nearer is the ground at the viewer's feet
 constexpr double kGrowth = 1.12;  ///< a band ends at most this many times as far away as it begins
 
-/// Limits between bands, the turbines' distances among them, so that each stands between two.
+/// Returns the limits between bands. The turbines' distances are among them, so that each turbine stands between two
+/// bands.
 std::vector<double> band_limits(const WirelineQuery& query) {
   std::vector<double> limits;
   for (double d = kNearest; d < query.reach_m; d *= kGrowth) limits.push_back(d);
@@ -64,8 +65,8 @@ class LineOfBands {
     return std::isfinite(greatest_[band]) ? static_cast<float>(in_degrees(std::atan(greatest_[band])))
                                           : std::numeric_limits<float>::quiet_NaN();
   }
-  /// Whether the ground falls behind its greatest angle. At the band's far limit that is so if it does in the next
-  /// band; at the near one it belongs to the band before.
+  /// Whether the ground falls behind its greatest angle in a band. If that angle is at the band's far limit, it falls
+  /// where it does so in the next band; if it is at the near limit, the crest belongs to the band before.
   bool crest(std::size_t band) const {
     if (!std::isfinite(greatest_[band]) || at_[band] == limits_[band]) return false;
     if (at_[band] < limits_[band + 1]) return true;

@@ -50,8 +50,8 @@ class WirelinePage {
   }
 
  private:
-  /// From a degree below the lowest skyline to above everything, but for what towers over the eye, such as a house
-  /// beside it: that is cut off.
+  /// Chooses elevations from a degree below the lowest skyline to above everything, except things that tower over the
+  /// eye, such as a house beside it, which are cut off.
   void choose_elevations() {
     const std::size_t lines = view_.bands.front().angle_deg.size();
     double lowest = 90, highest = -90;

@@ -47,7 +47,7 @@ std::vector<std::string> farms_of(const WirelineQuery& query) {
 }
 
 Colour farm_colour(std::size_t farm) {
-  // Dark enough for thin lines, told apart with every kind of colour blindness; they repeat.
+  // Colours that are dark enough for thin lines, and differ with every kind of colour blindness; they repeat.
   constexpr std::array<Colour, 7> kColours{{{0.80, 0.16, 0.10},
                                             {0.00, 0.35, 0.70},
                                             {0.00, 0.52, 0.38},
@@ -79,7 +79,7 @@ WirelineScene::WirelineScene(const Wireline& view, const Box& frame, WirelinePro
   std::erase_if(turbines_, [&](const PlacedTurbine& t) { return !within(t.across); });
 }
 
-/// From the farthest to the nearest: what is nearer covers what is behind it.
+/// Draws from the farthest to the nearest, so that nearer things cover farther ones.
 void WirelineScene::draw(Drawing& drawing) const {
   drawing.clip(frame_);
   auto turbine = turbines_.begin();
@@ -111,7 +111,8 @@ void WirelineScene::draw_band(Drawing& drawing, const WirelineBand& band) const 
   }
 }
 
-/// A crest that goes on in another band ends in the one at a line of sight, and begins in the other at the next.
+/// Joins crests. A crest that goes on in another band ends in one band at a line of sight, and begins in the other at
+/// the next.
 void WirelineScene::draw_joints(Drawing& drawing, std::size_t nearer) const {
   const WirelineBand& band = view_.bands[nearer];
   const auto [begin, lines] = lines_within();
@@ -163,7 +164,7 @@ void WirelineScene::draw_stretch(Drawing& drawing, const WirelineBand& band, std
   }
 }
 
-/// The farther, the fainter.
+/// Makes farther bands fainter.
 Stroke WirelineScene::stroke_of(const WirelineBand& band) const {
   const double far = std::log(band.to_m / 20) / std::log(view_.query.reach_m / 20);
   const double grey = 0.05 + 0.55 * std::clamp(far, 0.0, 1.0);
@@ -178,7 +179,7 @@ void WirelineScene::draw_turbine(Drawing& drawing, const PlacedTurbine& placed, 
   const WirelineTurbine& t = *placed.turbine;
   Stroke stroke{colour_of(t), 0.8 * part_.weight, {}};
   if (dashed) stroke.width *= 0.5, stroke.dashes = {1.5, 1.5};
-  // A point of the rotor's disc, or of the mast: metres to the right of the axis and above the ground.
+  // The place of a point of the rotor's disc, or of the mast, metres to the right of the axis and above the ground.
   const auto point = [&](double right, double height) {
     return at_(placed.across + in_degrees(std::atan2(right, placed.distance)),
                elevation_of(view_.query, placed, height));
@@ -199,7 +200,7 @@ void WirelineScene::draw_turbine(Drawing& drawing, const PlacedTurbine& placed, 
   drawing.polyline(circle, {stroke.colour, 0.35 * part_.weight, {}});
 }
 
-/// Numbers above the tips seen, each as low as no other is in its way, with a line down to its tip.
+/// Draws numbers above the tips seen, each as low as it can stand beside the others, with a line down to its tip.
 void WirelineScene::draw_labels(Drawing& drawing) const {
   std::vector<const PlacedTurbine*> seen;
   for (const PlacedTurbine& t : turbines_)

@@ -15,18 +15,19 @@
 
 namespace itin::profile {
 
-/// Where a direction is drawn: degrees clockwise from the view's left edge, and of elevation.
+/// Gives the place at which a direction is drawn. The direction is in degrees, clockwise from the view's left edge, and
+/// of elevation.
 using WirelineProjection = std::function<Point2(double across_deg, double elevation_deg)>;
 
 struct PlacedTurbine {
   const WirelineTurbine* turbine;
-  double distance, across, base, top;  ///< metres; degrees from the left edge and of elevation
+  double distance, across, base, top;  ///< metres; then degrees, from the left edge and of elevation
 };
 
 /// The turbines within the field of view and its reach, from the farthest.
 std::vector<PlacedTurbine> placed_turbines(const WirelineQuery& query);
 
-/// Farms in the order of their first turbines, and the colour of each.
+/// Farms in the order of their first turbines, and the colour of each farm.
 std::vector<std::string> farms_of(const WirelineQuery& query);
 Colour farm_colour(std::size_t farm);
 /// Writes the farms' names in their colours on one line that ends at `right_end`, where there are several farms.
@@ -34,11 +35,11 @@ void draw_farm_names(Drawing& drawing, const WirelineQuery& query, Point2 right_
 
 class WirelineScene {
  public:
-  /// Only what lies between the two degrees from the left edge is drawn. Labels have this size, points.
+  /// The part that is drawn lies between these two degrees from the left edge. Labels have this size, in points.
   struct Part {
     double from_deg = 0, to_deg = 360;
     double label_size = 6;
-    double weight = 1;  ///< all lines are so many times as wide
+    double weight = 1;  ///< factor for the width of all lines
   };
   WirelineScene(const Wireline& view, const Box& frame, WirelineProjection projection, const Part& part);
 
@@ -50,7 +51,7 @@ class WirelineScene {
   void draw_stretch(Drawing& drawing, const WirelineBand& band, std::size_t first, std::size_t last) const;
   void draw_turbine(Drawing& drawing, const PlacedTurbine& placed, bool dashed) const;
   void draw_labels(Drawing& drawing) const;
-  /// Where a line of sight meets the band's greatest angle.
+  /// The place where a line of sight meets the band's greatest angle.
   Point2 place(std::size_t line, const WirelineBand& band) const;
   /// The first line of sight of the part, and the one after its last.
   std::pair<std::size_t, std::size_t> lines_within() const;

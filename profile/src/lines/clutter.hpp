@@ -1,4 +1,4 @@
-// Clutter as something that stands on the ground.
+// Treats clutter as something that stands on the ground.
 #pragma once
 
 #include <profile/profile.hpp>
@@ -7,8 +7,8 @@ namespace itin::profile {
 
 inline constexpr std::uint16_t kClutterTheme = 1;
 
-/// The tops of the clutter over the ground, as a surface of theme kClutterTheme; bare nearer to an end than
-/// kClutterFreeM, as the losses take it (P.452-18).
+/// Returns the tops of the clutter over the ground, as a surface of theme kClutterTheme. It is bare nearer to an end
+/// than kClutterFreeM, as it is for the losses (P.452-18).
 Profile clutter_raised(const Profile& ground);
 
 }  // namespace itin::profile

@@ -8,7 +8,7 @@ namespace itin::profile {
 
 namespace {
 
-/// The theme of the feature at a distance; 0: none.
+/// The theme of the feature at a distance; 0 for none.
 std::uint16_t feature_theme_at(const Profile& profile, double distance_m) {
   const auto& points = profile.points;
   const auto before = [](const ProfilePoint& p, double d) { return p.distance_m < d; };

@@ -16,8 +16,9 @@ struct CriticalPoint {
   double clearance_m = 0;
 };
 
-/// Where the ray is cut deepest, as `line` has it. If it is free, where `zone`, its tightest place of any wavelength,
-/// is; the ends, where the least clearance is that of an antenna over its own foot, are so never meant. O(log n).
+/// The point where the ray is cut deepest, as `line` tells. If the ray is free, the point at `zone`, its tightest place
+/// at any wavelength. So the point is never an end at which an antenna merely stands little above its own foot. O(log
+/// n).
 CriticalPoint critical_point(const Profile& profile, const Antennas& antennas, const Earth& earth,
                              const LineClearance& line, const std::optional<FresnelClearance>& zone);
 

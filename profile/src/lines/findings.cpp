@@ -34,14 +34,14 @@ double factor_of(const Criterion& c, double length_m) {
 /// A ray on one Earth, at its critical point.
 struct Clearance {
   std::optional<LineClearance> line;
-  std::optional<FresnelClearance> zone;  ///< without a frequency for a wavelength of 1 m, and if it is free
+  std::optional<FresnelClearance> zone;  ///< without a frequency: for a wavelength of 1 m, only if the ray is free
   std::optional<CriticalPoint> critical;
 
   bool cut() const { return line && line->clearance_m < -kGrazing; }
   bool meets(const Criterion& c) const { return !cut() && (c.fraction == 0 || !zone || zone->fraction >= c.fraction); }
 };
 
-/// With both antennas `shift` metres higher: lifting the ray is lowering the surface.
+/// The clearance with both antennas `shift` metres higher, for lifting the ray is lowering the surface.
 Clearance clearance_over(const Sight& sight, const LosQuery& query, const Earth& earth, double shift = 0) {
   const Antennas antennas{sight.antennas.from_m + shift, sight.antennas.to_m + shift};
   Clearance result{line_clearance(sight.profile, antennas, earth), {}, {}};
@@ -51,7 +51,7 @@ Clearance clearance_over(const Sight& sight, const LosQuery& query, const Earth&
   return result;
 }
 
-/// Certain verdicts hold whatever the surface's certified error hides.
+/// The verdict on a criterion. It is certain if it holds whatever the surface's certified error hides.
 CriterionVerdict criterion_verdict(const Sight& sight, const LosQuery& query, const Criterion& criterion,
                                    const Earth& earth) {
   if (!sight.profile.has_length()) return CriterionVerdict::kMeets;

@@ -1,4 +1,4 @@
-// The judgement on a ray over a profile, for one line and for many.
+// Judges a ray over a profile, for one line and for many.
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@ namespace itin::profile {
 /// part of the Fresnel zone without a frequency.
 void require_valid(const Profile& profile, const LosQuery& query, const Profile& ground);
 
-/// An effective Earth of this factor, of the radius of `earth`.
+/// Returns an effective Earth with this factor and the radius of `earth`.
 Earth with_factor(double k, const Earth& earth);
 
 struct NamedRequirement {
@@ -20,22 +20,22 @@ struct NamedRequirement {
   double k = 0;  ///< effective Earth factor; infinity without curvature
   Requirement requirement;
 };
-/// A free line of sight, 0.6 F1 where there is a frequency, and each criterion.
+/// The requirements: a free line of sight, 0.6 F1 where there is a frequency, and each criterion.
 std::vector<NamedRequirement> requirements_of(const LosQuery& query, double length_m);
 
-/// A ray, and what it passes over.
+/// A ray, and the profile that it passes over.
 struct Sight {
   const Profile& profile;
   Antennas antennas;
   EndGrounds stands_on;
 };
-/// Elevations of antennas of the query's heights.
+/// The elevations of antennas at the query's heights.
 Antennas antennas_on(const EndGrounds& stands_on, const LosQuery& query);
-/// All but obstructions and required heights. O(n) for each criterion.
+/// Finds all but obstructions and required heights. O(n) for each criterion.
 LineFindings findings(const Sight& sight, const LosQuery& query);
-/// O(n).
+/// Adds the obstructions. O(n).
 void add_obstructions(const Sight& sight, const LosQuery& query, LineFindings& found);
-/// Without curves. O(n) for each of them.
+/// Adds the required heights, without curves. O(n) for each of them.
 void add_required_heights(const Sight& sight, const LosQuery& query, LineFindings& found);
 
 }  // namespace itin::profile

@@ -10,8 +10,8 @@
 
 namespace itin::profile {
 
-/// Calls visit(ClearancePiece, i) for every two joined points i, i + 1 that are apart; its distances are fractions of
-/// the length. `drop` is Earth::drop_coefficient().
+/// Calls visit(ClearancePiece, i) for every two joined points i and i + 1 that are apart. The piece's distances are
+/// fractions of the length. `drop` is Earth::drop_coefficient().
 template <class Visit>
 void for_each_piece(const Profile& profile, const Antennas& antennas, double drop, Visit visit) {
   const double length = profile.length_m;
@@ -23,7 +23,7 @@ void for_each_piece(const Profile& profile, const Antennas& antennas, double dro
   }
 }
 
-/// Where the ground is at a distance from that of point i to that of the next.
+/// The ground at a distance that lies between those of point i and of the next.
 inline ProfilePoint ground_between(const Profile& profile, std::size_t i, double distance_m) {
   const ProfilePoint &a = profile.points[i], &b = profile.points[i + 1];
   if (distance_m == a.distance_m) return a;

@@ -12,7 +12,7 @@ namespace itin::profile {
 
 namespace {
 
-/// More than rounding moves a clearance, metres.
+/// Rounding changes a clearance by less than this, in metres.
 constexpr double kClearanceRounding = 1e-6;
 
 class Walk {
@@ -39,14 +39,15 @@ class Walk {
   }
 
  private:
-  /// SightLines look along a line from its lesser end in (x, y); so does this, to agree to the last bit.
+  /// Whether the walk is from the last point to the first. SightLines look along a line from its lesser end in (x, y);
+  /// so does this, to agree to the last bit.
   static bool runs_backwards(const Profile& profile) {
     if (profile.points.empty()) return false;
     const ProfilePoint &a = profile.points.front(), &b = profile.points.back();
     return std::tie(b.x, b.y) < std::tie(a.x, a.y);
   }
 
-  /// Ends at one place have no ground between them: only that at the ends counts.
+  /// Finds the clearance over ends at one place, which have no ground between them: only the ground at the ends counts.
   std::optional<LineClearance> over_ends() {
     for (const ProfilePoint* p : {&profile_.points.front(), &profile_.points.back()})
       if (p->distance_m == 0 || p->distance_m == profile_.length_m) consider(*p, clearance_over(*p));
@@ -69,8 +70,8 @@ class Walk {
     result_.critical = p;
   }
 
-  /// Whether a place between two points may have less clearance than all points: over straight ground it lies below
-  /// that of both points by no more than the Earth bulges between them.
+  /// Whether a place between two points may have less clearance than all points. Over straight ground the clearance is
+  /// less than at both points by no more than the Earth bulges between them.
   bool may_be_least(std::size_t i) const {
     const double width = profile_.points[i + 1].distance_m - profile_.points[i].distance_m;
     const double bulge = drop_ * width * width / 4;

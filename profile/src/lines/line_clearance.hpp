@@ -1,4 +1,4 @@
-// The ray over a profile: its least clearance, and where that is.
+// The least clearance of a ray over a profile, and the place where it occurs.
 #pragma once
 
 #include <optional>
@@ -11,11 +11,11 @@ namespace itin::profile {
 
 struct LineClearance {
   double clearance_m = 0;  ///< least, both ends included; negative where the ray is cut
-  ProfilePoint critical;   ///< there, on the ground; its theme and feature are those of what stands there
+  ProfilePoint critical;   ///< its place on the ground; theme and feature are those of what stands there
 };
 
-/// Nothing where the profile has no points. Between two joined points the clearance is a quadratic of the distance,
-/// convex, so that its least value is in closed form. O(n).
+/// Finds the least clearance; nothing where the profile has no points. Between two joined points the clearance is a
+/// convex quadratic of the distance, so that its least value is in closed form. O(n).
 std::optional<LineClearance> line_clearance(const Profile& profile, const Antennas& antennas, const Earth& earth);
 
 }  // namespace itin::profile

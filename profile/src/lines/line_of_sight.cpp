@@ -53,7 +53,7 @@ class SightLines::Impl {
   }
 
  private:
-  /// Ends at one place have no ground between them: only that at the ends counts.
+  /// Considers ends at one place, which have no ground between them: only the ground at the ends counts.
   static void consider_ends(const LineOverGround& line, const SectionPiece& piece, LeastClearance& least) {
     for (const SectionCrossing* c : {&piece.from, &piece.to})
       if (c->t == 0 || c->t == 1) least.consider(line, GroundPoint{c->distance, c->position.z});

@@ -12,23 +12,23 @@ namespace itin::profile {
 
 namespace {
 
-/// Microseconds, as measured (benchmarks/HISTORY.md).
+/// Costs in microseconds, as measured (benchmarks/HISTORY.md).
 struct Costs {
-  double shared_point;  ///< to read it for all
-  double triangle;      ///< by how much retrieving one takes longer than walking through one that is shared
+  double shared_point;  ///< to read one point for all links
+  double triangle;      ///< how much longer retrieving a triangle takes than walking through a shared one
 };
 constexpr Costs kTriangulated{1.2, 0.7}, kLattice{0.06, 0.33};
-/// Links whose ground is asked for.
+/// The number of links whose ground is looked at.
 constexpr std::size_t kSamples = 16;
-/// A random line crosses so many edges of a Delaunay triangulation per mean spacing of its points (64 / (3 pi^2)).
+/// A random line crosses this many edges of a Delaunay triangulation per mean spacing of its points (64 / (3 pi^2)).
 constexpr double kEdgesPerSpacing = 2.16;
-/// Metres: the side of the squares in which ground counts as met, about that of a tile.
+/// The side, in metres, of the squares in which ground counts as met, about that of a tile.
 constexpr double kSquare = 2000;
 
-/// The work that all links are, one way or the other.
+/// The work that all links take, one way or the other.
 struct Work {
-  double points = 0;     ///< about the links, each once
-  double triangles = 0;  ///< crossed by them
+  double points = 0;     ///< about the links, each counted once
+  double triangles = 0;  ///< crossed by the links
 };
 
 Work work_of(const Store& store, const Detail& detail, const std::vector<Link>& links, const Box& ground) {
@@ -36,7 +36,7 @@ Work work_of(const Store& store, const Detail& detail, const std::vector<Link>& 
   double length = 0;
   for (const Link& link : links) {
     const double dx = link.to.x - link.from.x, dy = link.to.y - link.from.y, own = std::hypot(dx, dy);
-    if (!(own < ground.width() + ground.height())) continue;  // leaves the data, or is no line at all
+    if (!(own < ground.width() + ground.height())) continue;  // it leaves the data, or is no line at all
     length += own;
     const int steps = static_cast<int>(2 * own / kSquare) + 1;
     for (int i = 0; i <= steps; ++i) {

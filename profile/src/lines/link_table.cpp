@@ -1,4 +1,4 @@
-// Links from files.
+// Reads links from files.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -30,7 +30,7 @@ constexpr std::size_t kLinkColumns = 7;
 constexpr std::array<const char*, kLinkColumns> kLinkNames = {"id", "x1", "y1", "h1", "x2", "y2", "h2"};
 constexpr const char* kUtf8Mark = "\xEF\xBB\xBF";
 
-/// Columns that a header may have besides those.
+/// Columns that a header may have besides kLinkNames.
 enum class Extra { kName1, kName2, kFrequency, kPolarisation, kCriteria };
 struct ExtraName {
   const char* name;
@@ -48,10 +48,10 @@ constexpr ExtraName kExtraNames[] = {
 /// The columns of a link table.
 struct Columns {
   std::array<std::size_t, kLinkColumns> of{0, 1, 2, 3, 4, 5, 6};  ///< the cell that each of kLinkNames is in
-  bool named = false;                                             ///< by a header, and not in the usual order
+  bool named = false;                                             ///< named by a header, else in the usual order
   bool numbered = false;    ///< no column is an id: links have the numbers of their rows
   bool geographic = false;  ///< positions are longitude and latitude
-  bool written = false;     ///< x1 and y1 are one cell as written_position() has it
+  bool written = false;     ///< whether x1 and y1 are one cell, as written_position() reads it
   std::vector<std::pair<std::size_t, Extra>> extras;
   std::vector<std::size_t> others;
 };
@@ -63,7 +63,7 @@ std::optional<std::size_t> column_of(const std::vector<std::string>& names, cons
   return static_cast<std::size_t>(found - names.begin());
 }
 
-/// Sorts the columns that hold no link's ends.
+/// Sorts the columns that hold no part of a link's ends.
 void add_further(const std::vector<std::string>& names, Columns& columns) {
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (std::find(columns.of.begin(), columns.of.end(), i) != columns.of.end()) continue;
@@ -77,7 +77,7 @@ void add_further(const std::vector<std::string>& names, Columns& columns) {
   }
 }
 
-/// The column of an end's position as people write it.
+/// The column of an end's position written as people do.
 std::optional<std::size_t> written_column(const std::vector<std::string>& names, const char* end) {
   for (const char* name : {"position", "gridref", "grid_ref", "ngr"})
     if (const auto found = column_of(names, (std::string(name) + end).c_str())) return found;
@@ -90,8 +90,8 @@ std::optional<std::size_t> id_column(const std::vector<std::string>& names) {
   return std::nullopt;
 }
 
-/// By name where a header has any of them, x1 and y1 or what position_columns() or written_column() have in place of
-/// them. Else the columns are in the usual order.
+/// Finds the columns by name where a header has any of them: x1 and y1, or what position_columns() or written_column()
+/// accept in place of these. Otherwise the columns are in the usual order.
 Columns columns_of(const std::vector<std::string>& names, const std::string& path) {
   const auto from = position_columns(names, "1"), to = position_columns(names, "2");
   Columns columns;
@@ -112,14 +112,14 @@ Columns columns_of(const std::vector<std::string>& names, const std::string& pat
                                  path, fmt::join(missing, ", ")));
   const auto id = id_column(names);
   columns.numbered = columns.named && !id;
-  const std::size_t first = id.value_or(h1.value_or(0));  // h1 besides: a column that nothing else is taken for
+  const std::size_t first = id.value_or(h1.value_or(0));  // h1 a second time, so that no other column is taken
   if (columns.written) columns.of = {first, *position1, *position1, *h1, *position2, *position2, *h2};
   if (from && to) columns.of = {first, from->x, from->y, *h1, to->x, to->y, *h2};
   add_further(names, columns);
   return columns;
 }
 
-/// A first line with no number where the coordinates are is a header.
+/// Whether a first line is a header: it is if no number stands where the coordinates are.
 bool is_header(const std::vector<std::string>& cells, char separator) {
   return std::none_of(cells.begin() + 1, cells.end(),
                       [&](const std::string& cell) { return number_in(cell, separator).has_value(); });
@@ -132,7 +132,7 @@ std::vector<Criterion> criteria_in(const std::string& cell) {
   return criteria;
 }
 
-/// `numbers`: the cell with decimal points.
+/// Sets a value of the link; `numbers` is the cell with decimal points.
 void set(Extra extra, const std::string& cell, const std::string& numbers, Link& link) {
   switch (extra) {
     case Extra::kName1:
@@ -163,7 +163,7 @@ class TableReader {
   void read() {
     std::string line;
     std::size_t row = 0;
-    bool first = true;  // until a line that is not blank has been read
+    bool first = true;  // before a line that is not blank has been read
     for (std::size_t number = 1; std::getline(file_, line); ++number) {
       if (number == 1 && line.starts_with(kUtf8Mark)) line.erase(0, 3);
       if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
@@ -218,13 +218,13 @@ class TableReader {
     return CoordinateTransform(written->crs, to_crs_)(written->position);
   }
 
-  /// Frequencies and criteria are numbers, too.
+  /// Returns the cell with decimal points, for frequencies and criteria are numbers, too.
   std::string with_points(std::string cell) const {
     if (separator_ != ',') std::replace(cell.begin(), cell.end(), ',', '.');
     return cell;
   }
 
-  /// `header` is empty where there is none.
+  /// Learns the columns; `header` is empty where there is none.
   void understand(const std::vector<std::string>& header) {
     columns_ = columns_of(header, path_);
     width_ = columns_.named ? header.size() : std::max(header.size(), kLinkColumns);

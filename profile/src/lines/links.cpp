@@ -56,7 +56,7 @@ void require_ground_at_ends(const Profile& profile, const Link& link) {
   throw InputError(fmt::format("no ground under its {} end, {:.10g} {:.10g}", first ? "first" : "second", p.x, p.y));
 }
 
-/// `along(bare)` is the link's cross-section over the surface, or over the ground without what stands on it.
+/// Surveys a link. `along(bare)` is its cross-section over the surface, or over the ground without what stands on it.
 template <class Along>
 LinkResult survey(const Store& store, const LinkQuery& query, const Link& link, const Along& along) {
   const CrossSection section = along(false);
@@ -76,7 +76,7 @@ LinkResult survey(const Store& store, const LinkQuery& query, const Link& link, 
   return result;
 }
 
-/// Many links over one surface.
+/// Surveys many links over one surface.
 class Surfaces {
  public:
   Surfaces(const Store& store, const LinkQuery& query, const std::vector<Link>& links) : store_(store), query_(query) {
@@ -96,11 +96,11 @@ class Surfaces {
  private:
   const Store& store_;
   const LinkQuery& query_;
-  std::optional<SectionSurface> surface_;  ///< where none, every link is retrieved by itself
+  std::optional<SectionSurface> surface_;  ///< nothing: every link is retrieved by itself
   std::optional<SectionSurface> ground_;
 };
 
-/// Links that lie near each other come near each other, so that what one has read is at hand for the next.
+/// Orders links so that those near each other follow each other, and the next finds at hand what one has read.
 std::vector<std::size_t> by_place(const std::vector<Link>& links) {
   constexpr double kSide = 5000;
   const auto cell = [](double v) { return static_cast<std::int64_t>(std::floor(v / kSide)); };

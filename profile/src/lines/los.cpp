@@ -102,7 +102,7 @@ LosReport analyse(Profile profile, const LosQuery& query, Profile ground) {
   }
   static_cast<LineFindings&>(report) = all_findings({report.profile, report.antennas, report.stands_on}, query);
   add_curves(report);
-  // Clutter is for the losses alone, which leave it out of horizons and smooth heights.
+  // Clutter counts for the losses alone, whose horizons and smooth heights leave it out.
   const Profile* under = report.ground.points.empty() ? nullptr : &report.ground;
   report.losses =
       losses_over(clutter ? report.ground : report.profile, report.antennas, query, clutter ? nullptr : under);

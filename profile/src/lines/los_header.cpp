@@ -41,7 +41,7 @@ void add_sites(const StoreLine& line, LosReport& report) {
   report.geodesic_m = between.distance_m;
 }
 
-/// The features where the sight line is cut or tightest.
+/// Names the features where the sight line is cut or tightest.
 void name_features(const Store& store, LosReport& report) {
   struct Wanted {
     std::vector<Point2> places;
@@ -89,14 +89,14 @@ std::string angle_text(double degrees) {
   return fmt::format("{:.3f}\xC2\xB0", degrees);
 }
 
-/// 51\xC2\xB032'37.3"N.
+/// Writes degrees like 51\xC2\xB032'37.3"N.
 std::string degrees_minutes_seconds(double degrees, char positive, char negative) {
   const auto tenths = static_cast<std::int64_t>(std::llround(std::abs(degrees) * 36000));
   return fmt::format("{}\xC2\xB0{:02}'{:02}.{}\"{}", tenths / 36000, tenths / 600 % 60, tenths / 10 % 60, tenths % 10,
                      degrees < 0 ? negative : positive);
 }
 
-/// A reference of the National Grid where the CRS is that, else of UTM.
+/// A reference of the National Grid where the CRS is the National Grid, else of UTM.
 std::string grid_reference(const LosEnd::Site& site, const std::string& crs_wkt) {
   const std::optional<std::string> reference =
       is_national_grid(crs_wkt) ? national_grid_reference(site.position) : utm_reference(site.lon_lat);
@@ -108,7 +108,7 @@ std::string declination_text(const std::optional<double>& degrees) {
   return fmt::format("{:.2f}\xC2\xB0 {}", std::abs(*degrees), *degrees < 0 ? "W" : "E");
 }
 
-/// Where the magnetic azimuths of a day come from, or why there are none.
+/// Tells where the magnetic azimuths of a day come from, or why there are none.
 std::string magnetic_fact(const LosReport& report, const CalendarDay& day) {
   if (!has_declination(day))
     return fmt::format("no azimuths from it, because the report is of {}; {}", day_text(day), magnetic_model_text());
@@ -116,8 +116,8 @@ std::string magnetic_fact(const LosReport& report, const CalendarDay& day) {
                      declination_text(report.to.site->declination_deg), day_text(day), magnetic_model_text());
 }
 
-/// "31.100\xC2\xB0 grid, 32.440\xC2\xB0 true, 33.1\xC2\xB0 magnetic", the last with no more digits than its model is
-/// good for.
+/// Writes azimuths like "31.100\xC2\xB0 grid, 32.440\xC2\xB0 true, 33.1\xC2\xB0 magnetic". The last has no more digits
+/// than its model justifies.
 std::string azimuths_text(const LosEnd::Site& site) {
   const std::string text =
       fmt::format("{} grid, {} true", angle_text(site.azimuth_grid_deg), angle_text(site.azimuth_true_deg));

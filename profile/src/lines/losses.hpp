@@ -1,4 +1,4 @@
-// The losses of a line, at the points that a report takes.
+// Computes the losses of a line, at the points that a report uses.
 #pragma once
 
 #include <optional>
@@ -7,8 +7,8 @@
 
 namespace itin::profile {
 
-/// `bare`: the ground under raised features, if there are any. Nothing without a frequency or a length, and where an
-/// antenna is within a feature.
+/// Returns the losses; nothing without a frequency or a length, and where an antenna is within a feature. `bare` is the
+/// ground under raised features, if there are any.
 std::optional<PathLosses> losses_over(const Profile& profile, const Antennas& antennas, const LosQuery& query,
                                       const Profile* bare);
 

@@ -15,7 +15,7 @@ namespace {
 /// The part of a piece where the clearance is negative, if any: [first, second] within [from, to].
 std::optional<std::pair<double, double>> cut_part(const ClearancePiece& p) {
   const bool at_from = p.at(p.from) < 0, at_to = p.at(p.to) < 0;
-  if (at_from && at_to) return std::pair{p.from, p.to};  // convex: negative all between
+  if (at_from && at_to) return std::pair{p.from, p.to};  // convex: negative everywhere between
   const double lowest_at = p.least_within(p.from, p.to);
   if (p.at(lowest_at) >= 0) return std::nullopt;
   const auto border = [&](double outside, double inside) {
@@ -46,14 +46,15 @@ class Gathering {
     }
     last_open_ = to == piece.to;
     last_ = i + 1;
-    // A vertical face begins where this piece ends: the next piece is one farther on.
+    // If a vertical face begins where this piece ends, the next piece is one farther on.
     while (last_ + 1 < profile_.points.size() &&
            profile_.points[last_ + 1].distance_m == profile_.points[last_].distance_m) {
       ++last_;
     }
   }
 
-  /// The verdict is the clearance's; obstructions thinner than its rounding error follow it.
+  /// Returns the obstructions. Whether there are any follows from the clearance: an obstruction thinner than its
+  /// rounding error is left out or added accordingly.
   std::vector<Obstruction> finish(const LineClearance& least) {
     std::erase_if(found_, [](const Obstruction& o) { return o.depth_m <= kGrazing; });
     if (least.clearance_m < -kGrazing && found_.empty()) {

@@ -1,4 +1,4 @@
-// What stands in the way of a ray over a profile.
+// Finds what stands in the way of a ray over a profile.
 #pragma once
 
 #include <vector>
@@ -12,9 +12,9 @@
 
 namespace itin::profile {
 
-/// In order of distance. `least` is the ray's line_clearance(): where it cuts the ray there is at least one
-/// obstruction, and where it does not there is none. Over a piece of ground an obstruction begins and ends at the roots
-/// of a quadratic. O(n).
+/// Returns the obstructions in order of distance. `least` is the ray's line_clearance(). Where it cuts the ray there is
+/// at least one obstruction, and where it does not there is none. Over a piece of ground an obstruction begins and ends
+/// at the roots of a quadratic. O(n).
 std::vector<Obstruction> obstructions(const Profile& profile, const Antennas& antennas, const Earth& earth,
                                       const LineClearance& least);
 

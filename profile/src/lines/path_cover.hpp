@@ -1,4 +1,4 @@
-// What a path crosses, by theme.
+// Measures what a path crosses, by theme.
 #pragma once
 
 #include <cstdint>

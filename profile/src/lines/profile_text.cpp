@@ -10,7 +10,7 @@ namespace itin::profile {
 
 namespace {
 
-/// Less than the text's last digit.
+/// A height below this does not reach the text's last digit.
 constexpr double kNothing = 0.005;
 
 std::vector<double> distances_of(const Profile& surface, const Profile& ground) {
@@ -21,7 +21,7 @@ std::vector<double> distances_of(const Profile& surface, const Profile& ground) 
   return distances;
 }
 
-/// The theme of the highest point at a distance or, between points, of what stands there.
+/// The theme of the highest point at a distance or, between points, of what stands between them.
 std::uint16_t highest_theme_at(const Profile& surface, double distance_m) {
   const auto& points = surface.points;
   const auto after = std::upper_bound(points.begin(), points.end(), distance_m,

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// A linear function of t = distance / length by its values at 0 and 1.
+/// A linear function of t = distance / length, given by its values at 0 and 1.
 struct Line {
   double start = 0, end = 0;
   double at(double t) const { return start * (1 - t) + end * t; }
@@ -20,8 +20,8 @@ struct Line {
 };
 
 /// The height that the ray must reach: the ground, the bulge of the Earth and a share of the Fresnel zone. Between two
-/// points of the profile it is concave, so that (demand - base) / weight, both linear and weight > 0, rises, then
-/// falls.
+/// points of the profile it is concave. So (demand - base) / weight, where base and weight are linear and weight > 0,
+/// rises, then falls.
 class Demand {
  public:
   Demand(const Profile& profile, const Requirement& requirement)
@@ -43,7 +43,7 @@ class Demand {
       stretches_.push_back(stretch(first, std::min(nodes_.size(), first + kNodes)));
   }
 
-  /// The least factor such that base + factor * weight meets the demand everywhere; infinity where none does, and
+  /// The least factor such that base + factor * weight meets the demand everywhere; infinity where no factor does, and
   /// minus infinity where every one does.
   double peak(const Line& base, const Line& weight) const {
     double best = -kInfinity;
@@ -52,7 +52,7 @@ class Demand {
         if (!is_less(missing_at(i, base), weight.at(nodes_[i].t), best))
           best = std::max(best, ratio_at(i, base, weight));
     });
-    // Most pieces have certainly less than the greatest of all points.
+    // Most pieces certainly have less than the greatest ratio of all points.
     for_each_stretch(base, weight, best, [&](const Stretch& s) {
       for (std::size_t i = s.first; i < s.end; ++i)
         if (nodes_[i].slope_on && !is_less_inside(i, base, weight, best))
@@ -62,7 +62,7 @@ class Demand {
   }
 
  private:
-  /// What is demanded over the ground.
+  /// The demand above the ground.
   struct Above {
     double height, slope;
   };
@@ -82,7 +82,7 @@ class Demand {
     return {bulge.height + radius_ * root, bulge.slope + radius_ * (1 - 2 * t) / (2 * root)};
   }
 
-  /// Nodes one after another, and the pieces of ground that begin at them.
+  /// Nodes one after another, and the pieces of ground that begin at these nodes.
   struct Stretch {
     std::size_t first, end;
     double from_t, to_t;
@@ -95,7 +95,7 @@ class Demand {
       s.highest = std::max(s.highest, nodes_[i].slope_on ? most_missing_inside(i, {}) : missing_at(i, {}));
     return s;
   }
-  /// Leaves out stretches where every ratio is certainly less than `best` is by then.
+  /// Leaves out stretches where every ratio is certainly less than the current `best`.
   template <class Visit>
   void for_each_stretch(const Line& base, const Line& weight, const double& best, const Visit& visit) const {
     for (const Stretch& s : stretches_) {
@@ -104,7 +104,7 @@ class Demand {
     }
   }
 
-  /// The weight between two places with which a height that is missing at most makes the greatest ratio.
+  /// The weight between two places that makes the ratio greatest for a missing height of at most `most`.
   static double divisor_of(double most, const Line& weight, double from_t, double to_t) {
     const double first = weight.at(from_t), last = weight.at(to_t);
     return most > 0 ? std::min(first, last) : std::max(first, last);
@@ -113,7 +113,8 @@ class Demand {
   double missing_at(std::size_t i, const Line& base) const {
     return nodes_[i].ground + nodes_[i].above.height - base.at(nodes_[i].t);
   }
-  /// No more is missing along the piece that begins here: by its tangent there, above which what is concave never is.
+  /// The most that may be missing along the piece that begins here, by its tangent at the point: a concave function is
+  /// never above its tangent.
   double most_missing_inside(std::size_t i, const Line& base) const {
     const Node &from = nodes_[i], &to = nodes_[i + 1];
     return missing_at(i, base) + std::max(0.0, *from.slope_on + from.above.slope - base.slope()) * (to.t - from.t);
@@ -125,8 +126,9 @@ class Demand {
     return missing < (best - kRatioRounding) * weight;
   }
 
-  /// At an end where the weight is 0 no factor helps: what is missing there makes the demand impossible, and where
-  /// ray and ground just meet, the ratio has a limit (L'Hopital), which the piece beside it determines.
+  /// The ratio at a point. At an end where the weight is 0 no factor helps. If anything is missing there, the demand is
+  /// impossible. Where ray and ground just meet, the ratio has a limit (L'Hopital), which the piece beside the end
+  /// determines.
   double ratio_at(std::size_t i, const Line& base, const Line& weight) const {
     const double missing = missing_at(i, base), divisor = weight.at(nodes_[i].t);
     if (divisor > 0) return missing / divisor;
@@ -145,8 +147,8 @@ class Demand {
     return is_less(most, divisor_of(most, weight, nodes_[i].t, nodes_[i + 1].t), best);
   }
 
-  /// The derivative's numerator falls along the piece: a maximum lies inside only if it changes sign. Minus infinity
-  /// where there is none.
+  /// The greatest ratio inside the piece; minus infinity where none lies inside. The derivative's numerator falls along
+  /// the piece, so a maximum lies inside only if it changes sign.
   double ratio_inside(std::size_t i, const Line& base, const Line& weight) const {
     const Node &from = nodes_[i], &to = nodes_[i + 1];
     const double slope_of_ground = *from.slope_on;
@@ -173,7 +175,7 @@ class Demand {
   std::vector<Stretch> stretches_;
 };
 
-/// Demands on heights above the grounds of the two ends.
+/// Demands on heights, counted from the grounds of the two ends.
 class HeightDemand {
  public:
   HeightDemand(const Profile& profile, const Requirement& requirement, const EndGrounds& grounds)
@@ -194,7 +196,8 @@ class HeightDemand {
   Line ground_;
 };
 
-/// From nothing up to where the second end needs next to no height, but not beyond three times the equal heights.
+/// The first end's height at which the curve ends: the second end needs next to no height there. It is at most about
+/// three times the equal heights.
 double curve_end(const HeightDemand& demand, const PlannedHeights& planned, double both) {
   const double alone = demand.from_alone(0).value_or(3 * both);
   return std::max({std::min(alone, 3 * both), 1.5 * both, planned.from_m, 1.0});

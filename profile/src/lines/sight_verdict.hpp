@@ -1,4 +1,4 @@
-// The verdict on a clearance, by one rule for one line and for many.
+// Gives the verdict on a clearance, by one rule for one line and for many.
 #pragma once
 
 #include <cmath>
@@ -9,7 +9,7 @@
 
 namespace itin::profile {
 
-/// Over known ground alone. A clearance nearer to 0 than `error_m` leaves it open.
+/// The verdict over known ground alone. A clearance nearer to 0 than `error_m` leaves it open.
 inline SightVerdict known_verdict(const Profile& profile, const std::optional<double>& clearance_m, double error_m) {
   if (!profile.has_length() || !clearance_m) return SightVerdict::kVisible;
   if (std::abs(*clearance_m) < error_m) return SightVerdict::kUndecided;

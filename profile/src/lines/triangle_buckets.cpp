@@ -56,7 +56,7 @@ std::vector<std::uint32_t> TriangleBuckets::near(Point2 a, Point2 b) const {
   if (!course.meets(bounds_)) return found;
 
   const double slope = (b.y - a.y) / (b.x - a.x);
-  // The ends come first: within a column of its own, a line due north has no slope.
+  // The ends are treated first, for within a column of its own a line due north has no slope.
   const auto y_at = [&](double x) { return x <= a.x ? a.y : x >= b.x ? b.y : a.y + slope * (x - a.x); };
   const Span across = columns(a.x, b.x);
   for (int column = across.first; column <= across.last; ++column) {

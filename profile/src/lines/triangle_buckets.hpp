@@ -9,7 +9,8 @@
 
 namespace itin::profile {
 
-/// Immutable and safe for concurrent use. About two triangles per bucket; a triangle is in every bucket its box meets.
+/// A grid of buckets. Immutable and safe for concurrent use. It has about two triangles per bucket; a triangle is in
+/// every bucket its box meets.
 class TriangleBuckets {
  public:
   explicit TriangleBuckets(const Tin& tin);

@@ -19,7 +19,7 @@ double clearance_error(const Store& store, const Detail& detail, const ThemeChoi
     if (!error) continue;
     widest.lo = std::min(widest.lo, error->lo), widest.hi = std::max(widest.hi, error->hi);
   }
-  // What is there cuts otherwise into coarse ground.
+  // Flat foundations cut otherwise into coarse ground.
   const Grid& grid = store.metadata().grid;
   const std::int32_t cut = coarsest > 0 ? deepest_cut(feature_cuts(store, themes, box), grid.enclosing(box)) : 0;
   return widest.hi - widest.lo + store.greatest_height_left_out(themes, coarsest, box) + cut * grid.resolution;

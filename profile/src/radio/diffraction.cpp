@@ -12,7 +12,7 @@ namespace itin::profile {
 
 namespace {
 
-// The rounding error of kilometres in decimals, metres: a point given 50 m from an end is not nearer.
+// The rounding error, in metres, of kilometres in decimals: a point given 50 m from an end is not nearer.
 constexpr double kHairM = 1e-6;
 
 enum class Ground { kBare, kWithClutter };
@@ -41,19 +41,20 @@ SmoothHeights smooth_heights(const SmoothEnds& ends) {
   return {ends.hst_m, ends.hsr_m, ends.hstd_m, ends.hsrd_m};
 }
 
-/// Nothing where it costs nothing.
+/// Returns an edge; nothing where it costs nothing.
 std::optional<DiffractionEdge> costly(const PathEdge& edge, double v) {
   if (v <= kFreeV) return std::nullopt;
   return DiffractionEdge{edge.km * 1000, edge.height_m, v, knife_edge_db(v)};
 }
 
-/// The edge with the largest v, if it costs anything.
+/// Returns the edge with the largest v, if it costs anything.
 std::optional<DiffractionEdge> costly_edge(const PathSpan& span, const std::vector<PathEdge>& edges) {
   const PathEdge* edge = largest_v(span, edges);
   return edge == nullptr ? std::nullopt : costly(*edge, span.v(*edge));
 }
 
-/// The main edge, which has the largest v, the one before it and the one behind it, as far as they cost anything.
+/// Returns the main edge, which has the largest v, the one before it and the one behind it, so far as they cost
+/// anything.
 std::vector<DiffractionEdge> deygout_edges(const PathSpan& span, const std::vector<PathEdge>& edges,
                                            const PathEdge* main) {
   const auto of_main = main == nullptr ? std::nullopt : costly(*main, span.v(*main));
@@ -74,8 +75,8 @@ double deygout(const PathSpan& span, const std::vector<DiffractionEdge>& found) 
   return of_main + (1 - std::exp(-of_main / 6)) * (others + correction);
 }
 
-/// The slope towards something `rise_m` higher at d km over the curved Earth, and its elevation angle: P.452-17
-/// equation (152).
+/// The slope towards something `rise_m` higher at d km over the curved Earth, by which the elevation angle of P.452-17
+/// equation (152) is found.
 double slope_to(double rise_m, double d, double curvature) {
   return rise_m / (1000 * d) - curvature * d / 2;
 }
@@ -83,13 +84,13 @@ double elevation_mrad(double slope) {
   return 1000 * std::atan(slope);
 }
 
-/// The steepest of slopes, and where it is. An angle rises with its slope, and is computed for those alone that may
-/// have the largest.
+/// The steepest of slopes, and its distance. An angle rises with its slope, so angles are computed only for slopes that
+/// may have the largest.
 struct Horizon {
   double mrad = -std::numeric_limits<double>::infinity();
   double km = 0;
 
-  /// `wins_ties`: over an equal angle before.
+  /// Considers a slope; `wins_ties` tells whether it wins over an equal angle before.
   void consider(double slope, double at_km, bool wins_ties) {
     constexpr double kSlopeRounding = 1e-12;
     if (slope < steepest - kSlopeRounding) return;

@@ -14,7 +14,8 @@ namespace itin::profile {
 
 namespace {
 
-/// ITU Radio Regulations: radio waves end at 3000 GHz; links, at some 300. Below a megahertz waves follow the ground.
+/// Radio waves end at 3000 GHz by the ITU Radio Regulations, and links at about 300. Below a megahertz waves follow the
+/// ground.
 constexpr double kLeastGhz = 1e-3, kMostGhz = 300;
 
 std::string lower_trimmed(std::string_view text) {
@@ -58,7 +59,7 @@ double parse_frequency_ghz(std::string_view text) {
   if (*number * unit > kMostGhz)
     throw InputError(fmt::format("{:g} GHz is beyond radio links{}", *number * unit,
                                  bare ? fmt::format("; give GHz, {:g}, or {:g}MHz", *number / 1000, *number) : ""));
-  // As if it had been given in GHz: 7500 MHz is 7.5.
+  // The division gives the number that a frequency in GHz would have: 7500 MHz is 7.5.
   return unit == 1 ? *number : unit == 1e-3 ? *number / 1e3 : *number / 1e6;
 }
 

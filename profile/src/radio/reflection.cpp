@@ -11,7 +11,7 @@ namespace itin::profile {
 
 namespace {
 
-/// The line up to a place on it, or from there on, with this place as its end.
+/// The part of the line up to a place on it, or from there on, with this place as its end.
 Profile part_of(const Profile& whole, const ProfilePoint& place, bool before) {
   const double shift = before ? 0 : place.distance_m;
   Profile part;
@@ -29,7 +29,7 @@ Profile part_of(const Profile& whole, const ProfilePoint& place, bool before) {
   return part;
 }
 
-/// What the ground is at a distance where it is known.
+/// The point of the profile's line at a distance where its ground is known.
 ProfilePoint place_at(const Profile& profile, double distance_m, double ground_m) {
   const ProfilePoint &a = profile.points.front(), &b = profile.points.back();
   const double t = distance_m / profile.length_m;
@@ -41,7 +41,8 @@ ProfilePoint place_at(const Profile& profile, double distance_m, double ground_m
   return place;
 }
 
-/// What rises highest above the two legs of the reflected path; or the place itself, where the direct path meets it.
+/// Finds what rises highest above the two legs of the reflected path; or the place itself, where the ground there is
+/// above the direct path.
 void find_screen(const Profile& profile, const Antennas& antennas, const RadioPath& path, const ProfilePoint& place,
                  Reflection& found) {
   Earth earth;
@@ -73,7 +74,7 @@ std::optional<Reflection> reflection(const Profile& profile, const Antennas& ant
   const SmoothPath above{profile.length_m / 1000, antennas.from_m - smooth.hst_m, antennas.to_m - smooth.hsr_m};
   if (above.from_m <= 0 || above.to_m <= 0) return std::nullopt;
   const double radius = path.effective_earth_km, d1 = reflection_km(above, radius), d2 = above.distance_km - d1;
-  // Heights over the plane that touches the surface there.
+  // The heights are taken over the plane that touches the surface at the reflection.
   const double from = above.from_m - 500 * d1 * d1 / radius, to = above.to_m - 500 * d2 * d2 / radius;
   if (from <= 0 || to <= 0) return std::nullopt;
   Reflection found;

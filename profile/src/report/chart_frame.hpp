@@ -25,11 +25,12 @@ struct ChartFrame {
 /// A frame whose axes fill the box; low and high are data.
 ChartFrame make_frame(const Box& box, double x_low, double x_high, double y_low, double y_high);
 
-/// Ticks, their labels and the titles outside the box. `x_label` sets a tick's text from its value and the step.
+/// Draws ticks, their labels and the titles outside the box. `x_label` makes a tick's text from its value and the step.
 void draw_frame(Drawing& drawing, const ChartFrame& frame,
                 const std::function<std::string(double, double)>& x_label = tick_label);
 
-/// Samples of colour with their names, from left to right, starting anew where a line is full.
+/// An item of a legend, which has samples of colour with their names from left to right and starts anew where a line is
+/// full.
 struct LegendItem {
   std::string name;
   Stroke stroke;

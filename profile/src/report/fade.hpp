@@ -1,4 +1,4 @@
-// The line over the Earth that bulges most of those that criteria ask about.
+// Finds the line over the Earth that bulges most among the Earths that criteria ask about.
 #pragma once
 
 #include <string>
@@ -7,14 +7,14 @@
 
 namespace itin::profile {
 
-/// The criterion with the least K, where its Earth bulges more than the report's; null without one.
+/// The criterion with the least K, if its Earth bulges more than the report's; null if there is none.
 const CriterionResult* worst_fade(const LosReport& report);
 
-/// "At K = 0.6667, where 0.3 F1 is wanted: fails by 1.65 F1 (4.81 m)."
+/// Tells about it: "At K = 0.6667, where 0.3 F1 is wanted: fails by 1.65 F1 (4.81 m)."
 std::string fade_line(const CriterionResult& fade);
 
-/// What a drawing needs of the same line over that criterion's Earth; without criteria, losses and reflection, which
-/// are the report's.
+/// Returns what a drawing needs for the same line over that criterion's Earth. It has no criteria, losses and
+/// reflection, which belong to the report's Earth.
 LosReport over_earth_of(const LosReport& report, const CriterionResult& fade);
 
 }  // namespace itin::profile

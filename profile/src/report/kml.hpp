@@ -16,7 +16,7 @@
 
 namespace itin::profile {
 
-/// As KML has colours: aabbggrr. Green, red, amber.
+/// The colour of a verdict in KML's order, aabbggrr: green, red, amber.
 const char* verdict_colour(SightVerdict verdict);
 
 class Kml {
@@ -26,14 +26,14 @@ class Kml {
   /// Positions are in the CRS `crs_wkt`; the description may be empty. Texts are escaped here.
   Kml(const std::string& crs_wkt, const std::string& name, const std::string& description = {});
 
-  /// Before the first line that has it.
+  /// Adds a style; to be called before the first line that has it.
   void style(const std::string& id, const std::string& colour, int width);
   void point(const std::string& name, const Point3& p);
   void line(const std::string& name, const std::string& style_id, const std::vector<Point3>& points,
             const Data& data = {});
   void open_folder(const std::string& name);
   void close_folder();
-  /// The file's text. Nothing can be added afterwards.
+  /// Returns the file's text. Nothing can be added afterwards.
   std::string finish();
 
  private:

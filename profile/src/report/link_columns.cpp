@@ -18,7 +18,7 @@ Value number(const std::optional<double>& value) {
   return value && std::isfinite(*value) ? Value(*value) : Value();
 }
 
-/// Fills in what needs longitude and latitude.
+/// Fills in values that need longitude and latitude.
 void add_directions(LinkRow& row, const std::optional<LinkCourse>& course, const LinkQuery& query) {
   if (row.found() == nullptr || !course) return;
   const Link& link = *row.link;
@@ -48,7 +48,7 @@ bool any(const std::vector<LinkRow>& rows, const std::function<bool(const LinkRo
   return std::any_of(rows.begin(), rows.end(), holds);
 }
 
-/// Builds the list. Those that the contract names come first, in its order.
+/// Builds the list of columns. Columns that the contract names come first, in its order.
 class ColumnList {
  public:
   ColumnList(const LinkSurvey& survey, const std::vector<LinkRow>& rows) : survey_(survey), rows_(rows) {}
@@ -103,7 +103,7 @@ class ColumnList {
     of_result("clearance_m", [](const LinkResult& r) { return number(r.found->least_clearance_m); });
     of_result("critical_m", [](const LinkResult& r) { return distance_to(r.found->lowest); });
   }
-  /// What reports call the critical point.
+  /// Adds the tightest place, which reports call the critical point.
   void add_tightest() {
     of_result("tightest_clearance_m", [](const LinkResult& r) { return number(r.found->clearance_m); });
     of_result("tightest_m", [](const LinkResult& r) { return distance_to(r.found->critical); });
@@ -208,7 +208,7 @@ class ColumnList {
     of("_clearance_f1", kNumber, [](const CriterionResult& c) { return number(c.clearance_f1); });
     of("_margin_m", kNumber, [](const CriterionResult& c) { return number(c.margin_m); });
   }
-  /// Where among the required heights of a link those of a criterion are.
+  /// The place of a criterion's heights among the required heights of a link.
   static Place place_of(const Criterion& criterion) {
     return [criterion](const LinkRow& row) -> std::optional<std::size_t> {
       const CriterionResult* c = result_of(row, criterion);

@@ -1,4 +1,4 @@
-// What is said of each of many links: one list of columns for every format.
+// Lists what is said about each of many links: one list of columns for every format.
 #pragma once
 
 #include <functional>
@@ -16,14 +16,14 @@ namespace itin::profile {
 struct LinkRow {
   std::string id;
   const Link* link = nullptr;          ///< null: the row could not be read
-  const LinkResult* result = nullptr;  ///< null: as above
+  const LinkResult* result = nullptr;  ///< null: the row could not be read
   std::string message;                 ///< what went wrong, where there was an error
   const std::vector<std::string>* others = nullptr;
   std::optional<Geodesic> geodesic;  ///< between the ends on WGS 84
   /// The declination of magnetic north at the ends, on the survey's day.
   std::optional<double> from_declination_deg = {}, to_declination_deg = {};
 
-  /// Null where the link could not be computed.
+  /// The findings; null where the link could not be computed.
   const LineFindings* found() const { return result != nullptr && result->found ? &*result->found : nullptr; }
 };
 std::vector<LinkRow> link_rows(const LinkSurvey& survey);
@@ -35,10 +35,10 @@ struct LinkColumn {
 };
 std::vector<LinkColumn> link_columns(const LinkSurvey& survey, const std::vector<LinkRow>& rows);
 
-/// "visible", "hidden", "undecided" or "error".
+/// Returns "visible", "hidden", "undecided" or "error".
 std::string verdict_of(const LinkRow& row);
 
-/// One page.
+/// Draws the summary, one page.
 std::string link_summary(const LinkSurvey& survey, const std::vector<LinkRow>& rows);
 
 }  // namespace itin::profile

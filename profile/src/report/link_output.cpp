@@ -42,7 +42,7 @@ std::string links_csv(const std::vector<LinkRow>& rows, const std::vector<LinkCo
   return csv;
 }
 
-/// From antenna to antenna.
+/// The line from antenna to antenna.
 std::vector<Point3> line_of(const LinkRow& row) {
   const Link& link = *row.link;
   const EndGrounds& ground = row.result->stands_on;

@@ -1,4 +1,4 @@
-// Many links on one page: those that want attention first.
+// Shows many links on one page: first the links that need attention.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -15,7 +15,7 @@ namespace itin::profile {
 
 namespace {
 
-/// The criterion that is missed by most, or met by least; null without any.
+/// The criterion that is missed by most, or met by least; null if there is none.
 const CriterionResult* governing(const LineFindings& found) {
   const auto rank = [](const CriterionResult& c) {
     constexpr int kRanks[] = {2, 0, 1};  // meets, fails, undecided
@@ -27,7 +27,7 @@ const CriterionResult* governing(const LineFindings& found) {
   return worst == found.criteria.end() ? nullptr : &*worst;
 }
 
-/// Lower wants attention sooner.
+/// Ranks a row: one with a lower number needs attention sooner.
 int urgency(const LinkRow& row) {
   if (row.found() == nullptr) return 0;
   if (row.found()->verdict != SightVerdict::kVisible) return row.found()->verdict == SightVerdict::kHidden ? 1 : 2;

@@ -20,8 +20,8 @@ Document cause(const LosReport& report, std::uint16_t theme) {
   return cause_of(report, theme);
 }
 
-/// Adds the feature's name by its source, its number from 0 in the order of import, and its id; null where there is
-/// none.
+/// Adds the feature's name by its source, its number from 0 in the order of import, and its id; null where there is no
+/// feature.
 void add_feature(const LosReport& report, std::uint16_t theme, std::int64_t number, Document& document) {
   const auto known = report.features.find({theme, number});
   const bool found = known != report.features.end();
@@ -43,7 +43,7 @@ Document place_document(const LosReport& report, const std::optional<ProfilePoin
   return document;
 }
 
-/// What reports call the critical point.
+/// The document of the tightest place, which reports call the critical point.
 Document tightest_document(const LosReport& report, const LineFindings& found) {
   Document place = place_document(report, found.critical);
   if (found.critical) place["clearance_m"] = number_or_null(found.clearance_m);
@@ -158,7 +158,7 @@ Document radio_document(const LosReport& report) {
   return radio;
 }
 
-/// Metres by theme.
+/// The document of the metres over each theme.
 Document cover_document(const LosReport& report) {
   Document cover = Document::array();
   for (const ThemeLength& part : path_cover(report.profile))

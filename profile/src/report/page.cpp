@@ -101,7 +101,7 @@ std::vector<std::string> PageColumn::note_lines(const Table& table) const {
   return drawing_.lines(table.note, width_, kNote);
 }
 
-/// The widths that the columns' texts need; where that is too much, the widest give way.
+/// The widths that the columns' texts need. Where they are too wide together, the widest give way.
 std::vector<double> PageColumn::column_widths(const Table& table) const {
   const std::size_t columns = table.header.empty() ? table.rows.front().size() : table.header.size();
   std::vector<double> widths(columns, 0);

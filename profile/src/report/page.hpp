@@ -12,7 +12,7 @@
 
 namespace itin::profile {
 
-// A4 across.
+// The size is A4 in landscape.
 inline constexpr double kWidth = 842, kHeight = 595, kMargin = 36;
 
 inline const Lettering kPlain{8.5, kReportInk, Align::kLeft, false, 0}, kBold{8.5, kReportInk, Align::kLeft, true, 0};
@@ -20,13 +20,13 @@ inline const Lettering kPlain{8.5, kReportInk, Align::kLeft, false, 0}, kBold{8.
 /// The pages of a PDF, each with its number: "Page 1 of 3".
 class Pages {
  public:
-  /// `count`: how many there will be.
+  /// `count` is the number of pages that there will be.
   explicit Pages(int count);
 
   Drawing& drawing() { return drawing_; }
-  /// Goes on to another one.
+  /// Goes on to another page.
   void begin_page();
-  /// So far.
+  /// The number of pages so far.
   int count() const { return page_; }
 
  private:
@@ -35,19 +35,19 @@ class Pages {
   Drawing drawing_;
   int page_ = 1, count_;
 };
-/// The bytes of the PDF that `draw` draws; it is called twice, first to count the pages.
+/// Returns the bytes of the PDF that `draw` draws; it is called twice, first to count the pages.
 std::string numbered_pdf(const std::function<void(Pages&)>& draw);
 
-/// Smaller where it would not fit, and cut where it must be.
+/// Draws a title, smaller where it would not fit, and cut where it must be.
 void draw_title(Drawing& drawing, const std::string& title);
-/// Below the title, in as many lines as it takes. Returns where the last one stands.
+/// Draws text below the title, in as many lines as it takes. Returns where the last one stands.
 double draw_headline(Drawing& drawing, const std::string& text);
 
 using Facts = std::vector<std::pair<std::string, std::string>>;  ///< name, value
 inline constexpr double kFactRow = 11;
-/// The facts broken into lines of the page's width: the first of each with its name.
+/// Breaks the facts into lines of the page's width; the first line of each has its name.
 Facts fact_lines(const Drawing& drawing, const Facts& facts);
-/// Lines of facts from `y` on.
+/// Draws lines of facts from `y` on.
 void draw_facts(Drawing& drawing, const Facts& lines, double y);
 
 /// Sets tables one below the other in a column.
@@ -58,7 +58,7 @@ class PageColumn {
 
   double y() const { return y_; }
   bool has_room_for(const Table& table, double bottom = kHeight - kMargin) const;
-  /// How many rows of such a table fit.
+  /// The number of rows of such a table that fit.
   std::size_t rows_that_fit(const Table& table, double bottom) const;
   void set(const Table& table);
 

@@ -16,10 +16,10 @@ namespace itin::profile {
 
 namespace {
 
-/// They leave room on a page for the places that have names, where the report leaves the spacing open.
+/// The rows at the table's own spacing where the report leaves that open; they leave room on a page for named places.
 constexpr int kUsualRows = 30;
 constexpr double kMostRows = 10000;
-/// Nearer places are one row, metres: no digit tells them apart.
+/// Places nearer to each other than this, in metres, share one row: no digit tells them apart.
 constexpr double kOneRow = 0.05;
 
 std::string share_text(double part, double whole) {
@@ -69,7 +69,7 @@ Table reflection_table(const LosReport& report) {
   return table;
 }
 
-/// A place on the line, and what the report calls it; empty at the table's own spacing.
+/// A place on the line, and its name in the report; the name is empty at the table's own spacing.
 struct NamedPlace {
   double distance_m = 0;
   std::string name;
@@ -87,7 +87,7 @@ std::vector<NamedPlace> named_places(const LosReport& report) {
   return places;
 }
 
-/// As asked for, or 1, 2 or 5 times a power of ten, at most kUsualRows of which make up the length.
+/// The spacing as asked for, or 1, 2 or 5 times a power of ten that divides the length into at most kUsualRows.
 double spacing_of(const LosReport& report) {
   const double length = report.profile.length_m,
                spacing = report.table_spacing_m.value_or(Axis{0, length}.step(kUsualRows));
@@ -97,7 +97,7 @@ double spacing_of(const LosReport& report) {
   return spacing;
 }
 
-/// In order; names of one place are joined.
+/// Returns the places in order, where the names of one place are joined.
 std::vector<NamedPlace> places_at(const LosReport& report, double spacing) {
   std::vector<NamedPlace> all = named_places(report);
   for (int i = 1; i * spacing < report.profile.length_m; ++i) all.push_back({i * spacing, ""});

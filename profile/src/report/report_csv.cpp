@@ -17,13 +17,13 @@ std::string digits(double value, int decimals) {
   return std::isfinite(value) ? fmt::format("{:.{}f}", value, decimals) : "";
 }
 
-/// Metres without data between a point and the next.
+/// The metres without data between a point and the next one.
 double gap_behind(const Profile& profile, std::size_t i) {
   if (i + 1 == profile.points.size() || profile.joined(i)) return 0;
   return profile.points[i + 1].distance_m - profile.points[i].distance_m;
 }
 
-/// The classes of rasters: 0 hidden, 1 visible, 2 undecided.
+/// The mark of a point beyond a gap, in the classes of rasters: 0 hidden, 1 visible, 2 undecided.
 char seen_beyond(NoData rule) {
   return rule == NoData::kUnknown ? '2' : rule == NoData::kBlock ? '0' : '1';
 }
@@ -38,13 +38,13 @@ std::string report_csv(const LosReport& report) {
   std::string csv =
       "distance_m,x,y,lon,lat,ground_m,feature_top_m,bulge_m,ray_m,f1_m,clearance_m,clearance_f1,v,visible,"
       "theme,gap_m\n";
-  char beyond_gaps = '1';  // what is seen of a point that no known ground hides
+  char beyond_gaps = '1';  // the mark of a point that no known ground hides
   double steepest = -std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < report.profile.points.size(); ++i) {
     const ProfilePoint& p = report.profile.points[i];
     const double d = p.distance_m, bulge = drop * d * (length - d), ray = ray_elevation_m(report, d);
     const double clearance = ray - p.ground_m - bulge, radius = fresnel_radius_m(d, length - d, wavelength);
-    // Seen from the first end: no ground before it rises higher.
+    // A point is seen from the first end where no ground before it rises higher.
     const double slope = d > 0 ? (p.ground_m - report.antennas.from_m) / d - drop * d : steepest;
     const bool visible = slope >= steepest;
     const double gap = gap_behind(report.profile, i);

@@ -1,5 +1,5 @@
-// The drawing as a page: SVG and PNG have one, the PDF adds that of the worst fade, tables, the trade-off chart, and
-// the profile as a table.
+// Draws the report as pages. SVG and PNG have one page; the PDF adds that of the worst fade, tables, the trade-off
+// chart, and the profile as a table.
 #include <algorithm>
 
 #include <fmt/format.h>
@@ -40,7 +40,7 @@ void draw_first_page(Drawing& drawing, const LosReport& report) {
 
 constexpr double kBelowTitle = 62;
 
-/// The drawing over the Earth of the worst fade that a criterion asks about.
+/// Draws the line over the Earth of the worst fade that a criterion asks about.
 void draw_fade_page(Pages& pages, const LosReport& report) {
   const CriterionResult* fade = worst_fade(report);
   if (fade == nullptr) return;
@@ -51,7 +51,7 @@ void draw_fade_page(Pages& pages, const LosReport& report) {
   draw_sight_chart(drawing, {kMargin, top, kWidth - kMargin, kHeight - kMargin}, over_earth_of(report, *fade));
 }
 
-/// Two columns of tables per page, and as many pages as they take.
+/// Draws two columns of tables per page, on as many pages as they take.
 class TablePages {
  public:
   TablePages(Pages& pages, const LosReport& report) : pages_(pages), drawing_(pages.drawing()), report_(report) {

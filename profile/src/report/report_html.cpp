@@ -1,4 +1,4 @@
-// One self-contained page: drawings are embedded as images, nothing is fetched.
+// Writes one self-contained page: drawings are embedded as images, nothing is fetched.
 #include <string_view>
 
 #include <fmt/format.h>

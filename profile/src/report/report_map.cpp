@@ -1,4 +1,4 @@
-// The report on the map: KML for globes, layers for GeoPackage.
+// Puts the report on the map: KML for globes, layers for GeoPackage.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -32,7 +32,7 @@ class Path {
     const double scale = length > 0 ? aside / length : 0;
     return {from_.x + dx * t + dy * scale, from_.y + dy * t - dx * scale};
   }
-  /// Elevation above the datum: the ray is straight over the effective Earth, whose bulge it has below it.
+  /// The elevation above the datum: the ray is straight over the effective Earth, and its bulge is subtracted.
   double elevation(double d) const {
     return ray_elevation_m(report_, d) - report_.query.earth.drop_coefficient() * d * (report_.profile.length_m - d);
   }
@@ -46,7 +46,7 @@ class Path {
     return line;
   }
   std::vector<Point3> ray_line() const { return ray_line(0, report_.profile.length_m); }
-  /// One for each stretch of known ground.
+  /// Returns one line for each stretch of known ground.
   std::vector<std::vector<Point3>> ground_lines() const {
     const Profile& profile = report_.profile;
     std::vector<std::vector<Point3>> lines;

@@ -28,7 +28,7 @@ constexpr Colour kChartGround{0.80, 0.74, 0.62, 1}, kGroundLine{0.42, 0.33, 0.20
 const Stroke kBullingtonLine{{0.45, 0.15, 0.55, 1}, 0.9, {5, 2, 1, 2}}, kDeygoutMark{{0.45, 0.15, 0.55, 1}, 2.2, {}},
     kReflectedPath{{0.10, 0.45, 0.30, 1}, 0.8, {3, 2}};
 
-/// Everything drawn, in metres over the chord between the ends' verticals.
+/// Draws everything in metres over the chord between the ends' verticals.
 class SightChart {
  public:
   SightChart(Drawing& drawing, const Box& area, const LosReport& report)
@@ -163,7 +163,7 @@ class SightChart {
     drawing_.polyline(zone(0.6), {kZoneLine, 0.6, {3, 2}});
   }
 
-  /// The ground above the ray.
+  /// Draws the ground above the ray.
   void draw_cuts() {
     for (const Obstruction& o : report_.obstructions) {
       std::vector<Point2> outline = {at(o.from_m, ray(o.from_m))};
@@ -175,7 +175,7 @@ class SightChart {
     }
   }
 
-  /// Drawn before the ground, which covers the parts of features within it.
+  /// Draws features, before the ground, which covers the parts of them within it.
   void draw_features() {
     for (const FeatureRun& run : feature_runs(dense_)) {
       std::vector<Point2> top;
@@ -209,7 +209,7 @@ class SightChart {
   Point2 top_of(const DiffractionEdge& edge) const {
     return at(edge.distance_m, edge.elevation_m + bulge(edge.distance_m));
   }
-  /// A line from antenna to antenna by way of a point.
+  /// Draws a line from antenna to antenna by way of a point.
   void draw_by_way_of(Point2 point, const Stroke& stroke) {
     const Point2 line[] = {at(0, report_.antennas.from_m), point, at(length_, report_.antennas.to_m)};
     drawing_.polyline(line, stroke);
@@ -264,7 +264,7 @@ class SightChart {
     const Lettering lettering{8.5, kReportInk, Align::kLeft, true, 0};
     const double width = drawing_.text_width(text, lettering);
     const double x = first ? top.x + 5 : top.x - 5 - width;
-    // Clear of the ray, its zone and the ground, which may rise away from the mast.
+    // The label is kept clear of the ray, its zone and the ground, which may rise away from the mast.
     const double end = std::clamp((width + 10) / (frame_.x.to - frame_.x.from), 0.0, 1.0) * length_;
     const double beside = first ? end : length_ - end;
     const double highest = std::max({antenna, ray(beside) + radius(beside), highest_between(d, beside)});
@@ -277,7 +277,7 @@ class SightChart {
     draw_mast(length_, report_.stands_on.to_m, report_.antennas.to_m, "B", report_.query.to_height_m);
   }
 
-  /// Beside the second mast, what is seen of the object and what is not, with a mark at its hub.
+  /// Draws, beside the second mast, what is seen of the object and what is not, with a mark at its hub.
   void draw_object() {
     if (!report_.visible) return;
     const TallObject& object = *report_.query.object;
@@ -295,7 +295,8 @@ class SightChart {
     drawing_.polyline(lowest, {kChartSeen, 0.9, {4, 2}});
   }
 
-  /// Its label hangs from the top of the chart, clear of the ray, on a line down to the point.
+  /// Draws the critical point. Its label hangs from the top of the chart, clear of the ray, on a line down to the
+  /// point.
   void draw_critical() {
     if (!report_.critical) return;
     const Point2 point = at(*report_.critical);

@@ -9,8 +9,8 @@
 
 namespace itin::profile {
 
-/// Elevations are drawn over the curved Earth, so that the ray is straight: lines of equal elevation are arcs, and the
-/// vertical axis holds at the ends. Axes, legend and the stated exaggeration included.
+/// Draws the chart, with axes, legend and the stated exaggeration. Elevations are drawn over the curved Earth, so that
+/// the ray is straight: lines of equal elevation are arcs, and the vertical axis holds at the ends.
 void draw_sight_chart(Drawing& drawing, const Box& area, const LosReport& report);
 
 }  // namespace itin::profile

@@ -23,7 +23,7 @@ std::string fraction_text(double fraction) {
   return fmt::format("{:.2f} F1", fraction);
 }
 
-/// Behind a title, where the line is judged with its clutter and without it.
+/// Ends of titles, where the line is judged with its clutter and without it.
 constexpr const char *kWithClutter = ", with clutter", *kBareGround = ", bare ground";
 
 std::vector<std::string> criterion_row(const CriterionResult& c) {

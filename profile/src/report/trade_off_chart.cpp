@@ -14,7 +14,7 @@ constexpr Colour kCurves[] = {
     {0.13, 0.13, 0.13, 1}, {0.05, 0.35, 0.70, 1}, {0.80, 0.35, 0.05, 1}, {0.15, 0.50, 0.20, 1}, {0.50, 0.20, 0.55, 1}};
 constexpr Colour kPlanned{0.75, 0.05, 0.05, 1};
 
-/// Curves run off to any height; what is of interest lies about the equal heights.
+/// The ranges of both axes. Curves run off to any height; the interesting part lies about the equal heights.
 std::pair<double, double> ranges(const LosReport& report) {
   const double x = report.query.from_height_m, y = report.query.to_height_m;
   double equal = 0;
@@ -50,7 +50,7 @@ void draw_trade_off_chart(Drawing& drawing, const Box& area, const LosReport& re
     for (const HeightPair& pair : report.required[i].curve) {
       if (pair.to_m) curve.push_back(frame.at(pair.from_m, *pair.to_m));
     }
-    // From the curve's last point on, the second end needs no more than that.
+    // From the curve's last point on, the second end needs no more than at that point.
     if (!curve.empty()) curve.push_back({frame.box.xmax, curve.back().y}), drawing.polyline(curve, stroke);
     items.push_back({report.required[i].name, stroke, false});
   }

@@ -1,4 +1,4 @@
-// Heights of one end against the other, a curve a requirement.
+// A chart of heights of one end against the other, with a curve for each requirement.
 #pragma once
 
 #include <profile/los.hpp>

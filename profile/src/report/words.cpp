@@ -1,4 +1,4 @@
-// What every format says in the same words.
+// The words that every format shares.
 #include <algorithm>
 #include <cctype>
 #include <cmath>
@@ -84,7 +84,7 @@ std::string screen_text(const LosReport& report) {
 
 std::string required_text(const std::optional<double>& height_m) {
   if (!height_m || !std::isfinite(*height_m)) return "no height is enough";
-  // A ray that grazes is free: no centimetre more for a micrometre.
+  // A ray that grazes is free, so no centimetre is added for a micrometre.
   return fmt::format("{:.2f} m", std::max(0.0, std::ceil((*height_m - kGrazing) * 100) / 100));
 }
 

@@ -16,10 +16,10 @@ namespace itin::profile {
 namespace {
 
 constexpr Colour kGridInk{0.25, 0.35, 0.55};
-constexpr double kLongestLabel = 0.4;         ///< what is longer is cut, in widths of the frame
+constexpr double kLongestLabel = 0.4;         ///< in widths of the frame: a longer label is cut
 constexpr Colour kNoLayer{0.93, 0.93, 0.95};  ///< where the map has no layer
 
-/// The distance of grid lines: 20 mm apart at least, of those that maps have.
+/// The distance of grid lines: the least one usual on maps that puts them at least 20 mm apart.
 double grid_step(double points_per_metre) {
   for (const double step : {100.0, 500.0, 1000.0, 5000.0, 10000.0, 50000.0})
     if (step * points_per_metre >= 20 * kPointsPerMillimetre) return step;
@@ -84,7 +84,7 @@ void MapFrame::draw(const MapSheet& sheet) {
   drawing_.clip(paper_.frame);
   drawing_.rectangle(paper_.frame, kNoLayer);
   for (const SheetLayer& layer : sheet.layers) std::visit([&](const auto& l) { draw_layer(l); }, layer);
-  // Labels above all layers: those of marks, then of lines, so that the former find a place.
+  // Labels go above all layers: first the labels of marks, then those of lines, so that marks find a place.
   for (const SheetLayer& layer : sheet.layers)
     if (const auto* marks = std::get_if<SheetMarks>(&layer)) label_marks(*marks);
   for (const SheetLayer& layer : sheet.layers)

@@ -17,12 +17,12 @@ inline Colour drawn(const Rgba& c) {
   return {c.red / 255.0, c.green / 255.0, c.blue / 255.0, c.alpha / 255.0};
 }
 
-/// As Drawing::cells() takes it.
+/// The colour as Drawing::cells() takes it.
 inline std::uint32_t argb(const Rgba& c) {
   return std::uint32_t{c.alpha} << 24 | std::uint32_t{c.red} << 16 | std::uint32_t{c.green} << 8 | c.blue;
 }
 
-/// A mark of a map or its legend; `size` is its height in points.
+/// Draws a mark of a map or its legend; `size` is its height in points.
 void draw_symbol(Drawing& drawing, SheetSymbol symbol, Point2 at, double size, const Rgba& colour);
 
 class MapFrame {
@@ -32,7 +32,7 @@ class MapFrame {
 
   void draw(const MapSheet& sheet);
   double points_per_metre() const { return scale_; }
-  /// A line about names of marks within the frame that have no place; empty where all have.
+  /// A line of text about the marks within the frame whose names have no place; empty where all names have one.
   std::string left_out() const { return left_out_ > 0 ? left_out_text(left_out_, names_) : ""; }
 
  private:

@@ -19,7 +19,7 @@ namespace {
 
 constexpr double kPixelsPerPoint = 200 / 72.0;
 
-/// Metres of ground that a metre of the frame must hold.
+/// The metres of ground that a metre of the frame must hold.
 double least_scale(const MapSheet& sheet) {
   const Box frame = paper_of(sheet.paper).frame;
   const double metre = 1000 * kPointsPerMillimetre;

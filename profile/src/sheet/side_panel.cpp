@@ -18,7 +18,7 @@ namespace itin::profile {
 
 namespace {
 
-/// 100000 as "100,000".
+/// Writes 100000 as "100,000".
 std::string with_commas(double number) {
   std::string digits = fmt::format("{:.0f}", number);
   for (std::size_t i = digits.size(); i > 3; i -= 3) digits.insert(i - 3, 1, ',');
@@ -123,7 +123,7 @@ void SidePanel::draw_key(const SheetKey& key) {
   y_ = std::max(y_ + row, baseline - 0.8 * lettering.size);
 }
 
-/// Pixel by pixel, as the map has it.
+/// Draws a patch without ground pixel by pixel, as the map does.
 void SidePanel::draw_void(const Box& patch) {
   const double pixel = kSheetPixelMm * kPointsPerMillimetre;
   const auto pixels = [&](double length) { return std::max(1, static_cast<int>(std::lround(length / pixel))); };

@@ -19,7 +19,7 @@ namespace itin::profile {
 
 namespace {
 
-// Millimetres and degrees; see wireline_sheet.hpp.
+// Sizes in millimetres and degrees; see wireline_sheet.hpp.
 constexpr double kPageWidth = 841, kPageHeight = 297, kImageWidth = 820;
 constexpr double kPlanarHeight = 260, kPlanarPrincipal = 812.5;
 constexpr double kWeight = 1.6;
@@ -36,10 +36,10 @@ constexpr Box box_mm(double left, double top, double width, double height) {
   return {left * k, top * k, (left + width) * k, (top + height) * k};
 }
 
-/// Where the location map stands on a viewpoint's sheet.
+/// The place of the location map on a viewpoint's sheet.
 constexpr Box kLocationFrame = box_mm(255, 16, 150, 178);
 
-/// Title and facts in columns below an image, from `top` on; and the farms' names in their colours.
+/// Draws title and facts in columns below an image, from `top` on, and the farms' names in their colours.
 void draw_caption(Drawing& drawing, const Wireline& view, const WirelineSheet& sheet, const std::string& how,
                   double top_mm) {
   constexpr double k = kPointsPerMillimetre;

@@ -18,12 +18,12 @@ namespace itin::profile {
 
 namespace {
 
-/// Degrees from the view's left edge to the middle of the strip.
+/// The degrees from the view's left edge to the middle of the strip.
 double middle_of(const Wireline& view, const WirelineStrip& strip) {
   return within_turn(strip.centre_deg - view.query.from_deg);
 }
 
-/// Points to the right of the strip's middle and above its horizon.
+/// The place on paper, in points to the right of the strip's middle and above its horizon.
 Point2 on_paper(const WirelineStrip& strip, double from_middle_deg, double elevation_deg) {
   const double principal = strip.principal_mm * kPointsPerMillimetre, azimuth = in_radians(from_middle_deg);
   const double rise = std::tan(in_radians(elevation_deg));

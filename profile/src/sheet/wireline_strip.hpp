@@ -12,16 +12,16 @@ enum class StripProjection { kPlanar, kCylindrical };
 struct WirelineStrip {
   StripProjection projection = StripProjection::kCylindrical;
   Box frame;                ///< points
-  double principal_mm = 0;  ///< the distance from which it is seen as in nature
-  double centre_deg = 0;    ///< bearing of its middle
+  double principal_mm = 0;  ///< the distance from which the strip is seen as in nature
+  double centre_deg = 0;    ///< bearing of the strip's middle
   double width_deg = 90;
-  double weight = 1;  ///< all lines are so many times as wide: wide sheets are seen from farther away
+  double weight = 1;  ///< factor for the width of all lines: wide sheets are seen from farther away
 };
 
-/// How far the horizon must lie below the middle of the frame for the highest tip in it to be seen, points.
+/// How far, in points, the horizon must lie below the middle of the frame for the highest tip in it to be seen.
 double horizon_shift(const Wireline& view, const WirelineStrip& strip);
 
-/// Throws InputError where the view does not hold the field.
+/// Draws the strip. Throws InputError where the view does not hold the field.
 void draw_strip(Drawing& drawing, const Wireline& view, const WirelineStrip& strip);
 
 }  // namespace itin::profile

@@ -41,7 +41,7 @@ struct SurfacePlane {
   double offset = 0;
 };
 
-/// Planes closer than this in direction, and in metres, are one.
+/// Planes that differ by less than this in direction, and in metres, are one.
 constexpr double kSameDirection = 1e-3, kSamePlace = 0.02;
 /// The least upward part of a unit normal for a surface that is no wall.
 constexpr double kUpright = 0.05;
@@ -110,7 +110,7 @@ class CityModel {
     }
   }
 
-  /// Features have been called by their keys so far.
+  /// Gives features their names, ids and attributes; so far they have been called by their keys.
   void keep_attributes(const Json& objects) {
     attributes_.finish(objects);
     source_.fields = attributes_.fields();
@@ -121,7 +121,7 @@ class CityModel {
     }
   }
 
-  /// "EPSG:7415" of "urn:ogc:def:crs:EPSG::7415" and of "https://www.opengis.net/def/crs/EPSG/0/7415".
+  /// Returns "EPSG:7415" for "urn:ogc:def:crs:EPSG::7415" and for "https://www.opengis.net/def/crs/EPSG/0/7415".
   std::string reference_system() const {
     const Json& metadata = member_or_empty(model_, "metadata", Json::value_t::object);
     if (!metadata.contains("referenceSystem") || metadata.at("referenceSystem").is_null()) return {};
@@ -203,7 +203,7 @@ class CityModel {
     return rings;
   }
 
-  /// Throws InputError for a height beyond all heights.
+  /// Whether all vertices of the surface have a place. Throws InputError for a height beyond all heights.
   bool has_place(const std::string& name, const Surface& surface) const {
     bool all = true;
     for (const auto& ring : surface.rings) {
@@ -271,7 +271,7 @@ class CityModel {
 
   using Rings = std::vector<std::vector<Index>>;
 
-  /// Surfaces joined where they share an edge and a plane.
+  /// Joins surfaces where they share an edge and a plane.
   std::vector<Rings> plane_pieces(const std::vector<Surface>& surfaces) const {
     std::vector<SurfacePlane> planes;
     for (const Surface& s : surfaces) planes.push_back(plane(s));

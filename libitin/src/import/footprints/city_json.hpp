@@ -1,4 +1,4 @@
-// Buildings from CityJSON 1.0 to 2.0 (OGC 20-072r5): solids and surfaces, LoD 1 and 2.
+// Reads buildings from CityJSON 1.0 to 2.0 (OGC 20-072r5): solids and surfaces, LoD 1 and 2.
 //
 // Each Building and BuildingPart gives its geometry of the greatest level of detail. Roof and ground surfaces are known
 // by their semantics where they have any, otherwise by facing up or down. Pieces of one plane that share edges
@@ -16,15 +16,15 @@ struct CityJsonQuery {
   std::string path;
   std::string crs;  ///< overrides the file's own
   std::uint64_t memory_bytes = std::uint64_t{4} << 30;
-  bool ground_as_base = true;  ///< the least elevation of the ground surfaces, or of all; else the terrain's
-  FeatureQuery kept;           ///< attributes; objects that have no name or id among them are called by their keys
+  bool ground_as_base = true;  ///< base: the least elevation of the ground surfaces, or of all; else the terrain's
+  FeatureQuery kept;           ///< attributes; an object is called by its key if it has no name or id among them
 };
 
-/// In the CRS `to_crs` (WKT). Objects that cannot be used are passed over with a warning: one line per object, or one
-/// per type for those that are no buildings. Throws FileError for a file that is not readable, no CityJSON, or holds an
-/// index that is no whole number in range (naming the object) or for an attribute that no building has, InputError for
-/// a CRS that is missing or unknown, for heights beyond kFarthestHeight, for attributes that a store cannot keep and,
-/// before it is read, for a file that takes more than the memory.
+/// Reads the file, in the CRS `to_crs` (WKT). Objects that cannot be used are passed over with a warning: one line per
+/// object, or one per type for objects that are no buildings. Throws FileError for a file that is not readable, is no
+/// CityJSON, or holds an index that is no whole number in range (naming the object), and for an attribute that no
+/// building has. Throws InputError for a CRS that is missing or unknown, for heights beyond kFarthestHeight, for
+/// attributes that a store cannot keep and, before the file is read, for one that takes more than the memory.
 FootprintSource read_city_json(const CityJsonQuery& query, const std::string& to_crs);
 
 }  // namespace itin

@@ -18,7 +18,7 @@ using Json = nlohmann::json;
 
 constexpr std::uint64_t kGreatestWhole = std::numeric_limits<std::int64_t>::max();
 
-/// Nothing for lists and objects.
+/// The type of a value; nothing for lists and objects.
 std::optional<AttributeType> attribute_type_of(const Json& value) {
   if (value.is_string()) return AttributeType::text;
   if (value.is_number_float()) return AttributeType::number;
@@ -76,7 +76,7 @@ void CityJsonAttributes::finish(const Json& objects) {
   require_few_fields(fields_.size(), path_);
 }
 
-/// The object's own, else that of one of its parents; null for none.
+/// The object's own attribute, else that of one of its parents; null if there is none.
 const Json* CityJsonAttributes::attribute(const std::string& key, const std::string& name) const {
   const auto own_of = [&](const std::string& object) -> const Json* {
     const auto found = objects_->find(object);

@@ -24,20 +24,21 @@ class CityJsonAttributes {
 
   /// Learns what attributes a building or a part of one has. Throws BadCityJson.
   void note(const nlohmann::json& building);
-  /// Chooses the fields; by default all that hold numbers, texts and truth values, by name. The city objects must
-  /// outlive this, and have been noted where they are buildings. Throws FileError for an attribute that no building
-  /// has, InputError for one that holds lists or objects, and for too many.
+  /// Chooses the fields; by default, these are all that hold numbers, texts and truth values, by name. The city objects
+  /// must outlive this, and buildings among them must have been noted. Throws FileError for an attribute that no
+  /// building has, InputError for one that holds lists or objects, and for too many.
   void finish(const nlohmann::json& objects);
   const std::vector<AttributeField>& fields() const { return fields_; }
 
-  /// What is kept of the object with this key, which is its id unless another was asked for. Truth values are 0 and 1.
-  /// Throws InputError, naming object and attribute, for a text that is too long in an attribute that was asked for.
+  /// Returns what is kept of the object with this key, which is its id unless another was asked for. Truth values are 0
+  /// and 1. Throws InputError, naming object and attribute, for a text that is too long in an attribute that was asked
+  /// for.
   FeatureRecord record(const std::string& key);
-  /// What was not kept, though all was asked for. One line each.
+  /// Tells what was not kept, though all was asked for, in one line each.
   std::vector<std::string> warnings() const;
 
  private:
-  /// Throws as finish().
+  /// Throws as finish() does.
   AttributeType type_of(const std::string& name) const;
   const nlohmann::json* attribute(const std::string& key, const std::string& name) const;
   std::string text(const std::string& key, const std::string& name) const;

@@ -14,10 +14,11 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// Solids, shells, surfaces, rings, indices: deeper is no CityJSON, and must not fill the stack.
+/// The deepest nesting: solids, shells, surfaces, rings, indices. Deeper arrays are no CityJSON, and must not fill the
+/// stack.
 constexpr int kDeepestArray = 5;
 
-/// Fit for one line of a message.
+/// Renders a value to fit in one line of a message.
 std::string shown(const Json& value) {
   if (value.is_structured()) return fmt::format("an {}", value.type_name());
   const std::string text = value.dump(-1, ' ', true);
@@ -33,7 +34,7 @@ void for_each_value(const Json& nested, const Check& check, int depth = 0) {
   for (const Json& item : nested) for_each_value(item, check, depth + 1);
 }
 
-/// Rings of texture: the index of a texture, then those of its vertices.
+/// Checks the rings of a texture: the index of a texture, then the indices of its vertices.
 void check_texture_rings(const Json& nested, const CityJsonCounts& counts, int depth = 0) {
   if (nested.is_null()) return;
   const auto& items = items_of(nested, "values of a texture");
@@ -137,7 +138,7 @@ std::array<double, 3> coordinates(const Json& array, const char* what) {
 }
 
 std::size_t index_of(const Json& number, std::size_t count, const char* what) {
-  // As a double it keeps its sign, its fraction, and what is beyond 2^32.
+  // A double keeps the number's sign, its fraction, and anything beyond 2^32.
   const double value = number.is_number() ? number.get<double>() : -1;
   if (!(value >= 0 && value < static_cast<double>(count)) || value != std::floor(value))
     throw BadCityJson(fmt::format("{} is no index of one of {} {}: a whole number from 0 on, below {}", shown(number),

@@ -11,41 +11,41 @@
 
 namespace itin {
 
-/// Why a value is not what CityJSON has there. The reader adds the file and the object.
+/// Says why a value is not what CityJSON requires. The reader adds the file and the object.
 class BadCityJson : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// Throws FileError for a file that cannot be read, or is no JSON object of type CityJSON.
+/// Reads a file. Throws FileError for one that cannot be read, or is no JSON object of type CityJSON.
 nlohmann::json parse_city_json(const std::string& path);
 
-// All throw BadCityJson.
+// All of these functions throw BadCityJson.
 const nlohmann::json& member(const nlohmann::json& object, const char* name);
-/// An array or object, empty where there is none, or null.
+/// Returns an array or object; an empty one where the member is missing, or null.
 const nlohmann::json& member_or_empty(const nlohmann::json& object, const char* name, nlohmann::json::value_t type);
 std::string text_member(const nlohmann::json& object, const char* name);
 const nlohmann::json::array_t& items_of(const nlohmann::json& array, const char* what);
-/// `what` the coordinates are of.
+/// Returns three coordinates. `what` names the thing at these coordinates.
 std::array<double, 3> coordinates(const nlohmann::json& array, const char* what);
-/// A whole number below `count`; `what` the index is of.
+/// Returns a whole number below `count`; `what` names the things that it is an index of.
 std::size_t index_of(const nlohmann::json& number, std::size_t count, const char* what);
 /// Whether the object is a building or a part of one.
 bool is_building(const nlohmann::json& city_object);
-/// Numbers and texts: "2", "2.2".
+/// Returns the level of detail, which may be a number or a text: "2", "2.2".
 double level_of_detail(const nlohmann::json& geometry);
-/// How many arrays enclose a surface; 0 for geometries without surfaces.
+/// The number of arrays that enclose a surface; 0 for geometries without surfaces.
 int depth_of(const std::string& type);
 
-/// How many there are of what geometries refer to.
+/// The numbers of things that geometries refer to.
 struct CityJsonCounts {
   explicit CityJsonCounts(const nlohmann::json& model);
   std::size_t vertices, templates, template_vertices, materials, textures, texture_vertices;
 };
 
-/// Every index in the geometry: of vertices, semantic surfaces, materials, textures and templates.
+/// Checks every index in the geometry: of vertices, semantic surfaces, materials, textures and templates.
 void check_indices(const nlohmann::json& geometry, const CityJsonCounts& counts);
-/// Every index in the geometries that others are instances of.
+/// Checks every index in the templates, the geometries that others are instances of.
 void check_templates(const nlohmann::json& model, const CityJsonCounts& counts);
 
 }  // namespace itin

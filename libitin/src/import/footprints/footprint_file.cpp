@@ -21,7 +21,8 @@ namespace itin {
 
 namespace {
 
-/// By its name, and a word that the format asks for near the beginning: members come in any order.
+/// Tells CityJSON by the file's name, and by a word that the format asks for near the beginning: members come in any
+/// order.
 bool is_city_json(const std::string& path) {
   if (!path.ends_with(".json") && !path.ends_with(".cityjson")) return false;
   std::error_code ignored;
@@ -46,7 +47,7 @@ FeatureKind feature_kind(ThemeKind kind) {
   }
 }
 
-/// A raster of heights that stand. Walls are lines in any case.
+/// Whether a file is a raster of heights that stand. Walls are lines in any case.
 bool is_height_raster(const std::string& path, const ImportOptions& options) {
   const bool may_be = options.kind == ThemeKind::Surface || options.kind == ThemeKind::Vegetation ||
                       options.kind == ThemeKind::Buildings;

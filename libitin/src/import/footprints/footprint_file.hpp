@@ -13,8 +13,8 @@ namespace itin {
 
 struct FootprintFile {
   FootprintSource footprints;
-  std::uint64_t vertices = 0;  ///< how many all footprints and roofs have
-  /// The cells of a raster with a height and without one, and those known not to reach the threshold.
+  std::uint64_t vertices = 0;  ///< number of vertices of all footprints and roofs
+  /// The cells of a raster with a height and without one, and the cells known not to reach the threshold.
   std::uint64_t cells = 0, voids = 0, low_cells = 0;
   SourceInfo info;
 };
@@ -23,7 +23,8 @@ struct FootprintFile {
 std::vector<FootprintFile> read_footprint_files(const ImportOptions& options, const StoreMetadata& store,
                                                 Progress& progress);
 
-/// By how much, in metres, cells of rasters imported with these options may stand lower, and higher, than they are.
+/// The errors, in metres, by which cells of rasters imported with these options may stand lower, and higher, than they
+/// should.
 std::pair<double, double> height_error_of(const ImportOptions& options);
 
 }  // namespace itin

@@ -103,7 +103,7 @@ class FootprintLayer {
     findings_.add(fmt::format("{}: passed over: {}", name, why));
   }
 
-  /// False for a kind of geometry that has no footprint.
+  /// Returns false for a kind of geometry that has no footprint.
   bool add_rings(const OGRGeometry& geometry, FootprintFeature& footprint) {
     const OGRwkbGeometryType type = wkbFlatten(geometry.getGeometryType());
     if (type == wkbPolygon || type == wkbTriangle) {
@@ -141,7 +141,7 @@ class FootprintLayer {
     return ring;
   }
 
-  /// Counts it where it is one.
+  /// Tells whether a height marks missing data, and counts it if so.
   bool is_mark(double height) {
     if (!is_usual_nodata(height)) return false;
     ++marks_, mark_ = height;
@@ -191,7 +191,7 @@ class FootprintLayer {
   std::optional<FeatureFields> kept_;
   std::optional<PointTransform> transform_;
   HeightAxis axis_;
-  double lowest_ = 0, highest_ = 0;  ///< elevations that Z of the feature at hand has, metres
+  double lowest_ = 0, highest_ = 0;  ///< elevations that Z of the current feature has, metres
   bool unused_z_ = false;
   std::uint64_t marks_ = 0;  ///< heights that customarily mark missing data
   double mark_ = 0;          ///< one of them

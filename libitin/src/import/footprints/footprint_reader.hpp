@@ -1,4 +1,4 @@
-// Footprints from vector layers: polygons in any format GDAL reads, lines as bands about them.
+// Reads footprints from vector layers: polygons in any format GDAL reads, lines as bands about them.
 //
 //   FootprintQuery query;
 //   query.path = "buildings.gpkg";
@@ -22,8 +22,8 @@ namespace itin {
 /// The meaning of the Z of a footprint's vertices.
 enum class FootprintZ {
   ignored,
-  base,  ///< the least of them is the base, unless base_field says
-  top    ///< the greatest of them is the elevation of the roof, unless height_field says; needs a base
+  base,  ///< the least of them is the base, unless base_field says otherwise
+  top    ///< the greatest of them is the elevation of the roof, unless height_field says otherwise; needs a base
 };
 
 struct FootprintQuery {
@@ -33,28 +33,28 @@ struct FootprintQuery {
   std::string height_field;      ///< height of the highest point above the base
   std::string eaves_field;       ///< height of the eaves above the base
   std::string base_field;        ///< elevation of the base; default: left to the terrain
-  FeatureQuery kept;             ///< features without a name are called "feature" and the file's number for them
+  FeatureQuery kept;             ///< a feature without a name is called "feature" and its number in the file
   std::string crs;               ///< overrides the layer's own
-  std::optional<double> height;  ///< metres; of features that have none in height_field
+  std::optional<double> height;  ///< metres; for features that have none in height_field
   FeatureKind kind = FeatureKind::building;
   RoofKind roof = RoofKind::flat;
   FootprintZ z = FootprintZ::ignored;
-  double thickness = 0.3;  ///< metres; of bands about lines
+  double thickness = 0.3;  ///< thickness of bands about lines, metres
 };
 
 struct FootprintSource {
   std::vector<FootprintFeature> features;  ///< in the file's order
-  std::vector<AttributeField> fields;      ///< that are kept of them
+  std::vector<AttributeField> fields;      ///< the fields that are kept of the features
   std::vector<FeatureRecord> records;      ///< one for each feature; none where nothing is kept
   std::string crs;                         ///< as found or given
-  std::uint64_t filtered = 0;              ///< left out by where
+  std::uint64_t filtered = 0;              ///< number of features left out by `where`
   std::vector<std::string> warnings;       ///< one line each: features that were passed over, units assumed
 };
 
-/// In the CRS `to_crs` (WKT). Heights are in the unit of the CRS's vertical part or axes, feet where those are feet;
-/// the base is a depth where the vertical part has depths, heights above it never are. A feature whose height is null
-/// has none. Throws FileError for a file, layer, field or filter that is missing or not readable, InputError for a CRS
-/// that is missing or unknown, Cancelled.
+/// Reads footprints, in the CRS `to_crs` (WKT). Heights are in the unit of the CRS's vertical part or axes, which may
+/// be feet. The base is a depth where the vertical part has depths; heights above it never are. A feature whose height
+/// is null has none. Throws FileError for a file, layer, field or filter that is missing or not readable, InputError
+/// for a CRS that is missing or unknown, Cancelled.
 FootprintSource read_footprints(const FootprintQuery& query, const std::string& to_crs, const Grid& grid,
                                 Progress& progress);
 

@@ -30,9 +30,9 @@ namespace {
 
 constexpr double kMillimetresInMetre = 1000;
 constexpr double kHighestStep = 1000;         ///< metres
-constexpr double kHighestAboveGround = 1000;  ///< metres: what is more is an elevation
+constexpr double kHighestAboveGround = 1000;  ///< metres: a greater height is an elevation
 constexpr int kPartSide = 64;                 ///< cells: patches end where parts do
-constexpr std::uint64_t kBytesPerCell = 16;   ///< while a raster is read, and after that in features
+constexpr std::uint64_t kBytesPerCell = 16;   ///< while a raster is read, and afterwards in features
 
 std::int32_t whole_millimetres(double metres, double least, const char* field) {
   const double millimetres = metres * kMillimetresInMetre, whole = std::round(millimetres);
@@ -177,9 +177,9 @@ class HeightRasterReading {
   const HeightRasterQuery& query_;
   GDALDatasetUniquePtr dataset_;
   HeightBand band_;
-  HeightCells rule_;  ///< as all parts have it
+  HeightCells rule_;  ///< the same in all parts
   int columns_ = 0, rows_ = 0;
-  double metres_ = 1;  ///< how many the unit of heights has
+  double metres_ = 1;  ///< number of metres in the unit of heights
   double highest_ = -std::numeric_limits<double>::infinity(), lowest_ = 0;
   std::uint64_t negative_ = 0;
   std::vector<std::int32_t> heights_;
@@ -189,7 +189,7 @@ class HeightRasterReading {
 }  // namespace
 
 HeightRaster read_height_raster(const HeightRasterQuery& query, const StoreMetadata& store, Progress& progress) {
-  // Files of GeoTIFF 1.0 tell their vertical part only when asked to.
+  // Files of GeoTIFF 1.0 state their vertical part only when asked to.
   const CPLConfigOptionSetter whole_crs("GTIFF_REPORT_COMPD_CS", "YES", true);
   const QuietGdal quiet;
   return HeightRasterReading(query, store).read(progress);

@@ -1,4 +1,4 @@
-// Rasters of heights whose cells stand on the ground: canopies, buildings, digital surface models.
+// Reads rasters of heights whose cells stand on the ground: canopies, buildings, digital surface models.
 //
 //   HeightRasterQuery query;
 //   query.path = "canopy.tif";
@@ -21,7 +21,7 @@ struct HeightRasterQuery {
   std::string path;
   std::string crs;                 ///< overrides the raster's own
   std::optional<int> band;         ///< default: the only one
-  bool absolute = false;           ///< elevations; else heights above the ground
+  bool absolute = false;           ///< whether values are elevations; else they are heights above the ground
   double step = 2, threshold = 2;  ///< metres: whole millimetres
   HeightRounding rounding = HeightRounding::nearest;
   bool allow_mixed_vertical = false;
@@ -30,16 +30,16 @@ struct HeightRasterQuery {
 
 struct HeightRaster {
   FootprintSource footprints;  ///< features of the kind `cells`, each with a part of the raster, row by row
-  std::uint64_t cells = 0;     ///< with a height
-  std::uint64_t voids = 0;     ///< without one
-  std::uint64_t low = 0;       ///< lower than the threshold; of elevations that is not known here
+  std::uint64_t cells = 0;     ///< number of cells with a height
+  std::uint64_t voids = 0;     ///< number of cells without one
+  std::uint64_t low = 0;       ///< number of cells below the threshold; 0 for elevations, as that is not known here
 };
 
-/// Heights are in the unit of the band, else as source_heights() has it. Parts without any height are left out; of
-/// heights above the ground those of cells that do not stand are no heights. Throws FileError for a file that cannot be
-/// read or holds no height; InputError for a step or threshold out of range, a raster in another CRS than the store,
-/// elevations on another datum, heights above the ground of more than 1000 m, cells that are all
-/// lower than the threshold, and more cells than the memory has room for; Cancelled.
+/// Reads a raster. Heights are in the unit of the band, else as source_heights() tells. Parts without any height are
+/// left out; among heights above the ground those of cells that do not stand count as none. Throws FileError for a file
+/// that cannot be read or holds no height. Throws InputError for a step or threshold out of range, a raster in another
+/// CRS than the store, elevations on another datum, heights above the ground of more than 1000 m, cells that are all
+/// lower than the threshold, and more cells than the memory has room for. Throws Cancelled.
 HeightRaster read_height_raster(const HeightRasterQuery& query, const StoreMetadata& store, Progress& progress);
 
 }  // namespace itin

@@ -20,7 +20,7 @@ namespace {
 
 // The bytes of a point record that each format defines; a longer record carries extra bytes.
 constexpr std::array<std::uint16_t, 11> kRecordLengths = {20, 28, 26, 34, 57, 63, 30, 36, 38, 59, 67};
-// The public header of LAS 1.0 to 1.2, 1.3 and 1.4.
+// The sizes of the public headers of LAS 1.0 to 1.2, 1.3 and 1.4.
 constexpr std::array<std::uint16_t, 5> kHeaderSizes = {227, 227, 227, 235, 375};
 
 constexpr std::uint16_t kGeoKeyDirectory = 34735;
@@ -168,8 +168,8 @@ Record read_record(Bytes& bytes, std::uint64_t offset, bool extended) {
   return record;
 }
 
-/// Key directory: a header of four shorts, then four per key: id, where its value is, count, value. Only those whose
-/// value stands in the directory itself (where = 0) are codes.
+/// Reads the key directory: a header of four shorts, then four per key: id, where its value is, count, value. A key is
+/// a code only if its value stands in the directory itself (where = 0).
 std::map<std::uint16_t, std::uint16_t> geo_keys(std::string_view payload) {
   std::map<std::uint16_t, std::uint16_t> keys;
   if (payload.size() < 8) return keys;
@@ -249,7 +249,7 @@ LasFile::LasFile(std::string path) : path_(std::move(path)) {
 }
 
 std::uint64_t LasFile::records_not_promised() const {
-  // In files with waveforms these may follow the points.
+  // In files with waveforms their data may follow the points.
   const bool waveforms = header_.point_format == 4 || header_.point_format == 5 || header_.point_format >= 9;
   if (header_.compressed || waveforms) return 0;
   const std::uint64_t end = header_.evlr_count > 0 ? std::min(header_.evlr_offset, file_size_) : file_size_;

@@ -1,5 +1,5 @@
-// LAS 1.0 to 1.4, point formats 0 to 10, read front to back in bounded memory. After the ASPRS LAS
-// specification 1.4-R15.
+// Reads LAS 1.0 to 1.4, point formats 0 to 10, front to back in bounded memory. It follows the ASPRS LAS specification
+// 1.4-R15.
 //
 //   LasFile file("tile.las");
 //   file.read([](std::span<const LasPoint> points, double fraction) { ... });
@@ -20,7 +20,7 @@
 namespace itin {
 
 struct LasPoint {
-  double x = 0, y = 0, z = 0;  ///< scale and offset applied; the file's units
+  double x = 0, y = 0, z = 0;  ///< in the file's units, scale and offset applied
   std::uint8_t classification = 0;
   bool withheld = false;  ///< deleted, as the specification puts it
 };
@@ -31,7 +31,7 @@ struct LasHeader {
   bool compressed = false;
   bool prefers_wkt = false;  ///< global encoding says that the CRS is the WKT record
   std::uint16_t header_size = 0;
-  std::uint16_t record_length = 0;  ///< bytes of a point: the format's own, and extra ones
+  std::uint16_t record_length = 0;  ///< bytes of a point: those of the format, and extra ones
   std::uint64_t point_offset = 0;
   std::uint32_t vlr_count = 0;
   std::uint64_t evlr_offset = 0;
@@ -58,11 +58,12 @@ class LasFile {
   const LasHeader& header() const { return header_; }
   const LasProjectionRecords& projection() const { return projection_; }
   std::uint64_t file_size() const { return file_size_; }
-  /// Records between the points that the header promises and whatever follows them: 0, unless its count is wrong.
+  /// The number of records between the points that the header promises and whatever follows them; 0 unless the header's
+  /// count is wrong.
   std::uint64_t records_not_promised() const;
-  /// The first point, without its attributes. Precondition: not compressed, and at least one point.
+  /// Reads the first point, without its attributes. Precondition: not compressed, and at least one point.
   LasPoint first_point() const;
-  /// All points in the file's order. Precondition: not compressed. Throws FileError, and what the sink throws.
+  /// Reads all points in the file's order. Precondition: not compressed. Throws FileError, and what the sink throws.
   void read(const Sink& sink) const;
 
  private:

@@ -57,13 +57,13 @@ std::string crs_of_keys(const LasFile& file) {
   return {};
 }
 
-/// The CRS with the vertical one that the keys name, if PROJ knows that.
+/// The CRS with the vertical one that the keys name, if PROJ knows the vertical one.
 std::string with_heights(const LasFile& file, const std::string& horizontal) {
   const auto epsg = code(file, kVerticalType);
   OGRSpatialReference plan, vertical, compound;
   if (!epsg || vertical.importFromEPSG(*epsg) != OGRERR_NONE || !vertical.IsVertical()) return horizontal;
   if (horizontal.empty()) return fmt::format("EPSG:{}", *epsg);
-  // A horizontal CRS that PROJ does not know is reported where it is parsed.
+  // A horizontal CRS that PROJ does not know is reported where the CRS is parsed.
   if (plan.SetFromUserInput(horizontal.c_str()) != OGRERR_NONE) return horizontal;
   compound.SetCompoundCS(fmt::format("{} + {}", plan.GetName(), vertical.GetName()).c_str(), &plan, &vertical);
   return wkt_of(compound);

@@ -12,7 +12,7 @@ namespace itin {
 struct LasProjection {
   std::string crs;  ///< "EPSG:n" or WKT, with heights where keys name their CRS; empty if the file
                     ///< does not say
-  std::optional<LinearUnit> height_unit;  ///< as key 4099 states it, which rules out that of the CRS
+  std::optional<LinearUnit> height_unit;  ///< as key 4099 states it, which goes before the unit of the CRS
 };
 
 /// Reads the GeoTIFF keys (projected 3072, geographic 2048, vertical 4096, units 3076 and 4099) or the WKT, whichever

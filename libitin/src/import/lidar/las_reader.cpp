@@ -85,7 +85,8 @@ class LasReader final : public PointReader {
   }
 
  private:
-  /// The header's box is a claim; a writer that leaves it empty must not move the store's grid to (0, 0).
+  /// Finds the extent. The header's box is a claim; a writer that leaves it empty must not move the store's grid to (0,
+  /// 0).
   Box find_extent() const {
     const Box& claimed = file_.header().bounds;
     const bool finite = std::isfinite(claimed.width()) && std::isfinite(claimed.height()) && !claimed.empty();

@@ -1,4 +1,4 @@
-// The points of LAS and LAZ files that are ground to stand on, as far as their classes tell.
+// The points of LAS and LAZ files that are ground to stand on, so far as their classes tell.
 #pragma once
 
 #include <memory>
@@ -10,8 +10,9 @@
 
 namespace itin {
 
-/// The points of options.classes (by default all but noise, 7 and 18), without withheld ones. LAZ needs a build with
-/// PDAL. Throws FileError (not LAS, damaged, LAZ without PDAL), InputError (a class outside 0 to 255).
+/// Opens a reader of the points of options.classes (by default all but noise, 7 and 18), without withheld ones. LAZ
+/// needs a build with PDAL. Throws FileError (not LAS, damaged, LAZ without PDAL), InputError (a class outside 0 to
+/// 255).
 std::unique_ptr<PointReader> open_las_reader(const std::string& path, const ImportOptions& options);
 
 }  // namespace itin

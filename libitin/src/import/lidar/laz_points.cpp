@@ -16,8 +16,8 @@ namespace {
 
 constexpr std::size_t kPointsPerBatch = 16384;
 
-/// Versions of PDAL differ in where they put the flags of a point: in the class byte, in ClassFlags or in a dimension
-/// of their own. Dimensions that a version lacks are `Unknown`.
+/// Reads a point's flags. Versions of PDAL differ in where they put them: in the class byte, in ClassFlags or in a
+/// dimension of their own. Dimensions that a version lacks are `Unknown`.
 class PdalPoint {
  public:
   PdalPoint(const pdal::PointLayoutPtr& layout, int point_format)

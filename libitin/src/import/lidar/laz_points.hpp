@@ -1,11 +1,12 @@
-// Compressed LAS. Only in builds with PDAL (ITIN_HAVE_PDAL).
+// Reads compressed LAS; only in builds with PDAL (ITIN_HAVE_PDAL).
 #pragma once
 
 #include "import/lidar/las_file.hpp"
 
 namespace itin {
 
-/// All points of a LAZ file in its order, in bounded memory, one thread. Throws FileError, and what the sink throws.
+/// Reads all points of a LAZ file in its order, in bounded memory, on one thread. Throws FileError, and what the sink
+/// throws.
 void read_laz(const LasFile& file, const LasFile::Sink& sink);
 
 }  // namespace itin

@@ -35,20 +35,20 @@ std::string_view trimmed(std::string_view text) {
   return text;
 }
 
-/// No point, just a remark or nothing.
+/// Whether a line holds no point, just a remark or nothing.
 bool is_skipped(std::string_view line) {
   line = trimmed(line);
   return line.empty() || line.front() == '#';
 }
 
 char separator_of(std::string_view line) {
-  // Semicolons come first: where they part the columns, commas are decimal.
+  // Semicolons come first: where they separate the columns, commas are decimal.
   for (const char candidate : {';', '\t', ','})
     if (line.find(candidate) != std::string_view::npos) return candidate;
   return ' ';
 }
 
-/// The columns' texts, at most `most` of them, parted by runs of blanks.
+/// Appends the columns' texts, at most `most` of them, separated by runs of blanks.
 void split_at_blanks(std::string_view line, std::size_t most, std::vector<std::string_view>& fields) {
   for (line = trimmed(line); !line.empty() && fields.size() < most; line = trimmed(line)) {
     const auto end = std::find_if(line.begin(), line.end(), is_blank);
@@ -57,7 +57,7 @@ void split_at_blanks(std::string_view line, std::size_t most, std::vector<std::s
   }
 }
 
-/// The text up to the next separator, which a field in double quotes may contain; its quotes are left out.
+/// Returns the text up to the next separator, without its quotes; a field in double quotes may contain separators.
 std::string_view first_field(std::string_view line, char separator, std::size_t& end) {
   const std::size_t start = line.find_first_not_of(' ');
   const bool quoted = start != std::string_view::npos && line[start] == '"';
@@ -68,7 +68,7 @@ std::string_view first_field(std::string_view line, char separator, std::size_t&
   return trimmed(field.substr(1, field.size() - 2));
 }
 
-/// The first `most` fields.
+/// Splits a line into its first `most` fields.
 void split(std::string_view line, char separator, std::size_t most, std::vector<std::string_view>& fields) {
   fields.clear();
   if (separator == ' ') return split_at_blanks(line, most, fields);
@@ -86,13 +86,14 @@ std::optional<double> number_in(std::string_view text) {
   return value;
 }
 
-/// Also what is no valid number, such as one with a decimal comma: such a line is no header, but a bad row.
+/// Whether a text looks like a number, even an invalid one such as one with a decimal comma: a line with it is no
+/// header, but a bad row.
 bool is_numeric(std::string_view text) {
   return text.find_first_of("0123456789") != std::string_view::npos &&
          text.find_first_not_of("0123456789+-.,eE") == std::string_view::npos;
 }
 
-/// Fit for one line of a message.
+/// Quotes a text to fit in one line of a message.
 std::string in_quotes(std::string_view text) {
   std::string shown(text.substr(0, 60));
   std::replace_if(
@@ -115,7 +116,7 @@ class RowParser {
         columns_(columns),
         wanted_(*std::max_element(columns.begin(), columns.end()) + 1) {}
 
-  /// The height is NaN where its field is empty.
+  /// Parses a row; the height is NaN where its field is empty.
   Point3 operator()(std::string_view line, std::uint64_t line_number) {
     split(line, separator_, wanted_, fields_);
     if (fields_.size() < wanted_)
@@ -196,7 +197,7 @@ void DelimitedText::choose_columns(const std::vector<std::string>& names, const 
                   in_quotes(names[columns_[0]]), in_quotes(names[columns_[1]]), in_quotes(names[columns_[2]])));
 }
 
-/// Once the columns of x and y are chosen.
+/// Finds the column of the height. To be called once the columns of x and y are chosen.
 std::size_t DelimitedText::height_column(const std::vector<std::string>& names, const std::string& z_field) const {
   const auto is_position = [&](std::size_t column) { return column == columns_[0] || column == columns_[1]; };
   if (!z_field.empty()) {

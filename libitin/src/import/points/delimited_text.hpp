@@ -1,13 +1,13 @@
-// Points in delimited text: CSV, XYZ, TXT. One point per line; columns parted by semicolons, tabs, commas or blanks,
-// found from the first line. Blank lines and lines that begin with # are skipped.
+// Reads points in delimited text: CSV, XYZ, TXT. There is one point per line. Columns are separated by semicolons,
+// tabs, commas or blanks, as the first line tells. Blank lines and lines that begin with # are skipped.
 //
 //   DelimitedText text("survey.csv", "height_od");
 //   text.read([](PointBatch& points, double fraction) { ... });
 //
-// A first line without anything like a number is a header, and the columns are taken by name: those of the position as
-// position_columns() has it, that of the height likewise (z, height, elevation, ...). Otherwise the first three columns
-// are x, y and height. Numbers are decimal with a point, whatever the locale, or with a comma where commas do not part
-// columns; an empty height is a void.
+// A first line without anything like a number is a header, and the columns are found by name: the position's as
+// position_columns() tells, and the height's by its usual names (z, height, elevation, ...). Otherwise the first three
+// columns are x, y and height. Numbers have a decimal point, whatever the locale, or a decimal comma where commas do
+// not separate columns; an empty height is a void.
 #pragma once
 
 #include <array>
@@ -24,18 +24,18 @@ namespace itin {
 
 class DelimitedText final : public PointReader {
  public:
-  /// Reads as far as the first point. `z_field` names the height column; empty: by its usual names, else the third.
-  /// Throws FileError (not readable, no such column, no points), InputError (a malformed row).
+  /// Reads up to the first point. `z_field` names the height column; if it is empty, the column is found by its usual
+  /// names, or is the third. Throws FileError (not readable, no such column, no points), InputError (a malformed row).
   DelimitedText(std::string path, const std::string& z_field);
 
   const std::string& path() const override { return path_; }
-  /// EPSG:4326 where the columns are called longitude and latitude.
+  /// Returns EPSG:4326 where the columns are called longitude and latitude.
   std::string crs() const override { return geographic_ ? kGeographicColumnsCrs : ""; }
   std::vector<std::string> warnings() const override { return warnings_; }
-  /// The first point's position.
+  /// The position of the first point.
   Point2 centre() const override { return first_; }
   double size_hint() const override { return size_; }
-  /// Throws InputError naming file, line and text of the first malformed row.
+  /// Reads the points. Throws InputError naming file, line and text of the first malformed row.
   std::uint64_t read(const Sink& sink) override;
 
  private:

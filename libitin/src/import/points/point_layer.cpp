@@ -82,7 +82,7 @@ Point2 PointLayer::find_centre() {
   while (const auto feature = layer_.next()) {
     add(*feature, batch);
     if (batch.size() == 0) continue;
-    // Layers declared flat sometimes hold points with Z all the same, so the first feature has its say.
+    // Layers declared flat sometimes hold points with Z all the same, so the first feature decides.
     if (!layer_.has_height_field() && !wkbHasZ(layer_.geometry_type()) && std::isnan(batch.z.front()))
       refuse_heightless();
     return {batch.x.front(), batch.y.front()};

@@ -1,4 +1,4 @@
-// Point files in the importer's two steps, opened by what they are.
+// Opens point files, by their contents, for the importer's two steps.
 #pragma once
 
 #include <memory>
@@ -13,10 +13,10 @@ namespace itin {
 /// Whether the name ends like delimited text: .csv, .xyz, .txt, .tsv.
 bool is_delimited_text(const std::string& path);
 
-/// Delimited text by its name's ending, otherwise a layer of points through GDAL. Throws FileError, InputError.
+/// Opens delimited text by its name's ending, otherwise a layer of points through GDAL. Throws FileError, InputError.
 std::unique_ptr<SourceFile> open_point_source(const std::string& path, const ImportOptions& options);
 
-/// LAS or LAZ; see las_reader.hpp. Throws FileError, InputError.
+/// Opens LAS or LAZ; see las_reader.hpp. Throws FileError, InputError.
 std::unique_ptr<SourceFile> open_las_source(const std::string& path, const ImportOptions& options);
 
 }  // namespace itin

@@ -12,12 +12,12 @@ namespace itin {
 
 /// Chooses the CRS (options.crs, else the reader's) and what the heights mean by source_heights().
 ///
-/// After reading, SourceInfo::spacing is the mean point spacing: the square root of bounding-box area over number; for
-/// points nearly on a line, its length over their number. The gap is options.max_gap, or 100 times the spacing.
-/// Throws InputError for a CRS that is missing or not understood.
+/// After reading, SourceInfo::spacing is the mean point spacing: the square root of bounding-box area over number. For
+/// points nearly on a line it is the line's length over their number. The gap is options.max_gap, or 100 times the
+/// spacing. Throws InputError for a CRS that is missing or not understood.
 std::unique_ptr<SourceFile> scattered_source(std::unique_ptr<PointReader> reader, const ImportOptions& options);
 
-/// The widest gap in which ground is triangulated, metres, where the call gives none.
+/// The widest gap, in metres, in which ground is triangulated where the call gives none.
 double default_gap(const Box& bounds, std::uint64_t points);
 
 }  // namespace itin

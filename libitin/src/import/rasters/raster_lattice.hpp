@@ -1,4 +1,4 @@
-// Where the posts of a raster lie.
+// Tells where the posts of a raster lie.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@ class GDALDataset;
 
 namespace itin {
 
-/// Post (column, row) lies at origin + column u + row v, in the raster's own CRS.
+/// The lattice of a raster's posts. Post (column, row) lies at origin + column u + row v, in the raster's own CRS.
 struct RasterLattice {
   int columns = 0, rows = 0;
   Point2 origin, u, v;
@@ -27,7 +27,7 @@ struct RasterLattice {
   }
 };
 
-/// Throws InputError where the raster has no georeference.
+/// Reads the lattice. Throws InputError where the raster has no georeference.
 RasterLattice lattice_of(GDALDataset& dataset, const std::string& path);
 
 }  // namespace itin

@@ -30,7 +30,7 @@ namespace {
 
 constexpr double kSteadySteps = 1.25;            // steps that vary more than this earn a warning
 constexpr std::size_t kPostsPerBatch = 1 << 16;  // posts placed at a time
-constexpr std::uint64_t kCacheShare = 8;         // the memory is this many times GDAL's cache of blocks
+constexpr std::uint64_t kCacheShare = 8;         // number of times that GDAL's cache of blocks fits into the memory
 
 std::vector<std::string> rasters_in_archive(const std::string& archive) {
   std::vector<std::string> found;
@@ -55,7 +55,7 @@ class BlockCacheLimit {
   GIntBig before_;
 };
 
-/// The longest of a kind of step between posts, and by how much they vary.
+/// The longest of a kind of step between posts, and how much they vary.
 struct Steps {
   Point2 longest;
   double least = std::numeric_limits<double>::infinity();
@@ -70,13 +70,13 @@ struct Steps {
   double variation() const { return length(longest) / least; }
 };
 
-/// Posts on their way to the grid.
+/// Posts while they are placed on the grid.
 struct Batch {
   std::vector<double> x, y, z;
   std::vector<GridPoint> points;
 };
 
-/// A raster as it is known before its posts are read.
+/// The properties of a raster that are known before its posts are read.
 struct OpenedRaster {
   std::string path;
   std::optional<int> band;  ///< as the call says
@@ -112,7 +112,7 @@ class RasterTerrain final : public TerrainSource {
     const GDALDatasetUniquePtr dataset = open_raster_file(path_);
     HeightBand band(*dataset, path_, band_);
     std::vector<double> heights;
-    Batch batch;  // not a member: thousands of sources may be planned at once
+    Batch batch;  // not a member, for thousands of sources may be planned at once
     voids_ += RasterWindows(band, memory_bytes_).for_each([&](const RasterWindow& window) {
       progress.throw_if_cancelled();
       progress.report(stage, static_cast<double>(window.row) / lattice_.rows);
@@ -205,7 +205,7 @@ ReadCounts RasterTerrain::counts(std::uint64_t undeclared_voids) const {
 class RasterFile final : public SourceFile {
  public:
   RasterFile(const std::string& path, const ImportOptions& options) {
-    // Files of GeoTIFF 1.0 tell their vertical part only when asked to.
+    // Files of GeoTIFF 1.0 state their vertical part only when asked to.
     const CPLConfigOptionSetter whole_crs("GTIFF_REPORT_COMPD_CS", "YES", true);
     const QuietGdal quiet;
     const GDALDatasetUniquePtr dataset = open_raster_file(path);
@@ -225,7 +225,7 @@ class RasterFile final : public SourceFile {
     return raster_.lattice.post(present_.column + (present_.columns - 1) / 2.0,
                                 present_.row + (present_.rows - 1) / 2.0);
   }
-  /// Where the posts of a vast raster lie is known by large windows only: the posts themselves tell how far they reach.
+  /// Only large windows tell where the posts of a vast raster lie; the posts themselves tell how far they reach.
   Box extent() const override {
     const bool all = present_.columns == raster_.lattice.columns && present_.rows == raster_.lattice.rows;
     return all ? raster_.lattice.box(present_) : SourceFile::extent();

@@ -15,7 +15,7 @@ namespace itin {
 
 namespace {
 
-/// One row after the other.
+/// Reads one row after the other.
 class RasterRows {
  public:
   RasterRows(GDALDataset& dataset, GDALRasterBand& band, const std::string& path)
@@ -31,7 +31,7 @@ class RasterRows {
     read(band_, row, values, GDT_Float64);
     if (mask_) read(*mask_, row, valid_.data(), GDT_Byte);
     for (std::size_t i = 0; i < valid_.size(); ++i) {
-      // A mask of its own hides the nodata value from GDAL's.
+      // A dataset's own mask hides the nodata value from GDAL's mask.
       const bool missing = valid_[i] == 0 || (has_nodata_ && values[i] == nodata_);
       values[i] = missing ? std::numeric_limits<double>::quiet_NaN() : values[i] * band_.GetScale() + band_.GetOffset();
     }

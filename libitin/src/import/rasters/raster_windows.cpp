@@ -17,10 +17,10 @@ namespace {
 
 constexpr std::uint64_t kBytesPerPost = 64;                       // while posts are read and placed
 constexpr int kFewestPosts = 1 << 14, kMostPosts = 1 << 22;       // in a window
-constexpr std::uint64_t kNominalMemory = std::uint64_t{1} << 22;  // in small windows, so that they tell where posts are
-constexpr std::uint64_t kVast = std::uint64_t{1} << 36;           // posts: looking for those that are there is worth it
-constexpr std::uint64_t kPostsOfStore = std::uint64_t{1} << 40;   // its tree has no more leaves
-constexpr std::uint64_t kBlockShare = 4;                          // the memory holds the block at hand so many times
+constexpr std::uint64_t kNominalMemory = std::uint64_t{1} << 22;  // for small windows, which tell where posts are
+constexpr std::uint64_t kVast = std::uint64_t{1} << 36;           // posts; larger rasters are searched for their posts
+constexpr std::uint64_t kPostsOfStore = std::uint64_t{1} << 40;   // a store's tree has no more leaves
+constexpr std::uint64_t kBlockShare = 4;                          // the memory holds the current block this many times
 constexpr int kMostNested = 8;                                    // virtual rasters of virtual rasters
 
 /// The memory that GDAL takes to read a single post.
@@ -37,7 +37,7 @@ bool is_virtual(GDALDataset& dataset) {
   return dataset.GetDriver() != nullptr && EQUAL(dataset.GetDriver()->GetDescription(), "VRT");
 }
 
-/// `path` of the dataset. A file that cannot be opened is reported when it is read.
+/// Checks a dataset at `path`. A file that cannot be opened is reported when it is read.
 void require_small_blocks(GDALDataset& dataset, const std::string& path, std::uint64_t memory_bytes, int depth) {
   if (is_virtual(dataset) && depth < kMostNested) {
     const CPLStringList files(dataset.GetFileList());
@@ -138,7 +138,7 @@ RasterWindow RasterWindows::present(const HeightBand& band) {
   const QuietGdal quiet;
   std::uint64_t posts = 0;
   int left = all.columns, top = all.rows, right = 0, bottom = 0;
-  // Memory must not matter here: the grid is about the middle.
+  // The result must not depend on the memory, for the grid's origin is about the middle.
   RasterWindows(band, kNominalMemory).for_each([&](const RasterWindow& w) {
     posts += w.posts();
     if (posts > kPostsOfStore) refuse_vast(band);

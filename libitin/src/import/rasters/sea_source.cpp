@@ -27,7 +27,8 @@ constexpr double kSeaGapSteps = 1.9;  // a missing post leaves a hole; posts bes
 constexpr double kMostSeaPosts = 4e9;
 constexpr std::size_t kSeaBatch = 1 << 16;
 
-/// Places whose coordinates are these plus multiples of the spacing, grid units. The coarsest is the least.
+/// A lattice of the places with these coordinates plus multiples of the spacing, in grid units. The coarsest lattice is
+/// the least.
 struct PostLattice {
   std::int64_t spacing = 1, x = 0, y = 0;
 
@@ -36,7 +37,7 @@ struct PostLattice {
   }
 };
 
-/// Places of a lattice, in squares of 64 by 64 that have some.
+/// Places of a lattice, in squares of 64 by 64. Only squares with places are kept.
 class SeaPlaces {
  public:
   void add(std::int64_t column, std::int64_t row) {
@@ -57,11 +58,11 @@ class SeaPlaces {
 
   using Square = std::array<std::uint64_t, 64>;
   std::unordered_map<std::uint64_t, Square> squares_;
-  Square* last_ = nullptr;  ///< that a post was added to; posts come side by side
+  Square* last_ = nullptr;  ///< the square that a post was added to; posts come side by side
   std::uint64_t last_key_ = 0;
 };
 
-/// The step of an upright square lattice in whole grid units, if the source is on such a one.
+/// The step of an upright square lattice in whole grid units; nothing if the source is not on one.
 std::optional<std::int64_t> upright_step(const SourceInfo& info, double resolution) {
   const auto& [ux, uy, vx, vy] = info.gap_basis;
   const double step = std::abs(ux) / kGapSteps / resolution;
@@ -72,7 +73,7 @@ std::optional<std::int64_t> upright_step(const SourceInfo& info, double resoluti
 
 }  // namespace
 
-/// Posts seen, by the lattice that they lie on; and what is to be filled.
+/// The posts seen, by the lattice that they lie on, and the area to be filled.
 class SeaFill::Lattices {
  public:
   Lattices(double level, std::optional<Window> area, const Box& box, const Grid& grid)
@@ -97,7 +98,7 @@ class SeaFill::Lattices {
     return seen_.empty() || seen_.begin()->first.spacing < own.spacing ? own : seen_.begin()->first;
   }
 
-  /// Calls visit(row, points) row by row, each from the west.
+  /// Calls visit(share of rows done, points) row by row from the north, each row from the west.
   template <class Visit>
   void for_each_row(const Visit& visit) const {
     const PostLattice lattice = this->lattice();

@@ -12,10 +12,10 @@ namespace itin {
 
 namespace {
 
-/// Names those of one sort in a line of text.
+/// The most names of sources of one sort in a line of text.
 constexpr std::size_t kMostNames = 8;
 
-/// All but the name of a source.
+/// Describes all of a source but its name.
 std::string about(const SourceInfo& source, const StatedHeights& heights) {
   std::string text = source.theme.empty() ? "" : fmt::format("{} in theme {}", source.kind, source.theme);
   const auto add = [&](const std::string& part) { text += (text.empty() ? "" : "; ") + part; };

@@ -23,9 +23,10 @@ class FeatureFields {
   /// Whether anything is to be kept of the features.
   bool any() const { return query_.any(); }
   const std::vector<AttributeField>& fields() const { return fields_; }
-  /// Throws InputError, naming feature and field, for a text that is too long in a field that was asked for.
+  /// Returns what is kept of a feature. Throws InputError, naming feature and field, for a text that is too long in a
+  /// field that was asked for.
   FeatureRecord record(const OGRFeature& feature);
-  /// What was not kept of the records so far, though all was asked for. One line each.
+  /// Tells what was not kept of the records so far, though all was asked for, in one line each.
   std::vector<std::string> warnings() const;
 
  private:
@@ -38,7 +39,7 @@ class FeatureFields {
   KeptTexts texts_;
   int id_ = -1, name_ = -1;
   std::vector<AttributeField> fields_;
-  std::vector<int> indices_;  ///< where fields_ are in the layer
+  std::vector<int> indices_;  ///< the index of each of fields_ in the layer
   std::vector<std::string> warnings_;
 };
 

@@ -1,5 +1,5 @@
-// Warnings about single features of a source: a city has thousands of odd footprints, and the first ones tell what is
-// the matter.
+// Warnings about single features of a source. A city has thousands of odd footprints, and the first ones show what is
+// wrong.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,7 @@ namespace itin {
 
 class Findings {
  public:
-  /// Lines begin with `place`: a file or a theme.
+  /// Each line begins with `place`: a file or a theme.
   explicit Findings(std::string place) : place_(std::move(place)) {}
 
   void add(const std::string& finding) {

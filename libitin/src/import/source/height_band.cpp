@@ -38,7 +38,7 @@ HeightBand::HeightBand(GDALDataset& dataset, const std::string& path, std::optio
   const bool own_mask = mask_ != nullptr || !(flags & GMF_NODATA);
   if (!mask_ && !(flags & GMF_ALL_VALID)) mask_ = band_->GetMaskBand();
   declares_nodata_ = has_nodata != 0;
-  // A mask of its own hides the nodata value from GDAL's.
+  // A band's own mask hides the nodata value from GDAL's mask.
   if (declares_nodata_ && own_mask) nodata_ = nodata;
 }
 
@@ -74,7 +74,7 @@ void HeightBand::read(const RasterWindow& window, std::vector<double>& heights) 
 double HeightBand::height(double raw, bool valid) {
   constexpr double kVoid = std::numeric_limits<double>::quiet_NaN();
   if (!valid || std::isnan(raw) || raw == nodata_) return kVoid;
-  // -9999 could be the bottom of a trench, in a file that declares another value.
+  // In a file that declares another value, -9999 could be the bottom of a trench.
   if (is_usual_nodata(raw) && (raw != -9999 || !declares_nodata_)) {
     ++undeclared_voids_;
     return kVoid;

@@ -21,21 +21,22 @@ struct RasterWindow {
 /// A band with everything that makes its numbers heights: scale, offset, nodata, mask. The dataset must outlive it.
 class HeightBand {
  public:
-  /// The band as value_band() chooses it. Throws FileError where the raster holds no heights, InputError where it is
+  /// Chooses the band as value_band() does. Throws FileError where the raster holds no heights, InputError where it is
   /// not clear which band does.
   HeightBand(GDALDataset& dataset, const std::string& path, std::optional<int> number);
 
-  /// The unit the band states; nothing where it states none. Throws InputError for one that is not known.
+  /// The unit the band states; nothing where it states none. Throws InputError for an unknown unit.
   std::optional<LinearUnit> stated_unit() const;
 
   int columns() const;
   int rows() const;
   bool declares_nodata() const { return declares_nodata_; }
 
-  /// Heights in the band's unit, row by row, NaN where there is none. Throws FileError.
+  /// Reads heights in the band's unit, row by row, NaN where there is none. Throws FileError.
   void read(const RasterWindow& window, std::vector<double>& heights);
 
-  /// How many posts read so far held what customarily stands for missing data though the file does not declare it.
+  /// The number of posts read so far with a value that customarily stands for missing data though the file does not
+  /// declare it.
   std::uint64_t undeclared_voids() const { return undeclared_voids_; }
 
   const std::string& path() const { return path_; }
@@ -47,7 +48,7 @@ class HeightBand {
   std::string path_;
   GDALRasterBand* band_;
   GDALRasterBand* mask_ = nullptr;  // null where all posts are valid
-  std::optional<double> nodata_;    // where the mask does not know of it
+  std::optional<double> nodata_;    // where the mask does not know the nodata value
   bool declares_nodata_ = false;
   double scale_ = 1, offset_ = 0;
   std::vector<unsigned char> valid_;

@@ -17,7 +17,7 @@ Segment plan_of(const ImportedSegment& s) {
   return {s.a.x, s.a.y, s.b.x, s.b.y};
 }
 
-/// Whether an end of a line of the terrain has the height and the source that it came with.
+/// Whether an end of a line of the terrain still has the height and the source that it was imported with.
 bool is_as_it_came(const GridPoint& p, std::uint16_t source, const ThemeLines& lines) {
   const std::vector<GridPoint>& vertices = lines.lines.vertices;
   const auto at = find_by_code(vertices, code_of(p));
@@ -34,8 +34,8 @@ class Placed {
     std::sort(features_.begin(), features_.end());
     came_.resize(plans_.size());
   }
-  /// Whether there is one with these ends that is not taken, of this feature and no other, and of which came() is true;
-  /// then it is taken.
+  /// Takes a segment with these ends if there is one that is not taken yet, is of this feature and no other, and for
+  /// which came() is true. Returns whether one was taken.
   template <class Came>
   bool take_if(const ImportedSegment& s, const Came& came) {
     const auto at = std::lower_bound(plans_.begin(), plans_.end(), plan_of(s));
@@ -51,7 +51,8 @@ class Placed {
   }
 
  private:
-  /// The store's segments tell which features they are of, but not which of these they came with.
+  /// Whether a segment belongs to this feature alone. The store tells the features of a segment, but not which of them
+  /// it came with.
   bool is_of_one(const Segment& plan, std::uint32_t feature) const {
     const auto own = of_segment(features_, plan);
     if (own.empty()) return feature == kNoFeature;
@@ -96,7 +97,7 @@ std::vector<SetAsideLines> set_aside_of(std::span<const ImportedPiece> pieces, c
   std::vector<SetAsideLines> result(lines.themes());
   for (const ImportedPiece& piece : pieces) {
     const ImportedSegment& s = piece.segment;
-    // One that is not placed may have ends that are no vertices.
+    // A piece that is not placed may have ends that are no vertices, so came() is asked for placed ones only.
     const auto came = [&] {
       return !lines.terrain[piece.theme] ||
              (is_as_it_came(s.a, s.source, lines) && is_as_it_came(s.b, s.source, lines));

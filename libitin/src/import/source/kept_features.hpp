@@ -20,13 +20,13 @@ struct FeatureQuery {
   /// Whether anything is to be kept.
   bool any() const { return !attributes || !attributes->empty() || !id_field.empty() || !name_field.empty(); }
 };
-/// Throws InputError for an attribute that comes twice.
+/// Reads the query from the options. Throws InputError for an attribute that comes twice.
 FeatureQuery feature_query(const ImportOptions& options);
 
-/// The type that holds the values of both.
+/// The type that holds the values of both types.
 AttributeType wider(AttributeType a, AttributeType b);
 
-/// Throws InputError where a theme would have more fields than it can, naming the source.
+/// Throws InputError, naming the source, where a theme would have more fields than allowed.
 void require_few_fields(std::size_t fields, const std::string& path);
 
 /// Texts of a source, none of them longer than a store keeps.
@@ -35,9 +35,9 @@ class KeptTexts {
   explicit KeptTexts(std::string path) : path_(std::move(path)) {}
   /// Throws InputError, naming feature and field, for a text that is too long.
   std::string required(std::string text, const std::string& feature, const std::string& field) const;
-  /// Nothing in place of a text that is too long; warnings() tells of it.
+  /// Returns the text; nothing in place of one that is too long, of which warnings() tells.
   AttributeValue if_short(std::string text, const std::string& feature, const std::string& field);
-  /// One line, or none.
+  /// Returns one line, or none.
   std::vector<std::string> warnings() const;
 
  private:
@@ -45,13 +45,13 @@ class KeptTexts {
   std::uint64_t left_out_ = 0;
 };
 
-/// Finds the fields of a source among those of a theme, to which it adds those that it has not. A field that holds
-/// whole numbers in one source and others in another holds numbers, and one that holds texts in either holds texts.
-/// Gives the place of each. Throws InputError, naming the source, where they become too many. Precondition: the names
-/// of a source's fields differ.
+/// Finds the fields of a source among those of a theme, and adds missing ones to the theme. A field that holds whole
+/// numbers in one source and others in another holds numbers; one that holds texts in either holds texts. Returns the
+/// place of each field. Throws InputError, naming the source, where they become too many. Precondition: the names of a
+/// source's fields differ.
 std::vector<std::size_t> places_among(std::vector<AttributeField>& theme, const std::vector<AttributeField>& source,
                                       const std::string& path);
-/// The record with its values at these places.
+/// Returns the record with its values at these places.
 FeatureRecord arranged(FeatureRecord record, const std::vector<std::size_t>& places);
 
 }  // namespace itin

@@ -1,4 +1,4 @@
-// A text file line by line, fast and in bounded memory.
+// Reads a text file line by line, fast and in bounded memory.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ class LineReader {
   /// Longer lines are refused: the file is not text.
   static constexpr std::size_t kLongestLine = std::size_t{1} << 16;
 
-  /// Throws FileError.
+  /// Opens the file. Throws FileError.
   explicit LineReader(std::string path);
 
   /// The next line without its end (LF or CRLF) and without a leading byte order mark; nothing at the end of the file.

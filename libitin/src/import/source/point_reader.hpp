@@ -14,8 +14,8 @@
 
 namespace itin {
 
-/// Some points in the file's own coordinates and units, axes easting (or longitude), northing (or latitude), height.
-/// A height of NaN is one the file leaves out.
+/// Some points in the file's own coordinates and units. The axes are easting (or longitude), northing (or latitude) and
+/// height; a height of NaN is one the file leaves out.
 struct PointBatch {
   std::vector<double> x, y, z;
 
@@ -32,27 +32,27 @@ inline constexpr std::size_t kPointBatchSize = 16384;
 /// A point file that was opened and understood: its header was read, not its points.
 class PointReader {
  public:
-  /// `fraction` of the file has been read so far. The batch may be changed by the receiver.
+  /// Receives a batch; `fraction` of the file has been read so far. The receiver may change the batch.
   using Sink = std::function<void(PointBatch& batch, double fraction)>;
 
   virtual ~PointReader() = default;
   virtual const std::string& path() const = 0;
-  /// The CRS by the file itself: authority:code or WKT; empty if it says nothing.
+  /// The CRS that the file itself states: authority:code or WKT; empty if it says nothing.
   virtual std::string crs() const = 0;
   /// The unit of the heights, where the file states it apart from its CRS.
   virtual std::optional<LinearUnit> height_unit() const { return std::nullopt; }
-  /// One line each: assumptions made on opening.
+  /// Assumptions made on opening, one line each.
   virtual std::vector<std::string> warnings() const { return {}; }
   /// A position amid the points.
   virtual Point2 centre() const = 0;
-  /// The box of the points, as far as it is known without reading them: at least the centre.
+  /// The box of the points, so far as it is known without reading them: at least the centre.
   virtual Box extent() const { return {centre().x, centre().y, centre().x, centre().y}; }
-  /// How many features without geometry read() has passed over.
+  /// The number of features without geometry that read() has passed over.
   virtual std::uint64_t without_geometry() const { return 0; }
-  /// Bytes or points, whatever is at hand.
+  /// How much there is to read, in bytes or points, whatever is at hand; progress is measured by it.
   virtual double size_hint() const = 0;
-  /// Streams all points in bounded memory, and returns how many were left out by class or attribute filter. Exceptions
-  /// of the sink pass through. Throws FileError, InputError.
+  /// Streams all points in bounded memory, and returns the number left out by class or attribute filter. Exceptions of
+  /// the sink pass through. Throws FileError, InputError.
   virtual std::uint64_t read(const Sink& sink) = 0;
 };
 

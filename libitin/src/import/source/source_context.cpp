@@ -20,10 +20,10 @@ namespace itin {
 
 namespace {
 
-// No ground lies beyond these; what does is a marker for missing data, or a height in the wrong unit.
+// No ground lies beyond these; a height beyond is a marker for missing data, or in the wrong unit.
 constexpr double kLowest = -12000, kHighest = 20000;
 
-// The least and greatest numbers of common types, and what netCDF and Surfer fill in.
+// Marks of missing heights: the least and greatest numbers of common types, and what netCDF and Surfer fill in.
 constexpr double kMissingMarks[] = {-3.4028234663852886e38,
                                     3.4028234663852886e38,
                                     -1.7976931348623157e308,
@@ -35,10 +35,10 @@ constexpr double kMissingMarks[] = {-3.4028234663852886e38,
                                     9.969209968386869e36,
                                     1.70141e38,
                                     1.7014118346046923e38};
-// Some were written as single precision, or with few digits.
+// The share by which a mark may be off: some were written as single precision, or with few digits.
 constexpr double kMarkShare = 1e-6;
 
-/// The CRS by the file itself. Where --crs has a horizontal part, it need not be understood.
+/// The CRS that the file itself states. Where --crs has a horizontal part, the file's need not be understood.
 Crs own_crs(const std::string& path, const std::string& found, bool needed) {
   if (found.empty()) return {};
   try {

@@ -1,5 +1,5 @@
-// Import in two steps: a source is opened to learn its CRS and centre; once the store's CRS and grid are chosen by the
-// first one, it is bound to them and becomes a TerrainSource.
+// An import has two steps. A source is opened to learn its CRS and centre. Once the first source has determined the
+// store's CRS and grid, each source is bound to them and becomes a TerrainSource.
 //
 //   std::unique_ptr<SourceFile> open_raster_source(const std::string& path, const ImportOptions&);
 //   std::unique_ptr<SourceFile> open_point_source(const std::string& path, const ImportOptions&);
@@ -34,28 +34,28 @@ class OpenedFile {
  public:
   virtual ~OpenedFile() = default;
   virtual const std::string& path() const = 0;
-  /// --crs, else as found in the file. Throws InputError where there is neither.
+  /// The CRS of --crs, else the one found in the file. Throws InputError where there is neither.
   virtual Crs crs() const = 0;
   /// A position amid the file's points, in its own CRS.
   virtual Point2 centre() const = 0;
-  /// The box of the file's points in its own CRS, as far as it is known without reading them: at least the centre.
+  /// The box of the file's points in its own CRS, so far as it is known without reading them: at least the centre.
   virtual Box extent() const { return {centre().x, centre().y, centre().x, centre().y}; }
-  /// One line each: assumptions made on opening.
+  /// Assumptions made on opening, one line each.
   virtual std::vector<std::string> warnings() const { return {}; }
 };
 
-/// An opened file of terrain points. Its answers hold before bind() only.
+/// An opened file of terrain points. Its answers hold only before bind().
 class SourceFile : public OpenedFile {
  public:
-  /// Called once. Throws InputError where coordinates cannot be transformed.
+  /// Binds the file to a store; to be called once. Throws InputError where coordinates cannot be transformed.
   virtual std::unique_ptr<TerrainSource> bind(const SourceContext& context) = 0;
 };
 
-/// The CRS of a source: --crs, and what that leaves open (the horizontal or the vertical part) as `found`, the text the
-/// file holds. Throws InputError that says `--crs EPSG:xxxx` where neither has a horizontal part.
+/// The CRS of a source: the one of --crs, in which a missing horizontal or vertical part is taken from `found`, the
+/// text that the file holds. Throws InputError that says `--crs EPSG:xxxx` where neither has a horizontal part.
 Crs source_crs(const std::string& path, const std::string& option_crs, const std::string& found);
 
-/// Whether a number is one that customarily stands for a missing height, and is none for sure.
+/// Whether a number customarily stands for a missing height, and surely is no height.
 bool is_missing_mark(double height);
 
 /// The warning about `count` heights that were taken as missing, `mark` among them.
@@ -65,8 +65,8 @@ std::string warning_of_marks(const std::string& path, std::uint64_t count, doubl
 class Placement {
  public:
   enum class Missing {
-    kNotDeclared,  ///< is_usual_nodata() is a void
-    kDeclared,     ///< what the source declares is NaN, and nothing else is missing
+    kNotDeclared,  ///< a value for which is_usual_nodata() holds is a void
+    kDeclared,     ///< the source's declared nodata is NaN by now, and nothing else is missing
   };
   Placement(std::string path, const Crs& crs, const HeightAxis& heights, const SourceContext& context, Missing missing);
 
@@ -74,7 +74,7 @@ class Placement {
   /// is NaN, is_missing_mark(), missing, below -12,000 m or above 20,000 m, or whose position has no image are counted
   /// as voids. Throws InputError for a position the grid cannot hold, and for a height beyond kFarthestHeight.
   void place(std::span<double> x, std::span<double> y, std::span<const double> z, std::vector<GridPoint>& points);
-  /// Positions only: of the corners of a lattice step, say. NaN where there is no image.
+  /// Transforms positions only, such as the corners of a lattice step. A position without image becomes NaN.
   void transform(std::span<double> x, std::span<double> y) const { transform_.transform(x, y); }
 
   /// Counts what has been placed so far, with warning lines for heights and positions that were refused.
@@ -90,11 +90,11 @@ class Placement {
   GridBox bounds_;
   Missing missing_;
   std::uint64_t placed_ = 0, voids_ = 0, marks_ = 0, out_of_range_ = 0, unmapped_ = 0;
-  double mark_ = 0;  ///< one of those counted
+  double mark_ = 0;  ///< one of the heights counted in marks_
 };
 
-/// "2024-05-31T12:00:00Z": now, or the time that SOURCE_DATE_EPOCH gives (reproducible-builds.org). Throws InputError
-/// where that is none.
+/// Returns the time now, or the one that SOURCE_DATE_EPOCH gives (reproducible-builds.org), like
+/// "2024-05-31T12:00:00Z". Throws InputError where SOURCE_DATE_EPOCH is no time.
 std::string utc_now();
 
 }  // namespace itin

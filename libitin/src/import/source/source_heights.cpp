@@ -27,7 +27,7 @@ std::string quoted(const std::string& name) {
   return text + "\"";
 }
 
-/// WKT 2.
+/// Returns the CRS with the axis, as WKT 2.
 std::string with_axis(const Crs& crs, const HeightAxis& axis) {
   return fmt::format(
       "COMPOUNDCRS[{},{},VERTCRS[\"heights\",VDATUM[{}],CS[vertical,1],AXIS[{}],LENGTHUNIT[{},{:.17g}]]]",

@@ -1,4 +1,4 @@
-// How the heights of a source are understood.
+// Tells how the heights of a source are understood.
 #pragma once
 
 #include <optional>
@@ -13,13 +13,13 @@ namespace itin {
 
 struct SourceHeights {
   HeightAxis axis;
-  std::string crs;      ///< the source's, in which height_axis() finds this axis again: authority:code or WKT 2
+  std::string crs;      ///< the source's CRS, in which height_axis() finds this axis again: authority:code or WKT 2
   std::string warning;  ///< empty when there is nothing to say
 };
 
-/// The unit is the one that --crs has, else the one `stated` by the file apart from its CRS, else the vertical part's
-/// of its CRS, else that of the CRS's own axes, for a survey in feet has its heights in feet though few files say so,
-/// else the metre. Heights grow upwards unless the CRS says otherwise.
+/// Finds the unit of the heights. It is the one that --crs has, else the one `stated` by the file apart from its CRS,
+/// else that of the vertical part of its CRS. Otherwise it is the unit of the CRS's own axes, for a survey in feet has
+/// its heights in feet though few files say so, or else the metre. Heights grow upwards unless the CRS says otherwise.
 SourceHeights source_heights(const std::string& path, const std::optional<LinearUnit>& stated, const Crs& crs);
 
 }  // namespace itin

@@ -62,7 +62,8 @@ namespace {
 
 [[noreturn]] void refuse_clause(OGRLayer& layer, const std::string& path, const std::string& where) {
   const std::string reason = QuietGdal::message("GDAL does not say why");
-  // OGR's own SQL, then SQLite's: the contract tells an unknown field from a clause that makes no sense.
+  // These are the messages of OGR's own SQL, then SQLite's. The contract tells an unknown field from a clause that
+  // makes no sense.
   if (reason.find("not recognised as an available field") != std::string::npos ||
       reason.find("no such column") != std::string::npos)
     throw FileError(path, fmt::format("`where` {} names a field that layer '{}' does not have: {}", where,
@@ -86,11 +87,11 @@ std::uint64_t select_features(OGRLayer& layer, const std::string& path, const st
   return static_cast<std::uint64_t>(std::max<GIntBig>(0, all - left));
 }
 
-/// GDAL tells an end from a failure only by its error state, which others may leave set between two calls.
+/// GDAL tells the end from a failure only by its error state, which other code may leave set between two calls.
 OGRFeatureUniquePtr next_feature(OGRLayer& layer, const std::string& path) {
   const QuietGdal quiet;
   OGRFeatureUniquePtr feature(layer.GetNextFeature());
-  // A damaged geometry comes as none.
+  // A feature with a damaged geometry comes as one without.
   if (QuietGdal::failed() && (!feature || feature->GetGeometryRef() == nullptr))
     throw FileError(path, "a feature cannot be read: " + QuietGdal::message("GDAL does not say why"));
   return feature;

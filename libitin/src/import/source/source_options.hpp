@@ -1,4 +1,4 @@
-// Which options of an import mean something for which kinds of source.
+// Tells which options of an import mean something for which kinds of source.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 namespace itin {
 
-/// The kind of a source, as far as options depend on it.
+/// The kind of a source, so far as options depend on it.
 enum class SourceKind : std::uint16_t {
   raster,
   las,
@@ -24,10 +24,10 @@ enum class SourceKind : std::uint16_t {
   surface         ///< a raster of elevations, of the ground and what stands on it
 };
 
-/// Throws InputError, naming the option, where one is given that none of the sources makes use of.
+/// Throws InputError, naming the option, where an option is given that none of the sources uses.
 void require_useful_options(const ImportOptions& options, std::span<const SourceKind> sources);
 
-/// The kind of source that lines of a theme's kind are, where they do not stand.
+/// The kind of source that lines of this kind of theme are, where they do not stand.
 SourceKind kind_of_lines(ThemeKind kind);
 
 }  // namespace itin

@@ -1,4 +1,4 @@
-// Sources in an order that knows no order of import: it decides wherever several could claim the same place.
+// Orders sources without regard to the order of import. The order decides wherever several could claim the same place.
 #pragma once
 
 #include <cstdint>
@@ -9,8 +9,8 @@
 
 namespace itin {
 
-/// The rank of each source: those that are ground by themselves come first, the sea last, then what they hold decides.
-/// Equal ranks are of equal sources.
+/// The rank of each source. Sources that are ground by themselves come first and the sea last; then what the sources
+/// hold decides. Only equal sources have equal ranks.
 std::vector<std::uint32_t> ranks_of(std::span<const SourceInfo> sources);
 
 }  // namespace itin

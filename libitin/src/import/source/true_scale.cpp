@@ -10,7 +10,7 @@ namespace itin {
 
 namespace {
 
-/// The images of those places that have one.
+/// Returns the images of the places that have one.
 std::vector<Point2> transformed(std::span<const Point2> places, const PointTransform& transform) {
   std::vector<double> x, y;
   for (const Point2& p : places) x.push_back(p.x), y.push_back(p.y);
@@ -61,7 +61,8 @@ void TrueScale::require(const std::string& path, std::span<const Point2> places,
                                crs_.name, error_in_words(scale), 100 * scale.allowed, remedy));
 }
 
-/// The UTM zone where it serves, else a projection about the middle, which is true for hundreds of kilometres around.
+/// Suggests the UTM zone where lengths are true in it, else a projection about the middle, which is true for hundreds
+/// of kilometres around.
 std::string TrueScale::nearer_crs(std::span<const Point2> places) const {
   const Point2 middle = places[places.size() / 2];
   try {
@@ -69,7 +70,7 @@ std::string TrueScale::nearer_crs(std::span<const Point2> places) const {
     const auto scale = ScaleMeter(zone).at(transformed(places, {crs_.wkt, zone.wkt, crs_.name}));
     if (scale && scale->is_true()) return zone.name;
   } catch (const InputError&) {
-    // Near the poles there is none.
+    // Near the poles there is no zone.
   }
   const Point2 centre = meter_.lon_lat(std::span(&middle, 1)).front();
   return fmt::format("+proj=laea +lat_0={:.0f} +lon_0={:.0f} +datum=WGS84 +units=m", centre.y, centre.x);

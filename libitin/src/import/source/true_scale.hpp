@@ -13,13 +13,13 @@ namespace itin {
 
 class TrueScale {
  public:
-  /// For the CRS of a store, a new one or one that exists.
+  /// `crs` is the CRS of a store, a new one or one that exists.
   TrueScale(Crs crs, bool store_exists) : crs_(std::move(crs)), store_exists_(store_exists), meter_(crs_) {}
 
-  /// Where the file's points lie, as far as that is known before they are read. Throws InputError where that is nowhere
-  /// in the CRS.
+  /// The scale where the file's points lie, so far as that is known before they are read. Throws InputError where they
+  /// have no place in the CRS.
   GridScale of(const OpenedFile& file);
-  /// Throws InputError, which names a remedy, where lengths are not true.
+  /// Throws InputError, which names a remedy, where lengths at the file's points are not true.
   void require(const OpenedFile& file);
   /// Requires true lengths of points in this box in the CRS, from the file `path`.
   void require(const std::string& path, const Box& area) const;

@@ -9,15 +9,16 @@
 
 namespace itin {
 
-/// Heights on different datums differ by metres, which no CRS of a store would show. Unknown datums are trusted.
+/// Checks that heights share one datum: heights on different datums differ by metres, which no CRS of a store would
+/// show. Unknown datums are trusted.
 class VerticalDatums {
  public:
   VerticalDatums() = default;
   /// Begins with the datums of a store's sources.
   explicit VerticalDatums(const StoreMetadata& store);
 
-  /// Throws InputError, which begins with `place` and names `allow_mixed_vertical`, where another datum was added
-  /// before.
+  /// Adds a datum. Throws InputError, which begins with `place` and names `allow_mixed_vertical`, where another datum
+  /// was added before.
   void add(const Crs& crs, const std::string& place);
 
  private:

@@ -10,7 +10,7 @@ namespace itin {
 
 namespace {
 
-constexpr double kSquare = 100000;  ///< metres, of two letters
+constexpr double kSquare = 100000;  ///< the side of a square of two letters, metres
 
 char upper(char c) {
   return static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
@@ -20,7 +20,7 @@ bool is_digit(char c) {
   return std::isdigit(static_cast<unsigned char>(c)) != 0;
 }
 
-/// From A, without I.
+/// The number of a letter counted from A, without I.
 std::optional<int> letter_number(char c) {
   const char letter = upper(c);
   if (letter < 'A' || letter > 'Z' || letter == 'I') return std::nullopt;
@@ -34,7 +34,7 @@ double digits_value(std::string_view digits) {
   return value;
 }
 
-/// Ordnance Survey: squares of 500 km in rows of five from VAAAA, each of 25 squares of 100 km.
+/// Reads an Ordnance Survey reference: squares of 500 km in rows of five from VAAAA, each of 25 squares of 100 km.
 std::optional<Point2> national_grid(std::string_view text) {
   std::string compact;
   std::copy_if(text.begin(), text.end(), std::back_inserter(compact), [](char c) { return c != ' '; });
@@ -49,7 +49,8 @@ std::optional<Point2> national_grid(std::string_view text) {
                 north * kSquare + digits_value(digits.substr(half))};
 }
 
-/// The numbers of a text of them and of marks (degrees, primes, colons, blanks) between; nothing for other letters.
+/// Reads the numbers of a text that has only marks (degrees, primes, colons, blanks) between them; nothing for a text
+/// with letters.
 std::optional<std::vector<double>> numbers_among_marks(std::string_view text) {
   std::vector<double> numbers;
   for (std::size_t i = 0; i < text.size();) {
@@ -68,7 +69,7 @@ std::optional<std::vector<double>> numbers_among_marks(std::string_view text) {
   return numbers;
 }
 
-/// Where the text's next hemisphere letter is.
+/// The position of the text's next hemisphere letter.
 std::size_t next_letter(std::string_view text, std::size_t from) {
   return text.find_first_of("NSEWnsew", from);
 }

@@ -21,11 +21,12 @@ namespace itin {
 
 namespace {
 
-/// Measured at the peak of imports, rounded up: for lines while they are simplified, with their pieces as they were
-/// imported (690 where breaklines cut each other, 530 for roads), and for features while they are raised.
+/// Memory at the peak of imports; measured, rounded up. For lines it is taken while they are simplified, with their
+/// pieces as they were imported (690 where breaklines cut each other, 530 for roads); for features while they are
+/// raised.
 constexpr std::uint64_t kBytesPerLineVertex = 800, kBytesPerFeatureVertex = 3000;
 
-/// The full surface's third vertex left of an edge of it.
+/// The third vertex of the full surface's triangle left of an edge.
 std::optional<Position> apex_of(const Store& ground, Position from, Position to) {
   const Grid& grid = ground.metadata().grid;
   Box box;
@@ -55,7 +56,7 @@ const GridPoint* vertex_at(const RaisedPart& part, Position p) {
   return at != part.vertices.end() ? &*at : nullptr;
 }
 
-/// Where features meet, what is built knows no order of import.
+/// Returns the footprints in an order that knows no order of import, for where features meet, the order decides.
 std::vector<StoredFootprint> in_order_of_content(const std::vector<StoredFootprint>& footprints) {
   std::vector<std::pair<std::string, std::size_t>> order;
   for (std::size_t i = 0; i < footprints.size(); ++i) {
@@ -128,7 +129,7 @@ bool LineCollection::take_vertex(const GridPoint& p, std::uint16_t source, bool 
     if (end != ends_.end()) vertices_.try_emplace(code, Vertex{p.z, themes_[end->second].first_source});
     return false;
   }
-  // One whose lines left the ground comes with these where they are taken as they were imported.
+  // A vertex whose lines have left the ground is taken with these lines where they are taken as they were imported.
   const bool comes_with_lines = as_ == LinesAs::imported && keeps_set_aside_;
   if (of_terrain && end == ends_.end() && !comes_with_lines) return false;
   vertices_.try_emplace(code, Vertex{p.z, source});
@@ -144,7 +145,7 @@ std::uint16_t LineCollection::source_of_stored(const Segment& s) const {
   return themes_[s.theme - std::size_t{1}].first_source;
 }
 
-/// At least one: kNoFeature where none is known.
+/// The features of a stored segment, at least one: kNoFeature where none is known.
 std::vector<std::uint32_t> LineCollection::features_of(const Segment& s) const {
   std::vector<std::uint32_t> features;
   for (const SegmentFeature& f : of_segment(stored_features_, s)) features.push_back(f.feature);
@@ -161,11 +162,12 @@ void LineCollection::take_set_aside(const StoreRows& rows) {
     const auto [a, b] = std::minmax({vertex(s.ax, s.ay), vertex(s.bx, s.by)});
     return ImportedSegment{a, b, source_of_stored(s), features_of(s).front()};
   });
-  // Those left out beyond the ground come with the others.
+  // Lines that were left out beyond the ground are among these.
   line_vertices_ = std::max(line_vertices_, std::uint64_t{imported_.size()});
 }
 
-/// The lines with their heights. As they lie, a vertex of the terrain has its own, one of another line gets it anew.
+/// Adds the lines with their heights. Where lines are taken as they lie, a vertex of the terrain keeps its height, and
+/// one of another line gets it anew.
 void LineCollection::add_lines(const std::vector<SourceInfo>& sources, const ReplacingGround* replacing) {
   made_room_.assign(sources.size(), 0);
   if (as_ == LinesAs::imported) {
@@ -234,7 +236,7 @@ void LineCollection::add(std::uint32_t theme, std::uint16_t source, std::uint32_
   const auto vertex = [&](const GridPoint& p) { return GridPoint{p.x, p.y, of_terrain ? p.z : 0}; };
   for (std::size_t i = 1; i < line.size(); ++i) {
     const auto [a, b] = std::minmax({vertex(line[i - 1]), vertex(line[i])});
-    // Upright, its ends are those of its neighbours.
+    // An upright piece is passed over: its ends are those of its neighbours.
     if (a.x != b.x || a.y != b.y) imported_.push_back({theme, {a, b, source, feature}});
   }
 }
@@ -279,13 +281,13 @@ void LineCollection::raise(const Store& ground, RaisedFeaturesReport& report, Pr
   }
 }
 
-/// An edge that keeps the ground about features.
+/// Adds an edge that keeps the ground about features.
 void LineCollection::keep(const OwnedSegment& ground_line) {
   segments_.push_back(ground_line);
   for (const GridPoint& p : {ground_line.a, ground_line.b}) ground_ends_.push_back({ground_line.owner, code_of(p)});
 }
 
-/// Gives their lines to make_planar()'s segments, under the numbers that follow the themes'.
+/// Adds the lines of parts to make_planar()'s segments, under the numbers that follow the themes'.
 void LineCollection::place_parts(ThemeLines& result) {
   std::stable_sort(parts_.begin(), parts_.end(), [](const OwnPart& a, const OwnPart& b) { return a.theme < b.theme; });
   std::vector<std::uint32_t> by_rank(themes_.size());
@@ -314,7 +316,7 @@ std::uint16_t LineCollection::source_of(const GridPoint& p, std::uint32_t owner)
 }
 
 /// Keeps a line of the ground. Where it lies under a draped feature, it becomes a line of that feature's top. `masks`
-/// are those of the parts.
+/// are the masks of the parts.
 void LineCollection::keep_or_raise(const OwnedSegment& ground_line, const std::vector<MaskIndex>& masks) {
   const Position a{ground_line.a.x, ground_line.a.y}, b{ground_line.b.x, ground_line.b.y};
   for (std::size_t p = 0; p < parts_.size(); ++p) {
@@ -332,7 +334,7 @@ void LineCollection::keep_or_raise(const OwnedSegment& ground_line, const std::v
   keep(ground_line);
 }
 
-/// Puts all segments into one plane, with what keeps the ground about features.
+/// Makes all segments planar, with the lines that keep the ground about features.
 void LineCollection::make_lines(ThemeLines& result, const Store* ground, const Progress& progress) {
   GroundBorder border(themes_.size());
   for (std::uint32_t t = 0; t < themes_.size(); ++t) border.add(t, themes_[t].changed);

@@ -1,7 +1,7 @@
-// All lines of a store, old and new, on their way to being made planar.
+// Collects all lines of a store, old and new, and makes them planar.
 //
-// They are taken as they were imported, so that what comes of them knows no order of import; or, to raise features on a
-// ground, as they lie there: cut and moved already.
+// They are taken as they were imported, so that the result knows no order of import. To raise features on a ground,
+// they are taken as they lie there instead: cut and moved already.
 #pragma once
 
 #include <cstdint>
@@ -33,9 +33,9 @@ struct RaisedThemeReport {
 
 /// The features raised for all imports so far.
 struct RaisedFeaturesReport {
-  std::uint64_t features = 0;  ///< that stand
+  std::uint64_t features = 0;  ///< number of features that stand
   std::uint64_t refused = 0;
-  std::vector<RaisedThemeReport> themes;  ///< that stand
+  std::vector<RaisedThemeReport> themes;  ///< the themes that stand
 };
 
 /// Whether lines are taken as they were imported, or as they lie on a ground that features are to be raised on.
@@ -43,7 +43,7 @@ enum class LinesAs : std::uint8_t { imported, laid };
 
 struct CollectedTheme {
   ThemeInfo info;
-  bool raised = false;  ///< it has features with heights, which are made parts
+  bool raised = false;  ///< whether it has features with heights, which are made parts
   std::vector<StoredFootprint> footprints{};
   ThemeFeatures features{};
   std::uint16_t first_source = 0;  ///< chosen by a rule that does not depend on the order of import
@@ -54,54 +54,55 @@ class LineCollection {
  public:
   LineCollection(LinesAs as, std::uint64_t memory_bytes) : as_(as), memory_bytes_(memory_bytes) {}
 
-  /// Throws InputError, naming the source at hand, where lines and features so far take more than the memory until
-  /// they are in the store.
+  /// Throws InputError, naming the source at hand, where lines and features so far take more than the memory until they
+  /// are in the store.
   void require_room(const std::string& source) const;
 
-  /// Takes a store's themes over, then its lines, then their vertices, then how they were imported: in this order.
+  /// These functions take over a store's themes, then its lines, their vertices, and how they were imported: in this
+  /// order.
   void take_themes(const StoreMetadata& metadata);
   void take_segments(const Store& store);
-  /// Whether the vertex (`of_terrain`: of the full surface) comes from lines, and so is taken over with them, not with
-  /// the points.
+  /// Takes a vertex over. Returns whether the vertex comes from lines, and so is taken over with them, not with the
+  /// points. `of_terrain` tells that it belongs to the full surface.
   bool take_vertex(const GridPoint& p, std::uint16_t source, bool of_terrain);
   void take_set_aside(const StoreRows& rows);
 
-  /// Raised themes' footprints, whose lines are not taken over, but made again; and the records of all features.
+  /// Takes over the footprints of raised themes, whose lines are made again instead, and the records of all features.
   void take_features(const Store& store);
 
-  /// The number of a theme, which is made if there is none of the name. Throws InputError where one has another kind,
-  /// or is raised where the other is not.
+  /// Returns the number of a theme, which is made if none has the name. Throws InputError where the theme that has it
+  /// is of another kind, or is raised where the wanted one is not, or the other way round.
   std::uint32_t theme(const std::string& name, ThemeKind kind, bool raised);
-  /// Where the walls of a raised theme reach their height. Throws InputError for an offset out of range, and for
-  /// another one than the theme's footprints so far have.
+  /// Sets the offset at which the walls of a raised theme reach their height. Throws InputError for an offset out of
+  /// range, and for another one than the theme's footprints so far have.
   void offset_walls(std::uint32_t theme, double metres, const Grid& grid);
-  /// A line of a feature of the theme, by its number, or of kNoFeature.
+  /// Adds a line of a feature of the theme, given by its number, or of kNoFeature.
   void add(std::uint32_t theme, std::uint16_t source, std::uint32_t feature, std::span<const GridPoint> line);
   void count_features(std::uint32_t theme, std::uint64_t count) { themes_[theme].info.features += count; }
 
   /// The fields of a theme's features.
   std::vector<AttributeField>& fields(std::uint32_t theme) { return themes_[theme].features.fields; }
-  /// The number of one more feature of a theme of lines on the ground, its values as fields() has them.
+  /// Adds a feature to a theme of lines on the ground, its values in the order of fields(), and returns its number.
   std::uint32_t add_feature(std::uint32_t theme, FeatureRecord record);
-  /// With a record where its source keeps any.
+  /// Adds a footprint, with a record where its source keeps any.
   void add_footprint(std::uint32_t theme, StoredFootprint footprint, std::optional<FeatureRecord> record = {});
   /// Whether any theme is raised.
   bool is_raised() const;
   /// Builds all raised themes on a store's ground. Throws InputError where that takes more than the memory.
   void raise(const Store& ground, RaisedFeaturesReport& report, Progress& progress);
 
-  /// Puts the themes in order and the lines of all of them into one plane. `ground` as in raise(), if it was called.
+  /// Puts the themes in order and makes the lines of all of them planar. `ground` is as in raise(), if that was called.
   /// Lines as they were imported make room for `replacing`, which may be null, where their sources do.
   ThemeLines finish(const std::vector<SourceInfo>& sources, const Store* ground, const ReplacingGround* replacing,
                     const Progress& progress);
-  /// After finish(), for lines as they lie on the ground: whether raised features have given lines of the terrain
-  /// vertices that they do not have there.
+  /// Tells after finish(), for lines as they lie on the ground, whether raised features have given lines of the terrain
+  /// vertices that they do not have on that ground.
   bool changes_terrain(const ThemeLines& lines) const;
-  /// After finish(): how many of the pieces in imported() made room, by source.
+  /// Tells after finish() how many of the pieces in imported() made room, by source.
   const std::vector<std::uint64_t>& made_room() const { return made_room_; }
-  /// After finish(), in order: all lines on the ground as they were imported.
+  /// All lines on the ground as they were imported, in order; known after finish().
   const std::vector<ImportedPiece>& imported() const { return imported_; }
-  /// After finish(): the themes in order, their features counted.
+  /// The themes in order, their features counted; known after finish().
   const std::vector<CollectedTheme>& themes() const { return themes_; }
 
  private:
@@ -128,19 +129,19 @@ class LineCollection {
 
   LinesAs as_;
   std::uint64_t memory_bytes_;
-  std::uint64_t line_vertices_ = 0, feature_vertices_ = 0, record_bytes_ = 0;  ///< so far
+  std::uint64_t line_vertices_ = 0, feature_vertices_ = 0, record_bytes_ = 0;  ///< counts so far
   std::vector<CollectedTheme> themes_;
   std::vector<OwnPart> parts_;
-  bool keeps_set_aside_ = true;                            ///< the store does
+  bool keeps_set_aside_ = true;                            ///< whether the store keeps what is set aside
   std::vector<std::string> theme_of_source_;               ///< by the store's source; empty for points
   std::vector<Segment> stored_;                            ///< the store's lines on the ground
   std::vector<SegmentFeature> stored_features_;            ///< the features of these lines, ascending
-  std::unordered_map<std::uint64_t, std::uint32_t> ends_;  ///< theme by Morton code: those of the stored terrain lines
+  std::unordered_map<std::uint64_t, std::uint32_t> ends_;  ///< themes by the codes of ends of stored terrain lines
   std::vector<ImportedPiece> imported_;
   std::vector<std::uint64_t> made_room_;
   std::vector<OwnedSegment> segments_;
   std::vector<ThemeVertex> ground_ends_;                ///< ends of edges that keep the ground about features
-  std::unordered_map<std::uint64_t, Vertex> vertices_;  ///< by Morton code: of the lines as they are taken
+  std::unordered_map<std::uint64_t, Vertex> vertices_;  ///< vertices of the lines as they are taken, by Morton code
 };
 
 }  // namespace itin

@@ -1,5 +1,5 @@
-// Lines in any vector format GDAL reads, in the importer's two steps: opened to learn the CRS, then read into the
-// store's grid.
+// Reads lines in any vector format GDAL reads, in the importer's two steps: the file is opened to learn the CRS, then
+// read into the store's grid.
 #pragma once
 
 #include <functional>
@@ -19,13 +19,13 @@ class LineLayer final : public OpenedFile {
   struct Sink {
     /// A polyline on the grid, at least two positions.
     std::function<void(std::span<const GridPoint>)> line;
-    /// The feature that the next lines are of.
+    /// The feature that the next lines belong to.
     std::function<void(FeatureRecord)> feature;
   };
 
-  /// Lines and polygons, multi-geometries, collections and curves of options.layer; polygons are their rings. Heights
-  /// are the field options.z_field, otherwise Z; lines of kinds that lie on the surface need none. Throws FileError,
-  /// InputError.
+  /// Opens the lines and polygons, multi-geometries, collections and curves of options.layer; a polygon gives its
+  /// rings. Heights come from the field options.z_field, otherwise from Z; lines of kinds that lie on the surface need
+  /// none. Throws FileError, InputError.
   LineLayer(const std::string& path, const ImportOptions& options);
 
   const std::string& path() const override { return layer_.path(); }
@@ -33,16 +33,15 @@ class LineLayer final : public OpenedFile {
   Point2 centre() const override { return centre_; }
   std::vector<std::string> warnings() const override { return warnings_; }
 
-  /// What is kept of the features.
+  /// The fields that are kept of the features.
   const FeatureFields& fields() const { return fields_; }
 
-  /// Hands on every line, and before those of a feature what is kept of it, if anything is. Lines without
-  /// length on the grid, and those with a vertex that has no height or no position, are left out with a warning; such
-  /// vertices count as voids. Throws FileError, InputError, Cancelled, and what
-  /// the sink throws.
+  /// Hands on every line and, before the lines of a feature, what is kept of the feature, if anything is. Lines without
+  /// length on the grid, and lines with a vertex that has no height or no position, are left out with a warning; such
+  /// vertices count as voids. Throws FileError, InputError, Cancelled, and what the sink throws.
   ReadCounts read(const SourceContext& context, const Sink& sink, Progress& progress);
 
-  /// Complete after read().
+  /// The source's information, complete after read().
   const SourceInfo& info() const { return info_; }
   /// The number of features with at least one line.
   std::uint64_t features() const { return features_; }

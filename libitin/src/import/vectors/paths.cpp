@@ -40,7 +40,7 @@ std::string id_of(const OGRFeature& feature) {
   return first_of(feature, "id", "name", std::to_string(feature.GetFID()));
 }
 
-/// Throws InputError where it is no line.
+/// Reads a path. Throws InputError where the feature is no line.
 Path path_of(const OGRFeature& feature, const CoordinateTransform* transform) {
   const OGRLineString* line = line_of(feature);
   if (line == nullptr || line->getNumPoints() < 2) throw InputError("is not one line of two or more points");

@@ -29,7 +29,7 @@ std::optional<PositionColumns> columns_of(OGRLayer& layer) {
   return position_columns(field_names(layer));
 }
 
-/// GDAL makes points of one pair of columns only, which it must be told on opening.
+/// The open options of the file. GDAL makes points of one pair of columns only, which it must be told on opening.
 std::vector<std::string> open_options(const std::string& path, ColumnTypes types) {
   const GDALDatasetUniquePtr file = open_vector_file(path, nullptr);
   if (!is_csv(*file) || file->GetLayerCount() != 1) return {};
@@ -44,9 +44,9 @@ std::vector<std::string> open_options(const std::string& path, ColumnTypes types
   return options;
 }
 
-/// What is wrong with a row that has more values than the header has names, or a position that may mean another number;
-/// empty where nothing is. GDAL drops what is left over, so that a decimal comma in a file with commas between its
-/// values would shift them from column to column unseen, and takes 318,000 for 318, as it takes 318000,5 for 318000.5.
+/// Tells what is wrong with a row that has more values than the header has names, or a position that may mean another
+/// number; empty where nothing is. GDAL drops surplus values: a decimal comma in a file with commas between its values
+/// would shift them from column to column unseen. It reads 318,000 as 318, just as it reads 318000,5 as 318000.5.
 std::string wrong_values(const CPLStringList& cells, int columns, const std::vector<int>& position) {
   if (cells.size() > columns)
     return "it has more values than the header has columns; write numbers with a decimal point, texts with a comma in "
@@ -60,7 +60,7 @@ std::string wrong_values(const CPLStringList& cells, int columns, const std::vec
   return {};
 }
 
-/// Rows of a CSV file by GDAL's numbers, from 1, with what is wrong with them.
+/// Returns the rows of a CSV file that are wrong, by GDAL's numbers from 1, with what is wrong with them.
 std::map<std::int64_t, std::string> wrong_rows(const std::string& path, const std::vector<int>& position) {
   std::map<std::int64_t, std::string> rows;
   const std::unique_ptr<VSILFILE, decltype(&VSIFCloseL)> file(VSIFOpenL(path.c_str(), "rb"), &VSIFCloseL);
@@ -101,7 +101,8 @@ Places::Places(GDALDataset& file, OGRLayer& layer, const SiteQuery& query, const
   if (!from_crs.empty() && !to_crs.empty()) transform_.emplace(from_crs, to_crs);
 }
 
-/// GDAL reads a coordinate that is no number as 0, or leaves the point out.
+/// Tells what is wrong with the feature's coordinates. GDAL reads a coordinate that is no number as 0, or leaves the
+/// point out.
 std::string Places::wrong_coordinate(const OGRFeature& feature) const {
   if (const auto wrong = wrong_rows_.find(feature.GetFID()); wrong != wrong_rows_.end()) return wrong->second;
   for (const int field : columns_) {

@@ -16,20 +16,22 @@
 
 namespace itin {
 
-/// Whether the types of a CSV file's columns are told by their values, or all but those of the position are texts.
+/// Whether the types of a CSV file's columns are told by their values, or all columns but those of the position are
+/// texts.
 enum class ColumnTypes { kTexts, kDeclared };
 
-/// Throws FileError. Within the life of a QuietGdal.
+/// Opens a file of places. Throws FileError. To be called within the life of a QuietGdal.
 GDALDatasetUniquePtr open_place_file(const std::string& path, ColumnTypes types);
 
-/// Where the features of a layer of such a file lie, in the CRS asked for.
+/// Finds where the features of a layer of such a file lie, in the CRS asked for.
 class Places {
  public:
-  /// The file must outlive it. From the layer's own CRS or, where it says none, query.crs, else for a CSV file headed
-  /// longitude and latitude kGeographicColumnsCrs, else the wanted one. Throws InputError for a CRS that is unknown.
+  /// The file must outlive it. Places are read in the layer's own CRS or, where it states none, in query.crs. Failing
+  /// both, a CSV file headed longitude and latitude is in kGeographicColumnsCrs, and anything else in the wanted CRS.
+  /// Throws InputError for a CRS that is unknown.
   Places(GDALDataset& file, OGRLayer& layer, const SiteQuery& query, const std::string& to_crs);
 
-  /// Empty, or what is wrong with the place of the feature.
+  /// Finds the place of a feature. Returns an empty text, or what is wrong with the place.
   std::string find(const OGRFeature& feature, Point2& place) const;
 
  private:

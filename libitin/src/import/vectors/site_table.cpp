@@ -11,7 +11,7 @@ namespace itin {
 
 namespace {
 
-/// Shapefiles cut names to ten letters. Negative: not there.
+/// Finds a field; negative if there is none. Shapefiles cut names to ten letters.
 int field_named(OGRLayer& layer, const std::string& name) {
   constexpr std::size_t kOfShapefile = 10;
   const int whole = layer.GetLayerDefn()->GetFieldIndex(name.c_str());

@@ -18,12 +18,12 @@ namespace itin {
 
 namespace {
 
-/// The index of a field, or -1 if none is asked for.
+/// The index of a field; -1 if none is asked for.
 int field_index(OGRLayer& layer, const std::string& path, const std::string& name) {
   return name.empty() ? -1 : field_of_layer(layer, path, name);
 }
 
-/// Nothing for an empty field; not a number for one that holds something else.
+/// The number in a field; nothing for an empty field, and not a number for one that holds something else.
 std::optional<double> number_of_field(const OGRFeature& feature, int field) {
   if (!feature.IsFieldSetAndNotNull(field)) return std::nullopt;
   const OGRFieldType type = feature.GetFieldDefnRef(field)->GetType();
@@ -65,7 +65,7 @@ std::vector<std::optional<double>> numbers_of(const OGRFeature& feature, const s
   return numbers;
 }
 
-/// The fields of a layer that sites take their values from; -1: none is asked for.
+/// The fields of a layer that sites take their values from; -1 if none is asked for.
 struct SiteFields {
   int height, name;
   std::vector<int> numbers;
@@ -82,7 +82,7 @@ Site site_of(const Places& places, const OGRFeature& feature, const SiteFields& 
   return site;
 }
 
-/// `rejected` is null where the first feature that is not understood ends it.
+/// Reads sites. If `rejected` is null, the first feature that is not understood ends the reading.
 std::vector<Site> read(const SiteQuery& query, const std::string& to_crs, std::vector<std::string>* rejected) {
   const QuietGdal quiet;
   const GDALDatasetUniquePtr dataset = open_place_file(query.path, ColumnTypes::kDeclared);
