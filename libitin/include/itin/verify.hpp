@@ -29,10 +29,10 @@ struct Verification {
 };
 
 /// Verifies for every level and index cell that there is a certificate wherever there is ground, and that
-/// T_k + lo <= T_0 <= T_k + hi all over the cell, to a thousandth of a grid step. Verifies that the directory's statements about
-/// levels agree with its cells. For every cell of every part of a raised theme, verifies that no feature of that part
-/// rises higher above T_0 within the cell than the cell says, to two grid steps, as the ground under features is
-/// rounded.
+/// T_k + lo <= T_0 <= T_k + hi all over the cell, to a thousandth of a grid step. Verifies that the directory's
+/// statements about levels agree with its cells. For every cell of every part of a raised theme, verifies that no
+/// feature of that part rises higher above T_0 within the cell than the cell says, to two grid steps, as the ground
+/// under features is rounded.
 ///
 /// The store must be sound by check(). Memory: the surfaces of a tile of some 32,000 vertices per thread. Cost: as much
 /// as the import took to verify its levels, about 10 microseconds per vertex. Throws FileError, CorruptStore and
