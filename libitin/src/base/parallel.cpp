@@ -45,8 +45,8 @@ std::unique_ptr<tbb::global_control> control;
 
 #ifdef __SANITIZE_THREAD__
 
-/// Runs a loop on threads of its own, for the thread sanitizer: oneTBB is not built with it, so that the sanitizer would
-/// take what oneTBB orders for races. It sees the order of these threads.
+/// Runs a loop on threads of its own, for the thread sanitizer: oneTBB is not built with it, so that the sanitizer
+/// would take what oneTBB orders for races. It sees the order of these threads.
 void run_on_threads(std::size_t count, const std::function<void(std::size_t)>& body) {
   std::atomic<std::size_t> next = 0;
   std::mutex mutex;

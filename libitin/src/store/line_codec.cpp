@@ -24,11 +24,11 @@ struct Vertex {
 /// The fields that are written as Rice codes, each with a parameter of its own.
 enum Field { kGap, kDegree, kOther, kFinest, kCoarsest, kReach, kFields };
 
-/// The lattice all ends lie on.
+/// The lattice that all ends lie on.
 struct LineLattice {
   Vertex corner;
   Vertex step;
-  int row_bits;  ///< how many bits the greatest row takes
+  int row_bits;  ///< number of bits of the greatest row
 };
 
 std::vector<Vertex> ends_of(const std::vector<Segment>& segments) {
@@ -57,14 +57,14 @@ LineLattice lattice_of(const std::vector<Vertex>& ends) {
   return lattice;
 }
 
-/// Most lines go from left to right, and then need no sign.
+/// Tells whether all segments go from left to right, as most lines do; they then need no sign.
 bool are_ascending(const std::vector<Segment>& segments) {
   return std::all_of(segments.begin(), segments.end(), [](const Segment& s) {
     return Vertex{s.ax, s.ay} < Vertex{s.bx, s.by};
   });
 }
 
-/// Everything that is written as a Rice code, field by field, in the order of writing.
+/// All values that are written as Rice codes, field by field, in the order of writing.
 class LinePlan {
  public:
   LinePlan(const std::vector<Segment>& segments, const std::vector<Vertex>& ends, const LineLattice& lattice,

@@ -17,7 +17,7 @@ using nlohmann::ordered_json;
 
 namespace {
 
-// Certified errors are kept in grid units, so that no rounding comes between them and the cells' own.
+// Writes a level. Certified errors are kept in grid units, so that no rounding comes between them and the cells' own.
 ordered_json level_to_json(const LevelInfo& level, double resolution) {
   return {{"tolerance_m", level.tolerance},
           {"lateral_tolerance_m", level.lateral_tolerance},
@@ -72,7 +72,7 @@ SourceInfo source_from_json(const json& j) {
   return source;
 }
 
-/// What a store without tables of features has not is left out.
+/// Writes a theme, without the members that a store without tables of features lacks.
 ordered_json theme_to_json(const ThemeInfo& theme) {
   ordered_json j{{"name", theme.name},         {"kind", name_of(theme.kind)},
                  {"features", theme.features}, {"vertices", theme.vertices},
