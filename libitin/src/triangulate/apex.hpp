@@ -99,8 +99,8 @@ class ApexSearch {
 /// Tells whether segment s properly crosses the line of sight pq: touching does not block it.
 bool crosses(const Segment& s, Position p, Position q);
 
-/// Tells whether the segments hide every position of the box from a or from b. It divides the box into boxes an eighth
-/// as wide and looks for one segment that hides each, so that it may miss hidden positions. Never true otherwise.
+/// Tells whether the segments hide every position of the box from a or from b. One segment must hide each box, or each
+/// of its parts an eighth as wide; the answer may be false where they do so only together. Never true otherwise.
 bool hide(std::span<const Segment> segments, Position a, Position b, const GridBox& box);
 
 }  // namespace itin
