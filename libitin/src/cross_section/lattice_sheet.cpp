@@ -12,8 +12,7 @@ namespace itin {
 
 namespace {
 
-/// The number of a block's points, mostly neighbours, that the spacing is guessed from. A wrong guess does no harm but
-/// in time.
+/// The number of a block's points, mostly neighbours, that the spacing is guessed from. A wrong guess is found out.
 constexpr std::size_t kSamples = 16;
 constexpr std::int32_t kNoPost = std::numeric_limits<std::int32_t>::min();
 

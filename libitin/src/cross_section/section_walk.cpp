@@ -146,8 +146,7 @@ class SectionWalk {
     const std::optional<SectionPiece> piece = line_.clip(in, out);
     if (!piece) return;
     ++stretch.triangles;
-    if (in.at_vertex && out.at_vertex) theme = either(in.theme, out.theme);  // the piece runs along an edge, or has no
-                                                                             // length
+    if (in.at_vertex && out.at_vertex) theme = either(in.theme, out.theme);  // along an edge, or without length
     stretch.add({piece->from, in.place == Place::kWithin ? in.theme : piece->from.t == out.t ? out.theme : theme});
     stretch.add({piece->to, out.place == Place::kWithin ? out.theme : piece->to.t == in.t ? in.theme : theme});
   }

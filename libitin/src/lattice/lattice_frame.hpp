@@ -28,7 +28,7 @@ class PostSpacing {
   bool found() const { return spacing_ > 0; }
   /// Returns the spacing, grid units.
   std::int64_t spacing() const { return spacing_; }
-  /// Returns one of the points. Precondition: one was added, as found() implies.
+  /// Returns one of the points. Precondition: found().
   const GridPoint& origin() const { return *origin_; }
 
  private:
