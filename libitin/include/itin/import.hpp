@@ -24,8 +24,8 @@
 
 namespace itin {
 
-/// Where the outline of a building lies. Either on the terrain, down to which its walls reach; or level at its base,
-/// where the ground about it is cut away or filled up.
+/// Where the outline of a building lies: on the terrain, down to which its walls reach; or level at its base, and then
+/// the ground about it is cut away or filled up.
 enum class Foundation { walls, flat };
 
 struct ImportOptions {

@@ -122,8 +122,8 @@ constexpr double greatest_spacing_m(double length_m) {
   return std::min(kMostSpacingM, length_m / kLeastPoints);
 }
 
-/// Calls add(t) for places between two joined points, t of the way from one to the other, as many as keep all
-/// neighbours within `most_m` of each other.
+/// Calls add(t) for places between two joined points, t of the way from one to the other, as many as are
+/// needed to keep neighbours within `most_m` of each other.
 template <class Add>
 void for_each_place_between(double from_m, double to_m, double most_m, const Add& add) {
   const int parts = static_cast<int>(std::ceil((to_m - from_m) / most_m));

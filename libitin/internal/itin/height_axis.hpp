@@ -9,8 +9,8 @@
 namespace itin {
 
 struct HeightAxis {
-  std::string datum;           ///< its name; empty where it is not stated
-  std::string unit = "metre";  ///< its name
+  std::string datum;           ///< the datum's name; empty where it is not stated
+  std::string unit = "metre";  ///< the unit's name
   double metres = 1;           ///< length of one unit
   bool down = false;           ///< depths: greater numbers lie lower
 

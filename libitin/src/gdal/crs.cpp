@@ -84,7 +84,7 @@ void replace_by_authority(OGRSpatialReference& reference) {
   }
 }
 
-/// Leaves the horizontal part alone.
+/// Removes all but the horizontal part.
 void strip_heights(OGRSpatialReference& reference) {
   if (reference.IsCompound()) reference.StripVertical();
   if (reference.GetAxesCount() == 3) reference.DemoteTo2D(nullptr);

@@ -35,7 +35,7 @@ std::uint64_t cache_key(BlobKind kind, std::uint64_t key) {
 StoreFile::StoreFile(const std::string& path, const StoreOptions& options) : rows_(path), cache_(options.cache_bytes) {
   metadata_ = read_metadata(rows_);
   metadata_.format_version = rows_.version();
-  // That version has foundations by definition.
+  // A store of this version has foundations, whatever its metadata say.
   metadata_.has_foundations |= rows_.version() == static_cast<int>(format::kVersionWithFoundations);
   chunks_ = decoded(rows_, BlobKind::Directory, format::kChunkListKey,
                     [](const auto& bytes) { return decode_chunk_list(bytes); });

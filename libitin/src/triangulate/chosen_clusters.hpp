@@ -2,7 +2,7 @@
 //
 //   const ChosenClusters chosen(store, selection);
 //   chosen.block(leaf);                       // as the store's, without points of other clusters
-//   chosen.segments(theme, box, segments);    // likewise
+//   chosen.segments(theme, box, segments);    // as the store's, without those of other clusters
 #pragma once
 
 #include <cstdint>
