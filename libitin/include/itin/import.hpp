@@ -43,7 +43,7 @@ struct ImportOptions {
   /// What the store keeps of the features of lines, footprints and CityJSON, for exports and reports.
   std::string id_field;                                ///< default: the source's number or key for the feature
   std::string name_field;                              ///< also the name of a raised feature in messages; default: none
-  std::optional<std::vector<std::string>> attributes;  ///< fields; default: all of numbers, texts, dates and times
+  std::optional<std::vector<std::string>> attributes;  ///< fields; default: all with numbers, texts, dates and times
   std::optional<int> band;  ///< the band of rasters that holds heights, from 1; default: their only one
 
   // These are for raised features only: CityJSON, and buildings, vegetation and walls for which one of the first three

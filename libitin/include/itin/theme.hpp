@@ -30,7 +30,7 @@ enum class ThemeKind : std::uint8_t {
   Terraces
 };
 
-/// "contours", "breaklines", ...
+/// Returns "contours", "breaklines", ...
 std::string_view name_of(ThemeKind kind);
 /// Returns the kind of this name. Throws InputError.
 ThemeKind theme_kind(std::string_view name);
@@ -45,7 +45,7 @@ constexpr bool may_be_raised(ThemeKind kind) {
          kind == ThemeKind::Vegetation || kind == ThemeKind::Surface;
 }
 
-/// How a building on its footprint is closed above.
+/// The roof that closes a building above its footprint.
 enum class RoofKind : std::uint8_t { flat, gabled, hipped, skeleton };
 /// The place that a building's heights count from: the minimum, mean or maximum of the terrain under its footprint;
 /// terrain_following takes the mean, too. The building's foot lies on the terrain whatever the rule.

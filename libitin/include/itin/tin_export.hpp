@@ -63,18 +63,19 @@ TopologyKind topology_kind(std::string_view name);
 void require_tin_output(const std::string& path, bool overwrite);
 void require_topology_output(const std::string& path, bool overwrite);
 
-/// Writes under a temporary name beside `path` and renames when complete; whatever is thrown, `path` stays as it was.
-/// Throws InputError (unknown ending; metadata that is not an object; a CRS without an EPSG code for .geojson; too many
-/// vertices for .glb), FileError, Cancelled. O(n) time and, but for .glb (24 bytes per vertex), constant memory.
+/// Writes the Tin under a temporary name beside `path` and renames when complete; whatever is thrown, `path` stays as
+/// it was. Throws InputError (unknown ending; metadata that is not an object; a CRS without an EPSG code for .geojson;
+/// too many vertices for .glb), FileError, Cancelled. O(n) time and, but for .glb (24 bytes per vertex), constant
+/// memory.
 void export_tin(const Tin& tin, const std::string& path, const TinExportOptions& options, Progress& progress);
 
-/// A JSON document (path ends in .json): `topology` (the kind), `crs` (WKT), `vertex_ids` (decimal strings, for many
-/// readers lose digits beyond 2^53), `sources`, `vertices` [[x, y, z]], where there are lines `lines` [[a, b, theme by
-/// name]], and
+/// Writes a JSON document (path ends in .json): `topology` (the kind), `crs` (WKT), `vertex_ids` (decimal strings, for
+/// many readers lose digits beyond 2^53), `sources`, `vertices` [[x, y, z]], where there are lines `lines` [[a, b,
+/// theme by name]], and
 ///   triangle: `triangles` [[a, b, c]], `adjacent_triangles` [[across ab, across bc, across ca]], null at the boundary
 ///   vertex:   `neighbours` [[...]] counterclockwise, a boundary vertex's from the boundary on; `boundary` [bool]
 ///   edge:     `half_edges` [[origin, twin, next, face]], twin null at the boundary
-/// Indices count from 0. Errors as above.
+/// Indices count from 0. Throws as export_tin() does.
 void export_topology(const Tin& tin, TopologyKind kind, const std::string& path, const TinExportOptions& options,
                      Progress& progress);
 

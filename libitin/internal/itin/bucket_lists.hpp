@@ -14,8 +14,8 @@
 
 namespace itin {
 
-/// Lists of the items' numbers, one for each of a fixed number of buckets, all in two arrays. An item may lie in several
-/// buckets or none.
+/// Lists of the items' numbers, one for each of a fixed number of buckets, all in two arrays. An item may lie in
+/// several buckets or none.
 class BucketLists {
  public:
   BucketLists() = default;

@@ -98,7 +98,7 @@ struct SmoothEnds {
   double hst_m = 0, hsr_m = 0;    ///< equations (163), (164)
   double hstd_m = 0, hsrd_m = 0;  ///< for diffraction, equations (166), (167)
 };
-/// Precondition: there is ground at both ends.
+/// Fits the smooth surface to the ground. Precondition: there is ground at both ends.
 SmoothEnds smooth_ends(std::span<const PathPoint> ground, const PathEnds& ends);
 
 struct DeltaBullington {

@@ -1,7 +1,7 @@
 // How deep buildings on flat foundations cut into the ground, cell by cell.
 //
 //   const std::vector<Certificate> cuts = feature_cuts(store, themes, box);
-//   use(deepest_cut(cuts, triangle_box));   // there the surface with features is no lower than T_0 less so much
+//   use(deepest_cut(cuts, triangle_box));   // there the surface with features is no lower than T_0 less this
 #pragma once
 
 #include <cstdint>

@@ -28,9 +28,9 @@ struct SiteRow {
 };
 
 /// Returns all rows that query.where lets pass, in the file's order. A field whose name is longer than the ten letters
-/// that a Shapefile keeps is found by its first ten, too. query.height_field and name_field are not used. Throws FileError for
-/// a file, layer, required field or filter that is missing or not understood, InputError for a CRS that is unknown and
-/// a filter that leaves nothing.
+/// that a Shapefile keeps is found by its first ten, too. query.height_field and name_field are not used. Throws
+/// FileError for a file, layer, required field or filter that is missing or not understood, InputError for a CRS that
+/// is unknown and a filter that leaves nothing.
 std::vector<SiteRow> read_site_rows(const SiteQuery& query, const std::vector<SiteField>& fields,
                                     const std::string& to_crs);
 

@@ -38,7 +38,7 @@ class BufferedFile {
     fmt::format_to(std::back_inserter(buffer_), format, std::forward<Arguments>(arguments)...);
     flush_if_large();
   }
-  /// Must be called: without it the end of the file is missing.
+  /// Completes the file. Must be called: without it the end of the file is missing.
   void close();
 
  private:

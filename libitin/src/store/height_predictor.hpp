@@ -32,7 +32,7 @@ class HeightPredictor {
   // Predicts by FORMAT.md's own arithmetic.
   std::int64_t predict_slowly() const;
 
-  std::vector<LocalPosition> positions_;  // from the corner of their extent
+  std::vector<LocalPosition> positions_;  // counted from the corner of their extent
   BucketGrid buckets_;
   std::vector<double> heights_;  // height of each bucket's sample, 0 where it has none
   SamplesAround samples_;

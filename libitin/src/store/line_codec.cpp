@@ -84,7 +84,7 @@ class LinePlan {
       values_[kOther].push_back(forwards ? static_cast<std::uint64_t>(b - a - 1) : zigzag(b - a));
       values_[kFinest].push_back(s.finest);
       values_[kCoarsest].push_back(s.coarsest == 0xff ? 0u : s.coarsest - s.finest + 1u);
-      // A segment of the finest level stands for itself.
+      // A segment of the finest level stands for itself alone, and has no reach.
       if (s.finest > 0) values_[kReach].push_back(static_cast<std::uint64_t>(s.reach));
     }
     for (std::size_t f = 0; f < kFields; ++f) parameters_[f] = best_rice_parameter(values_[f]);

@@ -126,7 +126,7 @@ StoreMetadata read_document(const json& j) {
   if (j.contains("themes")) {
     for (const json& theme : j.at("themes")) metadata.themes.push_back(theme_from_json(theme));
   }
-  // Version 2 had no themes that stand.
+  // Version 2 had no raised themes.
   if (j.contains("parts")) {
     for (const json& part : j.at("parts"))
       metadata.parts.push_back(
@@ -162,7 +162,7 @@ std::string metadata_to_json(const StoreMetadata& metadata) {
   }
   if (metadata.has_foundations) j["foundations"] = true;
   j["vertices"] = metadata.vertices;
-  // File names may hold bytes that are no UTF-8.
+  // File names may have bytes that are not UTF-8.
   return j.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
 }
 

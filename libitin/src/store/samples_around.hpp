@@ -76,7 +76,7 @@ class ScatteredSamples {
   void find_shares(std::size_t first, OfBatch<const Shares*>& shares);
 
   const BucketGrid* buckets_;
-  int offset_shift_;               // brings differences of positions below 26
+  int offset_shift_;               // makes differences of positions less than 26
   std::vector<Position> samples_;  // by bucket
   OfBatch<std::int32_t> x_{}, y_{};
   std::array<OfBatch<std::int32_t>, kSamplesAround> sample_x_{}, sample_y_{};  // kNone where there is none

@@ -21,8 +21,8 @@
 
 namespace itin {
 
-/// Immutable; safe for concurrent use. A query about a small figure costs O(1) away from the window's boundary and the
-/// edges nearby at it, whatever the number of corners.
+/// A window on the grid. Immutable; safe for concurrent use. A query about a small figure costs O(1) away from the
+/// window's boundary, and O(edges nearby) at it, whatever the number of corners.
 class GridWindow {
  public:
   /// Makes the region; Window::all() becomes the data bounds.
