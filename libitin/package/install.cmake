@@ -26,8 +26,8 @@ write_basic_package_version_file(itin-config-version.cmake COMPATIBILITY SameMin
 install(FILES ${PROJECT_BINARY_DIR}/itin-config.cmake ${PROJECT_BINARY_DIR}/itin-config-version.cmake
   DESTINATION ${ITIN_PACKAGE_DIR})
 
-# pkg-config. What static libraries need is named library by library: the static list of gdal.pc is all that GDAL itself
-# was built with.
+# pkg-config. The dependencies of static libraries are named library by library, as the static list of gdal.pc has all
+# that GDAL itself was built with.
 file(RELATIVE_PATH from_pc_to_prefix ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
 function(itin_pkgconfig name library description requires libraries)
   if(BUILD_SHARED_LIBS)

@@ -1,11 +1,11 @@
-# Shared libraries that are loaded when they are first called: late_libraries.cpp says why. Each is named beside what
-# links it.
+# Shared libraries that are loaded when they are first called: late_libraries.cpp says why. Each is named beside the
+# target that links it.
 function(itin_may_come_late)
   set_property(GLOBAL APPEND PROPERTY ITIN_LATE_LIBRARIES ${ARGN})
 endfunction()
 
-# A program starts without them, where that can be. `ARGN`: those of its objects that call them; the libraries of itin may,
-# besides.
+# Makes a program start without these libraries, where that is possible. `ARGN`: those of the program's objects that
+# call them; the libraries of itin may call them, too.
 function(itin_load_late target)
   get_property(late_libraries GLOBAL PROPERTY ITIN_LATE_LIBRARIES)
   list(REMOVE_DUPLICATES late_libraries)

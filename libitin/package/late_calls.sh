@@ -1,5 +1,6 @@
 #!/bin/sh
-# Writes what late_libraries.cpp includes: which functions of some shared libraries some objects or static libraries call.
+# Writes the file that late_libraries.cpp includes: which functions of some shared libraries are called by some objects
+# or static libraries.
 #   late_calls.sh OUTPUT "OBJECT..." SHARED_LIBRARY...
 set -eu
 output=$1 objects=$2

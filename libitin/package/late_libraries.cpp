@@ -1,8 +1,8 @@
-// Some libraries are loaded when first called, for most runs need none or not all of them. GDAL brings some 130 more,
-// whose symbols take the dynamic linker 40 ms: several times what a profile takes. Embree casts the rays of few
-// commands, Cairo draws charts; each takes 1 MB and more. A program with this source in it starts without them. Each
-// function of theirs that it calls is defined here as a jump, which leads to a loader at first, and from then on to the
-// library's own function. For x86-64 and ELF alone.
+// Some libraries are loaded when they are first called, as most runs need few of them or none. GDAL brings some 130
+// more, whose symbols take the dynamic linker 40 ms: several times what a profile takes. Embree casts the rays of few
+// commands, Cairo draws charts; each takes 1 MB and more. A program with this source in it starts without them. Each of
+// their functions that it calls is defined here as a jump. The jump leads to a loader at first, and from then on to the
+// library's own function. This works for x86-64 and ELF alone.
 #include <array>
 #include <atomic>
 #include <cstdint>
@@ -10,8 +10,8 @@
 #include <cstdlib>
 #include <dlfcn.h>
 
-// By the build (late_calls.sh): a line LATE_LIBRARY(name) for each library, in order, and a line LATE_CALL(library,
-// name) for each function.
+// The build (late_calls.sh) writes late.calls: a line LATE_LIBRARY(name) for each library, in order, and a line
+// LATE_CALL(library, name) for each function.
 #define LATE_CALL(library, name)
 #define LATE_LIBRARY(name) name,
 namespace {
@@ -46,7 +46,7 @@ constexpr std::array kLibraries{
 
 namespace {
 
-/// What a jump leads to, and whose it is; as LATE_CALL lays it out.
+/// The target of a jump, and the function and library that it stands for, as LATE_CALL lays them out.
 struct LateCall {
   void* target;
   const char* function;
@@ -58,7 +58,7 @@ struct LateCall {
   std::_Exit(EXIT_FAILURE);
 }
 
-/// Threads that come here at once are given the same library.
+/// Returns the library's handle. Threads that come here at once get the same one.
 void* loaded(std::uint64_t library) {
   static std::array<std::atomic<void*>, kLibraries.size()> all{};
   void* handle = all[library].load(std::memory_order_acquire);
@@ -71,15 +71,15 @@ void* loaded(std::uint64_t library) {
 
 }  // namespace
 
-/// From then on the jump leads to the library's function. Threads that come here at once store the same address.
+/// Makes the jump lead to the library's function from now on. Threads that come here at once store the same address.
 extern "C" void itin_resolve_late_call(LateCall* call) {
   void* const target = dlsym(loaded(call->library), call->function);
   if (target == nullptr) end_without(kLibraries[call->library]);
   std::atomic_ref(call->target).store(target, std::memory_order_release);
 }
 
-// The loader. A jump comes here with its LateCall in r11, which no call passes anything in. All that a call may pass
-// something in is kept; the stack is aligned as calls want it.
+// The loader. A jump comes here with its LateCall in r11, a register that passes no arguments. All registers that may
+// pass arguments are kept; the stack is aligned as calls want it.
 asm(R"(
   .text
   .type itin_late_call, @function

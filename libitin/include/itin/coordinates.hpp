@@ -15,17 +15,18 @@
 
 namespace itin {
 
-/// Not thread-safe; make one per thread.
+/// Takes points from one CRS to another. Not thread-safe; make one per thread.
 class CoordinateTransform {
  public:
-  /// CRSs as authority:code, WKT, PROJ string or anything else GDAL understands; the identity where both are one, by
-  /// the import's rule. Throws InputError for one that is unknown or for a pair without a transformation between them.
+  /// Takes CRSs as authority:code, WKT, PROJ string or anything else GDAL understands. Where both are one by the
+  /// import's rule, the transformation is the identity. Throws InputError for a CRS that is unknown or for a pair
+  /// without a transformation between them.
   CoordinateTransform(const std::string& from_crs, const std::string& to_crs);
   CoordinateTransform(CoordinateTransform&&) noexcept;
   CoordinateTransform& operator=(CoordinateTransform&&) noexcept;
   ~CoordinateTransform();
 
-  /// Throws InputError for a point outside the transformation's domain.
+  /// Returns the point in the other CRS. Throws InputError for a point outside the transformation's domain.
   Point2 operator()(Point2 p) const;
 
  private:
@@ -33,20 +34,20 @@ class CoordinateTransform {
   std::unique_ptr<Impl> impl_;
 };
 
-/// "EPSG:27700" where the CRS has an authority's code, else the WKT itself.
+/// Returns the authority's code of the CRS, "EPSG:27700" say, or the WKT itself where it has none.
 std::string crs_identifier(const std::string& wkt);
 
 /// The name that people use for a CRS: "OSGB36 / British National Grid".
 std::string crs_title(const std::string& wkt);
 
-/// Where lengths are wrong by more than this, an import takes no CRS for a store: in general, and in a CRS about the
+/// The greatest errors of lengths with which an import takes a CRS for a store: in general, and in a CRS about the
 /// equator.
 inline constexpr double kGreatestScaleError = 0.005, kGreatestScaleErrorOfWorld = 0.002;
 
-/// Distance on the grid over the geodesic one on the CRS's own ellipsoid, for short lines in whatever direction.
+/// Ratios of the distance on the grid to the geodesic one on the CRS's own ellipsoid, for short lines in any direction.
 struct GridScale {
   double least = 1, greatest = 1;
-  double allowed = kGreatestScaleError;  ///< error, in this CRS
+  double allowed = kGreatestScaleError;  ///< greatest error that is accepted in this CRS
 
   double error() const { return std::max(std::abs(least - 1), std::abs(greatest - 1)); }
   bool is_true() const { return error() <= allowed; }

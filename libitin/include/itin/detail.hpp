@@ -13,18 +13,19 @@ namespace itin {
 
 struct Ring {
   double radius = 0;     ///< metres from the centre
-  double tolerance = 0;  ///< metres; beyond the last ring its tolerance goes on
+  double tolerance = 0;  ///< metres; beyond the last ring, its tolerance still holds
 };
 
 class Detail {
  public:
   /// Throws InputError unless metres is finite and >= 0.
   static Detail tolerance(double metres);
-  /// Nearest ring first. Throws InputError unless radii grow, tolerances do not shrink, and there is at least one ring.
+  /// Takes the nearest ring first. Throws InputError unless radii grow, tolerances do not shrink, and there is at least
+  /// one ring.
   static Detail rings(Point2 centre, std::vector<Ring> rings);
 
   Point2 centre() const { return centre_; }
-  /// At least one; a single ring of infinite radius for a plain tolerance.
+  /// The rings, at least one; a plain tolerance is a single ring of infinite radius.
   const std::vector<Ring>& rings() const { return rings_; }
   double finest() const { return rings_.front().tolerance; }
   double coarsest() const { return rings_.back().tolerance; }

@@ -1,5 +1,5 @@
-// What sight lines meet with: Earth curvature and refraction, as one parabola, and ground without data; and the radio
-// waves that run over the Earth.
+// Earth curvature and refraction, as one parabola, and ground without data, for sight lines; and what radio waves over
+// the Earth need besides.
 //
 //   const Earth earth;                                         // curved, k = 0.13, R = 6371 km
 //   const double light = earth.drop(40000);                    // 109.2 m
@@ -26,10 +26,10 @@ struct Earth {
   static Earth flat();
   static Earth effective_earth(double factor);
 
-  /// Throws InputError unless the radius is a positive number, the factor (where given) too, and k a number below 1:
-  /// from 1 on sight lines would bend as much as the Earth, and the horizon be gone.
+  /// Throws InputError unless the radius is positive, the factor (where given) is positive, and k is below 1. From
+  /// k = 1 on, sight lines would bend as much as the Earth, and there would be no horizon.
   void validate() const;
-  /// Metres of drop per square metre of squared distance; 0 without curvature.
+  /// Returns metres of drop per square metre of squared distance; 0 without curvature.
   double drop_coefficient() const;
   /// The drop at a distance, both metres.
   double drop(double distance) const { return drop_coefficient() * distance * distance; }
@@ -39,12 +39,12 @@ struct Earth {
 
 /// What ground without data does to sight lines across it.
 enum class NoData {
-  kUnknown,  ///< they are undecided, unless known ground hides them
-  kBlock,    ///< none passes: the edge of the surface is a curtain up to the sky
-  kClear     ///< they pass
+  kUnknown,  ///< sight lines across it are undecided, unless known ground hides them
+  kBlock,    ///< no sight line passes: the edge of the surface is a curtain up to the sky
+  kClear     ///< sight lines pass
 };
 
-/// Radius of the Earth over which rays are straight. Precondition: its surface drops.
+/// Returns the radius, km, of the Earth over which rays are straight. Precondition: the surface drops.
 double effective_earth_km(const Earth& earth);
 
 /// The speed of light, metres times GHz.

@@ -37,7 +37,7 @@ class FileError : public Error {
   std::string path_;
 };
 
-/// Not a store at all, or one written by a newer itin.
+/// The file is no store at all, or was written by a newer itin.
 class StoreFormatError : public FileError {
  public:
   using FileError::FileError;

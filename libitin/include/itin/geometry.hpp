@@ -30,7 +30,7 @@ struct Point3 {
   friend bool operator==(const Point3&, const Point3&) = default;
 };
 
-/// A closed axis-parallel box in metres; empty when a minimum exceeds its maximum, as a default one does.
+/// A closed axis-parallel box in metres. It is empty when a minimum exceeds its maximum, as in a default box.
 struct Box {
   double xmin = std::numeric_limits<double>::infinity();
   double ymin = std::numeric_limits<double>::infinity();
@@ -54,7 +54,8 @@ struct Box {
   friend bool operator==(const Box&, const Box&) = default;
 };
 
-/// A position on the grid. Ordered lexicographically by (x, y, z); no two vertices of a store share (x, y).
+/// A position on the grid. Positions are ordered lexicographically by (x, y, z); no two vertices of a store share
+/// (x, y).
 struct GridPoint {
   std::int32_t x = 0;
   std::int32_t y = 0;
@@ -103,7 +104,7 @@ inline GridBox intersection(const GridBox& a, const GridBox& b) {
   return {std::max(a.xmin, b.xmin), std::max(a.ymin, b.ymin), std::min(a.xmax, b.xmax), std::min(a.ymax, b.ymax)};
 }
 
-/// The smallest grid box that contains b, in grid units, cut off at the grid's limits.
+/// Returns the smallest grid box that contains b, a box in grid units, cut off at the grid's limits.
 inline GridBox rounded_outwards(const Box& b) {
   if (b.empty()) return {};
   const auto cut = [](double v) {
@@ -112,7 +113,7 @@ inline GridBox rounded_outwards(const Box& b) {
   return {cut(std::floor(b.xmin)), cut(std::floor(b.ymin)), cut(std::ceil(b.xmax)), cut(std::ceil(b.ymax))};
 }
 
-/// The box with this margin all around, in grid units.
+/// The box widened by this margin, in grid units, on all sides.
 inline GridBox expanded(const GridBox& b, double margin) {
   return rounded_outwards({b.xmin - margin, b.ymin - margin, b.xmax + margin, b.ymax + margin});
 }
@@ -128,13 +129,13 @@ struct Grid {
   Point2 position(std::int32_t x, std::int32_t y) const {
     return {origin.x + x * resolution, origin.y + y * resolution};
   }
-  /// Nearest grid position (halves away from zero). Precondition: covers({p.x, p.y}).
+  /// Returns the nearest grid position (halves away from zero). Precondition: covers({p.x, p.y}).
   GridPoint quantise(Point3 p) const {
     return {static_cast<std::int32_t>(std::llround((p.x - origin.x) / resolution)),
             static_cast<std::int32_t>(std::llround((p.y - origin.y) / resolution)),
             static_cast<std::int32_t>(std::llround(p.z / resolution))};
   }
-  /// Whether a position can be represented at all.
+  /// Tells whether the grid can represent a position.
   bool covers(Point2 p) const {
     const double limit = kGridHalfSide - 1.0;
     return std::abs(p.x - origin.x) <= limit * resolution && std::abs(p.y - origin.y) <= limit * resolution;

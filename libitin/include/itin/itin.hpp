@@ -1,4 +1,4 @@
-// Everything of libitin at once. Each of these headers also stands on its own.
+// Everything of libitin at once. Each of the headers below also stands on its own.
 //
 //   const Store store("wales.itin");
 //   NoProgress progress;

@@ -1,4 +1,4 @@
-// One handle for progress and cancellation, passed down to every long call; and how many threads such calls use.
+// One handle for progress and cancellation, passed down to every long call; and the number of threads such calls use.
 //
 //   struct Bar final : Progress {
 //     std::atomic<bool> stop = false;  // set it from any thread: the call throws Cancelled
@@ -21,7 +21,7 @@ namespace itin {
 class Progress {
  public:
   virtual ~Progress() = default;
-  /// `fraction` of the call is done: it never decreases, and ends at 1. `stage` is what the call is doing.
+  /// Reports that `fraction` of the call is done: it never decreases, and ends at 1. `stage` is what the call is doing.
   virtual void report(std::string_view stage, double fraction) = 0;
   /// True makes the running call throw Cancelled at its next opportunity.
   virtual bool cancelled() const { return false; }
@@ -37,19 +37,20 @@ class NoProgress final : public Progress {
   void report(std::string_view, double) override {}
 };
 
-/// Limits all calls of the process to this many threads in all; 0 means all cores. No result depends on it.
+/// Limits all calls of the process together to this many threads; 0 means all cores. No result depends on it.
 void set_thread_count(int threads);
-/// How many threads calls of this thread may use now, at least 1.
+/// Returns how many threads calls of this thread may use now, at least 1.
 int thread_count();
 
-/// Limits the calls of one thread for as long as it lives, the thread itself among them; those of other threads keep
-/// their own limits. To be made and destroyed by the thread, the last one first. No result depends on it.
+/// Limits the calls of one thread, for as long as the ThreadLimit lives, to this many threads, the calling one among
+/// them; calls of other threads keep their own limits. One thread must make and destroy it, the last one made first. No
+/// result depends on it.
 ///
 ///   const ThreadLimit two(2);
 ///   const auto result = viewshed::compute(store, request, progress);
 class ThreadLimit {
  public:
-  /// At least 1. Throws InputError for less.
+  /// Throws InputError for fewer than 1 thread.
   explicit ThreadLimit(int threads);
   ~ThreadLimit();
   ThreadLimit(const ThreadLimit&) = delete;

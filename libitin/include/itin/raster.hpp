@@ -9,7 +9,7 @@
 //   description.crs_wkt = store.metadata().crs_wkt;
 //   write_raster("eastings.tif", grid, std::span<const float>(eastings), description);
 //
-// North up: row 0 is the northernmost, and values lie row by row from west to east. This file is the only place that
+// North is up: row 0 is the northernmost, and values lie row by row from west to east. This file is the only place that
 // knows how rows map to northings and where a cell's centre is.
 #pragma once
 
@@ -35,15 +35,16 @@ class RasterGrid {
   };
 
   RasterGrid() = default;
-  /// A grid from its north-west corner. Throws InputError unless sizes are positive, counts at least 1, and within the
-  /// limits below.
+  /// Makes a grid from its north-west corner. Throws InputError unless sizes are positive and counts are at least 1 and
+  /// within the limits below.
   RasterGrid(Point2 north_west, double cell_width, double cell_height, std::int64_t columns, std::int64_t rows);
-  /// The smallest grid of square cells over the box whose cell edges are multiples of the cell size. A box edge within
-  /// a millionth of a cell of such a multiple counts as lying on it. Throws InputError as above, or for an empty box.
+  /// Returns the smallest grid of square cells over the box whose cell edges are multiples of the cell size. A box edge
+  /// within a millionth of a cell of such a multiple counts as lying on it. Throws InputError as the constructor does,
+  /// and for an empty box.
   static RasterGrid aligned(const Box& box, double cell_size);
 
-  /// A part of these cells as a grid of its own, whose centres are to the last bit where they are in this one. Throws
-  /// InputError unless all its cells are cells of this grid.
+  /// Returns a part of these cells as a grid of its own; its centres are the same as in this grid to the last bit.
+  /// Throws InputError unless all its cells are cells of this grid.
   RasterGrid part(Cell north_west, std::int64_t columns, std::int64_t rows) const;
 
   static constexpr std::int64_t kMaxCells = std::int64_t{1} << 33;
@@ -65,10 +66,11 @@ class RasterGrid {
     return origin_.y - (static_cast<double>(first_.row + row) + 0.5) * cell_height_;
   }
   Point2 centre(std::int64_t column, std::int64_t row) const { return {centre_x(column), centre_y(row)}; }
-  /// Where a position lies in units of cells from the north-west corner: centre_x(c) is at c + 0.5.
+  /// Tells where a position lies in units of cells from the north-west corner: centre_x(c) is at c + 0.5.
   double column_at(double x) const { return (x - origin_.x) / cell_width_ - static_cast<double>(first_.column); }
   double row_at(double y) const { return (origin_.y - y) / cell_height_ - static_cast<double>(first_.row); }
-  /// The cell that holds a position; on a shared edge the eastern or southern neighbour. Nothing outside.
+  /// Returns the cell that holds a position; on a shared edge, the eastern or southern neighbour. Nothing outside the
+  /// grid.
   std::optional<Cell> cell_at(Point2 p) const;
   std::size_t index(Cell cell) const { return static_cast<std::size_t>(cell.row * columns_ + cell.column); }
 
@@ -81,16 +83,16 @@ class RasterGrid {
   }
   double edge_y(std::int64_t row) const { return origin_.y - static_cast<double>(first_.row + row) * cell_height_; }
 
-  Point2 origin_;  ///< the north-west corner of the grid that this is a part of, or of this one
-  Cell first_;     ///< this one's north-west cell in that
+  Point2 origin_;  ///< the north-west corner of the grid that this is a part of, or else of this grid
+  Cell first_;     ///< the north-west cell of this grid, counted in that one
   double cell_width_ = 1;
   double cell_height_ = 1;
   std::int64_t columns_ = 0;
   std::int64_t rows_ = 0;
 };
 
-/// The grid of an existing raster file. Throws FileError if GDAL cannot read it; InputError if its rows do not run
-/// from west to east (rotated) or if its CRS and `crs_wkt` are both known and differ.
+/// Returns the grid of an existing raster file. Throws FileError if GDAL cannot read it; InputError if its rows do not
+/// run from west to east (rotated) or if its CRS and `crs_wkt` are both known and differ.
 RasterGrid raster_grid_like(const std::string& path, const std::string& crs_wkt);
 
 /// A colour; its opacity is 255 where nothing shows through.
@@ -113,16 +115,16 @@ struct RasterDescription {
   std::optional<double> nodata;
   std::string band_name;                   ///< may be empty
   std::vector<std::string> further_bands;  ///< names of the second band and those after it
-  std::vector<RasterClass> classes;        ///< not empty: colour table and category names (Byte only)
+  std::vector<RasterClass> classes;        ///< if not empty: colour table and category names (Byte only)
   std::vector<std::pair<std::string, std::string>> metadata;  ///< name, value
   bool overwrite = false;                                     ///< an existing file may be replaced
 };
 
-/// Writes a cloud-optimised GeoTIFF: tiled, compressed, with overviews (the value most frequent for classes, the
-/// nearest otherwise). Precondition: values.size() == grid.cell_count() * bands; they lie one band after the other. The
+/// Writes a cloud-optimised GeoTIFF: tiled, compressed, with overviews (the most frequent value for classes, the
+/// nearest otherwise). Precondition: values.size() == grid.cell_count() * bands, with one band after the other. The
 /// file appears under its name only when it is complete; its bytes do not depend on the number of threads. Throws
-/// FileError if the place cannot be written or the file exists and may not be replaced; Cancelled, and then leaves what
-/// there was.
+/// FileError if the place cannot be written or the file exists and may not be replaced; Cancelled, which leaves an
+/// existing file as it was.
 void write_raster(const std::string& path, const RasterGrid& grid, std::span<const std::uint8_t> values,
                   const RasterDescription& description, const Progress& progress = NoProgress());
 void write_raster(const std::string& path, const RasterGrid& grid, std::span<const std::uint16_t> values,

@@ -21,13 +21,13 @@
 
 namespace itin {
 
-// Declared in headers that are not installed.
+// These are declared in headers that are not installed.
 class Certificate;
 class PointIndex;
 class StoreFile;
 struct StoredFootprint;
 
-/// T_k + lo <= T_0 <= T_k + hi, metres.
+/// The bounds of a level's error: T_k + lo <= T_0 <= T_k + hi, metres.
 struct CertifiedError {
   double lo = 0;
   double hi = 0;
@@ -42,16 +42,16 @@ struct LevelInfo {
 
 /// One imported file.
 struct SourceInfo {
-  std::string path;            ///< its name, without folders
+  std::string path;            ///< the file's name, without folders
   std::string kind;            ///< "terrain", or a theme's kind (theme.hpp)
   std::string theme;           ///< name of the theme; empty for terrain
   std::string imported;        ///< UTC, ISO 8601
   std::string sha256;          ///< checksum of the file's bytes; empty where the source is not a plain file
   std::string source_crs;      ///< as found or given, authority:code or WKT
-  std::uint64_t vertices = 0;  ///< that came from it and are still there
-  /// Ground is triangulated across gaps up to these two vectors u, v (metres, projected): 1.5 times the two lattice
-  /// steps of a raster (a missing post leaves a hole); (G, 0) and (0, G) for scattered points with max-gap G. An edge
-  /// e = a u + b v between two vertices may be ground when |a| <= 1 and |b| <= 1 for either vertex's source.
+  std::uint64_t vertices = 0;  ///< vertices that came from the file and are still there
+  /// Gaps up to these two vectors u, v (metres, projected) are triangulated as ground. For a raster, they are 1.5 times
+  /// the two lattice steps (a missing post leaves a hole); for scattered points with max-gap G, (G, 0) and (0, G). An
+  /// edge e = a u + b v between two vertices may be ground when |a| <= 1 and |b| <= 1 for either vertex's source.
   std::array<double, 4> gap_basis{};  ///< ux, uy, vx, vy
   double spacing = 0;                 ///< metres: lattice step (geometric mean of the two), or mean point spacing
   bool replaces = false;              ///< took the place of coarser ground
@@ -74,7 +74,7 @@ struct StoreMetadata {
 };
 
 struct StoreOptions {
-  // Changes the speed, never the answer.
+  // Options change the speed, never the answer.
   std::uint64_t cache_bytes = std::uint64_t{256} << 20;
 };
 
@@ -95,21 +95,22 @@ class Store {
   const std::string& path() const;
   const StoreMetadata& metadata() const;
   std::uint64_t file_bytes() const;
-  /// The widest bounds of the level's cells that meet the box: T_level + lo <= T_0 <= T_level + hi all over it.
+  /// Returns the widest bounds of the level's cells that meet the box: T_level + lo <= T_0 <= T_level + hi all over it.
   /// Nullopt where there is no ground. Throws InputError for a level the store does not have, CorruptStore.
   std::optional<CertifiedError> certified_error(int level, const Box& box) const;
-  /// The most by which features of the chosen themes, in the cells that meet the box, rise above T_0 under them,
-  /// metres; 0 where there are none. Throws CorruptStore.
+  /// Returns the most, metres, by which features of the chosen themes rise above T_0 under them in the cells that meet
+  /// the box; 0 where there are no features. Throws CorruptStore.
   double greatest_feature_height(const ThemeChoice& themes, const Box& box) const;
-  /// The greatest height, likewise, of those features that a query at `level` leaves out.
+  /// Returns the same height for those features alone that a query at `level` leaves out.
   double greatest_height_left_out(const ThemeChoice& themes, int level, const Box& box) const;
-  /// About how many points of this level and coarser ones lie in the box; reads the directory, no points.
+  /// Estimates how many points of this level and coarser ones lie in the box; reads the directory, no points.
   std::uint64_t points_about(int level, const Box& box) const;
 
-  // For the libraries of this toolkit.
-  /// The quadtrees themselves.
+  // The following functions serve the libraries of this toolkit.
+  /// The quadtrees of the stored points.
   const PointIndex& points() const;
-  /// The bounds of the level's cells that meet the box, to ask about many places. Throws as certified_error() does.
+  /// Returns the bounds of the level's cells that meet the box, for questions about many places. Throws as
+  /// certified_error() does.
   Certificate certificate(int level, const Box& box) const;
 
  private:
@@ -119,7 +120,7 @@ class Store {
 };
 
 /// Reads every byte of the store and verifies checksums, index, order and counts, and that certificates are present
-/// wherever there is ground. Whether what is written there is true as well, verify() finds out (verify.hpp). Returns an
+/// wherever there is ground. Whether certificates are also true is for verify() to find out (verify.hpp). Returns an
 /// empty vector for a sound store. Throws FileError when reading itself fails, and Cancelled.
 std::vector<Damage> check(const Store& store, Progress& progress);
 

@@ -4,10 +4,10 @@
 //   const ThemeChoice with_roads = ThemeChoice::all().with_ground_lines();
 //
 // Lines of terrain themes (contours, breaklines, water) have heights and are part of the full surface, whatever a query
-// chooses. Those of the other kinds lie on it, and are part of a query's triangulation only where it names their theme
-// and asks for lines on the ground. A theme of buildings, walls or vegetation may stand on it instead, with roofs and
-// tops: what of the terrain and of other themes lies under them then makes way. A theme of the kind surface always
-// stands: it has all that a raster of a digital surface model shows above the ground.
+// chooses. Lines of the other kinds lie on the surface, and are part of a query's triangulation only where the query
+// names their theme and asks for lines on the ground. A theme of buildings, walls or vegetation may stand on the
+// surface instead, with roofs and tops: terrain and other themes under them then make way. A theme of the kind surface
+// always stands: it has all that a raster of a digital surface model shows above the ground.
 #pragma once
 
 #include <cstdint>
@@ -30,24 +30,24 @@ enum class ThemeKind : std::uint8_t {
   Terraces
 };
 
-/// "contours", "breaklines", ...
+/// Returns "contours", "breaklines", ...
 std::string_view name_of(ThemeKind kind);
-/// The kind of this name. Throws InputError.
+/// Returns the kind of this name. Throws InputError.
 ThemeKind theme_kind(std::string_view name);
-/// Whether lines of this kind are part of the full surface.
+/// Tells whether lines of this kind are part of the full surface.
 constexpr bool is_terrain(ThemeKind kind) {
   return kind == ThemeKind::Contours || kind == ThemeKind::Breaklines || kind == ThemeKind::Water;
 }
-/// Whether features of this kind are raised on the ground where they have heights. Each building has one base; terraces
-/// (rows of houses that climb a slope), walls and vegetation follow the ground at their height above it.
+/// Tells whether features of this kind are raised on the ground where they have heights. Each building has one base;
+/// terraces (rows of houses that climb a slope), walls and vegetation follow the ground at their height above it.
 constexpr bool may_be_raised(ThemeKind kind) {
   return kind == ThemeKind::Buildings || kind == ThemeKind::Terraces || kind == ThemeKind::Walls ||
          kind == ThemeKind::Vegetation || kind == ThemeKind::Surface;
 }
 
-/// How a building on its footprint is closed above.
+/// The roof that closes a building above its footprint.
 enum class RoofKind : std::uint8_t { flat, gabled, hipped, skeleton };
-/// Where a building's heights count from: the minimum, mean or maximum of the terrain under its footprint;
+/// The place that a building's heights count from: the minimum, mean or maximum of the terrain under its footprint;
 /// terrain_following takes the mean, too. The building's foot lies on the terrain whatever the rule.
 enum class BaseRule : std::uint8_t { minimum, mean, maximum, terrain_following };
 
@@ -55,16 +55,16 @@ enum class BaseRule : std::uint8_t { minimum, mean, maximum, terrain_following }
 /// next step that is no lower, or the next that is no higher.
 enum class HeightRounding : std::uint8_t { nearest, up, down };
 
-/// "flat", "gabled", "hipped", "skeleton". Throws InputError.
+/// Reads "flat", "gabled", "hipped" or "skeleton". Throws InputError.
 RoofKind roof_kind(std::string_view name);
-/// "minimum", "mean", "maximum", "terrain-following". Throws InputError.
+/// Reads "minimum", "mean", "maximum" or "terrain-following". Throws InputError.
 BaseRule base_rule(std::string_view name);
-/// "nearest", "up", "down". Throws InputError.
+/// Reads "nearest", "up" or "down". Throws InputError.
 HeightRounding height_rounding(std::string_view name);
 
 /// The type of a field's values.
 enum class AttributeType : std::uint8_t { number, whole, text };
-/// "number", "whole" or "text".
+/// Returns "number", "whole" or "text".
 std::string_view name_of(AttributeType type);
 
 /// An attribute of a theme's features, as their sources name it.
@@ -77,54 +77,55 @@ struct AttributeField {
 struct ThemeInfo {
   std::string name;
   ThemeKind kind = ThemeKind::Breaklines;
-  std::uint64_t features = 0;  ///< imported, with at least one line
-  std::uint64_t vertices = 0;  ///< distinct ends of its segments
-  std::uint64_t segments = 0;  ///< how many the full surface has, after crossings were resolved
-  /// Blocks of a store that keep its footprints as they were imported; none for lines on the ground.
+  std::uint64_t features = 0;  ///< imported features with at least one line
+  std::uint64_t vertices = 0;  ///< distinct ends of the theme's segments
+  std::uint64_t segments = 0;  ///< segments in the full surface, after crossings were resolved
+  /// The number of blocks that keep the theme's footprints as they were imported; 0 for lines on the ground.
   std::uint32_t footprint_blocks = 0;
-  /// Blocks of a store that keep ids, names and attributes of its features; none where no import kept any.
+  /// The number of blocks that keep ids, names and attributes of the theme's features; 0 where no import kept any.
   std::uint32_t feature_blocks = 0;
-  std::vector<AttributeField> fields = {};  ///< what its features have, in the order in which imports brought them
-  bool segments_have_features = false;      ///< its lines know which feature they are of
-  /// Metres: how far within their outlines the walls of its features reach their full height, where an import said so;
-  /// elsewhere 0.05 or two grid steps.
+  std::vector<AttributeField> fields = {};  ///< the features' attributes, in the order in which imports brought them
+  bool segments_have_features = false;      ///< each of the theme's lines knows which feature it belongs to
+  /// How far within their outlines the walls of the theme's features reach their full height, metres, where an import
+  /// said so; elsewhere 0.05 or two grid steps.
   std::optional<double> wall_offset = {};
 
   bool is_raised() const { return footprint_blocks > 0; }
 };
 
-/// The features of a raised theme that are there at the same tolerances: whole buildings, or none of them.
+/// The features of a raised theme that are present at the same tolerances: whole buildings, or none of them.
 struct ThemePart {
-  std::uint16_t theme = 0;  ///< its number, from 1
-  int coarsest = 0;         ///< it is there at this level and finer ones
-  /// Whether rings leave out those of its features, block by block, about which they ask for coarser levels alone;
-  /// elsewhere all are there where any ring has them.
+  std::uint16_t theme = 0;  ///< the theme's number, from 1
+  int coarsest = 0;         ///< the part is present at this level and finer ones
+  /// Whether rings leave out, block by block, the features about which they ask for coarser levels alone. Elsewhere all
+  /// features are present where any ring has them.
   bool has_clusters = false;
   friend bool operator==(const ThemePart&, const ThemePart&) = default;
 };
 
-/// Whether the raised theme a takes the ground of b where both are chosen: buildings come before walls, and those
-/// before vegetation, and that before surfaces; among equals the name decides.
+/// Tells whether the raised theme a takes the ground of b where both are chosen. Buildings come first, then walls, then
+/// vegetation, then surfaces; among equals the name decides.
 bool comes_before(const ThemeInfo& a, const ThemeInfo& b);
 
-/// Which themes a query wants besides those of the terrain. Lines that only lie on the ground (roads, and whatever was
-/// imported without heights) are straight between their vertices, where the terrain is not: a surface to look over has
-/// none of them, and they are there only where with_ground_lines() asks for them.
+/// The themes that a query wants besides those of the terrain. Lines that only lie on the ground (roads, and whatever
+/// was imported without heights) are straight between their vertices, where the terrain is not. A surface to look over
+/// therefore has none of them; they are present only where with_ground_lines() asks for them.
 class ThemeChoice {
  public:
   static ThemeChoice all() { return ThemeChoice(true, {}); }
   static ThemeChoice none() { return ThemeChoice(false, {}); }
-  /// "all", "none", or names with commas between. Throws InputError for an empty name.
+  /// Reads "all", "none", or names with commas between. Throws InputError for an empty name.
   static ThemeChoice parse(std::string_view text);
-  /// This choice, which then takes in lines that lie on the ground, too.
+  /// Returns this choice with lines that lie on the ground taken in, too.
   ThemeChoice with_ground_lines() const;
 
   bool includes(const ThemeInfo& theme) const;
-  /// Whether some theme that it includes stands on the ground.
+  /// Tells whether some included theme stands on the ground.
   bool includes_raised(const std::vector<ThemeInfo>& themes) const;
   /// Throws InputError for a name that the store does not have.
   void check(const std::vector<ThemeInfo>& themes) const;
-  /// The names of the themes it includes, those of the terrain with them, in the store's order. Throws as check() does.
+  /// Returns the names of the included themes, those of the terrain among them, in the store's order. Throws as check()
+  /// does.
   std::vector<std::string> names(const std::vector<ThemeInfo>& themes) const;
 
  private:

@@ -14,13 +14,13 @@
 
 namespace itin {
 
-/// The Morton code of a vertex's grid position: unique in a store, and the same in every query, level and import order.
+/// The Morton code of a vertex's grid position: unique in a store, and equal in every query, level and import order.
 using VertexId = std::uint64_t;
 
-/// Indices into Tin::vertices, counterclockwise seen from above, the smallest first.
+/// Three indices into Tin::vertices, counterclockwise seen from above, the smallest first.
 using Triangle = std::array<std::uint32_t, 3>;
 
-/// An edge that is part of a line. Ends are indices into Tin::vertices, the smaller first.
+/// An edge that is part of a line. Its ends are indices into Tin::vertices, the smaller first.
 struct LineEdge {
   std::uint32_t from = 0;
   std::uint32_t to = 0;
@@ -48,19 +48,19 @@ struct Tin {
   std::vector<std::uint16_t> sources;  ///< per vertex: index into StoreMetadata::sources
   std::vector<Triangle> triangles;
   RetrievalStatistics statistics;
-  /// Per vertex: the theme (from 1) of the raised feature that it is part of, off the feature's outline; 0: none.
-  /// Empty where no vertex is.
+  /// For each vertex, the theme (from 1) of the raised feature that it is part of, off the feature's outline; 0: none.
+  /// The list is empty where no vertex is part of one.
   std::vector<std::uint16_t> raised_theme;
   std::vector<LineEdge>
-      lines;  ///< the lines of every theme present, ascending; an edge that themes share comes for each
+      lines;  ///< the lines of every theme present, ascending; an edge that themes share comes once for each
 
-  /// The corners of a triangle, counterclockwise.
+  /// Returns the corners of a triangle, counterclockwise.
   std::array<GridPoint, 3> corners(std::uint32_t triangle) const {
     const auto& [a, b, c] = triangles[triangle];
     return {vertices[a], vertices[b], vertices[c]};
   }
   Point3 point(std::uint32_t vertex) const { return grid.point(vertices[vertex]); }
-  /// The theme (from 1) of the raised feature that the triangle is part of; 0 for ground.
+  /// Returns the theme (from 1) of the raised feature that the triangle is part of; 0 for ground.
   std::uint16_t theme(const Triangle& t) const;
   VertexId id(std::uint32_t vertex) const;
   /// The smallest box of all vertices, metres.

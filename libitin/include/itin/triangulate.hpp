@@ -24,30 +24,30 @@ namespace itin {
 class RasterGrid;
 class Store;
 
-/// Exactly those ground triangles of the triangulation of the whole store, at this detail and with these themes, that
-/// meet the window, whatever the window, the tiling or the number of threads. Lines of the terrain are always part of
-/// it.
+/// Returns exactly those ground triangles of the triangulation of the whole store, at this detail and with these
+/// themes, that meet the window, whatever the window, the tiling or the number of threads. The triangulation always
+/// includes the lines of the terrain.
 ///
 /// Cost: reads the leaves that meet the window and a few around it; O(n log n) in the points read. Memory follows the
-/// window: about 300 bytes per point while running, 28 bytes per point for the result.
-/// Throws InputError (a theme the store does not have), CorruptStore, FileError, Cancelled. An answer without triangles
-/// is not an error.
+/// window: about 300 bytes per point while running, 28 bytes per point for the result. Throws InputError (a theme the
+/// store does not have), CorruptStore, FileError, Cancelled. An answer without triangles is not an error.
 Tin triangulate(const Store& store, const Window& window, const Detail& detail, Progress& progress,
                 const ThemeChoice& themes = ThemeChoice::none());
 
-/// About how many points triangulate() has for this: reads directories, no points. Throws InputError, CorruptStore.
+/// Estimates how many points triangulate() takes for this query; reads directories, no points. Throws InputError,
+/// CorruptStore.
 std::uint64_t points_about(const Store& store, const Window& window, const Detail& detail,
                            const ThemeChoice& themes = ThemeChoice::none());
 
-/// The elevation of the surface under each position, metres; nothing where there is no ground. A position within a
-/// ten-thousandth of a grid unit of a grid point is taken to be there.
+/// Returns the elevation of the surface under each position, metres; nothing where there is no ground. A position
+/// within a ten-thousandth of a grid unit of a grid point counts as being on it.
 ///
-/// Cost: positions near each other share what is read and triangulated, so that many in one call are far faster than
-/// one by one, with the same heights to the last bit. Throws as triangulate() does.
+/// Cost: nearby positions share what is read and triangulated, so that many in one call are far faster than one by one,
+/// with the same heights to the last bit. Throws as triangulate() does.
 std::vector<std::optional<double>> heights_at(const Store& store, const std::vector<Point2>& positions,
                                               const Detail& detail, const ThemeChoice& themes, Progress& progress);
 
-/// Gives the heights under the centres of a raster's cells, rounded to float; NaN where there is no ground.
+/// Returns the heights under the centres of a raster's cells, rounded to float; NaN where there is no ground.
 std::vector<float> heights_at(const Store& store, const RasterGrid& cells, const Detail& detail,
                               const ThemeChoice& themes, Progress& progress);
 

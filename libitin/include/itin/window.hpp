@@ -28,28 +28,29 @@ class Window {
     Ring outer;
     std::vector<Ring> holes;
   };
-  /// The corners of a box as a part; unlike box(), also of one without area.
+  /// Returns the corners of a box as a part; unlike box(), it also takes a box without area.
   static Polygon rectangle(const Box& b);
 
   /// Everything the store covers.
   static Window all();
   static Window box(const Box& b);
-  /// The union of the parts, which may overlap. Within a part, rings may touch; InputError if edges cross (found where
-  /// double arithmetic is sure of it), or if a ring has fewer than three distinct corners. O(n log n) for n edges that
-  /// are short against the whole.
+  /// Returns the union of the parts, which may overlap. Within a part, rings may touch. Throws InputError if edges
+  /// cross (found where double arithmetic is sure of it), or if a ring has fewer than three distinct corners.
+  /// O(n log n) for n edges that are short against the whole.
   static Window polygons(std::vector<Polygon> parts);
   static Window disc(Point2 centre, double radius);
-  /// The sector about the direction `azimuth`, width / 2 to either side. Clockwise from grid north, degrees; `width` in
-  /// (0, 360].
+  /// Returns the sector about the direction `azimuth`, width / 2 to either side. Azimuths count clockwise from grid
+  /// north, degrees; `width` is in (0, 360].
   static Window wedge(Point2 apex, double azimuth, double width, double radius);
-  /// The rectangle of all points within width / 2 to either side of the line and between its ends.
+  /// Returns the rectangle of all points within width / 2 to either side of the line and between its ends.
   static Window corridor(Point2 from, Point2 to, double width);
 
   bool is_all() const { return all_; }
   const std::vector<Polygon>& parts() const { return parts_; }
-  /// Empty for `all()`.
+  /// Returns an empty box for `all()`.
   Box bounds() const;
-  /// Whether a position lies within a part and none of its holes; on an edge, either may be told. O(corners).
+  /// Tells whether a position lies within a part and none of its holes; on an edge, the answer may be either.
+  /// O(corners).
   bool contains(Point2 position) const;
 
  private:

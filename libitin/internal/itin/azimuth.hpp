@@ -8,7 +8,7 @@
 
 namespace itin {
 
-/// Whole turns left out: from 0 to 360, which itself stands for what is below 0 by less than is rounded off.
+/// Leaves out whole turns. Returns 0 to 360; 360 itself only for angles below 0 by less than the rounding.
 inline double within_turn(double degrees) {
   const double rest = std::fmod(degrees, 360);
   return rest < 0 ? rest + 360 : std::abs(rest);

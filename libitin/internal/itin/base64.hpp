@@ -1,4 +1,4 @@
-// Bytes as text, for what is embedded in documents (RFC 4648).
+// Bytes as text, for data embedded in documents (RFC 4648).
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// Work that is done beside what follows.
+// Runs work beside the code that follows.
 //
 //   std::future<Table> table = beside([&] { return read(path); });
 //   decide();
@@ -11,11 +11,11 @@
 
 namespace itin {
 
-/// Whether calls may use more than one thread.
+/// Tells whether calls may use more than one thread.
 bool has_thread_to_spare();
 
-/// Starts work on a thread of its own. Without a thread to spare the work waits for get(), and is never done where
-/// nobody calls that. What it throws, get() throws. The destructor waits for work that has begun.
+/// Starts work on a thread of its own. Without a thread to spare, the work waits for get(), and is never done if nobody
+/// calls get(). Exceptions of the work are thrown by get(). The destructor waits for work that has begun.
 template <class Work>
 std::future<std::invoke_result_t<Work>> beside(Work work) {
   constexpr auto kEither = std::launch::async | std::launch::deferred;

@@ -11,7 +11,7 @@
 
 namespace itin {
 
-/// `position` tells where an item is: something with whole numbers x and y.
+/// Returns the box of all items; `position` tells where an item is: something with whole numbers x and y.
 template <std::ranges::input_range Items, class Projection = std::identity>
 GridBox box_of(const Items& items, const Projection& position = {}) {
   GridBox box;

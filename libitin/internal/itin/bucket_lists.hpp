@@ -1,4 +1,4 @@
-// Items listed by bucket, for searches: which triangles meet a square, which edges leave a vertex.
+// Lists of items by bucket, for searches: which triangles meet a square, which edges leave a vertex.
 //
 //   const BucketLists edges_at(vertex_count, edges.size(), [&](std::uint32_t e, const auto& add) {
 //     add(edges[e].from);
@@ -14,12 +14,13 @@
 
 namespace itin {
 
-/// Numbers of items in each of a fixed number of buckets, all in two arrays. An item may lie in several buckets or
-/// none.
+/// Lists of the items' numbers, one for each of a fixed number of buckets, all in two arrays. An item may lie in
+/// several buckets or none.
 class BucketLists {
  public:
   BucketLists() = default;
-  /// `visit(item, add)` calls add(bucket) for each bucket of an item. It is called twice for each, and calls alike.
+  /// `visit(item, add)` calls add(bucket) for each bucket of an item. It is called twice for each item, and must call
+  /// add() alike both times.
   template <class Visit>
   BucketLists(std::size_t buckets, std::size_t items, const Visit& visit) : first_(buckets + 1, 0) {
     const auto count = static_cast<std::uint32_t>(items);
@@ -30,7 +31,7 @@ class BucketLists {
     for (std::uint32_t i = 0; i < count; ++i) visit(i, [&](std::size_t bucket) { items_[next[bucket]++] = i; });
   }
 
-  /// Ascending.
+  /// The items of the bucket, ascending.
   std::span<const std::uint32_t> in(std::size_t bucket) const {
     return {items_.data() + first_[bucket], first_[bucket + 1] - first_[bucket]};
   }

@@ -12,15 +12,15 @@
 
 namespace itin {
 
-/// What a picture shows of an outline, metres.
+/// The precision of outlines in a picture, metres.
 struct OutlineDetail {
   double tolerance = 0;  ///< vertices that lie nearer to the rest are left out
   double least = 0;      ///< rings that are smaller than this from west to east and from south to north are left out
 };
 
-/// Closed rings, courtyards among them, of all buildings and terraces of the chosen themes that meet the box; where a
-/// building has measured roofs but no footprint, the outlines of their planes. Empty where buildings do not stand on
-/// the ground. Reads all footprints of these themes, about a microsecond each. Throws CorruptStore.
+/// Returns closed rings, courtyards among them, of all buildings and terraces of the chosen themes that meet the box.
+/// For a building with measured roofs but no footprint, they are the outlines of its roof planes. Empty where buildings
+/// do not stand on the ground. Reads all footprints of these themes, about a microsecond each. Throws CorruptStore.
 std::vector<std::vector<Point2>> building_outlines(const Store& store, const ThemeChoice& themes, const Box& box,
                                                    const OutlineDetail& detail);
 

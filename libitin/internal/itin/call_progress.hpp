@@ -1,4 +1,4 @@
-// Progress of a whole call, put together of the progress of its steps.
+// Progress of a whole call, composed of the progress of its steps.
 //
 //   CallProgress call(progress);
 //   const Tin tin = triangulate(store, window, detail, call.step(0.6));   // six tenths of the call
@@ -16,17 +16,17 @@
 
 namespace itin {
 
-/// Until a step begins, the whole call is one. `whole` must outlive it.
+/// Composes the progress of a call. Until a step begins, the whole call is one step. `whole` must outlive it.
 class CallProgress final : public Progress {
  public:
   explicit CallProgress(Progress& whole) : whole_(whole) {}
 
-  /// Ends the step, and begins one that takes about such a share of what is left of the call. Returns this.
+  /// Ends the step, and begins one that takes about this share of what is left of the call. Returns this.
   Progress& step(double share);
-  /// `fraction` of the step is done.
+  /// Reports that `fraction` of the step is done.
   void report(std::string_view stage, double fraction) override;
   bool cancelled() const override { return whole_.cancelled(); }
-  /// The call is done.
+  /// Reports that the call is done.
   void finish();
 
  private:

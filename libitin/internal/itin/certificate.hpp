@@ -12,7 +12,7 @@
 
 namespace itin {
 
-/// Grid units.
+/// Bounds of a height difference, grid units.
 struct HeightBounds {
   std::int32_t lo = 0;
   std::int32_t hi = 0;
@@ -27,10 +27,10 @@ class Certificate {
     HeightBounds bounds;
   };
 
-  /// Along the curve, disjoint.
+  /// Takes disjoint cells in order along the curve.
   explicit Certificate(std::vector<Cell> cells) : cells_(std::move(cells)) {}
 
-  /// The widest bounds of the cells that meet the box; nothing where there is none. O(log n) a cell met.
+  /// Returns the widest bounds of the cells that meet the box; nothing where there is no cell. O(log n) per cell met.
   std::optional<HeightBounds> over(const GridBox& box) const;
 
  private:

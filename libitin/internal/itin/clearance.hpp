@@ -5,7 +5,7 @@
 //   line.clearance({2500, ground});                               // above a place of the ground
 //   if (const auto lowest = line.lowest_between(a, b)) ...        // over straight ground between two places
 //
-// Heights and distances are in one unit, whichever: metres, grid units, or distances as fractions of a length 1.
+// Heights and distances share one unit: metres, grid units, or distances as fractions of a length of 1.
 #pragma once
 
 #include <algorithm>
@@ -13,14 +13,15 @@
 
 namespace itin {
 
-/// The Earth's surface against the chord between both ends of a line: it bulges above it, and straight ground with it.
+/// The Earth's surface against the chord between both ends of a line: the surface bulges above it, and straight ground
+/// with the surface.
 struct Bulge {
   double length = 1;
   double drop = 0;  ///< Earth::drop_coefficient(), or that times the squared length where the length is 1
 
   double at(double distance) const { return drop * (distance * (length - distance)); }
-  /// Where straight ground that gains `slope` on the line in a unit of distance is highest against it: the bulge is a
-  /// parabola. Precondition: drop > 0.
+  /// Returns where straight ground is highest against the line, if it gains `slope` on the line per unit of distance:
+  /// the bulge is a parabola. Precondition: drop > 0.
   double summit(double slope) const { return (length + slope / drop) / 2; }
 };
 
@@ -30,14 +31,14 @@ struct GroundPoint {
   double z = 0;
 };
 
-/// Straight ground under a line: for distances d in [from, to] the clearance is constant + linear d + square d^2,
-/// convex.
+/// Straight ground under a line. For distances d in [from, to] the clearance is constant + linear d + square d^2, which
+/// is convex.
 struct ClearancePiece {
   double from = 0, to = 0;
   double constant = 0, linear = 0, square = 0;
 
   double at(double d) const { return constant + d * (linear + d * square); }
-  /// Where it is least in [first, last], part of the piece.
+  /// Returns where the clearance is least in [first, last], a part of the piece.
   double least_within(double first, double last) const {
     if (square > 0) return std::clamp(-linear / (2 * square), first, last);
     return at(first) < at(last) ? first : last;
@@ -51,7 +52,8 @@ class LineOverGround {
 
   double length() const { return bulge_.length; }
 
-  /// From the nearer end, so that a level line is level and the line from the other end the same.
+  /// Returns the line's height, computed from the nearer end, so that a level line is level and the line given from the
+  /// other end has equal heights.
   double height(double distance) const {
     const double left = length() - distance;
     if (length() == 0) return start_z_;
@@ -62,7 +64,7 @@ class LineOverGround {
 
   double clearance(const GroundPoint& p) const { return height(p.distance) - p.z - bulge_.at(p.distance); }
 
-  /// Where over the straight ground from a to b the clearance is least, if that is between them.
+  /// Returns the place of the straight ground from a to b with the least clearance, if it lies between them.
   std::optional<GroundPoint> lowest_between(const GroundPoint& a, const GroundPoint& b) const {
     const double width = b.distance - a.distance;
     if (width <= 0 || bulge_.drop <= 0) return std::nullopt;
@@ -71,7 +73,7 @@ class LineOverGround {
     return GroundPoint{distance, a.z + (distance - a.distance) / width * (b.z - a.z)};
   }
 
-  /// Precondition: a is nearer to the start than b.
+  /// Returns the straight ground from a to b as a piece. Precondition: a is nearer to the start than b.
   ClearancePiece piece(const GroundPoint& a, const GroundPoint& b) const {
     const double slope = (b.z - a.z) / (b.distance - a.distance);
     return {a.distance, b.distance, start_z_ - (a.z - slope * a.distance),

@@ -10,9 +10,9 @@
 
 namespace itin {
 
-/// Where the values at the cells' centres, taken as linear between neighbours, equal `level`: polylines with higher
-/// values on their left, closed ones with their first point again at the end. A square of centres with a NaN has none.
-/// Precondition: values.size() == grid.cell_count(). O(cells).
+/// Returns where the values at the cells' centres, taken as linear between neighbours, equal `level`. The polylines
+/// have higher values on their left; closed ones repeat their first point at the end. A square of centres with a NaN
+/// has no lines. Precondition: values.size() == grid.cell_count(). O(cells).
 std::vector<std::vector<Point2>> contour_lines(const RasterGrid& grid, std::span<const float> values, double level);
 
 }  // namespace itin

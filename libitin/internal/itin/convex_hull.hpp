@@ -7,8 +7,8 @@
 
 namespace itin {
 
-/// Counterclockwise, without those inside its edges. `before(a, b)` orders by x, then y; `turns_left(a, b, c)` holds
-/// strictly. Fewer than three items are returned in order. O(n log n).
+/// Returns the corners counterclockwise, without items inside the hull's edges. `before(a, b)` orders by x, then y;
+/// `turns_left(a, b, c)` holds strictly. Fewer than three items are returned in order. O(n log n).
 template <class Item, class Before, class TurnsLeft>
 std::vector<Item> convex_hull(std::vector<Item> items, const Before& before, const TurnsLeft& turns_left) {
   std::sort(items.begin(), items.end(), before);

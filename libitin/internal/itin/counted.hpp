@@ -7,10 +7,10 @@
 
 namespace itin {
 
-/// 1234567 as "1,234,567".
+/// Returns 1234567 as "1,234,567".
 std::string grouped(std::uint64_t number);
 
-/// "1 block", "1,234 blocks"; `plural` where it is not made by an s.
+/// Returns "1 block", "1,234 blocks"; `plural` is given where it is not formed with an s.
 std::string counted(std::uint64_t number, std::string_view noun, std::string_view plural = {});
 
 }  // namespace itin

@@ -10,7 +10,7 @@
 
 namespace itin {
 
-/// Quoted where it has to be.
+/// Returns the text, quoted where it has to be.
 inline std::string csv_cell(const std::string& text) {
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
   std::string quoted = "\"";
@@ -18,7 +18,7 @@ inline std::string csv_cell(const std::string& text) {
   return quoted + "\"";
 }
 
-/// Empty for nothing.
+/// Returns the number with these decimals; an empty cell for nothing.
 inline std::string csv_cell(const std::optional<double>& value, int decimals) {
   return value ? fmt::format("{:.{}f}", *value, decimals) : "";
 }

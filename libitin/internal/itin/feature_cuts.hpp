@@ -1,7 +1,7 @@
 // How deep buildings on flat foundations cut into the ground, cell by cell.
 //
 //   const std::vector<Certificate> cuts = feature_cuts(store, themes, box);
-//   use(deepest_cut(cuts, triangle_box));   // there the surface with features is no lower than T_0 less so much
+//   use(deepest_cut(cuts, triangle_box));   // there the surface with features is no lower than T_0 less this
 #pragma once
 
 #include <cstdint>
@@ -13,11 +13,11 @@
 
 namespace itin {
 
-/// One for each part of the chosen themes that cuts into the ground anywhere in the cells that meet the box; empty
-/// where features only raise the surface. Throws CorruptStore.
+/// Returns a certificate for each part of the chosen themes that cuts into the ground in some cell that meets the box.
+/// It is empty where features only raise the surface. Throws CorruptStore.
 std::vector<Certificate> feature_cuts(const Store& store, const ThemeChoice& themes, const Box& box);
 
-/// Grid units, not negative: of the cells that meet the box.
+/// Returns the deepest cut, grid units, not negative, in the cells that meet the box.
 std::int32_t deepest_cut(const std::vector<Certificate>& cuts, const GridBox& box);
 
 }  // namespace itin

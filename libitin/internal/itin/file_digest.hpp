@@ -7,8 +7,8 @@
 
 namespace itin {
 
-/// The SHA-256 of a file's bytes in hexadecimal; empty for what is not a plain file (/vsizip/..., a directory).
-/// Throws FileError, Cancelled.
+/// Returns the SHA-256 of a file's bytes in hexadecimal; empty where the path is no plain file (/vsizip/..., a
+/// directory). Throws FileError, Cancelled.
 std::string file_sha256(const std::string& path, Progress& progress);
 
 }  // namespace itin

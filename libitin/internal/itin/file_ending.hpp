@@ -10,7 +10,7 @@
 
 namespace itin {
 
-/// With its dot, in lower case; empty where there is none.
+/// Returns the ending with its dot, in lower case; empty where there is none.
 inline std::string ending_of(const std::string& path) {
   std::string ending = std::filesystem::path(path).extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(),

@@ -6,9 +6,9 @@
 //   least.consider_inside(line.piece({t, ground}, {u, height}));     // straight ground between two places
 //   if (least.least() && least.least()->fraction < 0.6) ...
 //
-// Distances are fractions t of the line's length; heights, clearances and the zone's radius are in one unit, whichever.
-// Between two places the clearance is a quadratic of t, and its least ratio to the radius is at a root of a cubic:
-// nothing is sampled. Source: ITU-R P.526-15 section 2.
+// Distances are fractions t of the line's length; heights, clearances and the zone's radius share one unit. Between two
+// places the clearance is a quadratic of t, and its least ratio to the radius is at a root of a cubic: nothing is
+// sampled. Source: ITU-R P.526-15 section 2.
 #pragma once
 
 #include <cmath>
@@ -18,8 +18,8 @@
 
 namespace itin {
 
-/// The least ratio of clearance to the first zone's radius, radius_unit sqrt(t (1 - t)), of what it was shown. At the
-/// ends the radius is 0: there a clearance of 0 counts as 0, any other not at all.
+/// The least ratio, over all places considered, of clearance to the first zone's radius, radius_unit sqrt(t (1 - t)).
+/// At the ends the radius is 0: there a clearance of 0 counts as a ratio of 0, and any other does not count.
 class LeastFraction {
  public:
   struct Place {
@@ -28,13 +28,13 @@ class LeastFraction {
     double clearance = 0;
   };
 
-  /// `radius_unit`: sqrt(wavelength times length), twice the greatest radius.
+  /// Takes sqrt(wavelength times length) as `radius_unit`: twice the greatest radius.
   explicit LeastFraction(double radius_unit) : unit_(radius_unit) {}
 
   void consider(double t, double clearance);
-  /// Between the piece's ends, which count by consider() only.
+  /// Considers the places between the piece's ends; the ends themselves count by consider() only.
   void consider_inside(const ClearancePiece& piece);
-  /// Among equal places, the one considered first.
+  /// Returns the place with the least ratio; among equals, the one considered first.
   const std::optional<Place>& least() const { return least_; }
 
  private:

@@ -19,9 +19,9 @@ struct Geodesic {
   double back_azimuth_deg = 0;  ///< at the second point, towards the first
 };
 
-/// Between two points given as longitude, latitude in degrees. Method: T. Vincenty, Survey Review 23 (1975), 88-93;
-/// good to a millimetre and 1e-6 degrees wherever sight lines exist. It does not converge for nearly antipodal points,
-/// for which an InputError is thrown.
+/// Returns the geodesic between two points given as longitude, latitude in degrees. Method: T. Vincenty, Survey Review
+/// 23 (1975), 88-93; good to a millimetre and 1e-6 degrees wherever sight lines exist. It does not converge for nearly
+/// antipodal points, for which it throws InputError.
 Geodesic geodesic(Point2 from, Point2 to, const Ellipsoid& ellipsoid = kWgs84);
 
 }  // namespace itin

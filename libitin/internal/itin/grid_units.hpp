@@ -9,7 +9,7 @@
 
 namespace itin {
 
-/// What lies within a ten-thousandth of a unit of a whole number is meant to be there: sites and cell centres often are
+/// Returns a value within a ten-thousandth of a unit of a whole number as that number. Sites and cell centres often are
 /// vertices, also at the edge of the data, where rounding would put them outside.
 inline double snapped_to_units(double units) {
   const double whole = std::round(units);

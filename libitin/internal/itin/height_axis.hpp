@@ -9,23 +9,23 @@
 namespace itin {
 
 struct HeightAxis {
-  std::string datum;           ///< its name; empty where it is not stated
-  std::string unit = "metre";  ///< its name
-  double metres = 1;           ///< that one unit has
-  bool down = false;           ///< depths: what is greater lies lower
+  std::string datum;           ///< the datum's name; empty where it is not stated
+  std::string unit = "metre";  ///< the unit's name
+  double metres = 1;           ///< length of one unit
+  bool down = false;           ///< depths: greater numbers lie lower
 
-  /// Heights in metres are this many times the source's numbers.
+  /// Returns the factor from the source's numbers to heights in metres.
   double factor() const { return down ? -metres : metres; }
   friend bool operator==(const HeightAxis&, const HeightAxis&) = default;
 };
 
-/// "heights above Ordnance Datum Newlyn, unit: metre".
+/// Returns "heights above Ordnance Datum Newlyn, unit: metre".
 std::string described(const HeightAxis& axis);
-/// "metre", "foot (0.3048 m)".
+/// Returns "metre", "foot (0.3048 m)".
 std::string unit_text(const HeightAxis& axis);
 
-/// As an import takes heights in this CRS (SourceInfo::source_crs, say): by its vertical part; where it has none, in
-/// the unit of its axes, or in metres where these are angles. Throws InputError.
+/// Returns how an import takes heights in this CRS (SourceInfo::source_crs, say): by its vertical part; where it has no
+/// such part, in the unit of its axes, or in metres where these are angles. Throws InputError.
 HeightAxis height_axis(const std::string& crs);
 
 }  // namespace itin

@@ -1,4 +1,4 @@
-// Where labels of a drawing may stand without one covering another.
+// Places for the labels of a drawing such that none covers another.
 #pragma once
 
 #include <algorithm>
@@ -14,24 +14,25 @@ namespace itin {
 
 /// A name beside a mark; lengths in the drawing's units.
 struct MarkLabel {
-  Point2 mark;          ///< its middle
-  double beside = 0;    ///< how far from there the name stands
-  double width = 0;     ///< the name's
+  Point2 mark;          ///< the mark's middle
+  double beside = 0;    ///< distance of the name from the mark's middle
+  double width = 0;     ///< the name's width
   double height = 0;    ///< the height of its capitals
-  double margin = 0.5;  ///< that stays free about it
+  double margin = 0.5;  ///< space that stays free about the name
 };
 
 class LabelPlaces {
  public:
-  /// Nothing may stand there any more.
+  /// Marks a box as taken: no label may stand there any more.
   void take(const Box& box) { taken_.push_back(box); }
   bool free(const Box& box) const {
     return std::none_of(taken_.begin(), taken_.end(), [&](const Box& t) {
       return t.xmin < box.xmax && box.xmin < t.xmax && t.ymin < box.ymax && box.ymin < t.ymax;
     });
   }
-  /// Where the baseline of the name begins, y downwards: beside the mark, above it, below it, or at its upper corners,
-  /// whichever of these is within the frame and free first. It is taken then. Nothing: there is no room.
+  /// Finds a place for the name: beside the mark, above it, below it, or at its upper corners, whichever is first
+  /// within the frame and free. Takes it, and returns where the name's baseline begins, y downwards. Nothing: there is
+  /// no room.
   std::optional<Point2> take_beside(const MarkLabel& label, const Box& frame) {
     const auto& [p, far, width, height, margin] = label;
     const Point2 anchors[] = {{p.x + far, p.y + height / 2},      {p.x - far - width, p.y + height / 2},
@@ -51,7 +52,7 @@ class LabelPlaces {
   std::vector<Box> taken_;
 };
 
-/// What a legend says of names without a place: "3 of 20 names left out for want of room".
+/// Returns what a legend says about names without a place: "3 of 20 names left out for want of room".
 inline std::string left_out_text(std::size_t left_out, std::size_t names) {
   return fmt::format("{} of {} names left out for want of room", left_out, names);
 }

@@ -1,4 +1,4 @@
-// The surface of a window that is a lattice (lattice_tin.hpp), whose heights are read where they are asked for.
+// The surface of a window that is a lattice (lattice_tin.hpp); its heights are read where they are asked for.
 //
 //   if (const auto reader = LatticeReader::open(store, window, themes, LatticeReader::Heights::kNone, most, progress))
 //   {
@@ -6,8 +6,8 @@
 //     ...
 //   }
 //
-// That it is a lattice, and where ground is, is known and proved from the first; and of each tile how high its posts
-// are at most.
+// From the first, the reader has proved that the surface is a lattice, and knows where there is ground, and how high
+// the posts of each tile are at most.
 #pragma once
 
 #include <cstdint>
@@ -27,11 +27,11 @@ class LatticeReader {
   /// Which tiles with ground have heights after opening.
   enum class Heights : std::uint8_t { kNone, kAll };
 
-  /// As triangulate_lattice(), and nothing where that returns nothing. The store must outlive it. Cost: with all
-  /// heights about twice that without them.
+  /// Opens the window as triangulate_lattice() does; nothing where that returns nothing. The store must outlive the
+  /// reader. Cost: with all heights, about twice that without them.
   static std::unique_ptr<LatticeReader> open(const Store& store, const Window& window, const ThemeChoice& themes,
                                              Heights heights, std::uint64_t most_posts, Progress& progress);
-  /// Whether that may be one: what a few blocks tell.
+  /// Tells from a few blocks whether open() may find a lattice.
   static bool may_open(const Store& store, const Window& window, const ThemeChoice& themes, std::uint64_t most_posts);
   ~LatticeReader();
   LatticeReader(const LatticeReader&) = delete;
@@ -41,14 +41,14 @@ class LatticeReader {
   /// Moves the lattice out; the reader may not be used afterwards.
   LatticeTin take();
 
-  /// No post of the tile is higher, grid units. Told where it was opened without heights.
+  /// Returns a height, grid units, that no post of the tile exceeds. Precondition: opened without heights.
   std::int32_t highest(std::uint32_t tile) const;
 
   /// Reads the heights of tiles with ground that have none yet: all of them, or none where it throws. Reports nothing.
-  /// Cost: their blocks, of which those at their borders may have been read before. Not for several threads at once;
-  /// uses all itself.
+  /// Cost: reads the tiles' blocks; blocks at their borders may have been read before. Not for several threads at once;
+  /// the call itself uses all threads.
   void read(std::span<const std::uint32_t> tiles, Progress& progress);
-  /// All that are left.
+  /// Reads the heights of all tiles that have none yet.
   void read_all(Progress& progress);
 
  private:

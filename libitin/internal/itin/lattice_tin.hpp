@@ -1,13 +1,13 @@
-// A triangulation all of whose triangles are halves of the cells of one square lattice, as a raster's are: its posts
+// A triangulation all of whose triangles are halves of the cells of one square lattice, as a raster's are. Its posts
 // and, where a cell is not whole, one byte per cell say it all, so that no triangle is listed.
 //
 //   if (const auto lattice = triangulate_lattice(store, window, ThemeChoice::none(), 100'000'000, progress))
 //     for (std::uint32_t t : ...) use(lattice->corners(t));
 //
-// Little more than 4 bytes per post, where a Tin takes 38, and a fraction of the time. Columns count eastwards and rows
-// southwards. Cell (c, r) lies between posts (c, r) and (c + 1, r + 1). The first and the last cells of every row and
-// column are bare. Cells are kept in square tiles, and what has no ground takes no memory; so do heights that have not
-// been read yet (lattice_reader.hpp): of those tiles it is only known where ground is.
+// It takes little more than 4 bytes per post, where a Tin takes 38, and a fraction of the time. Columns count eastwards
+// and rows southwards. Cell (c, r) lies between posts (c, r) and (c + 1, r + 1). The first and the last cells of every
+// row and column are bare. Cells are kept in square tiles. Tiles without ground take no memory; nor do heights that
+// have not been read yet (lattice_reader.hpp): in such tiles it is only known where ground is.
 #pragma once
 
 #include <array>
@@ -28,13 +28,13 @@ namespace itin {
 
 class Store;
 
-/// In the plane, grid units.
+/// A position in the plane, grid units.
 struct GridPlace {
   std::int32_t x = 0, y = 0;
   friend auto operator<=>(const GridPlace&, const GridPlace&) = default;
 };
 
-/// A piece of the rim of a surface, which lies to its left.
+/// A piece of the rim of a surface; the surface lies to its left.
 struct RimEdge {
   GridPlace from, to;
 };
@@ -47,12 +47,12 @@ struct LatticeTin {
   std::int32_t lowest = 0, highest = 0;  ///< no height is lower or higher; grid units
   RetrievalStatistics statistics;
 
-  /// Triangles by the corner of the cell at which they have their right angle. A cell has two that share a diagonal,
-  /// or one, or none.
+  /// The triangles, named by the corner of the cell at which they have their right angle. A cell has two that share a
+  /// diagonal, or one, or none.
   enum Half : std::uint8_t { kSouthWest = 1, kNorthEast = 2, kNorthWest = 4, kSouthEast = 8 };
   static constexpr std::uint8_t kFalling = kSouthWest | kNorthEast;  ///< the whole cell, its diagonal from north-west
   static constexpr std::uint8_t kRising = kNorthWest | kSouthEast;   ///< the whole cell, its diagonal from south-west
-  /// The western and the eastern triangle of a cell, whichever its diagonal.
+  /// The western and the eastern triangle of a cell, whichever diagonal it has.
   static constexpr std::uint8_t kFirst = kSouthWest | kNorthWest, kSecond = kNorthEast | kSouthEast;
 
   static constexpr std::uint32_t kSide = 64;          ///< the side of a tile, cells
@@ -66,7 +66,7 @@ struct LatticeTin {
   };
   std::vector<Tile> tiles;  ///< row by row; those at the eastern and southern ends reach beyond the lattice
 
-  // Cells have numbers: tile by tile, row by row. There are fewer than 2^31, so that triangles have numbers as well.
+  // Cells are numbered tile by tile, row by row. There are fewer than 2^31, so that triangles have numbers as well.
   static constexpr std::uint32_t kMostTiles = (std::uint32_t{1} << 31) / kCells - 1;
   static constexpr std::uint32_t kBits = 6;
   static_assert(kSide == 1U << kBits);
@@ -96,19 +96,19 @@ struct LatticeTin {
   }
   static bool whole(std::uint8_t halves) { return halves == kFalling || halves == kRising; }
   bool read(std::uint32_t cell) const { return tiles[cell >> 2 * kBits].heights != nullptr; }
-  /// The cell's north-western post, followed by its north-eastern one; the southern ones come kPosts later.
+  /// Returns the cell's north-western post, followed by its north-eastern one; the southern ones come kPosts later.
   /// Precondition: read(cell).
   const std::int32_t* posts(std::uint32_t cell) const {
     const std::uint32_t in_tile = cell % kCells;
     return tiles[cell >> 2 * kBits].heights->data() + in_tile + (in_tile >> kBits);
   }
 
-  /// The height of the post at a position, grid units, where that is one of a whole cell's, and read.
+  /// Returns the height of the post at a position, grid units, where a post of a whole cell is there, and read.
   std::optional<std::int32_t> post_at(double at_x, double at_y) const {
     const double east = at_x - west, south = north - at_y, a_unit = 1.0 / spacing;
     if (!(east >= spacing && south >= spacing && east < 1.0 * spacing * columns && south < 1.0 * spacing * rows))
       return std::nullopt;
-    // Whole numbers but for rounding, which the quarter swallows.
+    // These are whole numbers but for rounding, which the quarter absorbs.
     const auto c = static_cast<std::uint32_t>(east * a_unit + 0.25),
                r = static_cast<std::uint32_t>(south * a_unit + 0.25);
     if (1.0 * c * spacing != east || 1.0 * r * spacing != south) return std::nullopt;
@@ -119,33 +119,33 @@ struct LatticeTin {
     return std::nullopt;
   }
 
-  /// Calls visit(triangle) for each of a cell's triangles, by a number of its own, until one call returns false.
-  /// Returns whether none did.
+  /// Calls visit(triangle) with the number of each of a cell's triangles, until one call returns false. Returns whether
+  /// none did.
   template <class Visit>
   bool for_each_triangle(std::uint32_t cell, const Visit& visit) const {
     const std::uint8_t there = halves(cell);
     return ((there & kFirst) == 0 || visit(2 * cell)) && ((there & kSecond) == 0 || visit(2 * cell + 1));
   }
-  /// The corners of a triangle, counterclockwise. The western one of a cell has the number of the cell, doubled, the
-  /// eastern one the next. Precondition: read.
+  /// Returns the corners of a triangle, counterclockwise. The western triangle of a cell has twice the cell's number,
+  /// the eastern one the next number. Precondition: read.
   std::array<GridPoint, 3> corners(std::uint32_t triangle) const {
     const std::int32_t* const height = posts(triangle / 2);
     return corners(triangle, {height[0], height[1], height[kPosts], height[kPosts + 1]});
   }
-  /// The corners in the plane, at height 0.
+  /// Returns the corners in the plane, at height 0.
   std::array<GridPoint, 3> outline(std::uint32_t triangle) const { return corners(triangle, {}); }
   std::uint64_t triangle_count() const;
 
-  /// Where the surface ends, between neighbouring posts.
+  /// Returns where the surface ends, as edges between neighbouring posts.
   std::vector<RimEdge> rim() const;
 
-  /// The smallest box of all triangles, metres.
+  /// Returns the smallest box of all triangles, metres.
   Box bounds() const;
 
   /// Lists the triangles one by one, in the order of a Tin's; without sources. Precondition: all tiles are read.
   Tin tin() const;
 
-  // To fill it.
+  // The following functions fill it.
   /// Makes room for the heights of a tile.
   void make_heights(std::uint32_t tile) {
     tiles[tile].heights = std::make_unique<std::array<std::int32_t, kPosts * kPosts>>();
@@ -183,15 +183,15 @@ void LatticeTin::for_each_tile_of(std::uint32_t column, std::uint32_t row, const
   if (west_edge && north_edge) visit(tile - tile_columns() - 1, kSide * kPosts + kSide);
 }
 
-/// The triangles of triangulate() at tolerance 0, where every one of them is half a cell of the lattice on which the
-/// terrain's posts lie, no line of a theme comes between them and no feature stands on them. Nothing elsewhere, or
-/// where the lattice would have more than `most_posts` or be mostly empty: most often the first block read tells. Cost:
-/// each block of the window once; O(posts). Throws as triangulate() does.
+/// Returns the triangles of triangulate() at tolerance 0, if each is half a cell of the lattice on which the terrain's
+/// posts lie, no line of a theme comes between them and no feature stands on them. Otherwise, and where the lattice
+/// would have more than `most_posts` or be mostly empty, returns nothing: most often the first block read tells. Cost:
+/// reads each block of the window once; O(posts). Throws as triangulate() does.
 std::optional<LatticeTin> triangulate_lattice(const Store& store, const Window& window, const ThemeChoice& themes,
                                               std::uint64_t most_posts, Progress& progress);
 
-/// The lattice that a Tin is. Nothing where it is none, or covers so little of a lattice that this would be mostly
-/// empty. O(n); most often the first few triangles already show that it is none.
+/// Returns the lattice that a Tin is. Nothing where it is none, or covers so little of a lattice that this would be
+/// mostly empty. O(n); most often the first few triangles already show that it is none.
 std::optional<LatticeTin> lattice_of(const Tin& tin);
 
 }  // namespace itin

@@ -10,16 +10,17 @@
 
 namespace itin {
 
-/// The coarsest level whose tolerance is at most this one.
+/// Returns the coarsest level whose tolerance is at most this one.
 int level_within(const StoreMetadata& metadata, double tolerance);
 
-/// The finest level, from `finest` on, with at most about so many points in the box; the coarsest where none has.
+/// Returns the finest level, from `finest` on, with at most about `most_points` in the box; the coarsest where none has
+/// so few.
 int finest_level_of(const Store& store, const Box& box, std::uint64_t most_points, int finest = 0);
 
-/// The surface of one level.
+/// Returns the detail that reads the surface of one level.
 Detail detail_of(const StoreMetadata& metadata, int level);
 
-/// The widest certified error of the levels that this detail reads.
+/// Returns the widest certified error of the levels that this detail reads.
 CertifiedError certified_error(const StoreMetadata& metadata, const Detail& detail);
 
 }  // namespace itin

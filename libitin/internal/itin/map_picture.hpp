@@ -11,9 +11,9 @@
 
 namespace itin {
 
-/// The colours of a picture in grey, with a palette, or in red, green and blue, with or without alpha, of 8 bits each,
-/// at these pixels of the CRS `crs_wkt`: averages where the picture is finer, clear beyond it. Throws FileError for a
-/// file that is no such picture or states no CRS.
+/// Returns the colours of a picture at these pixels of the CRS `crs_wkt`: averages where the picture is finer,
+/// transparent beyond it. The picture is grey, with a palette, or red, green and blue, with or without alpha, of 8 bits
+/// each. Throws FileError for a file that is no such picture or states no CRS.
 std::vector<Rgba> picture_at(const std::string& path, const RasterGrid& pixels, const std::string& crs_wkt);
 
 }  // namespace itin

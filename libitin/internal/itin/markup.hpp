@@ -6,7 +6,7 @@
 
 namespace itin {
 
-/// With entities for what would be markup, in content as in attributes with double quotes.
+/// Writes entities for characters that would be markup, both in content and in attributes with double quotes.
 std::string escaped_markup(std::string_view text);
 
 }  // namespace itin

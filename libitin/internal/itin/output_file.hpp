@@ -1,4 +1,4 @@
-// Small outputs, complete or not there at all.
+// Small output files, either complete or absent.
 #pragma once
 
 #include <string>

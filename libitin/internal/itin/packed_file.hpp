@@ -7,14 +7,14 @@
 
 namespace itin {
 
-/// XXH3 of the bytes, the same on every machine.
+/// Returns the XXH3 of the bytes, equal on every machine.
 std::uint64_t content_hash(std::string_view bytes);
 
-/// As write_file() does; an existing file is replaced. Throws FileError.
+/// Writes as write_file() does; an existing file is replaced. Throws FileError.
 void write_packed(const std::string& path, std::string_view bytes);
 
-/// The bytes that write_packed() was given. Throws FileError where the file cannot be read, was not written by it, or
-/// is damaged.
+/// Returns the bytes that write_packed() was given. Throws FileError where the file cannot be read, was not written by
+/// write_packed(), or is damaged.
 std::string read_packed(const std::string& path);
 
 }  // namespace itin

@@ -1,4 +1,4 @@
-// The one parallel seam. Everything above it is written as if there were no threads; oneTBB appears only in
+// The one parallel seam. Code above it is written as if there were no threads. oneTBB appears only in
 // src/base/parallel.cpp, and the serial build (ITIN_PARALLEL=OFF) runs the same loops in order.
 #pragma once
 

@@ -13,15 +13,15 @@
 namespace itin {
 
 struct Path {
-  std::int64_t feature = 0;     ///< the file's own number for it
-  std::string id;               ///< its `id` or `name` field, else its number
-  std::string name;             ///< its `name` or `id` field; may be empty
+  std::int64_t feature = 0;     ///< the file's own number for the feature
+  std::string id;               ///< the feature's `id` or `name` field, else its number
+  std::string name;             ///< the feature's `name` or `id` field; may be empty
   std::vector<Point2> corners;  ///< at least two, in the CRS asked for
 };
 
 /// A feature that is no line, or has a place that the CRS asked for does not know.
 struct BadPath {
-  std::size_t row = 0;  ///< its place among all features of the file, from 1
+  std::size_t row = 0;  ///< the feature's place among all features of the file, from 1
   std::int64_t feature = 0;
   std::string id;  ///< as Path::id
   std::string message;
@@ -32,14 +32,15 @@ struct PathFile {
   std::vector<BadPath> bad;  ///< in the file's order
 };
 
-/// Every line of every layer, in the file's order, in the CRS `to_crs` (WKT); a file that states no CRS is taken to be
-/// in it. Throws FileError for a file that is missing or not understood, InputError for a CRS that is unknown.
+/// Returns every line of every layer, in the file's order, in the CRS `to_crs` (WKT); a file that states no CRS is
+/// taken to be in that one. Throws FileError for a file that is missing or not understood, InputError for a CRS that is
+/// unknown.
 PathFile read_path_file(const std::string& path, const std::string& to_crs);
 
-/// The lines alone. Throws as read_path_file() does, and FileError naming the first feature that is none.
+/// Returns the lines alone. Throws as read_path_file() does, and FileError naming the first feature that is no line.
 std::vector<Path> read_paths(const std::string& path, const std::string& to_crs);
 
-/// How far along the path each corner is, horizontally: 0 at the first, the path's length at the last.
+/// Returns how far along the path each corner is, horizontally: 0 at the first, the path's length at the last.
 std::vector<double> distances_along(const std::vector<Point2>& corners);
 
 }  // namespace itin

@@ -1,4 +1,4 @@
-// Regions of a raster as polygons: what cells of equal value cover, dissolved.
+// Regions of a raster as polygons: areas of cells of equal value, dissolved.
 //
 //   RegionDescription description;
 //   description.crs_wkt = store.metadata().crs_wkt;
@@ -19,7 +19,7 @@ namespace itin {
 struct RegionClass {
   std::uint32_t value = 0;
   std::string name;
-  Rgba colour{0, 114, 178};  ///< QGIS draws the class in it
+  Rgba colour{0, 114, 178};  ///< QGIS draws the class in this colour
 };
 
 struct RegionDescription {
@@ -29,11 +29,11 @@ struct RegionDescription {
   bool overwrite = false;
 };
 
-/// Writes a GeoPackage with one multipolygon per class that has cells, in the order of the classes: fields `value`,
-/// `class` (its name) and `area_m2` (that of its cells). Outlines follow the cells' edges; cells that meet at a corner
-/// alone are apart. A second table, `layer_styles`, has QGIS open it in the classes' colours. Precondition:
-/// values.size() == grid.cell_count(). Equal calls write equal bytes. Throws FileError if the file exists and may not
-/// be replaced, or cannot be written.
+/// Writes a GeoPackage with one multipolygon per class that has cells, in the order of the classes. Its fields are
+/// `value`, `class` (the class's name) and `area_m2` (the area of its cells). Outlines follow the cells' edges; cells
+/// that meet only at a corner are apart. A second table, `layer_styles`, has QGIS open the layer in the classes'
+/// colours. Precondition: values.size() == grid.cell_count(). Equal calls write equal bytes. Throws FileError if the
+/// file exists and may not be replaced, or cannot be written.
 void write_regions(const std::string& path, const RasterGrid& grid, std::span<const std::uint8_t> values,
                    const RegionDescription& description);
 void write_regions(const std::string& path, const RasterGrid& grid, std::span<const std::uint16_t> values,

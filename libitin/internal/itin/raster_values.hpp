@@ -16,11 +16,12 @@ struct RasterValues {
   std::vector<double> values;  ///< row by row from the north-west; NaN where the file has no data
 };
 
-/// Whether the file is a raster to GDAL. Text of scattered points is none, even where GDAL would grid it.
+/// Tells whether GDAL takes the file for a raster. Text of scattered points is no raster, even where GDAL would grid
+/// it.
 bool is_raster(const std::string& path);
 
-/// The only band but for masks (alpha), scale and offset applied. Throws FileError if GDAL cannot read it, InputError
-/// as raster_grid_like() does, for several bands, and for more than 2^31 cells.
+/// Reads the only band besides masks (alpha), with scale and offset applied. Throws FileError if GDAL cannot read it,
+/// InputError as raster_grid_like() does, for several bands, and for more than 2^31 cells.
 RasterValues read_raster_values(const std::string& path, const std::string& crs_wkt);
 
 }  // namespace itin

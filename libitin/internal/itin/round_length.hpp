@@ -5,7 +5,7 @@
 
 namespace itin {
 
-/// 1, 2 or 5 times a power of ten, at most v, which is positive.
+/// Returns the greatest of 1, 2 or 5 times a power of ten that is at most v. Precondition: v > 0.
 inline double round_length(double v) {
   const double decade = std::pow(10, std::floor(std::log10(v)));
   for (const double step : {5.0, 2.0})

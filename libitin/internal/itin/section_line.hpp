@@ -19,20 +19,20 @@
 
 namespace itin {
 
-/// Distances are multiples of this many metres: what is left of the line from there on is exact, too.
+/// The step of distances, metres: as they are multiples of it, what is left of the line from there on is exact, too.
 inline constexpr double kDistanceUnit = 1.0 / (1 << 30);
 
-/// Where the line, prolonged beyond both ends, meets the surface.
+/// A place where the line, prolonged beyond both ends, meets the surface.
 struct SectionCrossing {
-  enum class Place { kBefore, kWithin, kBeyond };  ///< along the line; both ends are within
+  enum class Place { kBefore, kWithin, kBeyond };  ///< along the line; both ends count as within
 
-  double t = 0;         ///< 0 at the start, 1 at the end; exactly so there
+  double t = 0;         ///< 0 at the start, 1 at the end, and exact at both
   double distance = 0;  ///< metres from the start, a multiple of kDistanceUnit
   Point3 position;
   Place place = Place::kWithin;
 };
 
-/// A piece of the surface along the line; both ends may be one.
+/// A piece of the surface along the line; both ends may coincide.
 struct SectionPiece {
   SectionCrossing from;
   SectionCrossing to;
@@ -44,41 +44,42 @@ class SectionLine {
   SectionLine(const Grid& grid, Point2 a, Point2 b);
 
   const Grid& grid() const { return grid_; }
-  /// Metres, a multiple of kDistanceUnit.
+  /// Returns the length in metres, a multiple of kDistanceUnit.
   double length() const { return length_; }
-  /// Whether both ends are one. It still has a direction, due east.
+  /// Tells whether both ends coincide. The line still has a direction then, due east.
   bool is_point() const { return is_point_; }
-  /// Whether they are one place (same_place.hpp), though perhaps not one point.
+  /// Tells whether both ends are one place (same_place.hpp), though perhaps not one point.
   bool is_one_place() const;
-  /// Whether the ends were given in the other order.
+  /// Tells whether the ends were given in the other order.
   bool is_mirrored() const { return mirrored_; }
   Point2 start() const { return start_point_; }
   Point2 end() const { return end_point_; }
-  /// The smallest grid box about the start.
+  /// Returns the smallest grid box about the start.
   GridBox start_box() const;
-  /// The smallest grid box about the part of the line from t0 to t1, a little enlarged.
+  /// Returns the smallest grid box about the part of the line from t0 to t1, a little enlarged.
   GridBox box(double t0, double t1) const;
 
-  /// Positive to the left, 0 on the line.
+  /// Returns a positive number for a place to the left of the line, 0 for a place on it.
   template <class P>
   Int128 side(const P& p) const {
     return cross(dx_, dy_, subgrid(p.x) - ax_, subgrid(p.y) - ay_);
   }
 
-  /// Where the line meets the closed edge pq, whose ends are on different sides, or one of them on the line.
+  /// Returns where the line meets the closed edge pq. Its ends are on different sides, or one of them on the line.
   SectionCrossing crossing(const GridPoint& p, const GridPoint& q) const;
-  /// As above; takes less time where side(p) and side(q) are known.
+  /// Does the same in less time where side(p) and side(q) are known.
   SectionCrossing crossing(const GridPoint& p, Int128 side_p, const GridPoint& q, Int128 side_q) const;
-  /// A vertex on the line.
+  /// Returns the crossing at a vertex on the line.
   SectionCrossing crossing(const GridPoint& p) const;
 
-  /// Where the line, prolonged, enters and leaves a closed triangle; nothing where it misses it.
+  /// Returns where the line, prolonged, enters and leaves a closed triangle; nothing where it misses the triangle.
   std::optional<SectionPiece> chord(const std::array<GridPoint, 3>& corners) const;
-  /// The part of the line between two crossings, over which the surface is straight, that lies between the line's ends.
+  /// Returns the part of the line between two crossings, over which the surface is straight, that lies between the
+  /// line's ends.
   std::optional<SectionPiece> clip(const SectionCrossing& from, const SectionCrossing& to) const;
 
-  /// Two edges that both cross the line and not each other, given as their ends left and right of it: whether the
-  /// first is crossed first. Ends on the line may count as either.
+  /// Tells which of two edges is crossed first: true for the first one. Both cross the line and not each other, and are
+  /// given as their ends left and right of it. Ends on the line may count as either.
   template <class P>
   static bool crossed_before(const P& left1, const P& right1, const P& left2, const P& right2) {
     // The side ahead of an edge is to the left of left -> right.

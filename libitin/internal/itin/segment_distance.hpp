@@ -8,7 +8,7 @@
 
 namespace itin {
 
-/// From p to the nearest place between a and b, in their unit.
+/// Returns the distance from p to the nearest place between a and b, in their unit.
 inline double distance_to_segment(Point2 p, Point2 a, Point2 b) {
   const double dx = b.x - a.x, dy = b.y - a.y, squared = dx * dx + dy * dy;
   const double share = squared > 0 ? std::clamp(((p.x - a.x) * dx + (p.y - a.y) * dy) / squared, 0.0, 1.0) : 0;

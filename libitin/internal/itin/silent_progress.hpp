@@ -1,4 +1,4 @@
-// Progress of what is but a part of a call.
+// Progress of a mere part of a call.
 //
 //   SilentProgress quiet(progress);
 //   const Tin tin = triangulate(store, window, detail, quiet);   // ends when the call is cancelled, and shows nothing
@@ -10,7 +10,7 @@
 
 namespace itin {
 
-/// Passes on that the call is to end, and nothing of how far its part has come.
+/// Passes on that the call is to end, but not how far its part has come.
 class SilentProgress final : public Progress {
  public:
   explicit SilentProgress(const Progress& whole) : whole_(whole) {}

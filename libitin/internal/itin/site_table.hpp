@@ -1,4 +1,4 @@
-// Points with fields, one per row, from any vector file, bad rows and all: for lists that one bad row must not stop.
+// Points with fields, one per row, from any vector file. Bad rows are kept, for lists that one bad row must not stop.
 //
 //   SiteQuery query;
 //   query.path = "turbines.csv";
@@ -17,20 +17,20 @@ namespace itin {
 
 struct SiteField {
   std::string name;
-  bool required = false;  ///< else it may be missing, and is empty in every row
+  bool required = false;  ///< if false, the field may be missing, and is then empty in every row
 };
 
 struct SiteRow {
-  std::int64_t feature = 0;                        ///< the file's own number for it
+  std::int64_t feature = 0;                        ///< the file's own number for the feature
   std::optional<Point2> position;                  ///< in the CRS asked for; nothing: see `error`
   std::vector<std::optional<std::string>> values;  ///< one per field asked for; nothing where it is empty or not there
   std::string error;                               ///< why there is no position; one line
 };
 
-/// All rows that query.where lets pass, in the file's order. A name longer than the ten letters that a Shapefile keeps
-/// is found by these, too. query.height_field and name_field are not used. Throws FileError for a file, layer, required
-/// field or filter that is missing or not understood, InputError for a CRS that is unknown and a filter that leaves
-/// nothing.
+/// Returns all rows that query.where lets pass, in the file's order. A field whose name is longer than the ten letters
+/// that a Shapefile keeps is found by its first ten, too. query.height_field and name_field are not used. Throws
+/// FileError for a file, layer, required field or filter that is missing or not understood, InputError for a CRS that
+/// is unknown and a filter that leaves nothing.
 std::vector<SiteRow> read_site_rows(const SiteQuery& query, const std::vector<SiteField>& fields,
                                     const std::string& to_crs);
 

@@ -28,14 +28,14 @@ struct SiteQuery {
   std::string height_field;  ///< metres; default: no heights
   std::string name_field;    ///< default: the feature's number
   std::vector<NumberField> numbers;
-  /// The CRS of a file that names none. Default: longitude and latitude where the columns of a CSV file are called so
-  /// (position_columns.hpp), else the one asked for. Overrides no file's own.
+  /// The CRS of a file that names none; it never overrides a file's own. Default: longitude and latitude where the
+  /// columns of a CSV file are called so (position_columns.hpp), else the CRS asked for.
   std::string crs;
 };
 
 struct Site {
-  std::int64_t feature = 0;  ///< the file's own number for it
-  std::int64_t row = 0;      ///< its place among the features asked for, from 0
+  std::int64_t feature = 0;  ///< the file's own number for the feature
+  std::int64_t row = 0;      ///< the feature's place among the features asked for, from 0
   std::string name;
   Point2 position;                             ///< in the CRS asked for
   std::optional<double> height;                ///< nothing where the field is empty, or none is asked for
@@ -47,19 +47,19 @@ class LayerFields {
  public:
   /// Throws FileError for a file or layer that is missing or not understood.
   explicit LayerFields(const SiteQuery& query);
-  /// In whatever case.
+  /// Tells whether the layer has the field, in any case of letters.
   bool has(const std::string& name) const;
 
  private:
   std::vector<std::string> names_;
 };
 
-/// All sites in the file's order, in the CRS `to_crs` (WKT). Throws FileError for a file, layer, field, filter or
-/// feature that is missing or not understood (naming it), InputError for a CRS that is unknown, a height beyond
+/// Returns all sites in the file's order, in the CRS `to_crs` (WKT). Throws FileError for a file, layer, field, filter
+/// or feature that is missing or not understood (naming it), InputError for a CRS that is unknown, a height beyond
 /// kFarthestHeight, and a filter that leaves nothing.
 std::vector<Site> read_sites(const SiteQuery& query, const std::string& to_crs);
 
-/// As above, but features that are not understood are left out, each with a line in `rejected` that names it.
+/// Does the same, but leaves out features that are not understood, each with a line in `rejected` that names it.
 std::vector<Site> read_sites(const SiteQuery& query, const std::string& to_crs, std::vector<std::string>& rejected);
 
 }  // namespace itin

@@ -5,7 +5,7 @@
 
 namespace itin {
 
-/// For containers such as std::vector. O(n log n).
+/// Sorts a container, such as std::vector, and removes repetitions. O(n log n).
 template <class Container>
 void sort_unique(Container& items) {
   std::sort(items.begin(), items.end());

@@ -6,8 +6,8 @@
 
 namespace itin {
 
-/// The files that GDAL reads for a raster or vector file: itself, its sidecars, and the files that a virtual one (.vrt)
-/// names. Empty where it is no data set. Opens it.
+/// Returns the files that GDAL reads for a raster or vector file: the file itself, its sidecars, and the files that a
+/// virtual one (.vrt) names. Empty where the file is no data set. Opens the file.
 std::vector<std::string> source_files(const std::string& path);
 
 }  // namespace itin

@@ -19,17 +19,18 @@ class StatedHeights {
   /// Refers to the metadata, which must outlive it.
   explicit StatedHeights(const StoreMetadata& metadata);
 
-  /// What is known of one of these sources. Nothing where it has none, or its CRS is not understood here.
+  /// Returns what is known about one of these sources. Nothing where it has no heights, or its CRS is not understood
+  /// here.
   std::optional<HeightAxis> of(const SourceInfo& source) const;
-  /// "heights above a datum that is not stated, unit: metre"; of features, whose heights may count from the ground or
-  /// from a base, "heights of features, unit: metre"; empty where nothing is known.
+  /// Returns "heights above a datum that is not stated, unit: metre"; for features, whose heights may count from the
+  /// ground or from a base, "heights of features, unit: metre"; empty where nothing is known.
   std::string text_of(const SourceInfo& source) const;
 
  private:
   const ThemeInfo* theme_of(const SourceInfo& source) const;
 
   const StoreMetadata& metadata_;
-  std::map<std::string, std::optional<HeightAxis>> axes_;  ///< by CRS: many tiles have one
+  std::map<std::string, std::optional<HeightAxis>> axes_;  ///< by CRS, as many tiles share one
 };
 
 }  // namespace itin

@@ -15,11 +15,11 @@ struct SvgPrecision {
   double step = 0.01;    ///< coordinates are multiples of it: 1, 0.1, 0.01 ...
 };
 
-/// In steps, as short as can be: "-.5", "12.25".
+/// Returns the value rounded to steps, as short as can be: "-.5", "12.25".
 std::string svg_number(double value, double step);
 
-/// From the first point on by the way from each to the next. Rounding does not add up: what is drawn is nowhere farther
-/// from the line than the tolerance and one step. Empty for no points.
+/// Writes the first point, and then the way from each point to the next. Rounding does not add up: the drawn line is
+/// nowhere farther from the given one than the tolerance and one step. Empty for no points.
 std::string svg_path(std::span<const Point2> points, const SvgPrecision& precision);
 
 }  // namespace itin

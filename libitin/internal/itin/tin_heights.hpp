@@ -12,7 +12,7 @@
 
 namespace itin {
 
-/// Where a row crosses an edge, in grid units.
+/// A place where a row crosses an edge, in grid units.
 struct RowCrossing {
   double x = 0;
   double z = 0;
@@ -30,7 +30,7 @@ class RowSections {
   double lowest() const { return corners_[0].y; }
   double highest() const { return corners_[2].y; }
 
-  /// From west to east. Precondition: lowest() <= y <= highest().
+  /// Returns the crossings from west to east. Precondition: lowest() <= y <= highest().
   std::pair<RowCrossing, RowCrossing> at(double y) const {
     const auto& [a, b, c] = corners_;
     RowCrossing p = cross(a, c, y);
@@ -41,7 +41,7 @@ class RowSections {
   }
 
   static double height(const RowCrossing& west, const RowCrossing& east, double x) {
-    // On an edge as both triangles there have it, to the last bit.
+    // A height on an edge is the one that both triangles there have, to the last bit.
     if (x == west.x || east.x == west.x) return west.z;
     if (x == east.x) return east.z;
     return west.z + (east.z - west.z) * ((x - west.x) / (east.x - west.x));
@@ -66,13 +66,13 @@ class RowSections {
   std::array<Point3, 3> corners_;
 };
 
-/// Height over a single triangle at a position, all in grid units, if the triangle holds the position.
+/// Returns the height over a single triangle at a position, all in grid units, if the triangle holds the position.
 std::optional<double> height_over(const std::array<GridPoint, 3>& triangle, Point2 units);
 
-/// Height in grid units at a position in grid units, over the first of `triangles` that holds it.
+/// Returns the height in grid units at a position in grid units, over the first of `triangles` that holds it.
 std::optional<double> height_over(const Tin& tin, std::span<const std::uint32_t> triangles, Point2 units);
 
-/// Height in metres at a position in metres, by looking at every triangle of the Tin.
+/// Returns the height in metres at a position in metres, by looking at every triangle of the Tin.
 std::optional<double> height_on(const Tin& tin, Point2 position);
 
 }  // namespace itin

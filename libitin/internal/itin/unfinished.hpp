@@ -1,5 +1,5 @@
-// Files and folders that go again unless they are finished. The process has one list of them, so that whoever ends it
-// early leaves nothing behind, whatever its threads are doing.
+// Files and folders that are removed unless they are finished. The process has one list of them, so that whoever ends
+// it early leaves nothing behind, whatever its threads are doing.
 //
 //   Unfinished file(temporary_path);  // removed at the end of its life, or by remove_unfinished()
 //   write(file.path());
@@ -14,22 +14,22 @@ namespace itin {
 class Unfinished {
  public:
   enum class Kind {
-    file,            ///< and the journal that SQLite may have beside it
-    folder,          ///< with all that is in it
-    folder_if_empty  ///< only when nothing is in it by then
+    file,            ///< the file, and the journal that SQLite may have beside it
+    folder,          ///< the folder, with all that is in it
+    folder_if_empty  ///< the folder, only when nothing is in it by then
   };
 
-  /// There need be nothing of that name yet, but what gets it must be this process's own.
+  /// Nothing need exist under that name yet, but what comes to exist there must be this process's own.
   explicit Unfinished(std::string path, Kind kind = Kind::file);
-  /// Removes it, unless it is finished.
+  /// Removes the file or folder, unless it is finished.
   ~Unfinished();
   Unfinished(const Unfinished&) = delete;
   Unfinished& operator=(const Unfinished&) = delete;
 
   const std::string& path() const { return path_; }
 
-  /// Calls put_in_place(), after which nothing is removed, unless that throws. It is brief, for no other file of the
-  /// process begins or finishes meanwhile.
+  /// Calls put_in_place(), after which nothing is removed, unless the call throws. It must be brief, as no other file
+  /// of the process begins or finishes meanwhile.
   template <class PutInPlace>
   void finish(const PutInPlace& put_in_place) {
     const Lock lock;
@@ -40,7 +40,7 @@ class Unfinished {
  private:
   friend void remove_unfinished();
 
-  /// While one lives, no other thread begins, finishes or removes anything.
+  /// Keeps other threads from beginning, finishing or removing anything while it lives.
   struct Lock {
     Lock();
     ~Lock();
@@ -57,8 +57,8 @@ class Unfinished {
   std::list<const Unfinished*>::iterator place_;
 };
 
-/// Removes all that is unfinished, the latest first. A thread that begins or finishes something afterwards waits for
-/// ever: the caller must end the process, without destructors.
+/// Removes everything that is unfinished, the latest first. A thread that begins or finishes something afterwards waits
+/// for ever: the caller must end the process, without destructors.
 void remove_unfinished();
 
 }  // namespace itin

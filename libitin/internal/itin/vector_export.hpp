@@ -18,7 +18,7 @@ namespace itin {
 struct VectorLayer {
   enum class Shape { kPoints, kLines };
   enum class Type { kNumber, kWhole, kText };
-  /// Nothing, where a feature has no value for a field.
+  /// A value of a field; nothing where a feature has none.
   using Value = std::variant<std::monostate, double, std::int64_t, std::string>;
   struct Feature {
     std::vector<Point3> points;  ///< one for a point, at least two for a line
@@ -35,7 +35,8 @@ struct VectorLayer {
 void write_geopackage(const std::string& path, const std::string& crs_wkt, const std::vector<VectorLayer>& layers,
                       bool overwrite);
 
-/// In the CRS, named in the `crs` member of GeoJSON 2008. Throws as above, and InputError for a CRS without EPSG code.
+/// Writes in the CRS, named in the `crs` member of GeoJSON 2008. Throws as write_geopackage() does, and InputError for
+/// a CRS without EPSG code.
 void write_geojson(const std::string& path, const std::string& crs_wkt, const VectorLayer& layer, bool overwrite);
 
 }  // namespace itin

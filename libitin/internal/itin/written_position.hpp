@@ -14,16 +14,16 @@ namespace itin {
 
 struct WrittenPosition {
   Point2 position;  ///< easting and northing, or longitude and latitude
-  std::string crs;  ///< the CRS it is given in: EPSG:27700 or EPSG:4326
+  std::string crs;  ///< the CRS of the position: EPSG:27700 or EPSG:4326
 };
 
-/// A latitude and a longitude, each with its letter N, S, E or W behind it, in either order; or two letters and an even
-/// number of digits of the National Grid, of whose square the south-western corner is meant. Nothing for other texts,
-/// numbers without letters among them.
+/// Reads a latitude and a longitude, each with its letter N, S, E or W behind it, in either order; or two letters and
+/// an even number of digits of the National Grid, which mean the south-western corner of the square. Nothing for other
+/// texts, numbers without letters among them.
 std::optional<WrittenPosition> written_position(std::string_view text);
 
-/// Degrees, with minutes and seconds (below 60) where they are given, negative for S and W: "51 32 37.3 N", "-3.2934".
-/// Nothing where the text is no angle, or has a letter other than `positive` and `negative`.
+/// Reads degrees, with minutes and seconds (below 60) where they are given, negative for S and W: "51 32 37.3 N",
+/// "-3.2934". Nothing where the text is no angle, or has a letter other than `positive` and `negative`.
 std::optional<double> written_angle(std::string_view text, char positive, char negative);
 
 }  // namespace itin

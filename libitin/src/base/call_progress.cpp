@@ -22,7 +22,7 @@ void CallProgress::finish() {
   if (reported_ < 1) report_whole(stage_.empty() ? "done" : std::string(stage_), 1);
 }
 
-/// A stage that begins anew stays where the call has come to.
+/// Reports the fraction of the whole call. A stage that begins anew stays at the fraction that the call has reached.
 void CallProgress::report_whole(std::string_view stage, double fraction) {
   if (fraction <= reported_ && stage == stage_) return;
   reported_ = std::max(reported_, fraction);

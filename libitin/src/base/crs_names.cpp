@@ -1,5 +1,4 @@
-// What a CRS is called, as its WKT itself says. GDAL would tell, too, but takes longer to load than most questions
-// take.
+// Names of CRSs, as their WKT itself has them. GDAL knows them, too, but takes longer to load than most questions take.
 #include <algorithm>
 #include <cctype>
 #include <string_view>
@@ -12,7 +11,7 @@ namespace itin {
 
 namespace {
 
-/// The text between the quotation mark at `open` and its counterpart, in which two marks stand for one.
+/// Returns the text between the quotation mark at `open` and its counterpart; two marks within it stand for one.
 std::string quoted_text(std::string_view wkt, std::size_t open) {
   std::string text;
   for (std::size_t i = open + 1; i < wkt.size(); ++i) {
@@ -22,7 +21,7 @@ std::string quoted_text(std::string_view wkt, std::size_t open) {
   return text;
 }
 
-/// Where the outermost node's own child `keyword` has its bracket; npos where there is none.
+/// Returns where the outermost node's own child `keyword` has its bracket; npos where there is none.
 std::size_t bracket_of_child(std::string_view wkt, std::string_view keyword) {
   int depth = 0;
   bool quoted = false;
@@ -39,7 +38,7 @@ std::size_t bracket_of_child(std::string_view wkt, std::string_view keyword) {
   return std::string_view::npos;
 }
 
-/// What the outermost node says of itself: "EPSG:27700"; empty where it has no code.
+/// Returns the code that the outermost node has, "EPSG:27700" say; empty where it has none.
 std::string authority_and_code(std::string_view wkt) {
   std::size_t bracket = bracket_of_child(wkt, "ID");                                    // WKT 2
   if (bracket == std::string_view::npos) bracket = bracket_of_child(wkt, "AUTHORITY");  // WKT 1

@@ -9,11 +9,11 @@
 
 namespace itin {
 
-/// The members are the numbers below a count. At first each is alone.
+/// Disjoint sets of the numbers below a count. At first each number is alone.
 class DisjointSets {
  public:
   explicit DisjointSets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0U); }
-  /// The least member of the set that i is in.
+  /// Returns the least member of the set that i is in.
   std::uint32_t least(std::uint32_t i) {
     while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
     return i;

@@ -28,7 +28,7 @@ namespace {
 /// The arena of the ThreadLimit that this thread made, or that it works for; null where there is none.
 thread_local tbb::task_arena* limited = nullptr;
 
-/// Works for an arena for as long as it lives.
+/// Makes this thread work for an arena, for as long as the object lives.
 class InArena {
  public:
   explicit InArena(tbb::task_arena* arena) : before_(std::exchange(limited, arena)) {}
@@ -45,8 +45,8 @@ std::unique_ptr<tbb::global_control> control;
 
 #ifdef __SANITIZE_THREAD__
 
-/// oneTBB is not built with the thread sanitizer, which takes what oneTBB orders for races. Under it a loop has threads
-/// of its own, whose order the sanitizer sees.
+/// Runs a loop on threads of its own, for the thread sanitizer: oneTBB is not built with it, so that the sanitizer
+/// would take what oneTBB orders for races. It sees the order of these threads.
 void run_on_threads(std::size_t count, const std::function<void(std::size_t)>& body) {
   std::atomic<std::size_t> next = 0;
   std::mutex mutex;
@@ -70,8 +70,8 @@ void run_on_threads(std::size_t count, const std::function<void(std::size_t)>& b
 #else
 
 void run_on_threads(std::size_t count, const std::function<void(std::size_t)>& body) {
-  // Isolated: what is thrown elsewhere must not end a loop within another one, which its caller would take for
-  // finished.
+  // The context is isolated: an exception thrown elsewhere must not end a loop within another one, whose caller would
+  // take it for finished.
   tbb::task_group_context own(tbb::task_group_context::isolated);
   tbb::parallel_for(std::size_t{0}, count, body, own);
 }
@@ -112,8 +112,8 @@ int thread_count() {
 
 bool has_thread_to_spare() {
   if (thread_count() == 1) return false;
-  // oneTBB opens libraries of its own when it is first used. One library is opened at a time, and so it is used now,
-  // lest it wait for one that the work beside it opens.
+  // oneTBB opens libraries of its own when it is first used. Only one library can be opened at a time. So oneTBB is
+  // used now, lest it wait for one that the work beside it opens.
   run_on_threads(2, [](std::size_t) {});
   return true;
 }

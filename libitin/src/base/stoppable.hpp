@@ -1,16 +1,17 @@
-// Lets a thread's work be stopped in code so deep down that no handle of progress reaches it.
+// Lets a thread's work be stopped in code so deep down that no progress handle reaches it.
 //
 //   const Stoppable stoppable(progress);   // as a long call begins
 //   stop_if_asked();                       // in the loops of whatever it calls: throws Cancelled
 //
-// parallel_for hands it on to the threads that it uses.
+// parallel_for passes the handle on to the threads that it uses.
 #pragma once
 
 #include <itin/progress.hpp>
 
 namespace itin {
 
-/// While one lives, what its thread works on can be stopped by `progress`, which must outlive it; null: by none.
+/// Lets `progress`, which must outlive it, stop what this thread works on, for as long as the object lives; null:
+/// nothing can stop it.
 class Stoppable {
  public:
   explicit Stoppable(const Progress* progress);
@@ -23,10 +24,10 @@ class Stoppable {
   const Progress* before_;
 };
 
-/// The handle that may stop this thread, or null.
+/// Returns the handle that may stop this thread, or null.
 const Progress* stopper();
 
-/// Throws Cancelled where this thread has been asked to stop. A few nanoseconds.
+/// Throws Cancelled where this thread has been asked to stop. Cost: a few nanoseconds.
 inline void stop_if_asked() {
   if (const Progress* const progress = stopper()) progress->throw_if_cancelled();
 }

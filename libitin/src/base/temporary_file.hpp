@@ -1,4 +1,4 @@
-// A file without a name, for what does not fit in memory.
+// A file without a name, for data that does not fit in memory.
 #pragma once
 
 #include <cstddef>
@@ -7,8 +7,8 @@
 
 namespace itin {
 
-/// Unlinked right after opening, so that nothing outlives a kill. Reading and writing at offsets is safe from any
-/// thread as far as ranges do not overlap.
+/// A file that is unlinked right after opening, so that nothing outlives a kill. Reading and writing at offsets is safe
+/// from any thread as far as ranges do not overlap.
 class TemporaryFile {
  public:
   /// Throws FileError.

@@ -11,7 +11,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// A thread that still writes into a folder may fill it between two looks at it.
+/// Attempts to remove a folder: a thread that still writes may fill it again during one.
 constexpr int kTries = 100;
 
 struct AllUnfinished {

@@ -10,7 +10,7 @@ namespace itin {
 
 namespace {
 
-/// The first and last cell that meet the interval from `low` to `high`, by their lower borders.
+/// Returns the first and the last cell that meet the interval from `low` to `high`, by their lower borders.
 std::pair<std::int64_t, std::int64_t> cells_meeting(std::int64_t low, std::int64_t high, std::int64_t origin,
                                                     std::int64_t side) {
   const auto floored = [&](std::int64_t v) { return origin + floor_divide(v - origin, side) * side; };
@@ -23,7 +23,7 @@ std::optional<SectionVertex> CellTriangles::beyond(Position a, Position b) {
   const std::int64_t dx = std::int64_t{b.x} - a.x, dy = std::int64_t{b.y} - a.y;
   const bool diagonal = dx == -dy;
   if (dx != 0 && dy != 0 && !diagonal) return std::nullopt;
-  // The cell lies to the left of a side, and about a diagonal.
+  // The cell lies to the left of ab where that is one of its sides, and about ab where that is its diagonal.
   LatticeCell cell{std::min(a.x, b.x), std::min(a.y, b.y), std::max(std::abs(dx), std::abs(dy))};
   if (cell.side == 0) return std::nullopt;
   if (dx == 0 && dy > 0) cell.x -= cell.side;

@@ -18,7 +18,7 @@ namespace itin {
 
 namespace {
 
-/// Smith's retrieval: one triangle after another.
+/// Finds triangles by Smith's retrieval: one after another.
 class RetrievedTriangles final : public TriangleFinder {
  public:
   RetrievedTriangles(const ReadOnce& index, const Selection& selection, Point2 heading, const Progress& progress)

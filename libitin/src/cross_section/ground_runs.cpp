@@ -74,7 +74,7 @@ class Collection {
     if (left_a == left_b) return;
     const SectionCrossing crossing = line_.crossing({a.x, a.y, 0}, side_a, {b.x, b.y, 0}, side_b);
     if (crossing.place != SectionCrossing::Place::kWithin) return;
-    // Ground is to the left of ab, and what lies ahead to the left of left -> right.
+    // Ground is to the left of ab; the places ahead are to the left of left -> right.
     crossed_.push_back(left_a ? Crossed{{a, b}, true} : Crossed{{b, a}, false});
   }
 

@@ -1,9 +1,9 @@
-// Which parts of a line have ground under them, from the coverage outline alone.
+// The parts of a line that have ground under them, from the coverage outline alone.
 //
-// To a walk a vertex on the line is left of it or right of it, as `OnLine` says; then no vertex is on the line and
-// every edge it meets it crosses. That moves the line by an infinitesimal to one side. Where the line runs along the
-// outline, or touches it at a vertex, one side has ground and the other not: a point has ground when either has
-// (GroundRuns:: touches says whether that is worth asking).
+// A walk counts a vertex on the line as left or right of it, as `OnLine` says. Then no vertex is on the line, and the
+// line crosses every edge that it meets: it is moved by an infinitesimal to one side. Where the line runs along the
+// outline, or touches it at a vertex, one side has ground and the other has none. A point has ground when either side
+// has (GroundRuns::touches says whether asking for both is worth while).
 #pragma once
 
 #include <optional>
@@ -18,7 +18,7 @@ namespace itin {
 
 enum class OnLine { kLeft, kRight };
 
-/// Whether a vertex that is on this side of the line (SectionLine::side()) counts as left of it.
+/// Tells whether a vertex on this side of the line (SectionLine::side()) counts as left of it.
 inline bool counts_as_left(Int128 side, OnLine on_line) {
   return side > 0 || (side == 0 && on_line == OnLine::kLeft);
 }
@@ -29,20 +29,20 @@ struct OutlineCrossing {
   Position right;
 };
 
-/// From where the line enters the ground (or from its start) to where it leaves it (or its end).
+/// A run of ground, from where the line enters it (or from the line's start) to where the line leaves it (or ends).
 struct GroundRun {
   std::optional<OutlineCrossing> entry;
   std::optional<OutlineCrossing> exit;
 };
 
 struct GroundRuns {
-  /// In order. The first has no entry where the line is not known to start outside the ground: it may do so even
-  /// then, if it has no exit either.
+  /// The runs in order. The first has no entry unless the line is known to start outside the ground. If it has no exit
+  /// either, the line may still lie outside the ground.
   std::vector<GroundRun> runs;
   bool touches = false;  ///< an end of one of the segments met is on the line
 };
 
-/// Throws Error where the outline is not closed.
+/// Finds the runs of a line. Throws Error where the outline is not closed.
 GroundRuns ground_runs(const PointIndex& index, const SectionLine& line, OnLine on_line);
 
 }  // namespace itin

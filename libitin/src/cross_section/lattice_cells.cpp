@@ -9,7 +9,7 @@ namespace {
 constexpr std::int64_t kCellsPerSide = 63;
 /// How far behind the middle of a sheet its first cell lies, in halves of its side.
 constexpr double kSheetAhead = 0.7;
-/// Where sheets tell few cells each, no more of them are laid.
+/// The number of sheets laid in any case, and the cells that sheets must have found for each further one.
 constexpr std::uint64_t kFreeSheets = 3, kCellsPerSheet = 8;
 
 }  // namespace
@@ -38,7 +38,7 @@ std::optional<LatticeCell> LatticeCells::cell_about(const GridBox& box) {
   return itin::cell_about(box, index_, selection_);
 }
 
-/// Lays a sheet that a cell is near the border of, with most of it ahead. False where that does not pay.
+/// Lays a sheet that has the cell near its border, with most of the sheet ahead. Returns false where that does not pay.
 bool LatticeCells::lay(const LatticeCell& cell) {
   if (cell.side > kGridHalfSide / (kCellsPerSide + 1) || sheets_ >= kFreeSheets + cells_ / kCellsPerSheet) return false;
   ++sheets_;

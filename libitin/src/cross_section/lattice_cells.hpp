@@ -1,5 +1,5 @@
-// The triangles of a lattice along one line, whose posts are kept for a sheet about the line and are read where a cell
-// asks for them.
+// The triangles of a lattice along one line. Posts are kept for a sheet about the line, and are read when a cell asks
+// for them.
 #pragma once
 
 #include <cstdint>
@@ -16,16 +16,16 @@
 
 namespace itin {
 
-/// Serves one thread and one line.
+/// Finds half cells along a line. Serves one thread and one line.
 class LatticeCells final : public CellTriangles {
  public:
-  /// Edges will come one after another in about the direction `heading`.
+  /// Takes the direction `heading` in which, about, edges will come one after another.
   LatticeCells(const ReadOnce& index, const Selection& selection, Point2 heading);
 
  private:
   struct Unread {
     Leaf leaf;
-    GridBox box;  ///< its cell's
+    GridBox box;  ///< the box of the leaf's cell
   };
 
   const LatticeSheet* sheet_of(const LatticeCell& cell) override;
@@ -37,9 +37,9 @@ class LatticeCells final : public CellTriangles {
   Point2 heading_;
 
   LatticeSheet sheet_;
-  std::vector<Unread> unread_;            ///< leaves of the sheet
-  std::vector<Leaf> leaves_;              ///< for their memory
-  std::uint64_t sheets_ = 0, cells_ = 0;  ///< laid, and known by them
+  std::vector<Unread> unread_;            ///< leaves of the sheet that are still to be read
+  std::vector<Leaf> leaves_;              ///< kept to reuse its memory
+  std::uint64_t sheets_ = 0, cells_ = 0;  ///< sheets laid, and cells found on them
 };
 
 }  // namespace itin

@@ -12,7 +12,7 @@ namespace itin {
 
 namespace {
 
-/// Points of a block that the spacing is guessed by: neighbours, as a rule. A wrong guess is found out.
+/// The number of a block's points, mostly neighbours, that the spacing is guessed from. A wrong guess is found out.
 constexpr std::size_t kSamples = 16;
 constexpr std::int32_t kNoPost = std::numeric_limits<std::int32_t>::min();
 
@@ -20,7 +20,8 @@ std::int32_t narrow(std::int64_t v) {
   return static_cast<std::int32_t>(std::clamp<std::int64_t>(v, -kGridHalfSide, kGridHalfSide - 1));
 }
 
-/// Half the diagonal is 0.71 sides, of which 0.5 lie within the square; and points lie on the grid.
+/// Returns how far a cell's circle reaches beyond the cell: half the diagonal is 0.71 sides, of which 0.5 lie within
+/// the square. Points lie on the grid, so that this is rounded down.
 std::int64_t circle_margin(std::int64_t side) {
   return side / 4;
 }
@@ -29,7 +30,7 @@ GridBox box_about(std::int64_t x, std::int64_t y, std::int64_t width, std::int64
   return {narrow(x - margin), narrow(y - margin), narrow(x + width + margin), narrow(y + height + margin)};
 }
 
-/// The first cell with places that are not negative.
+/// Returns the first cell whose coordinates are not negative.
 LatticeCell cell_at_origin(const PostSpacing& posts) {
   const std::int64_t side = posts.spacing();
   const auto rest = [&](std::int64_t v) { return v - floor_divide(v, side) * side; };
@@ -58,7 +59,7 @@ bool LatticeSheet::has(const LatticeCell& cell) const {
 }
 
 void LatticeSheet::add(const Leaf& leaf, const Block& block, const Selection& selection) {
-  // What lies to the west or south of the sheet wraps round to numbers that are far too large.
+  // Points to the west or south of the sheet wrap round to numbers that are far too large.
   const auto side = static_cast<std::uint32_t>(first_.side), west = static_cast<std::uint32_t>(first_.x),
              south = static_cast<std::uint32_t>(first_.y), last_column = static_cast<std::uint32_t>(columns_),
              last_row = static_cast<std::uint32_t>(rows_);
@@ -81,7 +82,7 @@ void LatticeSheet::add(const Segment& segment) {
   disturb(extent_of(segment));
 }
 
-/// All cells that the box touches.
+/// Marks all cells that the box touches as disturbed.
 void LatticeSheet::disturb(const GridBox& box) {
   if (!box_.meets(box)) return;
   const auto first_touched = [&](std::int64_t distance) {
@@ -121,7 +122,7 @@ void add_segments(LatticeSheet& sheet, const PointIndex& index, const Selection&
 std::optional<LatticeCell> cell_about(const GridBox& box, const PointIndex& index, const Selection& selection) {
   std::vector<Leaf> leaves;
   selected_leaves(index, selection, box, leaves);
-  // Each leaf has a say by itself, for a single point beside the lattice leads its leaf astray.
+  // Each leaf votes by itself, as a single point off the lattice spoils the guess of its leaf.
   std::map<LatticeCell, std::size_t> votes;
   for (const Leaf& leaf : leaves) {
     const auto block = index.unordered_block(leaf);

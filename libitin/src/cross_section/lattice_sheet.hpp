@@ -1,13 +1,13 @@
-// Posts of a rectangular piece of a lattice, and which of its cells stand alone.
+// The posts of a rectangular piece of a lattice, and the cells of it that stand alone.
 //
 //   LatticeSheet sheet(first, columns, rows);
 //   sheet.add(leaf, block, selection);            // whatever meets sheet.box()
 //   sheet.add(segment);
 //   if (sheet.has(cell) && sheet.stands_alone(cell)) ... sheet.post(cell.x, cell.y)
 //
-// The circle about a square cell has no other place of the lattice in or on it. So where a cell has all four posts,
-// nothing else stands in its circle and no segment touches it, it is ground, and its triangles are those on either side
-// of the diagonal from lower right to upper left, as the tie rule of predicates.hpp has it.
+// The circle about a square cell has no other place of the lattice in or on it. Suppose that a cell has all four posts,
+// no other vertex lies in its circle and no segment touches it. Then it is ground, and its triangles are those on
+// either side of the diagonal from lower right to upper left, as the tie rule of predicates.hpp has it.
 #pragma once
 
 #include <compare>
@@ -24,34 +24,35 @@ namespace itin {
 
 /// Four neighbouring places of a lattice, grid units.
 struct LatticeCell {
-  std::int64_t x = 0, y = 0;  ///< the lower left one
+  std::int64_t x = 0, y = 0;  ///< the lower left place
   std::int64_t side = 0;
 
-  /// What lies beyond it does not disturb the cell.
+  /// Returns a box beyond which nothing disturbs the cell.
   GridBox box_of_circle() const;
   friend auto operator<=>(const LatticeCell&, const LatticeCell&) = default;
 };
 
 class LatticeSheet {
  public:
-  /// Has no cells.
+  /// Makes a sheet without cells.
   LatticeSheet() = default;
-  /// Has no posts yet. `first` is the lower left one of its cells. Precondition: each side is below 2^31 grid units.
+  /// Makes a sheet without posts yet. `first` is its lower left cell. Precondition: each side is below 2^31 grid units.
   LatticeSheet(const LatticeCell& first, std::int64_t columns, std::int64_t rows);
 
   bool has_cells() const { return columns_ > 0; }
   const LatticeCell& first() const { return first_; }
-  /// What lies beyond it disturbs no cell.
+  /// Returns a box beyond which nothing disturbs any cell.
   const GridBox& box() const { return box_; }
-  /// Whether this is a cell of the sheet.
+  /// Tells whether this is a cell of the sheet.
   bool has(const LatticeCell& cell) const;
 
   void add(const Leaf& leaf, const Block& block, const Selection& selection);
   void add(const Segment& segment);
 
-  /// Preconditions: has(cell), and all that meets its box_of_circle() was added.
+  /// Tells whether the cell has all its posts and nothing disturbs it. Preconditions: has(cell), and everything that
+  /// meets its box_of_circle() was added.
   bool stands_alone(const LatticeCell& cell) const;
-  /// Precondition: a cell of it stands alone.
+  /// Returns a post. Precondition: one of its cells stands alone.
   GridPoint post(std::int64_t x, std::int64_t y) const;
 
   std::size_t posts() const { return posts_; }
@@ -62,18 +63,18 @@ class LatticeSheet {
   void disturb(const GridBox& box);
 
   LatticeCell first_;
-  std::int64_t columns_ = 0, rows_ = 0;  ///< how many cells, and there is one more of posts
+  std::int64_t columns_ = 0, rows_ = 0;  ///< numbers of cells; there is one post more
   GridBox box_;
   std::vector<std::int32_t> heights_;  ///< by post, row by row from the south; kNoPost where there is none
-  std::vector<bool> disturbed_;        ///< cells, by their lower left post
-  std::size_t posts_ = 0;              ///< how many there are
+  std::vector<bool> disturbed_;        ///< by cell, numbered by its lower left post
+  std::size_t posts_ = 0;              ///< number of posts
 };
 
-/// The segments that the selection has about a sheet.
+/// Adds the selected segments about a sheet.
 void add_segments(LatticeSheet& sheet, const PointIndex& index, const Selection& selection);
 
-/// Any cell of the lattice that most points in a box seem to lie on; none where no leaf has two points. A guess from
-/// some points of each leaf.
+/// Returns any cell of the lattice that most points in a box seem to lie on; nothing where no leaf has two points. This
+/// is a guess from some points of each leaf.
 std::optional<LatticeCell> cell_about(const GridBox& box, const PointIndex& index, const Selection& selection);
 
 }  // namespace itin

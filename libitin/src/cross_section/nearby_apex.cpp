@@ -11,13 +11,14 @@ namespace itin {
 
 namespace {
 
-/// The neighbourhood's half side in lengths of the edge it is made for: a trade between making many and filling large.
+/// The neighbourhood's half side, in lengths of the edge that it is made for: a compromise between making many and
+/// filling large ones.
 constexpr double kReach = 14;
-/// A short edge among long ones must not make the neighbourhood small at once.
+/// The least part of its size to which the neighbourhood shrinks at once, as for a short edge among long ones.
 constexpr double kShrink = 0.5;
-/// How far ahead of the edge its centre lies, in half sides.
+/// How far ahead of the edge the neighbourhood's centre lies, in half sides.
 constexpr double kAhead = 0.7;
-/// Larger circles are left to ApexSearch.
+/// The largest circles searched here, in half lengths of the edge; ApexSearch takes larger ones.
 constexpr double kMostGrowth = 64;
 
 }  // namespace
@@ -98,10 +99,10 @@ void NearbyApex::search_bins(const ApexFrame& frame, const GridBox& box, Candida
   }
 }
 
-/// The vertex of the least circle up to lambda, which must fit into the neighbourhood.
+/// Returns the vertex of the least circle up to lambda, which must fit into the neighbourhood.
 std::optional<SectionVertex> NearbyApex::search(const ApexFrame& frame, double lambda, const GridBox& cap) {
   Candidate candidate{std::nullopt, lambda};
-  // No others come between the edge and what is in the circle.
+  // No other segments come between the edge and the places in the circle.
   near_.clear();
   std::copy_if(segments_.begin(), segments_.end(), std::back_inserter(near_),
                [&](const Segment& s) { return cap.meets(extent_of(s)); });
@@ -110,7 +111,7 @@ std::optional<SectionVertex> NearbyApex::search(const ApexFrame& frame, double l
   for (const auto& [leaf, box] : unread_) {
     if (cap.meets(box) && frame.cap_meets(candidate.reach, box)) reached_.emplace_back(frame.key(box), leaf.key);
   }
-  // Those first that may hold the least circle: it may leave the others out.
+  // Leaves that may hold the least circle come first: that circle may then leave out the others.
   std::sort(reached_.begin(), reached_.end());
   for (const auto& [circle, key] : reached_) {
     const auto at =

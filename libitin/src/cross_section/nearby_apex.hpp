@@ -1,9 +1,8 @@
-// The third vertices of triangles along a line, from as few blocks as can be.
+// The third vertices of triangles along a line, from as few blocks as possible.
 //
 // ApexSearch (triangulate/apex.hpp) asks the index again for every edge. Here the answers are kept for a whole
-// neighbourhood: the list of its leaves, the points of those read so far in a lattice of bins, the segments. A leaf is
-// read when the circle at hand reaches it, not before. Where a circle outgrows the neighbourhood, ApexSearch takes
-// over.
+// neighbourhood: the list of its leaves, the points read so far, in a lattice of bins, and the segments. A leaf is read
+// only when the current circle reaches it. Where a circle outgrows the neighbourhood, ApexSearch takes over.
 #pragma once
 
 #include <cstdint>
@@ -24,29 +23,29 @@ namespace itin {
 
 struct ApexFrame;
 
-/// Serves one thread and one line.
+/// Finds third vertices along a line. Serves one thread and one line.
 class NearbyApex {
  public:
-  /// Edges will come one after another in about the direction `heading`.
+  /// Takes the direction `heading` in which, about, edges will come one after another.
   NearbyApex(const ReadOnce& index, const Selection& selection, Point2 heading);
 
-  /// As ApexSearch::apex.
+  /// Returns what ApexSearch::apex() does.
   std::optional<SectionVertex> apex(Position a, Position b);
 
  private:
   struct Candidate {
     std::optional<SectionVertex> best;
-    double reach = 0;  ///< its lambda, or the one searched
+    double reach = 0;  ///< lambda of `best`, or else the greatest one searched
   };
 
   struct Unread {
     Leaf leaf;
-    GridBox box;  ///< its cell's
+    GridBox box;  ///< the box of the leaf's cell
   };
 
   /// Makes a neighbourhood of edge ab that circles up to lambda fit into.
   void move_to(Position a, Position b, double lambda);
-  /// `cap`: the box of the circle's part left of ab, within the neighbourhood.
+  /// Searches circles up to lambda. `cap` is the box of the circle's part left of ab, within the neighbourhood.
   std::optional<SectionVertex> search(const ApexFrame& frame, double lambda, const GridBox& cap);
   void search_bins(const ApexFrame& frame, const GridBox& box, Candidate& candidate) const;
   void consider(const ApexFrame& frame, const SectionVertex& point, Candidate& candidate) const;
@@ -69,8 +68,8 @@ class NearbyApex {
   static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
   int bin_shift_ = 0;
   std::uint32_t columns_ = 0;
-  std::vector<std::uint32_t> first_;  ///< per bin, into points_
-  std::vector<std::uint32_t> next_;   ///< per point
+  std::vector<std::uint32_t> first_;  ///< per bin: its first point's index in points_
+  std::vector<std::uint32_t> next_;   ///< per point: the next point of its bin
   std::vector<SectionVertex> points_;
 };
 

@@ -83,12 +83,13 @@ SectionCrossing SectionLine::crossing(const GridPoint& p, const GridPoint& q) co
 
 SectionCrossing SectionLine::crossing(const GridPoint& p, Int128 side_p, const GridPoint& q, Int128 side_q) const {
   using Place = SectionCrossing::Place;
-  // One order for both triangles beside the edge.
+  // The edge has the same order for both triangles beside it.
   if (q < p) return crossing(q, side_q, p, side_p);
   if (side_p == 0) return crossing(p);
   if (side_q == 0) return crossing(q);
   const std::int64_t qx = subgrid(q.x) - subgrid(p.x), qy = subgrid(q.y) - subgrid(p.y);
-  // On which side of the edge the start is; at the end that differs by as much as the sides of q and p of the line do.
+  // This is the side of the edge on which the start is. At the end it differs by as much as the line's sides of q and p
+  // do.
   Int128 before = cross(qx, qy, ax_ - subgrid(p.x), ay_ - subgrid(p.y)), all = side_q - side_p;
   const double s = static_cast<double>(side_p) / static_cast<double>(-all);
   if (all < 0) before = -before, all = -all;

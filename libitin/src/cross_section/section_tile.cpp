@@ -29,7 +29,7 @@ SectionTile::SectionTile(const GridBox& square, const RegionMesh& region) : squa
     for (std::uint32_t& n : face.neighbours) n = n == kNoTriangle ? kNoTriangle : place[n];
     faces_.push_back(face);
   }
-  // Bins of about sixteen triangles: a line enters a tile once, and then goes on by neighbours.
+  // Bins have about sixteen triangles: a line enters a tile once, and then goes on by neighbours.
   const double side = static_cast<double>(square.xmax) - square.xmin;
   bin_shift_ =
       std::min(31, static_cast<int>(std::bit_width(static_cast<std::uint64_t>(4 * side / std::sqrt(count + 1.0)))));
@@ -74,7 +74,7 @@ SectionTile::Stop SectionTile::ahead(const CrossedEdge& edge, Position place) co
 }
 
 SectionTile::Stop SectionTile::onwards(const Stop& from, bool keeps_left) const {
-  // Counterclockwise: apex, left, right.
+  // The corners are counterclockwise: apex, left, right.
   const std::uint32_t next = faces_[from.triangle].neighbours[(from.apex + (keeps_left ? 2 : 1)) % 3];
   if (next == kNoTriangle) return {};
   const auto& back = faces_[next].neighbours;

@@ -21,19 +21,20 @@ class SectionTile {
   const GridBox& square() const { return square_; }
   std::size_t bytes() const;
 
-  /// A triangle and which corner of it is off the edge by which it was entered; the edge's left end is the next one.
+  /// A triangle, and the corner of it that is not on the edge by which it was entered; the edge's left end is the next
+  /// one.
   struct Stop {
     std::uint32_t triangle = kNoTriangle;
     std::uint32_t apex = 0;
   };
 
-  /// The triangle ahead of an edge that is crossed at `place`; kNoTriangle where this tile does not have it.
+  /// Returns the triangle ahead of an edge that is crossed at `place`; kNoTriangle where this tile does not have it.
   Stop ahead(const CrossedEdge& edge, Position place) const;
-  /// From a triangle on to the one across its edge from the apex to the left (or right) end of the edge it was entered
-  /// by; kNoTriangle where this tile does not have it.
+  /// Goes from a triangle to the one across an edge: from the apex to the left (or right) end of the edge by which the
+  /// triangle was entered. Returns kNoTriangle where this tile does not have it.
   Stop onwards(const Stop& from, bool keeps_left) const;
   const SectionVertex& apex(const Stop& at) const { return vertices_[faces_[at.triangle].corners[at.apex]]; }
-  /// Triangles, among them all that meet a box within the square.
+  /// Returns triangles, among them all that meet a box within the square.
   std::vector<std::array<SectionVertex, 3>> around(const GridBox& box) const;
 
  private:
@@ -53,8 +54,9 @@ class SectionTile {
 
   GridBox square_;
   std::vector<SectionVertex> vertices_;
-  std::vector<Face> faces_;  ///< in about the vertices' order, that of the Morton curve: neighbours are near in memory
-  // Triangles by the bins of the square that their boxes meet.
+  std::vector<Face> faces_;  ///< in about the vertices' order, which is the Morton curve's: neighbours are near in
+                             ///< memory
+  // The following members list triangles by the bins of the square that their boxes meet.
   int bin_shift_ = 0;
   std::uint32_t columns_ = 0;
   std::uint32_t rows_ = 0;

@@ -12,25 +12,25 @@ namespace itin {
 
 namespace {
 
-/// A tile is the largest cell with at most about so many points.
+/// The most points in a tile, about: a tile is the largest cell with no more.
 constexpr double kPointsPerSectionTile = 8192;
 /// The side where the search for a tile's size begins.
 constexpr int kUsualLog2Side = 18;
-/// Where posts are rarer, few cells have all four of theirs.
+/// The most cells per post: where posts are rarer, few cells have all four.
 constexpr std::size_t kMostCellsPerPost = 4;
 constexpr auto kMostCells = static_cast<std::int64_t>(kMostCellsPerPost * kPointsPerSectionTile);
 
-/// The lowest bit set tells the size: a code has 2 log2_side zeros at its end.
+/// Returns the key of a cell's tile. Its lowest set bit tells the size, as a code has 2 log2_side zeros at its end.
 std::uint64_t tile_key(const Cell& cell) {
   return cell.code | std::uint64_t{1} << (2 * cell.log2_side - 1);
 }
-/// Codes have 60 bits.
+/// Returns the key of a cell's sheet; its highest bit is free, as codes have 60 bits.
 std::uint64_t sheet_key(const Cell& cell) {
   return tile_key(cell) | std::uint64_t{1} << 63;
 }
 
-/// The cells with their lower left posts in a box; none where its points are no lattice, or few of its places have
-/// posts.
+/// Returns the sheet of cells whose lower left posts are in a box; a sheet without cells where its points are no
+/// lattice, or few of its places have posts.
 LatticeSheet sheet_over(const GridBox& box, const ReadOnce& index, const Selection& selection) {
   if (box.empty()) return {};
   const std::optional<LatticeCell> any = cell_about(box, index, selection);
@@ -80,7 +80,7 @@ template <class Made, class Make>
 std::shared_ptr<const Made> SectionTiles::found_or_made(std::uint64_t key, const Make& make) {
   const auto find = [&] { return std::static_pointer_cast<const Made>(cache_.find(key)); };
   if (auto found = find()) return found;
-  // When several threads want one, the first makes it.
+  // When several threads want the same one, the first makes it.
   const std::lock_guard lock(makers_[(key * 0x9e3779b97f4a7c15u) >> 58]);
   if (auto found = find()) return found;
   const std::shared_ptr<const Made> made = make();

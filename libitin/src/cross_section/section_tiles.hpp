@@ -1,4 +1,4 @@
-// The ground that many lines share: by squares, as posts of a lattice or as triangulated tiles.
+// The ground that many lines share: squares of it, as posts of a lattice or as triangulated tiles.
 //
 //   const auto sheet = tiles.sheet_at(place, statistics);
 //   if (sheet->has(cell) && sheet->stands_alone(cell)) ...
@@ -23,16 +23,17 @@
 
 namespace itin {
 
-/// The cells of a lattice whose lower left posts lie in a square. Has none where the ground there is no lattice.
+/// The cells of a lattice whose lower left posts lie in a square; none where the ground there is no lattice.
 struct SharedSheet : LatticeSheet {
   explicit SharedSheet(LatticeSheet sheet) : LatticeSheet(std::move(sheet)) {}
 
-  /// How often a triangle there had to be searched for by itself.
+  /// How often a triangle in the square had to be searched for by itself.
   mutable std::atomic<std::uint32_t> searches = 0;
 };
 
-/// Squares with few enough points to be made soon, and enough to make their borders cheap. Each is made when first
-/// asked for; those used last are kept. Safe for concurrent use. Refers to the index and the selection.
+/// Makes the ground of squares, which have few enough points to be made soon, and enough that their borders cost
+/// little. Each square is made when first asked for; the squares used last are kept. Safe for concurrent use. Refers to
+/// the index and the selection.
 class SectionTiles {
  public:
   SectionTiles(const PointIndex& index, const Selection& selection, std::uint64_t cache_bytes);
@@ -40,7 +41,7 @@ class SectionTiles {
   const PointIndex& index() const { return index_; }
   const Selection& selection() const { return selection_; }
 
-  /// What is made of the square that holds the place. Statistics count what this call read.
+  /// These return the ground of the square that holds the place. Statistics count what the call read.
   std::shared_ptr<const SectionTile> tile_at(Position place, RetrievalStatistics& statistics);
   std::shared_ptr<const SharedSheet> sheet_at(Position place, RetrievalStatistics& statistics);
 

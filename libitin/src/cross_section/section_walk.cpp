@@ -12,20 +12,20 @@ namespace {
 
 using Place = SectionCrossing::Place;
 
-/// A crossing, and the theme of the feature that it lies within. That follows from the vertex or the edge that is
-/// crossed, and not from the triangles beside it: of these the walk knows one, where the line runs along an edge.
+/// A crossing, and the theme of the feature that it lies within. The theme follows from the vertex or the edge that is
+/// crossed, and not from the triangles beside it: where the line runs along an edge, the walk knows only one of them.
 struct Met : SectionCrossing {
   std::uint16_t theme = 0;
   bool at_vertex = false;
 };
 
-/// The theme of an edge from those of its ends, or of a triangle from those of two of its corners. An outline's edges
-/// have none, for their ends have none. Where both are features', they differ in a party wall only.
+/// Returns the theme of an edge from the themes of its ends, or of a triangle from those of two of its corners. An
+/// outline's edges have no theme, as their ends have none. Two different themes come together in a party wall only.
 std::uint16_t either(std::uint16_t a, std::uint16_t b) {
   return a == 0 || b == 0 ? std::max(a, b) : std::min(a, b);
 }
 
-/// Breakpoints over ground without gap, in order.
+/// Consecutive breakpoints over ground without a gap.
 struct Stretch {
   std::vector<Met> crossings;
   std::uint64_t triangles = 0;
@@ -33,7 +33,8 @@ struct Stretch {
   double from() const { return crossings.front().distance; }
   double to() const { return crossings.back().distance; }
 
-  /// A vertex on the line is crossed with several edges at once. Where a crossing comes twice, the second knows more.
+  /// Adds a crossing. A vertex on the line is crossed with several edges at once; where a crossing comes twice, the
+  /// second theme is the better one.
   void add(const Met& c) {
     if (!crossings.empty()) {
       Met& last = crossings.back();
@@ -46,7 +47,7 @@ struct Stretch {
   }
 };
 
-/// An edge that the line crosses, and on which sides of the line its ends are.
+/// An edge that the line crosses, and the sides of the line that its ends are on.
 struct SidedEdge : CrossedEdge {
   SidedEdge(const CrossedEdge& edge, const SectionLine& line)
       : CrossedEdge(edge), left_side(line.side(edge.left)), right_side(line.side(edge.right)) {}
@@ -75,8 +76,8 @@ class SectionWalk {
  private:
   bool left(const GridPoint& p) const { return counts_as_left(line_.side(p), on_line_); }
 
-  /// The edge by which the line, prolonged backwards, enters the triangle about its start: the first one, where several
-  /// triangles have the start in common. Nothing where there is no ground.
+  /// Returns the edge by which the line, prolonged backwards, enters the triangle about its start: the first such edge,
+  /// where several triangles share the start. Nothing where there is no ground.
   std::optional<CrossedEdge> edge_before_start() {
     const GridBox box = line_.start_box();
     std::optional<CrossedEdge> first;
@@ -90,7 +91,7 @@ class SectionWalk {
     return first;
   }
 
-  /// Where the line enters a triangle that contains its start.
+  /// Returns the edge by which the line enters a triangle that contains its start.
   std::optional<CrossedEdge> entry_into(const std::array<SectionVertex, 3>& triangle) const {
     std::optional<CrossedEdge> entry, exit;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -140,12 +141,12 @@ class SectionWalk {
     return result;
   }
 
-  /// `theme`: the triangle's.
+  /// Adds a piece of the line between two crossings; `theme` is the triangle's.
   void add_piece(const Met& in, const Met& out, std::uint16_t theme, Stretch& stretch) const {
     const std::optional<SectionPiece> piece = line_.clip(in, out);
     if (!piece) return;
     ++stretch.triangles;
-    if (in.at_vertex && out.at_vertex) theme = either(in.theme, out.theme);  // along an edge, or none
+    if (in.at_vertex && out.at_vertex) theme = either(in.theme, out.theme);  // along an edge, or without length
     stretch.add({piece->from, in.place == Place::kWithin ? in.theme : piece->from.t == out.t ? out.theme : theme});
     stretch.add({piece->to, out.place == Place::kWithin ? out.theme : piece->to.t == in.t ? in.theme : theme});
   }
@@ -192,7 +193,7 @@ CrossSection section_of(const SectionLine& line, const std::vector<Stretch>& str
     if (s.from() > covered) section.gaps.push_back({covered, s.from()});
     double distance = s.from();
     for (const Met& c : s.crossings) {
-      // Crossings a rounding error apart may come in the wrong order.
+      // Crossings that differ by a rounding error may come in the wrong order.
       distance = std::max(distance, c.distance);
       section.breakpoints.push_back({distance, c.position, c.theme});
     }
@@ -257,7 +258,7 @@ class NeighboursOnSegment {
   std::optional<SectionVertex> left_, right_;
 };
 
-/// About the distance from a vertex to the next, metres.
+/// Estimates the distance between neighbouring vertices, metres.
 double spacing_at(const PointIndex& index, const Selection& selection, const Grid& grid, const Point3& place) {
   const GridBox box = grid.enclosing({place.x, place.y, place.x, place.y});
   std::vector<Leaf> leaves;
@@ -295,7 +296,7 @@ CrossedEdge find_edge_on(const PointIndex& index, const Selection& selection, co
           neighbours.consider({p, block->theme(k)});
       }
     }
-    // The box is centred on the crossing, so what lies outside it is farther away along the segment.
+    // The box is centred on the crossing, so that vertices outside it are farther away along the segment.
     if (const auto edge = neighbours.edge()) return *edge;
     if (box.contains(all)) throw Error("an end of a constraint line is not among the vertices; run itin check");
   }

@@ -1,4 +1,4 @@
-// The walk along a line from triangle to triangle, over whatever finds the triangles.
+// The walk along a line from triangle to triangle, with any way of finding the triangles.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@ struct SectionVertex : GridPoint {
   std::uint16_t theme = 0;  ///< 0: none
 };
 
-/// An edge that the line crosses, by its ends left and right of it.
+/// An edge that the line crosses, by its ends left and right of the line.
 struct CrossedEdge {
   SectionVertex left;
   SectionVertex right;
@@ -28,21 +28,21 @@ struct CrossedEdge {
 class TriangleFinder {
  public:
   virtual ~TriangleFinder() = default;
-  /// The third vertex of the ground triangle ahead of an edge, which is known to be there.
+  /// Returns the third vertex of the ground triangle ahead of an edge. Precondition: there is one.
   virtual SectionVertex beyond(const CrossedEdge& edge) = 0;
-  /// Ground triangles, among them all that meet the box, which is at most one grid step wide; counterclockwise.
+  /// Returns ground triangles, among them all that meet the box, which is at most one grid step wide; counterclockwise.
   virtual std::vector<std::array<SectionVertex, 3>> around(const GridBox& box) = 0;
-  /// The edge of the triangulation at which the line crosses a segment of the outline.
+  /// Returns the edge of the triangulation at which the line crosses a segment of the outline.
   virtual CrossedEdge edge_on(const OutlineCrossing& segment, const SectionLine& line, OnLine on_line) = 0;
 };
 
-/// The line's direction, of length 1; any where the line has none.
+/// Returns the line's direction, of length 1; any direction where the line has none.
 Point2 heading_of(const SectionLine& line);
 
-/// The cross-section, but for its retrieval statistics. The line's own direction is undone where it was mirrored.
+/// Returns the cross-section without its retrieval statistics, in the direction in which the line's ends were given.
 CrossSection walk_section(const PointIndex& index, const SectionLine& line, TriangleFinder& triangles);
 
-/// CrossedEdge of a segment by reading the vertices around the crossing. Counts what it reads.
+/// Finds the CrossedEdge on a segment by reading the vertices around the crossing. Counts what it reads.
 CrossedEdge find_edge_on(const PointIndex& index, const Selection& selection, const OutlineCrossing& segment,
                          const SectionLine& line, OnLine on_line, RetrievalStatistics& statistics);
 

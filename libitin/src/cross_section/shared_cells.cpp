@@ -7,7 +7,7 @@ namespace itin {
 
 namespace {
 
-/// A tile takes about as long as so many searches for single triangles.
+/// The number of searches for single triangles that take about as long as a tile.
 constexpr std::uint32_t kSearchesWorthATile = 512;
 
 }  // namespace

@@ -1,4 +1,4 @@
-// The triangles of a lattice along one of many lines, whose posts are on sheets that all of the lines share.
+// The triangles of a lattice along one of many lines. The posts are on sheets that all of the lines share.
 #pragma once
 
 #include <memory>
@@ -9,13 +9,13 @@
 
 namespace itin {
 
-/// Serves one thread and one line.
+/// Finds half cells along a line. Serves one thread and one line.
 class SharedCells final : public CellTriangles {
  public:
-  /// Statistics count what is read for this line.
+  /// Takes statistics that count what is read for this line.
   SharedCells(SectionTiles& tiles, RetrievalStatistics& statistics) : tiles_(tiles), statistics_(statistics) {}
 
-  /// Whether a triangle there that is not half a cell is worth a triangulated tile. Counts how often that was asked.
+  /// Tells whether a triangle at this place that is not half a cell is worth a triangulated tile. Counts its calls.
   bool is_worth_a_tile(Position place);
 
  private:

@@ -17,7 +17,7 @@ namespace itin {
 
 namespace {
 
-/// Walks one line through sheets of posts and, where these do not tell, through tiles.
+/// Walks one line through sheets of posts and, where these do not have the triangle, through tiles.
 class TiledTriangles final : public TriangleFinder {
  public:
   TiledTriangles(SectionTiles& tiles, const SectionLine& line)
@@ -60,7 +60,7 @@ class TiledTriangles final : public TriangleFinder {
   }
 
  private:
-  /// For single triangles.
+  /// Searches for single triangles.
   struct Search {
     Search(const PointIndex& index, const Selection& selection, Point2 heading)
         : blocks(index), apex(blocks, selection, heading) {}
@@ -72,8 +72,8 @@ class TiledTriangles final : public TriangleFinder {
     if (!tile_ || !tile_->square().contains(place.x, place.y)) tile_ = tiles_.tile_at(place, statistics_);
   }
 
-  /// Visits the triangle ahead of an edge in the tile where the line crosses it; none in the rare case that the
-  /// crossing, rounded, is in a tile that the triangle does not meet.
+  /// Goes to the triangle ahead of an edge, in the tile where the line crosses the edge. Finds none in the rare case
+  /// that the rounded crossing is in a tile that the triangle does not meet.
   void enter_tile(const CrossedEdge& edge, Position place) {
     go_to(place);
     at_ = tile_->ahead(edge, place);

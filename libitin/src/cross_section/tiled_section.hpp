@@ -8,7 +8,7 @@
 
 namespace itin {
 
-/// Statistics count what is read and triangulated for this line.
+/// Makes the cross-section of a line; its statistics count what is read and triangulated for this line.
 CrossSection tiled_section(SectionTiles& tiles, const SectionLine& line);
 
 }  // namespace itin

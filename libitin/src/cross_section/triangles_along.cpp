@@ -11,7 +11,7 @@ namespace itin {
 
 namespace {
 
-/// A strip about each leg that is wide enough for rounding.
+/// Returns strips about the legs that are wide enough for rounding.
 Window window_along(const std::vector<Point2>& path, double resolution) {
   std::vector<Window::Polygon> strips;
   for (std::size_t i = 0; i + 1 < path.size(); ++i) {
@@ -34,7 +34,7 @@ bool meets(const SectionLine& line, const std::array<GridPoint, 3>& corners) {
   return chord && line.clip(chord->from, chord->to);
 }
 
-/// The Tin's triangles of these numbers, ascending, and what belongs to them.
+/// Returns a Tin's triangles of these numbers, ascending, with everything that belongs to them.
 Tin part_of(const Tin& tin, const std::vector<std::uint32_t>& triangles) {
   constexpr std::uint32_t kNone = 0xffffffff;
   std::vector<std::uint32_t> number(tin.vertices.size(), kNone);

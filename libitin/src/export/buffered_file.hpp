@@ -1,4 +1,4 @@
-// A new file written in large pieces, every error noticed.
+// A new file written in large pieces; every error is noticed.
 #pragma once
 
 #include <bit>
@@ -18,7 +18,7 @@ namespace itin {
 
 class BufferedFile {
  public:
-  /// Creates output.temporary_path(). Throws FileError, as all functions here; errors name output.path().
+  /// Creates output.temporary_path(). Throws FileError, as all functions here do; errors name output.path().
   explicit BufferedFile(const PendingFile& output);
 
   void write(std::string_view bytes) {
@@ -32,13 +32,13 @@ class BufferedFile {
   }
   void little_endian(float value) { little_endian(std::bit_cast<std::uint32_t>(value)); }
   void little_endian(double value) { little_endian(std::bit_cast<std::uint64_t>(value)); }
-  /// As fmt::print; doubles come out as the shortest decimals that read back as the same.
+  /// Prints as fmt::print() does; doubles become the shortest decimals that read back as the same.
   template <typename... Arguments>
   void print(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
     fmt::format_to(std::back_inserter(buffer_), format, std::forward<Arguments>(arguments)...);
     flush_if_large();
   }
-  /// Must be called: without it the end of the file is missing.
+  /// Completes the file. Must be called: without it the end of the file is missing.
   void close();
 
  private:

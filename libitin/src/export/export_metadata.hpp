@@ -10,19 +10,21 @@
 
 namespace itin {
 
-/// TinExportOptions::metadata_json as an object, empty for nothing; members keep their order. Throws InputError.
+/// Returns TinExportOptions::metadata_json as an object, empty for nothing; members keep their order. Throws
+/// InputError.
 nlohmann::ordered_json parsed_metadata(const std::string& metadata_json);
 
-/// As compact text; bytes that are not UTF-8 are replaced, never an error.
+/// Returns compact text; bytes that are not UTF-8 are replaced and are never an error.
 std::string dumped(const nlohmann::ordered_json& json);
 
-/// For comments: line ends become spaces.
+/// Returns the text on one line, for comments: line ends become spaces.
 std::string on_one_line(std::string text);
 
-/// The name of a theme by its number, from 1; empty where the options do not say.
+/// Returns the name of a theme by its number, from 1; empty where the options do not say.
 std::string theme_name(const TinExportOptions& options, std::uint16_t theme);
 
-/// For GeoJSON, "urn:ogc:def:crs:EPSG::27700"; empty for an unknown CRS. Throws InputError for one without EPSG code.
+/// Returns the CRS for GeoJSON, "urn:ogc:def:crs:EPSG::27700"; empty for an unknown CRS. Throws InputError for one
+/// without EPSG code.
 std::string crs_urn(const std::string& crs_wkt);
 
 }  // namespace itin

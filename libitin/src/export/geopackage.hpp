@@ -7,7 +7,7 @@
 //   package.close();
 //   output.commit();
 //
-// Whatever cannot be done throws FileError with the reason that GDAL gives.
+// Every failure throws FileError with the reason that GDAL gives.
 #pragma once
 
 #include <string>
@@ -23,14 +23,14 @@ namespace itin {
 
 class GeoPackage {
  public:
-  /// Without a CRS where `crs_wkt` is empty.
+  /// Creates the GeoPackage; without a CRS where `crs_wkt` is empty.
   GeoPackage(const PendingFile& output, const std::string& crs_wkt);
 
   OGRLayer& add_layer(const std::string& name, OGRwkbGeometryType type, bool spatial_index = true);
   void add_field(OGRLayer& layer, const std::string& name, OGRFieldType type);
   void add(OGRLayer& layer, OGRFeature& feature);
   GDALDataset& dataset() { return *dataset_; }
-  /// Writes what is left: spatial indices, for instance.
+  /// Writes everything that is left, such as spatial indices.
   void close();
 
   void require(bool done, const char* otherwise = "cannot be written") const;
@@ -39,7 +39,7 @@ class GeoPackage {
   QuietGdal quiet_;
   // Equal calls give equal bytes only if the file does not say when it was written.
   CPLConfigOptionSetter fixed_{"OGR_CURRENT_DATE", "1970-01-01T00:00:00.000Z", false};
-  // No step on the way to the complete file has to be kept.
+  // Nothing has to be kept until the file is complete.
   CPLConfigOptionSetter unsynced_{"OGR_SQLITE_SYNCHRONOUS", "OFF", false};
   CPLConfigOptionSetter in_memory_{"OGR_SQLITE_JOURNAL", "MEMORY", false};
   std::string path_;

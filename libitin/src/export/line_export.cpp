@@ -35,7 +35,7 @@ Type type_of(AttributeType type) {
   return kTypes[static_cast<int>(type)];
 }
 
-/// Sources of one theme may differ in the type of a field; the theme's is the widest.
+/// Converts a value to its column's type. Sources of one theme may differ in a field's type; the theme's is the widest.
 Value widened(const Value& value, Type type) {
   const auto* whole = std::get_if<std::int64_t>(&value);
   if (whole != nullptr && type == Type::kNumber) return static_cast<double>(*whole);
@@ -51,7 +51,7 @@ std::string in_capitals(std::string name) {
   return name;
 }
 
-/// The columns of all themes, and where the attributes of each go.
+/// The columns of all themes, and the columns of each theme's attributes.
 class Columns {
  public:
   void add(const ThemeInfo& theme, std::uint16_t number) {
@@ -80,7 +80,8 @@ class Columns {
   }
 
  private:
-  /// Databases tell names in capitals from no others, and have columns of their own.
+  /// Returns a name that no column has yet. Databases do not distinguish capitals in names, and have columns of their
+  /// own.
   std::string unused(std::string name) const {
     const auto is_used = [&](const std::string& wanted) {
       const std::string capitals = in_capitals(wanted);

@@ -27,7 +27,7 @@ std::string text_of(std::span<const std::uint8_t> bytes) {
   return {bytes.begin(), bytes.end()};
 }
 
-/// The lowest byte first.
+/// Returns the hash, its lowest byte first.
 std::string hash_of(std::string_view frame) {
   const std::uint64_t hash = content_hash(frame);
   std::string bytes;

@@ -20,9 +20,11 @@ class PendingFile {
   PendingFile(std::string path, bool overwrite);
 
   const std::string& path() const { return path_; }
-  /// In the same folder, with the same ending; no other PendingFile has the same. The file there goes unless committed.
+  /// Returns a name in the same folder, with the same ending, which no other PendingFile has. The file there is removed
+  /// unless committed.
   const std::string& temporary_path() const { return unfinished_.path(); }
-  /// Renames. Throws FileError, also when another program has made the file meanwhile and it may not be replaced.
+  /// Renames the file. Throws FileError, also when another program has made a file of its name meanwhile that may not
+  /// be replaced.
   void commit();
 
  private:

@@ -1,4 +1,4 @@
-// How QGIS draws regions, each class in its colour, kept within the GeoPackage.
+// QGIS's style of regions, each class in its colour, kept within the GeoPackage.
 #pragma once
 
 #include <gdal_priv.h>
@@ -7,10 +7,10 @@
 
 namespace itin {
 
-/// QGIS's own style of a layer of polygons with a field `value`.
+/// Returns QGIS's own style of a layer of polygons with a field `value`.
 std::string polygon_style(const std::vector<RegionClass>& classes);
 
-/// Adds the table `layer_styles`, from which QGIS takes a layer's style as it opens. Whether that worked.
+/// Adds the table `layer_styles`, from which QGIS takes a layer's style as it opens. Returns whether that worked.
 bool add_layer_style(GDALDataset& geopackage, const std::string& layer, const std::string& style);
 
 }  // namespace itin

@@ -23,7 +23,7 @@ namespace itin {
 namespace {
 
 constexpr int kTileSide = 512;
-/// A tile holds all bands, and GDAL some tiles at a time: with many bands they are smaller.
+/// The most bytes of a tile, which holds all bands. GDAL keeps some tiles at a time: with many bands they are smaller.
 constexpr std::size_t kMostTileBytes = std::size_t{64} << 20;
 constexpr int kLeastTileSide = 16;
 
@@ -50,7 +50,7 @@ T most_frequent(const std::array<T, 4>& v) {
   return v[2] == v[3] ? v[2] : v[0];
 }
 
-/// The next overview: each value stands for two by two, cut off at the southern and eastern edge.
+/// Makes the next overview: each value stands for two by two values, cut off at the southern and eastern edge.
 template <class T>
 Level<T> halve(const T* values, std::int64_t columns, std::int64_t rows, bool classes) {
   Level<T> half{{}, (columns + 1) / 2, (rows + 1) / 2};
@@ -83,7 +83,7 @@ std::vector<Level<T>> overviews(std::span<const T> values, const RasterGrid& gri
   return levels;
 }
 
-/// A band for each raster of the grid that the values hold.
+/// Wraps the values, with a band for each raster of the grid that they hold.
 template <class T>
 GDALDatasetUniquePtr wrap(std::span<const T> values, const RasterGrid& grid, GDALDataType type) {
   GDALDatasetUniquePtr dataset = memory_raster(grid);
@@ -92,7 +92,7 @@ GDALDatasetUniquePtr wrap(std::span<const T> values, const RasterGrid& grid, GDA
   return dataset;
 }
 
-/// Overviews of every band.
+/// Attaches overviews to every band.
 template <class T>
 void attach_overviews(GDALDataset& dataset, std::span<const T> values, const RasterGrid& grid, bool classes,
                       GDALDataType type) {
@@ -151,7 +151,7 @@ CPLStringList creation_options(bool floating, int tile_side) {
   return options;
 }
 
-/// As GDAL asks, on its way through a call.
+/// Answers GDAL, which asks on its way through a call.
 int go_on_unless_cancelled(double, const char*, void* progress) {
   return static_cast<const Progress*>(progress)->cancelled() ? FALSE : TRUE;
 }
@@ -178,7 +178,7 @@ void write_cog(const std::string& path, const RasterGrid& grid, std::span<const 
   if (!created || QuietGdal::failed())
     throw FileError(path, "cannot be written: " + QuietGdal::message("unknown reason"));
   file.commit();
-  // It would describe the raster that was replaced.
+  // A side file would describe the raster that was replaced.
   std::error_code ignored;
   std::filesystem::remove(path + ".aux.xml", ignored);
 }

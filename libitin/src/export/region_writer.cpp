@@ -26,7 +26,7 @@ struct Region {
   std::uint64_t cells = 0;
 
   void add(const OGRGeometry& polygon) {
-    // Outlines that touch themselves at a cell's corner are none that the standard knows.
+    // Outlines that touch themselves at a cell's corner are not valid by the standard.
     const std::unique_ptr<OGRGeometry> valid(polygon.IsValid() ? polygon.clone() : polygon.MakeValid());
     if (!valid) return;
     if (wkbFlatten(valid->getGeometryType()) == wkbPolygon) {

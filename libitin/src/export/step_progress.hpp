@@ -10,7 +10,7 @@ namespace itin {
 class StepProgress {
  public:
   StepProgress(Progress& progress, std::uint64_t steps) : progress_(progress), steps_(steps) {}
-  /// Reports and looks for cancellation every so often.
+  /// Counts a step; every 65536 steps, reports and looks for cancellation.
   void step() {
     if ((++done_ & 0xffff) != 0) return;
     progress_.throw_if_cancelled();

@@ -1,5 +1,5 @@
-// One writer a format; tin_export.cpp chooses among them. All write to output.temporary_path() and leave the commit to
-// the caller; see tin_export.hpp for contents and errors.
+// There is one writer per format; tin_export.cpp chooses among them. All write to output.temporary_path() and leave the
+// commit to the caller; see tin_export.hpp for contents and errors.
 #pragma once
 
 #include <itin/tin.hpp>

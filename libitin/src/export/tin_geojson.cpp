@@ -10,7 +10,7 @@ namespace itin {
 
 namespace {
 
-/// `themes`: their names as JSON strings.
+/// Writes a triangle; `themes` are the themes' names as JSON strings.
 void write_feature(const Tin& tin, std::size_t triangle, const std::vector<std::string>& themes, BufferedFile& file) {
   const auto [a, b, c] = tin.triangles[triangle];
   file.print(R"({{"type":"Feature","id":{},"properties":{{"vertex_a":{},"vertex_b":{},"vertex_c":{},)", triangle,

@@ -18,7 +18,7 @@ OGRLayer& add_layer(GeoPackage& package, const char* name, OGRwkbGeometryType ty
   return layer;
 }
 
-/// Numbers its features itself.
+/// Adds a feature to a layer that numbers its features itself.
 void add_next(GeoPackage& package, OGRLayer& layer, OGRFeature& feature) {
   feature.SetFID(OGRNullFID);
   package.add(layer, feature);
@@ -54,7 +54,7 @@ void write_triangles(const Tin& tin, const TinExportOptions& options, GeoPackage
   }
 }
 
-/// Without a spatial index, which takes ten times as long to build as the layer itself.
+/// Adds the vertices, without a spatial index, which takes ten times as long to build as the layer itself.
 void add_vertex_layer(const Tin& tin, GeoPackage& package, StepProgress& steps) {
   OGRLayer& layer = add_layer(package, "vertices", wkbPoint25D, false, {"id"}, {"source"});
   OGRFeature feature(layer.GetLayerDefn());

@@ -16,22 +16,22 @@ namespace itin {
 
 namespace {
 
-// Names as in the glTF 2.0 specification.
+// These are named as in the glTF 2.0 specification.
 constexpr int kUnsignedByte = 5121, kUnsignedShort = 5123, kUnsignedInt = 5125, kFloat = 5126;
 constexpr int kArrayBuffer = 34962, kElementArrayBuffer = 34963;
 
 using OrderedJson = nlohmann::ordered_json;
 using Vector = std::array<float, 3>;
 
-/// East, north, up to glTF's axes: y up, right-handed.
+/// Turns east, north, up into glTF's axes: y up, right-handed.
 Vector gltf_axes(double east, double north, double up) {
   return {static_cast<float>(east), static_cast<float>(up), static_cast<float>(-north)};
 }
 
-/// The buffer views' places in the file's one buffer, in the order in which they are written.
+/// The places of the buffer views in the file's one buffer, in the order in which they are written.
 class Layout {
  public:
-  /// `stride` bytes per element; 0 for indices, which must not say it.
+  /// Adds a view and returns its number. Its stride is `element_bytes`, which indices must not state.
   std::size_t add(std::size_t count, std::size_t element_bytes, int target) {
     OrderedJson view = {
         {"buffer", 0}, {"byteOffset", bytes_}, {"byteLength", count * element_bytes}, {"target", target}};
@@ -158,7 +158,7 @@ class GlbWriter {
     document["meshes"] = OrderedJson::array({{{"name", "surface"}, {"primitives", primitives}}});
   }
 
-  /// The terrain has its colours by height; what stands on it has its theme's.
+  /// Returns a mesh's attributes: the terrain is coloured by height; features on it have their theme's colour.
   static OrderedJson attributes_of(std::uint16_t theme) {
     OrderedJson attributes = {{"POSITION", 0}, {"NORMAL", 1}};
     if (theme == 0) attributes["COLOR_0"] = 2;
@@ -181,7 +181,7 @@ class GlbWriter {
             {"doubleSided", true}};
   }
 
-  /// Sums of the triangles' normals weighted by area; upward, as every triangle's is.
+  /// Returns the sums of the triangles' normals weighted by area; upward, as every triangle's normal is.
   std::vector<std::array<double, 3>> normals() const {
     std::vector<std::array<double, 3>> sums(tin_.vertices.size());
     for (const Triangle& t : tin_.triangles) {
@@ -195,7 +195,7 @@ class GlbWriter {
     return sums;
   }
 
-  /// From lowland green over ochre and brown to white, as on school maps; linear RGBA.
+  /// Returns a colour from lowland green over ochre and brown to white, as on school maps; linear RGBA.
   std::array<std::uint8_t, 4> colour(const GridPoint& p) const {
     static constexpr std::array<std::array<double, 3>, 4> kStops{
         {{60, 120, 50}, {200, 180, 90}, {140, 90, 50}, {245, 245, 245}}};

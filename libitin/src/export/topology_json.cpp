@@ -13,7 +13,7 @@ std::string index_or_null(std::optional<std::uint32_t> index) {
   return index ? fmt::format_int(*index).str() : std::string("null");
 }
 
-/// ,"name":[item(0),item(1),...] with one item a line.
+/// Writes ,"name":[item(0),item(1),...] with one item per line.
 template <typename Item>
 void write_array(BufferedFile& file, const char* name, std::size_t count, StepProgress& steps, const Item& write_item) {
   file.print(",\n\"{}\":[", name);

@@ -41,7 +41,8 @@ std::string name_of(const OGRSpatialReference& reference) {
 
 using Transformation = std::unique_ptr<OGRCoordinateTransformation>;
 
-/// Whether both CRSs give the same coordinates, to within a millimetre, all over the area that `known` is used in.
+/// Tells whether both CRSs give the same coordinates, to within a millimetre, all over the area that `known` is used
+/// in.
 bool agree(const OGRSpatialReference& given, const OGRSpatialReference& known) {
   constexpr double kMetres = 0.001, kDegrees = 1e-8;
   double west = 0, south = 0, east = 0, north = 0;
@@ -66,8 +67,8 @@ bool agree(const OGRSpatialReference& given, const OGRSpatialReference& known) {
   return true;
 }
 
-/// ESRI's and other dialects come without codes, with rounded parameters, and with datum names that coordinate
-/// operations are not found by.
+/// Replaces a CRS without a code by the one that an authority knows. ESRI's and other dialects come without codes, with
+/// rounded parameters, and with datum names that coordinate operations are not found by.
 void replace_by_authority(OGRSpatialReference& reference) {
   if (reference.GetAuthorityCode(nullptr)) return;
   int count = 0;
@@ -84,26 +85,27 @@ void replace_by_authority(OGRSpatialReference& reference) {
   }
 }
 
-/// The horizontal part remains.
+/// Removes all but the horizontal part.
 void strip_heights(OGRSpatialReference& reference) {
   if (reference.IsCompound()) reference.StripVertical();
   if (reference.GetAxesCount() == 3) reference.DemoteTo2D(nullptr);
   replace_by_authority(reference);
 }
 
-/// authority:code, else WKT 2: a name alone would not be understood again.
+/// Returns authority:code, else WKT 2: a name alone would not be understood again.
 std::string text_of(const OGRSpatialReference& reference) {
   return reference.GetAuthorityCode(nullptr) ? name_of(reference) : wkt_of(reference);
 }
 
-/// The EPSG code of the whole or of the part called `key`; empty where it has none.
+/// Returns the EPSG code of the whole CRS or of its part called `key`; empty where it has none.
 std::string epsg_code(const OGRSpatialReference& reference, const char* key) {
   const char* authority = reference.GetAuthorityName(key);
   const char* code = reference.GetAuthorityCode(key);
   return authority && code && EQUAL(authority, "EPSG") ? code : "";
 }
 
-/// The first EPSG code of the zones of the CRS's own datum, less zone 0; WGS 84 where it has no such zone.
+/// Returns the EPSG code from which the UTM zones of the CRS's own datum count (that of zone 1, less 1); WGS 84 where
+/// the datum has no such zone.
 int utm_base(const OGRSpatialReference& geographic, int zone, bool north) {
   const auto has_datum = [&](int code) {
     OGRSpatialReference datum;
@@ -200,7 +202,7 @@ class PointTransform::Impl {
         transform_chunk(*copies_[worker], x.subspan(first, count), y.subspan(first, count));
       }
     };
-    // Single points are common, and threads dear.
+    // Single points are common, and starting threads is expensive.
     workers == 1 ? work(0) : parallel_for(workers, work);
   }
 

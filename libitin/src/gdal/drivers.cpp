@@ -11,7 +11,7 @@ namespace itin {
 
 namespace {
 
-/// Two threads that register drivers at once destroy GDAL's tables.
+/// Registers drivers, one thread at a time: two at once destroy GDAL's tables.
 void register_once(std::once_flag& done, void (*drivers)()) {
   static std::mutex registering;
   std::call_once(done, [&] {
@@ -25,7 +25,7 @@ void register_all_drivers() {
   register_once(done, [] { GDALAllRegister(); });
 }
 
-/// What `find` gives with the drivers of make_gdal_ready(), else with all.
+/// Returns what `find` finds with the drivers of make_gdal_ready(), else with all drivers.
 template <class Find>
 auto found_by_drivers(const Find& find) {
   make_gdal_ready();
@@ -50,7 +50,7 @@ GDALDriver* driver_of(const std::string& path, unsigned kinds) {
 void make_gdal_ready() {
   static std::once_flag done;
   register_once(done, [] {
-    GDALRegister_GTiff();  // which COG writes with
+    GDALRegister_GTiff();  // COG uses it for writing
     GDALRegister_COG();
     GDALRegister_MEM();
     RegisterOGRGeoPackage();

@@ -1,5 +1,5 @@
-// GDAL's formats, registered when the first call needs them. All 210 take 9 MB and 2 ms. Those that itin writes, and
-// tables (CSV), take 2 MB: they come first, and all others when a file is opened that is none of these.
+// GDAL's formats, registered when the first call needs them. All 210 take 9 MB and 2 ms. The formats that itin writes,
+// and tables (CSV), take 2 MB. They come first; all others are registered when a file is opened that is none of these.
 #pragma once
 
 #include <string>
@@ -8,14 +8,15 @@
 
 namespace itin {
 
-/// A file in any format, opened to be read. `kinds` are GDAL_OF_RASTER, GDAL_OF_VECTOR or both. Null where GDAL cannot
+/// Opens a file in any format for reading. `kinds` are GDAL_OF_RASTER, GDAL_OF_VECTOR or both. Null where GDAL cannot
 /// open it.
 GDALDatasetUniquePtr open_dataset(const std::string& path, unsigned kinds, const char* const* options = nullptr);
 
-/// What would open the file; null where there is none.
+/// Returns the driver that would open the file; null where there is none.
 GDALDriver* driver_of(const std::string& path, unsigned kinds);
 
-/// A format that itin writes: COG or GPKG, in memory MEM (rasters) or Memory (vectors). Null where this GDAL lacks it.
+/// Returns a format that itin writes: COG or GPKG, in memory MEM (rasters) or Memory (vectors). Null where this GDAL
+/// lacks it.
 GDALDriver* written_driver(const char* name);
 
 }  // namespace itin

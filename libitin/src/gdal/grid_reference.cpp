@@ -10,7 +10,7 @@ namespace itin {
 
 namespace {
 
-/// Letters of a five by five block from the north-west, without I.
+/// Returns a letter of a five by five block, counted from the north-west, without I.
 char letter(int index) {
   return static_cast<char>('A' + index + (index > 7 ? 1 : 0));
 }

@@ -18,9 +18,10 @@ namespace itin {
 
 namespace {
 
-// Long enough that a geodesic's tenth of a millimetre does not matter, short enough that the scale hardly changes.
+// Half the length of the lines whose scale is measured, metres: long enough that a geodesic's tenth of a millimetre
+// does not matter, short enough that the scale hardly changes.
 constexpr double kHalfLine = 250;
-// Three directions tell the ellipse that the scale is.
+// The scale at a place is an ellipse, which three directions determine.
 constexpr std::array<Point2, 3> kDirections{{{1, 0}, {0, 1}, {std::numbers::sqrt2 / 2, std::numbers::sqrt2 / 2}}};
 constexpr std::size_t kEnds = 2 * kDirections.size();
 
@@ -35,8 +36,8 @@ std::vector<Point2> line_ends(std::span<const Point2> places) {
   return ends;
 }
 
-/// The scale along the lines through one place. Ground lengths are those of a linear map of the grid, whose squares are
-/// a quadratic form: Tissot's indicatrix turned inside out.
+/// Returns the least and the greatest scale at one place. Lengths on the ground come from a linear map of the grid, so
+/// that their squares are a quadratic form: the inverse of Tissot's indicatrix.
 std::optional<GridScale> scale_of(std::span<const Point2> ends, const Ellipsoid& ellipsoid) {
   std::array<double, kDirections.size()> squares{};
   for (std::size_t k = 0; k < squares.size(); ++k) {
@@ -51,7 +52,7 @@ std::optional<GridScale> scale_of(std::span<const Point2> ends, const Ellipsoid&
   return GridScale{1 / std::sqrt(mean + spread), 1 / std::sqrt(mean - spread)};
 }
 
-/// Whether it shows the whole world on a cylinder about the equator.
+/// Tells whether the CRS shows the whole world on a cylinder about the equator.
 bool lies_about_equator(const OGRSpatialReference& crs) {
   constexpr std::array<std::string_view, 6> kProjections{SRS_PT_MERCATOR_1SP,       SRS_PT_MERCATOR_2SP,
                                                          SRS_PT_EQUIRECTANGULAR,    SRS_PT_CYLINDRICAL_EQUAL_AREA,

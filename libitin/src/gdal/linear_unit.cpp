@@ -10,13 +10,13 @@ namespace itin {
 namespace {
 
 struct Known {
-  int code;  // EPSG's; 0 where it has none
+  int code;  // EPSG's; 0 where the unit has none
   double metres;
   const char* name;
   std::string_view others = {};  // other names, in lower case, between bars
 };
 
-// After the EPSG dataset v10, names in dialects after ESRI, PROJ, UDUNITS and what drivers of GDAL write.
+// Units after the EPSG dataset v10; names in dialects after ESRI, PROJ, UDUNITS and the output of GDAL's drivers.
 constexpr Known kUnits[] = {
     {9001, 1, "metre", "|m|meter|metres|meters|mtr|1 metre|1 m|"},
     {9002, 0.3048, "foot", "|ft|feet|international foot|international feet|foot (international)|ift|foot intl|"},

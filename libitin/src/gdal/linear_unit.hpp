@@ -8,16 +8,17 @@ namespace itin {
 
 struct LinearUnit {
   std::string name;
-  double metres = 1;  ///< that one has
+  double metres = 1;  ///< length of one unit
 };
 
-/// EPSG's code, as GeoTIFF keys have it: 9002 is the foot.
+/// Returns the unit of EPSG's code, as GeoTIFF keys have it: 9002 is the foot.
 std::optional<LinearUnit> linear_unit(int epsg_code);
 
-/// Upper and lower case, underscores, hyphens and brackets about the name do not matter: "ft", "US_survey_foot", "[m]".
+/// Returns the unit of a name. Case, underscores, hyphens and brackets about the name do not matter: "ft",
+/// "US_survey_foot", "[m]".
 std::optional<LinearUnit> linear_unit(const std::string& name);
 
-/// The name of a unit of `metres`; `otherwise` where it is unknown.
+/// Returns the name of a unit of this many metres; `otherwise` where it is unknown.
 std::string unit_name(double metres, const std::string& otherwise);
 
 }  // namespace itin

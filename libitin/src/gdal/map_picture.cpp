@@ -22,14 +22,14 @@ struct FreeWarp {
   void operator()(GDALWarpAppOptions* options) const { GDALWarpAppOptionsFree(options); }
 };
 
-/// The arguments of a GDAL program.
+/// Returns the arguments of a GDAL program.
 CPLStringList arguments(const std::vector<std::string>& texts) {
   CPLStringList list;
   for (const std::string& text : texts) list.AddString(text.c_str());
   return list;
 }
 
-/// Red, green and blue in place of numbers of a palette's colours.
+/// Replaces a palette's numbers by red, green and blue.
 GDALDatasetUniquePtr without_palette(const std::string& path, GDALDatasetUniquePtr picture) {
   if (picture->GetRasterCount() != 1 || picture->GetRasterBand(1)->GetColorTable() == nullptr) return picture;
   CPLStringList list = arguments({"-of", "MEM", "-expand", "rgba"});
@@ -53,7 +53,7 @@ void require_colours(const std::string& path, GDALDataset& picture) {
   if (picture.GetSpatialRef() == nullptr) throw FileError(path, "states no CRS, so it cannot be placed on a map");
 }
 
-/// With an alpha band, over the pixels.
+/// Warps the picture to the pixels, with an alpha band.
 GDALDatasetUniquePtr warped(const std::string& path, GDALDataset& picture, const RasterGrid& pixels,
                             const std::string& crs_wkt) {
   const Box box = pixels.bounds();
@@ -79,7 +79,7 @@ std::vector<Rgba> picture_at(const std::string& path, const RasterGrid& pixels, 
   require_colours(path, *picture);
   const GDALDatasetUniquePtr placed = warped(path, *picture, pixels, crs_wkt);
   const int bands = placed->GetRasterCount(), columns = placed->GetRasterXSize(), rows = placed->GetRasterYSize();
-  // Grey is read three times.
+  // A grey band is read three times.
   const std::array<int, 4> channels = bands == 2 ? std::array{1, 1, 1, 2} : std::array{1, 2, 3, 4};
   std::vector<Rgba> colours(pixels.cell_count());
   static_assert(sizeof(Rgba) == 4);

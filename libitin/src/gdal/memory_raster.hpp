@@ -1,4 +1,4 @@
-// A raster that lies in the caller's memory: GDAL reads it there, without a copy.
+// A raster in the caller's memory: GDAL reads it there, without a copy.
 //
 //   const GDALDatasetUniquePtr raster = memory_raster(grid);
 //   add_band(*raster, std::span(values), GDT_Byte);
@@ -16,7 +16,7 @@
 
 namespace itin {
 
-/// Without bands, at the grid's place.
+/// Makes a raster without bands, at the grid's place.
 inline GDALDatasetUniquePtr memory_raster(const RasterGrid& grid) {
   GDALDatasetUniquePtr raster(written_driver("MEM")->Create("", static_cast<int>(grid.columns()),
                                                             static_cast<int>(grid.rows()), 0, GDT_Unknown, nullptr));

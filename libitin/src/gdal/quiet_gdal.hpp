@@ -1,4 +1,4 @@
-// GDAL without its own messages: what it has to say goes into exceptions.
+// GDAL without its own messages: they go into exceptions instead.
 #pragma once
 
 #include <algorithm>
@@ -10,8 +10,8 @@
 
 namespace itin {
 
-/// While one lives, this thread's GDAL errors are kept, not printed. What is asked of all is answered by this thread's
-/// innermost one, of which there must be one.
+/// Keeps this thread's GDAL errors, instead of printing them, for as long as the object lives. The static functions
+/// answer for this thread's innermost object. Precondition: there is one.
 class QuietGdal {
  public:
   QuietGdal() { CPLPushErrorHandlerEx(remember, this); }
@@ -19,9 +19,9 @@ class QuietGdal {
   QuietGdal(const QuietGdal&) = delete;
   QuietGdal& operator=(const QuietGdal&) = delete;
 
-  /// Whether anything failed since it began, even if GDAL went on afterwards.
+  /// Tells whether anything failed since the object was made, even if GDAL went on afterwards.
   static bool failed() { return innermost().failure_.has_value(); }
-  /// The first failure on one line, else what GDAL warned of last, else `otherwise`.
+  /// Returns the first failure on one line, else GDAL's last warning, else `otherwise`.
   static std::string message(const std::string& otherwise) {
     const QuietGdal& self = innermost();
     std::string text = self.failure_.value_or(self.warning_);

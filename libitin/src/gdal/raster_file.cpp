@@ -30,7 +30,7 @@ bool is_raster(const std::string& path) {
   GDALDriver* const driver = driver_of(path, GDAL_OF_RASTER);
   if (!driver || is_text_of_points(*driver)) return false;
   if (!driver->GetMetadataItem(GDAL_DCAP_VECTOR)) return true;
-  // A GeoPackage, say, holds either; only opening it tells.
+  // A GeoPackage, for example, may hold rasters or vectors; only opening it tells.
   return open_dataset(path, GDAL_OF_RASTER) != nullptr;
 }
 

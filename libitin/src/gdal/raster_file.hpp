@@ -7,7 +7,8 @@
 
 namespace itin {
 
-/// Throws FileError, also where the file is missing, empty, a pipe or no raster. Within the life of a QuietGdal.
+/// Opens the file. Throws FileError, also where it is missing, empty, a pipe or no raster. Precondition: a QuietGdal
+/// lives.
 GDALDatasetUniquePtr open_raster_file(const std::string& path);
 
 }  // namespace itin

@@ -13,25 +13,26 @@
 
 namespace itin {
 
-/// One thread at a time.
+/// Measures the scale of one CRS. One thread at a time.
 class ScaleMeter {
  public:
   /// Throws InputError unless the CRS has its axes in metres.
   explicit ScaleMeter(const Crs& crs);
 
-  /// The extremes over these places, in the CRS's coordinates; nothing where none is a place on the ground.
+  /// Returns the extremes over these places, in the CRS's coordinates; nothing where none of them is a place on the
+  /// Earth.
   std::optional<GridScale> at(std::span<const Point2> places) const;
-  /// Degrees; NaN where a place has no position on the ground.
+  /// Returns longitudes and latitudes, degrees; NaN where a place has no position on the Earth.
   std::vector<Point2> lon_lat(std::span<const Point2> places) const;
 
  private:
   Ellipsoid ellipsoid_;
   double allowed_ = kGreatestScaleError;
-  double degrees_ = 1;  ///< degrees in a unit of its geographic CRS
+  double degrees_ = 1;  ///< degrees per unit of the CRS's geographic CRS
   std::optional<PointTransform> to_geographic_;
 };
 
-/// Corners, middle and between them: five by five, all one where the box is a point.
+/// Returns the box's corners, its middle and places between them: five by five, all equal where the box is a point.
 std::vector<Point2> places_in(const Box& area);
 
 }  // namespace itin

@@ -18,7 +18,7 @@ bool is_mask(GDALRasterBand& band) {
   return band.GetColorInterpretation() == GCI_AlphaBand;
 }
 
-/// "1 (Red)", "2 (canopy height)".
+/// Returns "1 (Red)", "2 (canopy height)".
 std::string title_of(GDALRasterBand& band) {
   const std::string description = band.GetDescription();
   const GDALColorInterp colour = band.GetColorInterpretation();

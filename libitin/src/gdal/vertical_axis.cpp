@@ -11,10 +11,11 @@ namespace {
 
 constexpr const char* kVertical = "VERT_CS";
 
-/// Empty where it is not known. The datum rather than the vertical CRS: NAVD88 in feet and in metres are one.
+/// Returns the name of the datum; empty where it is not known. The datum matters rather than the vertical CRS: NAVD88
+/// in feet and in metres are one.
 std::string datum_of(const OGRSpatialReference& reference) {
   const char* datum = reference.GetAttrValue("VERT_DATUM");
-  // Files give these names to what they do not know.
+  // Files give these names to datums they do not know.
   return !datum || EQUALN(datum, "unknown", 7) || EQUALN(datum, "unnamed", 7) ? "" : datum;
 }
 

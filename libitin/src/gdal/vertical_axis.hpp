@@ -9,7 +9,7 @@ class OGRSpatialReference;
 
 namespace itin {
 
-/// The height axis of a compound, vertical or three-dimensional CRS; nothing where it has no vertical part.
+/// Returns the height axis of a compound, vertical or three-dimensional CRS; nothing where it has no vertical part.
 std::optional<HeightAxis> vertical_axis(const OGRSpatialReference& reference);
 
 }  // namespace itin

@@ -29,7 +29,7 @@ constexpr std::uint64_t spread(std::uint64_t v) {
   return v;
 }
 
-/// Inverse of spread.
+/// Does the inverse of spread().
 constexpr std::uint32_t gather(std::uint64_t v) {
   v &= 0x5555555555555555u;
   v = (v | (v >> 1)) & 0x3333333333333333u;
@@ -42,7 +42,7 @@ constexpr std::uint32_t gather(std::uint64_t v) {
 
 }  // namespace detail_morton
 
-/// 60 bits; x in the even bits, y in the odd ones. Precondition: both in [-2^29, 2^29).
+/// Returns the Morton code, 60 bits: x in the even bits, y in the odd ones. Precondition: both in [-2^29, 2^29).
 constexpr std::uint64_t morton(std::int32_t x, std::int32_t y) {
   return detail_morton::spread(static_cast<std::uint32_t>(x + kGridHalfSide)) |
          (detail_morton::spread(static_cast<std::uint32_t>(y + kGridHalfSide)) << 1);
@@ -57,7 +57,7 @@ constexpr std::uint64_t code_of(const Position& p) {
 constexpr bool before_by_code(const GridPoint& p, const GridPoint& q) {
   return code_of(p) < code_of(q);
 }
-/// The point with this code among points in the order of a store, or their end.
+/// Returns the point with this code among points in the order of a store, or their end.
 template <class Points>
 auto find_by_code(const Points& points, std::uint64_t code) {
   const auto at = std::lower_bound(points.begin(), points.end(), code,
@@ -81,13 +81,13 @@ struct Cell {
   constexpr std::uint64_t end() const { return code + (std::uint64_t{1} << (2 * log2_side)); }
   constexpr bool contains(std::uint64_t morton_code) const { return morton_code >= code && morton_code < end(); }
   constexpr bool contains(const Cell& c) const { return c.code >= code && c.end() <= end(); }
-  /// All grid positions of the cell, as a closed box.
+  /// Returns all grid positions of the cell, as a closed box.
   constexpr GridBox box() const {
     const std::int32_t x = morton_x(code), y = morton_y(code);
     const auto last = static_cast<std::int32_t>((std::int64_t{1} << log2_side) - 1);
     return {x, y, x + last, y + last};
   }
-  /// Lower left, lower right, upper left, upper right for i = 0..3.
+  /// Returns the quarter i of the cell: lower left, lower right, upper left, upper right for i = 0..3.
   constexpr Cell child(int i) const {
     return {code + (static_cast<std::uint64_t>(i) << (2 * (log2_side - 1))), log2_side - 1};
   }
@@ -95,7 +95,7 @@ struct Cell {
   friend constexpr auto operator<=>(const Cell&, const Cell&) = default;
 };
 
-/// The cell's square in the plane, which reaches up to the next cell's first positions.
+/// Returns the cell's square in the plane, which reaches up to the next cell's first positions.
 constexpr GridBox square_of(const Cell& cell) {
   const GridBox box = cell.box();
   return {box.xmin, box.ymin, box.xmax + 1, box.ymax + 1};

@@ -1,4 +1,4 @@
-// Where to enter a quadtree for what lies in a box.
+// The cell at which to enter a quadtree for the contents of a box.
 #pragma once
 
 #include <algorithm>
@@ -7,7 +7,7 @@
 
 namespace itin {
 
-/// The least cell with all positions of a box, not empty, that lie in the root.
+/// Returns the least cell with all positions of the box that lie in the root. Precondition: the box is not empty.
 inline Cell cell_about(const GridBox& box) {
   const auto inside = [](std::int32_t v) { return std::clamp(v, -kGridHalfSide, kGridHalfSide - 1); };
   const std::uint64_t last = morton(inside(box.xmax), inside(box.ymax));

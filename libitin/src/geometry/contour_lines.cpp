@@ -17,8 +17,8 @@ struct Piece {
   Side from, to;
 };
 
-/// The pieces through a square by the corners above the level, bits NW 1, NE 2, SE 4, SW 8: what is above lies on their
-/// left. In the two saddles the square's middle decides which corners hang together.
+/// Returns the pieces through a square, by the corners above the level as bits: NW 1, NE 2, SE 4, SW 8. Places above
+/// the level lie on the left of the pieces. In the two saddles the square's middle decides which corners are connected.
 std::vector<Piece> pieces(unsigned above, bool middle_above) {
   switch (above) {
     case 1:
@@ -56,7 +56,7 @@ std::vector<Piece> pieces(unsigned above, bool middle_above) {
   }
 }
 
-/// Puts pieces together to lines. An edge between two centres has a number; a line enters it once and leaves it once.
+/// Joins pieces into lines. An edge between two centres has a number; a line enters it once and leaves it once.
 class Contour {
  public:
   Contour(const RasterGrid& grid, std::span<const float> values, double level)
@@ -66,7 +66,7 @@ class Contour {
   }
 
   std::vector<std::vector<Point2>> lines() {
-    // Open lines from their beginnings, then what is left: closed ones.
+    // Open lines are followed from their beginnings, then the rest: closed lines.
     for (const std::uint64_t edge : order_)
       if (!entered_.contains(edge)) follow(edge);
     for (const std::uint64_t edge : order_) follow(edge);
@@ -104,7 +104,8 @@ class Contour {
 
   double value(RasterGrid::Cell cell) const { return values_[grid_.index(cell)]; }
 
-  /// Twice the index of an edge's north-western centre, and one more for an edge that runs southwards.
+  /// Returns an edge's number: twice the index of its north-western centre, and one more for an edge that runs
+  /// southwards.
   std::uint64_t edge(RasterGrid::Cell nw, Side side) const {
     if (side == kEast) ++nw.column;
     if (side == kSouth) ++nw.row;

@@ -1,4 +1,4 @@
-// The edges of the halves of a lattice's cells, and what lies on either side of them.
+// The edges of the halves of a lattice's cells, and the halves on either side of them.
 #pragma once
 
 #include <array>
@@ -10,11 +10,12 @@
 
 namespace itin {
 
-/// From a post to a neighbour, along the edge of a cell or a diagonal.
+/// A step from a post to a neighbour, along the edge of a cell or a diagonal.
 struct LatticeStep {
   int dx, dy;            ///< eastwards and northwards
-  int left_dx, left_dy;  ///< the cell to the left: from the post's own column and row, which is that to its south-east
-  std::uint8_t left_halves;  ///< that cell's halves that have the edge, as bits
+  int left_dx, left_dy;  ///< the cell to the left, counted from the post's own column and row: those of the cell to its
+                         ///< south-east
+  std::uint8_t left_halves;  ///< halves of that cell that have the edge, as bits
   int right_dx, right_dy;
   std::uint8_t right_halves;
 };
@@ -36,9 +37,9 @@ inline constexpr std::array<LatticeStep, 8> kLatticeSteps = [] {
                                      {1, -1, 0, 0, kNE, 0, 0, kSW}}};
 }();
 
-/// Calls visit(column, row, direction) for every edge of a cell's halves with nothing beyond, which begins at that post
-/// and goes along kLatticeSteps[direction], the half to its left. halves(column, row) are those of a cell, as far as
-/// they are there, or negative where it is not known.
+/// Calls visit(column, row, direction) for every edge of a cell's halves that has no half beyond it. The edge begins at
+/// that post and goes along kLatticeSteps[direction], with the cell's half to its left. halves(column, row) returns the
+/// halves that a cell has, or a negative number where they are not known.
 template <class Halves, class Visit>
 void for_each_open_edge(std::int64_t column, std::int64_t row, const Halves& halves, const Visit& visit) {
   const int there = halves(column, row);
@@ -53,11 +54,11 @@ void for_each_open_edge(std::int64_t column, std::int64_t row, const Halves& hal
 }
 
 namespace detail_lattice {
-/// Cells side by side that are told together.
+/// The number of adjacent cells in a row that are compared together.
 inline constexpr std::uint32_t kAlike = 8;
 
-/// Whether so many cells of a row, from this one on, all are whole, and those beside them in the tile are like them.
-/// Precondition: the row is neither the first nor the last of the tile.
+/// Tells whether the kAlike cells of a row from this one on are all whole, and their neighbours in the tile have equal
+/// halves. Precondition: the row is neither the first nor the last of the tile.
 inline bool whole_and_alike(const std::array<std::uint8_t, LatticeTin::kCells>& halves, std::uint32_t first) {
   const auto eight = [&](std::uint32_t from) {
     std::uint64_t word;
@@ -88,7 +89,7 @@ void for_each_open_edge_of(const LatticeTin& lattice, std::uint32_t tile, const 
   for (std::uint32_t r = 0; r < kSide; ++r) {
     const bool amid = r > 0 && r + 1 < kSide;
     for (std::uint32_t first = 0; first < kSide; first += kAlike) {
-      // Among whole cells that are alike there is none, but at the tile's ends.
+      // Whole cells that are alike have no open edges between them, but may have some at the tile's ends.
       const bool alike =
           amid && (whole(tile) || detail_lattice::whole_and_alike(*lattice.tiles[tile].halves, r * kSide + first));
       const std::uint32_t last = first + kAlike - 1;

@@ -16,7 +16,7 @@ constexpr std::size_t kChunk = 1 << 14;
 /// A Tin counts as a lattice only if at least one in this many of the lattice's cells has ground.
 constexpr std::int64_t kEmptiest = 4;
 
-/// The half of the box that the triangle is; 0 where it is none.
+/// Returns the half of the box that the triangle is; 0 where it is none.
 std::uint8_t half_of(const Tin& tin, const Triangle& t, const GridBox& box) {
   std::uint8_t corners = 0;
   for (const std::uint32_t i : t) {
@@ -39,7 +39,7 @@ std::uint8_t half_of(const Tin& tin, const Triangle& t, const GridBox& box) {
   }
 }
 
-/// How many triangles these are.
+/// Returns how many triangles these halves are.
 std::uint64_t count_of(std::uint8_t halves) {
   return ((halves & LatticeTin::kFirst) != 0 ? 1U : 0U) + ((halves & LatticeTin::kSecond) != 0 ? 1U : 0U);
 }
@@ -149,8 +149,8 @@ Tin LatticeTin::tin() const {
 
 namespace {
 
-/// A lattice over all of the Tin's vertices, without cells; nothing where its first triangle is none of a lattice, or
-/// most of the lattice would be empty.
+/// Makes a lattice over all of the Tin's vertices, without cells. Returns nothing where the Tin's first triangle
+/// belongs to no lattice, or most of the lattice would be empty.
 std::optional<LatticeTin> lattice_about(const Tin& tin) {
   const GridBox first = box_of(tin.corners(0));
   const GridBox all = box_of(tin.vertices);
@@ -173,7 +173,7 @@ std::optional<LatticeTin> lattice_about(const Tin& tin) {
   return lattice;
 }
 
-/// From any thread. Returns false where the triangle is not half a cell.
+/// Adds the triangle to its cell; any thread may call it. Returns false where the triangle is not half a cell.
 bool add(const Tin& tin, const Triangle& triangle, LatticeTin& lattice) {
   const GridBox box = box_of(triangle, [&](std::uint32_t v) { return tin.vertices[v]; });
   const std::int64_t spacing = lattice.spacing;
@@ -183,7 +183,7 @@ bool add(const Tin& tin, const Triangle& triangle, LatticeTin& lattice) {
   if (half == 0 || column * spacing != east || row * spacing != south || std::int64_t{box.xmax} - box.xmin != spacing ||
       std::int64_t{box.ymax} - box.ymin != spacing)
     return false;
-  // Triangles of one cell may be dealt with by two threads.
+  // Two threads may add the triangles of one cell.
   const std::uint32_t cell = lattice.cell(static_cast<std::uint32_t>(column), static_cast<std::uint32_t>(row));
   std::uint8_t& halves = (*lattice.tiles[cell / LatticeTin::kCells].halves)[cell % LatticeTin::kCells];
   std::atomic_ref(halves).fetch_or(half, std::memory_order_relaxed);

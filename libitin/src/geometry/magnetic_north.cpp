@@ -15,7 +15,7 @@ namespace {
 
 /// The radius to which the coefficients refer, metres.
 constexpr double kReferenceRadius = 6371200;
-/// Below this horizontal field declinations mean nothing: the model's blackout zones, nT.
+/// The horizontal field, nT, below which declinations mean nothing: the model's blackout zones.
 constexpr double kLeastHorizontal = 2000;
 
 bool is_of_the_model(double year) {
@@ -39,8 +39,8 @@ Geocentric geocentric(double latitude, double height_m) {
   return {radius, s, c, c * cosine - s * sine, s * cosine + c * sine};
 }
 
-/// Schmidt semi-normalised Legendre functions of the colatitude's cosine. Those of orders m > 0 are divided by its
-/// sine, so that nothing is divided by zero at the poles.
+/// Schmidt semi-normalised Legendre functions of the colatitude's cosine. Functions of orders m > 0 are divided by the
+/// colatitude's sine, so that nothing is divided by zero at the poles.
 class Legendre {
  public:
   explicit Legendre(const Geocentric& p) : sine_(p.sin_colatitude), cosine_(p.cos_colatitude) {
@@ -56,7 +56,7 @@ class Legendre {
 
   double value(int n, int m) const { return m == 0 ? zonal_[at(n)] : sine_ * over_sine(n, m); }
   double over_sine(int n, int m) const { return over_sine_[at(n)][at(m)]; }
-  /// By the colatitude.
+  /// Returns the derivative with respect to the colatitude.
   double derivative(int n, int m) const {
     if (m == 0) return -std::sqrt(n * (n + 1) / 2.0) * value(n, 1);
     return n * cosine_ * over_sine(n, m) - (n > m ? root(n, m) * over_sine(n - 1, m) : 0);

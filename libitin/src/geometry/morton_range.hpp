@@ -1,4 +1,4 @@
-// Walks a box along the Morton curve without visiting what lies outside (Tropf and Herzog 1981, "BIGMIN").
+// Walks a box along the Morton curve without visiting positions outside it (Tropf and Herzog 1981, "BIGMIN").
 #pragma once
 
 #include <bit>
@@ -11,17 +11,17 @@ namespace itin {
 
 class MortonRange {
  public:
-  /// The part of `box` on the grid; precondition: that part is not empty.
+  /// Takes the part of `box` on the grid. Precondition: that part is not empty.
   explicit MortonRange(const GridBox& box)
       : low_(morton(clamp(box.xmin), clamp(box.ymin))), high_(morton(clamp(box.xmax), clamp(box.ymax))) {}
 
-  /// Whether the box has positions on the grid at all.
+  /// Tells whether the box has positions on the grid at all.
   static bool exists(const GridBox& box) {
     constexpr GridBox all{-kGridHalfSide, -kGridHalfSide, kGridHalfSide - 1, kGridHalfSide - 1};
     return !box.empty() && box.meets(all);
   }
 
-  /// The smallest code >= `from` of a position in the box. At most 60 steps.
+  /// Returns the smallest code >= `from` of a position in the box. At most 60 steps.
   std::optional<std::uint64_t> next(std::uint64_t from) const {
     std::uint64_t low = low_, high = high_;
     std::optional<std::uint64_t> best;
@@ -45,7 +45,7 @@ class MortonRange {
   static constexpr std::int32_t clamp(std::int32_t v) {
     return v < -kGridHalfSide ? -kGridHalfSide : v >= kGridHalfSide ? kGridHalfSide - 1 : v;
   }
-  /// The bits below `bit` that belong to the same axis.
+  /// Returns the bits below `bit` that belong to the same axis.
   static constexpr std::uint64_t axis_below(int bit) {
     constexpr std::uint64_t even = 0x5555555555555555u;
     return (bit % 2 == 0 ? even : even << 1) & ((std::uint64_t{1} << bit) - 1);

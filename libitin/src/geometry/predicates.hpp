@@ -4,8 +4,8 @@
 // in front of the 128-bit evaluation.
 //
 // Tie rule: the lift of a point to the paraboloid is perturbed by an infinitesimal that grows with the lexicographic
-// order of (x, y) (O. Devillers and M. Teillaud, Perturbations for Delaunay and weighted Delaunay 3D triangulations,
-// 2011), as CGAL does. It depends on the positions alone, so every subset, window and order of insertion agrees.
+// order of (x, y), as in CGAL (O. Devillers and M. Teillaud, Perturbations for Delaunay and weighted Delaunay 3D
+// triangulations, 2011). It depends on the positions alone, so every subset, window and order of insertion agrees.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@
 
 namespace itin {
 
-/// Anything with integer members x and y.
+/// Any type with integer members x and y.
 template <class P>
 concept GridPosition = requires(const P& p) {
   {
@@ -39,13 +39,13 @@ struct Position {
   friend auto operator<=>(const Position&, const Position&) = default;
 };
 
-/// Whether two positions on the grid are one.
+/// Tells whether two positions on the grid are equal.
 template <GridPosition A, GridPosition B>
 constexpr bool same_position(const A& a, const B& b) {
   return a.x == b.x && a.y == b.y;
 }
 
-/// Twice the signed area of abc; > 0 when counterclockwise.
+/// Returns twice the signed area of abc; > 0 when counterclockwise.
 template <GridPosition A, GridPosition B, GridPosition C>
 constexpr std::int64_t doubled_area(const A& a, const B& b, const C& c) {
   const std::int64_t abx = std::int64_t{b.x} - a.x, aby = std::int64_t{b.y} - a.y;
@@ -53,7 +53,7 @@ constexpr std::int64_t doubled_area(const A& a, const B& b, const C& c) {
   return abx * acy - aby * acx;
 }
 
-/// Whether p lies ahead as seen from a place that faces another: within a right angle of that direction.
+/// Tells whether p lies ahead of an observer at `from` who faces `to`: within a right angle of that direction.
 template <GridPosition A, GridPosition B, GridPosition P>
 constexpr bool lies_ahead(const A& from, const B& to, const P& p) {
   return (std::int64_t{p.x} - from.x) * (std::int64_t{to.x} - from.x) +
@@ -61,20 +61,20 @@ constexpr bool lies_ahead(const A& from, const B& to, const P& p) {
          0;
 }
 
-/// +1 counterclockwise, 0 collinear, -1 clockwise.
+/// Returns +1 for counterclockwise, 0 for collinear, -1 for clockwise positions.
 template <GridPosition A, GridPosition B, GridPosition C>
 constexpr int orientation(const A& a, const B& b, const C& c) {
   const std::int64_t area = doubled_area(a, b, c);
   return (area > 0) - (area < 0);
 }
 
-/// +1 if d lies inside the circle through the counterclockwise a, b, c; 0 on it; -1 outside.
+/// Returns +1 if d lies inside the circle through the counterclockwise a, b, c; 0 on it; -1 outside.
 template <GridPosition P>
 inline int in_circle(const P& a, const P& b, const P& c, const P& d) {
   const std::int64_t adx = std::int64_t{a.x} - d.x, ady = std::int64_t{a.y} - d.y;
   const std::int64_t bdx = std::int64_t{b.x} - d.x, bdy = std::int64_t{b.y} - d.y;
   const std::int64_t cdx = std::int64_t{c.x} - d.x, cdy = std::int64_t{c.y} - d.y;
-  // Exact in 64 bits: each is below 2^61 and 2^61.
+  // These are exact in 64 bits: each is below 2^61.
   const std::int64_t bc = bdx * cdy - bdy * cdx, ca = cdx * ady - cdy * adx, ab = adx * bdy - ady * bdx;
   const std::int64_t a2 = adx * adx + ady * ady, b2 = bdx * bdx + bdy * bdy, c2 = cdx * cdx + cdy * cdy;
 
@@ -82,7 +82,7 @@ inline int in_circle(const P& a, const P& b, const P& c, const P& d) {
   const double tb = static_cast<double>(b2) * static_cast<double>(ca);
   const double tc = static_cast<double>(c2) * static_cast<double>(ab);
   const double det = ta + tb + tc;
-  // Two conversions, a product and two sums: below 8 units of 2^-53 of the terms' sum.
+  // The error of two conversions, a product and two sums is below 8 units of 2^-53 of the terms' sum.
   const double bound = 1e-15 * (std::abs(ta) + std::abs(tb) + std::abs(tc));
   if (det > bound) return 1;
   if (det < -bound) return -1;
@@ -91,7 +91,7 @@ inline int in_circle(const P& a, const P& b, const P& c, const P& d) {
   return (exact > 0) - (exact < 0);
 }
 
-/// in_circle with the tie rule: never 0 for four different points, of which a, b, c are counterclockwise.
+/// Applies the tie rule to in_circle(): never 0 for four different points, where a, b, c are counterclockwise.
 template <GridPosition P>
 inline int in_circle_perturbed(const P& a, const P& b, const P& c, const P& d) {
   if (const int side = in_circle(a, b, c, d); side != 0) return side;

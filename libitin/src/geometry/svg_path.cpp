@@ -9,7 +9,7 @@ namespace itin {
 
 namespace {
 
-/// Whole steps, as a number of units.
+/// Writes whole steps as a number of units.
 std::string in_units(double steps, double step) {
   const double per_unit = std::round(1 / step);
   std::string text = fmt::format("{}", steps == 0 ? 0.0 : steps / per_unit);

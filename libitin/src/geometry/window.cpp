@@ -39,7 +39,7 @@ struct Edge {
   double xmax() const { return std::max(a.x, b.x); }
 };
 
-/// 1 where c lies left of ab, -1 right of it, 0 on it and where rounding could have decided it.
+/// Returns 1 where c lies left of ab, -1 right of it, 0 on it and where rounding could have decided the sign.
 int certain_side(Point2 a, Point2 b, Point2 c) {
   const double left = (b.x - a.x) * (c.y - a.y), right = (b.y - a.y) * (c.x - a.x);
   const double side = left - right;
@@ -97,7 +97,8 @@ void require_area(const Window::Ring& ring) {
     throw InputError(fmt::format("polygon: the ring at ({}, {}) has no area", o.x, o.y));
 }
 
-/// Corners of an arc's circumscribed polyline of `parts` equal chords, each tangent at its middle; clockwise.
+/// Returns the corners of an arc's circumscribed polyline of `parts` equal chords, each tangent at its middle;
+/// clockwise.
 Window::Ring arc(Point2 centre, double azimuth, double width, double radius, int parts) {
   const double step = width / parts;
   const double reach = radius / std::cos(in_radians(step) / 2);

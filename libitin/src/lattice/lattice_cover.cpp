@@ -15,14 +15,15 @@ namespace itin {
 namespace {
 
 constexpr std::uint32_t kSide = LatticeTin::kSide;
-constexpr std::uint32_t kBlock = 8;  ///< cells, by which the window is asked where it has a part of a tile
+constexpr std::uint32_t kBlock = 8;  ///< side, in cells, of the blocks for which the window is asked where it has part
+                                     ///< of a tile
 
-/// Further bits of a cell, beside those of LatticeTin::Half: whether it is known what is there, and whether the window
-/// may leave out parts of the cell.
+/// Further bits of a cell, beside those of LatticeTin::Half: whether its halves are known, and whether the window may
+/// leave out parts of the cell.
 constexpr std::uint8_t kKnown = 0x80, kCut = 0x40;
 constexpr std::uint8_t kHalves = LatticeTin::kFalling | LatticeTin::kRising;
 
-/// The halves that are there by which of a cell's posts are: north-west 1, north-east 2, south-west 4, south-east 8.
+/// The halves of a cell that has these posts, as bits: north-west 1, north-east 2, south-west 4, south-east 8.
 constexpr std::array<std::uint8_t, 16> kHalvesOfPosts = [] {
   std::array<std::uint8_t, 16> halves{};
   halves[1 | 4 | 8] = LatticeTin::kSouthWest;
@@ -71,8 +72,8 @@ void LatticeCover::add(std::uint32_t column, std::uint32_t row) {
     std::atomic_ref((*posts)[row % kSide]).fetch_or(Word{1} << column % kSide, std::memory_order_relaxed);
 }
 
-/// Calls visit(posts of a tile, row of them, mask) for every row of a tile with some of the places; the posts are null
-/// where they are out of reach.
+/// Calls visit(posts of a tile, row within it, mask) for every row of a tile with some of the places. The posts are
+/// null where they are out of reach.
 template <class Visit>
 void LatticeCover::for_each_word(const PlaceBox& places, const Visit& visit) const {
   for (std::uint32_t row = places.north; row <= places.south; ++row) {
@@ -117,7 +118,7 @@ GridBox LatticeCover::box_of(std::int64_t column, std::int64_t row, std::int64_t
   return {x(column), y(end_row), x(end_column), y(row)};
 }
 
-/// How far a square of cells lies within reach.
+/// Returns how far a square of cells lies within reach.
 LatticeCover::Reach LatticeCover::reach_of(std::int64_t column, std::int64_t row, std::int64_t side) const {
   if (everything_) return Reach::kWhole;
   const GridBox box = box_of(column, row, std::min<std::int64_t>(column + side, lattice_.columns),
@@ -125,13 +126,13 @@ LatticeCover::Reach LatticeCover::reach_of(std::int64_t column, std::int64_t row
   return window_.holds(box) ? Reach::kWhole : window_.meets(box) ? Reach::kPartly : Reach::kNone;
 }
 
-/// Whether all posts of the cell are told, which lies in what is within such reach.
+/// Tells whether all posts of the cell are known, given the reach of an area that holds the cell.
 bool LatticeCover::known(std::int64_t column, std::int64_t row, Reach reach) const {
   if (column < 0 || row < 0 || column + 1 >= lattice_.columns || row + 1 >= lattice_.rows) return false;
   return reach == Reach::kWhole || (reach == Reach::kPartly && window_.meets(box_of(column, row, column + 1, row + 1)));
 }
 
-/// Also of the row below the last one, whose posts are the next tile's.
+/// Returns a row of posts; also the row below a tile's last one, whose posts are the next tile's.
 LatticeCover::Word LatticeCover::posts(std::uint32_t tile_column, std::uint32_t tile_row, std::uint32_t row) const {
   if (row == kSide) ++tile_row;
   if (tile_column >= lattice_.tile_columns() || tile_row >= lattice_.tile_rows()) return 0;
@@ -147,7 +148,7 @@ void LatticeCover::join() {
 
 void LatticeCover::join(std::uint32_t tile) {
   const std::uint32_t tile_column = tile % lattice_.tile_columns(), tile_row = tile / lattice_.tile_columns();
-  std::array<Word, kSide + 1> posts, next;  // and from the second column on
+  std::array<Word, kSide + 1> posts, next;  // `next`: from the second column on
   bool all = reach_[tile] == Reach::kWhole;
   for (std::uint32_t row = 0; row <= kSide; ++row) {
     posts[row] = this->posts(tile_column, tile_row, row);
@@ -181,7 +182,7 @@ void LatticeCover::join(std::uint32_t tile) {
   lattice_.tiles[tile].ground = LatticeTin::Ground::kPartly;
 }
 
-/// The halves of a cell that are there; negative where that is not known.
+/// Returns the halves that a cell has; negative where they are not known.
 int LatticeCover::halves(std::int64_t column, std::int64_t row) const {
   if (column < 0 || row < 0 || column + 1 >= lattice_.columns || row + 1 >= lattice_.rows) return -1;
   const std::uint32_t cell = lattice_.cell(static_cast<std::uint32_t>(column), static_cast<std::uint32_t>(row));
@@ -194,7 +195,7 @@ LatticeCover::Edge LatticeCover::edge(std::int64_t column, std::int64_t row, std
   return {static_cast<std::uint64_t>(row) * lattice_.columns + static_cast<std::uint64_t>(column), direction};
 }
 
-/// The edges of known halves beyond which, as is known as well, there is nothing.
+/// Returns the edges of known halves that are known to have no half beyond them.
 std::vector<LatticeCover::Edge> LatticeCover::edges_without_twin() const {
   std::vector<std::vector<Edge>> of_tiles(lattice_.tiles.size());
   parallel_for(of_tiles.size(), [&](std::size_t tile) {
@@ -210,7 +211,7 @@ std::vector<LatticeCover::Edge> LatticeCover::edges_without_twin() const {
   return edges;
 }
 
-/// Adds the outline's edges between known cells. False where it does not go along with the halves there are.
+/// Adds the outline's edges between known cells. Returns false where the outline contradicts the halves there.
 bool LatticeCover::add_edges_of(const Segment& s, std::vector<Edge>& edges) const {
   const std::int64_t spacing = lattice_.spacing, dx = std::int64_t{s.bx} - s.ax, dy = std::int64_t{s.by} - s.ay;
   const std::int64_t east = std::int64_t{s.ax} - lattice_.west, south = std::int64_t{lattice_.north} - s.ay;

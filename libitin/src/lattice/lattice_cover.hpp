@@ -1,11 +1,12 @@
-// Which cells of a lattice are ground within a window, told from where posts are; and the proof that nothing else is.
+// Finds the cells of a lattice that are ground within a window, from the posts' places, and proves that nothing else
+// is.
 //
-// The circle about a cell has no other place of the lattice in or on it. So where three of a cell's posts or all four
-// are there and all posts lie on the lattice, the halves that they make are triangles of the Delaunay triangulation,
-// and of the constrained one where no segment comes between; which are ground, the coverage outline tells, that bounds
-// ground everywhere. If it is made of edges of cells or diagonals, if the edges without a twin of all these halves are
-// exactly those of the outline, with the halves on the side of the ground, then no other ground is within reach from
-// them, and none of their own is missing.
+// The circle about a cell has no other place of the lattice in or on it. Suppose that three or four of a cell's posts
+// are there and all posts lie on the lattice. Then the halves that they make are triangles of the Delaunay
+// triangulation, and of the constrained one where no segment comes between. The coverage outline, which bounds ground
+// everywhere, tells which of them are ground. Suppose that it is made of edges of cells or diagonals, and that the
+// edges without a twin of all these halves are exactly the outline's, with the halves on the side of the ground. Then
+// no other ground is within reach from the halves, and no ground of their own is missing.
 //
 //   LatticeCover cover(lattice, window, false);
 //   for (post : posts) cover.add(column, row);
@@ -30,32 +31,32 @@ namespace itin {
 
 class LatticeCover {
  public:
-  /// `lattice` has its place and its tiles, which know of no ground yet. `everything`: whatever is there, and not only
-  /// what meets the window. Both must outlive this.
+  /// Takes a lattice laid out with its tiles, which have no ground yet. `everything`: covers the whole lattice, and not
+  /// only the part that meets the window. Both must outlive this.
   LatticeCover(LatticeTin& lattice, const GridWindow& window, bool everything);
 
-  /// Whether ground may be in a tile.
+  /// Tells whether ground may be in a tile.
   bool reaches(std::uint32_t tile) const { return reach_[tile] != Reach::kNone; }
-  /// The most posts that the lattice may have within reach.
+  /// Returns the most posts that the lattice may have within reach.
   std::uint64_t most_posts() const;
 
-  /// A post is there. Safe for concurrent use.
+  /// Adds a post. Safe for concurrent use.
   void add(std::uint32_t column, std::uint32_t row);
-  /// How many of these places have no post yet; 0 where some of them are out of reach. Neither this nor fill() is safe
-  /// while posts are added to the same places.
+  /// Returns how many of these places have no post yet; 0 where some of them are out of reach. Neither this nor fill()
+  /// is safe while posts are added to the same places.
   std::uint64_t lacks(const PlaceBox& places) const;
-  /// All of them have one. Precondition: they are within reach.
+  /// Adds posts at all of these places. Precondition: they are within reach.
   void fill(const PlaceBox& places);
-  /// Whether a place amid posts, to the south-east of this one, may lie in the circle about a cell that counts.
+  /// Tells whether a point between posts, to the south-east of this place, may lie in the circle about a known cell.
   bool near_known(std::uint32_t column, std::uint32_t row) const;
 
-  /// When all posts have been added: makes cells of them.
+  /// Makes cells of the posts, when all have been added.
   void join();
-  /// Whether the ground ends just where these segments of the coverage outline are.
+  /// Tells whether the ground ends exactly where these segments of the coverage outline are.
   bool ends_at(std::span<const Segment> outline) const;
-  /// Whether there is ground.
+  /// Tells whether there is ground.
   bool any() const;
-  /// Whether a part of the window has some, or no cell meets it.
+  /// Tells whether a part of the window has ground, or meets no cell.
   bool reaches(const GridWindow& part) const;
   /// Leaves out the halves that do not meet the window.
   void cut();
@@ -84,7 +85,7 @@ class LatticeCover {
   const GridWindow& window_;
   bool everything_;
   std::vector<Reach> reach_;                   ///< one for each tile
-  std::vector<std::unique_ptr<Posts>> posts_;  ///< where cells within reach have some
+  std::vector<std::unique_ptr<Posts>> posts_;  ///< null for tiles without posts of cells within reach
 };
 
 }  // namespace itin

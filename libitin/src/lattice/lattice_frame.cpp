@@ -6,7 +6,7 @@ bool lay(const PostSpacing& of, const GridBox& box, LatticeTin& lattice) {
   const std::int64_t spacing = of.spacing();
   const GridPoint& origin = of.origin();
   const auto floor_of = [&](std::int64_t v) { return v - ((v % spacing) + spacing) % spacing; };
-  // Whole cells about what there is, and a bare one all around.
+  // The lattice has whole cells about the box, and a bare one all around.
   const std::int64_t west = floor_of(std::int64_t{box.xmin} - origin.x) - spacing,
                      east = -floor_of(origin.x - std::int64_t{box.xmax}) + spacing,
                      south = floor_of(std::int64_t{box.ymin} - origin.y) - spacing,

@@ -1,4 +1,4 @@
-// Where the posts of a square lattice lie: found from points that may be some of them, and asked for by place.
+// The places of a square lattice's posts, found from points that may be some of them.
 //
 //   PostSpacing spacing;
 //   for (const GridPoint& p : some) spacing.add(p);
@@ -17,18 +17,18 @@
 
 namespace itin {
 
-/// The widest lattice that points can lie on, all of them.
+/// The widest lattice that all added points can lie on.
 class PostSpacing {
  public:
   void add(const GridPoint& p) {
     if (!origin_) origin_ = p;
     spacing_ = std::gcd(std::gcd(spacing_, std::int64_t{p.x} - origin_->x), std::int64_t{p.y} - origin_->y);
   }
-  /// Once two points differ.
+  /// Tells whether two points differ.
   bool found() const { return spacing_ > 0; }
-  /// Grid units.
+  /// Returns the spacing, grid units.
   std::int64_t spacing() const { return spacing_; }
-  /// Precondition: found().
+  /// Returns one of the points. Precondition: found().
   const GridPoint& origin() const { return *origin_; }
 
  private:
@@ -36,16 +36,16 @@ class PostSpacing {
   std::optional<GridPoint> origin_;
 };
 
-/// Lays the lattice over a box, with bare cells all around, and makes its tiles, without ground. False where that would
-/// be more of them than there can be. Preconditions: found(), and the box is not empty.
+/// Lays the lattice over a box, with bare cells all around, and makes its tiles, without ground. Returns false where
+/// there would be too many tiles. Preconditions: found(), and the box is not empty.
 bool lay(const PostSpacing& spacing, const GridBox& box, LatticeTin& lattice);
 
-/// Column and row of the place at a point, or to its north-west.
+/// The column and row of the place at a point, or to its north-west.
 struct LatticePlace {
   std::uint32_t column = 0, row = 0;
-  bool post = false;  ///< the point lies there itself
+  bool post = false;  ///< the point lies at the place itself
 };
-/// Nothing beyond the lattice.
+/// Returns the place of a point; nothing beyond the lattice.
 inline std::optional<LatticePlace> place_of(const LatticeTin& lattice, const GridPoint& p) {
   const auto spacing = static_cast<std::uint32_t>(lattice.spacing);
   // A negative difference wraps round to a number that is far too large.
@@ -56,11 +56,11 @@ inline std::optional<LatticePlace> place_of(const LatticeTin& lattice, const Gri
   return LatticePlace{column, row, column * spacing == east && row * spacing == south};
 }
 
-/// From a first to a last one, both included.
+/// The places from a first to a last column and row, all included.
 struct PlaceBox {
   std::uint32_t west = 0, north = 0, east = 0, south = 0;
 };
-/// Nothing where the box reaches beyond the lattice, or lies between places.
+/// Returns the places in a box; nothing where the box reaches beyond the lattice, or lies between places.
 std::optional<PlaceBox> places_of(const LatticeTin& lattice, const GridBox& box);
 
 }  // namespace itin

@@ -24,8 +24,8 @@ namespace itin {
 
 namespace {
 
-/// At least one in so many posts of a lattice must be there. Without heights, which take most of the memory, fewer will
-/// do.
+/// A lattice must have at least one of this many of its posts. Without heights, which take most of the memory, fewer
+/// posts are enough.
 constexpr std::uint64_t kEmptiest = 4, kEmptiestWithoutHeights = 64;
 /// The number of the fullest leaves that the lattice is found by.
 constexpr std::size_t kSamples = 8;
@@ -38,7 +38,7 @@ constexpr std::int64_t kWidestToBound = LatticeTin::kSide / 2;
 
 class LatticeReader::Work {
  public:
-  /// Refers to the store.
+  /// Refers to the store, which must outlive it.
   Work(const Store& store, const Window& window, const ThemeChoice& themes)
       : selection_(selection_of(store.metadata(), Detail::tolerance(0), themes)),
         index_(store, selection_),
@@ -50,13 +50,13 @@ class LatticeReader::Work {
       widest_spacing_ = std::max(widest_spacing_, std::ceil(source.spacing / lattice_.grid.resolution));
   }
 
-  /// Lays the lattice out where it would be, without ground. False where there is none.
+  /// Lays the lattice out in its place, without ground. Returns false where there is none.
   bool find_lattice(Heights heights, std::uint64_t most_posts);
   bool open(Heights heights, std::uint64_t most_posts, Progress& progress);
   void read(std::span<const std::uint32_t> tiles, Progress& progress);
 
   LatticeTin lattice_;
-  std::vector<std::int32_t> highest_;  ///< one for each tile, grid units; none where all heights were read at once
+  std::vector<std::int32_t> highest_;  ///< one for each tile, grid units; empty where all heights were read at once
 
  private:
   std::vector<Leaf> leaves_within(double margin) const { return leaves_about(index_, selection_, window_, margin); }
@@ -104,7 +104,7 @@ class LatticeReader::Work {
   bool everything_;
   double widest_spacing_ = 0;  ///< the greatest spacing of any source, grid units
   std::vector<Leaf> leaves_;
-  std::optional<LatticeCover> cover_;  ///< while it is being opened
+  std::optional<LatticeCover> cover_;  ///< present while the reader is being opened
   std::vector<bool> being_read_;       ///< one for each tile
   BucketLists leaves_of_tile_;
 };
@@ -159,7 +159,7 @@ bool LatticeReader::Work::open(Heights heights, std::uint64_t most_posts, Progre
   return true;
 }
 
-/// False where one among them lies off the lattice.
+/// Reads the posts. Returns false where one of them lies off the lattice.
 bool LatticeReader::Work::read_posts(Heights heights, Progress& progress) {
   lattice_.lowest = std::numeric_limits<std::int32_t>::max(), lattice_.highest = -lattice_.lowest;
   for (const Leaf& leaf : leaves_) {
@@ -212,8 +212,8 @@ bool LatticeReader::Work::place(const Leaf& leaf, Heights heights) {
   });
 }
 
-/// After all wider leaves. If so many posts lie on the lattice within the square as places are left there, they take
-/// all of them, and need not be read.
+/// Places the posts of a square's leaves, after all wider leaves. If all of them lie on the lattice, and are as many as
+/// the places left in the square, they fill these places and need not be read.
 bool LatticeReader::Work::place_square(Group leaves) {
   std::uint64_t posts = 0;
   for (const Leaf& leaf : leaves) {
@@ -231,7 +231,7 @@ bool LatticeReader::Work::place_square(Group leaves) {
   });
 }
 
-/// Whether all of its points do.
+/// Tells whether all of a leaf's points lie on the lattice, as far as that is known without reading them.
 bool LatticeReader::Work::on_lattice(const Leaf& leaf) const {
   const auto lattice = index_.lattice_of(leaf);
   const std::int64_t spacing = lattice_.spacing;
@@ -240,8 +240,8 @@ bool LatticeReader::Work::on_lattice(const Leaf& leaf) const {
          (std::int64_t{lattice->y} - lattice_.north) % spacing == 0;
 }
 
-/// Adds the block's posts to the cover and calls visit(place, height) for each, until one of its points lies off the
-/// lattice: false then.
+/// Adds the block's posts to the cover and calls visit(place, height) for each. Returns false as soon as a point lies
+/// off the lattice, near known cells.
 template <class Visit>
 bool LatticeReader::Work::for_each_post(const Block& block, const Visit& visit) {
   for (const GridPoint& p : block.points) {
@@ -264,7 +264,7 @@ bool LatticeReader::Work::bounded() const {
   if (std::any_of(segments.begin(), segments.end(), [](const Segment& s) { return s.theme != kCoverage; }) ||
       !cover_->ends_at(segments))
     return false;
-  // The known ground of each part is connected with halves that are there.
+  // For the proof, the known ground of each part must be connected with existing halves.
   if (whole_.parts().size() < 2) return cover_->any();
   return std::all_of(whole_.parts().begin(), whole_.parts().end(), [&](const Window::Polygon& polygon) {
     return cover_->reaches(GridWindow(Window::polygons({polygon}), lattice_.grid, index_.bounds()));
@@ -321,7 +321,7 @@ void LatticeReader::Work::read_leaves(std::span<const std::uint32_t> leaves, Pro
     progress.throw_if_cancelled();
     for (std::size_t i = task * kLeavesPerTask; i < std::min(leaves.size(), (task + 1) * kLeavesPerTask); ++i) {
       const Leaf& leaf = leaves_[leaves[i]];
-      // Wide ones are asked for time and again.
+      // Wide leaves are read again and again, so they are cached.
       const auto block = bounds_well(leaf) ? index_.block_once(leaf) : index_.unordered_block(leaf);
       for (const GridPoint& p : block->points) {
         const auto place = place_of(lattice_, p);

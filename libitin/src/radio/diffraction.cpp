@@ -7,7 +7,7 @@ namespace itin {
 
 namespace {
 
-/// The largest slope from an end of the span to an edge over the curved Earth, m/km: equations (14) and (17).
+/// Returns the largest slope from an end of the span to an edge over the curved Earth, m/km: equations (14) and (17).
 double steepest_from(const PathEdge& end, const PathSpan& span, std::span<const PathEdge> edges) {
   double steepest = -std::numeric_limits<double>::infinity();
   for (const PathEdge& e : edges) {
@@ -17,7 +17,7 @@ double steepest_from(const PathEdge& end, const PathSpan& span, std::span<const 
   return steepest;
 }
 
-/// Equation (22).
+/// Returns the loss over Bullington's edge: equation (22).
 double loss_over(const std::optional<BullingtonEdge>& edge, const PathSpan& span) {
   if (!edge) return 0;
   const double single = knife_edge_db(edge->v);
@@ -107,7 +107,7 @@ DeltaBullington delta_bullington(std::span<const PathPoint> tops, std::span<cons
   std::vector<PathEdge> edges = edges_of(tops, ends.length_m);
   loss.edge = bullington_edge(span, edges);
   loss.lba_db = loss_over(loss.edge, span);
-  // Equations (38a, 38b): the antennas above the smooth surface.
+  // Equations (38a, 38b) have the antennas above the smooth surface.
   const PathEnds above{ends.length_m, ends.from_m - loss.smooth.hstd_m, ends.to_m - loss.smooth.hsrd_m};
   loss.lbs_db = bullington_db(PathSpan(above, path), levelled(std::move(edges)));
   loss.ldsph_db = spherical_earth_db(span.length(), above.from_m, above.to_m, path);

@@ -7,13 +7,13 @@ namespace itin {
 
 namespace {
 
-/// a t^3 + b t^2 + c t + d.
+/// The polynomial a t^3 + b t^2 + c t + d.
 struct Cubic {
   double a, b, c, d;
   double at(double t) const { return ((a * t + b) * t + c) * t + d; }
 };
 
-/// The root in [low, high], where the cubic is monotone, by bisection; nothing if the sign does not change.
+/// Finds the root in [low, high], where the cubic is monotone, by bisection; nothing if the sign does not change.
 std::optional<double> root_between(const Cubic& cubic, double low, double high) {
   const bool rising = cubic.at(low) < 0;
   if ((cubic.at(high) < 0) == rising) return std::nullopt;
@@ -24,7 +24,7 @@ std::optional<double> root_between(const Cubic& cubic, double low, double high) 
   }
 }
 
-/// Where the cubic is stationary, ascending; both are `from` where it is not.
+/// Returns where the cubic is stationary, ascending; both are `from` where it is stationary nowhere.
 std::array<double, 2> stationary_points(const Cubic& cubic, double from) {
   const double a = 3 * cubic.a, half_b = cubic.b, c = cubic.c;
   if (a == 0) {
@@ -47,11 +47,12 @@ void LeastFraction::consider(double t, double clearance) {
   if (!least_ || fraction < least_->fraction) least_ = Place{fraction, t, clearance};
 }
 
-/// Whether every ratio along the piece is certainly greater than the least one: most pieces' are, and need no root.
+/// Tells whether every ratio along the piece is certainly greater than the least one. Most pieces are so, and need no
+/// root.
 bool LeastFraction::is_greater_along(const ClearancePiece& p) const {
   if (!least_) return false;
   constexpr double kRounding = 1e-9;
-  // A parabola sags no farther below its chord.
+  // A parabola sags no farther below its chord than this.
   const double sag = std::max(p.square, 0.0) * (p.to - p.from) * (p.to - p.from) / 4;
   const double uncertain = kRounding * (std::abs(p.constant) + std::abs(p.linear) + std::abs(p.square));
   const double lowest = std::min(p.at(p.from), p.at(p.to)) - sag - uncertain;
@@ -61,8 +62,8 @@ bool LeastFraction::is_greater_along(const ClearancePiece& p) const {
   return least < 0 && (1 + kRounding) * lowest * lowest < least * least * narrowest;
 }
 
-/// The ratio is stationary where its numerator's and denominator's logarithmic derivatives agree: with the radius
-/// proportional to sqrt(t (1 - t)) that is at the roots of this cubic.
+/// The ratio is stationary where its numerator's and denominator's logarithmic derivatives agree. As the radius is
+/// proportional to sqrt(t (1 - t)), these places are the roots of this cubic.
 void LeastFraction::consider_inside(const ClearancePiece& p) {
   if (is_greater_along(p)) return;
   const Cubic cubic{-p.square, 1.5 * p.square, p.linear / 2 + p.constant, -p.constant / 2};

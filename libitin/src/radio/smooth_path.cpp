@@ -7,7 +7,7 @@
 namespace itin {
 
 double reflection_km(const SmoothPath& path, double effective_earth_km) {
-  // An antenna on the surface reflects at its foot; close to it rounding would lead beyond.
+  // An antenna on the surface reflects at its foot; close to the surface, rounding would lead beyond the path.
   if (path.from_m == 0) return 0;
   if (path.to_m == 0) return path.distance_km;
   const double sum = path.from_m + path.to_m, d = path.distance_km;

@@ -15,7 +15,7 @@ struct Terrain {
 };
 constexpr Terrain kLand{22, 0.003}, kSea{80, 5};
 
-/// Normalised surface admittance, equations (30a, 30b).
+/// Returns the normalised surface admittance: equations (30a, 30b).
 double admittance(const Terrain& terrain, double radius_km, const RadioPath& path) {
   const double loss = 18 * terrain.conductivity / path.frequency_ghz;
   const double horizontal = 0.036 * std::pow(radius_km * path.frequency_ghz, -1.0 / 3) *
@@ -24,19 +24,19 @@ double admittance(const Terrain& terrain, double radius_km, const RadioPath& pat
   return horizontal * std::sqrt(terrain.permittivity * terrain.permittivity + loss * loss);
 }
 
-/// Equation (31).
+/// Returns the parameter beta of the surface: equation (31).
 double surface_parameter(double k) {
   const double k2 = k * k, k4 = k2 * k2;
   return (1 + 1.6 * k2 + 0.67 * k4) / (1 + 4.5 * k2 + 1.53 * k4);
 }
 
-/// Equation (34).
+/// Returns the distance term: equation (34).
 double distance_term(double x) {
   if (x >= 1.6) return 11 + 10 * std::log10(x) - 17.6 * x;
   return -20 * std::log10(x) - 5.6488 * std::pow(x, 1.425);
 }
 
-/// Equations (35) and (36) with the limit below them.
+/// Returns the height gain: equations (35) and (36), with the limit below them.
 double height_gain(double y, double beta, double k) {
   const double b = beta * y;
   const double gain =
@@ -44,7 +44,7 @@ double height_gain(double y, double beta, double k) {
   return std::max(gain, 2 + 20 * std::log10(k));
 }
 
-/// Equation (37) over one kind of terrain.
+/// Returns the loss over one kind of terrain: equation (37).
 double first_term(const Terrain& terrain, const SmoothPath& smooth, double radius_km, const RadioPath& path) {
   const double k = admittance(terrain, radius_km, path), beta = surface_parameter(k);
   const double x = 21.88 * beta * std::cbrt(path.frequency_ghz / (radius_km * radius_km)) * smooth.distance_km;
@@ -52,7 +52,7 @@ double first_term(const Terrain& terrain, const SmoothPath& smooth, double radiu
   return -distance_term(x) - height_gain(y_unit * smooth.from_m, beta, k) - height_gain(y_unit * smooth.to_m, beta, k);
 }
 
-/// Equation (29).
+/// Returns the loss over land and sea: equation (29).
 double first_term(const SmoothPath& smooth, double radius_km, const RadioPath& path) {
   double loss = 0;
   if (path.over_sea > 0) loss += path.over_sea * first_term(kSea, smooth, radius_km, path);
@@ -60,8 +60,8 @@ double first_term(const SmoothPath& smooth, double radius_km, const RadioPath& p
   return loss;
 }
 
-/// Equations (24) to (26): the least clearance of a path within the horizon over a smooth Earth, as a part of the
-/// clearance for no loss. An antenna on the surface has none.
+/// Returns the least clearance of a path within the horizon over a smooth Earth, as a part of the clearance for no
+/// loss: equations (24) to (26). An antenna on the surface has no clearance.
 double cleared_part(const SmoothPath& s, const RadioPath& path) {
   const double radius = path.effective_earth_km, d = s.distance_km;
   const double d1 = reflection_km(s, radius), d2 = d - d1;

@@ -1,8 +1,8 @@
 // Bits within a block: least significant first, in bytes of ascending address.
 //
 // A Rice code with parameter k writes v >> k in unary (that many zeros, then a one) and then the k low bits of v. From
-// kRiceEscape zeros on, the value follows instead as a width of 6 bits and that many bits, so that no value costs more
-// than kRiceEscape + 66 bits.
+// kRiceEscape zeros on, the value follows instead as a width of 6 bits and as many bits as that width, so that no value
+// costs more than kRiceEscape + 66 bits.
 #pragma once
 
 #include <bit>
@@ -14,20 +14,20 @@
 namespace itin {
 
 inline constexpr int kRiceEscape = 24;
-/// With this limit a code that does not escape fits into the 56 bits a refill guarantees.
+/// With this limit, a code that does not escape fits into the 56 bits that a refill guarantees.
 inline constexpr int kMaxRiceParameter = 31;
 
 class BitWriter {
  public:
   explicit BitWriter(std::vector<std::uint8_t>& out) : out_(out) {}
 
-  /// The low `width` bits of v, width <= 56.
+  /// Writes the low `width` bits of v. Precondition: width <= 56.
   void bits(std::uint64_t v, int width) {
     pending_ |= (v & ((std::uint64_t{1} << width) - 1)) << count_;
     count_ += width;
     for (; count_ >= 8; count_ -= 8, pending_ >>= 8) out_.push_back(static_cast<std::uint8_t>(pending_));
   }
-  /// Precondition: v < 2^63.
+  /// Writes a Rice code. Precondition: v < 2^63.
   void rice(std::uint64_t v, int k) {
     if ((v >> k) < kRiceEscape) {
       const int zeros = static_cast<int>(v >> k);
@@ -53,17 +53,17 @@ class BitWriter {
   int count_ = 0;
 };
 
-/// Never reads outside its input: beyond the end come zeros, and finished_cleanly() is false.
+/// Reads bits, but never outside its input: beyond the end it reads zeros, and finished_cleanly() is false.
 class BitReader {
  public:
-  /// How many readable zero bytes must follow the input.
+  /// The number of readable zero bytes that must follow the input.
   static constexpr std::size_t kPadding = 16;
 
   /// `padded` is the input followed by kPadding zeros.
   explicit BitReader(std::span<const std::uint8_t> padded)
       : begin_(padded.data()), end_(padded.data() + (padded.size() - kPadding)), next_(padded.data()) {}
 
-  /// width <= 56
+  /// Reads `width` bits. Precondition: width <= 56.
   std::uint64_t bits(int width) {
     refill();
     const std::uint64_t v = pending_ & ((std::uint64_t{1} << width) - 1);
@@ -79,7 +79,7 @@ class BitReader {
     drop(zeros + 1 + k);
     return (static_cast<std::uint64_t>(zeros) << k) | low;
   }
-  /// Whether exactly the input was read, up to zeros that fill its last byte.
+  /// Tells whether exactly the input was read, up to zeros that fill its last byte.
   bool finished_cleanly() const {
     if (overrun_) return false;
     const auto read = (next_ - begin_) * 8 - count_;

@@ -1,4 +1,4 @@
-// The blobs of a store's table, read by key into memory that is used again.
+// The blobs of a store's table, read by key into memory that is reused.
 #pragma once
 
 #include <cstdint>
@@ -14,23 +14,23 @@ struct sqlite3_blob;
 
 namespace itin {
 
-/// "block" or "directory".
+/// Returns "block" or "directory".
 const char* table_name(BlobKind kind);
 
-/// Must not outlive its database, which must not move meanwhile.
+/// Reads the blobs of one table. Must not outlive its database, which must not move meanwhile.
 class BlobColumn {
  public:
   BlobColumn(Database& database, BlobKind kind) : database_(&database), kind_(kind) {}
 
-  /// A row's bytes, which are there until the next call; none where there is no such row. Throws CorruptStore,
-  /// FileError.
+  /// Returns a row's bytes, which are valid until the next call; nothing where there is no such row. Throws
+  /// CorruptStore, FileError.
   std::optional<std::span<const std::uint8_t>> read(std::uint64_t key);
 
  private:
   struct Closer {
     void operator()(sqlite3_blob* blob) const;
   };
-  // False where there is no such row.
+  // Returns false where there is no such row.
   bool go_to(std::uint64_t key);
   [[noreturn]] void fail(std::uint64_t key);
 

@@ -1,5 +1,5 @@
-// Decoded blocks and directory chunks, the least recently used given up first. Shared by all threads; sharded, so that
-// they seldom wait for each other.
+// A cache of decoded blocks and directory chunks, which gives up the least recently used first. All threads share it;
+// it is sharded, so that they seldom wait for each other.
 #pragma once
 
 #include <array>
@@ -16,13 +16,13 @@ class BlockCache {
  public:
   explicit BlockCache(std::uint64_t bytes) : shard_bytes_(bytes / kShards) {}
 
-  /// Null where there is no such entry.
+  /// Returns null where there is no such entry.
   std::shared_ptr<const void> find(std::uint64_t key);
-  /// An entry larger than a shard is not kept. Where the key is there already, the first entry stays.
+  /// Keeps the value, unless it is larger than a shard. Where the key is there already, the first entry stays.
   void insert(std::uint64_t key, std::shared_ptr<const void> value, std::size_t bytes);
-  /// Whether there was such an entry or not.
+  /// Removes the entry, if there is one.
   void erase(std::uint64_t key);
-  /// Bytes held now, at most the budget.
+  /// Returns the bytes held now, at most the budget.
   std::uint64_t bytes();
 
  private:

@@ -17,8 +17,8 @@ namespace itin {
 
 namespace {
 
-// The lattice all positions lie on: x = x0 + i * step_x with i < width. Steps of 1 mean that there is none; then
-// positions are coded along the Morton curve, otherwise row by row.
+// The lattice that all positions lie on: x = x0 + i * step_x with i < width. Steps of 1 mean that there is no lattice.
+// Then positions are coded along the Morton curve, otherwise row by row.
 struct Lattice {
   std::uint64_t step_x = 1, step_y = 1;
   std::uint32_t x0 = 0, y0 = 0;  // from the cell's corner
@@ -38,7 +38,8 @@ class ResidualScale {
   std::uint64_t mean_;  // times 16
 };
 
-/// The greatest common divisor of all differences so far and one more. Most are multiples of it already.
+/// Extends the greatest common divisor of all differences so far to one more. Most differences are multiples of it
+/// already.
 void include(std::uint64_t& divisor, std::int64_t difference) {
   const auto d = static_cast<std::uint64_t>(std::abs(difference));
   if (divisor == 0 || d % divisor != 0) divisor = std::gcd(divisor, d);
@@ -75,7 +76,7 @@ void sort_by_rows(const Cell& cell, const Lattice& lattice, std::vector<GridPoin
              [&](const GridPoint& p) { return rank_on(cell, lattice, p); });
 }
 
-// The rank of each point in the order of coding, less that of its predecessor, less 1.
+// Returns the rank of each point in the order of coding, less its predecessor's rank, less 1.
 std::vector<std::uint64_t> gaps_of(const Cell& cell, const Lattice& lattice, std::span<const GridPoint> points) {
   std::vector<std::uint64_t> gaps;
   gaps.reserve(points.size());
@@ -130,7 +131,7 @@ PointSources read_sources(ByteReader& in, std::size_t count) {
   return sources;
 }
 
-// Positions are counted from the corner of the cell, or of the lattice.
+// Reads positions, counted from the corner of the cell, or of the lattice.
 std::vector<LocalPosition> read_positions(BitReader& in, std::size_t count, int rice, const Cell& cell,
                                           const Lattice& lattice) {
   const std::uint64_t ranks = lattice.scattered() ? cell.end() - cell.code : lattice.width << (cell.log2_side + 1);
@@ -149,7 +150,7 @@ std::vector<LocalPosition> read_positions(BitReader& in, std::size_t count, int 
   return positions;
 }
 
-// Heights in steps from the first one, in the order of coding.
+// Returns heights in steps from the first one, in the order of coding.
 std::vector<std::int64_t> heights_of(std::span<const GridPoint> points, std::uint64_t step) {
   std::vector<std::int64_t> heights;
   heights.reserve(points.size());
@@ -168,7 +169,7 @@ void for_each_prediction(std::vector<LocalPosition> positions, const Visit& visi
   for (std::size_t i = 1; i < count; ++i) predictor.add(visit(i, predictor.predict()));
 }
 
-// The parameter the residuals' scale starts from: that of their mean.
+// Returns the parameter that the residuals' scale starts from: the parameter of their mean.
 int mean_parameter(std::span<const std::uint64_t> residuals) {
   if (residuals.empty()) return 0;
   const std::uint64_t sum = std::accumulate(residuals.begin(), residuals.end(), std::uint64_t{0});
@@ -230,7 +231,7 @@ std::int32_t checked_height(std::int64_t z) {
   return static_cast<std::int32_t>(z);
 }
 
-// The plan position of each local one, heights 0.
+// Returns the plan position of each local position, at height 0.
 std::vector<GridPoint> plan_points(const Cell& cell, const Lattice& lattice, std::span<const LocalPosition> positions) {
   const GridBox box = cell.box();
   const auto last_row = ((std::uint64_t{1} << cell.log2_side) - 1 - lattice.y0) / lattice.step_y;

@@ -1,5 +1,5 @@
-// Blocks whose items are told more about before them: what features segments are of, or what clusters. FORMAT.md says
-// which blocks have a preface.
+// Blocks with a preface, which says more about their items: the features or the clusters that segments are part of.
+// FORMAT.md says which blocks have a preface.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@ namespace itin {
 
 struct PrefacedBlock {
   std::span<const std::uint8_t> preface;
-  std::span<const std::uint8_t> items;  ///< the block as it is elsewhere
+  std::span<const std::uint8_t> items;  ///< the block's bytes as they are without a preface
 };
 
 inline std::vector<std::uint8_t> joined(const PrefacedBlock& block) {
@@ -23,7 +23,7 @@ inline std::vector<std::uint8_t> joined(const PrefacedBlock& block) {
   return bytes;
 }
 
-/// Throws DecodeError.
+/// Splits a block into preface and items. Throws DecodeError.
 inline PrefacedBlock split(std::span<const std::uint8_t> bytes) {
   ByteReader in(bytes);
   const std::uint64_t size = in.varint();

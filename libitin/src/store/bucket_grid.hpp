@@ -16,7 +16,7 @@ struct LocalPosition {
   std::uint32_t x, y;
 };
 
-/// Square buckets over the extent of some positions, at most two for each, with room for those around any of them.
+/// Square buckets over the extent of some positions, at most two per position, with room for the neighbours of each.
 class BucketGrid {
  public:
   /// Takes at least one position, and moves all to the corner of their extent.
@@ -36,9 +36,9 @@ class BucketGrid {
   std::size_t at(const LocalPosition& p) const {
     return ((p.y >> shift_) + kMargin) * stride_ + (p.x >> shift_) + kMargin;
   }
-  /// From a bucket to the i-th of kBucketsAround.
+  /// Returns the way from a bucket to the i-th of kBucketsAround.
   std::ptrdiff_t around(std::size_t i) const { return around_[i]; }
-  /// log2 of a bucket's side. Where it is 0, a bucket tells its position.
+  /// Returns log2 of a bucket's side. Where it is 0, a bucket is a single position.
   int shift() const { return shift_; }
 
  private:

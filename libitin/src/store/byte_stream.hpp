@@ -8,13 +8,13 @@
 
 namespace itin {
 
-/// Bytes that no encoder of ours wrote. The store adds file and place and throws CorruptStore.
+/// Bytes that no encoder of itin wrote. The store adds file and place and throws CorruptStore.
 class DecodeError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// 0, -1, 1, -2, 2, ... as 0, 1, 2, 3, 4, ...
+/// Maps 0, -1, 1, -2, 2, ... to 0, 1, 2, 3, 4, ...
 constexpr std::uint64_t zigzag(std::int64_t v) {
   return (static_cast<std::uint64_t>(v) << 1) ^ static_cast<std::uint64_t>(v >> 63);
 }
@@ -46,7 +46,7 @@ class ByteReader {
     }
     throw DecodeError("an integer is longer than 63 bits");
   }
-  /// A varint in [low, high].
+  /// Reads a varint in [low, high].
   std::uint64_t varint(std::uint64_t low, std::uint64_t high) {
     const std::uint64_t v = varint();
     if (v < low || v > high) throw DecodeError("an integer is out of range");

@@ -41,7 +41,8 @@ class Inspection {
   }
 
  private:
-  // Runs `read` and keeps what it finds damaged. Only a damaged place is a finding: an unreadable disk ends the check.
+  // Runs `read` and keeps the damage that it finds. Only a damaged place is a finding: an unreadable disk ends the
+  // check.
   template <typename Read>
   void guarded(const Read& read) {
     try {
@@ -68,7 +69,7 @@ class Inspection {
     }
   }
 
-  /// At a level's own points both surfaces meet.
+  /// Tells whether the leaf's certificate is possible: at a level's own points both surfaces meet.
   static bool holds_certificate(const Leaf& leaf) {
     return leaf.lo <= leaf.hi && (leaf.points == 0 || (leaf.lo <= 0 && leaf.hi >= 0));
   }
@@ -107,7 +108,8 @@ class Inspection {
     const std::vector<Segment> edges = file_.read_edges(leaf);
     if (file_.has_clusters(format::theme_of(leaf.level))) file_.read_clusters(leaf, extents_of(edges));
     for (const Segment& s : edges) {
-      // A segment is listed in every leaf it meets: it counts where it starts, as part of the full surface.
+      // A segment is listed in every leaf that it meets. It counts in the leaf where it starts, as part of the full
+      // surface.
       if (s.finest == 0 && leaf.cell.contains(code_of(s.a()))) segments_[s.theme] += 1;
     }
     inspect_segment_features(leaf);
@@ -127,7 +129,8 @@ class Inspection {
     for (std::size_t t = 1; t <= themes.size(); ++t) {
       for (std::uint32_t i = 0; i < themes[t - 1].feature_blocks; ++i) {
         block_keys_.push_back(format::feature_key(t, i));
-        std::size_t records = kFeaturesInBlock;  // taken for a damaged block: what names them is not damaged
+        std::size_t records = kFeaturesInBlock;  // assumed for a damaged block: segments that refer to its records are
+                                                 // not damaged
         guarded([&] { records = file_.read_features(static_cast<std::uint16_t>(t), i).size(); });
         features_[t] += records;
       }
@@ -183,7 +186,7 @@ class Inspection {
     }
   }
 
-  // Rows that no directory leads to. Missing ones were found when they were to be read.
+  // Finds rows that no directory leads to. Missing rows were found when they were to be read.
   void compare_keys(BlobKind kind, std::vector<std::uint64_t>& expected) {
     if (kind == BlobKind::Directory) expected.push_back(format::kChunkListKey);
     if (!damage_.empty()) return;  // a damaged chunk would make all its blocks look lost
@@ -208,7 +211,7 @@ class Inspection {
     for (std::size_t theme = 1; theme <= metadata.themes.size(); ++theme) {
       sum += vertices_[static_cast<std::size_t>(format::vertex_tree(static_cast<int>(theme)))];
       if (metadata.themes[theme - 1].is_raised())
-        segments_[theme] = 0;  // they keep the ground, and are none of features
+        segments_[theme] = 0;  // they keep the ground about features, and belong to none
       for (std::size_t p = 0; p < metadata.parts.size(); ++p) {
         if (metadata.parts[p].theme != theme) continue;
         const std::size_t number = metadata.themes.size() + p + 1;
@@ -230,7 +233,7 @@ class Inspection {
   std::vector<std::uint64_t> vertices_ = std::vector<std::uint64_t>(format::kFirstEdgeTree);  ///< by tree
   std::vector<std::uint64_t> segments_ = std::vector<std::uint64_t>(format::kLastTree);       ///< by theme
   std::vector<std::uint64_t> features_ =
-      std::vector<std::uint64_t>(format::kMaxThemes + 1);  ///< how many have records, by theme
+      std::vector<std::uint64_t>(format::kMaxThemes + 1);  ///< number of features with records, by theme
   GridBox bounds_;
 };
 

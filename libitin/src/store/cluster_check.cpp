@@ -12,7 +12,7 @@ namespace {
 
 using Boxes = std::vector<GridBox>;
 
-/// The boxes of the clusters that vertices of one part are of.
+/// The boxes of the clusters that the vertices of one part belong to.
 class VertexBoxes {
  public:
   VertexBoxes(const StoreFile& file, std::uint16_t part) : file_(file), tree_(format::vertex_tree(part)) {}

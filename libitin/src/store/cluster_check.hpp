@@ -1,4 +1,4 @@
-// Whether the boxes of clusters hold what the segments and the vertices of a part say of them.
+// Checks that the boxes of clusters agree between the segments and the vertices of a part.
 #pragma once
 
 #include <vector>
@@ -10,8 +10,8 @@
 
 namespace itin {
 
-/// A segment has both of its ends wherever a query has it, so these are of its clusters too. Of blocks that can be
-/// read, names those that say otherwise. Throws CorruptStore where one cannot, Cancelled.
+/// Returns the blocks of segments whose clusters are not also clusters of both of their ends: a query that has a
+/// segment has both of its ends. Throws CorruptStore where a block cannot be read, Cancelled.
 std::vector<Damage> false_clusters(const StoreFile& file, const Progress& progress);
 
 }  // namespace itin

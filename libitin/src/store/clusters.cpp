@@ -15,9 +15,9 @@ namespace itin {
 
 namespace {
 
-/// The step of boxes, grid units: finer ones would take more bytes than they leave features out.
+/// The step of boxes, grid units: finer steps would leave out more features, but not enough to be worth their bytes.
 constexpr int kStepBits = 6;
-constexpr std::int64_t kSteps = std::int64_t{2} * kGridHalfSide >> kStepBits;  // across the grid
+constexpr std::int64_t kSteps = std::int64_t{2} * kGridHalfSide >> kStepBits;  // steps across the grid
 
 /// The numbers of a box, as they are written.
 enum BoxNumber { kAcross, kUp, kWidth, kHeight, kNumbers };
@@ -38,7 +38,7 @@ bool box_before(const GridBox& a, const GridBox& b) {
   return ordered_sides(a) < ordered_sides(b);
 }
 
-/// The least y of all, and the x that the first gap counts from.
+/// Returns the least y of all boxes, and the x that the first gap counts from.
 Steps origin_of(std::span<const GridBox> boxes) {
   std::int32_t lowest = boxes.front().ymin;
   for (const GridBox& b : boxes) lowest = std::min(lowest, b.ymin);
@@ -59,7 +59,7 @@ std::vector<Written> written(std::span<const GridBox> boxes) {
   return all;
 }
 
-/// What of an item's clusters the boxes leave open.
+/// The clusters of a leaf that an item may belong to, by the boxes.
 class Candidates {
  public:
   using Numbers = std::vector<std::uint32_t>;
@@ -72,7 +72,7 @@ class Candidates {
       if (boxes_[b].meets(item)) met_.push_back(b);
     return met_;
   }
-  /// Whether the item may be of these.
+  /// Tells whether the item may belong to just these clusters.
   bool allow(const Numbers& others) const {
     return !others.empty() && std::includes(met_.begin(), met_.end(), others.begin(), others.end());
   }
@@ -85,7 +85,7 @@ class Candidates {
 template <class Item, class Clusters>
 LeafClusters clusters_of(std::span<const Item> items, const std::vector<GridBox>& all, const Clusters& of) {
   LeafClusters result;
-  std::vector<std::pair<std::uint32_t, GridBox>> boxes;  // by item
+  std::vector<std::pair<std::uint32_t, GridBox>> boxes;  // the boxes of each item's clusters
   for (std::uint32_t i = 0; i < items.size(); ++i)
     of(items[i], [&](std::uint32_t cluster) { boxes.emplace_back(i, all[cluster]); });
   for (const auto& [item, box] : boxes) result.boxes.push_back(box);

@@ -15,7 +15,7 @@ class ContentWriter {
  public:
   void whole(std::uint64_t v) { put_varint(bytes_, v); }
   void change(std::int64_t v) { put_varint(bytes_, zigzag(v)); }
-  /// Eight bytes, little-endian.
+  /// Writes eight bytes, little-endian.
   void word(std::uint64_t bits) {
     for (int shift = 0; shift < 64; shift += 8) bytes_.push_back(static_cast<std::uint8_t>(bits >> shift));
   }
@@ -30,12 +30,12 @@ class ContentWriter {
   std::vector<std::uint8_t> bytes_;
 };
 
-/// Throws DecodeError.
+/// Reads the content of a block. Throws DecodeError.
 class ContentReader {
  public:
   explicit ContentReader(std::span<const std::uint8_t> bytes) : in_(bytes) {}
   std::uint64_t whole(std::uint64_t most) { return in_.varint(0, most); }
-  /// A number of things that follow, each of at least one byte.
+  /// Reads the number of things that follow, each of at least one byte.
   std::size_t count() { return static_cast<std::size_t>(in_.varint(0, in_.rest().size())); }
   std::int64_t change() { return in_.signed_varint(); }
   std::uint64_t word() {

@@ -11,7 +11,7 @@ namespace itin {
 
 namespace {
 
-// As SQLite's file: URIs want it; a path may contain any byte.
+// Encodes a path for SQLite's file: URIs; a path may contain any byte.
 std::string percent_encoded(const std::string& path) {
   std::string uri;
   for (const char c : path) {
@@ -54,7 +54,7 @@ Database Database::open(const std::string& path) {
   Database database(path, true);
   const std::string authority = path.starts_with('/') ? "file://" : "file:";
   database.open_handle(authority + percent_encoded(path) + "?immutable=1", SQLITE_OPEN_READONLY | SQLITE_OPEN_URI);
-  // All reads are one transaction, for each would begin and end its own.
+  // All reads are in one transaction; otherwise each would begin and end its own.
   database.execute("PRAGMA cache_size=-1024; PRAGMA cell_size_check=ON; PRAGMA trusted_schema=OFF; BEGIN;");
   return database;
 }

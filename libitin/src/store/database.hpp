@@ -1,4 +1,4 @@
-// SQLite with errors of ours. One connection, for one thread at a time.
+// SQLite with itin's errors. One connection, for one thread at a time.
 #pragma once
 
 #include <cstdint>
@@ -15,17 +15,18 @@ namespace itin {
 
 class Statement;
 
-/// Messages name `shown`, the store the user knows, whatever file it is written to.
+/// A database. Messages name `shown`, the store that the user knows, whatever file it is written to.
 class Database {
  public:
-  /// An empty database in the file at `path`, without journal or syncs: whoever writes it renames it when complete.
+  /// Creates an empty database in the file at `path`, without journal or syncs: the caller renames the file when
+  /// complete.
   static Database create(const std::string& path, const std::string& shown);
-  /// Opens a file for reading that nobody changes in place.
+  /// Opens a file for reading. Precondition: nobody changes it in place.
   static Database open(const std::string& path);
 
   void execute(const std::string& sql);
   Statement prepare(const std::string& sql);
-  /// Throws FileError when writing out fails; the destructor could not tell.
+  /// Throws FileError when writing out fails, which the destructor could not report.
   void close();
 
  private:
@@ -43,13 +44,13 @@ class Database {
   bool reading_ = false;
 };
 
-/// Must not outlive its database, which must not move meanwhile.
+/// A prepared statement. Must not outlive its database, which must not move meanwhile.
 class Statement {
  public:
   void bind(int index, std::int64_t v);
   void bind(int index, const std::string& v);
   void bind(int index, std::span<const std::uint8_t> v);
-  /// The next row is there. `place` goes into errors.
+  /// Moves to the next row; returns false where there is none. `place` goes into errors.
   bool step(const std::string& place);
   void reset();
 

@@ -11,7 +11,7 @@ namespace itin {
 namespace {
 
 constexpr std::uint64_t kCurveEnd = std::uint64_t{1} << 60;
-// 1 for the side and 6 varints of at most 9 bytes, and the count.
+// The greatest size of a chunk: per leaf 1 byte for the side and 6 varints of at most 9 bytes, and then the count.
 constexpr std::size_t kMaxChunkBytes = format::kChunkLeaves * 55 + 10;
 
 std::int32_t read_int32(ByteReader& in) {

@@ -11,15 +11,15 @@
 
 namespace itin {
 
-/// Leaves of one tree in ascending order of cell.code.
+/// The leaves of one tree in ascending order of cell.code.
 using DirectoryChunk = std::vector<Leaf>;
 
 /// The part of a chunk that is always in memory.
 struct ChunkEntry {
-  std::uint64_t code = 0;  ///< where its first leaf begins
-  std::uint64_t end = 0;   ///< where its last leaf ends
+  std::uint64_t code = 0;  ///< where the chunk's first leaf begins
+  std::uint64_t end = 0;   ///< where the chunk's last leaf ends
   std::uint64_t leaves = 0;
-  std::uint64_t points = 0;  ///< or segments, of an edge tree
+  std::uint64_t points = 0;  ///< for an edge tree, segments
 };
 
 /// The chunks of each tree in ascending order of code.
@@ -28,11 +28,11 @@ using ChunkList = std::map<int, std::vector<ChunkEntry>>;
 ChunkEntry entry_of(const DirectoryChunk& chunk);
 
 std::vector<std::uint8_t> encode_chunk(const DirectoryChunk& chunk);
-/// Throws DecodeError unless the bytes are a chunk of `tree` that fits `entry`.
+/// Decodes a chunk. Throws DecodeError unless the bytes are a chunk of `tree` that fits `entry`.
 DirectoryChunk decode_chunk(std::span<const std::uint8_t> bytes, int tree, const ChunkEntry& entry);
 
 std::vector<std::uint8_t> encode_chunk_list(const ChunkList& list);
-/// Throws DecodeError unless the bytes are a list of disjoint chunks in ascending order.
+/// Decodes the list. Throws DecodeError unless the bytes are a list of disjoint chunks in ascending order.
 ChunkList decode_chunk_list(std::span<const std::uint8_t> bytes);
 
 }  // namespace itin

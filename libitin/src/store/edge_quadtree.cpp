@@ -13,7 +13,7 @@ namespace {
 
 using Visit = std::function<bool(const Cell&, const std::vector<Segment>&)>;
 
-/// Whether to go on.
+/// Visits the leaves of the cell; returns whether to go on.
 bool split(const Cell& cell, const std::vector<Segment>& segments, const Visit& visit) {
   if (segments.empty()) return true;
   if (segments.size() <= kEdgeLeafCapacity || cell.log2_side <= kMinEdgeLeafLog2Side) return visit(cell, segments);

@@ -11,7 +11,7 @@ namespace itin {
 
 namespace {
 
-/// What a block of features may hold at most.
+/// The most bytes that a block of features may hold.
 constexpr std::size_t kMostFeatureBytes = kFeaturesInBlock * (kMostAttributes + 2) * (kLongestText + 10);
 
 enum ValueType : std::uint8_t { kNoValue, kNumberValue, kWholeValue, kTextValue };

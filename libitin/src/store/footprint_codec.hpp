@@ -17,17 +17,18 @@ struct StoredFootprint {
   std::uint16_t source = 0;
 };
 
-/// The footprints of a theme, by its number, in the order of import. Throws CorruptStore.
+/// Returns the footprints of a theme, by its number, in the order of import. Throws CorruptStore.
 std::vector<StoredFootprint> stored_footprints(const Store& store, std::uint16_t theme);
-/// The footprints in one of the theme's footprint_blocks.
+/// Returns the footprints in one of the theme's footprint_blocks.
 std::vector<StoredFootprint> stored_footprints(const Store& store, std::uint16_t theme, std::uint32_t block);
 
 inline constexpr std::size_t kFootprintsInBlock = 256;
 
 std::vector<std::uint8_t> encode_footprints(std::span<const StoredFootprint> footprints);
-/// The bytes of one feature, without its source and not compressed: they order features whatever the order of import.
+/// Returns the bytes of one feature, without its source and not compressed. They order features independently of the
+/// order of import.
 std::vector<std::uint8_t> content_of(const FootprintFeature& feature);
-/// Throws DecodeError.
+/// Decodes a block. Throws DecodeError.
 std::vector<StoredFootprint> decode_footprints(std::span<const std::uint8_t> bytes);
 
 }  // namespace itin

@@ -11,12 +11,12 @@ namespace itin {
 
 namespace {
 
-// Sums of products stay below 2^53 with differences of heights up to this one.
+// The greatest difference of heights for which sums of products stay below 2^53.
 constexpr std::int64_t kGreatestDifference = std::int64_t{1} << 20;
-// No difference of moderate heights is greater.
+// Heights are moderate up to this one: their differences are at most kGreatestDifference.
 constexpr std::int64_t kModerateHeight = kGreatestDifference / 2;
 // Offsets are below 36 steps and differ by whole ones, so that shares are found from numbers below 10^4, with errors
-// below 10^-11. Those of eight moderate heights add up to less than 10^-4, and FORMAT.md's arithmetic has no greater
+// below 10^-11. With eight moderate heights these add up to less than 10^-4; FORMAT.md's arithmetic has no greater
 // error.
 constexpr double kDoubt = 1e-3;
 
@@ -43,7 +43,7 @@ std::int64_t HeightPredictor::predict() const {
   const Shares& shares = *shares_[j];
   const double* const heights = &heights_[batch_.buckets[j]];
   const auto part = [&](std::size_t i) { return shares[i] * heights[buckets_.around(i)]; };
-  // The sample at the point's left, mostly the latest one, comes last: its height is waited for.
+  // The sample at the point's left is added last: it is mostly the latest one, whose height is still being computed.
   const double predicted = ((part(2) + part(3)) + (part(4) + part(6))) + ((part(5) + part(7)) + part(0)) + part(1);
   if (!(std::abs(predicted) < kGreatestDifference)) [[unlikely]]
     return predict_slowly();

@@ -11,8 +11,8 @@
 
 namespace itin {
 
-/// Emit is called as emit(Cell, count) in Morton order; together the cells tile the root. Precondition: more than
-/// `capacity` distinct codes never share a cell of side 1, that is, capacity >= 1 and codes are distinct.
+/// Calls emit(Cell, count) in Morton order; together the cells tile the root. Precondition: no cell of side 1 has more
+/// than `capacity` distinct codes, that is, capacity >= 1 and codes are distinct.
 template <class Emit>
 class LeafCutter {
  public:
@@ -30,8 +30,8 @@ class LeafCutter {
  private:
   static constexpr std::uint64_t kRootEnd = std::uint64_t{1} << (2 * kRootLog2Side);
 
-  /// Emits the largest aligned cell at next_ that is not too full. Its parent either is too full, or began earlier and
-  /// was found too full then.
+  /// Emits the largest aligned cell at next_ that is not too full. Its parent is too full, or began earlier and was
+  /// found too full then.
   void cut() {
     Cell cell{next_, 0};
     while (cell.log2_side < kRootLog2Side) {

@@ -24,11 +24,11 @@ struct Vertex {
 /// The fields that are written as Rice codes, each with a parameter of its own.
 enum Field { kGap, kDegree, kOther, kFinest, kCoarsest, kReach, kFields };
 
-/// The lattice all ends lie on.
+/// The lattice that all ends lie on.
 struct LineLattice {
   Vertex corner;
   Vertex step;
-  int row_bits;  ///< how many bits the greatest row takes
+  int row_bits;  ///< number of bits of the greatest row
 };
 
 std::vector<Vertex> ends_of(const std::vector<Segment>& segments) {
@@ -57,14 +57,14 @@ LineLattice lattice_of(const std::vector<Vertex>& ends) {
   return lattice;
 }
 
-/// Most lines go from left to right, and then need no sign.
+/// Tells whether all segments go from left to right, as most lines do; they then need no sign.
 bool are_ascending(const std::vector<Segment>& segments) {
   return std::all_of(segments.begin(), segments.end(), [](const Segment& s) {
     return Vertex{s.ax, s.ay} < Vertex{s.bx, s.by};
   });
 }
 
-/// Everything that is written as a Rice code, field by field, in the order of writing.
+/// All values that are written as Rice codes, field by field, in the order of writing.
 class LinePlan {
  public:
   LinePlan(const std::vector<Segment>& segments, const std::vector<Vertex>& ends, const LineLattice& lattice,
@@ -84,7 +84,7 @@ class LinePlan {
       values_[kOther].push_back(forwards ? static_cast<std::uint64_t>(b - a - 1) : zigzag(b - a));
       values_[kFinest].push_back(s.finest);
       values_[kCoarsest].push_back(s.coarsest == 0xff ? 0u : s.coarsest - s.finest + 1u);
-      // A segment of the finest level stands for itself.
+      // A segment of the finest level stands for itself alone, and has no reach.
       if (s.finest > 0) values_[kReach].push_back(static_cast<std::uint64_t>(s.reach));
     }
     for (std::size_t f = 0; f < kFields; ++f) parameters_[f] = best_rice_parameter(values_[f]);

@@ -17,7 +17,7 @@ using nlohmann::ordered_json;
 
 namespace {
 
-// Certified errors are kept in grid units, so that no rounding comes between them and the cells' own.
+// Writes a level. Certified errors are kept in grid units, so that no rounding comes between them and the cells' own.
 ordered_json level_to_json(const LevelInfo& level, double resolution) {
   return {{"tolerance_m", level.tolerance},
           {"lateral_tolerance_m", level.lateral_tolerance},
@@ -72,7 +72,7 @@ SourceInfo source_from_json(const json& j) {
   return source;
 }
 
-/// What a store without tables of features has not is left out.
+/// Writes a theme, without the members that a store without tables of features lacks.
 ordered_json theme_to_json(const ThemeInfo& theme) {
   ordered_json j{{"name", theme.name},         {"kind", name_of(theme.kind)},
                  {"features", theme.features}, {"vertices", theme.vertices},
@@ -126,7 +126,7 @@ StoreMetadata read_document(const json& j) {
   if (j.contains("themes")) {
     for (const json& theme : j.at("themes")) metadata.themes.push_back(theme_from_json(theme));
   }
-  // Version 2 had no themes that stand.
+  // Version 2 had no raised themes.
   if (j.contains("parts")) {
     for (const json& part : j.at("parts"))
       metadata.parts.push_back(
@@ -162,7 +162,7 @@ std::string metadata_to_json(const StoreMetadata& metadata) {
   }
   if (metadata.has_foundations) j["foundations"] = true;
   j["vertices"] = metadata.vertices;
-  // File names may hold bytes that are no UTF-8.
+  // File names may have bytes that are not UTF-8.
   return j.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
 }
 

@@ -1,4 +1,4 @@
-// StoreMetadata as the JSON text kept in the store.
+// StoreMetadata as the JSON text in the store.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 namespace itin {
 
 std::string metadata_to_json(const StoreMetadata& metadata);
-/// Throws DecodeError where the text is not such a document.
+/// Reads metadata. Throws DecodeError where the text is not such a document.
 StoreMetadata metadata_from_json(const std::string& text);
 
 }  // namespace itin

@@ -19,8 +19,8 @@
 namespace itin {
 
 /// A leaf of a point quadtree. In a store there is one tree per level, and a leaf's points all have the leaf's level.
-/// In the importer's single tree `level` is the coarsest any of its points may have; Block::levels tells each one's,
-/// and `points` counts those that were asked for.
+/// In the importer's single tree, `level` is the coarsest that any of its points may have; Block::levels has each
+/// point's level, and `points` counts the points that were asked for.
 struct Leaf {
   Cell cell;
   int level = 0;
@@ -29,24 +29,26 @@ struct Leaf {
   std::int32_t zmax = 0;
   std::int32_t lo = 0;  ///< T_level + lo <= T_0 <= T_level + hi over the cell, grid units
   std::int32_t hi = 0;
-  std::uint64_t key = 0;    ///< the index's own; each leaf has another
-  std::uint16_t theme = 0;  ///< whose vertices, 0 for terrain; a theme's vertices are there at every level
+  std::uint64_t key = 0;    ///< the index's own key, different for each leaf
+  std::uint16_t theme = 0;  ///< the theme of the vertices, 0 for terrain; a theme's vertices are present at every level
 };
 
 /// A leaf's points.
 struct Block {
   std::vector<GridPoint> points;  ///< in ascending Morton order
-  bool in_order = true;           ///< else points may be in any order, and `sources` are not theirs one by one
+  bool in_order = true;           ///< false: points may be in any order, and `sources` do not correspond to them one by
+                                  ///< one
   PointSources sources;
-  std::vector<std::uint8_t> levels;   ///< per point, or empty when all have the leaf's level
-  std::uint16_t raised_theme = 0;     ///< the theme whose features they belong to; 0 for all but raised themes'
+  std::vector<std::uint8_t> levels;   ///< per point, or empty when all points have the leaf's level
+  std::uint16_t raised_theme = 0;     ///< the theme whose features the points belong to; 0 unless they are a raised
+                                      ///< theme's
   std::vector<std::uint8_t> outline;  ///< per point of raised_theme: whether it lies between a feature and the ground
 
-  /// The theme within whose features the point lies, off their outlines; 0 for none.
+  /// Returns the theme within whose features the point lies, off their outlines; 0 for none.
   std::uint16_t theme(std::size_t k) const {
     return static_cast<std::uint16_t>(raised_theme != 0 && outline[k] == 0 ? raised_theme : 0);
   }
-  /// The memory it takes.
+  /// Returns the memory that the block takes.
   std::size_t bytes() const {
     return sizeof(Block) + points.size() * sizeof(GridPoint) + sources.bytes() + levels.size() + outline.size();
   }
@@ -54,12 +56,12 @@ struct Block {
 
 /// The lattice that all points of a block lie on: (x + i step_x, y + j step_y), grid units.
 struct BlockLattice {
-  std::uint32_t points = 0;  ///< how many of its places have a point
+  std::uint32_t points = 0;  ///< number of its places with a point
   std::int32_t x = 0, y = 0;
   std::int64_t step_x = 1, step_y = 1;
 };
 
-/// The level of a leaf's point k.
+/// Returns the level of a leaf's point k.
 inline std::uint8_t level_of(const Leaf& leaf, const Block& block, std::size_t k) {
   return block.levels.empty() ? static_cast<std::uint8_t>(leaf.level) : block.levels[k];
 }
@@ -67,15 +69,15 @@ inline std::uint8_t level_of(const Leaf& leaf, const Block& block, std::size_t k
 /// The built-in theme of the coverage outline; other themes are numbered from 1.
 inline constexpr std::uint16_t kCoverage = 0;
 
-/// A piece of a constraint line, ends on vertices that are there at all of its levels. A coverage segment has ground to
-/// its left. Vertices of any level may lie on it, and split it where they are selected; no segment that may be selected
-/// together with it crosses it.
+/// A piece of a constraint line; its ends are on vertices that are present at all of its levels. A coverage segment has
+/// ground to its left. Vertices of any level may lie on it, and split it where they are selected. It crosses no segment
+/// that may be selected together with it.
 struct Segment {
   std::int32_t ax = 0, ay = 0;
   std::int32_t bx = 0, by = 0;
   std::uint16_t theme = kCoverage;
-  std::uint8_t finest = 0, coarsest = 0xff;  ///< it is part of its line at these levels
-  std::int32_t reach = 0;  ///< finer segments that it stands for lie within its box, widened by this on all sides
+  std::uint8_t finest = 0, coarsest = 0xff;  ///< levels at which the segment is part of its line
+  std::int32_t reach = 0;  ///< finer segments that it replaces lie within its box, widened by this on all sides
 
   Position a() const { return {ax, ay}; }
   Position b() const { return {bx, by}; }
@@ -87,7 +89,7 @@ inline GridBox extent_of(const Segment& s) {
   return {std::min(s.ax, s.bx), std::min(s.ay, s.by), std::max(s.ax, s.bx), std::max(s.ay, s.by)};
 }
 
-/// Safe for concurrent use.
+/// Read access to a set of points and segments. Safe for concurrent use.
 class PointIndex {
  public:
   virtual ~PointIndex() = default;
@@ -96,22 +98,22 @@ class PointIndex {
   /// The box of all points.
   virtual GridBox bounds() const = 0;
 
-  /// Appends every non-empty leaf that meets `box` and may hold a point of level `finest` or coarser, each once; those
-  /// of all themes included.
+  /// Appends every non-empty leaf, of all themes, that meets `box` and may hold a point of level `finest` or coarser,
+  /// each once.
   virtual void leaves(int finest, const GridBox& box, std::vector<Leaf>& out) const = 0;
   virtual std::shared_ptr<const Block> block(const Leaf& leaf) const = 0;
-  /// As block(), its points in any order.
+  /// Returns what block() does, its points in any order.
   virtual std::shared_ptr<const Block> unordered_block(const Leaf& leaf) const { return block(leaf); }
-  /// As unordered_block(), for callers who will not ask again: it need not be cached.
+  /// Returns what unordered_block() does, for callers who will not ask again: it need not be cached.
   virtual std::shared_ptr<const Block> block_once(const Leaf& leaf) const { return unordered_block(leaf); }
-  /// As block_once(), but only the positions in plan count: the heights may be anything.
+  /// Returns what block_once() does, for callers who use only the positions in plan: the heights may be anything.
   virtual std::shared_ptr<const Block> plan_once(const Leaf& leaf) const { return block_once(leaf); }
 
-  /// The lattice that the leaf's points lie on, where it is known without reading them.
+  /// Returns the lattice that the leaf's points lie on, where it is known without reading them.
   virtual std::optional<BlockLattice> lattice_of(const Leaf&) const { return std::nullopt; }
 
   /// Appends every segment that meets `box`, of the coverage and of all themes, at all levels, and perhaps others
-  /// nearby; the same one may come twice.
+  /// nearby. A segment may come twice.
   virtual void segments(const GridBox& box, std::vector<Segment>& out) const = 0;
 };
 

@@ -1,4 +1,4 @@
-// The source of each of a block's points. Most blocks are of one source, which is kept once.
+// The source of each of a block's points. Most blocks have one source, which is kept once.
 //
 //   PointSources sources;
 //   sources.add(0, 1024);
@@ -15,20 +15,20 @@ class PointSources {
  public:
   std::size_t size() const { return size_; }
   std::uint16_t operator[](std::size_t k) const { return of_each_.empty() ? of_all_ : of_each_[k]; }
-  /// The sources of the next points.
+  /// Adds the source of the next points.
   void add(std::uint16_t source, std::size_t points = 1) {
     if (size_ == 0) of_all_ = source;
     if (of_each_.empty() && source != of_all_) of_each_.assign(size_, of_all_);
     size_ += points;
     if (!of_each_.empty()) of_each_.resize(size_, source);
   }
-  /// The memory it takes besides its own.
+  /// Returns the memory it takes besides the object itself.
   std::size_t bytes() const { return of_each_.capacity() * sizeof(std::uint16_t); }
 
  private:
   std::size_t size_ = 0;
   std::uint16_t of_all_ = 0;
-  std::vector<std::uint16_t> of_each_;  ///< none where all are of_all_
+  std::vector<std::uint16_t> of_each_;  ///< empty where all are of_all_
 };
 
 }  // namespace itin

@@ -1,5 +1,5 @@
 // The arithmetic of predicted heights, as FORMAT.md gives it: a weighted least-squares plane through samples, with its
-// slope damped. `Number` is double, or a vector that has one number for each of several points.
+// slope damped. `Number` is double, or a vector of the numbers of several points.
 //
 // Encoder and decoder must come to the same number to the last bit on every machine. All sums are integers that their
 // type holds exactly, in whatever order they are added up; the operations after them are IEEE 754, each rounded to
@@ -11,7 +11,7 @@
 
 namespace itin {
 
-/// Where the buckets lie whose latest samples are looked at, from the point's own.
+/// The place of a bucket whose latest sample is used, counted from the point's own bucket.
 struct BucketOffset {
   int x, y;
 };
@@ -36,7 +36,7 @@ struct PlaneMoments {
   }
 };
 
-/// Weighted sums that the samples' heights have a part in.
+/// Weighted sums with the samples' heights.
 struct HeightMoments {
   double z = 0, xz = 0, yz = 0;
 
@@ -59,7 +59,7 @@ struct PredictionPlane {
     determinant = a * c - cross * cross;
   }
 
-  /// Its height at the point.
+  /// Returns the plane's height at the point.
   double intercept(const HeightMoments& m) const {
     if (!(determinant > 0)) return m.z / w;
     const double e = m.xz * w - m.z * x, f = m.yz * w - m.z * y;
@@ -68,18 +68,19 @@ struct PredictionPlane {
   }
 };
 
-/// The plane's height at the point is a sum over the samples, of each one's share of it times its height.
+/// The shares of the samples in the plane's height at the point, which is the sum of each sample's share times its
+/// height.
 template <class Number>
 class SampleShares {
  public:
   constexpr explicit SampleShares(const PredictionPlane<Number>& p) {
-    // Without slope or samples the dividends are 0, and so must the quotients be.
+    // Without slope or samples the dividends are 0, and the quotients must be 0, too.
     const Number inverse = 1 / (p.determinant + kTiny);
     east_ = (p.c * p.x - p.cross * p.y) * inverse, north_ = (p.a * p.y - p.cross * p.x) * inverse;
     level_ = (1 + east_ * p.x + north_ * p.y) / (p.w + kTiny);
   }
 
-  /// The share of the sample with this weight at this offset.
+  /// Finds the share of the sample with this weight at this offset.
   constexpr void find(Number& share, const Number& weight, const Number& dx, const Number& dy) const {
     share = weight * (level_ - east_ * dx - north_ * dy);
   }

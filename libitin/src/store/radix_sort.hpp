@@ -1,4 +1,4 @@
-// Sorts short keys without comparisons, which processors cannot foretell.
+// Sorts short keys without comparisons, which processors cannot predict.
 #pragma once
 
 #include <array>
@@ -10,7 +10,8 @@
 
 namespace itin {
 
-/// Ascending by key(item), an unsigned integer below 2^key_bits; equal ones stay in order. O(n) for each byte of key.
+/// Sorts in ascending order of key(item), an unsigned integer below 2^key_bits; equal keys stay in order. O(n) per byte
+/// of key.
 template <class Item, class Key>
 void radix_sort(std::vector<Item>& items, int key_bits, const Key& key) {
   using Keyed = std::pair<std::uint64_t, Item>;

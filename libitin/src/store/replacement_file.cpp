@@ -38,8 +38,8 @@ ReplacementFile::ReplacementFile(const std::string& target) : shown_(target), ta
   }
 }
 
-// Whoever held the lock before us may have renamed or removed the file that we opened and waited for: then it is no
-// longer the one under this name, and we start again.
+// Opens and locks the temporary file. Whoever held the lock before may have renamed or removed the file that was opened
+// and waited for. Then it is no longer the one under this name, and the loop starts again.
 void ReplacementFile::lock() {
   for (;;) {
     descriptor_ = ::open(temporary_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
@@ -70,7 +70,7 @@ void ReplacementFile::commit() {
   });
   const fs::path parent = fs::path(target_).parent_path();
   const int directory = ::open(parent.empty() ? "." : parent.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (directory < 0) return;  // a directory we may write but not read: its entry is synced with the next flush
+  if (directory < 0) return;  // a directory that may be written but not read: its entry is synced with the next flush
   ::fsync(directory);
   ::close(directory);
 }

@@ -1,7 +1,7 @@
 // A file that takes the place of another at once, or not at all.
 //
-// It is written beside the target, under a lock that lets nobody else write the same target; the lock dies with the
-// process, so what a killed one left behind is simply overwritten by the next.
+// It is written beside the target, under a lock that lets nobody else write the same target. The lock dies with the
+// process, so that the next one simply overwrites the file that a killed one left behind.
 #pragma once
 
 #include <optional>
@@ -23,7 +23,7 @@ class ReplacementFile {
   /// The target's name as the caller gave it.
   const std::string& target() const { return shown_; }
   const std::string& temporary_path() const { return temporary_; }
-  /// Syncs the bytes, renames, syncs the directory. Throws FileError; the target is then what it was.
+  /// Syncs the bytes, renames, syncs the directory. Throws FileError, which leaves the target as it was.
   void commit();
 
  private:
@@ -34,7 +34,7 @@ class ReplacementFile {
   std::string target_;  ///< with symbolic links followed
   std::string temporary_;
   int descriptor_ = -1;
-  std::optional<Unfinished> unfinished_;  ///< the file of the temporary name, while we have the lock
+  std::optional<Unfinished> unfinished_;  ///< the file of the temporary name, as long as the lock is held
 };
 
 }  // namespace itin

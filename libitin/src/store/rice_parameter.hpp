@@ -8,7 +8,7 @@
 
 namespace itin {
 
-/// As though no code escaped.
+/// Returns the bits of the values' codes, as though no code escaped.
 inline std::uint64_t rice_bits(const std::vector<std::uint64_t>& values, int parameter) {
   std::uint64_t bits = 0;
   for (const std::uint64_t v : values) bits += (v >> parameter) + 1 + static_cast<std::uint64_t>(parameter);

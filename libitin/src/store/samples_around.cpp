@@ -8,7 +8,7 @@ namespace itin {
 
 namespace {
 
-// The shares of samples in single positions, by which of these have one, as bits.
+// The shares of samples where buckets are single positions, indexed by the buckets that have a sample, as bits.
 constexpr auto kSharesOnLattice = [] {
   std::array<Shares, std::size_t{1} << kSamplesAround> all{};
   for (std::size_t there = 1; there < all.size(); ++there) {
@@ -26,7 +26,7 @@ constexpr auto kSharesOnLattice = [] {
   return all;
 }();
 
-// One number for each of four points.
+// Vectors with one number for each of four points.
 using Ints = std::int32_t __attribute__((vector_size(16)));
 using Floats = float __attribute__((vector_size(16)));
 using Doubles = double __attribute__((vector_size(32)));

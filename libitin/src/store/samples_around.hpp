@@ -1,4 +1,4 @@
-// The samples around points as they come, one batch of points after another: the latest of each bucket around.
+// Finds the samples around points, one batch of points after another: the latest sample of each bucket around a point.
 #pragma once
 
 #include <array>
@@ -15,52 +15,52 @@
 namespace itin {
 
 inline constexpr std::size_t kSamplesAround = kBucketsAround.size();
-/// By number of kBucketsAround: what the height of a bucket's sample counts for in the prediction; 0 where it has none.
+/// The weights of samples' heights in the prediction, by number of kBucketsAround; 0 for a bucket without a sample.
 using Shares = std::array<double, kSamplesAround>;
 
 inline constexpr std::size_t kPointsOfBatch = 32;
 template <class T>
 using OfBatch = std::array<T, kPointsOfBatch>;
 
-/// Some points that come next, and their buckets.
+/// The points that come next, and their buckets.
 struct PointBatch {
   std::span<const LocalPosition> points;
   OfBatch<std::size_t> buckets;
 };
 
-/// In one of the buckets around a point.
+/// The sample in one of the buckets around a point.
 struct SampleAround {
   bool there = false;
   std::int32_t dx = 0, dy = 0;  ///< from the point, in steps whose number stays below 26
 };
 
-// Both kinds refer to the buckets, which hold no samples at first.
+// Both classes refer to the buckets, which hold no samples at first.
 
-/// Where buckets are single positions.
+/// The samples where buckets are single positions.
 class LatticeSamples {
  public:
   explicit LatticeSamples(const BucketGrid& buckets) : buckets_(&buckets), around_(buckets.count()) {}
 
-  /// Finds the shares of the samples around each point before it becomes its bucket's sample. They are null where no
-  /// sample is around, else there until the next call.
+  /// Finds the shares of the samples around each point before the point becomes its bucket's sample. They are null
+  /// where no sample is around, else valid until the next call.
   void find_shares_around(const PointBatch& batch, OfBatch<const Shares*>& shares);
-  /// In the i-th of kBucketsAround of the latest batch's point j.
+  /// Returns the sample in the i-th of kBucketsAround, for the latest batch's point j.
   SampleAround sample(std::size_t j, std::size_t i) const {
     return {(there_[j] >> i & 1) != 0, kBucketsAround[i].x, kBucketsAround[i].y};
   }
 
  private:
   const BucketGrid* buckets_;
-  std::vector<std::uint8_t> around_;  // by bucket: which of those around have a sample, as bits
-  OfBatch<std::uint8_t> there_{};     // that of each point's bucket
+  std::vector<std::uint8_t> around_;  // by bucket: the buckets around it that have a sample, as bits
+  OfBatch<std::uint8_t> there_{};     // around_ of each point's bucket
 };
 
-/// Where buckets are wider.
+/// The samples where buckets are wider.
 class ScatteredSamples {
  public:
   explicit ScatteredSamples(const BucketGrid& buckets);
 
-  /// As those of LatticeSamples.
+  /// Finds shares as LatticeSamples does.
   void find_shares_around(const PointBatch& batch, OfBatch<const Shares*>& shares);
   SampleAround sample(std::size_t j, std::size_t i) const {
     return {sample_x_[i][j] != kNone, (sample_x_[i][j] - x_[j]) >> offset_shift_,
@@ -72,11 +72,11 @@ class ScatteredSamples {
   struct Position {
     std::int32_t x = kNone, y = kNone;
   };
-  // Finds those of four points from `first` on.
+  // Finds the shares of four points from `first` on.
   void find_shares(std::size_t first, OfBatch<const Shares*>& shares);
 
   const BucketGrid* buckets_;
-  int offset_shift_;               // brings differences of positions below 26
+  int offset_shift_;               // makes differences of positions less than 26
   std::vector<Position> samples_;  // by bucket
   OfBatch<std::int32_t> x_{}, y_{};
   std::array<OfBatch<std::int32_t>, kSamplesAround> sample_x_{}, sample_y_{};  // kNone where there is none

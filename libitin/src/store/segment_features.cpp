@@ -19,7 +19,7 @@ constexpr std::uint64_t kMostFeature = kNoFeature - 1;
 
 using Features = std::vector<std::uint32_t>;
 
-/// What features a segment is likely of: those of the latest one before it that it shares an end with.
+/// Guesses the features of a segment: those of the latest earlier segment that it shares an end with.
 class LikelyFeatures {
  public:
   const Features& of(const Segment& s) const {

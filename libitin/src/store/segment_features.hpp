@@ -1,4 +1,4 @@
-// Which features the segments of a theme's lines are of. See libitin/FORMAT.md, "Features of segments".
+// The features that the segments of a theme's lines belong to. See libitin/FORMAT.md, "Features of segments".
 #pragma once
 
 #include <cstdint>
@@ -9,22 +9,23 @@
 
 namespace itin {
 
-/// In place of a feature's number: it is not known.
+/// Stands for a feature's number that is not known.
 inline constexpr std::uint32_t kNoFeature = 0xffffffff;
 
 struct SegmentFeature {
   Segment segment;
-  std::uint32_t feature = 0;  ///< its number from 0, of its theme in the order of import
+  std::uint32_t feature = 0;  ///< the feature's number in its theme, from 0, in the order of import
   friend auto operator<=>(const SegmentFeature&, const SegmentFeature&) = default;
 };
 
-/// The features of one segment. `features` ascending.
+/// Returns the features of one segment. Precondition: `features` are ascending.
 std::span<const SegmentFeature> of_segment(std::span<const SegmentFeature> features, const Segment& segment);
 
-/// `segments` as in encode_lines(); `features` ascending, of these and perhaps others.
+/// Encodes features. `segments` are as in encode_lines(); `features` are ascending, of these segments and perhaps
+/// others.
 std::vector<std::uint8_t> encode_segment_features(std::span<const Segment> segments,
                                                   std::span<const SegmentFeature> features);
-/// Ascending. Throws DecodeError unless the bytes tell of just these segments.
+/// Returns the features, ascending. Throws DecodeError unless the bytes tell of just these segments.
 std::vector<SegmentFeature> decode_segment_features(std::span<const Segment> segments,
                                                     std::span<const std::uint8_t> bytes);
 

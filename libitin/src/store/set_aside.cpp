@@ -17,7 +17,7 @@ namespace {
 constexpr std::size_t kMostSetAsideBytes = std::size_t{1} << 24;
 constexpr std::uint64_t kMost = std::numeric_limits<std::uint32_t>::max();
 
-/// Numbers as differences from others before them.
+/// Writes numbers as differences from earlier ones.
 class Differences {
  public:
   void put(std::int64_t v, std::int64_t from) { put_varint(bytes_, zigzag(v - from)); }
@@ -58,7 +58,7 @@ ImportedSegment imported_after(const ImportedSegment& last, ByteReader& in) {
   return s;
 }
 
-/// 0 for none, so that a block without any ends before them.
+/// Returns 0 for no feature. A block whose segments have no features ends before these numbers.
 std::uint32_t numbered(std::uint32_t feature) {
   return feature + 1;
 }

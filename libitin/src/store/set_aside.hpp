@@ -1,6 +1,6 @@
-// Points and lines that were imported but are not in the surface as they came, kept so that a later import finds all of
-// it again: points of the ground that others replaced, that no ground is about, or that a line's vertex covers; and
-// lines that were cut, moved or left out. See libitin/FORMAT.md, "Set aside".
+// Imported points and lines that the surface does not have unchanged, kept so that a later import finds all of them
+// again. These are points of the ground that others replaced, that have no ground about them, or that a line's vertex
+// covers; and lines that were cut, moved or left out. See libitin/FORMAT.md, "Set aside".
 #pragma once
 
 #include <cstdint>
@@ -14,21 +14,22 @@
 
 namespace itin {
 
-/// A piece of a line as it was imported, a before b; of themes that are not of the terrain, at height 0.
+/// A piece of a line as it was imported, a before b; at height 0 for themes that are not of the terrain.
 struct ImportedSegment {
   GridPoint a, b;
   std::uint16_t source = 0;
-  std::uint32_t feature = kNoFeature;  ///< its number in the theme (segment_features.hpp)
+  std::uint32_t feature = kNoFeature;  ///< the feature's number in the theme (segment_features.hpp)
   friend auto operator<=>(const ImportedSegment&, const ImportedSegment&) = default;
 };
 
-/// A theme's imported lines are its segments of the full surface without `made` and with `imported`.
+/// What is set aside of a theme's lines: its imported lines are its segments of the full surface less `made` plus
+/// `imported`.
 struct SetAsideLines {
   std::vector<ImportedSegment> imported;  ///< ascending
   std::vector<Segment> made;              ///< ascending, as the store has them; only their ends count
 };
 
-/// How many points and segments a store leaves out, and how often its lines cross.
+/// The numbers of points and segments that a store leaves out, and of crossings of its lines.
 struct SetAsideCounts {
   std::uint64_t replaced = 0, isolated = 0;  ///< points
   std::uint64_t segments = 0;                ///< beyond the ground
@@ -45,16 +46,16 @@ struct SetAsideList {
   }
 };
 
-/// A block has at most this many of each.
+/// The most imported segments, made segments or points in a block.
 inline constexpr std::size_t kSetAsideInBlock = 4096;
 
-/// As encode_block(), of any cell.
+/// Encodes points as encode_block() does, but from any cell.
 std::vector<std::uint8_t> encode_set_aside(const Cell& cell, std::span<const GridPoint> points,
                                            std::span<const std::uint16_t> sources);
 std::vector<std::uint8_t> encode_set_aside(std::span<const ImportedSegment> imported, std::span<const Segment> made);
 std::vector<std::uint8_t> encode_set_aside(const SetAsideList& list);
 
-/// Nothing of a store of a format before 4, which kept nothing. Throw CorruptStore.
+/// These return nothing for a store of a format before 4, which kept nothing. Throw CorruptStore.
 SetAsideList set_aside_list(const StoreRows& rows);
 Block set_aside_points(const StoreRows& rows, std::uint32_t block);
 SetAsideLines set_aside_lines(const StoreRows& rows, std::uint16_t theme, std::uint32_t block);

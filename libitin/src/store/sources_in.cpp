@@ -9,7 +9,7 @@ namespace itin {
 
 namespace {
 
-/// The theme of a leaf's points, from 1; 0: terrain. The parts of raised themes are numbered after the themes.
+/// Returns the theme of a leaf's points, from 1; 0: terrain. The parts of raised themes are numbered after the themes.
 std::size_t theme_of(const Leaf& leaf, const StoreMetadata& metadata) {
   const std::size_t themes = metadata.themes.size();
   return leaf.theme <= themes ? leaf.theme : metadata.parts[leaf.theme - themes - 1].theme;

@@ -35,7 +35,7 @@ std::uint64_t cache_key(BlobKind kind, std::uint64_t key) {
 StoreFile::StoreFile(const std::string& path, const StoreOptions& options) : rows_(path), cache_(options.cache_bytes) {
   metadata_ = read_metadata(rows_);
   metadata_.format_version = rows_.version();
-  // That version says it by itself.
+  // A store of this version has foundations, whatever its metadata say.
   metadata_.has_foundations |= rows_.version() == static_cast<int>(format::kVersionWithFoundations);
   chunks_ = decoded(rows_, BlobKind::Directory, format::kChunkListKey,
                     [](const auto& bytes) { return decode_chunk_list(bytes); });
@@ -68,7 +68,7 @@ bool StoreFile::has_clusters(std::uint16_t theme) const {
   return theme > themes && theme <= themes + metadata_.parts.size() && metadata_.parts[theme - themes - 1].has_clusters;
 }
 
-/// A leaf's block without its preface.
+/// Returns a leaf's block without its preface.
 std::span<const std::uint8_t> StoreFile::items_of(std::uint64_t key, std::span<const std::uint8_t> bytes) const {
   const int tree = format::tree_of(key);
   const std::uint16_t theme = format::theme_of(tree);
@@ -250,7 +250,7 @@ std::vector<Certificate::Cell> StoreFile::cuts(std::uint16_t part, const GridBox
 
 namespace {
 
-/// Whether the box has all that a chunk may hold, which lies within `bounds`.
+/// Tells whether the box contains all that a chunk may hold within `bounds`.
 bool holds(const GridBox& box, const ChunkEntry& chunk, const GridBox& bounds) {
   for (Cell cell{chunk.code, 0}; cell.code < chunk.end; cell = {cell.end(), 0}) {
     while (cell.parent().code == cell.code && cell.parent().end() <= chunk.end) cell = cell.parent();
@@ -259,7 +259,7 @@ bool holds(const GridBox& box, const ChunkEntry& chunk, const GridBox& bounds) {
   return true;
 }
 
-/// The number of grid positions in a box.
+/// Returns the number of grid positions in a box.
 double positions_of(const GridBox& box) {
   if (box.empty()) return 0;
   return (double{1} * box.xmax - box.xmin + 1) * (double{1} * box.ymax - box.ymin + 1);

@@ -39,24 +39,24 @@ class StoreFile final : public PointIndex {
 
   /// Appends every leaf of one tree that meets the box, empty ones too, along the curve.
   void leaves_of(int tree, const GridBox& box, std::vector<Leaf>& out) const;
-  /// As segments(), of one tree.
+  /// Appends segments as segments() does, of one tree.
   void segments_of(int tree, const GridBox& box, std::vector<Segment>& out) const;
 
   /// Calls visit(leaf) for every leaf of one tree, empty ones too.
   template <typename Visit>
   void for_each_leaf_of(int tree, const Visit& visit) const;
 
-  /// One of the theme's footprint blocks.
+  /// Reads one of the theme's footprint blocks.
   std::vector<StoredFootprint> read_footprints(std::uint16_t theme, std::uint32_t number) const;
-  /// One of the theme's feature blocks.
+  /// Reads one of the theme's feature blocks.
   std::vector<FeatureRecord> read_features(std::uint16_t theme, std::uint32_t number) const;
-  /// Appends what features the theme's segments that meet the box are of, and perhaps others nearby; the same may come
+  /// Appends the features of the theme's segments that meet the box, and perhaps of others nearby. An entry may come
   /// twice.
   void segment_features(std::uint16_t theme, const GridBox& box, std::vector<SegmentFeature>& out) const;
-  /// The greatest height of the part's features about the box above the full surface, grid units; 0 where there are
-  /// none.
+  /// Returns the greatest height of the part's features about the box above the full surface, grid units; 0 where there
+  /// are no features.
   std::int32_t greatest_height(std::uint16_t part, const GridBox& box) const;
-  /// The cells about the box where the part's features are lower than the full surface, along the curve.
+  /// Returns the cells about the box where the part's features are lower than the full surface, along the curve.
   std::vector<Certificate::Cell> cuts(std::uint16_t part, const GridBox& box) const;
   std::optional<CertifiedError> certified_error(int level, const Box& box) const;
   std::uint64_t points_about(int level, const Box& box) const;
@@ -66,20 +66,20 @@ class StoreFile final : public PointIndex {
   const StoreRows& rows() const { return rows_; }
   const ChunkList& chunks() const { return chunks_; }
 
-  /// Read and decoded, past the cache.
+  /// These read and decode, bypassing the cache.
   DirectoryChunk read_chunk(int tree, const ChunkEntry& entry) const;
   Block read_block(const Leaf& leaf, BlockOrder order = BlockOrder::kMorton) const;
   std::vector<Segment> read_edges(const Leaf& leaf) const;
   std::vector<SegmentFeature> read_segment_features(const Leaf& leaf) const;
-  /// The clusters of a leaf of a part that has them; `extents` of its items.
+  /// Reads the clusters of a leaf of a part that has clusters; `extents` are the boxes of the leaf's items.
   LeafClusters read_clusters(const Leaf& leaf, std::span<const GridBox> extents) const;
-  /// Whether the theme or part of this number has clusters.
+  /// Tells whether the theme or part of this number has clusters.
   bool has_clusters(std::uint16_t theme) const;
 
  private:
   static constexpr auto kSkipNone = [](const ChunkEntry&) { return false; };
-  /// Calls visit(leaf) for every leaf of the tree, empty ones too, that meets the box, along the curve; but for those
-  /// of chunks that skip(chunk) is true of.
+  /// Calls visit(leaf) for every leaf of the tree, empty ones too, that meets the box, along the curve, except leaves
+  /// of chunks for which skip(chunk) is true.
   template <typename Visit, typename Skip = decltype(kSkipNone)>
   void for_each_leaf(int tree, const GridBox& box, const Visit& visit, const Skip& skip = kSkipNone) const;
   std::shared_ptr<const Block> block(const Leaf& leaf, BlockOrder order) const;
@@ -101,7 +101,7 @@ void StoreFile::for_each_leaf_of(int tree, const Visit& visit) const {
     for (const Leaf& leaf : read_chunk(tree, entry)) visit(leaf);
 }
 
-/// The file of an open store, for what looks behind its public face.
+/// Returns the file of an open store, for code that looks behind its public interface.
 const StoreFile& file_of(const Store& store);
 
 }  // namespace itin

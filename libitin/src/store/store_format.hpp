@@ -11,20 +11,20 @@
 namespace itin::format {
 
 inline constexpr std::uint32_t kApplicationId = 0x4954494e;  // "ITIN"
-/// For stores with features that some levels leave out: they know their clusters.
+/// The version of stores with features that some levels leave out; these stores know their clusters.
 inline constexpr std::uint32_t kVersionWithClusters = 9;
 inline constexpr std::uint32_t kVersion = kVersionWithClusters;  ///< the newest
-/// For others with buildings on flat foundations: no older ones know how deep features cut.
+/// The version of other stores with buildings on flat foundations; older versions do not say how deep features cut.
 inline constexpr std::uint32_t kVersionWithFoundations = 8;
-/// For others with lines that make room for ground that replaces others.
+/// The version of other stores with lines that make room for ground that replaces others.
 inline constexpr std::uint32_t kVersionWithRoom = 7;
-/// For others that keep ids, names or attributes of features.
+/// The version of other stores that keep ids, names or attributes of features.
 inline constexpr std::uint32_t kVersionWithFeatures = 6;
-/// For others with a theme of terraces, or rasters of heights that stand.
+/// The version of other stores with a theme of terraces, or rasters of heights that stand.
 inline constexpr std::uint32_t kVersionWithTerraces = 5;
-/// For all others: readers of that version read them.
+/// The version of all other stores: readers of that version read them.
 inline constexpr std::uint32_t kPlainVersion = 4;
-/// Earlier ones kept nothing of what their surfaces left out.
+/// Earlier versions do not keep the points and lines that their surfaces left out.
 inline constexpr int kFirstVersionThatSetsAside = 4;
 inline constexpr int kPageSize = 16384;
 
@@ -34,7 +34,7 @@ inline constexpr const char* kSchema =
     "CREATE TABLE block(key INTEGER PRIMARY KEY, data BLOB NOT NULL);";
 
 /// Quadtrees are numbered: a level's points by the level, a theme's own vertices from kMaxLevels, its edges from
-/// kFirstEdgeTree; theme 0 is the coverage outline, which has no vertices of its own.
+/// kFirstEdgeTree. Theme 0 is the coverage outline, which has no vertices of its own.
 inline constexpr int kMaxLevels = 64;
 inline constexpr int kFirstEdgeTree = 1024;
 inline constexpr int kLastTree = 2046;
@@ -45,12 +45,13 @@ inline constexpr int kFootprintTree = 2046;
 inline constexpr int kSetAsideTree = 2045;
 /// Tables of features (feature_table.hpp); blocks without a directory.
 inline constexpr int kFeatureTree = 2044;
-/// Added to the source of a part's vertex that lies between a feature and the ground.
+/// The flag in the source of a part's vertex that lies between a feature and the ground.
 inline constexpr std::uint16_t kOnOutline = 0x8000;
 inline constexpr std::size_t kMaxSources = 0x7fff;
-/// In place of the source of a point: no vertex, but a position where others make way.
+/// Stands in place of a point's source: the point is no vertex, but a position where others make way.
 inline constexpr std::uint16_t kMask = 0xffff;
-/// The finest level of a segment that is none, but one of another theme (its reach) that makes way.
+/// Stands in place of the finest level of a segment: this is no segment of the part, but one of another theme (its
+/// reach) that makes way.
 inline constexpr std::uint8_t kMaskedSegment = 0xff;
 constexpr int vertex_tree(int theme) {
   return kMaxLevels + theme;
@@ -61,19 +62,19 @@ constexpr int edge_tree(int theme) {
 constexpr bool is_edge_tree(int tree) {
   return tree >= kFirstEdgeTree;
 }
-/// 0 for the trees of levels.
+/// Returns the theme of a tree; 0 for the trees of levels.
 constexpr std::uint16_t theme_of(int tree) {
   return static_cast<std::uint16_t>(is_edge_tree(tree)   ? tree - kFirstEdgeTree
                                     : tree >= kMaxLevels ? tree - kMaxLevels
                                                          : 0);
 }
 
-/// A leaf is never smaller, so that its code's low 8 bits are zero and tree and code fit into 63 bits.
+/// The least side of a leaf: the low 8 bits of its code are therefore zero, and tree and code fit into 63 bits.
 inline constexpr int kMinLeafLog2Side = 4;
 /// The most leaves in a chunk of a directory.
 inline constexpr std::size_t kChunkLeaves = 1024;
 
-/// The key of a leaf's block, or of the directory chunk that begins with the leaf. Ascending along the curve.
+/// Returns the key of a leaf's block, or of the directory chunk that begins with the leaf. Keys ascend along the curve.
 constexpr std::uint64_t key(int tree, std::uint64_t code) {
   return static_cast<std::uint64_t>(tree) << 52 | code >> 8;
 }
@@ -83,11 +84,11 @@ constexpr std::uint64_t footprint_key(std::uint64_t theme, std::uint64_t number)
 constexpr std::uint64_t feature_key(std::uint64_t theme, std::uint64_t number) {
   return static_cast<std::uint64_t>(kFeatureTree) << 52 | theme << 32 | number;
 }
-/// Theme 0: the points.
+/// Returns the key of a block that is set aside; theme 0 stands for points.
 constexpr std::uint64_t set_aside_key(std::uint64_t theme, std::uint64_t number) {
   return static_cast<std::uint64_t>(kSetAsideTree) << 52 | theme << 32 | number;
 }
-/// The key of the list of what is set aside; it is in the directory.
+/// The key of the list of set-aside blocks; it is in the directory.
 inline constexpr std::uint64_t kSetAsideListKey = std::uint64_t{kSetAsideTree} << 52;
 constexpr int tree_of(std::uint64_t key) {
   return static_cast<int>(key >> 52);
@@ -95,10 +96,10 @@ constexpr int tree_of(std::uint64_t key) {
 constexpr std::uint64_t code_of(std::uint64_t key) {
   return (key & ((std::uint64_t{1} << 52) - 1)) << 8;
 }
-/// The directory's own list of chunks.
+/// The key of the directory's own list of chunks.
 inline constexpr std::uint64_t kChunkListKey = std::uint64_t{kLastTree + 1} << 52;
 
-/// How messages and `itin check` name a row.
+/// Returns the name of a row in messages and `itin check`.
 inline std::string place(const char* table, std::uint64_t key) {
   if (key == kChunkListKey) return fmt::format("{} list", table);
   return fmt::format("{} {}/{:013x}", table, tree_of(key), key & ((std::uint64_t{1} << 52) - 1));

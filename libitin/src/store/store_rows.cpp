@@ -31,8 +31,8 @@ std::uint32_t big_endian(const FileHeader& header, std::size_t offset) {
          std::uint32_t{header[offset + 2]} << 8 | header[offset + 3];
 }
 
-// SQLite's own header, read without it: most files that are no store are told apart here, and a file that is shorter
-// or longer than it should be. Returns the format version.
+// Reads SQLite's own header, without SQLite, and returns the format version. Most files that are no store are
+// recognised here, and files that are shorter or longer than they should be.
 int checked_version(const std::string& path, std::uint64_t file_bytes) {
   std::ifstream file(path, std::ios::binary);
   if (!file) throw FileError(path, std::string("cannot be read: ") + std::strerror(errno));
@@ -77,7 +77,7 @@ struct StoreRows::Connection {
   BlobColumn blocks, directory;
 };
 
-// Gives its connection back when it ends.
+// A connection on loan. It goes back to the pool when the lease ends.
 class StoreRows::Lease {
  public:
   explicit Lease(const StoreRows& rows) : rows_(rows) {
@@ -98,7 +98,7 @@ class StoreRows::Lease {
   Connection* operator->() const { return connection_.get(); }
 
  private:
-  // The slots in the order in which this thread tries them.
+  // Returns the i-th slot in the order in which this thread tries them.
   std::atomic<Connection*>& slot(std::size_t i) const {
     static std::atomic<std::size_t> threads = 0;
     thread_local const std::size_t first = threads++;
@@ -123,8 +123,8 @@ StoreRows::~StoreRows() {
   for (Slot& slot : idle_) std::unique_ptr<Connection>(slot.connection.load());
 }
 
-// An import replaces the whole file under its name. Two connections of one Store must not read two different stores;
-// the first connection keeps the old file, and with it its inode number, alive.
+// Opens a connection. An import replaces the whole file under its name, but two connections of one Store must not read
+// two different stores. The first connection keeps the old file, and with it its inode number, alive.
 std::unique_ptr<StoreRows::Connection> StoreRows::connect() const {
   auto connection = std::make_unique<Connection>(path_);
   const struct stat status = file_status(path_);

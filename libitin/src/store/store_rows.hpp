@@ -20,7 +20,7 @@ namespace itin {
 
 class StoreRows {
  public:
-  /// Checks that the file is a whole store of a version we know. Throws FileError, StoreFormatError, CorruptStore.
+  /// Checks that the file is a whole store of a known version. Throws FileError, StoreFormatError, CorruptStore.
   explicit StoreRows(const std::string& path);
   ~StoreRows();
 
@@ -29,13 +29,13 @@ class StoreRows {
   int version() const { return version_; }
 
   using Bytes = std::span<const std::uint8_t>;
-  /// Calls visit(bytes) with the unsealed bytes of a row, which are there as long as it runs. Throws CorruptStore where
-  /// the row is missing or damaged, and for a DecodeError of `visit`.
+  /// Calls visit(bytes) with the unsealed bytes of a row, which are valid while it runs. Throws CorruptStore where the
+  /// row is missing or damaged, and for a DecodeError of `visit`.
   void read(BlobKind kind, std::uint64_t key, const std::function<void(Bytes)>& visit) const;
   std::string read_metadata() const;
-  /// The keys of all rows of a table, ascending. Throws CorruptStore.
+  /// Calls visit(key) with the keys of all rows of a table, ascending. Throws CorruptStore.
   void for_each_key(BlobKind kind, const std::function<void(std::uint64_t)>& visit) const;
-  /// The findings of SQLite's own integrity check; empty for a sound file.
+  /// Returns the findings of SQLite's own integrity check; empty for a sound file.
   std::vector<std::string> structural_damage() const;
 
  private:
@@ -47,14 +47,14 @@ class StoreRows {
   std::uint64_t file_bytes_ = 0;
   int version_ = 0;
   std::uint64_t device_ = 0, inode_ = 0;
-  // Connections that no thread uses, each where its last user looks first. Slots are cache lines apart.
+  // Connections that no thread uses, each in the slot where its last user looks first. Slots are cache lines apart.
   struct alignas(64) Slot {
     std::atomic<Connection*> connection = nullptr;
   };
   mutable std::array<Slot, 32> idle_;
 };
 
-/// What `decode` makes of a row's bytes; throws as StoreRows::read().
+/// Returns what `decode` makes of a row's bytes. Throws as StoreRows::read() does.
 template <typename Decode>
 auto decoded(const StoreRows& rows, BlobKind kind, std::uint64_t key, const Decode& decode) {
   std::optional<decltype(decode(StoreRows::Bytes()))> result;

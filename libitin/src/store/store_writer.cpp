@@ -24,7 +24,7 @@ static_assert(kLeafCapacity <= kMaxBlockPoints);
 
 namespace {
 
-/// To the leaves, which tile the root along the curve, that the reach's box meets.
+/// Widens the bounds of the leaves that the reach's box meets; the leaves tile the root along the curve.
 void raise(std::vector<Leaf>& leaves, const FeatureReach& reach) {
   const MortonRange range(reach.box);
   for (std::optional<std::uint64_t> code = range.next(0); code;) {
@@ -99,7 +99,7 @@ void StoreWriter::widen(LevelInfo& level, std::int32_t lo, std::int32_t hi) cons
 
 void StoreWriter::add_leaf(int level, const Cell& cell, std::span<const GridPoint> points,
                            std::span<const std::uint16_t> sources, std::int32_t lo, std::int32_t hi) {
-  // The encoder takes more, and as many sources, for granted.
+  // The encoder takes more points, and does not check that there are as many sources.
   if (points.size() > kLeafCapacity || points.size() != sources.size())
     throw std::invalid_argument("not a leaf of this store");
   add_leaf(encode_leaf(level, cell, points, sources, lo, hi));
@@ -255,7 +255,7 @@ void StoreWriter::commit(std::vector<SourceInfo> sources, std::vector<ThemeInfo>
   if (std::any_of(metadata_.themes.begin(), metadata_.themes.end(),
                   [](const ThemeInfo& t) { return t.kind == ThemeKind::Terraces; }))
     require_version(format::kVersionWithTerraces);
-  // Older programs would add to them as though no line made room.
+  // Older programs would add to such stores as though no line made room.
   const auto any_source = [&](bool SourceInfo::*does) {
     return std::any_of(metadata_.sources.begin(), metadata_.sources.end(), [&](const auto& s) { return s.*does; });
   };

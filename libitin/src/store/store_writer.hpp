@@ -10,8 +10,8 @@
 //   for each theme: writer.add_features(theme, records);
 //   writer.commit(sources, themes);
 //
-// Until commit() returns, and whatever happens before, the file at `path` is what it was. Destroying an uncommitted
-// writer removes the temporary file. A file left behind by a killed process is removed by the next writer.
+// Until commit() returns, and whatever happens before, the file at `path` is unchanged. Destroying an uncommitted
+// writer removes the temporary file. The next writer removes a file that a killed process left behind.
 #pragma once
 
 #include <cstdint>
@@ -48,7 +48,7 @@ struct FeatureReach {
 
 class StoreWriter {
  public:
-  /// `tolerances` in metres, level 0 (tolerance 0) first. Throws FileError.
+  /// Takes tolerances in metres, level 0 (tolerance 0) first. Throws FileError.
   StoreWriter(const std::string& path, const std::string& crs_wkt, const Grid& grid,
               const std::vector<double>& tolerances);
   /// Writes a store that takes the place of that file.
@@ -57,36 +57,37 @@ class StoreWriter {
   StoreWriter(const StoreWriter&) = delete;
   StoreWriter& operator=(const StoreWriter&) = delete;
 
-  /// One leaf of one level's tree, in ascending order of (level, cell.code). `points` in Morton order, possibly none
-  /// (an empty cell over ground still has its certificate). lo and hi in grid units. `leaf.points/zmin/zmax/key` are
-  /// derived from the points.
+  /// Adds one leaf of one level's tree. Leaves come in ascending order of (level, cell.code), `points` in Morton order,
+  /// possibly none (an empty cell over ground still has its certificate); lo and hi are in grid units.
+  /// `leaf.points/zmin/zmax/key` are derived from the points.
   void add_leaf(int level, const Cell& cell, std::span<const GridPoint> points, std::span<const std::uint16_t> sources,
                 std::int32_t lo, std::int32_t hi);
   /// Adds a leaf that is encoded already.
   void add_leaf(const EncodedLeaf& leaf);
-  /// The vertices that are not part of the full surface, but of this theme's lines on it; in Morton order.
+  /// Adds the vertices that are not part of the full surface, but of this theme's lines on it; in Morton order.
   void add_theme_vertices(std::uint16_t theme, std::span<const GridPoint> points,
                           std::span<const std::uint16_t> sources);
-  /// The vertices of a part of a raised theme; parts are numbered after the themes. Points with format::kMask as
+  /// Adds the vertices of a part of a raised theme; parts are numbered after the themes. Points with format::kMask as
   /// their source are no vertices. Each cell takes the greatest of the reaches that it meets; cells without points are
-  /// written too where it is above 0. `clusters` has every point, or is empty.
+  /// written, too, where it is above 0. `clusters` has every point, or is empty.
   void add_part_vertices(std::uint16_t part, std::span<const GridPoint> points, std::span<const std::uint16_t> sources,
                          std::span<const FeatureReach> reaches, const PartClusters& clusters = {});
-  /// The coverage outline and the lines of all themes, all at once, in any order; kept in one edge quadtree per theme.
-  /// `features`: which features they are of; ascending. `clusters` of parts, by number; each has every segment of the
-  /// part, or is empty.
+  /// Adds the coverage outline and the lines of all themes, all at once, in any order; each theme has an edge quadtree
+  /// of its own. `features` are the features of segments, ascending. `clusters` are those of parts, by number; each has
+  /// every segment of the part, or is empty.
   void add_segments(const std::vector<Segment>& segments, std::span<const SegmentFeature> features = {},
                     const std::map<std::uint16_t, PartClusters>& clusters = {});
-  /// Points of the ground that are not in it as they came; cell by cell, in Morton order.
+  /// Sets aside points of the ground that the surface does not have unchanged; cell by cell, in Morton order.
   void set_aside(const Cell& cell, std::span<const GridPoint> points, std::span<const std::uint16_t> sources);
-  /// Lines of a theme that are not in the surface as they came.
+  /// Sets aside lines of a theme that the surface does not have unchanged.
   void set_aside(std::uint16_t theme, const SetAsideLines& lines);
   void count_set_aside(const SetAsideCounts& counts) { set_aside_.counts = counts; }
-  /// A theme's footprints. Returns the number of their blocks.
+  /// Adds a theme's footprints. Returns the number of their blocks.
   std::uint32_t add_footprints(std::uint16_t theme, std::span<const StoredFootprint> footprints);
-  /// The records of a theme's features. Returns the number of their blocks.
+  /// Adds the records of a theme's features. Returns the number of their blocks.
   std::uint32_t add_features(std::uint16_t theme, std::span<const FeatureRecord> records);
-  /// Certified error of each level = the union of its leaves'. Syncs and renames. Throws FileError (disk full, ...).
+  /// Completes the store: syncs and renames. The certified error of each level is the union of its leaves'. Throws
+  /// FileError (disk full, ...).
   void commit(std::vector<SourceInfo> sources, std::vector<ThemeInfo> themes = {}, std::vector<ThemePart> parts = {});
 
  private:
@@ -99,7 +100,7 @@ class StoreWriter {
   void insert(Statement& statement, BlobKind kind, std::uint64_t key, std::span<const std::uint8_t> bytes);
   void widen(LevelInfo& level, std::int32_t lo, std::int32_t hi) const;
 
-  // Destroyed in reverse order: statements, database, file.
+  // Members are destroyed in reverse order: statements, database, file.
   std::unique_ptr<ReplacementFile> file_;
   Database database_;
   std::optional<Statement> insert_block_, insert_chunk_;
@@ -110,11 +111,11 @@ class StoreWriter {
   std::uint32_t version_ = format::kPlainVersion;
   std::set<std::uint16_t> with_features_;  ///< themes whose segments know their features
   std::set<std::uint16_t> with_clusters_;  ///< parts
-  Leaf last_;                              ///< added; only its tree and cell matter
+  Leaf last_;                              ///< the last leaf added; only its tree and cell matter
   bool has_last_ = false;
 };
 
-/// The most points a leaf of a store's quadtree holds.
+/// The most points in a leaf of a store's quadtree.
 inline constexpr std::uint32_t kLeafCapacity = 512;
 
 }  // namespace itin

@@ -22,7 +22,7 @@ std::vector<std::uint8_t> compress(std::span<const std::uint8_t> bytes) {
 
 std::vector<std::uint8_t> decompress(std::span<const std::uint8_t> frame, std::size_t most) {
   const auto size = ZSTD_getFrameContentSize(frame.data(), frame.size());
-  if (size > most) throw DecodeError("has the wrong size");  // so have zstd's two error values
+  if (size > most) throw DecodeError("has the wrong size");  // zstd's two error values are that large, too
   std::vector<std::uint8_t> out(size);
   const std::size_t written = ZSTD_decompress(out.data(), out.size(), frame.data(), frame.size());
   if (ZSTD_isError(written) || written != size) throw DecodeError("cannot be decompressed");

@@ -7,7 +7,7 @@ namespace itin {
 
 namespace {
 
-/// Edges, each seen from both ends.
+/// The edges, each seen from both ends.
 class LineGraph {
  public:
   explicit LineGraph(std::span<const LineEnds> edges) {
@@ -33,7 +33,7 @@ class LineGraph {
     const auto last = std::find_if(first, ends_.end(), [&](const auto& end) { return end.first != vertex; });
     return {static_cast<std::size_t>(first - ends_.begin()), static_cast<std::size_t>(last - ends_.begin())};
   }
-  /// Whether a line goes on there.
+  /// Tells whether a line goes on at the vertex.
   bool passes(std::uint32_t vertex) const {
     const auto [first, last] = edges_at(vertex);
     return last - first == 2;
@@ -53,7 +53,7 @@ class LineGraph {
       line.vertices.push_back(vertex);
       if (!passes(vertex)) return line;
       const std::size_t first = edges_at(vertex).first;
-      if (taken_[first] && taken_[first + 1]) return line;  // a ring is closed
+      if (taken_[first] && taken_[first + 1]) return line;  // the ring is closed
       edge = taken_[first] ? first + 1 : first;
     }
   }

@@ -9,7 +9,7 @@ namespace itin {
 
 namespace {
 
-/// Counterclockwise order of the directions from `centre`, beginning with that of `start`.
+/// The counterclockwise order of the directions from `centre`, beginning with the direction of `start`.
 class Around {
  public:
   Around(const GridPoint& centre, const GridPoint& start) : centre_(centre), start_(start) {}
@@ -24,7 +24,7 @@ class Around {
     return std::int64_t{p.x - centre_.x} * (start_.x - centre_.x) +
            std::int64_t{p.y - centre_.y} * (start_.y - centre_.y);
   }
-  /// Half a turn or more from the start.
+  /// Tells whether p is half a turn or more from the start.
   bool behind(const GridPoint& p) const {
     const std::int64_t side = side_of(start_, p);
     return side < 0 || (side == 0 && along(p) < 0);
@@ -81,7 +81,7 @@ void Topology::order_stars(std::vector<std::uint32_t>& outgoing) {
   for (std::uint32_t v = 0; v < vertex_count(); ++v) {
     const auto begin = outgoing.begin() + first_triangle_[v], end = outgoing.begin() + first_triangle_[v + 1];
     auto fans_end = std::partition(begin, end, [this](std::uint32_t h) { return twins_[h] == kNoNeighbour; });
-    if (fans_end == begin && begin != end) ++fans_end;  // enclosed: begin anywhere, which is with the least
+    if (fans_end == begin && begin != end) ++fans_end;  // enclosed: it may begin anywhere, and begins with the least
     if (fans_end - begin > 1) {
       std::iter_swap(begin, std::min_element(begin, fans_end));
       const Around around(tin_->vertices[v], at_end(*begin));

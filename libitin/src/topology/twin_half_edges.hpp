@@ -9,7 +9,7 @@
 
 namespace itin {
 
-/// For each half-edge its twin, or kNoNeighbour at the boundary. O(n).
+/// Returns for each half-edge its twin, or kNoNeighbour at the boundary. O(n).
 std::vector<std::uint32_t> twin_half_edges(const Tin& tin);
 
 }  // namespace itin

@@ -16,10 +16,10 @@ namespace {
 
 /// The number of nearest segments that are tried before the others.
 constexpr std::ptrdiff_t kNearSegments = 16;
-/// For less it is not worth sorting segments by direction.
+/// With fewer segments or questions, sorting segments by direction does not pay.
 constexpr std::size_t kFewSegments = 64, kFewQuestions = 4;
-/// A circle is wide when its centre is farther away than this many times half the edge's length. Less wide ones come
-/// first.
+/// A circle is wide when its centre is farther away than this many times half the edge's length. Narrower circles are
+/// searched first.
 constexpr double kWide = 4;
 
 double width(const GridBox& b) {
@@ -29,7 +29,7 @@ double height(const GridBox& b) {
   return static_cast<double>(b.ymax) - b.ymin;
 }
 
-/// Calls visit(part) for at most four boxes that together have the positions of one without those of another.
+/// Calls visit(part) for at most four boxes that together have the positions of `box` without those of `hole`.
 template <class Visit>
 void for_each_part_beyond(GridBox box, const GridBox& hole, const Visit& visit) {
   if (hole.empty() || !box.meets(hole)) return visit(box);
@@ -40,7 +40,7 @@ void for_each_part_beyond(GridBox box, const GridBox& hole, const Visit& visit) 
   if (box.ymax > hole.ymax) visit({box.xmin, hole.ymax + 1, box.xmax, box.ymax});
 }
 
-/// Both have the positions of the cut, so that no leaf can fall between.
+/// Returns the halves of a box. Both have the positions on the cut, so that no leaf can fall between them.
 std::pair<GridBox, GridBox> halves(const GridBox& b) {
   if (width(b) >= height(b)) {
     const std::int32_t x = std::midpoint(b.xmin, b.xmax);
@@ -59,7 +59,8 @@ bool crosses(const Segment& s, Position p, Position q) {
 
 namespace {
 
-/// The shadow of a segment is convex: it holds a box when it holds the corners.
+/// Tells whether the segment hides the box from p. A segment's shadow is convex: it holds a box when it holds the
+/// corners.
 bool hides(const Segment& s, Position p, const GridBox& box) {
   return crosses(s, p, {box.xmin, box.ymin}) && crosses(s, p, {box.xmax, box.ymax}) &&
          crosses(s, p, {box.xmin, box.ymax}) && crosses(s, p, {box.xmax, box.ymin});
@@ -90,24 +91,24 @@ bool hide(std::span<const Segment> segments, Position a, Position b, const GridB
 /// The state of the search of one circle.
 struct ApexSearch::Search {
   const ApexFrame& frame;
-  GridBox box;  ///< all that the search looks at, but for
+  GridBox box;  ///< everything that the search looks at, except `known`
   GridBox known;
-  const Position* beyond;  ///< on the circle that the search must improve on, or null
+  const Position* beyond;  ///< a position on the circle that the search must improve on, or null
   double reach;            ///< no circle larger than this matters any more
-  Segments segments;       ///< whether they hide anything
+  Segments segments;       ///< whether segments hide anything
   std::optional<SelectedVertex> best = std::nullopt;
-  GridBox with_segments = {};  ///< segments_ are those that meet this part of box
-  std::size_t asked = 0;       ///< how often it was asked what they hide
+  GridBox with_segments = {};  ///< the part of box for which segments_ has the segments that meet it
+  std::size_t asked = 0;       ///< number of questions so far about what segments_ hide
   std::optional<SightFan> from_a = std::nullopt, from_b = std::nullopt;
 };
 
-/// Reads the segments that may come between ab and what lies left of it in a part of the search's box, and perhaps
-/// more. Near ones, which hide most, come first.
+/// Reads the segments that may come between ab and the places left of ab in a part of the search's box, and perhaps
+/// more. Near segments, which hide most, come first.
 void ApexSearch::read_segments(const GridBox& part, Search& search) {
   if (search.segments == Segments::kPassed || search.with_segments.contains(part)) return;
   const ApexFrame& frame = search.frame;
   search.with_segments.extend(part);
-  // Parts asked for grow; so few of them are read.
+  // Parts are made larger than asked for, as later ones grow; so few parts are read.
   const double margin = std::max(width(search.with_segments), height(search.with_segments)) / 2;
   search.with_segments = intersection(expanded(search.with_segments, margin), search.box);
   search.asked = 0;
@@ -128,7 +129,7 @@ void ApexSearch::read_segments(const GridBox& part, Search& search) {
                    [&](const Segment& s, const Segment& t) { return distance(s) < distance(t); });
 }
 
-/// Whether a segment hides c from an end of the edge.
+/// Tells whether a segment hides c from an end of the edge.
 bool ApexSearch::hidden(Position c, Search& search) {
   const Position a = search.frame.a, b = search.frame.b;
   read_segments(intersection(box_of(std::array{a, b, c}), search.box), search);
@@ -147,7 +148,7 @@ std::optional<SelectedVertex> ApexSearch::least_circle(const ApexFrame& frame, d
                                                        const GridBox& known, Segments segments) {
   const GridBox all = index_.bounds();
   const double span = frame.r + std::hypot(width(all), height(all));
-  // Where there is much it is near, and where there is nothing even a wide circle is soon looked through.
+  // Where there are many vertices, the wanted one is near; where there are none, even a wide circle is soon searched.
   for (double part = frame.r; part < std::min(lambda / kWide, span); part *= kWide) {
     const auto best = nearest_circle(frame, part, nullptr, known, segments);
     // A point on the searched circle itself may have rivals that rounding left out.
@@ -172,14 +173,14 @@ std::optional<SelectedVertex> ApexSearch::nearest_circle(const ApexFrame& frame,
   std::sort(order.begin(), order.end());
   const Leaf* last = nullptr;
   for (const auto& [key, leaf_key, i] : order) {
-    if (last != nullptr && last->key == leaf_key) continue;  // it meets several parts
+    if (last != nullptr && last->key == leaf_key) continue;  // the leaf meets several parts
     last = &leaves_[i];
     if (frame.cap_meets(search.reach, last->cell.box()) && !hidden(*last, search)) search_leaf(*last, search);
   }
   return search.best;
 }
 
-/// Whether it is certain, without reading the leaf, that segments near by hide all of it.
+/// Tells whether it is certain, without reading the leaf, that nearby segments hide all of it.
 bool ApexSearch::hidden(const Leaf& leaf, Search& search) {
   if (blocks_.has_read(leaf)) return false;
   read_segments(search.box, search);
@@ -193,7 +194,7 @@ void ApexSearch::search_leaf(const Leaf& leaf, Search& search) {
   for (std::size_t k = 0; k < block->points.size(); ++k) {
     const GridPoint& point = block->points[k];
     const Position c{point.x, point.y};
-    // Segments are known only for the search's box; what lies outside comes with a larger one.
+    // Segments are known only for the search's box; places outside it are searched with a larger one.
     if (!search.box.contains(c.x, c.y) || search.known.contains(c.x, c.y) ||
         !search.frame.inside(search.reach, c.x, c.y) || orientation(a, b, c) <= 0)
       continue;
@@ -224,7 +225,7 @@ std::optional<SelectedVertex> ApexSearch::nearest_left_of(Position a, Position b
 
 std::optional<SelectedVertex> ApexSearch::left_of(Position a, Position b, Segments segments) {
   const GridBox all = index_.bounds();
-  // The edges along the border of a raster are many.
+  // This is tested first, as there are many edges along the border of a raster.
   const Position farthest{b.y > a.y ? all.xmin : all.xmax, b.x > a.x ? all.ymax : all.ymin};
   if (orientation(a, b, farthest) <= 0) return std::nullopt;
   const ApexFrame frame(a, b);

@@ -5,9 +5,10 @@
 //
 // For a candidate c to the left of ab, with m the midpoint of ab, n the unit normal to the left and r = |ab| / 2, the
 // circle through a, b, c has its centre at m + lambda n with
-//     lambda(c) = (|c - m|^2 - r^2) / (2 n . (c - m)),
-// and its part on the left of ab grows with lambda. Leaves are visited in about the order of that bound and skipped
-// when the best circle so far does not reach them. Skipping is conservative floating point; every decision is exact.
+//     lambda(c) = (|c - m|^2 - r^2) / (2 n . (c - m)).
+// The part of this circle on the left of ab grows with lambda. Leaves are visited in about the order of that bound and
+// skipped when the best circle so far does not reach them. Skipping is conservative floating point; every decision is
+// exact.
 #pragma once
 
 #include <cstdint>
@@ -33,7 +34,7 @@ struct SelectedVertex {
   GridPoint point;
   std::uint16_t source = 0;
   std::uint8_t level = 0;
-  std::uint16_t theme = 0;  ///< within whose raised features it lies, off their outlines; 0: none
+  std::uint16_t theme = 0;  ///< the theme within whose raised features it lies, off their outlines; 0: none
 
   Position position() const { return {point.x, point.y}; }
 };
@@ -42,29 +43,33 @@ inline std::uint64_t code_of(const SelectedVertex& v) {
   return code_of(v.point);
 }
 
-/// One search serves one thread and one region: it keeps the blocks it has read, and counts them.
+/// Searches for third vertices. One search serves one thread and one region: it keeps and counts the blocks it has
+/// read.
 class ApexSearch {
  public:
   ApexSearch(const PointIndex& index, const Selection& selection)
       : index_(index), selection_(selection), blocks_(index) {}
 
-  /// From now on intruder() and inside() pass over this box: the caller has triangulated all that is selected in it.
+  /// Makes intruder() and inside() pass over this box from now on: the caller has triangulated all selected vertices in
+  /// it.
   void pass_over(const GridBox& known) { known_ = known; }
 
-  /// The third vertex of the triangle to the left of ab, an edge of the global triangulation that is no constraint;
-  /// nullopt on the hull.
+  /// Returns the third vertex of the triangle to the left of ab, an edge of the global triangulation that is no
+  /// constraint; nullopt on the hull.
   std::optional<SelectedVertex> apex(Position a, Position b);
-  /// The vertex to the left of ab with the least circle, whatever segments come between; nullopt if there is none.
+  /// Returns the vertex to the left of ab with the least circle, whatever segments come between; nullopt if there is
+  /// none.
   std::optional<SelectedVertex> nearest_left_of(Position a, Position b);
 
-  /// A vertex to the left of ab, visible from both ends, inside the circle through a, b and c, which lies to the right
-  /// of ab: the least such circle's, if there is any. (By the tie rule, where a vertex lies on the circle.)
+  /// Returns a vertex to the left of ab, visible from both ends, inside the circle through a, b and c, where c lies to
+  /// the right of ab: the vertex with the least circle, if there is any. (A vertex on the circle is decided by the tie
+  /// rule.)
   std::optional<SelectedVertex> intruder(Position a, Position b, Position c);
 
-  /// A vertex in the closed triangle abc (counterclockwise) other than its corners, if there is any.
+  /// Returns a vertex in the closed triangle abc (counterclockwise) other than its corners, if there is any.
   std::optional<SelectedVertex> inside(Position a, Position b, Position c);
 
-  /// The selected vertex at this very position.
+  /// Returns the selected vertex at this very position.
   std::optional<SelectedVertex> at(Position p);
 
   const RetrievalStatistics& statistics() const { return blocks_.statistics(); }
@@ -86,16 +91,16 @@ class ApexSearch {
   const Selection& selection_;
   BlockReader blocks_;
   GridBox known_;
-  // Kept between calls for their memory.
+  // These are kept between calls for their memory.
   std::vector<Leaf> leaves_;
   std::vector<Segment> segments_;
 };
 
-/// Whether segment s properly crosses the line of sight pq: touching does not block it.
+/// Tells whether segment s properly crosses the line of sight pq: touching does not block it.
 bool crosses(const Segment& s, Position p, Position q);
 
-/// Whether the segments hide every position of the box from a or from b, as far as that shows in boxes an eighth as
-/// wide, each hidden by one segment. Never true otherwise.
+/// Tells whether the segments hide every position of the box from a or from b. One segment must hide each box, or each
+/// of its parts an eighth as wide; the answer may be false where they do so only together. Never true otherwise.
 bool hide(std::span<const Segment> segments, Position a, Position b, const GridBox& box);
 
 }  // namespace itin

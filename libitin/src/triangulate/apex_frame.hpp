@@ -29,22 +29,24 @@ struct ApexFrame {
 
   double height(double x, double y) const { return (x - mx) * nx + (y - my) * ny; }
 
-  /// (c - a) . (c - b) = |c - m|^2 - r^2 and twice the area of abc are exact, so nothing cancels in lambda.
+  /// Returns lambda of c (apex.hpp). (c - a) . (c - b) = |c - m|^2 - r^2 and twice the area of abc are exact, so that
+  /// no digits cancel.
   double lambda(Position c) const {
     const double dot = static_cast<double>((std::int64_t{c.x} - a.x) * (std::int64_t{c.x} - b.x) +
                                            (std::int64_t{c.y} - a.y) * (std::int64_t{c.y} - b.y));
     return dot * r / static_cast<double>(doubled_area(a, b, c));
   }
 
-  /// Never false for a point inside or on the circle of lambda; it may be true for one just outside. A distant centre
-  /// cancels nothing, as |p - centre|^2 - radius^2 is taken relative to m.
+  /// Tells whether a point may be inside or on the circle of lambda. Never false for such a point; it may be true for
+  /// one just outside. A distant centre loses no digits, as |p - centre|^2 - radius^2 is taken relative to m.
   bool inside(double lambda, double x, double y) const {
     const double dx = x - mx, dy = y - my, square = dx * dx + dy * dy;
     const double error = 1e-12 * (square + r * r + std::abs(lambda) * (std::abs(dx) + std::abs(dy))) + 1;
     return square - r * r - 2 * lambda * (dx * nx + dy * ny) <= error;
   }
 
-  /// Never false where a point of the box is inside or on the circle and left of ab; it may be true elsewhere.
+  /// Tells whether a point of the box may be inside or on the circle and left of ab. Never false where one is; it may
+  /// be true elsewhere.
   bool cap_meets(double lambda, const GridBox& box) const {
     const double cx = mx + lambda * nx, cy = my + lambda * ny;
     // One unit of slack absorbs the rounding of centre and corners.
@@ -57,7 +59,7 @@ struct ApexFrame {
     return height(x, y) > -1;
   }
 
-  /// About the least lambda of the box: an order of visits, not a bound.
+  /// Returns about the least lambda of the box: an order of visits, not a bound.
   double key(const GridBox& box) const {
     const Position nearest{static_cast<std::int32_t>(std::clamp(mx, double{1} * box.xmin, double{1} * box.xmax)),
                            static_cast<std::int32_t>(std::clamp(my, double{1} * box.ymin, double{1} * box.ymax))};
@@ -69,7 +71,7 @@ struct ApexFrame {
     return least;
   }
 
-  /// The box of the circle's part left of ab, a little enlarged and cut off at `limit`.
+  /// Returns the box of the circle's part left of ab, a little enlarged and cut off at `limit`.
   GridBox cap_box(double lambda, const GridBox& limit) const {
     const double cx = mx + lambda * nx, cy = my + lambda * ny, radius = std::hypot(r, lambda);
     double xmin = std::min(a.x, b.x), xmax = std::max(a.x, b.x);

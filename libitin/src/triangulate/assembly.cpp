@@ -10,9 +10,9 @@ namespace itin {
 
 namespace {
 
-/// A region's vertices in its own cell come one after another, and so do the cells: what lies there is in order
-/// already, vertices as well as the triangles of which they are the first. All else is foreign to the region; mostly,
-/// but not always, it is some other's own as well.
+/// Assembles the regions. A region's vertices in its own cell come one after another, and so do the cells. Such
+/// vertices, and the triangles of which they are the first, are therefore in order already. All others are foreign to
+/// the region; most of them, but not all, are some other region's own.
 class Assembly {
  public:
   Assembly(std::vector<RegionMesh> regions, std::span<const Cell> cells, const Grid& grid)
@@ -38,7 +38,7 @@ class Assembly {
     bool owns(std::size_t v) const { return v >= first && v < end; }
   };
 
-  /// A run of a region's triangles, and the place where they go.
+  /// A run of a region's triangles, and the place in the result where they go.
   struct Slice {
     std::vector<Triangle>::const_iterator first, end;
     std::size_t place;
@@ -55,7 +55,7 @@ class Assembly {
     part.first = at(cell.code), part.end = at(cell.end());
   }
 
-  /// `own` is in ascending order, and stays so.
+  /// Adds the foreign items that are no region's own. `own` is in ascending order, and stays so.
   template <class Item>
   static void add_those_of_nobody(std::vector<Item> foreign, std::vector<Item>& own) {
     sort_unique(foreign);
@@ -70,7 +70,7 @@ class Assembly {
     return {numbers[t[0]], numbers[t[1]], numbers[t[2]]};
   }
 
-  /// The codes of all vertices.
+  /// Lists the codes of all vertices.
   void list_codes() {
     std::vector<std::uint64_t> foreign;
     for (const Part& part : parts_) {
@@ -117,7 +117,7 @@ class Assembly {
     }
   }
 
-  /// A region's own triangles stand together too.
+  /// Gathers the triangles. A region's own triangles stand together, too.
   void gather_triangles() {
     std::vector<Slice> own;
     std::vector<Triangle> foreign;

@@ -1,4 +1,4 @@
-// One Tin of the regions that a window was cut into.
+// Makes one Tin of the regions that a window was cut into.
 #pragma once
 
 #include <span>
@@ -11,8 +11,8 @@
 
 namespace itin {
 
-/// Regions agree where they overlap, so what several hold is taken once. `cells` are the regions', disjoint and in
-/// Morton order. Linear time, for only what lies across cells' borders is looked up.
+/// Joins the regions. They agree where they overlap, so items that several regions hold are taken once. `cells` are the
+/// regions', disjoint and in Morton order. Linear time, as only items across cells' borders are looked up.
 Tin assemble(std::vector<RegionMesh> regions, std::span<const Cell> cells, const Grid& grid);
 
 }  // namespace itin

@@ -25,7 +25,7 @@ class BlockReader {
     }
     return block;
   }
-  /// Its points may be in any order, as with PointIndex::unordered_block().
+  /// Reads a block whose points may be in any order, as with PointIndex::unordered_block().
   std::shared_ptr<const Block> read_unordered(const Leaf& leaf) {
     std::shared_ptr<const Block>& block = blocks_[leaf.key];
     if (block == nullptr) {
@@ -45,7 +45,7 @@ class BlockReader {
 
   const PointIndex& index_;
   RetrievalStatistics statistics_;
-  /// Searches about one place come back to the same few leaves.
+  /// The blocks read so far: searches about one place come back to the same few leaves.
   std::unordered_map<std::uint64_t, std::shared_ptr<const Block>> blocks_;
 };
 

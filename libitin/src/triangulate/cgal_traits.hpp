@@ -17,7 +17,7 @@ struct TraitsPoint {
   std::int32_t y = 0;
   std::uint32_t vertex = 0;
   friend bool operator==(const TraitsPoint& a, const TraitsPoint& b) { return a.x == b.x && a.y == b.y; }
-  // CGAL's triangulations name these in stream operators that are never called here.
+  // CGAL's triangulations name these operators in stream operators that are never called here.
   friend std::ostream& operator<<(std::ostream& out, const TraitsPoint&) { return out; }
   friend std::istream& operator>>(std::istream& in, TraitsPoint&) { return in; }
 };

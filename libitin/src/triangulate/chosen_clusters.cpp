@@ -18,7 +18,7 @@ ChosenClusters::ChosenClusters(const Store& store, const Selection& selection)
     coarsest_.push_back(part.has_clusters && part.coarsest < selection.coarsest() ? part.coarsest : kWhole);
 }
 
-/// For each item, whether the query has one of the clusters that the item belongs to.
+/// Tells for each item whether the query has one of the clusters that the item belongs to.
 std::vector<bool> ChosenClusters::chosen_items(const LeafClusters& clusters, std::size_t items, int coarsest) const {
   std::vector<bool> chosen, items_chosen(items);
   for (const GridBox& box : clusters.boxes) chosen.push_back(selection_.finest_in(box) <= coarsest);
@@ -62,7 +62,7 @@ void ChosenClusters::segments(std::uint16_t theme, const GridBox& box, std::vect
   std::vector<Leaf> leaves;
   file_.leaves_of(tree, box, leaves);
   for (const Leaf& leaf : leaves) {
-    // Held here, as the cache has another copy where another thread has inserted the leaf first.
+    // This keeps the segments alive, as the cache has another copy if another thread has inserted the leaf first.
     const std::shared_ptr<const std::vector<Segment>> of_leaf = segments_of(leaf, coarsest);
     for (const Segment& s : *of_leaf)
       if (extent_of(s).meets(box)) out.push_back(s);

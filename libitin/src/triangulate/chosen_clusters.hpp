@@ -1,8 +1,8 @@
-// What a store's leaves hold of those clusters that a query has.
+// The parts of a store's leaves that belong to the clusters that a query has.
 //
 //   const ChosenClusters chosen(store, selection);
 //   chosen.block(leaf);                       // as the store's, without points of other clusters
-//   chosen.segments(theme, box, segments);    // likewise
+//   chosen.segments(theme, box, segments);    // as the store's, without those of other clusters
 #pragma once
 
 #include <cstdint>
@@ -18,20 +18,20 @@
 
 namespace itin {
 
-/// Safe for concurrent use. Refers to the store, which must outlive it.
+/// Reads a store's leaves without other clusters. Safe for concurrent use. Refers to the store, which must outlive it.
 class ChosenClusters {
  public:
   ChosenClusters(const Store& store, const Selection& selection);
 
-  /// With the positions where others make way.
+  /// Returns the leaf's block, with the positions where others make way.
   std::shared_ptr<const Block> block(const Leaf& leaf) const;
-  /// Appends the segments of a theme or part that meet the box, the entries of what makes way for it with them, and
-  /// perhaps others nearby; the same may come twice.
+  /// Appends the segments of a theme or part that meet the box, with the entries of the segments that make way for it,
+  /// and perhaps others nearby. A segment may come twice.
   void segments(std::uint16_t theme, const GridBox& box, std::vector<Segment>& out) const;
 
  private:
   static constexpr int kWhole = -1;
-  /// The coarsest level of a part of which the query may have some clusters without others; kWhole for all else.
+  /// Returns the coarsest level of a part of which the query may have some clusters without others; kWhole otherwise.
   int coarsest(std::uint16_t theme) const { return coarsest_[theme]; }
   std::vector<bool> chosen_items(const LeafClusters& clusters, std::size_t items, int coarsest) const;
   std::shared_ptr<const std::vector<Segment>> segments_of(const Leaf& leaf, int coarsest) const;

@@ -1,4 +1,4 @@
-// The circumdisc of a triangle, in which all lies that could disturb it.
+// The circumdisc of a triangle, which holds every vertex that could disturb it.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 
 namespace itin {
 
-/// The sides of a box at which the bounds end moved far away.
+/// Moves those sides of a box far away at which the bounds end.
 inline GridBox with_all_beyond(GridBox box, const GridBox& bounds) {
   constexpr std::int32_t kFar = std::numeric_limits<std::int32_t>::max();
   if (box.xmin <= bounds.xmin) box.xmin = -kFar;
@@ -37,17 +37,17 @@ inline Circumdisc circumdisc(Position a, Position b, Position c) {
   return {a.x + ux, a.y + uy, radius + slack};
 }
 
-/// Whether the circumdisc of the counterclockwise abc surely lies in `box`.
+/// Tells whether the circumdisc of the counterclockwise abc surely lies in `box`.
 inline bool circumdisc_in(Position a, Position b, Position c, const GridBox& box) {
   const auto [x, y, reach] = circumdisc(a, b, c);
   return x - reach >= box.xmin && x + reach <= box.xmax && y - reach >= box.ymin && y + reach <= box.ymax;
 }
 
-/// Whether it may reach `box`.
+/// Tells whether the circumdisc may reach `box`.
 inline bool circumdisc_reaches(Position a, Position b, Position c, const GridBox& box) {
   const auto [x, y, reach] = circumdisc(a, b, c);
   const double dx = std::max({box.xmin - x, x - box.xmax, 0.0}), dy = std::max({box.ymin - y, y - box.ymax, 0.0});
-  // What is not finite may.
+  // A disc that is not finite may reach any box.
   return !(std::hypot(dx, dy) > reach);
 }
 

@@ -8,7 +8,7 @@ namespace itin {
 
 namespace {
 
-/// New numbers in Morton order for the vertices of the kept triangles, which are put out.
+/// Gives the vertices of the kept triangles new numbers in Morton order, and puts these vertices out.
 std::vector<std::uint32_t> number_vertices(const PlaneMesh& mesh, std::span<const std::uint32_t> kept,
                                            std::span<const SelectedVertex> vertices, std::uint32_t in_order,
                                            std::vector<SelectedVertex>& out) {

@@ -26,7 +26,7 @@ using Constrained =
                                                CGAL::Triangulation_data_structure_2<VertexBase, ConstrainedFaceBase>,
                                                CGAL::No_constraint_intersection_requiring_constructions_tag>;
 
-/// Each round inserts one in kThinning of the points not yet in, all of them along the curve: the triangulation is
+/// Each round inserts one in kThinning of the points not yet in, all of them along the curve. The triangulation is then
 /// always about evenly dense, so walks stay short and flips few, without shuffling (measured: 1.4 times as fast as
 /// CGAL's own biased randomised order on random points, 1.8 times on lattices).
 constexpr std::size_t kThinning = 8;
@@ -90,7 +90,7 @@ class Builder {
 
 }  // namespace
 
-/// The unconstrained triangulation is faster; the first constraint changes it over.
+/// The triangulation. While unconstrained, it is of a faster kind; the first constraint converts it.
 class Delaunay::Impl {
  public:
   void insert(std::span<const TraitsPoint> points) {
@@ -101,7 +101,7 @@ class Delaunay::Impl {
       free_->insert(points);
     }
   }
-  /// One more than the greatest number so far.
+  /// Returns one more than the greatest number so far.
   std::uint32_t next() const { return next_; }
 
   void constrain(std::span<const Constraint> constraints) {

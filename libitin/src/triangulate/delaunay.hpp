@@ -29,7 +29,7 @@ struct PlaneMesh {
   std::vector<std::array<std::uint32_t, 3>> triangles;   ///< vertex numbers, counterclockwise
   std::vector<std::array<std::uint32_t, 3>> neighbours;  ///< kNoTriangle beyond the hull
   std::vector<std::uint8_t> constrained;                 ///< bit i: edge i is part of a constraint (region.hpp)
-  static constexpr int kOutline = 3;                     ///< bit i + kOutline: of the coverage outline
+  static constexpr int kOutline = 3;                     ///< bit i + kOutline: edge i is part of the coverage outline
 };
 
 class Delaunay {
@@ -41,14 +41,14 @@ class Delaunay {
   Delaunay& operator=(Delaunay&&) noexcept;
   ~Delaunay();
 
-  /// All positions ever inserted must differ. Fastest when they come along a space-filling curve:
+  /// Inserts positions. All positions ever inserted must differ. Fastest when they come along a space-filling curve:
   /// about 2.8 million per second.
   void insert(std::span<const Position> positions);
-  /// Under these numbers, a position each.
+  /// Inserts positions under these numbers, one each.
   void insert(std::span<const Position> positions, std::span<const std::uint32_t> numbers);
-  /// Numbers of inserted vertices, ends different.
+  /// Inserts constraints between the numbers of inserted vertices. Precondition: their ends differ.
   void constrain(std::span<const Constraint> constraints);
-  /// Empty while all vertices are collinear.
+  /// Returns the mesh, which is empty while all vertices are collinear.
   PlaneMesh mesh() const;
 
  private:

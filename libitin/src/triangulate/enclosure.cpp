@@ -9,14 +9,14 @@ namespace itin {
 
 namespace {
 
-/// With more cones, a search among the unread vertices is as fast.
+/// The most cones to follow: with more, a search among the unread vertices is as fast.
 constexpr std::size_t kMostCones = 2000;
 
-/// Whether segment pq may meet the circle `lambda`: surely false only when it does not.
+/// Tells whether segment pq may meet the circle `lambda`: false only when it surely does not.
 bool may_meet(const ApexFrame& frame, double lambda, Position p, Position q) {
   const double px = p.x - frame.mx, py = p.y - frame.my;
   const double dx = static_cast<double>(q.x) - p.x, dy = static_cast<double>(q.y) - p.y;
-  // The point nearest to the centre; a little off it, a point is hardly farther away.
+  // This is the point nearest to the centre. A point a little off it, by rounding, is hardly farther away.
   const double along = (lambda * frame.nx - px) * dx + (lambda * frame.ny - py) * dy;
   const double s = std::clamp(along / (dx * dx + dy * dy), 0.0, 1.0);
   return frame.inside(lambda, p.x + s * dx, p.y + s * dy);
@@ -31,7 +31,7 @@ std::vector<Point> corners_of(const GridBox& b) {
   return {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}};
 }
 
-/// Cuts off what lies more than a grid unit to the right of pq (I. Sutherland, G. Hodgman 1974).
+/// Cuts off the parts that lie more than a grid unit to the right of pq (I. Sutherland, G. Hodgman 1974).
 void keep_left_of(std::vector<Point>& polygon, Position p, Position q) {
   const double dx = static_cast<double>(q.x) - p.x, dy = static_cast<double>(q.y) - p.y;
   const double unit = std::hypot(dx, dy);
@@ -55,8 +55,8 @@ std::int32_t rounded_coordinate(double v) {
 
 }  // namespace
 
-/// Whether the part of triangle t within the limit is known ground. If not, that about `near` is what lacks most: over
-/// unknown ground triangles are large, and become small once it is known.
+/// Tells whether the part of triangle t within the limit is known ground. If not, notes the unknown ground about
+/// `near`, which matters most: over unknown ground triangles are large, and become small once the ground is known.
 bool Enclosure::known(std::uint32_t t, const GridBox& limit, const GridBox& near) {
   const GridBox box = intersection(box_of(std::array{corner(t, 0), corner(t, 1), corner(t, 2)}), limit);
   if (known_.covers(box)) return true;
@@ -87,7 +87,7 @@ bool Enclosure::shut_in(std::uint32_t t, int edge, End end) {
   const GridBox limit = frame.cap_box(lambda, all_);
   unknown_ = {};
   cones_.clear();
-  // The triangles about the eye, from the edge on, as long as they are left of ab.
+  // Visits the triangles about the eye, from the edge on, as long as they are left of ab.
   for (std::uint32_t u = mesh_.neighbours[t][edge];;) {
     if (u == kNoTriangle || !known(u, limit, box_of(std::array{a, b}))) return false;
     int k = 0;
@@ -100,12 +100,12 @@ bool Enclosure::shut_in(std::uint32_t t, int edge, End end) {
   return follow(eye, frame, lambda, limit);
 }
 
-/// Notes what is seen of the triangle beyond an edge of t.
+/// Notes the cone in which the triangle beyond an edge of t is seen, unless the edge is constrained.
 void Enclosure::see_through(std::uint32_t t, int edge, Position right, Position left) {
   if ((mesh_.constrained[t] >> edge & 1) == 0) cones_.push_back({t, edge, right, left});
 }
 
-/// Whether what is seen beyond an edge of the hull is known ground. There are no vertices in that.
+/// Tells whether the area seen beyond an edge of the hull is known ground. There are no vertices in it.
 bool Enclosure::known_beyond_hull(Position eye, const Cone& cone, const GridBox& limit) {
   std::vector<Point> seen = corners_of(expanded(limit, 1));
   keep_left_of(seen, corner(cone.triangle, cone.edge + 2), corner(cone.triangle, cone.edge + 1));
@@ -134,7 +134,7 @@ bool Enclosure::follow(Position eye, const ApexFrame& frame, double lambda, cons
     int j = 0;
     while (mesh_.neighbours[u][j] != from) ++j;
     const Position apex = corner(u, j);
-    // The edge from the entry's right end to the apex, and from there to its left end.
+    // One edge runs from the entry's right end to the apex, and the other from there to its left end.
     const Position leftmost = orientation(eye, apex, left) > 0 ? apex : left;
     const Position rightmost = orientation(eye, right, apex) > 0 ? apex : right;
     if (orientation(eye, right, leftmost) >= 0) see_through(u, (j + 1) % 3, right, leftmost);

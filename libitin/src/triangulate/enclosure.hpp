@@ -1,10 +1,10 @@
-// Triangles that need no proof against vertices not read: lines shut off their circumdiscs from all unknown ground.
+// Finds triangles that need no proof against unread vertices: lines shut off their circumdiscs from all unknown ground.
 //
-// The first vertex beyond an edge that disturbs a triangle of a constrained Delaunay triangulation, as a circle through
-// the edge's ends grows to the triangle's own, is seen from both ends. Lines of sight cross one triangle after another
-// by edges that are not constrained. So those are followed, in the cone that they leave open (triangular expansion),
-// and when from one end no cone leads out of the known ground within the circumdisc, there is nothing beyond. Thin
-// triangles along a line have enormous circumdiscs, of which they see next to nothing.
+// Let a circle through an edge's ends grow to the circumcircle of a triangle of a constrained Delaunay triangulation.
+// The first vertex beyond the edge that disturbs the triangle is seen from both ends. Lines of sight cross one triangle
+// after another by edges that are not constrained. So these edges are followed, in the cone that they leave open
+// (triangular expansion). When from one end no cone leads out of the known ground within the circumdisc, no vertex
+// beyond disturbs the triangle. Thin triangles along a line have enormous circumdiscs, but see next to nothing of them.
 #pragma once
 
 #include <cstdint>
@@ -20,18 +20,19 @@
 
 namespace itin {
 
-/// One serves one thread. Refers to what it is made of.
+/// Tells which triangles are enclosed by known ground. One object serves one thread, and refers to its arguments.
 class Enclosure {
  public:
-  /// The mesh has every vertex and every segment of the known ground. There is no vertex outside `all`.
+  /// Precondition: the mesh has every vertex and every segment of the known ground, and there is no vertex outside
+  /// `all`.
   Enclosure(const PlaneMesh& mesh, std::span<const SelectedVertex> vertices, const KnownGround& known,
             const GridBox& all)
       : mesh_(mesh), vertices_(vertices), known_(known), all_(all) {}
 
-  /// Whether triangle t lies in known ground, and surely all that could disturb it too. False also where it takes long
-  /// to tell.
+  /// Tells whether triangle t lies in known ground, and surely everything that could disturb it, too. False also where
+  /// the answer would take long.
   bool holds(std::uint32_t t);
-  /// After holds(t) was false: adds the cells into which it could not look. False where those are many.
+  /// Adds the cells that holds(t) could not look into, after it was false. Returns false where there are many.
   bool add_missing(std::vector<Cell>& cells) const;
 
  private:
@@ -56,7 +57,7 @@ class Enclosure {
   const KnownGround& known_;
   GridBox all_;
   std::vector<Cone> cones_;
-  GridBox unknown_;  ///< the ground that the last failure lacked, as far as it is near
+  GridBox unknown_;  ///< the ground near by that was not known at the last failure
 };
 
 }  // namespace itin

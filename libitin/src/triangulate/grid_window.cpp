@@ -10,13 +10,13 @@ namespace itin {
 
 namespace {
 
-// Rings are cut off here: data lie strictly inside, so that what runs along the cut meets none. One step beyond the
-// grid, differences still fit in 31 bits and doubled areas in 63.
+// Rings are cut off here. Data lie strictly inside, so that edges along the cut meet none. One step beyond the grid,
+// differences still fit in 31 bits and doubled areas in 63.
 constexpr std::int32_t kCut = kGridHalfSide + 1;
 constexpr GridBox kWholeGrid{-kGridHalfSide, -kGridHalfSide, kGridHalfSide - 1, kGridHalfSide - 1};
 
-/// The part of a ring where sign * coordinate <= kCut, in grid units (Sutherland and Hodgman). Winding numbers inside
-/// the half plane stay what they are.
+/// Returns the part of a ring where sign * coordinate <= kCut, in grid units (Sutherland and Hodgman). Winding numbers
+/// inside the half plane are unchanged.
 Window::Ring cut(const Window::Ring& ring, double Point2::*axis, double sign) {
   Window::Ring kept;
   for (std::size_t i = 0; i < ring.size(); ++i) {
@@ -40,8 +40,9 @@ GridBox GridWindow::Edge::box() const {
   return {std::min(a.x, b.x), std::min(a.y, b.y), std::max(a.x, b.x), std::max(a.y, b.y)};
 }
 
-/// Disjointness of convex figures by the separating axis theorem: boxes first, then the direction of every edge. Exact,
-/// and right for degenerate figures too (parallel collinear ones are told apart by their boxes).
+/// A convex figure. Figures are tested for being disjoint by the separating axis theorem: boxes first, then the
+/// direction of every edge. This is exact, and right for degenerate figures, too (their boxes tell parallel collinear
+/// ones apart).
 class GridWindow::Figure {
  public:
   explicit Figure(const GridBox& b)
@@ -61,7 +62,8 @@ class GridWindow::Figure {
   bool meets(const Figure& box) const { return box_.meets(box.box_) && !separated_by_own_edge(box.corners()); }
 
  private:
-  /// Whether the line through a and b, or one parallel to it, has `own` and a on one side and `others` on the other.
+  /// Tells whether the line through a and b, or one parallel to it, has `own` and a on one side and `others` on the
+  /// other.
   static bool separated_along(Position a, Position b, std::span<const Position> others, std::span<const Position> own) {
     std::int64_t own_low = 0, own_high = 0;
     for (const Position& p : own)
@@ -71,7 +73,7 @@ class GridWindow::Figure {
       low = std::min(low, doubled_area(a, b, p)), high = std::max(high, doubled_area(a, b, p));
     return low > own_high || high < own_low;
   }
-  /// For triangles; the edges of a box have been dealt with by comparing boxes.
+  /// Tells whether an edge of this triangle separates it; the edges of a box have been dealt with by comparing boxes.
   bool separated_by_own_edge(std::span<const Position> others) const {
     for (std::size_t i = 0; i < 3; ++i) {
       if (separated_along(corners_[i], corners_[(i + 1) % 3], others, {&corners_[(i + 2) % 3], 1})) return true;
@@ -107,7 +109,7 @@ GridWindow::GridWindow(const Window& window, const Grid& grid, const GridBox& da
   }
 }
 
-/// Whether the edges are the four sides of a box, of either orientation.
+/// Tells whether the edges are the four sides of a box, of either orientation.
 bool GridWindow::form_box(std::span<const Edge> edges) {
   if (edges.size() != 4) return false;
   for (std::size_t i = 0; i < 4; ++i) {
@@ -119,13 +121,13 @@ bool GridWindow::form_box(std::span<const Edge> edges) {
   return true;
 }
 
-/// The boundary of a union of boxes, and of their overlaps. A border between two boxes side by side goes, for it has
-/// inside on both sides.
+/// Returns the boundary of a union of boxes, and of their overlaps. A border between two boxes side by side is left
+/// out, as there is inside on both sides.
 std::vector<GridWindow::Edge> GridWindow::without_common_borders(const std::vector<Edge>& edges) {
   struct End {
     bool vertical;
     std::int32_t line, at;
-    int change;  ///< how many more edges run upwards or to the right than back
+    int change;  ///< edges upwards or to the right less edges back
   };
   std::vector<End> ends;
   for (const Edge& e : edges) {
@@ -171,7 +173,7 @@ std::vector<Position> GridWindow::corners_on(const Grid& grid, const Window::Rin
 }
 
 void GridWindow::add_ring(std::vector<Position> corners, bool hole) {
-  // Unsigned: the sum of a ring with many turns may pass through values beyond 64 bits, its end does not.
+  // The sum is unsigned: for a ring with many turns it may pass through values beyond 64 bits, though its end does not.
   std::uint64_t twice_area = 0;
   for (std::size_t i = 1; i + 1 < corners.size(); ++i)
     twice_area += static_cast<std::uint64_t>(doubled_area(corners[0], corners[i], corners[i + 1]));
@@ -191,7 +193,8 @@ void GridWindow::index_edges() {
 }
 
 void GridWindow::choose_cells() {
-  // Few triangles lie in cells that the boundary meets, where each is tested; the limits bound the index to a few MB.
+  // In cells that the boundary meets, each triangle is tested. Cells are small, so that few triangles lie there; the
+  // limits bound the index to a few MB.
   const std::size_t limit = std::clamp<std::size_t>(128 * edges_.size(), 256, std::size_t{1} << 20);
   const std::uint32_t width = static_cast<std::uint32_t>(extent_.xmax - extent_.xmin);
   const std::uint32_t height = static_cast<std::uint32_t>(extent_.ymax - extent_.ymin);
@@ -201,7 +204,8 @@ void GridWindow::choose_cells() {
 }
 
 GridBox GridWindow::cell_box(std::uint32_t column, std::uint32_t row) const {
-  // Neighbours share their border: edges run between grid positions too. The last column may reach beyond the extent.
+  // Neighbours share their border, as edges also run between grid positions. The last column may reach beyond the
+  // extent.
   const std::int64_t side = std::int64_t{1} << log2_cell_;
   const std::int64_t x = extent_.xmin + column * side, y = extent_.ymin + row * side;
   return {static_cast<std::int32_t>(x), static_cast<std::int32_t>(y),
@@ -209,7 +213,7 @@ GridBox GridWindow::cell_box(std::uint32_t column, std::uint32_t row) const {
           static_cast<std::int32_t>(std::min<std::int64_t>(y + side, kCut))};
 }
 
-/// The cells of the positions of a box that meets the extent.
+/// Returns the cells of the positions of a box that meets the extent.
 GridWindow::CellRange GridWindow::cells(const GridBox& box) const {
   const GridBox b = intersection(box, extent_);
   const auto index = [this](std::int32_t v, std::int32_t low) {
@@ -219,7 +223,7 @@ GridWindow::CellRange GridWindow::cells(const GridBox& box) const {
           index(b.ymax, extent_.ymin)};
 }
 
-/// Every cell the edge meets; as for positions, a border belongs to the cell after it.
+/// Visits every cell that the edge meets; as for positions, a border belongs to the cell after it.
 template <typename Visit>
 void GridWindow::visit_cells(const Edge& edge, const Visit& visit) const {
   const GridBox box = edge.box();
@@ -231,7 +235,7 @@ void GridWindow::visit_cells(const Edge& edge, const Visit& visit) const {
       const GridBox strip = cell_box(0, row);
       const double x0 = edge.a.x + (std::max(strip.ymin, box.ymin) - double{1} * edge.a.y) * slope;
       const double x1 = edge.a.x + (std::min(strip.ymax, box.ymax) - double{1} * edge.a.y) * slope;
-      // Two steps of slack swallow the rounding; the exact test below has the last word.
+      // Two steps of slack absorb the rounding; the exact test below decides.
       GridBox part = box;
       part.xmin = std::max(box.xmin, static_cast<std::int32_t>(std::floor(std::min(x0, x1))) - 2);
       part.xmax = std::min(box.xmax, static_cast<std::int32_t>(std::ceil(std::max(x0, x1))) + 2);
@@ -260,7 +264,7 @@ void GridWindow::classify_cells() {
   }
 }
 
-/// Whether the position, within the extent, is inside or on a ring.
+/// Tells whether the position, within the extent, is inside or on a ring.
 bool GridWindow::wound(std::int32_t x, std::int32_t y) const {
   const std::uint32_t row = cells({x, y, x, y}).row0;
   const Position p{x, y};
@@ -302,7 +306,7 @@ bool GridWindow::boundary_meets(const Figure& figure, const CellRange& range) co
 bool GridWindow::holds(const GridBox& box) const {
   if (!extent_.contains(box)) return false;
   if (is_box()) return true;
-  // As in meets().
+  // The reason is as in meets().
   return contains(box.xmin, box.ymin) && !boundary_meets(Figure(box), cells(box));
 }
 
@@ -323,7 +327,7 @@ bool GridWindow::meets(const GridPoint& a, const GridPoint& b, const GridPoint& 
   }
   const CellRange range = cells(figure.box());
   if (range.count() == 1) {
-    // A cell at the rim of the extent is never Inside, so one that is holds the whole triangle.
+    // A cell at the rim of the extent is never Inside, so a cell that is Inside holds the whole triangle.
     const State state = states_[cell(range.column0, range.row0)];
     if (state != State::Mixed) return state == State::Inside;
   }

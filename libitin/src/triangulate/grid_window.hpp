@@ -4,9 +4,9 @@
 //   if (window.meets(a, b, c)) ...
 //
 // Corners are rounded to the nearest grid position. The region is every point about which the rings, outer ones
-// counterclockwise and holes clockwise, wind at least once, and every point of a ring: closed, never empty, and defined
-// also where rounding makes rings touch or cross. Where a ring leaves the grid it is cut off one step outside it, which
-// turns the edge that is cut by less than one grid step.
+// counterclockwise and holes clockwise, wind at least once, and every point of a ring. It is closed, never empty, and
+// defined also where rounding makes rings touch or cross. Where a ring leaves the grid, it is cut off one step outside
+// it, which turns the edge that is cut by less than one grid step.
 #pragma once
 
 #include <cstdint>
@@ -21,35 +21,35 @@
 
 namespace itin {
 
-/// Immutable; safe for concurrent use. A query about a small figure costs O(1) away from the window's boundary and the
-/// edges nearby at it, whatever the number of corners.
+/// A window on the grid. Immutable; safe for concurrent use. A query about a small figure costs O(1) away from the
+/// window's boundary, and O(edges nearby) at it, whatever the number of corners.
 class GridWindow {
  public:
-  /// all() becomes the data bounds.
+  /// Makes the region; Window::all() becomes the data bounds.
   GridWindow(const Window& window, const Grid& grid, const GridBox& data_bounds);
 
-  /// The part of the grid the window may meet; empty for a window wholly outside the grid.
+  /// Returns the part of the grid that the window may meet; empty for a window wholly outside the grid.
   const GridBox& bounds() const { return bounds_; }
-  /// Boundary included.
+  /// Tells whether the position is in the window, its boundary included.
   bool contains(std::int32_t x, std::int32_t y) const;
-  /// Whether the boundary does not meet the closed box, and every position of that is in the window.
+  /// Tells whether every position of the closed box is in the window, and the boundary does not meet the box.
   bool holds(const GridBox& box) const;
-  /// Closed box, touching counts.
+  /// Tells whether the window meets the closed box; touching counts.
   bool meets(const GridBox& box) const;
-  /// Closed triangle of either orientation, touching counts.
+  /// Tells whether the window meets the closed triangle, of either orientation; touching counts.
   bool meets(const GridPoint& a, const GridPoint& b, const GridPoint& c) const;
 
  private:
   enum class State : std::uint8_t { Outside, Inside, Mixed };
 
-  /// An edge of a ring, the window's inside to its left.
+  /// An edge of a ring, with the window's inside to its left.
   struct Edge {
     Position a;
     Position b;
     GridBox box() const;
   };
 
-  /// A closed triangle or box: the queries' common shape.
+  /// A closed triangle or box, the shape that all queries share.
   class Figure;
 
   /// Closed ranges of cells.
@@ -78,7 +78,7 @@ class GridWindow {
   GridBox extent_;           // the box about the edges; up to one step outside the grid
   std::vector<Edge> edges_;  // none: the window is the box extent_
 
-  // A uniform grid of closed cells over extent_: which edges meet each cell, and each row of cells.
+  // A uniform grid of closed cells over extent_, with the edges that meet each cell, and each row of cells.
   int log2_cell_ = 0;
   std::uint32_t columns_ = 0;
   std::uint32_t rows_ = 0;

@@ -13,7 +13,7 @@ namespace {
 
 constexpr auto kByEnds = [](const auto& a, const auto& b) { return std::tie(a.from, a.to) < std::tie(b.from, b.to); };
 
-/// The edge in a sorted range; null where there is none.
+/// Returns the edge in a sorted range; null where there is none.
 template <class Edge>
 const Edge* find(const std::vector<Edge>& edges, std::uint32_t from, std::uint32_t to) {
   const auto found = std::lower_bound(edges.begin(), edges.end(), std::pair(from, to),
@@ -69,8 +69,8 @@ void GrowingMesh::insert(std::uint32_t vertex) {
   replace();
 }
 
-/// From one triangle to the next beyond an edge with p on its other side. A fixed choice among two such edges could go
-/// in circles, as the triangulation is constrained.
+/// Walks from one triangle to the next, beyond an edge that has p on its other side. Between two such edges it chooses
+/// at random: a fixed choice could go in circles, as the triangulation is constrained.
 GrowingMesh::Place GrowingMesh::locate(Position p) {
   for (std::uint32_t t = last_;;) {
     random_ = random_ * 1664525 + 1013904223;
@@ -96,7 +96,7 @@ void GrowingMesh::take(std::uint32_t t) {
   cavity_.push_back(t);
 }
 
-/// Where the vertex lies on an edge of the triangle taken, the triangle beyond goes, too; of a line both halves stay.
+/// Where the vertex lies on an edge of the triangle taken, takes the triangle beyond, too. Both halves of a line stay.
 void GrowingMesh::split_edge_at(std::uint32_t vertex) {
   const std::uint32_t t = cavity_.front();
   for (int i = 0; i < 3; ++i) {
@@ -110,7 +110,8 @@ void GrowingMesh::split_edge_at(std::uint32_t vertex) {
   }
 }
 
-/// All edges of the hull that the vertex sees: it disturbs the triangle behind, or has a triangle with the edge.
+/// Takes, for all edges of the hull that the vertex sees, the triangle behind if the vertex disturbs it; otherwise
+/// joins the edge to the vertex.
 void GrowingMesh::take_beyond_hull(const Place& place, std::uint32_t vertex) {
   const Position p = position(vertex);
   const auto see = [&](std::uint32_t t, int i) {
@@ -167,7 +168,7 @@ void GrowingMesh::add_side(const Side& side, std::uint32_t vertex) {
   filling_.push_back({side.from, side.to, vertex});
 }
 
-/// Puts the triangles of filling_ where those of cavity_ are. They are no fewer.
+/// Replaces the triangles of cavity_ by those of filling_, which are no fewer.
 void GrowingMesh::replace() {
   std::sort(rim_.begin(), rim_.end(), kByEnds);
   half_edges_.clear();
@@ -203,12 +204,12 @@ std::uint32_t GrowingMesh::place_for(std::size_t number) {
   return static_cast<std::uint32_t>(mesh_.triangles.size() - 1);
 }
 
-/// The edge that leaves vertex `at` straight towards vertex `to`; or, with to == at, the triangle at its left through
-/// whose opposite edge one leaves.
+/// Returns the edge that leaves vertex `at` straight towards vertex `to`. Where there is none, to == at, and `left` is
+/// the triangle through whose opposite edge the way leads.
 SegmentEdge GrowingMesh::edge_towards(std::uint32_t at, std::uint32_t to) const {
   const Position p = position(at), goal = position(to);
   const std::uint32_t start = some_triangle_[at];
-  for (const int step : {1, 2}) {  // counterclockwise, and clockwise from where the hull stopped that
+  for (const int step : {1, 2}) {  // counterclockwise, and then clockwise if the hull ended that
     std::uint32_t t = start;
     do {
       int i = 0;
@@ -252,7 +253,7 @@ void GrowingMesh::edges_of(std::uint32_t from, std::uint32_t to, std::uint16_t t
   }
 }
 
-/// Makes an edge from vertex `at` straight towards `to`, up to the first vertex there. It leaves by triangle t.
+/// Makes an edge from vertex `at` straight towards `to`, up to the first vertex there. The way leaves by triangle t.
 void GrowingMesh::cut(std::uint32_t at, std::uint32_t to, std::uint32_t t) {
   clear();
   left_.clear();
@@ -285,7 +286,7 @@ void GrowingMesh::cut(std::uint32_t at, std::uint32_t to, std::uint32_t t) {
   replace();
 }
 
-/// Triangulates the polygon to the left of an edge, between it and a chain of vertices. (It may turn back on itself.)
+/// Triangulates the polygon to the left of an edge, between it and a chain of vertices, which may turn back on itself.
 void GrowingMesh::fill_between(std::uint32_t from, std::uint32_t to, std::span<const std::uint32_t> chain) {
   if (chain.empty()) return;
   std::size_t best = 0;

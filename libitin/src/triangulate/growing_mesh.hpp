@@ -1,15 +1,15 @@
-// A constrained Delaunay triangulation that takes in single vertices and segments in place: of the mesh only those
-// triangles change that must, and it is known which.
+// A constrained Delaunay triangulation that takes in single vertices and segments in place. Only the triangles that
+// must change do, and these are known.
 //
 //   GrowingMesh grown(vertices);           // by number; others may join later
 //   grown.start(delaunay.mesh());          // up to its convex hull
 //   grown.lay(0, 17, theme);               // segments meet at vertices only
 //   vertices.push_back(v), grown.insert(number of v);
 //
-// The triangles that a new vertex disturbs are those whose circumcircles it lies in, as far as they hang together
-// without a constrained edge between them (A. Bowyer, D. Watson 1981); those that a segment crosses make way for the
-// triangulations of the two polygons at its sides (M. Anglada 1997). Ties are broken by predicates.hpp, so the mesh is
-// the one that CGAL makes of the same vertices and segments.
+// The triangles that a new vertex disturbs are those whose circumcircles it lies in, as far as they are connected
+// without a constrained edge between them (A. Bowyer, D. Watson 1981). The triangles that a segment crosses make way
+// for the triangulations of the two polygons at its sides (M. Anglada 1997). Ties are broken by predicates.hpp, so the
+// mesh is the one that CGAL makes of the same vertices and segments.
 #pragma once
 
 #include <array>
@@ -32,29 +32,30 @@ struct SegmentEdge {
 
 class GrowingMesh {
  public:
-  /// Refers to the vertices.
+  /// Refers to the vertices, which must outlive the mesh.
   explicit GrowingMesh(const std::vector<SelectedVertex>& vertices) : vertices_(vertices) {}
 
-  /// Begins anew. The mesh has no constraints, and all vertices are in it or, where it is empty, none.
+  /// Begins anew. Precondition: the mesh has no constraints, and all vertices are in it or, where it is empty, none.
   void start(PlaneMesh mesh);
-  /// A vertex where there is none yet. Precondition: there are triangles.
+  /// Inserts a vertex where there is none yet. Precondition: there are triangles.
   void insert(std::uint32_t vertex);
-  /// Precondition: there are triangles, and their vertices include both ends. Throws Error where it crosses another.
+  /// Lays a segment. Throws Error where it crosses another. Precondition: there are triangles, and their vertices
+  /// include both ends.
   void lay(std::uint32_t from, std::uint32_t to, std::uint16_t theme);
 
   const PlaneMesh& mesh() const { return mesh_; }
   /// Appends the edges that a segment laid earlier is made of.
   void edges_of(std::uint32_t from, std::uint32_t to, std::uint16_t theme, std::vector<SegmentEdge>& edges) const;
 
-  /// Whether a triangle needs no more proof: a mark that is gone when the triangle changes.
+  /// Tells whether a triangle needs no more proof. The mark goes when the triangle changes.
   bool is_proved(std::uint32_t triangle) const { return proved_[triangle] != 0; }
   void mark_proved(std::uint32_t triangle) { proved_[triangle] = 1; }
-  /// The triangles that are new or others than before since start() and since this was asked last, ascending.
+  /// Returns the triangles that are new or changed since the last call, or since start(), ascending.
   std::vector<std::uint32_t> take_changed();
 
  private:
   using Corners = std::array<std::uint32_t, 3>;
-  /// An edge with the place to its left, and what is known of it.
+  /// An edge, with the place to its left, and its properties.
   struct Side {
     std::uint32_t from, to;
     std::uint32_t outer;  ///< the triangle to its right
@@ -64,10 +65,10 @@ class GrowingMesh {
     std::uint32_t from, to, triangle;
     int edge;
   };
-  /// The triangle that holds a position, or whose edge on the hull it lies beyond.
+  /// The triangle that holds a position, or the one on the hull that the position lies beyond.
   struct Place {
     std::uint32_t triangle;
-    int beyond;  ///< that edge, or kInside
+    int beyond;  ///< the edge that the position lies beyond, or kInside
   };
   static constexpr int kInside = -1;
   static constexpr std::uint8_t kLine = 1, kOutline = 1 << PlaneMesh::kOutline, kTaken = 0x80;
@@ -102,7 +103,7 @@ class GrowingMesh {
   std::vector<std::uint32_t> changed_;  ///< some of them more than once
   std::uint32_t last_ = 0;              ///< a triangle near the last change
   std::uint32_t random_ = 0;
-  // Buffers for the part that is being replaced, kept for their memory.
+  // These are buffers for the part that is being replaced, kept for their memory.
   std::vector<std::uint32_t> cavity_, left_, right_;
   std::vector<Side> rim_;
   std::vector<Corners> filling_;

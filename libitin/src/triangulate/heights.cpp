@@ -19,32 +19,31 @@ namespace itin {
 
 namespace {
 
-/// Positions share a window if their box holds at most about this many points for each of them. triangulate() takes as
-/// many at once, and the window then lists few leaves between the positions. A window takes about a kilobyte per
-/// position.
+/// Positions share a window if their box holds at most about this many points per position. triangulate() takes as many
+/// at once, and the window then lists few leaves between the positions. A window takes about a kilobyte per position.
 constexpr double kPointsPerPosition = 32768;
 constexpr std::size_t kMostPositions = 16384;
-/// At most this many places are looked for in every triangle near them.
+/// At most this many places are looked up in every triangle near them.
 constexpr std::size_t kFewPlaces = 4;
 
 struct Place {
   Point2 units;       ///< on the grid
-  std::size_t index;  ///< which position it is
+  std::size_t index;  ///< index of the position
 };
 
-/// All triangles that hold a position meet this, whatever rounding does.
+/// Returns a box that all triangles that hold the position meet, whatever rounding does.
 Box surroundings(Point2 p, const Grid& grid) {
   return square_about(p, 2 * grid.resolution);
 }
 
-/// The positions that may have ground.
+/// Returns the positions that may have ground.
 std::vector<Place> places_of(const StoreMetadata& metadata, const std::vector<Point2>& positions) {
   const Box data = metadata.grid.box(metadata.bounds);
   std::vector<Place> places;
   for (std::size_t i = 0; i < positions.size(); ++i) {
     const Box about = surroundings(positions[i], metadata.grid);
     const bool near = about.xmax >= data.xmin && about.xmin <= data.xmax && about.ymax >= data.ymin &&
-                      about.ymin <= data.ymax;  // false for what is no number
+                      about.ymin <= data.ymax;  // false for NaN
     if (near) places.push_back({place_in_units(metadata.grid, positions[i]), i});
   }
   return places;

@@ -1,4 +1,4 @@
-// The surface's elevation under many positions, and what reading it cost.
+// The surface's elevation under many positions, and the cost of reading it.
 #pragma once
 
 #include <optional>
@@ -14,7 +14,7 @@ struct RetrievedHeights {
   RetrievalStatistics statistics;
 };
 
-/// As heights_at() has it.
+/// Finds the heights as heights_at() does.
 RetrievedHeights retrieve_heights(const Store& store, const std::vector<Point2>& positions, const Detail& detail,
                                   const ThemeChoice& themes, Progress& progress);
 

@@ -1,4 +1,4 @@
-// The ground of which a region's triangulation has every point and segment: a box, and cells that were read later.
+// The ground whose points and segments a region's triangulation has completely: a box, and cells that were read later.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ class KnownGround {
   bool covers(const GridBox& b) const {
     return b.empty() || box_.contains(b) || visit(b, [](const Cell&) { return false; });
   }
-  /// Adds the cells that b meets and that are not known; false, with nothing added, where b meets too many cells.
+  /// Adds the unknown cells that b meets. Returns false, with nothing added, where b meets too many cells.
   bool add_missing(const GridBox& b, std::vector<Cell>& missing) const {
     return visit(b, [&](const Cell& cell) {
       missing.push_back(cell);
@@ -32,7 +32,8 @@ class KnownGround {
  private:
   static constexpr std::int64_t kMostCells = 1024;
 
-  /// False where b meets too many cells, or where `unknown` says so of one that is not known.
+  /// Calls unknown(cell) for the cells that b meets and that are not known. Returns false where b meets too many cells,
+  /// or where unknown() does.
   template <class Unknown>
   bool visit(const GridBox& b, const Unknown& unknown) const {
     const std::int64_t half = kGridHalfSide, x0 = (b.xmin + half) >> log2_side_, x1 = (b.xmax + half) >> log2_side_,

@@ -10,16 +10,17 @@ namespace itin {
 namespace {
 
 constexpr std::uint32_t kNone = kNoTriangle;
-/// Lattices with more gaps than posts are left alone from some point on.
+/// Bounds the nodes of a lattice: beyond a certain size, lattices with more gaps than posts are left alone.
 constexpr std::size_t kMostNodesPerPost = 4;
-/// A column with fewer than one in so many of the posts that columns usually have is none: its points are vertices of
-/// lines.
+/// A value is a column only if it has at least this part of the posts that columns usually have; otherwise its points
+/// are vertices of lines.
 constexpr std::uint32_t kLeastPart = 4;
 
-/// How often each value of one coordinate comes; then, which of them are columns (or rows), and their numbers.
+/// Counts how often each value of one coordinate comes. Then chooses the values that are columns (or rows), and numbers
+/// them.
 class Values {
  public:
-  /// False when there are more different ones than `most`.
+  /// Counts the values. Returns false when there are more different ones than `most`.
   bool count(std::span<const Position> positions, std::int32_t Position::*axis, std::size_t most) {
     for (const Position& p : positions) {
       Slot& slot = slot_of(p.*axis);
@@ -31,7 +32,7 @@ class Values {
     return true;
   }
 
-  /// Ascending.
+  /// Returns the chosen values, ascending.
   std::vector<std::int32_t> choose() {
     const std::uint32_t least = most_posts_count() / kLeastPart;
     std::vector<std::int32_t> chosen;
@@ -43,7 +44,7 @@ class Values {
     for (std::uint32_t i = 0; i < chosen.size(); ++i) slot_of(chosen[i]) = {chosen[i], i + 1};
     return chosen;
   }
-  /// kNone for what was not chosen.
+  /// Returns the number of a chosen value; kNone for others.
   std::uint32_t number(std::int32_t value) { return slot_of(value).number - 1; }
 
  private:
@@ -68,7 +69,7 @@ class Values {
     }
   }
 
-  /// How often the value of the median position comes.
+  /// Returns how often the value of the median position comes.
   std::uint32_t most_posts_count() const {
     std::vector<std::uint32_t> counts;
     for (const Slot& slot : slots_) {
@@ -101,7 +102,7 @@ struct Range {
   std::size_t first, end;
 };
 
-/// The interval between neighbours of the values from `first` to `last` that holds a third of `thrice`.
+/// Returns the interval between neighbours of the values from `first` to `last` that holds a third of `thrice`.
 std::size_t interval(const std::vector<std::int32_t>& values, std::int64_t thrice, std::size_t first,
                      std::size_t last) {
   const auto begin = values.begin();
@@ -111,7 +112,7 @@ std::size_t interval(const std::vector<std::int32_t>& values, std::int64_t thric
   return static_cast<std::size_t>(after - begin) - 1;
 }
 
-/// Which of the intervals between neighbouring values meet [low, high].
+/// Returns the intervals between neighbouring values that meet [low, high].
 Range intervals(const std::vector<std::int32_t>& values, double low, double high) {
   const auto from = std::lower_bound(values.begin(), values.end(), low) - values.begin();
   const auto to = std::upper_bound(values.begin(), values.end(), high) - values.begin();
@@ -135,7 +136,7 @@ LatticeSquares::LatticeSquares(std::span<const Position> positions, std::span<co
   find_rest(segments);
 }
 
-/// False when the positions are no lattice.
+/// Places the positions on a lattice. Returns false when they form none.
 bool LatticeSquares::place(std::span<const Position> positions) {
   Values x, y;
   const std::size_t most = positions.size() / 2 + 256;
@@ -155,9 +156,10 @@ bool LatticeSquares::place(std::span<const Position> positions) {
   return true;
 }
 
-/// A square is full when its four posts are there. Its circle lies in the square widened by half its height sideways,
-/// and by half its width upwards and downwards, for the radius is less than half the sum of both; that must be known.
-/// Squares of more than twice the usual width or height are left alone, which bounds how far circles reach.
+/// Marks the full squares: those with all four posts. A square's circle lies in the square widened by half its height
+/// sideways, and by half its width upwards and downwards, as the radius is less than half the sum of both; that area
+/// must be known. Squares of more than twice the usual width or height are left alone, which bounds how far circles
+/// reach.
 void LatticeSquares::mark_full(const GridBox& known) {
   first_.assign(vertices_.size(), kNone);
   for (std::size_t row = 0; row + 1 < rows_.size(); ++row) {
@@ -177,7 +179,7 @@ void LatticeSquares::mark_full(const GridBox& known) {
   }
 }
 
-/// Squares whose circles a position off the lattice may lie in are not known.
+/// Unmarks the squares whose circles may hold a position off the lattice.
 void LatticeSquares::clear_about(Position p) {
   const Range columns = intervals(columns_, double{1} * p.x - row_step_, double{1} * p.x + row_step_);
   const Range rows = intervals(rows_, double{1} * p.y - column_step_, double{1} * p.y + column_step_);
@@ -185,7 +187,7 @@ void LatticeSquares::clear_about(Position p) {
     for (std::size_t column = columns.first; column < columns.end; ++column) first_[node(column, row)] = kNone;
 }
 
-/// Nor are those that a segment crosses; along their sides it may run.
+/// Unmarks the squares that a segment crosses; it may run along their sides.
 void LatticeSquares::clear_along(const Segment& s) {
   const Position a = s.a(), b = s.b();
   const double low = std::min(a.y, b.y), high = std::max(a.y, b.y), west = std::min(a.x, b.x),
@@ -200,7 +202,7 @@ void LatticeSquares::clear_along(const Segment& s) {
       x1 = a.x + slope * (std::clamp<double>(north, low, high) - a.y);
       if (x1 < x0) std::swap(x0, x1);
     }
-    // A step of slack swallows the rounding; the exact test has the last word.
+    // A step of slack absorbs the rounding; the exact test decides.
     const Range columns = intervals(columns_, x0 - 1, x1 + 1);
     for (std::size_t column = columns.first; column < columns.end; ++column) {
       const std::int32_t left = columns_[column], right = columns_[column + 1];
@@ -248,9 +250,9 @@ void LatticeSquares::find_rest(std::span<const Segment> segments) {
 
 namespace {
 
-/// The triangles of a square, by what lies beyond their edges 0, 1 and 2: the lower left one has the other, the square
-/// to the left and the one below there, the upper right one the square above, the other one and the square to the
-/// right.
+/// The two triangles of a square. Beyond edges 0, 1 and 2, the lower left triangle has the upper right one, the square
+/// to the left and the square below. The upper right triangle has the square above, the lower left one and the square
+/// to the right.
 constexpr std::uint32_t kLowerLeft = 0, kUpperRight = 1;
 
 }  // namespace
@@ -299,7 +301,7 @@ void LatticeSquares::fill(PlaneMesh& mesh) const {
   mesh = std::move(all);
 }
 
-/// Whether a triangle of posts lies in full squares. Their border is made of edges, so its centroid tells.
+/// Tells whether a triangle of posts lies in full squares. Their border is made of edges, so its centroid decides.
 bool LatticeSquares::covers(const std::array<std::uint32_t, 3>& triangle) const {
   std::int64_t x = 0, y = 0;
   std::uint32_t west = kNone, east = 0, south = kNone, north = 0;
@@ -313,7 +315,7 @@ bool LatticeSquares::covers(const std::array<std::uint32_t, 3>& triangle) const 
   return first_[node(interval(columns_, x, west, east), interval(rows_, y, south, north))] != kNone;
 }
 
-/// Makes neighbours of a triangle and of the square beyond its edge.
+/// Makes a triangle and the square beyond its edge neighbours.
 void LatticeSquares::link(PlaneMesh& mesh, std::uint32_t triangle, unsigned edge) const {
   const auto& corners = mesh.triangles[triangle];
   const auto [p_column, p_row] = nodes_[corners[(edge + 1) % 3]];

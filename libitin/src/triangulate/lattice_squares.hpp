@@ -6,9 +6,9 @@
 //   squares.fill(mesh);                                  // now as if all positions had been inserted
 //
 // Rasters are lattices: posts stand where columns and rows cross, at whatever distances from each other. The circle
-// about a square (or rectangle) between neighbouring columns and rows has no other crossing in or on it. So where all
-// four posts are there, nothing else stands in the circle and no segment comes between them, two triangles of the
-// constrained Delaunay triangulation are known, on either side of the diagonal that the tie rule of predicates.hpp
+// about a square (or rectangle) between neighbouring columns and rows has no other crossing in or on it. Suppose that
+// all four posts are there, no other vertex lies in the circle and no segment comes between them. Then two triangles of
+// the constrained Delaunay triangulation are known, on either side of the diagonal that the tie rule of predicates.hpp
 // chooses: from lower right to upper left. Elsewhere, as beside voids, coasts and streets, the triangulation of all
 // vertices not wholly surrounded by such squares has the same triangles.
 #pragma once
@@ -28,16 +28,15 @@ namespace itin {
 class LatticeSquares {
  public:
   LatticeSquares() = default;
-  /// All positions and segments there are within `known`, and perhaps others. Where few squares would be found, none
-  /// are.
+  /// Takes all positions and segments within `known`, and perhaps others. Where there are few squares, finds none.
   LatticeSquares(std::span<const Position> positions, std::span<const Segment> segments, const GridBox& known);
 
-  /// Triangles that fill() puts first.
+  /// Returns the number of triangles that fill() puts first.
   std::uint32_t triangle_count() const { return count_; }
-  /// Indices of the positions that belong to triangles elsewhere or are ends of segments, ascending.
+  /// Returns the indices of the positions that belong to triangles elsewhere or are ends of segments, ascending.
   const std::vector<std::uint32_t>& rest() const { return rest_; }
-  /// Makes of the triangulation of rest(), of the segments and of vertices outside `known` that of all. Vertices of the
-  /// mesh have the numbers that they have here.
+  /// Turns the triangulation of rest(), of the segments and of vertices outside `known` into that of all vertices.
+  /// Vertices of the mesh have their numbers here.
   void fill(PlaneMesh& mesh) const;
 
  private:
@@ -61,7 +60,7 @@ class LatticeSquares {
   void link(PlaneMesh& mesh, std::uint32_t triangle, unsigned edge) const;
 
   std::vector<std::int32_t> columns_, rows_;     ///< ascending
-  std::int32_t column_step_ = 0, row_step_ = 0;  ///< as most are apart
+  std::int32_t column_step_ = 0, row_step_ = 0;  ///< the usual distance apart
   std::vector<std::uint32_t> vertices_;          ///< by node: the position's index, or kNone
   std::vector<Node> nodes_;                      ///< by position
   std::vector<std::uint32_t> first_;  ///< by node: the first triangle of the square to its upper right, or kNone

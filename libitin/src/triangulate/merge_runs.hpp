@@ -1,5 +1,5 @@
-// Sorts what consists of a few ascending runs, as the leaves of several quadtrees do one tree after another: in a
-// fraction of the time of a sort, n log(runs).
+// Sorts items that consist of a few ascending runs, such as the leaves of several quadtrees, one tree after another.
+// Takes n log(runs), a fraction of the time of a sort.
 #pragma once
 
 #include <algorithm>

@@ -9,7 +9,7 @@ namespace itin {
 
 namespace {
 
-/// Which corner of a triangle is its least vertex.
+/// Returns the corner of a triangle that is its least vertex.
 unsigned least_corner(const std::array<std::uint32_t, 3>& t) {
   if (t[0] < t[1]) return t[0] < t[2] ? 0 : 2;
   return t[1] < t[2] ? 1 : 2;
@@ -20,7 +20,7 @@ struct Turned {
   unsigned least;
 };
 
-/// Triangles are dealt out by their first vertex; those of one vertex, two on average, are sorted by the second one.
+/// Distributes triangles by their first vertex; those of one vertex, two on average, are sorted by the second one.
 std::vector<Turned> ascending(const std::vector<std::array<std::uint32_t, 3>>& triangles, std::size_t vertex_count) {
   std::vector<std::uint32_t> place(vertex_count + 1, 0);
   for (const auto& t : triangles) ++place[t[least_corner(t)] + 1];
@@ -30,7 +30,7 @@ std::vector<Turned> ascending(const std::vector<std::array<std::uint32_t, 3>>& t
     const unsigned least = least_corner(triangles[t]);
     order[place[triangles[t][least]]++] = {triangles[t][(least + 1) % 3], t, least};
   }
-  // By now each place is where the next vertex's begin. A call of std::sort takes longer than sorting two.
+  // By now each place is where the next vertex's triangles begin. A call of std::sort takes longer than sorting two.
   for (std::size_t v = 0, begin = 0; v < vertex_count; begin = place[v++]) {
     for (std::size_t i = begin + 1; i < place[v]; ++i)
       for (std::size_t k = i; k > begin && order[k].second < order[k - 1].second; --k)

@@ -32,14 +32,14 @@ RaisedIndex::RaisedIndex(const Store& store, const Selection& selection)
   }
 }
 
-/// Ascending codes of where what has rank `below` makes way.
+/// Returns the ascending codes of the places where vertices of rank `below` make way.
 std::vector<std::uint64_t> RaisedIndex::masks(const GridBox& box, int below) const {
   std::vector<Leaf> leaves;
   base_.leaves(base_.level_count(), box, leaves);
   std::vector<std::uint64_t> codes;
   for (const Leaf& leaf : leaves) {
     if (!is_part(leaf.theme) || rank(leaf.theme) == kNotThere || rank(leaf.theme) >= below) continue;
-    // We hold the block, for the cache may let it go.
+    // The block is held, as the cache may release it.
     const std::shared_ptr<const Block> block = chosen_.block(leaf);
     for (const GridPoint& p : block->points)
       if (box.contains(p.x, p.y)) codes.push_back(code_of(p));

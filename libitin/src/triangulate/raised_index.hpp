@@ -1,8 +1,8 @@
-// A store's vertices and lines with the chosen raised features among them, and without what makes way for these.
+// A store's vertices and lines, including the chosen raised features and leaving out what makes way for them.
 //
 //   const RaisedIndex index(store, selection);     // then as any PointIndex, with the same selection
 //
-// The points that are there depend on the selection alone, never on the window, so all that holds for a store's
+// The points present depend on the selection alone, never on the window, so that everything that holds for a store's
 // triangulations holds for these.
 #pragma once
 
@@ -19,7 +19,8 @@
 
 namespace itin {
 
-/// Safe for concurrent use. Refers to the store, which must outlive it.
+/// An index of a store's surface with raised features. Safe for concurrent use. Refers to the store, which must outlive
+/// it.
 class RaisedIndex final : public PointIndex {
  public:
   RaisedIndex(const Store& store, const Selection& selection);
@@ -44,8 +45,8 @@ class RaisedIndex final : public PointIndex {
 
  private:
   static constexpr int kNotThere = -1;
-  /// The rank of the theme or part of this number: kNotThere where it is not chosen; themes on the ground and the
-  /// terrain come after all parts.
+  /// Returns the rank of the theme or part of this number, kNotThere where it is not chosen. Themes on the ground and
+  /// the terrain come after all parts.
   int rank(std::uint16_t theme) const { return ranks_[theme]; }
   bool is_part(std::uint16_t theme) const { return theme > themes_; }
   std::vector<std::uint64_t> masks(const GridBox& box, int below) const;

@@ -1,4 +1,4 @@
-// An index whose blocks are read, and counted, once, whatever asks for them.
+// An index whose blocks are read, and counted, once, however often they are asked for.
 #pragma once
 
 #include <memory>
@@ -9,7 +9,7 @@
 
 namespace itin {
 
-/// Serves one thread, unlike other indices. Keeps what it has read.
+/// Reads blocks once and keeps them. Serves one thread, unlike other indices.
 class ReadOnce final : public PointIndex {
  public:
   explicit ReadOnce(const PointIndex& base) : base_(base), blocks_(base) {}

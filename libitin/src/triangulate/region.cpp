@@ -24,17 +24,18 @@ namespace itin {
 
 namespace {
 
-/// The box is this many mean point spacings wider than the region: most circumdiscs of the region's triangles fit in.
+/// The margin of the box about the region, in mean point spacings: most circumdiscs of the region's triangles fit in
+/// it.
 constexpr double kMargin = 4;
-/// After this many rounds of mending the box may grow.
+/// The rounds of mending after which the box may grow.
 constexpr int kPatience = 32;
-/// A box is not made to have more points than so many times those of the region (large regions: kLargeGrowth times and
-/// kManyPoints), and a few.
+/// Limits to a box's points: kGrowth times the region's points (for large regions kLargeGrowth times, and kManyPoints),
+/// and kFewPoints more.
 constexpr std::uint64_t kGrowth = 8, kLargeGrowth = 2;
 constexpr std::uint64_t kManyPoints = 1 << 16, kFewPoints = 4096;
-/// Mean point spacings: cells of about 64 points.
+/// The side of cells in mean point spacings: cells have about 64 points.
 constexpr double kCellSide = 8;
-/// In points: what reading a cell costs besides. Over open water cells are empty, and no few.
+/// The cost of reading a cell, expressed in points. Over open water there are many cells, all empty.
 constexpr std::uint64_t kCellCost = 16;
 
 class RegionTriangulation {
@@ -50,7 +51,7 @@ class RegionTriangulation {
   RegionMesh run() {
     RegionMesh result;
     if (!tile_.empty() && triangulate_box(first_margin())) {
-      // Every round puts a vertex or a segment of the store into the mesh, or the box grows: it ends, whatever is
+      // Every round puts a vertex or a segment of the store into the mesh, or the box grows: the loop ends, whatever is
       // stored.
       for (int rounds = 0;; ++rounds) {
         stop_if_asked();
@@ -72,8 +73,8 @@ class RegionTriangulation {
   }
 
  private:
-  /// Reads and triangulates a box around the region, at least so large that there is a triangle. False when there is
-  /// none anywhere.
+  /// Reads and triangulates a box around the region, large enough that there is a triangle. Returns false when there is
+  /// no triangle anywhere.
   bool triangulate_box(double margin) {
     margin_ = margin;
     box_ = read_box_ = box_with(margin_);
@@ -83,12 +84,12 @@ class RegionTriangulation {
       if (triangulate_seed()) return true;
       read_box_ = box_;
     }
-    // A triangle needs a vertex or a segment in the box, and those tell ground from its absence.
+    // A triangle needs a vertex or a segment in the box, and these tell where there is ground.
     return true;
   }
 
-  /// The first land beyond open water: where reading the whole box is much, one leaf of it and the lines will do to
-  /// start from.
+  /// Triangulates the first land beyond open water. Where reading the whole box takes long, one leaf of it and the
+  /// lines are enough to start from. Returns false where this does not apply.
   bool triangulate_seed() {
     const std::vector<Leaf> leaves = read_.leaves_in(box_);
     if (RegionReader::points_of(leaves, box_) <= kFewPoints) return false;
@@ -124,7 +125,7 @@ class RegionTriangulation {
     for (const Constraint& c : constraints_) grown_.lay(c.from, c.to, c.theme);
   }
 
-  /// All but those in the midst of squares.
+  /// Triangulates all vertices except those inside squares.
   void triangulate_vertices() {
     std::vector<std::uint32_t> numbers = squares_.rest();
     for (std::uint32_t v = read_.in_order(); v < read_.vertices().size(); ++v) numbers.push_back(v);
@@ -139,7 +140,8 @@ class RegionTriangulation {
 
   GridBox box_with(double margin) const { return intersection(expanded(tile_, margin), expanded(index_.bounds(), 1)); }
 
-  /// Where triangles reach far, as across the sea, one vertex after another turns up. A larger box has them at once.
+  /// Tells whether a larger box pays. Where triangles reach far, as across the sea, one vertex after another turns up;
+  /// a larger box has them at once.
   bool worth_growing() const {
     if (box_.contains(index_.bounds())) return false;
     return read_.points_in(box_with(4 * margin_)) <= static_cast<double>(most_points_);
@@ -156,8 +158,8 @@ class RegionTriangulation {
     return margin + 1;
   }
 
-  /// Throws where all ground has been read. A sound store never needs more: this one's vertices and lines contradict
-  /// each other.
+  /// Throws where all ground has been read. A sound store never needs more: the vertices and lines of such a store
+  /// contradict each other.
   void require_more_ground() const {
     if (box_.contains(index_.bounds()))
       throw Error(
@@ -166,21 +168,21 @@ class RegionTriangulation {
                       tile_.xmin, tile_.ymin, tile_.xmax, tile_.ymax));
   }
 
-  /// Whether it is new.
+  /// Inserts a vertex; returns whether it is new.
   bool insert(const SelectedVertex& vertex) {
     const auto [number, fresh] = read_.number_of(vertex);
     if (fresh) grown_.insert(number);
     return fresh;
   }
 
-  /// A segment's end, which goes into the mesh if there is one.
+  /// Returns the number of a segment's end, which goes into the mesh if there is one.
   std::uint32_t end_at(Position p) {
     const auto [number, fresh] = read_.number_of(p);
     if (fresh && !mesh().triangles.empty()) grown_.insert(number);
     return number;
   }
 
-  /// Into the mesh if there is one. Their ends become vertices.
+  /// Inserts segments, into the mesh if there is one. Their ends become vertices.
   void insert(const std::vector<Segment>& segments) {
     for (const Segment& s : segments) {
       const Constraint c{end_at(s.a()), end_at(s.b()), s.theme};
@@ -199,9 +201,10 @@ class RegionTriangulation {
   }
 
   enum class Ground : std::uint8_t { kUnknown, kYes, kNo };
-  /// ground_[t] is right for every triangle that meets the box: no segment crosses the box unseen, so a triangle's part
-  /// in the box is ground or not as a whole, and so are neighbours whose common edge meets the box unless it is
-  /// part of the outline. A box that no outline meets has a vertex or a line in it, hence is ground.
+  /// Marks the triangles of the ground: ground_[t] is right for every triangle that meets the box. All segments that
+  /// cross the box are known, so a triangle's part in the box is ground or not as a whole. So are neighbours whose
+  /// common edge meets the box, unless the edge is part of the outline. A box that no outline meets has a vertex or a
+  /// line in it, hence is ground.
   void mark_ground() {
     const std::vector<std::uint32_t> changed = grown_.take_changed();
     ground_.resize(mesh().triangles.size(), Ground::kUnknown);
@@ -225,8 +228,8 @@ class RegionTriangulation {
     spread(marked);
   }
 
-  /// Marks these triangles, which have changed since all were marked, by those that have not. False where that does not
-  /// tell: all must be marked then.
+  /// Marks these triangles, which have changed since all were marked, by their unchanged neighbours. Returns false
+  /// where that is not enough: all must be marked then.
   bool mark_changed(const std::vector<std::uint32_t>& changed) {
     for (const std::uint32_t t : changed) ground_[t] = Ground::kUnknown;
     std::vector<std::uint32_t> marked;
@@ -256,7 +259,7 @@ class RegionTriangulation {
     marked.push_back(t);
   }
 
-  /// What holds for the marked triangles holds for their neighbours. Appends those that it marks.
+  /// Marks the neighbours of marked triangles like these, and so on. Appends the triangles that it marks.
   void spread(std::vector<std::uint32_t>& marked) {
     for (std::size_t next = 0; next < marked.size(); ++next) {
       const std::uint32_t t = marked[next];
@@ -265,12 +268,12 @@ class RegionTriangulation {
     }
   }
 
-  /// Whether what lies beyond edge i is ground as the triangle is, or not as it is not.
+  /// Tells whether the place beyond edge i is ground if the triangle is, and no ground if it is not.
   bool same_side(std::uint32_t t, int i) const {
     return !on_outline(t, i) && meets(corner(t, i + 1), corner(t, i + 2), box_);
   }
 
-  /// The edges of all segments, or of the outline only.
+  /// Edges of all segments, or of the outline only.
   enum class Lines { kAll, kOutline };
   std::vector<SegmentEdge> edges_of(Lines which) const {
     std::vector<SegmentEdge> edges;
@@ -279,7 +282,7 @@ class RegionTriangulation {
     return edges;
   }
 
-  /// Whether triangle t meets tile and window.
+  /// Tells whether triangle t meets tile and window.
   bool in_region(std::uint32_t t) const {
     const GridBox corners = box_of_triangle(t);
     if (!corners.meets(tile_)) return false;
@@ -293,24 +296,23 @@ class RegionTriangulation {
     return box_of(mesh().triangles[t], [&](std::uint32_t v) { return position(v); });
   }
 
-  /// The separating axis theorem, the boxes known to overlap: is the whole tile right of one edge?
+  /// Tells whether triangle t meets the tile, by the separating axis theorem. Precondition: their boxes overlap.
   bool reaches_tile(std::uint32_t t) const {
     return tile_reaches_left_of(corner(t, 0), corner(t, 1)) && tile_reaches_left_of(corner(t, 1), corner(t, 2)) &&
            tile_reaches_left_of(corner(t, 2), corner(t, 0));
   }
 
-  /// Whether some corner of the tile is left of pq or in line with it.
+  /// Tells whether some corner of the tile is left of pq or in line with it.
   bool tile_reaches_left_of(Position p, Position q) const {
-    // The corner farthest to the left of pq.
+    // This is the corner farthest to the left of pq.
     const Position c{q.y > p.y ? tile_.xmin : tile_.xmax, q.x > p.x ? tile_.ymax : tile_.ymin};
     return orientation(p, q, c) >= 0;
   }
 
-  /// Reads the ground that thin triangles see past the lines beside them, beyond what is known. True when there was
-  /// some.
+  /// Reads the unknown ground that thin triangles see past the lines beside them. Returns whether there was some.
   bool extend() {
     std::vector<Cell> missing;
-    // The outline alone shuts in little, and triangles across the sea see far.
+    // Without lines this does not pay: the outline alone shuts in little, and triangles across the sea see far.
     const bool lines =
         std::any_of(constraints_.begin(), constraints_.end(), [](const Constraint& c) { return c.theme != kCoverage; });
     Enclosure enclosure(mesh(), read_.vertices(), known_, index_.bounds());
@@ -329,7 +331,7 @@ class RegionTriangulation {
     return fresh;
   }
 
-  /// False when all that there may be read has been.
+  /// Reads a cell. Returns false when no more points may be read.
   bool read_cell(const Cell& cell) {
     if (most_known_ == 0) return false;
     const std::vector<RegionReader::Coded> found = read_.points(cell.box());
@@ -341,7 +343,8 @@ class RegionTriangulation {
   }
 
   enum class Mending : std::uint8_t { kDone, kGoesOn, kInVain };
-  /// Proves every ground triangle of the region, or inserts what disproves it: in vain where the mesh has all of it.
+  /// Proves every ground triangle of the region, or inserts the items that disprove it; in vain where the mesh has all
+  /// of these.
   Mending mend() {
     std::vector<SelectedVertex> intruders;
     std::vector<Segment> fresh;
@@ -364,7 +367,7 @@ class RegionTriangulation {
 
   void prove(std::uint32_t t, std::vector<SelectedVertex>& intruders, std::vector<Segment>& fresh) {
     stop_if_asked();
-    // A missing vertex is missing for many triangles. Those that are left then are asked the next time.
+    // A missing vertex is missing for many triangles. Triangles that are still left then are asked about the next time.
     if (std::any_of(intruders.begin(), intruders.end(), [&](const SelectedVertex& v) { return disturbs(v, t); }))
       return;
     if (!box_.contains(box_of_triangle(t))) {
@@ -372,10 +375,10 @@ class RegionTriangulation {
       fresh.insert(fresh.end(), crossing.begin(), crossing.end());
       if (!crossing.empty()) return;
     }
-    // A vertex within a triangle takes it away, and with it all questions about what it sees.
+    // A vertex within a triangle removes the triangle, and with it all questions about what it sees.
     std::optional<SelectedVertex> found = search_.inside(corner(t, 0), corner(t, 1), corner(t, 2));
     for (int i = 0; i < 3 && !found; ++i) {
-      // Beyond edge i is left of its reverse.
+      // The place beyond edge i is left of the reversed edge.
       if (!constrained(t, i)) found = search_.intruder(corner(t, i + 2), corner(t, i + 1), corner(t, i));
     }
     if (found) {
@@ -385,12 +388,12 @@ class RegionTriangulation {
     }
   }
 
-  /// Whether a vertex lies in the circumcircle of t.
+  /// Tells whether a vertex lies in the circumcircle of t.
   bool disturbs(const SelectedVertex& v, std::uint32_t t) const {
     return in_circle_perturbed(corner(t, 0), corner(t, 1), corner(t, 2), v.position()) > 0;
   }
 
-  /// Returns whether it found any.
+  /// Seeks vertices beyond the hull edges of t; returns whether it found any.
   bool seek_beyond_hull(std::uint32_t t, std::vector<SelectedVertex>& intruders) {
     const std::size_t before = intruders.size();
     const auto& v = mesh().triangles[t];
@@ -401,13 +404,14 @@ class RegionTriangulation {
     return intruders.size() > before;
   }
 
-  /// Where the region reaches beyond a hull edge, or just to it, and there is ground, the next triangle's vertex is
-  /// missing, unless the edge is on the hull of the whole surface.
+  /// Seeks the vertex of the next triangle, which is missing where the region reaches a hull edge or beyond and there
+  /// is ground there, unless the edge is on the hull of the whole surface.
   void seek_left_of(std::uint32_t from, std::uint32_t to, std::vector<SelectedVertex>& intruders) {
     const Position p = position(from), q = position(to);
     if (!tile_reaches_left_of(p, q) || hull_.contains({from, to})) return;
     auto found = search_.apex(p, q);
-    // An edge between ends of segments far away may be none of the whole surface's: then lines may hide all from it.
+    // An edge between ends of distant segments may not be an edge of the whole surface: then lines may hide everything
+    // from it.
     if (!found) found = search_.nearest_left_of(p, q);
     if (found) {
       intruders.push_back(*found);
@@ -437,23 +441,23 @@ class RegionTriangulation {
   ApexSearch search_;
   GridBox tile_;  ///< the region's box
   double margin_ = 0;
-  std::uint64_t most_points_ = 0;  ///< that a box is worth
-  GridBox box_;                    ///< all selected segments in it have been read
-  GridBox read_box_;               ///< within box_: all selected points in it have been read, too
-  GridBox bare_beyond_;            ///< read_box_ and what lies beyond all data behind it
+  std::uint64_t most_points_ = 0;  ///< the most points that are worth reading into a box
+  GridBox box_;                    ///< a box all of whose selected segments have been read
+  GridBox read_box_;               ///< a box within box_ all of whose selected points have been read, too
+  GridBox bare_beyond_;            ///< read_box_, extended without end on the sides where the data end
   KnownGround known_;              ///< read_box_ and more
   int log2_cell_side_ = 0;
   std::uint64_t most_known_ = 0;  ///< points that may still be read into known_
   std::vector<Constraint> constraints_;
-  LatticeSquares squares_;  ///< made of the points read at first
-  GrowingMesh grown_;       ///< proved: a triangle that needs no more proof
+  LatticeSquares squares_;  ///< the squares of the points read at first
+  GrowingMesh grown_;       ///< its proved triangles need no more proof
   std::vector<Ground> ground_;
   std::vector<SegmentEdge> outline_;
-  bool outline_changed_ = true;  ///< since all triangles were marked
+  bool outline_changed_ = true;  ///< the outline has changed since all triangles were marked
   bool all_ground_ = false;      ///< no outline meets the box
-  /// Triangles of the ground that need proof, or have something beyond an edge of the hull; and some more. Ascending.
+  /// Triangles of the ground that need proof, or have a vertex beyond an edge of the hull; and some more. Ascending.
   std::vector<std::uint32_t> open_;
-  std::set<std::pair<std::uint32_t, std::uint32_t>> hull_;  ///< edges known to have nothing beyond
+  std::set<std::pair<std::uint32_t, std::uint32_t>> hull_;  ///< edges known to have no vertex beyond
 };
 
 }  // namespace

@@ -45,7 +45,7 @@ void RegionReader::start(const GridBox& box, const Leaf* leaf, const GridBox& le
   std::vector<Coded> found = points(box);
   if (leaf != nullptr) read_block(*leaf, leaf_box, found);
   merge_runs(found, [](const Coded& a, const Coded& b) { return a.first < b.first; });
-  // Themes may share a vertex, and the leaf's may be read twice.
+  // Themes may share a vertex, and a leaf may be read twice.
   found.erase(
       std::unique(found.begin(), found.end(), [](const Coded& a, const Coded& b) { return a.first == b.first; }),
       found.end());

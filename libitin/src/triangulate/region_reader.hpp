@@ -18,35 +18,35 @@ namespace itin {
 
 class RegionReader {
  public:
-  /// Refers to both.
+  /// Refers to both arguments, which must outlive it.
   RegionReader(const PointIndex& index, const Selection& selection) : index_(index), selection_(selection) {}
 
   std::vector<Leaf> leaves_in(const GridBox& box) const;
-  /// About how many of the leaves' points lie in a box: strips a few points wide meet many leaves.
+  /// Estimates how many of the leaves' points lie in a box: strips a few points wide meet many leaves.
   static double points_of(const std::vector<Leaf>& leaves, const GridBox& box);
   double points_in(const GridBox& box) const { return points_of(leaves_in(box), box); }
 
-  /// Forgets all, and reads the points of one box and, if given, those of a leaf in another. They get the first
+  /// Forgets everything, and reads the points of one box and, if given, those of a leaf in another. They get the first
   /// numbers, in Morton order.
   void start(const GridBox& box, const Leaf* leaf, const GridBox& leaf_box);
   /// The points of a box, with their Morton codes.
   using Coded = std::pair<std::uint64_t, SelectedVertex>;
   std::vector<Coded> points(const GridBox& box);
-  /// The segments that meet the box and have not been read before.
+  /// Reads the segments that meet the box and have not been read before.
   std::vector<Segment> fresh_segments(const GridBox& box);
 
   struct Numbered {
     std::uint32_t vertex;
-    bool fresh;  ///< it was not there before
+    bool fresh;  ///< the vertex was not there before
   };
   Numbered number_of(const SelectedVertex& vertex);
-  /// A segment's end, of which only the position is known.
+  /// Returns the number of a segment's end, which is known by position only.
   Numbered number_of(Position end);
   /// Gives a segment's end its height. Throws Error where there is no vertex.
   void complete(std::uint32_t vertex, ApexSearch& search);
 
   const std::vector<SelectedVertex>& vertices() const { return vertices_; }
-  /// The number of vertices in Morton order; those after them came one by one.
+  /// Returns the number of vertices in Morton order; those after them came one by one.
   std::uint32_t in_order() const { return static_cast<std::uint32_t>(codes_.size()); }
   const RetrievalStatistics& statistics() const { return statistics_; }
 
@@ -63,14 +63,14 @@ class RegionReader {
   const PointIndex& index_;
   const Selection& selection_;
   std::vector<SelectedVertex> vertices_;
-  std::vector<std::uint64_t> codes_;                         ///< Morton codes of those in order
+  std::vector<std::uint64_t> codes_;                         ///< Morton codes of the vertices in order
   std::unordered_map<std::uint64_t, std::uint32_t> others_;  ///< numbers of vertices that came later, by Morton code
   std::set<std::uint32_t> bare_;                             ///< numbers in others_ of vertices known by position only
-  std::unordered_set<Segment, HashOfEnds> segments_;         ///< that have been read
+  std::unordered_set<Segment, HashOfEnds> segments_;         ///< segments that have been read
   RetrievalStatistics statistics_;
 };
 
-/// Closed segment against closed box, exactly.
+/// Tells whether a closed segment meets a closed box, exactly.
 bool meets(Position p, Position q, const GridBox& box);
 
 double area(const GridBox& box);

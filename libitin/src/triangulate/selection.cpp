@@ -9,7 +9,7 @@ namespace itin {
 
 namespace {
 
-// Far beyond every grid, yet squares and their sums still fit in 128 bits.
+// The farthest radius: far beyond every grid, yet squares and their sums still fit in 128 bits.
 constexpr double kFarthest = 0x1p60;
 
 std::int64_t rounded_units(double grid_units) {
@@ -75,8 +75,8 @@ Selection selection_of(const StoreMetadata& metadata, const Detail& detail, cons
   }
   for (std::size_t p = 0; p < metadata.parts.size(); ++p) {
     const ThemePart& part = metadata.parts[p];
-    // The finest level of all decides, for what is there must not depend on where one looks. Of parts that have
-    // clusters, ChosenClusters then leaves out those that rings do not ask for.
+    // The finest level of all decides, as the surface must not depend on where one looks. In parts that have clusters,
+    // ChosenClusters then leaves out the clusters that rings do not ask for.
     if (!selection.includes(part.theme) || part.coarsest < selection.finest())
       selection.leave_out(static_cast<std::uint16_t>(metadata.themes.size() + p + 1));
   }

@@ -1,5 +1,5 @@
-// Which stored vertices and segments a Detail and a choice of themes select: a predicate of the item alone, never of
-// the window, so that the triangulation of what is selected is one and the same whatever part of it is asked for.
+// The stored vertices and segments that a Detail and a choice of themes select. This is a predicate of the item alone,
+// never of the window, so that the triangulation of the selected items is the same whatever part of it is asked for.
 #pragma once
 
 #include <cstdint>
@@ -14,30 +14,31 @@
 
 namespace itin {
 
-/// A tolerance T asks for the coarsest level whose tolerance is at most T. The centre and the radii of rings are
-/// rounded to the grid; a vertex belongs to the first ring whose circle contains it or has it on its rim, decided in
-/// integers.
+/// Selects vertices and segments. A tolerance T asks for the coarsest level whose tolerance is at most T. The centre
+/// and the radii of rings are rounded to the grid. A vertex belongs to the first ring whose circle contains it or has
+/// it on its rim, decided in integers.
 class Selection {
  public:
-  /// `tolerances` of the levels in metres, ascending, level 0 (tolerance 0) first.
+  /// Takes the `tolerances` of the levels in metres, ascending, level 0 (tolerance 0) first.
   Selection(const Detail& detail, const std::vector<double>& tolerances, const Grid& grid);
 
   /// Leaves out a theme, by its number, or the coverage outline. At first all are selected.
   void leave_out(std::uint16_t theme);
   bool includes(std::uint16_t theme) const { return theme >= left_out_.size() || !left_out_[theme]; }
 
-  /// The levels asked for at the centre and beyond the last ring.
+  /// These are the levels asked for at the centre and beyond the last ring.
   int finest() const { return finest_; }
   int coarsest() const { return coarsest_; }
-  /// The least level that may be selected in `box` (not empty).
+  /// Returns the least level that may be selected in `box` (not empty).
   int finest_in(const GridBox& box) const;
-  /// Whether a vertex of this level is part of the surface: its level is at least the one asked for at (x, y).
+  /// Tells whether a vertex of this level is part of the surface: its level is at least the one asked for at (x, y).
   bool selects(int level, std::int32_t x, std::int32_t y) const {
     if (level >= coarsest_) return true;
     return level >= finest_ && level >= level_at(x, y);
   }
-  /// Whether a segment is a constraint: its theme is chosen, and it is part of its line at every level asked for about
-  /// it. Where a line leaves one ring for the next no segment may be; what it consists of elsewhere is the same.
+  /// Tells whether a segment is a constraint: its theme is chosen, and it is part of its line at every level asked for
+  /// about it. Where a line leaves one ring for the next, no segment may be a constraint; elsewhere the line's segments
+  /// are unaffected.
   bool selects(const Segment& segment) const;
 
  private:
@@ -56,10 +57,10 @@ class Selection {
   std::vector<bool> left_out_;  ///< by theme
 };
 
-/// The selection of a query of a store. Throws InputError for a theme that the store does not have.
+/// Returns the selection of a query of a store. Throws InputError for a theme that the store does not have.
 Selection selection_of(const StoreMetadata& metadata, const Detail& detail, const ThemeChoice& themes);
 
-/// The leaves of an index that may hold something selected in `box`.
+/// Appends the leaves of an index that may hold something selected in `box`.
 void selected_leaves(const PointIndex& index, const Selection& selection, const GridBox& box, std::vector<Leaf>& out);
 
 }  // namespace itin

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t kSegmentsPerSector = 4;
 constexpr std::size_t kMostSectors = 512;
-/// Far above the rounding of directions, far below the width of a sector.
+/// The slack of directions: far above their rounding, far below the width of a sector.
 constexpr double kSlack = 1e-9;
 
 }  // namespace
@@ -29,7 +29,7 @@ SightFan::SightFan(Position a, Position b, Position eye, std::span<const Segment
                 }};
 }
 
-/// Grows from 0 along ab to 2 against it, over directions to the left.
+/// Returns a measure of direction that grows from 0 along ab to 2 against it, over directions to the left.
 double SightFan::pseudo_angle(double x, double y) const {
   const double along = x * along_x_ + y * along_y_, aside = std::max(0.0, y * along_x_ - x * along_y_);
   const double sum = std::abs(along) + aside;
@@ -40,7 +40,8 @@ std::uint32_t SightFan::sector(double angle) const {
   return static_cast<std::uint32_t>(std::clamp(angle / 2 * count_, 0.0, count_ - 1.0));
 }
 
-/// From `first` up to, not including, `last`; none where the segment begins at the eye and so blocks nothing.
+/// Returns the sectors of a segment, from `first` up to, not including, `last`; none where the segment begins at the
+/// eye and so blocks nothing.
 SightFan::Sectors SightFan::sectors_of(const Segment& s) const {
   const double px = static_cast<double>(s.ax) - eye_.x, py = static_cast<double>(s.ay) - eye_.y;
   const double qx = static_cast<double>(s.bx) - eye_.x, qy = static_cast<double>(s.by) - eye_.y;
@@ -48,7 +49,7 @@ SightFan::Sectors SightFan::sectors_of(const Segment& s) const {
   const double p_aside = py * along_x_ - px * along_y_, q_aside = qy * along_x_ - qx * along_y_;
   double low = std::min(pseudo_angle(px, py), pseudo_angle(qx, qy)),
          high = std::max(pseudo_angle(px, py), pseudo_angle(qx, qy));
-  // Cut off where it comes from the right of ab: by what side of the eye it passes.
+  // A segment from the right of ab is cut off there: the side on which it passes the eye decides which way it extends.
   if (p_aside < 1 || q_aside < 1) {
     const double side = (px * qy - py * qx) * (p_aside < q_aside ? 1 : -1);
     const double doubt = kSlack * (std::abs(px * qy) + std::abs(py * qx));

@@ -1,5 +1,5 @@
-// Which segments cross a line of sight from one eye, where many lines are asked about: those whose directions, seen
-// from the eye, are in the same narrow sector. Every answer is exact.
+// Finds segments that cross a line of sight from one eye, for many such lines: only segments in the line's narrow
+// sector, as seen from the eye, are tested. Every answer is exact.
 #pragma once
 
 #include <cstdint>
@@ -15,11 +15,11 @@ namespace itin {
 
 class SightFan {
  public:
-  /// The eye is a or b; all lines of sight lead to the left of ab. The segments must outlive it. O(n) for n segments
-  /// that are short as seen from the eye.
+  /// Takes a or b as the eye; all lines of sight lead to the left of ab. The segments must outlive it. O(n) for n
+  /// segments that are short as seen from the eye.
   SightFan(Position a, Position b, Position eye, std::span<const Segment> segments);
 
-  /// Whether some segment properly crosses the line of sight to c.
+  /// Tells whether some segment properly crosses the line of sight to c.
   bool blocked(Position c) const;
 
  private:

@@ -20,8 +20,8 @@ namespace itin {
 namespace {
 
 /// Windows of more points than this are cut into quadtree cells: few enough points to keep a cell's triangulation in
-/// the processor's cache. There are some cells for each thread of an ordinary machine, but none with so few points that
-/// reading beyond its border is what costs. No result depends on it.
+/// the processor's cache. There are several cells for each thread of an ordinary machine, but each has enough points
+/// that reading beyond its border is not the main cost. No result depends on it.
 constexpr double kMostPerTile = 32768, kLeastPerTile = 16384, kTiles = 8;
 
 void leave_out_finer(const Selection& selection, std::vector<Leaf>& leaves) {
@@ -33,7 +33,7 @@ std::uint64_t points_of(const std::vector<Leaf>& leaves) {
                          [](std::uint64_t sum, const Leaf& leaf) { return sum + leaf.points; });
 }
 
-/// Cells that cover the window.
+/// Cuts a window into cells that cover it.
 class TilePlan {
  public:
   TilePlan(const PointIndex& index, const Selection& selection, const GridWindow& window)
@@ -76,7 +76,7 @@ class TilePlan {
   std::vector<Cell> cells_;
 };
 
-/// Lines of a part become its theme's. Lines that only keep the ground about raised features are dropped.
+/// Gives lines of a part their theme's number. Drops lines that only keep the ground about raised features.
 void name_themes(Tin& tin, const StoreMetadata& metadata) {
   if (metadata.parts.empty()) return;
   std::erase_if(tin.lines, [&](const LineEdge& e) {

@@ -8,7 +8,7 @@ namespace itin {
 
 namespace {
 
-constexpr std::int64_t kStrips = 32;  ///< the window's box has so many, and each of them so many columns
+constexpr std::int64_t kStrips = 32;  ///< number of strips in the window's box, and of columns in each strip
 
 /// Calls visit(first, last) for strip after strip of a range.
 template <class Visit>
@@ -18,7 +18,7 @@ void for_each_strip(std::int32_t first, std::int32_t last, const Visit& visit) {
     visit(static_cast<std::int32_t>(begin), static_cast<std::int32_t>(std::min<std::int64_t>(last, begin + step - 1)));
 }
 
-/// Boxes that hold all within the margin.
+/// Returns boxes that hold everything within the margin.
 std::vector<GridBox> boxes_about(const GridWindow& window, double margin) {
   const GridBox all = expanded(window.bounds(), margin);
   std::vector<GridBox> boxes;
@@ -41,7 +41,7 @@ std::vector<Leaf> leaves_about(const PointIndex& index, const Selection& selecti
   std::vector<std::vector<Leaf>> of_boxes(boxes.size());
   parallel_for(boxes.size(), [&](std::size_t i) {
     selected_leaves(index, selection, boxes[i], of_boxes[i]);
-    // Some meet boxes before this one.
+    // Leaves that meet an earlier box are left out, as they are listed there.
     std::erase_if(of_boxes[i], [&](const Leaf& leaf) {
       const GridBox box = leaf.cell.box();
       for (std::size_t k = i; k-- > 0 && boxes[k].ymax >= box.ymin;)

@@ -1,4 +1,4 @@
-// The leaves of an index that a window may need, where its box has many more.
+// The leaves of an index that a window may need. Its box may have many more.
 #pragma once
 
 #include <vector>
@@ -9,11 +9,12 @@
 
 namespace itin {
 
-/// The leaves that may hold something selected within a margin of the window, grid units; each once. Uses all threads.
+/// Returns the leaves that may hold something selected within a margin of the window, grid units; each once. Uses all
+/// threads.
 std::vector<Leaf> leaves_about(const PointIndex& index, const Selection& selection, const GridWindow& window,
                                double margin);
 
-/// Leaves out those that are farther away.
+/// Leaves out the leaves that are farther away than the margin.
 void keep_leaves_about(const GridWindow& window, double margin, std::vector<Leaf>& leaves);
 
 }  // namespace itin

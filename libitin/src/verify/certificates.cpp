@@ -17,7 +17,7 @@ namespace itin {
 
 namespace {
 
-/// Grid units: what the slow comparison may be off by.
+/// The greatest error of the slow comparison, grid units.
 constexpr double kErrorRounding = 1e-3;
 
 class TileVerification {
@@ -37,7 +37,8 @@ class TileVerification {
   }
 
  private:
-  /// Fast first: a certificate holds where it has room for the whole of the triangles that lie in its cell in part.
+  /// Compares the fast way first: a certificate holds where it has room for the whole of each triangle that lies in its
+  /// cell in part.
   void compare(int level, const RegionMesh& coarse, const std::vector<DifferenceRange>& of_triangles) {
     std::vector<Leaf> leaves;
     file_.leaves_of(level, box_of(fine_.vertices, &SelectedVertex::point), leaves);

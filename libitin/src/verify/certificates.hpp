@@ -1,4 +1,4 @@
-// Whether the certificates of a store hold: law 2, looked at from the written store.
+// Whether the certificates of a store hold: law 2, checked on the written store.
 #pragma once
 
 #include <vector>
@@ -9,7 +9,7 @@
 
 namespace itin {
 
-/// The selections of a store's terrain at each level.
+/// Returns the selections of a store's terrain at each level.
 std::vector<Selection> selections_of_levels(const StoreMetadata& metadata);
 
 /// Compares all levels with the full surface in one tile. Throws Error where there are no surfaces.
@@ -18,7 +18,7 @@ std::vector<FalseCell> false_certificates(const StoreFile& file, const std::vect
 
 Damage false_certificate(const FalseCell& cell, const Grid& grid);
 
-/// Whether what the metadata says of levels agrees with the certificates of their cells.
+/// Finds the levels for which the metadata does not agree with the certificates of their cells.
 std::vector<Damage> false_levels(const StoreFile& file);
 
 }  // namespace itin

@@ -1,4 +1,4 @@
-// A cell of a quadtree that says something false of the surfaces in it.
+// A cell of a quadtree that makes a false statement about the surfaces in it.
 #pragma once
 
 #include <cstdint>
@@ -15,10 +15,10 @@ namespace itin {
 struct FalseCell {
   int tree = 0;
   std::optional<Leaf> leaf;  ///< none: a leaf is missing
-  Extremes differs;          ///< by how much the two surfaces differ in it
+  Extremes differs;          ///< the difference of the two surfaces in the cell
 };
 
-/// Merges what several tiles found about one cell; in the order of trees and of the curve.
+/// Merges the findings of several tiles about the same cells; in the order of trees and of the curve.
 inline std::vector<FalseCell> merged(const std::vector<FalseCell>& found) {
   constexpr std::uint64_t kMissing = ~std::uint64_t{0};
   std::map<std::pair<int, std::uint64_t>, FalseCell> by_place;
@@ -31,7 +31,7 @@ inline std::vector<FalseCell> merged(const std::vector<FalseCell>& found) {
   return all;
 }
 
-/// A position in grid units as messages have it.
+/// Returns a position in grid units as messages have it, in metres.
 inline Point2 in_metres(const Grid& grid, Point2 at) {
   return {grid.origin.x + at.x * grid.resolution, grid.origin.y + at.y * grid.resolution};
 }

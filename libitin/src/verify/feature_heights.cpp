@@ -14,9 +14,9 @@ namespace itin {
 
 namespace {
 
-/// Grid steps by which the ground that features were raised on may differ from the ground under them.
+/// The grid steps by which the ground that features were raised on may differ from the ground under them.
 constexpr double kHeightRounding = 2;
-/// A tile's.
+/// The most vertices of a part, and points of the terrain, in a tile.
 constexpr double kVertices = 4096, kPoints = 1 << 15;
 
 int tree_of(const Store& store, std::size_t part) {
@@ -61,7 +61,7 @@ std::vector<Cell> PartHeights::tiles() const {
   return tiles;
 }
 
-/// The part's vertices, along the curve.
+/// Returns the codes of the part's vertices, along the curve.
 std::vector<std::uint64_t> PartHeights::codes_in(const GridBox& box) const {
   std::vector<Leaf> leaves;
   file_.leaves_of(tree_, box, leaves);
@@ -75,7 +75,7 @@ std::vector<std::uint64_t> PartHeights::codes_in(const GridBox& box) const {
   return codes;
 }
 
-/// The triangles that are part of one of the part's features.
+/// Returns the triangles that are part of one of the part's features.
 std::vector<std::uint32_t> PartHeights::features_of(const RegionMesh& mesh, const GridBox& box) const {
   const std::vector<std::uint64_t> codes = codes_in(box);
   std::vector<std::uint32_t> features;
@@ -90,7 +90,8 @@ std::vector<std::uint32_t> PartHeights::features_of(const RegionMesh& mesh, cons
   return features;
 }
 
-/// Ground that foundations bend may hang from several parts, and is as low as the deepest of them.
+/// Returns the leaves about a box. Ground that foundations bend may depend on several parts, and is as low as the
+/// deepest of them, so that their leaves are merged.
 std::vector<Leaf> PartHeights::leaves_about(const GridBox& box) const {
   std::vector<Leaf> leaves;
   file_.leaves_of(tree_, box, leaves);
@@ -113,7 +114,7 @@ std::vector<FalseCell> PartHeights::higher_in(const Cell& tile) const {
   const HeightDifference difference(bare);
   const LeafCover cover(leaves_about(box));
   std::vector<Extremes> of_leaves(cover.leaves().size());
-  Extremes beside;  // all leaves
+  Extremes beside;  // outside all leaves
   for (const std::uint32_t t : features) {
     cover.visit(
         raised.corners(t),

@@ -14,10 +14,10 @@ namespace itin {
 /// The features of one part of a raised theme, among those of the whole theme. Safe for concurrent use.
 class PartHeights {
  public:
-  /// `part` from 0. Refers to the store, which must outlive it.
+  /// Takes the part's number, from 0. Refers to the store, which must outlive it.
   PartHeights(const Store& store, std::size_t part);
 
-  /// The tiles in which the part's features have vertices.
+  /// Returns the tiles in which the part's features have vertices.
   std::vector<Cell> tiles() const;
   /// Compares the features that meet a tile with the ground under them. Throws Error where there are no surfaces.
   std::vector<FalseCell> higher_in(const Cell& tile) const;
@@ -36,7 +36,7 @@ class PartHeights {
   int tree_;
   Selection ground_, selection_;
   RaisedIndex raised_;
-  bool founded_;                  ///< some foundations may bend the ground about them, and cut into it
+  bool founded_;                  ///< whether some foundations may bend the ground about them, and cut into it
   std::vector<int> other_trees_;  ///< trees of the theme's other parts
 };
 

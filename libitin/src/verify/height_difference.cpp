@@ -16,12 +16,12 @@ struct RealPoint {
   Real x, y;
 };
 
-/// Convex. A triangle cut by a box and a triangle has at most ten corners.
+/// A convex polygon. A triangle cut by a box and a triangle has at most ten corners.
 struct Polygon {
   std::array<RealPoint, 16> corners;
   std::size_t count = 0;
 
-  /// Keeps what lies where side(p), which is affine, is not negative.
+  /// Keeps the part where side(p), which is affine, is not negative.
   template <class Side>
   void cut(const Side& side) {
     const Polygon whole = *this;
@@ -85,7 +85,7 @@ HeightDifference::HeightDifference(const RegionMesh& low)
     : low_(low), bounds_(box_of(low.vertices, &SelectedVertex::point)) {
   const auto count = static_cast<std::uint32_t>(low.mesh.triangles.size());
   if (count == 0) return;
-  // About as many buckets as triangles.
+  // There are about as many buckets as triangles.
   const double width = 1.0 + bounds_.xmax - bounds_.xmin, height = 1.0 + bounds_.ymax - bounds_.ymin;
   side_ = static_cast<std::int64_t>(
       std::ceil(std::max({std::sqrt(width * height / count), width / count, height / count})));
@@ -106,7 +106,7 @@ void HeightDifference::for_each_near(const GridBox& box, const Visit& visit) con
     for (std::int64_t c = column(common.xmin); c <= column(common.xmax); ++c) {
       for (const std::uint32_t t : triangles_.in(bucket(c, r))) {
         const GridBox shared = intersection(common, low_.box_of_triangle(t));
-        // In the first of the buckets that both meet.
+        // A triangle is visited in the first of the buckets that both boxes meet.
         if (!shared.empty() && row(shared.ymin) == r && column(shared.xmin) == c) visit(t);
       }
     }

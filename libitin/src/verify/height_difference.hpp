@@ -3,9 +3,9 @@
 //   const HeightDifference difference(low_mesh);
 //   difference.add(high_mesh, t, box, extremes);     // triangle t, over as much of it as lies in the box
 //
-// Slow and plain: what pyramid/overlay.hpp finds along edges in one walk, and for whole triangles. Neither surface has
-// to have the other's vertices. In extended precision, about a corner of the triangle: to some 1e-5 grid units even
-// where the surfaces are as steep as the grid allows.
+// This is slow and plain; pyramid/overlay.hpp finds the same along edges in one walk, and for whole triangles. Neither
+// surface has to have the other's vertices. It computes in extended precision, about a corner of the triangle: right to
+// some 1e-5 grid units even where the surfaces are as steep as the grid allows.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@
 
 namespace itin {
 
-/// The extremes of a difference, grid units, and where it is greatest; empty at first.
+/// The extremes of a difference, grid units, and the place where it is greatest; empty at first.
 struct Extremes {
   double lo = std::numeric_limits<double>::infinity();
   double hi = -std::numeric_limits<double>::infinity();
@@ -37,7 +37,7 @@ struct Extremes {
 
 class HeightDifference {
  public:
-  /// Above this surface, which must outlive it.
+  /// Measures heights above this surface, which must outlive it.
   explicit HeightDifference(const RegionMesh& low);
 
   void add(const RegionMesh& high, std::uint32_t triangle, const GridBox& box, Extremes& extremes) const;
@@ -48,13 +48,13 @@ class HeightDifference {
   std::size_t bucket(std::int64_t column, std::int64_t row) const {
     return static_cast<std::size_t>(row * columns_ + column);
   }
-  /// Calls visit(triangle) for each whose box meets this one, once.
+  /// Calls visit(triangle) once for each triangle whose box meets this one.
   template <class Visit>
   void for_each_near(const GridBox& box, const Visit& visit) const;
 
   const RegionMesh& low_;
   GridBox bounds_;
-  std::int64_t side_ = 1, columns_ = 0;  ///< the side of a bucket, grid units, and how many are side by side
+  std::int64_t side_ = 1, columns_ = 0;  ///< the side of a bucket, grid units, and the number of buckets side by side
   BucketLists triangles_;                ///< by bucket
 };
 

@@ -4,7 +4,7 @@ namespace itin {
 
 namespace {
 
-/// Whether the line through pq leaves all of the box to its right.
+/// Tells whether the line through pq leaves all of the box to its right.
 bool keeps_right(Position p, Position q, const GridBox& box) {
   for (const Position corner : {Position{box.xmin, box.ymin}, Position{box.xmax, box.ymin},
                                 Position{box.xmin, box.ymax}, Position{box.xmax, box.ymax}}) {
@@ -15,7 +15,7 @@ bool keeps_right(Position p, Position q, const GridBox& box) {
 
 }  // namespace
 
-// Two convex sets share no area just where the line along one of their edges parts them.
+// Two convex sets share no area exactly when the line along one of their edges separates them.
 bool shares_area(const Corners& triangle, const GridBox& box) {
   const auto [a, b, c] = triangle;
   if (std::max({a.x, b.x, c.x}) <= box.xmin || std::min({a.x, b.x, c.x}) >= box.xmax) return false;

@@ -1,4 +1,4 @@
-// Which leaves of a quadtree a triangle lies in, decided exactly.
+// The leaves of a quadtree that a triangle lies in, decided exactly.
 #pragma once
 
 #include <algorithm>
@@ -16,29 +16,29 @@ namespace itin {
 
 using Corners = std::array<Position, 3>;  ///< counterclockwise
 
-/// Whether a triangle and a closed box share more than a border.
+/// Tells whether a triangle and a closed box share more than a border.
 bool shares_area(const Corners& triangle, const GridBox& box);
 
 class LeafCover {
  public:
-  /// Leaves of one tree along the curve. They must include all that meet the triangles which are asked about.
+  /// Takes the leaves of one tree along the curve. They must include all leaves that meet the triangles asked about.
   explicit LeafCover(std::vector<Leaf> leaves) : leaves_(std::move(leaves)) {}
 
   const std::vector<Leaf>& leaves() const { return leaves_; }
 
-  /// Calls on_leaf(i) for each leaf whose square shares area with the triangle, and on_gap(cell) for cells that do and
-  /// have no leaf.
+  /// Calls on_leaf(i) for each leaf whose square shares area with the triangle, and on_gap(cell) for cells that share
+  /// area with it and have no leaf.
   template <class OnLeaf, class OnGap>
   void visit(const Corners& triangle, const OnLeaf& on_leaf, const OnGap& on_gap) const;
 
  private:
   using Number = std::ptrdiff_t;
-  /// The first leaf that ends after a code.
+  /// Returns the first leaf that ends after a code.
   Number first_after(std::uint64_t code) const {
     const auto ends_by = [](const Leaf& leaf, std::uint64_t c) { return leaf.cell.end() <= c; };
     return std::lower_bound(leaves_.begin(), leaves_.end(), code, ends_by) - leaves_.begin();
   }
-  /// Among the leaves [first, last), which lie in the cell, or of which the only one holds it.
+  /// Visits the leaves [first, last) in the cell, or the only one of them, which holds the cell.
   template <class OnLeaf, class OnGap>
   void visit_in(const Cell& cell, Number first, Number last, const Corners& triangle, const OnLeaf& on_leaf,
                 const OnGap& on_gap) const;

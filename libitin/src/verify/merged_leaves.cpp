@@ -13,7 +13,7 @@ bool holds(Leaves leaves, const Cell& cell) {
   return leaves.size() == 1 && leaves.front().cell.contains(cell);
 }
 
-/// The leaves in the cell, or the one that holds it.
+/// Returns the leaves in the cell, or the one that holds it.
 Leaves within(Leaves leaves, const Cell& cell) {
   if (holds(leaves, cell)) return leaves;
   const auto ends_by = [](const Leaf& leaf, std::uint64_t code) { return leaf.cell.end() <= code; };

@@ -7,9 +7,9 @@
 
 namespace itin {
 
-/// Where leaves of both lists lie, which are each of one tree along the curve: their parts in common, with the lesser
-/// `lo`, the greater `hi` and the key of the smaller cell (of the first list if they are as large); elsewhere parts of
-/// the leaves that are there. Along the curve.
+/// Merges the leaves of two trees, each along the curve. Where leaves of both lists lie, the result has their common
+/// parts, with the lesser `lo`, the greater `hi` and the key of the smaller cell (of the first list if they are equally
+/// large). Elsewhere it has parts of the leaves of one list. The result is along the curve.
 std::vector<Leaf> merged_leaves(const std::vector<Leaf>& first, const std::vector<Leaf>& second);
 
 }  // namespace itin

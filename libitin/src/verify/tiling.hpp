@@ -8,8 +8,8 @@
 
 namespace itin {
 
-/// Cells with at most `capacity` points each, along the curve, that together cover the root; cells that `points` finds
-/// empty included. `points(cell)` says about how many a cell has.
+/// Returns cells with at most `capacity` points each, along the curve, that together cover the root, including cells
+/// that `points` finds empty. `points(cell)` returns about how many points a cell has.
 template <class Points>
 std::vector<Cell> tiles_of(const Points& points, double capacity, const Cell& cell = {}) {
   std::vector<Cell> tiles;
@@ -21,7 +21,7 @@ std::vector<Cell> tiles_of(const Points& points, double capacity, const Cell& ce
   return tiles;
 }
 
-/// About `wanted` of them, evenly spread; all of them if that is 0.
+/// Returns about `wanted` of the tiles, evenly spread; all of them if `wanted` is 0.
 inline std::vector<Cell> sample_of(const std::vector<Cell>& tiles, std::size_t wanted) {
   if (wanted == 0 || wanted >= tiles.size()) return tiles;
   std::vector<Cell> some;

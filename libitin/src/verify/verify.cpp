@@ -17,7 +17,7 @@ namespace itin {
 
 namespace {
 
-/// Points of a tile: few borders, and a surface that fits into the processor's cache.
+/// The points of a tile: enough to keep borders few, and few enough that a surface fits into the processor's cache.
 constexpr double kPointsPerVerifiedTile = 1 << 15;
 
 class Verifying {
