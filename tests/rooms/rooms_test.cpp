@@ -175,7 +175,8 @@ TEST(Names, AreGivenOnceAmongSourcesThatAreCompiledTogether) {
 
 /// A comment is a sentence: its subject is not to be looked for in the line before.
 TEST(Comments, BeginWithTheirSubject) {
-  const std::regex opening("\\s*//[/!]? *(Of|The same|So many|So few|Likewise)\\b.*");
+  const std::regex opening(
+      "\\s*//[/!]? *(Of|The same|So many|So few|Likewise|That of|Those|As above|Each \\w+'s\\.)(?!\\w).*");
   for (const char* folder : {"libitin", "viewshed", "profile", "cli"}) {
     for (const fs::path& file : sources_below(kRoot / folder)) {
       std::ifstream stream(file);
