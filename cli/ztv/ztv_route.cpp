@@ -35,8 +35,8 @@ struct RoutePlace {
   Point2 position;
 };
 
-/// One in the middle of every stretch of `every` metres, or of as many equal ones as are needed.
-/// `at` are the corners' distances along the route.
+/// Returns a place in the middle of every stretch of the route: stretches are equally long, as few as `every` metres at
+/// most allow. `at` are the corners' distances along the route.
 std::vector<RoutePlace> places_along(const std::vector<Point2>& corners, const std::vector<double>& at, double every) {
   if (at.back() / every > kMostPlaces)
     throw InputError(
@@ -64,7 +64,7 @@ struct Route {
   double length = 0;
   std::vector<RoutePlace> places;
   std::vector<double> ground;              ///< NaN: none
-  std::vector<Found> bare, screened;       ///< one a place; the second empty without features
+  std::vector<Found> bare, screened;       ///< one per place; the second empty without features
   std::vector<std::vector<Sight>> sights;  ///< over bare ground
 };
 
@@ -81,7 +81,7 @@ std::vector<profile::RouteStep> steps_of(const Route& route, const std::vector<F
 
 struct Totals {
   double tips_m = 0, hubs_m = 0, unknown_m = 0;
-  double undecided_m = 0;  ///< from where no tip is certainly seen, but one may be
+  double undecided_m = 0;  ///< the length from where no tip is certainly seen, but one may be
   std::size_t most_tips = 0, stretches = 0;
 };
 

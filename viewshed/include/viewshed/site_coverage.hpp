@@ -109,7 +109,7 @@ class SiteCoverage final : public Coverage {
   const CoverageBounds& bounds(std::size_t option) const override;
   /// Takes each of the options one stage further. Throws as compute_certified() does.
   void refine(std::span<const std::size_t> options) override;
-  /// Judges every option that was not judged yet at the first stage.
+  /// Judges, at the first stage, every option that was not judged yet.
   void explore();
   /// Frees the memory of the surfaces. Refining options after this reads the surfaces again.
   void release_surfaces();

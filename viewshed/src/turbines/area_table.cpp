@@ -124,8 +124,8 @@ class AreaTable {
  private:
   const Zone& zone_;
   Rings rings_;
-  std::vector<std::uint8_t> ring_of_;   ///< each cell with ground
-  std::vector<double> without_ground_;  ///< cells of each ring
+  std::vector<std::uint8_t> ring_of_;   ///< the ring of each cell with ground
+  std::vector<double> without_ground_;  ///< how many cells without ground each ring has
   std::string text_;
 };
 
