@@ -20,8 +20,8 @@ struct SiteRoute {
   std::vector<RouteHop> hops;  ///< empty: the site does not reach the hub
 };
 
-/// Returns routes over links that meet the rules, those of the fewest hops, and among those the shortest. There is one
-/// for each site in the order of the network's ends; none without a hub.
+/// Returns a route for each site, in the order of the network's ends; nothing without a hub. Routes go over links that
+/// meet the rules and have the fewest hops, and among those the shortest length.
 std::vector<SiteRoute> site_routes(const SiteOptions& options, const SiteNetwork& network);
 
 double length_m(const SiteNetwork& network, const SiteRoute& route);

@@ -9,12 +9,12 @@ namespace itin::cli {
 
 struct SiteWording {
   std::string one, mark;         ///< what a chosen one is called; `mark` with a capital
-  std::string served, unserved;  ///< such places on maps, with capitals
-  std::string nothing;           ///< such places: those without demand
+  std::string served, unserved;  ///< kinds of places on maps, with capitals
+  std::string nothing;           ///< places without demand
   std::string share;             ///< heads the keys on sheets: "Share of the places that count"
   std::string by;                ///< heads the map, before how many are chosen
   std::string how_many;          ///< heads the map of counts
-  std::string count, nearest;    ///< bands
+  std::string count, nearest;    ///< describe bands of rasters
   std::string coverage_curve;    ///< a heading
   std::string order, count_heading;
   std::string bound;       ///< "no choice serves more than"

@@ -191,7 +191,7 @@ std::string without_terrain_in_words(const viewshed::MissingGround& missing) {
   return fmt::format("; {} of it has no terrain data and is not in the percentages", missing.percent());
 }
 
-/// Tells how many cells are undecided beyond the map's class of undecided cells.
+/// Tells from how much area more may be visible than shown, apart from the map's class of undecided cells.
 std::string more_in_words(const Zone& zone, const ZoneMap& map) {
   std::uint64_t more = 0;
   for (const ZoneMap::Class& c : map.classes)
