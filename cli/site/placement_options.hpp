@@ -13,7 +13,8 @@
 
 namespace itin::cli {
 
-/// What is to be least: the demand that sees a tip, or a hub, or the visible height of all turbines, summed over it.
+/// The quantity that is to be least: the demand that sees a tip, or a hub; or the visible height of all turbines,
+/// summed over the demand.
 enum class Minimised { kTips, kHubs, kHeight };
 
 class PlacementOptions {

@@ -36,7 +36,7 @@ class SiteOptions {
   void declare(CLI::App& app);
   /// Takes options from the parameter file, which is part of the call. Throws InputError, FileError.
   void apply_parameter_file();
-  /// Throws InputError.
+  /// Checks the options. Throws InputError.
   void validate();
   /// Decides which fields of the files of sites hold heights. `warnings` gets one where a file's heights are not used.
   /// Throws FileError.
@@ -90,7 +90,7 @@ class SiteOptions {
   std::optional<Place> hub;
   bool exact_final = true;
   bool swaps = true;
-  // How.
+  // The computation and the files.
   std::optional<double> tolerance;
   ThemeOptions themes;
   EarthOptions earth;

@@ -40,7 +40,7 @@ struct SiteResult {
   const SiteOptions& options;
   const SiteInputs& inputs;
   const viewshed::SiteCoverage& coverage;
-  const viewshed::Demand& measure;  ///< of the choice's value and gains: the demand, or the heights seen of turbines
+  const viewshed::Demand& measure;  ///< measures value and gains: the demand, or the heights seen of turbines
   viewshed::Choice choice;
   SiteNetwork network;
   std::vector<SiteRoute> routes;  ///< from the network's sites to the hub; empty without a hub

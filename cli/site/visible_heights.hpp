@@ -1,5 +1,6 @@
-// What every candidate turbine shows of itself to the demand. Visible heights of turbines add, so that each turbine is
-// an element of its own, weighing its sum, and the least of them is a choice that serves the least.
+// How much of every candidate turbine the demand sees. Visible heights of turbines add, so that each turbine is an
+// element of its own, whose weight is the turbine's sum. The choice of the least total height is then the one that
+// serves the least.
 #pragma once
 
 #include <vector>

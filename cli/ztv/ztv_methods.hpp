@@ -14,7 +14,7 @@ namespace itin::cli {
 struct ZtvMethods {
   std::string turbines_file, turbines_sha256;
   std::string surface;              ///< detail and certified error
-  std::vector<SourceInfo> sources;  ///< of the terrain and of screening features, within the study area
+  std::vector<SourceInfo> sources;  ///< sources of the terrain and of screening features, within the study area
   viewshed::MissingGround missing;  ///< in the study area
   bool wirelines = false, sheets = false;
   std::string radius;  ///< a sentence on the radii

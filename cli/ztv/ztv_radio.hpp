@@ -21,7 +21,7 @@ namespace itin::cli {
 class ZtvRadioOptions {
  public:
   void declare(CLI::App& app);
-  /// Throws InputError.
+  /// Checks the options. Throws InputError.
   void validate();
   Document parameters() const;
   /// Reads the links. Throws FileError, InputError.
@@ -29,7 +29,7 @@ class ZtvRadioOptions {
   std::optional<viewshed::Observer> radar() const { return radar_; }
   const std::vector<viewshed::RadioLink>& links() const { return links_; }
 
-  /// Throws FileError.
+  /// Writes the rasters of links and of the radar. Throws FileError.
   std::vector<viewshed::ZoneFile> write(const std::string& folder, const viewshed::Zone& zone,
                                         const viewshed::ZoneFileOptions& options) const;
   /// Return columns for the table of turbines: names with commas before them, and the values of turbine k of the

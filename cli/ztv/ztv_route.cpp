@@ -55,7 +55,7 @@ std::vector<RoutePlace> places_along(const std::vector<Point2>& corners, const s
   return places;
 }
 
-/// What is seen from one place; nothing where there is no ground.
+/// The sights from one place, summed up; nothing where there is no ground.
 using Found = std::optional<Seen>;
 
 struct Route {

@@ -22,7 +22,7 @@ std::string route_name(const Path& route, std::size_t number);
 class RouteOptions {
  public:
   void declare(CLI::App& app);
-  /// Throws InputError.
+  /// Checks the options. Throws InputError.
   void validate();
   bool given() const { return !path_.empty(); }
   Document parameters() const;

@@ -22,7 +22,7 @@ struct NamedPlace {
   Point2 position;
 };
 
-/// What sheets show and say in addition to the zone.
+/// Objects and facts that sheets show in addition to the zone.
 struct ZtvSheetFacts {
   std::vector<NamedPlace> viewpoints;
   std::vector<Path> routes;

@@ -10,8 +10,8 @@
 namespace itin::cli {
 
 struct UndecidedArea {
-  double any_m2 = 0;   ///< none is certainly seen, but one may be
-  double more_m2 = 0;  ///< some are certainly seen, and more may be
+  double any_m2 = 0;   ///< area from which none is certainly seen, but one may be
+  double more_m2 = 0;  ///< area from which some are certainly seen, and more may be
 };
 
 /// Computes the areas from the counts of hubs or of tips, and from how many more may be seen.

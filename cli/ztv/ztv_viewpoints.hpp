@@ -23,7 +23,7 @@ namespace itin::cli {
 class ViewpointOptions {
  public:
   void declare(CLI::App& app);
-  /// Throws InputError.
+  /// Checks the options. Throws InputError.
   void validate(const InCrs& in_crs, const SheetOptions& sheets);
   bool given() const { return !query_.path.empty(); }
   bool draws_wirelines() const { return given() && !no_wirelines_; }

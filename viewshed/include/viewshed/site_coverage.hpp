@@ -73,7 +73,7 @@ struct SiteSurvey {
   std::optional<FresnelCriterion> fresnel;
   // The following change the speed, never what is exact.
   Engine engine = Engine::kAuto;    ///< judges cells at full detail; points are decided by rays
-  std::optional<double> tolerance;  ///< of the first stage; nothing: chosen by the number of points
+  std::optional<double> tolerance;  ///< tolerance of the first stage; nothing: chosen by the number of points
   /// The memory for surfaces and for the bounds on what each site serves.
   std::uint64_t memory_bytes = std::uint64_t{1} << 30;
 };
@@ -123,7 +123,7 @@ class SiteCoverage final : public Coverage {
   std::string stage_name(int stage) const;
   /// Restores the stage and bounds that an earlier run had found. Precondition: that run was of the same survey.
   void restore(std::size_t option, int stage, const CoverageBounds& bounds);
-  /// Called for every option that was refined, after each stage.
+  /// A function that is called for every option judged, after each stage.
   std::function<void(std::size_t option, int stage, const CoverageBounds& bounds)> on_refined;
 
   const Statistics& statistics() const;

@@ -1,4 +1,4 @@
-// Which few of many sites serve the most, chosen on bounds of what each serves, as if everything were known exactly.
+// Chooses the few of many sites that serve the most. Bounds on what each serves suffice for the exact choice.
 //
 //   // `coverage` is a SiteCoverage, or any other Coverage of these options.
 //   const viewshed::Demand demand(viewshed::element_count(grid));
@@ -103,7 +103,7 @@ enum class Objective {
 
 struct ChoiceGoal {
   Objective objective = Objective::kMost;
-  // At least one; the choice ends at the first that is reached.
+  // At least one of these three is given; the choice ends at the first that is reached.
   std::optional<std::size_t> count{};
   std::optional<double> budget{};  ///< the most that the sites may cost together
   std::optional<Weight> wanted{};  ///< the value to reach, besides what existing sites serve
@@ -118,17 +118,16 @@ struct ChoiceGoal {
 
 struct ChosenSite {
   std::size_t option = 0;
-  Weight gain = 0;  ///< what it adds to the value, in this order
+  Weight gain = 0;  ///< how much the site adds to the value, in this order
   Weight cumulative = 0;
 };
 
 /// Why it sufficed to know bounds of an option.
 struct Margin {
-  double upper =
-      0;  ///< the best gain that its bounds allowed it (the least for kLeast), per unit of cost under a budget
+  double upper = 0;   ///< the best gain within its bounds (the least for kLeast), per unit of cost under a budget
   double chosen = 0;  ///< the gain of the option taken instead
   std::size_t step = 0;
-  bool taken = false;  ///< it was taken itself, and replaced afterwards if it is not among the chosen
+  bool taken = false;  ///< whether it was taken itself; then replaced if it is not among the chosen
 };
 
 /// Returns 1 where the option could have been taken as well, and less the farther it was from that.

@@ -71,21 +71,19 @@ struct ZoneRequest {
 struct Visibility {
   std::vector<std::uint16_t> hub_count;
   std::vector<std::uint16_t> tip_count;
-  std::vector<std::uint16_t> hub_undecided;  ///< empty unless the zone leaves_open()
-  std::vector<std::uint16_t> tip_undecided;  ///< empty where hub_undecided is; never less than it
-  std::vector<std::uint32_t> turbines;       ///< tips seen: grids of 32-bit words, see turbine_bit()
-  std::vector<float>
-      visible_height_m;  ///< tip less least visible height, the greatest over the turbines; 0 if none is seen
-  std::vector<float>
-      vertical_angle_deg;  ///< the greatest that the visible part of a turbine takes up; 0 if none is seen
+  std::vector<std::uint16_t> hub_undecided;   ///< empty unless the zone leaves_open()
+  std::vector<std::uint16_t> tip_undecided;   ///< empty where hub_undecided is; never less than it
+  std::vector<std::uint32_t> turbines;        ///< tips seen: grids of 32-bit words, see turbine_bit()
+  std::vector<float> visible_height_m;        ///< tip less least visible height, the greatest; 0 if none is seen
+  std::vector<float> vertical_angle_deg;      ///< angle of a turbine's visible part, the greatest; 0 if none is seen
   std::vector<float> vertical_angle_sum_deg;  ///< over all turbines
   std::vector<float> horizontal_angle_deg;    ///< the smallest arc that holds all visible rotors; 0 if none is seen
   std::vector<float> horizontal_from_deg;     ///< that arc's anticlockwise end, from grid north; NaN where none is seen
   std::vector<float> horizontal_occupied_deg;  ///< how much of that arc rotors take up
   std::vector<float> share;                    ///< tips seen, of all turbines of the request
   std::vector<float> nearest_m;                ///< horizontal distance to the nearest turbine seen; NaN where none is
-  /// For each turbine of the request, the sum over all cells of its visible height times the cell's weight. Empty where
-  /// the request has no weights.
+  /// Sums for each turbine of the request: visible height times the cell's weight, over all cells. Empty where the
+  /// request has no weights.
   std::vector<double> height_sums_m;
 };
 

@@ -25,8 +25,8 @@ class VoidShadow {
   /// away from the eye.
   VoidShadow(const std::vector<RimEdge>& rim, const Point3& eye, NoData rule = NoData::kBlock);
 
-  /// Tells whether the line from the eye to a place comes back to the surface past its start, be it at the place
-  /// itself. Both lie on the surface. Cost: the edges of one sector.
+  /// Tells whether the line from the eye to a place comes back to the surface, be it at the place itself, but not at
+  /// the eye's own place. Both lie on the surface. Cost: the edges of one sector.
   bool holds(double x, double y) const;
 
   /// Returns what a visible cell in the shadow becomes: Verdict::kHidden, or Verdict::kUndecided under kUnknown.

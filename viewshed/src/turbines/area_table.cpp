@@ -68,7 +68,7 @@ std::vector<std::uint8_t> rings_of_cells(const Rings& rings, const RasterGrid& g
   return found;
 }
 
-/// How many cells of each ring have no ground, on the raster and beyond it.
+/// Counts the cells of each ring that have no ground, on the raster and beyond it.
 std::vector<double> cells_without_ground(const Zone& zone, const Rings& rings) {
   std::vector<double> counts(rings.size());
   const auto add = [&](const RasterGrid& grid, const std::vector<std::uint8_t>& cells, double each) {

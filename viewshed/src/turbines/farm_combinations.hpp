@@ -1,4 +1,4 @@
-// Which farms are seen, as a number, and the names of such numbers.
+// Numbers that tell which farms are seen, and their names.
 #pragma once
 
 #include <cstdint>
@@ -10,9 +10,9 @@
 
 namespace itin::viewshed {
 
-/// The combinations of farms seen, as numbers. Bit f is set where at least one tip of farm f of farms_of() is seen.
-/// With more than kMostFarms farms the number counts the combinations that occur in the zone, bare or screened. 0 where
-/// none is seen, kOutsideFarms outside.
+/// The combination of farms seen from a cell, as a number. Bit f is set where at least one tip of farm f of
+/// farms_of() is seen. With more than kMostFarms farms the number is the combination's index among those that occur in
+/// the zone, bare or screened. 0 where none is seen, kOutsideFarms outside.
 inline constexpr std::uint32_t kOutsideFarms = 0xffffffff;
 inline constexpr std::size_t kMostFarms = 31;
 std::vector<std::uint32_t> farm_combinations(const Zone& zone, const Visibility& visibility);
@@ -25,7 +25,7 @@ struct Combination {
 std::vector<Combination> combinations_present(const Zone& zone,
                                               const std::vector<const std::vector<std::uint32_t>*>& rasters);
 
-/// How many cells have each combination, by its number.
+/// The number of cells of each combination, by the combination's number.
 using CombinationCells = std::map<std::uint32_t, std::uint64_t>;
 /// Counts the cells of each combination, without the cells outside.
 CombinationCells cells_by_combination(const std::vector<std::uint32_t>& farms);

@@ -22,9 +22,9 @@ namespace itin::viewshed {
 
 namespace {
 
-/// How many times fewer points than the full surface the coarse surfaces have.
+/// The full surface has at least this many times the points of the coarse surfaces.
 constexpr std::uint64_t kEnclosingShare = 2;
-/// How many points of the bare ground lie beneath one roof.
+/// The number of points of the bare ground beneath one roof.
 constexpr double kPointsPerTile = 8;
 
 Envelope enclosing(const Store& store, const ThemeChoice& themes, const Window& window, Progress& progress) {

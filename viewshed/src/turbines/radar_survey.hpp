@@ -1,4 +1,4 @@
-// How high something must stand to rise above a radar's horizon.
+// The least height at which something rises above a radar's horizon.
 //
 //   RadarSurvey radar(units, ground_m, zone);      // zone.radar has no findings yet
 //   radar.run(surface, part, stage);               // for every part

@@ -1,4 +1,4 @@
-// What ground without data hides from a turbine, or leaves undecided.
+// The places that ground without data hides from a turbine, or leaves undecided.
 //
 //   const TurbineShadows shadows = shadows_of_turbines(ground, zone);
 //   if (shadows[turbine] && shadows[turbine]->holds(eye.x, eye.y)) ...

@@ -70,7 +70,7 @@ class ZoneWork {
   std::optional<RadarSurvey> radar_;
 };
 
-/// About which share of the time reading takes.
+/// The share of the time that reading takes, about.
 constexpr double kReadingZone = 0.3;
 
 /// Reads the surfaces under the parts of a zone, one after another.

@@ -85,7 +85,7 @@ ZoneSurvey::Views ZoneSurvey::views_over(const RadialSweep& sweep) const {
   Views views(axes_.size());
   parallel_for(views.size(), [&](std::size_t k) {
     const Axis& axis = axes_[k];
-    // Which cells lie within the radius is decided in metres.
+    // The reach is one unit wider than the radius, since the exact test of cells against the radius is in metres.
     const double reach = zone_.request.turbines[k].radius / ground_.units().resolution + 1;
     views[k].emplace(sweep.view_of({axis.x, axis.y, axis.base, axis.tip, reach}));
   });

@@ -15,9 +15,9 @@ namespace itin::viewshed {
 
 namespace {
 
-/// How many points of the full surface are read about each site.
+/// The number of points of the full surface that are read about each site.
 constexpr double kSiteNearPoints = 128;
-/// About which share of the time reading one surface takes, if two are read and judged.
+/// The share of the time that reading one surface takes, about, if two are read and judged.
 constexpr double kReadingGroup = 0.2;
 
 }  // namespace
@@ -78,7 +78,7 @@ std::unique_ptr<GroupSurvey> GroupSurfaces::exact_cells(const std::vector<std::s
   CallProgress call(progress);
   const Window window = window_about(survey_, group);
   const Detail full = Detail::tolerance(0);
-  // Fresnel zones are tested against triangles one by one, which a lattice does not have.
+  // Fresnel zones are tested against single triangles, so that no lattice is read.
   const std::uint64_t most_posts = survey_.fresnel || stages_.casts_rays() ? 0 : kAnyLattice;
   Surface surface = whole_lattice_
                         ? std::move(*std::exchange(whole_lattice_, std::nullopt))

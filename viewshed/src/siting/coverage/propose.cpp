@@ -19,9 +19,9 @@ namespace itin::viewshed {
 
 namespace {
 
-/// How many points of the surface the visibility index is measured on.
+/// The number of points of the surface on which the visibility index is measured.
 constexpr std::uint64_t kPoints = 400000;
-/// How many random targets each post is judged by ("20 to 30 random targets suffice").
+/// The number of random targets by which each post is judged ("20 to 30 random targets suffice").
 constexpr unsigned kTargets = 2 * SightLines::kSize;
 /// Posts tried in a square: the highest, and others spread over the rest.
 constexpr std::size_t kHighest = 8, kOthers = 8;

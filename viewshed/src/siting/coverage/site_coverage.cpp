@@ -21,9 +21,9 @@ namespace itin::viewshed {
 
 namespace {
 
-/// How many options are judged together; fewer would share less work.
+/// The number of options that are judged together; fewer would share less work.
 constexpr std::size_t kJudgedTogether = 32;
-/// About which share of the time reading a surface takes before it is judged from all sites.
+/// The share of the time that reading a surface takes, about, before it is judged from all sites.
 constexpr double kReadingFirst = 0.2;
 
 }  // namespace
@@ -168,9 +168,8 @@ class SiteCoverage::Impl {
     std::vector<CoverageBounds> after =
         survey.judge({surfaces_.request_of(options, surface.themed()), options, before}, progress, statistics_);
     for (std::size_t i = 0; i < options.size(); ++i) {
-      if (stages_.themed() && !surface.themed())
-        after[i].certain = {}, after[i].exact = false;                                     // features may hide a target
-      if (survey_.fresnel && !stages_.judges_zones(surface.level)) after[i].certain = {};  // or cut its zone
+      if (stages_.themed() && !surface.themed()) after[i].certain = {}, after[i].exact = false;  // features may hide it
+      if (survey_.fresnel && !stages_.judges_zones(surface.level)) after[i].certain = {};        // or its zone is cut
       record_bounds(options[i], stage, std::exchange(after[i], {}));
     }
     statistics_.lines_seconds += watch.lap();

@@ -52,7 +52,7 @@ void SurveyStages::choose(bool whole_fits) {
   stages_.clear();
   // Where foundations cut into the ground, a target that the bare ground hides may be seen.
   if (themed_ && (!survey_.tolerance || cut_)) {
-    // Over a surface in memory, a site is judged exactly in the time that its bounds would take.
+    // Over a surface in memory, judging a site exactly takes no longer than bounding it.
     if (!whole_fits_) stages_.push_back({.kind = StageSurface::Kind::kBins});
     stages_.push_back({.kind = StageSurface::Kind::kThemed});
     return;

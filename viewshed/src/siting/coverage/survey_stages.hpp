@@ -74,7 +74,7 @@ class SurveyStages {
   const std::uint64_t sets_;
   const Box reach_;             ///< the box within which any site may serve
   const std::uint64_t points_;  ///< the number of the full surface's points within reach_
-  const bool cut_;              ///< whether features lie lower than the full ground somewhere within reach_
+  const bool cut_;              ///< whether features cut into the full ground somewhere within reach_
   bool whole_fits_ = false;
   std::vector<StageSurface> stages_;
 };
