@@ -31,7 +31,7 @@ class PlacementOptions {
   double tip_height() const { return *size_.tip; }
   Minimised minimised() const { return minimised_; }
   bool sums_heights() const { return given_ && minimised_ == Minimised::kHeight; }
-  /// Returns the height above the ground of the part that is to be hidden: the tip or the hub.
+  /// Returns the height above the ground of the part that is looked for: the tip or the hub.
   double minimised_height() const { return minimised_ == Minimised::kHubs ? hub_height() : tip_height(); }
   /// Returns "the tip" or "the hub".
   const char* minimised_part() const { return minimised_ == Minimised::kHubs ? "the hub" : "the tip"; }

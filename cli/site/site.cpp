@@ -108,7 +108,7 @@ class SiteVerb final : public Verb {
   }
 
  private:
-  /// Returns how much each option certainly shows of a turbine.
+  /// Returns how much of its turbine each option certainly shows.
   std::vector<double> certain_heights(const Store& store, const SiteInputs& inputs, Progress& progress) const {
     std::vector<std::size_t> all(inputs.options.size());
     std::iota(all.begin(), all.end(), std::size_t{0});
@@ -185,7 +185,7 @@ class SiteVerb final : public Verb {
     return viewshed::SitePosition{"hub", p, options_.hub->height.value_or(20), *ground.front()};
   }
 
-  /// Returns the goal, without the demand that existing sites serve. It refers to the inputs.
+  /// Returns the goal, except for what existing sites serve. It refers to the inputs.
   viewshed::ChoiceGoal goal(const Store& store, const SiteInputs& inputs,
                             const std::optional<viewshed::SitePosition>& hub_position, Progress& progress) const {
     viewshed::ChoiceGoal goal;

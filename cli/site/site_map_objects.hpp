@@ -14,8 +14,8 @@ namespace itin::cli {
 Box shown_area(const SiteResult& result);
 
 /// Returns outlines of the buildings that screen, links, and marks for each kind of site. With a hub the links are
-/// those on the routes to it; with links that hold the choice together but no hub, all links that may. Kinds without an
-/// object are left out.
+/// those on the routes to it; with links that hold the choice together but no hub, all links that meet the rules. Kinds
+/// without an object are left out.
 std::vector<MapObjects> site_map_objects(const Store& store, const SiteResult& result);
 
 }  // namespace itin::cli

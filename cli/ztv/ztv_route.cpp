@@ -35,8 +35,8 @@ struct RoutePlace {
   Point2 position;
 };
 
-/// Returns a place in the middle of every stretch of the route: stretches are equally long, as few as `every` metres at
-/// most allow. `at` are the corners' distances along the route.
+/// Divides the route into as few equally long stretches of at most `every` metres as possible, and returns the place in
+/// the middle of each. `at` are the corners' distances along the route.
 std::vector<RoutePlace> places_along(const std::vector<Point2>& corners, const std::vector<double>& at, double every) {
   if (at.back() / every > kMostPlaces)
     throw InputError(

@@ -32,8 +32,7 @@ constexpr Rgba kRing{70, 70, 70, 255}, kStudyArea{20, 20, 20, 255}, kViewpoint{2
     kRoute{0, 110, 60, 255}, kLink{150, 20, 110, 255}, kRadar{90, 40, 150, 255};
 constexpr std::size_t kMostFarmColours = 8;
 
-/// Returns how far `p` lies beyond the radius of the turbine that is farthest within it, metres: not above 0 in the
-/// study area.
+/// Returns the least distance of `p` beyond the radius of a turbine, metres: not above 0 in the study area.
 double beyond_study_area(const Zone& zone, Point2 p) {
   double least = std::numeric_limits<double>::infinity();
   for (const Turbine& t : zone.request.turbines)

@@ -44,7 +44,7 @@ struct TurbineList {
 class TurbineOptions {
  public:
   void declare(CLI::App& app);
-  /// Throws InputError.
+  /// Checks the options. Throws InputError.
   void validate();
   const std::string& path() const { return query_.path; }
   const InCrs& in_crs() const { return in_crs_; }

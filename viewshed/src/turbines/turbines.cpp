@@ -102,7 +102,7 @@ class PartReader {
     }
   };
   /// Reads the surface with features: all of the part, or only where features may rise into lines that are left open.
-  /// Marks these lines.
+  /// In the latter case, marks these lines.
   Screen screen(const ZonePart& part, const FullSurface& ground) {
     const ThemeChoice& themes = *zone_.request.themes;
     if (!may_tell_open_lines(store_, zone_.request)) return {read(part.window, themes), false};
