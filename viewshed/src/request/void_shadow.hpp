@@ -21,8 +21,8 @@ namespace itin::viewshed {
 class VoidShadow {
  public:
   /// Finds the shadow of an eye, in grid units. Places in it are hidden under kBlock and undecided under kUnknown.
-  /// Cost: the number of edges, each as often as the sectors of the horizon it spans; next to none if no edge faces
-  /// away from the eye.
+  /// Cost: the number of edges; if any faces away from the eye, each counts as often as the sectors of the horizon it
+  /// spans.
   VoidShadow(const std::vector<RimEdge>& rim, const Point3& eye, NoData rule = NoData::kBlock);
 
   /// Tells whether the line from the eye to a place comes back to the surface, be it at the place itself, but not at
