@@ -12,7 +12,8 @@ namespace itin::cli {
 
 namespace {
 
-/// Across in percent of the page's width, down in pixels: letters keep their size on a phone.
+/// Draws the curve. Lengths across are in percent of the page's width, lengths down in pixels, so that letters keep
+/// their size on a phone.
 class CoverageCurve {
  public:
   explicit CoverageCurve(const SiteResult& r) : result_(r), total_(std::max(1.0, whole(r))) {
@@ -31,7 +32,8 @@ class CoverageCurve {
  private:
   static constexpr double kHeight = 300, kTop = 20, kBottom = 40, kLeft = 12, kRight = 96;
 
-  /// Heights seen have no whole but what the choice shows.
+  /// Returns the value that counts as 100 %: all demand, or for heights seen, where there is no such total, the value
+  /// of the choice.
   static double whole(const SiteResult& r) {
     return static_cast<double>(r.options.placement.sums_heights() ? r.choice.value : r.inputs.total);
   }
@@ -56,7 +58,7 @@ class CoverageCurve {
     return svg;
   }
 
-  /// What each site adds, with its name while there is room for names, then with every fifth number.
+  /// Draws how much each site adds, with its name while there is room for names, then with every fifth number.
   std::string steps() const {
     constexpr std::size_t kNamed = 10;
     std::string svg;

@@ -7,7 +7,7 @@
 
 namespace itin::cli {
 
-/// As an SVG as wide as the page, below the bound on every choice.
+/// Returns the curve as an SVG as wide as the page, below the bound on every choice.
 std::string coverage_curve(const SiteResult& result);
 
 }  // namespace itin::cli

@@ -20,7 +20,7 @@ SiteSurvey survey_of_serving(const SiteOptions& options, const SiteInputs& input
   return survey;
 }
 
-/// What each site of the survey serves, exactly.
+/// Returns exactly what each site of the survey serves.
 std::vector<DemandSet> served_exactly(const Store& store, const SiteSurvey& survey, Progress& progress) {
   viewshed::SiteCoverage coverage(store, survey, progress);
   std::vector<DemandSet> served;
@@ -31,8 +31,8 @@ std::vector<DemandSet> served_exactly(const Store& store, const SiteSurvey& surv
   return served;
 }
 
-/// What the sites of the survey serve only if ground without data hides nothing; `certain` is what each serves if that
-/// hides all.
+/// Returns the elements that the sites of the survey serve only if ground without data hides nothing. `certain` is what
+/// each site serves if that ground hides everything behind it.
 DemandSet open_to_missing_ground(const Store& store, SiteSurvey survey, const std::vector<DemandSet>& certain,
                                  int cover, Progress& progress) {
   survey.nodata = NoData::kClear;

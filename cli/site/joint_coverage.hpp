@@ -15,22 +15,22 @@
 
 namespace itin::cli {
 
-/// Positions of the inputs: those of the chosen sites in their order, and of the existing ones behind them.
+/// Returns indices in the inputs' positions: the chosen sites in their order, then the existing ones.
 std::vector<std::size_t> serving_sites(const SiteInputs& inputs, const viewshed::Choice& choice);
 
-/// Elements of the targets.
+/// The elements of the targets that are served.
 struct JointCoverage {
   viewshed::SiteTargets targets;
   std::vector<viewshed::DemandSet> certain;  ///< what each of the serving sites serves
   viewshed::DemandSet undecided;             ///< what is served only if ground without data hides nothing
 };
 
-/// Over the demand; from exact coverage, or what is certain of it. Throws as SiteCoverage::refine() does.
+/// Returns the coverage of the demand, from exact coverage or its certain part. Throws as SiteCoverage::refine() does.
 JointCoverage joint_coverage(const Store& store, const SiteOptions& options, const SiteInputs& inputs,
                              const viewshed::SiteCoverage& coverage, const viewshed::Choice& choice,
                              Progress& progress);
 
-/// Over the cells within reach of the serving sites, for demand that is points.
+/// Returns the coverage of the cells within reach of the serving sites, for demand that is points.
 JointCoverage joint_coverage_on_cells(const Store& store, const SiteOptions& options, const SiteInputs& inputs,
                                       const viewshed::SiteCoverage& coverage, const viewshed::Choice& choice,
                                       Progress& progress);

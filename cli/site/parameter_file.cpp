@@ -1,4 +1,4 @@
-// Options of `itin site` from a parameter file, and for one.
+// Reads options of `itin site` from a parameter file, and collects them for one.
 
 #include <fstream>
 
@@ -25,7 +25,7 @@ std::string text_of(const std::string& key, const Document& value) {
   throw InputError(fmt::format("--params: '{}' holds no text, number or list of them", key));
 }
 
-/// Whether an option is part of the run itself, and does not only say where and how the run is written.
+/// Tells whether an option belongs to the run itself, and does not only say where and how the run is written.
 bool is_parameter(const std::string& name) {
   for (const char* other : {"help", "params", "output", "json", "quiet", "threads", "resume", "overwrite", "memory",
                             "engine", "sheets", "sheet-scale", "basemap", "project", "date"})

@@ -13,14 +13,15 @@
 
 namespace itin::cli {
 
-/// What is to be least: the demand that sees a tip, or a hub, or the visible height of all turbines, summed over it.
+/// The quantity that is to be least: the demand that sees a tip, or a hub; or the visible height of all turbines,
+/// summed over the demand.
 enum class Minimised { kTips, kHubs, kHeight };
 
 class PlacementOptions {
  public:
   void declare(CLI::App& app);
-  /// Throws InputError, also for other options of the verb that say nothing of turbines, and for these where no
-  /// turbines are placed.
+  /// Checks the options. Throws InputError, also for options of the verb that make no sense for turbines, and for these
+  /// options where no turbines are placed.
   void validate();
   Document parameters() const;
 
@@ -30,9 +31,9 @@ class PlacementOptions {
   double tip_height() const { return *size_.tip; }
   Minimised minimised() const { return minimised_; }
   bool sums_heights() const { return given_ && minimised_ == Minimised::kHeight; }
-  /// Above the ground, of what is looked for: the tip or the hub.
+  /// Returns the height above the ground of the part that is looked for: the tip or the hub.
   double minimised_height() const { return minimised_ == Minimised::kHubs ? hub_height() : tip_height(); }
-  /// "the tip" or "the hub".
+  /// Returns "the tip" or "the hub".
   const char* minimised_part() const { return minimised_ == Minimised::kHubs ? "the hub" : "the tip"; }
   const std::optional<viewshed::TurbineSpacing>& spacing() const { return spacing_; }
   double setback() const { return setback_; }

@@ -10,7 +10,7 @@
 
 namespace itin::cli {
 
-/// Between two places, by their numbers; it has no direction.
+/// A link between two places, by their numbers; it has no direction.
 struct RouteLink {
   std::size_t from = 0, to = 0;
   double length = 0;
@@ -18,8 +18,9 @@ struct RouteLink {
   std::size_t other_end(std::size_t end) const { return end == from ? to : from; }
 };
 
-/// For each place the number of the link by which its route to the root leaves it: the route of the fewest links, among
-/// those the shortest, among those the one whose links come first. Nothing for the root and where there is no route.
+/// Returns for each place the number of the link by which its route to the root leaves it; nothing for the root and
+/// where there is no route. The route is the one of the fewest links; among those, the shortest; among those, the one
+/// whose links come first.
 std::vector<std::optional<std::size_t>> shortest_routes(std::size_t root, std::size_t places,
                                                         std::span<const RouteLink> links);
 

@@ -108,7 +108,7 @@ class SiteVerb final : public Verb {
   }
 
  private:
-  /// How much each option certainly shows of a turbine.
+  /// Returns how much of its turbine each option certainly shows.
   std::vector<double> certain_heights(const Store& store, const SiteInputs& inputs, Progress& progress) const {
     std::vector<std::size_t> all(inputs.options.size());
     std::iota(all.begin(), all.end(), std::size_t{0});
@@ -116,7 +116,8 @@ class SiteVerb final : public Verb {
     return summed_visible_heights(store, {options_, inputs, all, rule}, progress);
   }
 
-  /// How much more the chosen turbines show if ground without data hides nothing, metres. `certain` is of each option.
+  /// Returns how much more the chosen turbines show if ground without data hides nothing, metres. `certain` has a value
+  /// for each option.
   double undecided_heights(const Store& store, const SiteResult& site, const std::vector<double>& certain,
                            Progress& progress) const {
     if (!site.coverage.leaves_open()) return 0;
@@ -129,7 +130,7 @@ class SiteVerb final : public Verb {
     return sum;
   }
 
-  /// Every file that the result depends on.
+  /// Returns the hash of every file on which the result depends.
   Document hash_inputs(Progress& progress) const {
     Document inputs = Document::array();
     for (const std::string& path : {options_.store, options_.candidates.path, options_.search_area, options_.demand,
@@ -141,7 +142,8 @@ class SiteVerb final : public Verb {
     return inputs;
   }
 
-  /// For the maps, beside what is known of all sites. Where demand is points, they are of cells about the chosen sites.
+  /// Checks that the memory holds the maps besides the bounds of all sites. Where demand is points, the maps are of
+  /// cells about the sites.
   void require_memory(const Store& store, const SiteInputs& inputs) const {
     const RasterGrid grid =
         inputs.targets.grid ? *inputs.targets.grid
@@ -156,7 +158,7 @@ class SiteVerb final : public Verb {
         static_cast<double>(options_.memory_bytes) / 1e9));
   }
 
-  /// As many candidates as turbines, before distances between them count.
+  /// Checks that there are as many candidates as turbines; distances between candidates are not considered yet.
   void require_enough(const SiteInputs& inputs) const {
     if (!options_.placement.given() || inputs.candidates.size() >= *options_.count) return;
     std::string why;
@@ -166,7 +168,7 @@ class SiteVerb final : public Verb {
                             counted(*options_.count, "turbine"), counted(inputs.candidates.size(), "candidate"), why));
   }
 
-  /// Tells runs apart whose results could differ.
+  /// Returns a key that differs for runs whose results could differ.
   std::string key() const {
     Document hashes = Document::array();
     for (const Document& input : inputs_document_) hashes.push_back(input.at("sha256"));
@@ -183,7 +185,7 @@ class SiteVerb final : public Verb {
     return viewshed::SitePosition{"hub", p, options_.hub->height.value_or(20), *ground.front()};
   }
 
-  /// All but what existing sites serve. Refers to the inputs.
+  /// Returns the goal, except for what existing sites serve. It refers to the inputs.
   viewshed::ChoiceGoal goal(const Store& store, const SiteInputs& inputs,
                             const std::optional<viewshed::SitePosition>& hub_position, Progress& progress) const {
     viewshed::ChoiceGoal goal;
@@ -206,7 +208,7 @@ class SiteVerb final : public Verb {
     while (!coverage.bounds(option).exact) coverage.refine({&option, 1});
   }
 
-  /// Out of the demand that existing sites do not serve.
+  /// Chooses by coverage of the demand that existing sites do not serve.
   viewshed::Choice choose_by_coverage(const SiteInputs& inputs, viewshed::SiteCoverage& coverage,
                                       viewshed::ChoiceGoal& goal, Progress& progress) const {
     coverage.explore();
@@ -219,7 +221,7 @@ class SiteVerb final : public Verb {
     return viewshed::choose(inputs.demand, inputs.options, coverage, goal, progress);
   }
 
-  /// Coverage is for the maps alone.
+  /// Chooses by the heights shown; coverage is for the maps alone.
   static viewshed::Choice choose_by_heights(const SiteInputs& inputs, viewshed::SiteCoverage& coverage,
                                             const viewshed::Demand& shown, const viewshed::ChoiceGoal& goal,
                                             Progress& progress) {
@@ -230,13 +232,13 @@ class SiteVerb final : public Verb {
     return choice;
   }
 
-  /// The share is of all demand; what existing sites serve counts towards it.
+  /// Returns the value wanted. The share is of all demand, and the demand that existing sites serve counts towards it.
   viewshed::Weight wanted(const SiteInputs& inputs, const viewshed::ChoiceGoal& goal) const {
     const viewshed::Weight all = inputs.demand.at_least(*options_.share * inputs.demand.in_metric(inputs.total));
     return std::max<viewshed::Weight>(0, all - viewshed::served_by(inputs.demand, goal.existing, goal.cover));
   }
 
-  /// `warnings`: those about the files.
+  /// Writes the outputs. `warnings` are those about the input files.
   Result write(const Store& store, const SiteResult& site, std::vector<std::string> warnings, Progress& progress) {
     const std::string& crs = store.metadata().crs_wkt;
     Result result;

@@ -15,7 +15,7 @@ namespace {
 using viewshed::CoverageBounds;
 using viewshed::DemandSet;
 
-/// FNV-1a: against records cut short, not against malice.
+/// Returns an FNV-1a checksum, which guards against records cut short, not against malice.
 std::uint64_t checksum(const std::string& bytes) {
   std::uint64_t hash = 0xcbf29ce484222325;
   for (const char c : bytes) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3;

@@ -9,19 +9,18 @@
 
 namespace itin::cli {
 
-/// Records of an option's bounds, one after the other, each with a checksum: a record cut short by a kill is as if it
-/// had never been.
+/// A file of records of options' bounds, each with a checksum. A record cut short by a kill is ignored.
 class SiteCheckpoint {
  public:
-  /// `key` tells runs apart. With `resume` what an earlier run of the same key found is put back into `coverage`;
-  /// otherwise, and for other keys, the file begins anew. Throws FileError.
+  /// Opens the file. `key` tells runs apart. With `resume`, bounds that an earlier run of the same key found are put
+  /// back into `coverage`; otherwise, and for other keys, the file begins anew. Throws FileError.
   SiteCheckpoint(std::string path, const std::string& key, bool resume, std::size_t options,
                  viewshed::SiteCoverage& coverage);
 
-  /// How many records were put back.
+  /// Returns how many records were put back.
   std::size_t restored() const { return restored_; }
   void add(std::size_t option, int stage, const viewshed::CoverageBounds& bounds);
-  /// The run is over and needs it no more.
+  /// Removes the file once the run is over.
   void remove();
 
  private:

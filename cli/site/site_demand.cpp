@@ -107,7 +107,8 @@ class DemandReader {
                                    counted(points.size(), "point"), extent_of(store_.metadata())));
   }
 
-  /// Neighbours next to each other, in strips to and fro: their sight lines are judged together.
+  /// Sorts the points in strips, each from west to east, so that neighbours are next to each other: their sight lines
+  /// are judged together.
   static void sort_by_place(std::vector<std::pair<Point2, double>>& points) {
     Box box;
     for (const auto& [p, weight] : points) box.extend(p);

@@ -8,7 +8,8 @@
 
 namespace itin::cli {
 
-/// Adds it to inputs that have their options and positions. Throws InputError where there is none, FileError.
+/// Adds the demand to inputs that have their options and positions. Throws InputError where there is no demand,
+/// FileError.
 void read_site_demand(const Store& store, const SiteOptions& options, SiteInputs& inputs, Progress& progress);
 
 }  // namespace itin::cli

@@ -108,7 +108,8 @@ class InputReader {
     }
   }
 
-  /// Tells why a candidate may not be chosen; `why` follows its name. Returns how many these are.
+  /// Leaves out the candidates at `unfit` places. `why` tells the reason, and follows a candidate's name. Returns the
+  /// number left out.
   template <class Unfit>
   std::size_t leave_out(const std::string& why, const Unfit& unfit) {
     const std::size_t first = inputs_.rejected.size();
@@ -140,7 +141,7 @@ class InputReader {
                       placement.dwellings, placement.setback()));
   }
 
-  /// Points, or polygons. No dwelling may be left out.
+  /// Reads the dwellings, which are points or polygons. No dwelling may be left out.
   viewshed::Dwellings read_dwellings() const {
     SiteQuery query;
     query.path = options_.placement.dwellings;
@@ -155,7 +156,7 @@ class InputReader {
     return {std::move(points), std::nullopt};
   }
 
-  /// Turbines that stand keep others away, too.
+  /// Leaves out candidates too near existing turbines.
   void leave_out_near(const std::vector<Site>& existing) {
     if (!options_.placement.given()) return;
     leave_out("stands too near an existing turbine", [&](Point2 p) {
@@ -177,7 +178,7 @@ class InputReader {
                             store_.metadata());
   }
 
-  /// Candidates onto their ground, each with every mast.
+  /// Places the candidates on their ground, and makes an option of each with every mast.
   void place_on_ground() {
     const auto ground = viewshed::ground_under(store_, candidate_positions(), ground_themes(), progress_);
     std::vector<Candidate> kept;

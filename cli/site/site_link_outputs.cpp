@@ -23,7 +23,7 @@ void add_clearance(const SiteLink& link, Document& entry) {
   if (const auto fraction = fraction_of(link)) entry["fresnel_fraction"] = *fraction;
 }
 
-/// A hop from the one of its link's ends that comes first on the route.
+/// Returns a hop, from the end of its link that comes first on the route.
 Document hop_document(const SiteNetwork& network, const RouteHop& hop) {
   const SiteLink& link = network.links[hop.link];
   Document entry{{"from", network.ends[hop.from].place.name},

@@ -11,7 +11,7 @@
 namespace itin::cli {
 
 std::string links_csv(const SiteResult& result);
-/// One row per hop; a site that does not reach the hub has one without.
+/// Returns the routes with one row per hop; a site that does not reach the hub has one row without a hop.
 std::string routes_csv(const SiteResult& result);
 
 Document links_document(const SiteResult& result);

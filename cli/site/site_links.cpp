@@ -14,7 +14,7 @@ namespace {
 
 using viewshed::SitePosition;
 
-/// Judges many links one after another: keeps the tiles of the surface that it has triangulated.
+/// Judges many links one after another, keeping the tiles of the surface that were triangulated.
 class LinkJudge {
  public:
   LinkJudge(const Store& store, LinkRules rules, const SectionSurface::Options& cache)

@@ -19,14 +19,14 @@ struct LinkRules {
   profile::LinkQuery query;
   double fraction = 0;  ///< how much of the first Fresnel zone must be clear, 0 to 1, where there is a frequency
 
-  /// Known to be in sight, with so much of the zone clear.
+  /// Tells whether a line is known to be in sight, with `fraction` of the Fresnel zone clear.
   bool met_by(const profile::LineFindings& found) const {
     return found.verdict == profile::SightVerdict::kVisible && (!found.fresnel || found.fresnel->fraction >= fraction);
   }
 };
 LinkRules link_rules(const SiteOptions& options);
 
-/// Between antennas or eyes at two sites.
+/// Returns the link between antennas or eyes at two sites.
 profile::Link link_between(const viewshed::SitePosition& from, const viewshed::SitePosition& to);
 
 struct LinkEnd {
@@ -51,12 +51,13 @@ struct SiteNetwork {
   const viewshed::SitePosition& to(const SiteLink& link) const { return ends[link.to].place; }
 };
 
-/// With the lines between all chosen sites; where links hold the choice together, between all ends.
+/// Returns the network with the lines between all chosen sites; where links hold the choice together, between all ends.
 SiteNetwork site_network(const Store& store, const SiteOptions& options, const SiteInputs& inputs,
                          const viewshed::Choice& choice, const std::optional<viewshed::SitePosition>& hub,
                          Progress& progress);
 
-/// The links among options, existing sites and the hub that meet the rules. Refers to the store and the progress.
+/// Returns the links among options, existing sites and the hub that meet the rules. They refer to the store and the
+/// progress.
 std::shared_ptr<viewshed::LinkNetwork> link_network(const Store& store, const SiteOptions& options,
                                                     const SiteInputs& inputs,
                                                     const std::optional<viewshed::SitePosition>& hub,

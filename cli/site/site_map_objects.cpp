@@ -17,7 +17,8 @@ using Sample = SheetKey::Sample;
 constexpr Rgba kBuilding{70, 60, 55, 255}, kBackhaul{160, 55, 0, 255}, kExistingSite{110, 50, 130, 255},
     kHubMark{25, 25, 25, 255};
 
-/// To a tenth of a picture's pixel where it is 1000 pixels long; what is smaller than two pixels would be a blot.
+/// Returns building outlines, exact to a tenth of a pixel in a picture 1000 pixels long. Buildings smaller than two
+/// pixels, which would be blots, are left out.
 MapObjects building_objects(const Store& store, const SiteResult& r) {
   const Box frame = shown_area(r);
   const double pixel = std::max(frame.width(), frame.height()) / 1000;
@@ -41,7 +42,7 @@ MapObjects link_objects(const SiteResult& r) {
   return {{std::move(lines)}, {{Sample::kLine, {kBackhaul}, what}}};
 }
 
-/// The ends of a network that `is_one` takes.
+/// Returns marks for the ends of a network that `is_one` accepts.
 template <class IsOne>
 MapObjects marks(const SiteNetwork& network, SheetSymbol symbol, const Rgba& colour, const std::string& what,
                  const IsOne& is_one) {

@@ -10,11 +10,12 @@
 
 namespace itin::cli {
 
-/// The cells, and all sites and the hub with some ground about them.
+/// Returns the area of the cells, and of all sites and the hub with some ground about them.
 Box shown_area(const SiteResult& result);
 
-/// Outlines of the buildings that screen; with a hub the links of the routes to it, and with links that hold the choice
-/// together but no hub all links that may; marks by what a site is. Kinds of which there are none are left out.
+/// Returns outlines of the buildings that screen, links, and marks for each kind of site. With a hub the links are
+/// those on the routes to it; with links that hold the choice together but no hub, all links that meet the rules. Kinds
+/// without an object are left out.
 std::vector<MapObjects> site_map_objects(const Store& store, const SiteResult& result);
 
 }  // namespace itin::cli

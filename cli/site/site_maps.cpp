@@ -39,7 +39,7 @@ viewshed::Result as_viewshed(const SiteResult& r) {
   result.request.earth = r.options.earth.earth();
   result.request.radius = r.options.radius;
   result.request.target_height = r.options.target_height;
-  // A raster of demand is no larger than it was given, whatever lies beyond.
+  // Where demand is a raster, only its cells count, whatever lies beyond within the radius.
   if (r.inputs.targets.grid && r.options.demand != "cells") result.request.grid = r.rasters.grid;
   for (const viewshed::ChosenSite& site : r.choice.chosen) {
     const viewshed::SitePosition& place = r.place_of(site);
@@ -54,7 +54,7 @@ viewshed::Result as_viewshed(const SiteResult& r) {
 
 struct SiteMap {
   const char* name;
-  viewshed::Result result;  ///< the choice as a viewshed's, which is what maps are drawn of
+  viewshed::Result result;  ///< the choice in the form of a viewshed, from which maps are drawn
   viewshed::MapOptions options;
   viewshed::MissingGround missing = {};
 };
@@ -66,7 +66,7 @@ std::vector<SiteMap> site_maps(const Store& store, const SiteResult& r, Progress
   options.no_data = viewshed::cells_without_ground(store, result, progress);
   if (missing.without_ground > 0) options.no_data_text = missing.key_text(kWithinRadius);
   options.map_pixels = kMapPixels;
-  // Where demand is weighted, its area is another share than what is served.
+  // Where demand is weighted, the served share of the area differs from the served share of the demand.
   const bool of_area = r.options.demand != "cells";
   const SiteWording wording = wording_of(r.options);
   const bool turbines = r.options.placement.given();
@@ -120,7 +120,7 @@ ResultSheet sheet_of(const Store& store, const SiteResult& r, const SiteMap& map
   return sheet;
 }
 
-/// One for each map, to which it refers.
+/// Returns a sheet for each map. The sheets refer to the maps.
 std::vector<ResultSheet> sheets_of(const Store& store, const SiteResult& r, const std::vector<SiteMap>& maps,
                                    const std::vector<std::string>& sources, Progress& progress) {
   const std::vector<MapObjects> objects = site_map_objects(store, r);
@@ -132,7 +132,8 @@ std::vector<ResultSheet> sheets_of(const Store& store, const SiteResult& r, cons
 }  // namespace
 
 std::uint64_t bytes_of_site_maps(const Store& store, const RasterGrid& grid) {
-  // Bytes per cell: its nearest server, how far that is, how many serve it, and copies of these to draw and to write.
+  // Bytes per cell: its nearest server, the distance to it, how many serve the cell, and copies of these to draw and to
+  // write.
   constexpr std::uint64_t kCell = 24, kPoint = 150;
   return kCell * grid.cell_count() + kPoint * store.points_about(hillshade_level(store, grid), grid.bounds());
 }
@@ -145,7 +146,7 @@ void write_site_maps(const Store& store, const SiteResult& r, bool overwrite, Pr
   parallel_for(maps.size(), [&](std::size_t i) {
     const viewshed::MapImage image = draw_map(tin, maps[i].result, maps[i].options);
     write_image(r.options.path(maps[i].name) + ".png", image, overwrite);
-    // All maps are drawn with the same letters, or without: the first one tells.
+    // All maps are drawn with the same font, or without one, so that the warnings of the first one suffice.
     if (i == 0) warnings.insert(warnings.end(), image.warnings.begin(), image.warnings.end());
   });
 }

@@ -181,7 +181,7 @@ void SiteOptions::validate_masts() {
   const std::vector<double> heights = mast_height_text_.empty()
                                           ? std::vector<double>{20}
                                           : parse_heights("--mast-height", mast_height_text_, Range::kNotNegative);
-  // Where places have costs, a mast has none unless it says so.
+  // Where candidates have costs, a mast has none unless one is given.
   std::vector<double> costs(heights.size(), cost_field.empty() ? 1 : 0);
   if (!mast_cost_text_.empty()) costs = parse_numbers("--mast-cost", mast_cost_text_, Range::kNotNegative);
   if (costs.size() != heights.size())
@@ -215,7 +215,7 @@ void SiteOptions::validate_links() {
   }
   if (!fresnel_text_.empty()) fresnel = parse_fresnel(fresnel_text_);
   require_curved(earth.earth());
-  // No clearance at all where the zone ends on the ground.
+  // A Fresnel zone that ends on the ground has no clearance at all.
   if (target_height == 0)
     throw InputError("--frequency needs a --target-height above 0: no link to the ground is clear");
   for (const Mast& mast : masts)

@@ -36,28 +36,29 @@ class SiteOptions {
   void declare(CLI::App& app);
   /// Takes options from the parameter file, which is part of the call. Throws InputError, FileError.
   void apply_parameter_file();
-  /// Throws InputError.
+  /// Checks the options. Throws InputError.
   void validate();
   /// Decides which fields of the files of sites hold heights. `warnings` gets one where a file's heights are not used.
   /// Throws FileError.
   void take_fields(std::vector<std::string>& warnings);
-  /// A line about heights of masts that a file gives unasked; empty where it gives none. After take_fields().
+  /// Returns a line about heights of masts that a file gives unasked; empty where no file does. To be called after
+  /// take_fields().
   std::string heights_text() const;
-  /// The values given, by option name without dashes, as a parameter file holds them.
+  /// Returns the values given, by option name without dashes, as a parameter file holds them.
   Document given() const;
   Document parameters() const;
-  /// The part of the Fresnel zone that a link must leave clear, if any.
+  /// Returns the part of the Fresnel zone that a link must leave clear, if any.
   std::optional<viewshed::FresnelCriterion> criterion() const;
   viewshed::Objective objective() const {
     return placement.given() ? viewshed::Objective::kLeast : viewshed::Objective::kMost;
   }
-  /// Whether sites at both places may be chosen, as far as distances go.
+  /// Tells whether sites at both places may be chosen, as far as distances go.
   bool may_both_stand(Point2 a, Point2 b) const;
-  /// When a target is served, or which see turbines, in a sentence.
+  /// Returns a sentence that tells when a target is served, or which targets see turbines.
   std::string meaning_of_served() const;
 
   std::string store, directory;
-  /// Where a file of the folder is.
+  /// Returns the path of a file in the folder.
   std::string path(const std::string& name) const { return (std::filesystem::path(directory) / name).string(); }
   SheetOptions sheets;
   // Candidates.
@@ -65,7 +66,7 @@ class SiteOptions {
   std::string cost_field;
   std::string search_area;
   std::optional<double> spacing;
-  std::vector<Mast> masts;  ///< none with a height field; with --turbines one, as high as the tip or the hub
+  std::vector<Mast> masts;  ///< empty with a height field; with --turbines one, as high as the tip or the hub
   PlacementOptions placement;
   bool on_surface = false;
   InCrs in_crs;
@@ -77,7 +78,7 @@ class SiteOptions {
   double radius = 10000;
   std::optional<double> cell;
   double cell_size() const { return cell.value_or(50); }
-  std::optional<double> frequency_ghz;  ///< nothing: what is in sight is served
+  std::optional<double> frequency_ghz;  ///< nothing: targets in sight are served
   double fresnel = 0.6;                 ///< fraction of the first Fresnel zone that must be clear, with a frequency
   // The choice.
   std::optional<std::size_t> count;
@@ -89,7 +90,7 @@ class SiteOptions {
   std::optional<Place> hub;
   bool exact_final = true;
   bool swaps = true;
-  // How.
+  // The computation and the files.
   std::optional<double> tolerance;
   ThemeOptions themes;
   EarthOptions earth;
@@ -114,7 +115,7 @@ class SiteOptions {
 
   CLI::App* app_ = nullptr;
   std::string params_;
-  bool took_heights_ = false;  ///< from the usual field, for which the call did not ask
+  bool took_heights_ = false;  ///< whether heights come from the usual field, for which the call did not ask
   std::string spacing_text_, mast_height_text_, mast_cost_text_, observer_on_ = "ground";
   std::string target_height_text_, target_on_ = "ground", radius_text_, cell_text_;
   std::string count_text_, budget_text_, share_text_, min_spacing_text_, cover_text_, hub_text_;

@@ -43,7 +43,7 @@ NamesAndContents files_of_turbines() {
           {"best-server.tif", "the nearest of them that a cell sees"}};
 }
 
-/// What ground without data leaves open, as the value measures it and in cells of the rasters.
+/// Returns how much ground without data leaves open, as the value measures it and in cells of the rasters.
 Document undecided_document(const SiteResult& r) {
   Document document{{"value", r.undecided}};
   if (!r.options.placement.sums_heights()) document["percent"] = r.undecided_percent();
@@ -81,7 +81,7 @@ void remove_former_outputs(const SiteOptions& options, const Document& outputs) 
   std::ifstream file(options.path("site.json"));
   const Document former = Document::parse(file, nullptr, false);
   if (!former.is_object() || !former.contains("outputs") || !former["outputs"].is_array()) return;
-  // The folder may have had another name, so that places within it count.
+  // The folder may have had another name, so that files are compared by their places within the folder.
   const auto place_of = [&](const fs::path& path) {
     const bool profile = path.parent_path().filename() == kLinkFolder;
     return profile ? fs::path(kLinkFolder) / path.filename() : path.filename();

@@ -19,17 +19,19 @@ struct SiteOutput {
   std::string what;
 };
 
-/// Every file of the folder, which is there. Throws FileError where one may not be written, InputError where the call
-/// reads one.
+/// Returns every file that the run writes into the folder, which exists. Throws FileError where a file may not be
+/// written, InputError where the call reads one of them.
 std::vector<SiteOutput> site_outputs(const SiteOptions& options, OutputPolicy& policy);
 
-/// The folder in that of a run with the profiles of links.
+/// The folder, within the folder of a run, that holds the profiles of links.
 inline constexpr const char* kLinkFolder = "links";
 
-/// Removes what an earlier run wrote into the folder, as its site.json has it, and is not among this one's `outputs`.
+/// Removes the files of the folder that an earlier run wrote, as its site.json lists them, and that are not among this
+/// run's `outputs`.
 void remove_former_outputs(const SiteOptions& options, const Document& outputs);
 
-/// `value`, `upper_bound`, `chosen` and the rest of the contract's document, without what the program adds.
+/// Returns `value`, `upper_bound`, `chosen` and the rest of the contract's document, without the members that the
+/// program adds.
 Document site_document(const SiteResult& result, const StoreMetadata& metadata);
 
 }  // namespace itin::cli

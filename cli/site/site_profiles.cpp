@@ -40,7 +40,7 @@ bool is_drawn(const SiteLink& link) {
   return link.found().verdict != profile::SightVerdict::kHidden && link.line.distance_m > 0;
 }
 
-/// Whether the report shows the profile of each link.
+/// Tells for each link whether the report shows its profile.
 std::vector<char> shown_in_report(const SiteResult& r) {
   std::vector<char> shown(r.network.links.size());
   if (r.options.hub) {

@@ -19,9 +19,9 @@ struct SiteProfile {
   std::string svg;   ///< the sight line alone, for the report; empty where the report leaves it to the file
 };
 
-/// Draws the links that are not hidden, as `itin los --report` does, into the folder `links` of the directory. In the
-/// order of the result's links. The report shows those on routes to the hub; without a hub, the shortest kMostProfiles.
-/// Throws FileError, Cancelled.
+/// Draws the links that are not hidden, as `itin los --report` does, into the folder `links` of the directory. Returns
+/// them in the order of the result's links. The report shows those on routes to the hub; without a hub, the shortest
+/// kMostProfiles. Throws FileError, Cancelled.
 inline constexpr std::size_t kMostProfiles = 40;
 std::vector<SiteProfile> write_site_profiles(const Store& store, const SiteResult& result, bool overwrite,
                                              Progress& progress);

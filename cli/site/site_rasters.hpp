@@ -7,7 +7,7 @@
 
 namespace itin::cli {
 
-/// `parameters` go into the files as they are. Throws FileError.
+/// Writes the rasters, with `parameters` unchanged in their metadata. Throws FileError.
 void write_site_rasters(const SiteResult& result, const std::string& crs_wkt, const std::string& parameters,
                         bool overwrite);
 

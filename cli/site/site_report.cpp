@@ -20,7 +20,7 @@ namespace itin::cli {
 
 namespace {
 
-/// Readable at the width of a phone: what is wider than the page scrolls by itself.
+/// A style that is readable at the width of a phone: parts wider than the page scroll by themselves.
 constexpr const char* kStyle =
     "body{font:15px/1.45 system-ui,sans-serif;color:#222;max-width:64rem;margin:2rem auto;padding:0 1rem;"
     "overflow-wrap:anywhere}h1{font-size:1.6rem;margin:0 0 .3rem}h2{font-size:1.1rem;margin:1.6rem 0 .3rem}"
@@ -63,7 +63,7 @@ std::string left_out(const SiteResult& r) {
   return html + "</ul>\n";
 }
 
-/// How few candidates had to be surveyed closely, and why that was enough.
+/// Tells how few candidates had to be surveyed closely, and why that was enough.
 std::string times_surveyed(const SiteResult& r) {
   const std::size_t candidates = r.inputs.candidates.size(), options = r.inputs.options.size();
   const std::string all =
@@ -82,7 +82,7 @@ std::string exchanges(const SiteResult& r) {
                      counted(r.choice.swaps, "exchange"), wording_of(r.options).one);
 }
 
-/// The bound on all choices, where this one does not meet it.
+/// Returns the bound on all choices, with its distance where this choice does not meet it.
 std::string best_possible(const SiteResult& r) {
   const viewshed::Weight missed = r.choice.upper_bound - r.choice.value;
   const std::string text = fmt::format("No choice within the same limits {}serves more", certainly(r));
@@ -91,7 +91,7 @@ std::string best_possible(const SiteResult& r) {
                             amount(r.in_metric(r.choice.upper_bound + r.choice.existing)), amount(r.in_metric(missed)));
 }
 
-/// What ground without data leaves open of the summary.
+/// Tells how much of the summary ground without data leaves open.
 std::string left_open(const SiteResult& r) {
   return r.undecided == 0 ? "" : fmt::format("<p>Undecided: {}.</p>\n", escaped_markup(undecided_in_words(r)));
 }
@@ -113,7 +113,7 @@ std::string summary(const SiteResult& r) {
                      r.served_percent(), existing, best_possible(r), left_open(r), times_surveyed(r), exchanges(r));
 }
 
-/// The routes to the hub, where there is one, and by which rule they go.
+/// Returns the routes to the hub, where there is one, and the rule by which they are chosen.
 std::string backhaul(const SiteResult& r) {
   if (!r.options.hub) return {};
   return fmt::format(

@@ -15,10 +15,10 @@ struct SiteReportParts {
   std::vector<std::string> figures;  ///< as site_figures() gives them
   std::vector<SiteProfile> profiles;
   Document parameters;               ///< shown as they are
-  std::vector<std::string> sources;  ///< where the ground comes from, sort by sort
+  std::vector<std::string> sources;  ///< where the ground comes from, kind by kind
 };
 
-/// Throws FileError.
+/// Writes the page. Throws FileError.
 void write_site_report(const SiteResult& result, const SiteReportParts& parts, bool overwrite);
 
 }  // namespace itin::cli

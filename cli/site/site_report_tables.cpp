@@ -13,7 +13,8 @@ namespace itin::cli {
 
 namespace {
 
-/// A table of text and, from column `numbers` on, of figures. Where it is `wide`, no cell is broken into lines.
+/// A table of text and, from column `numbers` on, of figures. In a `wide` table, the text of a cell is not broken into
+/// lines.
 class HtmlTable {
  public:
   HtmlTable(const std::vector<std::string>& header, std::size_t numbers, bool wide = false)

@@ -1,4 +1,4 @@
-// The tables of a siting report, as HTML. Those that are wide scroll by themselves.
+// The tables of a siting report, as HTML. Wide tables scroll by themselves.
 #pragma once
 
 #include <string>
@@ -8,18 +8,18 @@
 
 namespace itin::cli {
 
-/// A part of the demand, with commas where it is whole.
+/// Returns a part of the demand in figures, with commas where it is a whole number.
 std::string amount(double v);
 
 std::string sites_html(const SiteResult& result);
 std::string turbines_html(const SiteResult& result);
-/// How closely candidates had to be looked at.
+/// Returns a table of how closely candidates had to be surveyed.
 std::string stages_html(const SiteResult& result);
-/// The options that came nearest to being chosen.
+/// Returns a table of the options that came nearest to being chosen.
 std::string closest_html(const SiteResult& result);
-/// Each site's route to the hub with its hops.
+/// Returns a table of each site's route to the hub with its hops.
 std::string routes_html(const SiteResult& result);
-/// Every line of sight between two ends.
+/// Returns a table of every line of sight between two ends.
 std::string links_html(const SiteResult& result);
 
 }  // namespace itin::cli

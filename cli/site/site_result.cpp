@@ -13,7 +13,7 @@ using viewshed::DemandSet;
 using viewshed::SitePosition;
 using viewshed::Verdict;
 
-/// Best is nearest: in the open that is strongest.
+/// Finds the best server of each cell: the nearest site, whose signal is the strongest in the open.
 class BestServer {
  public:
   BestServer(const RasterGrid& grid, const DemandSet& ground)
@@ -34,7 +34,7 @@ class BestServer {
       if (distance < nearest_[i]) nearest_[i] = distance, rasters_.best_server[i] = number;
     });
   }
-  /// `undecided`: which of the cells that fewer than `cover` sites serve are so.
+  /// Returns the rasters. `undecided` holds the undecided ones of the cells that fewer than `cover` sites serve.
   SiteRasters rasters(int cover, const DemandSet& undecided) && {
     for (const std::uint16_t n : rasters_.redundancy)
       rasters_.served.push_back(n == SiteRasters::kNoDemand ? Verdict::kOutside

@@ -15,7 +15,7 @@
 
 namespace itin::cli {
 
-/// For links: "clear" as served is meant, "hidden", "undecided", or in sight only.
+/// Returns a link's outcome: "clear" as served is meant, "hidden", "undecided", or in sight only.
 const char* outcome_of(const SiteOptions& options, const SiteLink& link);
 
 /// An option's coverage in the demand's own measure.
@@ -23,7 +23,7 @@ struct CoverageSummary {
   double certain = 0, possible = 0;
 };
 
-/// The chosen sites on a raster, existing ones behind them.
+/// Rasters of the chosen sites, numbered first, and the existing ones behind them.
 struct SiteRasters {
   RasterGrid grid;
   std::vector<std::uint16_t> redundancy;   ///< how many serve a cell; kNoDemand where nothing is to be served
@@ -40,10 +40,10 @@ struct SiteResult {
   const SiteOptions& options;
   const SiteInputs& inputs;
   const viewshed::SiteCoverage& coverage;
-  const viewshed::Demand& measure;  ///< for the choice's value and gains: the demand, or the heights seen of turbines
+  const viewshed::Demand& measure;  ///< measures value and gains: the demand, or the heights seen of turbines
   viewshed::Choice choice;
   SiteNetwork network;
-  std::vector<SiteRoute> routes;  ///< from the network's sites to the hub; none without one
+  std::vector<SiteRoute> routes;  ///< from the network's sites to the hub; empty without a hub
   double undecided = 0;           ///< by how much the value would grow if ground without data hid nothing
   SiteRasters rasters;
   std::vector<double> ground_m;  ///< elevation of the ground under each chosen site, which may stand on a roof
@@ -57,30 +57,31 @@ struct SiteResult {
             inputs.demand.in_metric(inputs.demand.weight(bounds.possible))};
   }
   double in_metric(viewshed::Weight weight) const { return measure.in_metric(weight); }
-  /// By the chosen and the existing sites together, in the demand's own measure, and as a share of all demand.
+  /// Return what the chosen and the existing sites serve together: in the demand's own measure, and as a share of all
+  /// demand.
   double served() const;
   double served_percent() const;
   double undecided_percent() const;
-  /// How served is meant, or what is to be least.
+  /// Returns in words when a target is served, or what is to be least.
   std::string meaning() const;
   std::size_t refined() const;
-  /// Whether every option was surveyed exactly from the first, and none by bounds.
+  /// Tells whether every option was surveyed exactly from the first, and none by bounds.
   bool all_exact() const { return options.placement.sums_heights() || coverage.last_stage() == 0; }
-  /// Whether no choice within the goal is better.
+  /// Tells whether no choice within the goal is better.
   bool is_best() const { return choice.lower_bound == choice.upper_bound; }
-  /// Why an option is not part of the choice, in words.
+  /// Returns in words why an option is not part of the choice.
   std::string reason(std::size_t option) const;
   bool is_chosen(std::size_t option) const;
 };
 
-/// The survey that lines of sight are computed for.
+/// Returns the survey for which sight lines are computed.
 viewshed::SiteSurvey site_survey(const SiteOptions& options, const SiteInputs& inputs);
 
-/// Elevations of the bare ground under the chosen sites.
+/// Returns the elevations of the bare ground under the chosen sites.
 std::vector<double> site_grounds(const Store& store, const SiteInputs& inputs, const viewshed::Choice& choice,
                                  Progress& progress);
 
-/// What the chosen and the existing sites serve of cells, as rasters.
+/// Returns rasters of the cells that the chosen and the existing sites serve.
 SiteRasters site_rasters(const Store& store, const SiteOptions& options, const SiteInputs& inputs,
                          const viewshed::Choice& choice, const JointCoverage& cells, Progress& progress);
 

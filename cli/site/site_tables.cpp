@@ -90,7 +90,7 @@ VectorLayer candidates_layer(const SiteResult& r) {
   return layer;
 }
 
-/// As `itin ztv --turbines` reads them.
+/// Returns the turbines as `itin ztv --turbines` reads them.
 std::string turbines_csv(const SiteResult& r) {
   const PlacementOptions& placement = r.options.placement;
   std::string text = "name,x,y,hub_height,rotor_diameter,tip_height,farm\n";

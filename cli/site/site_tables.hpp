@@ -7,7 +7,7 @@
 
 namespace itin::cli {
 
-/// Throws FileError, as all here.
+/// Write the tables and the layers. Throw FileError.
 void write_site_tables(const SiteResult& result, bool overwrite);
 void write_site_layers(const SiteResult& result, const std::string& crs_wkt, bool overwrite);
 

@@ -16,7 +16,7 @@ constexpr std::size_t kMostWarnings = 20;
 void warn_of_left_out(const SiteResult& site, std::vector<std::string>& warnings) {
   const std::string all = site.options.path("site.json");
   std::vector<std::string> lines = site.inputs.rejected;
-  // Proposed candidates are none of the caller's: how many were left out is enough.
+  // The caller does not know proposed candidates: it is enough to say how many were left out.
   for (std::size_t i = site.options.search_area.empty() ? 0 : site.inputs.barred.size(); i-- > 0;) {
     const Barred& barred = site.inputs.barred[i];
     const auto first = lines.begin() + static_cast<std::ptrdiff_t>(barred.first);
@@ -29,7 +29,7 @@ void warn_of_left_out(const SiteResult& site, std::vector<std::string>& warnings
     warnings.push_back(fmt::format("left out: {} more; all are listed in {}", lines.size() - kMostWarnings, all));
 }
 
-/// Nothing is known of what sees a turbine beyond the data.
+/// Warns where the radius reaches beyond the data, since demand there is not counted.
 void warn_of_reach(const SiteResult& site, const StoreMetadata& metadata, std::vector<std::string>& warnings) {
   const Box data = metadata.grid.box(metadata.bounds);
   const std::vector<viewshed::SitePosition>& places = site.inputs.positions;

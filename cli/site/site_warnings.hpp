@@ -10,7 +10,7 @@
 
 namespace itin::cli {
 
-/// Adds a line each.
+/// Adds a line to `warnings` for each thing to beware of.
 void warn_of(const SiteResult& site, const Store& store, std::vector<std::string>& warnings);
 
 }  // namespace itin::cli

@@ -67,7 +67,7 @@ std::string least_in_words(const SiteResult& r) {
   const PlacementOptions& placement = r.options.placement;
   const std::string least =
       r.coverage.leaves_open() ? "proved to be the least that is certain" : "proved to be the least there is";
-  // That holds whatever lies where there is no data: more is seen if it hides nothing.
+  // This holds even if ground without data hides nothing, since then more is seen.
   const std::string proved = r.is_best() ? least
                                          : fmt::format("no choice has less than {:.10g} (gap {:.1f} %)",
                                                        r.in_metric(r.choice.lower_bound), gap_percent(r.choice));

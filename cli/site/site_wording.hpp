@@ -8,13 +8,13 @@
 namespace itin::cli {
 
 struct SiteWording {
-  std::string one, mark;         ///< that is chosen; `mark` with a capital
-  std::string served, unserved;  ///< places, on maps; capitals
+  std::string one, mark;         ///< what a chosen one is called; `mark` with a capital
+  std::string served, unserved;  ///< kinds of places on maps, with capitals
   std::string nothing;           ///< places without demand
   std::string share;             ///< heads the keys on sheets: "Share of the places that count"
   std::string by;                ///< heads the map, before how many are chosen
   std::string how_many;          ///< heads the map of counts
-  std::string count, nearest;    ///< bands
+  std::string count, nearest;    ///< describe bands of rasters
   std::string coverage_curve;    ///< a heading
   std::string order, count_heading;
   std::string bound;       ///< "no choice serves more than"
@@ -23,13 +23,13 @@ struct SiteWording {
 
 SiteWording wording_of(const SiteOptions& options);
 
-/// "certainly " where ground without data leaves something open, or nothing.
+/// Returns "certainly " where ground without data leaves something open; otherwise an empty text.
 std::string certainly(const SiteResult& result);
 
-/// How much ground without data leaves open, and what decides it.
+/// Tells how much ground without data leaves open, and which options decide it.
 std::string undecided_in_words(const SiteResult& result);
 
-/// What sees the turbines, or how much of them is seen, and what is proved of that; a sentence or two.
+/// Tells what sees the turbines, or how much of them is seen, and what is proved of that; a sentence or two.
 std::string least_in_words(const SiteResult& result);
 
 }  // namespace itin::cli

@@ -1,5 +1,6 @@
-// What every candidate turbine shows of itself to the demand. Visible heights of turbines add, so that each turbine is
-// an element of its own, weighing its sum, and the least of them is a choice that serves the least.
+// How much of every candidate turbine the demand sees. Visible heights of turbines add, so that each turbine is an
+// element of its own, whose weight is the turbine's sum. The choice of the least total height is then the one that
+// serves the least.
 #pragma once
 
 #include <vector>
@@ -19,8 +20,9 @@ struct ShownTurbines {
   NoData nodata = NoData::kBlock;  ///< kBlock: what is certainly seen; kClear: what may be
 };
 
-/// Metres from its tip down that are seen, times the weight of what sees them, summed over the demand within the
-/// radius; of each turbine. Cells as `itin ztv` has them, points as its viewpoints. Throws as survey_turbines() does.
+/// Returns for each turbine the metres from its tip down that are seen, times the weight of the place that sees them,
+/// summed over the demand within the radius. Cells are treated as in `itin ztv`, points as its viewpoints. Throws as
+/// survey_turbines() does.
 std::vector<double> summed_visible_heights(const Store& store, const ShownTurbines& turbines, Progress& progress);
 
 class OwnElements final : public viewshed::Coverage {

@@ -340,12 +340,12 @@ class ZtvVerb final : public Verb {
     const auto of_radio = radio_.warnings(zone);
     warnings.insert(warnings.end(), of_radio.begin(), of_radio.end());
     for (const BadRow& bad : seen_.bad) warnings.push_back(bad_row_warning(seen_.path, bad));
-    // The program does so, too, but after they are in the document of the folder.
+    // The program translates them, too, but only after they are in the document of the folder.
     std::transform(warnings.begin(), warnings.end(), warnings.begin(), in_options);
     return warnings;
   }
 
-  /// The document as it stands in the folder: without times, so that equal runs write equal files.
+  /// Writes the document of the folder, without times, so that equal runs write equal files.
   void write_manifest(const std::string& folder, const cli::Result& result) const {
     Document manifest = call_document(*this);
     manifest.update(result.document);

@@ -19,15 +19,17 @@ class ZtvFolder {
   /// The file that tells a folder of outputs from any other.
   static constexpr const char* kManifest = "ztv.json";
 
-  /// Throws FileError if `path` is something else than a folder, or one with files in it that may not be replaced: any
-  /// without `--overwrite`, and with it one that has no manifest; or if nothing can be written beside it.
+  /// Checks that a folder of outputs may be written at `path`. Throws FileError if nothing can be written beside it, or
+  /// if `path` is something else than a folder or a folder with files in it that may not be replaced. Without
+  /// `--overwrite` no files may be replaced; with it only those of a folder that has a manifest.
   static void require_writable(const std::string& path, const OutputPolicy& policy);
 
-  /// Makes a working folder beside `path`, which goes again unless it is published. Throws as require_writable() does.
+  /// Makes a working folder beside `path`, which is removed in the end unless it is published. Throws as
+  /// require_writable() does.
   ZtvFolder(std::string path, const OutputPolicy& policy);
 
   const std::string& working() const { return working_->path(); }
-  /// Gives the working folder the name, in one step. Files of the earlier folder that its manifest does not list as
+  /// Renames the working folder to `path`, in one step. Files of the earlier folder that its manifest does not list as
   /// outputs move along. Throws FileError.
   void publish();
 

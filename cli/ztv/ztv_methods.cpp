@@ -47,7 +47,7 @@ std::string turbines_in_words(const viewshed::Zone& zone, const ZtvMethods& fact
   return text;
 }
 
-/// The sources of terrain, or of a theme, with their notes where they have any.
+/// Returns the sources of terrain, or of a theme, with their notes where they have any.
 std::string sources_in_words(const std::vector<SourceInfo>& sources, const StoreMetadata& metadata,
                              const std::string& theme) {
   std::vector<SourceInfo> of_theme;
@@ -56,7 +56,7 @@ std::string sources_in_words(const std::vector<SourceInfo>& sources, const Store
   return fmt::format("{}", fmt::join(described(of_theme, metadata), "; "));
 }
 
-/// What heights count from, as the sources say.
+/// Returns the datum of heights, as the sources give it.
 std::string datum_in_words(const std::vector<SourceInfo>& sources) {
   std::set<std::string> datums;
   for (const SourceInfo& source : sources)
@@ -111,7 +111,7 @@ constexpr const char* kSheets =
     "Visual Representation of Wind Farms, version 2.2: planar, 53.5 by 18.2 degrees at 812.5 mm, and cylindrical, 90 "
     "by 14.2 degrees at 522 mm, on paper of 841 by 297 mm.";
 
-/// What becomes of sight lines that cross ground without data.
+/// Tells how sight lines that cross ground without data are judged.
 std::string crossings_in_words(const viewshed::Zone& zone) {
   if (zone.request.nodata == NoData::kClear)
     return "Where sight lines cross ground without data, it is taken as clear.";

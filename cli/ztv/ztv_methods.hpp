@@ -14,18 +14,18 @@ namespace itin::cli {
 struct ZtvMethods {
   std::string turbines_file, turbines_sha256;
   std::string surface;              ///< detail and certified error
-  std::vector<SourceInfo> sources;  ///< where the terrain and what screens come from, within the study area
+  std::vector<SourceInfo> sources;  ///< sources of the terrain and of screening features, within the study area
   viewshed::MissingGround missing;  ///< in the study area
   bool wirelines = false, sheets = false;
-  std::string radius;  ///< sentence
+  std::string radius;  ///< a sentence on the radii
   std::size_t rows = 0, bad = 0;
-  std::vector<std::string> further;  ///< paragraphs about what else was asked for
+  std::vector<std::string> further;  ///< paragraphs about further outputs
 };
 
-/// Curvature and refraction in words, with the drop at 10 and 40 km.
+/// Returns curvature and refraction in words, with the drop at 10 and 40 km.
 std::string refraction_in_words(const Earth& earth);
 
-/// Markdown.
+/// Returns the methods text as Markdown.
 std::string methods_text(const viewshed::Zone& zone, const StoreMetadata& metadata, const ZtvMethods& facts);
 
 }  // namespace itin::cli

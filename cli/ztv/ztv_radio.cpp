@@ -23,12 +23,12 @@ using viewshed::Zone;
 
 namespace {
 
-/// How many turbines a radar sees some metres of.
+/// Returns how many turbines a radar sees at least in part.
 std::size_t seen_in(const std::vector<double>& turbine_m) {
   return static_cast<std::size_t>(std::count_if(turbine_m.begin(), turbine_m.end(), [](double m) { return m > 0; }));
 }
 
-/// Whether ground without data alone leaves it open that turbine k of the request is seen.
+/// Tells whether ground without data alone leaves it open that turbine k of the request is seen.
 bool radar_leaves_open(const viewshed::RadarView& radar, std::size_t k) {
   return !radar.undecided_turbine_m.empty() && radar.undecided_turbine_m[k] > 0;
 }

@@ -21,7 +21,7 @@ namespace itin::cli {
 class ZtvRadioOptions {
  public:
   void declare(CLI::App& app);
-  /// Throws InputError.
+  /// Checks the options. Throws InputError.
   void validate();
   Document parameters() const;
   /// Reads the links. Throws FileError, InputError.
@@ -29,15 +29,16 @@ class ZtvRadioOptions {
   std::optional<viewshed::Observer> radar() const { return radar_; }
   const std::vector<viewshed::RadioLink>& links() const { return links_; }
 
-  /// Throws FileError.
+  /// Writes the rasters of links and of the radar. Throws FileError.
   std::vector<viewshed::ZoneFile> write(const std::string& folder, const viewshed::Zone& zone,
                                         const viewshed::ZoneFileOptions& options) const;
-  /// Columns for the table of turbines: names with commas before them, and the values of turbine k of the request.
+  /// Return columns for the table of turbines: names with commas before them, and the values of turbine k of the
+  /// request.
   std::string columns() const;
   std::string cells(const viewshed::Zone& zone, std::size_t k) const;
-  /// How many turbines are concerned; empty where nothing was asked for.
+  /// Returns how many turbines are concerned; empty where neither links nor a radar were given.
   Document document(const viewshed::Zone& zone) const;
-  /// Paragraphs for the methods text.
+  /// Returns paragraphs for the methods text.
   std::vector<std::string> methods(const viewshed::Zone& zone) const;
   std::vector<std::string> warnings(const viewshed::Zone& zone) const;
 
@@ -46,7 +47,7 @@ class ZtvRadioOptions {
     std::string link;
     double clearance = 0;
   };
-  /// The link that is least clear of the turbine's own rotor.
+  /// Returns the link that is least clear of the turbine's own rotor.
   Nearest nearest_link(const viewshed::Turbine& turbine) const;
   viewshed::LinkStudy study(const viewshed::Zone& zone) const;
 

@@ -35,8 +35,8 @@ struct RoutePlace {
   Point2 position;
 };
 
-/// One in the middle of every stretch of `every` metres, or of as many equal ones as are needed.
-/// `at` are the corners' distances along the route.
+/// Divides the route into as few equally long stretches of at most `every` metres as possible, and returns the place in
+/// the middle of each. `at` are the corners' distances along the route.
 std::vector<RoutePlace> places_along(const std::vector<Point2>& corners, const std::vector<double>& at, double every) {
   if (at.back() / every > kMostPlaces)
     throw InputError(
@@ -55,7 +55,7 @@ std::vector<RoutePlace> places_along(const std::vector<Point2>& corners, const s
   return places;
 }
 
-/// What is seen from one place; nothing where there is no ground.
+/// The sights from one place, summed up; nothing where there is no ground.
 using Found = std::optional<Seen>;
 
 struct Route {
@@ -64,7 +64,7 @@ struct Route {
   double length = 0;
   std::vector<RoutePlace> places;
   std::vector<double> ground;              ///< NaN: none
-  std::vector<Found> bare, screened;       ///< one a place; the second empty without features
+  std::vector<Found> bare, screened;       ///< one per place; the second empty without features
   std::vector<std::vector<Sight>> sights;  ///< over bare ground
 };
 
@@ -81,7 +81,7 @@ std::vector<profile::RouteStep> steps_of(const Route& route, const std::vector<F
 
 struct Totals {
   double tips_m = 0, hubs_m = 0, unknown_m = 0;
-  double undecided_m = 0;  ///< from where no tip is certainly seen, but one may be
+  double undecided_m = 0;  ///< the length from where no tip is certainly seen, but one may be
   std::size_t most_tips = 0, stretches = 0;
 };
 

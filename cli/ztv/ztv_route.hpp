@@ -16,13 +16,13 @@
 
 namespace itin::cli {
 
-/// `number` counts the lines of the file from 1.
+/// Returns the name of a route; `number` counts the lines of the file from 1.
 std::string route_name(const Path& route, std::size_t number);
 
 class RouteOptions {
  public:
   void declare(CLI::App& app);
-  /// Throws InputError.
+  /// Checks the options. Throws InputError.
   void validate();
   bool given() const { return !path_.empty(); }
   Document parameters() const;
@@ -31,8 +31,8 @@ class RouteOptions {
     std::vector<viewshed::ZoneFile> files;
     std::vector<Path> routes;
   };
-  /// route-N-NAME.csv, .pdf and .svg of each line of the file, bare and screened, and routes.csv with a row for each.
-  /// Throws FileError, InputError, Cancelled.
+  /// Writes route-N-NAME.csv, .pdf and .svg of each line of the file, bare and screened, and routes.csv with a row for
+  /// each line. Throws FileError, InputError, Cancelled.
   Written write(const std::string& folder, const Store& store, const viewshed::Zone& zone, Progress& progress) const;
 
  private:

@@ -32,7 +32,7 @@ constexpr Rgba kRing{70, 70, 70, 255}, kStudyArea{20, 20, 20, 255}, kViewpoint{2
     kRoute{0, 110, 60, 255}, kLink{150, 20, 110, 255}, kRadar{90, 40, 150, 255};
 constexpr std::size_t kMostFarmColours = 8;
 
-/// Metres beyond its radius of the turbine that is farthest within it: not above 0 in the study area.
+/// Returns the least distance of `p` beyond the radius of a turbine, metres: not above 0 in the study area.
 double beyond_study_area(const Zone& zone, Point2 p) {
   double least = std::numeric_limits<double>::infinity();
   for (const Turbine& t : zone.request.turbines)
@@ -84,12 +84,13 @@ struct PlaneField {
   }
 };
 
-/// Rings every 5 km of distance to the nearest turbine; in small study areas every 1 km, in large ones every 10.
+/// Returns the step of the rings of distance to the nearest turbine: 5 km; 1 km in small study areas, 10 km in large
+/// ones.
 double ring_step(double farthest) {
   return farthest <= 7500 ? 1000 : farthest <= 50000 ? 5000 : 10000;
 }
 
-/// The study area's edge, and rings of distance within it.
+/// Returns the study area's edge, and rings of distance within it.
 MapObjects distance_objects(const Zone& zone) {
   const Box box = study_area(zone);
   double farthest = 0;
@@ -100,7 +101,7 @@ MapObjects distance_objects(const Zone& zone) {
   for (double at = step; at < farthest; at += step) distance.add_lines(at, fmt::format("{:g} km", at / 1000), rings);
   PlaneField(box, [&](Point2 p) { return beyond_study_area(zone, p); }).add_lines(0, "", edge);
   MapObjects objects{{}, {{SheetKey::Sample::kDashes, {kStudyArea}, "Study area"}}};
-  // None where all radii are shorter than the first.
+  // There are no rings where all radii are shorter than the first ring.
   if (!rings.lines.empty())
     objects.keys.push_back(
         {SheetKey::Sample::kLine, {kRing}, fmt::format("Distance to the nearest turbine, every {:g} km", step / 1000)});
@@ -157,7 +158,7 @@ MapObjects radar_objects(const viewshed::Observer& radar) {
   return {{mark}, {{SheetKey::Sample::kMark, {kRadar}, "Radar", mark.symbol}}};
 }
 
-/// What every map of the zone has above its classes.
+/// Returns the objects that every map of the zone has above its classes.
 std::vector<MapObjects> objects_of(const Zone& zone, const ZtvSheetFacts& facts) {
   std::vector<MapObjects> objects{distance_objects(zone)};
   if (!facts.routes.empty()) objects.push_back(route_objects(facts.routes));
@@ -189,7 +190,7 @@ std::string without_terrain_in_words(const viewshed::MissingGround& missing) {
   return fmt::format("; {} of it has no terrain data and is not in the percentages", missing.percent());
 }
 
-/// What the map's class of undecided cells does not say.
+/// Tells from how much area more may be visible than shown, apart from the map's class of undecided cells.
 std::string more_in_words(const Zone& zone, const ZoneMap& map) {
   std::uint64_t more = 0;
   for (const ZoneMap::Class& c : map.classes)

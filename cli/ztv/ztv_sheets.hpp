@@ -22,7 +22,7 @@ struct NamedPlace {
   Point2 position;
 };
 
-/// What sheets show and say besides what the zone tells.
+/// Objects and facts that sheets show in addition to the zone.
 struct ZtvSheetFacts {
   std::vector<NamedPlace> viewpoints;
   std::vector<Path> routes;
@@ -32,7 +32,7 @@ struct ZtvSheetFacts {
   viewshed::MissingGround missing;  ///< in the study area
 };
 
-/// sheet-NAME-A3.pdf and .png of each map. Throws FileError, InputError (a scale that is too large), Cancelled.
+/// Writes sheet-NAME-A3.pdf and .png of each map. Throws FileError, InputError (a scale that is too large), Cancelled.
 std::vector<viewshed::ZoneFile> write_ztv_sheets(const std::string& folder, const Store& store,
                                                  const viewshed::Zone& zone, const SheetOptions& options,
                                                  const ZtvSheetFacts& facts, Progress& progress);

@@ -20,7 +20,8 @@ namespace {
 using viewshed::Turbine;
 using viewshed::Zone;
 
-/// `ground` is what the turbine stands on; both ends keep their bare ground whatever the surface.
+/// Returns the sight of one turbine. `ground` is the elevation on which the turbine stands; both ends keep their bare
+/// ground whatever the surface.
 Sight sight_to(const SectionSurface& surface, const Viewpoint& from, const Turbine& turbine, double ground,
                const viewshed::ZoneRequest& request) {
   Sight sight;

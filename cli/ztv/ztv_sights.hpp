@@ -25,23 +25,23 @@ struct Sight {
   using Verdict = viewshed::Verdict;  ///< kUndecided: ground without data alone leaves it open
   double distance = 0, azimuth = 0;
   Verdict tip = Verdict::kHidden;
-  std::optional<Verdict> hub;            ///< nothing: its height is not known
+  std::optional<Verdict> hub;            ///< nothing: the hub's height is not known
   double visible = 0, vertical_deg = 0;  ///< what is certainly seen: metres from the tip down, degrees
   double tip_deg = 0;
   bool gaps = false;
 };
 
-/// Both ends keep their bare ground whatever the surface.
+/// Returns the sight of each turbine. Both ends of a line keep their bare ground whatever the surface.
 std::vector<Sight> sights_to_all(const SectionSurface& surface, const Viewpoint& from, const viewshed::Zone& zone);
 
-/// The smallest part of the horizon that holds all turbines' axes.
+/// Returns the smallest part of the horizon that holds all turbines' axes.
 viewshed::Arc arc_to_all(const std::vector<Sight>& sights);
 
 /// What is seen of some turbines together.
 struct Seen {
   std::size_t turbines = 0, tips = 0;
   std::size_t tips_beyond = 0;      ///< how many of the tips are beyond their turbine's radius, where maps count none
-  std::size_t tips_undecided = 0;   ///< beside those seen
+  std::size_t tips_undecided = 0;   ///< in addition to those seen
   std::optional<std::size_t> hubs;  ///< nothing: no hub's height is known
   std::optional<std::size_t> hubs_undecided;
   std::size_t nearest = 0;  ///< index in the request
@@ -50,12 +50,12 @@ struct Seen {
   double vertical_deg = 0;           ///< the greatest vertical angle that the visible part of a turbine takes up
   bool gaps = false;
 };
-/// `turbines` are indices of the request, at least one.
+/// Sums up the sights of some turbines. `turbines` are indices in the request, at least one.
 Seen seen_of(const viewshed::Zone& zone, const std::vector<Sight>& sights, const std::vector<std::size_t>& turbines);
 std::vector<std::size_t> all_turbines(const viewshed::Zone& zone);
 
-/// What stands about the eye or close before it towards `to`, in a sentence; empty where nothing does. `surface` has
-/// the features of the themes named, by their numbers from 1.
+/// Returns in a sentence what stands about the eye or close before it towards `to`; empty where nothing does. `surface`
+/// has the features of the themes named, by their numbers from 1.
 std::string before_the_eye(const SectionSurface& surface, const Viewpoint& from, Point2 to,
                            const std::vector<std::string>& themes);
 

@@ -47,7 +47,7 @@ std::size_t known_hubs(const std::vector<viewshed::Turbine>& turbines) {
 
 namespace {
 
-/// Two turbines at one place count twice, which is seldom meant.
+/// Warns of turbines at one place: they count twice, which is seldom meant.
 void warn_of_duplicates(TurbineList& list) {
   std::map<std::pair<double, double>, std::size_t> first;
   for (const viewshed::Turbine& t : list.turbines) {
@@ -94,7 +94,7 @@ viewshed::Turbine TurbineOptions::turbine_of(const SiteRow& row) const {
   TurbineSize size{number_in_row("its hub_height", row.values[kHub]),
                    number_in_row("its rotor_diameter", row.values[kRotor]),
                    number_in_row("its tip_height", row.values[kTip])};
-  // Options fill in what the row leaves open, not what follows from two of its own values.
+  // Options supply sizes that the row leaves open, but not a size that follows from two of the row's own.
   const bool is_complete = (size.hub && size.rotor) || (size.tip && (size.hub || size.rotor));
   if (!is_complete) {
     const TurbineSize& otherwise = size_.size();

@@ -25,11 +25,11 @@ struct BadRow {
   std::string message;
 };
 
-/// How many of a file's rows were used, and why the others were not.
+/// Tells how many of a file's rows were used, and why the others were not.
 Document bad_rows_document(const std::string& file, std::size_t rows, std::size_t used, const std::vector<BadRow>& bad);
 std::string bad_row_warning(const std::string& file, const BadRow& row);
 
-/// How many have a hub that is known.
+/// Returns how many turbines have a known hub height.
 std::size_t known_hubs(const std::vector<viewshed::Turbine>& turbines);
 
 struct TurbineList {
@@ -44,16 +44,17 @@ struct TurbineList {
 class TurbineOptions {
  public:
   void declare(CLI::App& app);
-  /// Throws InputError.
+  /// Checks the options. Throws InputError.
   void validate();
   const std::string& path() const { return query_.path; }
   const InCrs& in_crs() const { return in_crs_; }
-  /// `radius` of a tip height, metres. Throws FileError, InputError (no row can be used).
+  /// Reads the turbines. `radius` gives the radius for a tip height, metres. Throws FileError, InputError (no row can
+  /// be used).
   TurbineList read(const StoreMetadata& metadata, const std::function<double(double)>& radius) const;
   Document parameters() const;
 
  private:
-  /// Throws InputError with what is wrong with the row.
+  /// Makes a turbine from a row. Throws InputError with what is wrong with the row.
   viewshed::Turbine turbine_of(const SiteRow& row) const;
 
   SiteQuery query_;

@@ -1,4 +1,4 @@
-// From how much ground it is undecided what is seen of the turbines: where ground without data alone could hide them.
+// The area from which it is undecided what is seen of the turbines, since ground without data alone could hide them.
 #pragma once
 
 #include <cstdint>
@@ -10,18 +10,19 @@
 namespace itin::cli {
 
 struct UndecidedArea {
-  double any_m2 = 0;   ///< none is certainly seen, but one may be
-  double more_m2 = 0;  ///< some are certainly seen, and more may be
+  double any_m2 = 0;   ///< area from which none is certainly seen, but one may be
+  double more_m2 = 0;  ///< area from which some are certainly seen, and more may be
 };
 
-/// Takes the counts of hubs or of tips, and how many more there may be.
+/// Computes the areas from the counts of hubs or of tips, and from how many more may be seen.
 UndecidedArea undecided_area(const viewshed::Zone& zone, const std::vector<std::uint16_t>& counts,
                              const std::vector<std::uint16_t>& undecided);
 
-/// "whether a blade tip is visible from 1.2 km², and how many more are visible from 3.4 km²"; empty where none is.
+/// Returns "whether a blade tip is visible from 1.2 km², and how many more are visible from 3.4 km²"; empty where
+/// nothing is undecided.
 std::string undecided_in_words(const UndecidedArea& tips);
 
-/// The options that decide it.
+/// The options that decide what is undecided.
 inline constexpr const char* kDecidesMissingGround = "--nodata block or clear";
 
 }  // namespace itin::cli

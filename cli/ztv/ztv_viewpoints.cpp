@@ -36,7 +36,7 @@ const char* verdict_cell(Sight::Verdict verdict) {
   return verdict == Sight::Verdict::kUndecided ? "undecided" : yes_or_no(verdict == Sight::Verdict::kVisible);
 }
 
-/// Hub and tip, and how much is seen; what is not known has no number.
+/// Returns the cells for hub and tip, and for how much is seen; unknown values have no number.
 std::string seen_cells(const Sight& s) {
   const std::string verdicts = fmt::format("{},{}", s.hub ? verdict_cell(*s.hub) : "", verdict_cell(s.tip));
   return s.tip == Sight::Verdict::kUndecided ? verdicts + ",,"
@@ -88,7 +88,7 @@ std::string summary_cells(const Zone& zone, const std::vector<Sight>& sights, co
                              sights[*seen.nearest_seen].distance, seen.arc->from, seen.arc->width, seen.vertical_deg);
 }
 
-/// `remark`: where there is a screened surface, what stands before the eye.
+/// Returns a row of the summary. `remark` tells what stands before the eye, where there is a screened surface.
 std::string summary_row(const Viewpoint& v, const Zone& zone, const std::vector<Sight>& sights,
                         const std::vector<Sight>& screened, const std::string& remark, bool national) {
   const Seen seen = seen_of(zone, sights, all_turbines(zone));

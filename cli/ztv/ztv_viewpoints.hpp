@@ -23,7 +23,7 @@ namespace itin::cli {
 class ViewpointOptions {
  public:
   void declare(CLI::App& app);
-  /// Throws InputError.
+  /// Checks the options. Throws InputError.
   void validate(const InCrs& in_crs, const SheetOptions& sheets);
   bool given() const { return !query_.path.empty(); }
   bool draws_wirelines() const { return given() && !no_wirelines_; }
@@ -36,7 +36,7 @@ class ViewpointOptions {
     std::string path;
     std::vector<NamedPlace> places;  ///< one for each viewpoint used
   };
-  /// viewpoints.csv, viewpoints-summary.csv, and what WirelineWriter writes for the viewpoints chosen. Throws
+  /// Writes viewpoints.csv, viewpoints-summary.csv, and the files of WirelineWriter for the viewpoints chosen. Throws
   /// FileError, InputError (a wireline of no viewpoint), Cancelled.
   Written write(const std::string& folder, const Store& store, const viewshed::Zone& zone, const SheetOptions& sheets,
                 Progress& progress) const;
@@ -48,7 +48,7 @@ class ViewpointOptions {
 
   SiteQuery query_;
   std::string field_text_, bearing_text_, blades_text_, wirelines_text_;
-  std::vector<std::string> wirelines_;  ///< names; none: all
+  std::vector<std::string> wirelines_;  ///< names; empty: all
   bool no_wirelines_ = false;
   WirelineChoice choice_;
 };

@@ -55,7 +55,7 @@ std::string turbine_in_words(const Turbine& t) {
                      t.farm.empty() ? "" : " of " + t.farm);
 }
 
-/// Degrees that look as if by chance, and are the turbine's own.
+/// Returns degrees that look random, but are always the same for a turbine.
 double scattered_blade(std::size_t turbine) {
   constexpr double kGoldenAngle = 137.50776405;
   return std::fmod(kGoldenAngle * static_cast<double>(turbine), 120);
@@ -114,7 +114,7 @@ profile::WirelineQuery query_of(const Viewpoint& v, const ViewedSurface& view, c
   return query;
 }
 
-/// One row for each farm, and one of all where there are several.
+/// Returns a row for each farm, and one for all turbines where there are several farms.
 std::vector<std::vector<std::string>> farm_table(const Zone& zone, const std::vector<Sight>& sights) {
   std::vector<std::vector<std::string>> rows{
       {"Wind farm", "Turbines", "Hubs visible", "Tips visible", "Nearest, km", "Horizontal extent", "Vertical angle"}};
@@ -139,13 +139,14 @@ std::vector<std::vector<std::string>> farm_table(const Zone& zone, const std::ve
   return rows;
 }
 
-/// Where a picture looks that is too narrow for all turbines: at the nearest whose tip is seen, else at the nearest.
+/// Returns the direction of a picture that is too narrow for all turbines: to the nearest whose tip is seen, else to
+/// the nearest.
 double bearing_of_nearest(const Zone& zone, const std::vector<Sight>& sights) {
   const Seen seen = seen_of(zone, sights, all_turbines(zone));
   return sights[seen.nearest_seen.value_or(seen.nearest)].azimuth;
 }
 
-/// A sheet that looks in one direction, which says how many turbines lie beside what it shows.
+/// Returns a sheet that looks in one direction and says how many turbines lie beside the picture.
 profile::WirelineSheet sheet_towards(double bearing_deg, double field_deg, const std::vector<Sight>& sights,
                                      profile::WirelineSheet sheet) {
   sheet.centre_deg = bearing_deg;

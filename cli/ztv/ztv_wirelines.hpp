@@ -22,7 +22,7 @@ struct WirelineChoice {
   std::string alone;                    ///< sheets in pairs: this farm alone, and all; empty: no pairs
 };
 
-/// A surface and what is written of the view over it.
+/// A surface and the words for the view over it.
 struct ViewedSurface {
   const SectionSurface& surface;
   std::string title;   ///< what a wireline's notes call it
@@ -36,8 +36,8 @@ class WirelineWriter {
                  const SheetOptions& sheets)
       : folder_(std::move(folder)), store_(store), zone_(zone), choice_(choice), sheets_(sheets) {}
 
-  /// wireline-N-NAME.svg, .pdf and .png; with sheets also -planar.pdf, -cylindrical.pdf and viewpoint-N-NAME.pdf.
-  /// Throws FileError, Cancelled.
+  /// Writes wireline-N-NAME.svg, .pdf and .png; with sheets also -planar.pdf, -cylindrical.pdf and
+  /// viewpoint-N-NAME.pdf. Throws FileError, Cancelled.
   void write(const Viewpoint& v, const ViewedSurface& view, const std::vector<Sight>& sights, Progress& progress);
   std::vector<viewshed::ZoneFile> files() && { return std::move(files_); }
 

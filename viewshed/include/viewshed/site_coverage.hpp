@@ -1,6 +1,6 @@
-// Bounds what each of many sites serves, tighter and tighter: first all of them over one coarse envelope of the
-// surface, then, for those that are asked about again, exactly. Cells are swept over the full surface, which takes no
-// longer than a coarse look, so that they are exact at once where the memory holds it.
+// Bounds what each of many sites serves, tighter and tighter: first for all sites over one coarse envelope of the
+// surface, then exactly for the sites that are refined. Cells are swept over the full surface where the memory holds
+// it: that takes no longer than a coarse survey, and is exact at once.
 //
 //   viewshed::SiteSurvey survey;
 //   const Point2 hill{310375, 183525};
@@ -11,17 +11,17 @@
 //   coverage.explore();
 //   const std::size_t cells = coverage.bounds(0).certain.size();  // certainly served by the first
 //
-// Exact means every triangle of the full surface in double precision, as compute(). Themes that stand on the ground
-// count from the first stage on: where the memory holds the surface with them, it is exact at once; else bounds come
-// from how low and how high that surface is within squares. With a `tolerance` the bare terrain of that level comes
-// first: features only raise it, so that what it hides for a target on the ground needs no further stage. (Where flat
-// foundations cut into it, the surface with its features comes first all the same.)
+// Exact means that every triangle of the full surface counts, in double precision, as in compute(). Themes that stand
+// on the ground count from the first stage on. Where the memory holds the surface with the themes, the first stage is
+// exact; else bounds come from how low and how high that surface is within squares. With a `tolerance` the bare terrain
+// of that level comes first: features only raise it, so that a target on the ground that the terrain hides needs no
+// further stage. (Where flat foundations cut into the terrain, the surface with its features comes first all the same.)
 //
-// Under NoData::kUnknown the bounds are of what is certainly served: by no line across ground without data.
+// Under NoData::kUnknown the bounds are of what is certainly served, that is, by no line across ground without data.
 //
-// With a FresnelCriterion the zone is judged over the same surfaces, after the line (over coarse ones only where the
-// memory does not hold the full one): what the lower one cuts is not served, what clears the upper one is. In the end
-// it is what fresnel_clearance() says of each link's profile.
+// With a FresnelCriterion the Fresnel zone is judged over the same surfaces, after the line (over coarse surfaces only
+// where the memory does not hold the full one). A target whose zone the lower surface cuts is not served; a target
+// whose zone clears the upper surface is. The last stage agrees with fresnel_clearance() on each link's profile.
 #pragma once
 
 #include <cstdint>
@@ -47,16 +47,17 @@ struct SitePosition {
   double elevation() const { return ground + height; }
 };
 
-/// The elevation under each position on the full surface with the themes; nothing where there is no data.
+/// Returns the elevation under each position on the full surface with the themes; nothing where there is no data.
 std::vector<std::optional<double>> ground_under(const Store& store, const std::vector<Point2>& positions,
                                                 const ThemeChoice& themes, Progress& progress);
 
-/// One of the two: the centres of a raster's cells, or points. Element numbers: see element_of() and SiteCoverage.
+/// The targets: either the centres of a raster's cells, or points. For the numbers of elements see element_of() and
+/// SiteCoverage.
 struct SiteTargets {
   std::optional<RasterGrid> grid;
   std::vector<Point2> points;
   double height = 0;        ///< metres above the ground
-  bool on_surface = false;  ///< above the surface with the themes instead
+  bool on_surface = false;  ///< the height is above the surface with the themes instead
 };
 
 struct SiteSurvey {
@@ -64,68 +65,70 @@ struct SiteSurvey {
   SiteTargets targets;
   double radius = 10000;  ///< metres: no site serves farther
   Earth earth;
-  /// Served is what is certainly seen: under kUnknown nothing across ground without data, as under kBlock.
+  /// A target counts as served if it is certainly seen: under kUnknown, as under kBlock, no target across ground
+  /// without data is.
   NoData nodata = NoData::kUnknown;
   ThemeChoice themes = ThemeChoice::none();
-  /// Served are targets in sight; with a criterion only those whose link meets it, too.
+  /// With a criterion, a target in sight is served only if its link meets the criterion, too.
   std::optional<FresnelCriterion> fresnel;
-  // Change the speed, never what is exact.
+  // The following change the speed, never what is exact.
   Engine engine = Engine::kAuto;    ///< judges cells at full detail; points are decided by rays
-  std::optional<double> tolerance;  ///< the first stage's; none: chosen by the number of points
-  /// For surfaces, and for what is known of what each site serves.
+  std::optional<double> tolerance;  ///< tolerance of the first stage; nothing: chosen by the number of points
+  /// The memory for surfaces and for the bounds on what each site serves.
   std::uint64_t memory_bytes = std::uint64_t{1} << 30;
 };
 
-/// Over what lies within the radius of a site, and the data; cell edges lie on multiples of the cell size. Throws
-/// InputError if there is no such ground.
+/// Returns a grid over what lies within the radius of a site and within the data; cell edges lie on multiples of the
+/// cell size. Throws InputError if there is no such ground.
 RasterGrid grid_of_reach(const Store& store, const std::vector<SitePosition>& positions, double radius,
                          double cell_size);
 
-/// A grid's cells as elements of a demand: `count` elements, of which the padding about the grid is never served.
+/// A grid's cells as elements of a demand: element_count() is their number, with padding about the grid that is never
+/// served; element_of() and cell_of() convert between them.
 std::size_t element_count(const RasterGrid& grid);
 std::size_t element_of(const RasterGrid& grid, RasterGrid::Cell cell);
 RasterGrid::Cell cell_of(const RasterGrid& grid, std::size_t element);
 
-/// Those of the targets that have ground under them.
+/// Returns those of the targets that have ground under them.
 DemandSet with_ground(const Store& store, const SiteTargets& targets, Progress& progress);
 
-/// Everything within the radius of a site, with or without ground.
+/// Returns all targets within the radius of a site, with or without ground.
 DemandSet within_reach(const SiteTargets& targets, Point2 position, double radius);
 
-/// The bounds on what each site serves take no more bytes than this; see SiteSurvey::memory_bytes.
+/// Returns the most bytes that the bounds on what each site serves take; see SiteSurvey::memory_bytes.
 std::uint64_t bytes_of_coverage(const SiteSurvey& survey);
 
 class SiteCoverage final : public Coverage {
  public:
-  /// The store and the progress must outlive it. Before explore() all that is known is the radius. Throws
-  /// InputError, also where three quarters of memory_bytes do not hold what each site may serve.
+  /// Prepares the survey; the store and the progress must outlive it. Before explore() the bounds know only the radius.
+  /// Throws InputError, also where three quarters of memory_bytes do not hold what each site may serve.
   SiteCoverage(const Store& store, SiteSurvey survey, Progress& progress);
   SiteCoverage(const Store&& store, SiteSurvey survey, Progress& progress) = delete;
   ~SiteCoverage() override;
 
   const CoverageBounds& bounds(std::size_t option) const override;
-  /// Throws as compute_certified() does.
+  /// Takes each of the options one stage further. Throws as compute_certified() does.
   void refine(std::span<const std::size_t> options) override;
-  /// At every option that was not looked at yet.
+  /// Judges, at the first stage, every option that was not judged yet.
   void explore();
-  /// Frees the memory of the surfaces. They are read again where options are refined after this.
+  /// Frees the memory of the surfaces. Refining options after this reads the surfaces again.
   void release_surfaces();
 
-  /// How often an option was refined after the first stage, and how often that can be at most.
+  /// Return how often an option was refined after the first stage, and how often it can be at most.
   int stage(std::size_t option) const;
   int last_stage() const;
-  /// The bounds of an option after the first pass.
+  /// Returns the bounds of an option after the first stage.
   const CoverageBounds& first_bounds(std::size_t option) const;
-  /// In words: "tolerance 4 m", "exact", ...
+  /// Returns the stage in words: "tolerance 4 m", "exact", ...
   std::string stage_name(int stage) const;
-  /// Puts back what an earlier run had found. Precondition: it is of the same survey.
+  /// Restores the stage and bounds that an earlier run had found. Precondition: that run was of the same survey.
   void restore(std::size_t option, int stage, const CoverageBounds& bounds);
-  /// Is told of every option looked at again, after each stage.
+  /// A function that is called for every option judged, after each stage.
   std::function<void(std::size_t option, int stage, const CoverageBounds& bounds)> on_refined;
 
   const Statistics& statistics() const;
-  /// Whether ground without data may leave open what the sites serve: the rule is kUnknown, and a sight line may cross
-  /// it. What they serve if it hides nothing, a survey under kClear tells.
+  /// Tells whether ground without data may leave open what the sites serve: the rule is kUnknown, and a sight line may
+  /// cross such ground. A survey under kClear tells what the sites serve if that ground hides nothing.
   bool leaves_open() const;
 
  private:

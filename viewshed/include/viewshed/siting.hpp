@@ -1,4 +1,4 @@
-// Which few of many sites serve the most, chosen on bounds of what each serves, as if everything were known exactly.
+// Chooses the few of many sites that serve the most. Bounds on what each serves suffice for the exact choice.
 //
 //   // `coverage` is a SiteCoverage, or any other Coverage of these options.
 //   const viewshed::Demand demand(viewshed::element_count(grid));
@@ -8,21 +8,20 @@
 //
 // Coverage comes with two sets for each option: what it certainly serves, and what it may serve. Lazy greedy (Minoux
 // 1978) takes the option of the greatest upper bound; where its bounds leave open whether it is the best, it is refined
-// and looked at again. An option whose upper bound never comes first need not be refined, ever: the choice is what
-// greedy makes of exact coverage, ties falling to the option that comes first. Swaps of one chosen site for another
-// follow, under the same rule, until none gains. Where a count allows no more than a thousand choices, all are looked
-// at.
+// and judged again. An option whose upper bound never comes first is never refined. Still the choice is the one that
+// greedy makes on exact coverage, ties falling to the option that comes first. Swaps of one chosen site for another
+// follow, under the same rule, until none gains. Where a count allows no more than a thousand choices, all are tried.
 //
-// An element served by fewer than `cover` sites counts for nothing in the value; greedy and swaps work on the sum of
-// min(served, cover), of which it is a bound, and which is submodular.
+// An element served by fewer than `cover` sites counts for nothing in the value. Greedy and swaps work on the sum of
+// min(served, cover), which is submodular and bounds the value.
 //
-// Over a network of links a step takes an option with the relays on its cheapest way, the best by gain per site (or per
-// unit of cost), and sites that have become needless are given up. Every choice on the way is connected.
+// Over a network of links, each step adds an option together with the relays on its cheapest way: the best by gain per
+// site (or per unit of cost). Sites that have become needless are given up. Every choice on the way is connected.
 //
-// Turbines are placed where the fewest see them: Objective::kLeast asks for so many options that together serve the
-// least. The options that `compatible` keeps apart are the edges of a graph. Greedy adds the option that serves the
-// least more, among those that leave room for as many as are still missing (a set of options that fits is carried
-// along), and the same swaps follow. Both look only at lower bounds until an option comes first, so that one which may
+// Turbines are placed where the fewest see them: Objective::kLeast asks for `count` options that together serve the
+// least. The pairs of options that `compatible` keeps apart are the edges of a graph. Greedy adds the option that adds
+// the least, among those that leave room for as many as are still missing (a set of options that fits is carried
+// along). The same swaps follow. Both use only lower bounds until an option comes first, so that an option which may
 // serve much is never refined.
 //
 // The bound from below is a Lagrangian one:
@@ -32,10 +31,9 @@
 // 3. So no choice pays more for an element than its weight, and none pays more in all than it serves.
 // 4. The options that pay least, one of each group that excludes each other, therefore pay no more than the least
 //    choice serves. Raising u of those that pay least tightens the bound.
-// Branch and bound follows for as long as a second or so: first the node of the
-// least bound, at an option where the payments are most wrong. Where it ends before that, as it mostly does among some
-// hundreds of options, the choice is proved to be the least; otherwise the bound of the best open node is what is
-// proved.
+// Branch and bound follows, for about a second at most. It takes the node of the least bound first, and branches at an
+// option where the payments are most wrong. Where it ends in time, as it mostly does among some hundreds of options,
+// the choice is proved to be the least; otherwise the bound of the best open node is what is proved.
 #pragma once
 
 #include <cstddef>
@@ -59,7 +57,7 @@ struct SiteOption {
 struct CoverageBounds {
   DemandSet certain;
   DemandSet possible;  ///< holds `certain`
-  bool exact = false;  ///< then both are the same
+  bool exact = false;  ///< whether the coverage is known: then both are the same
 };
 
 /// Bounds on what each option serves, which become tighter and tighter.
@@ -67,25 +65,25 @@ class Coverage {
  public:
   virtual ~Coverage() = default;
   virtual const CoverageBounds& bounds(std::size_t option) const = 0;
-  /// Makes the bounds of each option tighter; in finitely many calls an option's become exact. Not called for those
-  /// that are. May refine others at the same time.
+  /// Makes the bounds of each option tighter; after finitely many calls an option's bounds are exact. Not called for
+  /// options whose bounds are exact. May refine others at the same time.
   virtual void refine(std::span<const std::size_t> options) = 0;
 };
 
-/// Links among sites, which are numbered: the options first, behind them those that exist already. Keeps what it has
-/// learned of them. Not for concurrent use.
+/// The links among sites. Sites are numbered: the options first, then the existing sites. A network keeps the links
+/// that it has learned. Not for concurrent use.
 class LinkNetwork {
  public:
   /// Says which of `others` a site has links with. A link has no direction; each pair is asked about once at most.
   using Linked = std::function<std::vector<std::size_t>(std::size_t site, std::span<const std::size_t> others)>;
-  /// `hub` is one of the existing sites: every chosen site must reach it by chosen and existing sites. Without a hub
-  /// the chosen ones must reach each other so.
+  /// Builds a network. `hub` is one of the existing sites: every chosen site must reach it by way of chosen and
+  /// existing sites. Without a hub the chosen sites must reach each other so.
   LinkNetwork(std::size_t options, std::size_t existing, std::optional<std::size_t> hub, Linked linked);
 
   std::size_t options() const { return options_; }
   std::size_t sites() const { return sites_; }
   std::optional<std::size_t> hub() const { return hub_; }
-  /// Those of `others` that the site has links with.
+  /// Returns those of `others` that the site has links with.
   std::vector<std::size_t> linked(std::size_t site, std::span<const std::size_t> others);
 
  private:
@@ -105,34 +103,34 @@ enum class Objective {
 
 struct ChoiceGoal {
   Objective objective = Objective::kMost;
-  // At least one; the choice ends at the first that is reached.
+  // At least one of these three is given; the choice ends at the first that is reached.
   std::optional<std::size_t> count{};
   std::optional<double> budget{};  ///< the most that the sites may cost together
-  std::optional<Weight> wanted{};  ///< value, besides what existing sites serve
-  int cover = 1;                   ///< so many sites must serve an element, 1 to 255
+  std::optional<Weight> wanted{};  ///< the value to reach, besides what existing sites serve
+  int cover = 1;                   ///< how many sites must serve an element, 1 to 255
   std::vector<DemandSet> existing{};
   bool exact_chosen = true;  ///< false: bounds of chosen sites may stay open, and there are no swaps
   bool swaps = true;
-  std::function<bool(std::size_t a, std::size_t b)> compatible{};  ///< may both be chosen; not given: any two may
-  std::shared_ptr<LinkNetwork> network{};                          ///< holds the choice together; none: nothing need
-  std::size_t batch = 2;  ///< options refined together, at most; changes the speed, never the answer
+  std::function<bool(std::size_t a, std::size_t b)> compatible{};  ///< whether both may be chosen; empty: any two may
+  std::shared_ptr<LinkNetwork> network{};  ///< must connect the choice; null: no connection is needed
+  std::size_t batch = 2;                   ///< options refined together, at most; changes the speed, never the answer
 };
 
 struct ChosenSite {
   std::size_t option = 0;
-  Weight gain = 0;  ///< what it adds to the value, in this order
+  Weight gain = 0;  ///< how much the site adds to the value, in this order
   Weight cumulative = 0;
 };
 
-/// Why an option needed no more than its bounds.
+/// Why it sufficed to know bounds of an option.
 struct Margin {
-  double upper = 0;  ///< the best gain that its bounds allowed it (the least for kLeast), a unit of cost under a budget
-  double chosen = 0;  ///< that of the one taken instead
+  double upper = 0;   ///< the best gain within its bounds (the least for kLeast), per unit of cost under a budget
+  double chosen = 0;  ///< the gain of the option taken instead
   std::size_t step = 0;
-  bool taken = false;  ///< it was taken itself, and replaced afterwards if it is not among the chosen
+  bool taken = false;  ///< whether it was taken itself; then replaced if it is not among the chosen
 };
 
-/// 1 where the option could have been taken as well, less the farther it was from that.
+/// Returns 1 where the option could have been taken as well, and less the farther it was from that.
 double closeness(const Margin& margin, Objective objective);
 
 struct Choice {
@@ -146,20 +144,20 @@ struct Choice {
   std::vector<std::optional<Margin>> closest;  ///< per option: the step at which it came nearest to being taken
 };
 
-/// Throws InputError for a goal without an end, or one that its objective does not take, and Error where no choice
-/// within the goal reaches the network's hub, or not as many options as the least are asked of may be chosen together.
+/// Checks a goal. Throws InputError for a goal that never ends, or that its objective does not take. Throws Error where
+/// no choice within the goal reaches the network's hub, or where no `count` options for kLeast may be chosen together.
 void check_goal(const std::vector<SiteOption>& options, const ChoiceGoal& goal);
 
-/// Throws what check_goal() throws, Cancelled, and whatever refine() and the network throw.
+/// Chooses among the options. Throws what check_goal() throws, Cancelled, and whatever refine() and the network throw.
 Choice choose(const Demand& demand, const std::vector<SiteOption>& options, Coverage& coverage, const ChoiceGoal& goal,
               Progress& progress);
 
-/// What at least `cover` of the sets hold.
+/// Returns the elements that at least `cover` of the sets hold.
 DemandSet served_elements(const Demand& demand, const std::vector<DemandSet>& sets, int cover);
-/// The weight of that.
+/// Returns the weight of served_elements().
 Weight served_by(const Demand& demand, const std::vector<DemandSet>& sets, int cover);
 
-/// 100 (upper_bound - lower_bound) / upper_bound; 0 where there is nothing to gain.
+/// Returns 100 (upper_bound - lower_bound) / upper_bound; 0 where there is nothing to gain.
 double gap_percent(const Choice& choice);
 
 }  // namespace itin::viewshed

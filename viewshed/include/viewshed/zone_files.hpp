@@ -25,7 +25,7 @@ struct ZoneFile {
 
 struct ZoneFileOptions {
   std::string crs_wkt;
-  std::vector<std::pair<std::string, std::string>> metadata;  ///< into every raster
+  std::vector<std::pair<std::string, std::string>> metadata;  ///< written into every raster
 };
 
 struct RadioLink {
@@ -40,32 +40,33 @@ struct LinkStudy {
   double rotor_radius_m = 0;  ///< the greatest of the turbines
 };
 
-/// The farms of a zone in the order of their first turbines.
+/// Returns the farms of a zone in the order of their first turbines.
 std::vector<std::string> farms_of(const Zone& zone);
 
-/// Throws FileError. Existing files are replaced.
+/// Writes the rasters of visibility, replacing existing files. Throws FileError.
 std::vector<ZoneFile> write_zone_rasters(const std::string& folder, const Zone& zone, const ZoneFileOptions& options);
 
-/// radar-height.tif, where the zone has a radar, and radar-height-undecided.tif where that leaves_open(); and
-/// link-exclusion.tif, of rotors of that radius, where links are given: ground counts for nothing there, and so none
-/// that is missing. Throws FileError.
+/// Write radar-height.tif, where the zone has a radar, with radar-height-undecided.tif where RadarView::leaves_open();
+/// and link-exclusion.tif, for rotors of the study's radius, where links are given. Ground has no part in the exclusion
+/// of links, so that missing ground has none either. Throw FileError.
 std::vector<ZoneFile> write_radar_raster(const std::string& folder, const Zone& zone, const ZoneFileOptions& options);
 std::vector<ZoneFile> write_link_raster(const std::string& folder, const Zone& zone, const ZoneFileOptions& options,
                                         const LinkStudy& study);
 
-/// The banded counts of tips, and the combinations of farms where there are several, as GeoPackages. Counts have a
-/// class for cells of which it is undecided whether any is seen. Throws FileError.
+/// Writes the banded counts of tips, and the combinations of farms where there are several farms, as GeoPackages.
+/// Counts have a class for cells from which it is undecided whether any turbine is seen. Throws FileError.
 std::vector<ZoneFile> write_zone_polygons(const std::string& folder, const Zone& zone, const ZoneFileOptions& options);
 
-/// km2 by band of counts and by ring of distance to the nearest turbine, as CSV. Every cell with a value is in one band
-/// and one ring; shares are of the ring's part with data, whose share of the ring follows. The last column is how much
-/// of the area leaves some turbine undecided.
+/// Returns km2 by band of counts and by ring of distance to the nearest turbine, as CSV. Every cell with a value is in
+/// one band and one ring. Shares are of the part of the ring that has data; the share of the ring that has data
+/// follows. The last column is how much of the area leaves some turbine undecided.
 std::string area_table(const Zone& zone);
-/// km2 over all rings by band of counts and by combination of farms, as CSV, with rows of any turbine seen and of all,
-/// and the same last column.
+/// Returns km2 over all rings by band of counts and by combination of farms, as CSV, with rows for any turbine seen and
+/// for all seen. The last column is that of area_table().
 std::string area_totals(const Zone& zone);
 
-/// What the values of farms.tif stand for and km2 of each, the largest first, as CSV, with what is undecided likewise.
+/// Returns what the values of farms.tif stand for and km2 of each, the largest first, as CSV; the undecided area has a
+/// column as in area_table().
 std::string combination_table(const Zone& zone);
 
 }  // namespace itin::viewshed

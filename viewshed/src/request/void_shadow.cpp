@@ -28,7 +28,7 @@ double VoidShadow::dot(const Vector& a, const Vector& b) {
   return a.x * b.x + a.y * b.y;
 }
 
-/// Whether a place on the line's straight lies on it, past the eye.
+/// Tells whether a place on the straight line through `line` lies on it, past the eye.
 bool VoidShadow::reaches(const Vector& line, const Vector& place) {
   return dot(line, place) > 0 && dot(place, place) <= dot(line, line);
 }
@@ -45,7 +45,7 @@ VoidShadow::VoidShadow(const std::vector<RimEdge>& rim, const Point3& eye, NoDat
   }
   sectors_.resize(kSectors);
   for (std::uint32_t i = 0; i < edges_.size(); ++i) {
-    // From the right side an edge runs clockwise; a sector more on both sides, against rounding.
+    // From its right side an edge runs clockwise. One sector more on both sides guards against rounding.
     const Edge& edge = edges_[i];
     const bool away = faces_away(edge);
     const std::size_t end = (sector_of(away ? edge.to : edge.from) + 1) % kSectors;
@@ -72,8 +72,8 @@ bool VoidShadow::holds(double x, double y) const {
   });
 }
 
-/// Whether the line from the eye comes to this corner of the rim across ground without data. The first of all edges
-/// that end there, clockwise from the line, tells on which side of it that lies.
+/// Tells whether the line from the eye comes to this corner of the rim across ground without data. The first of all
+/// edges that end in the corner, clockwise from the line, tells on which side of it the line lies.
 bool VoidShadow::comes_from_void(const Numbers& edges, const Vector& corner) const {
   const Vector to_eye{-corner.x, -corner.y};
   double nearest = kTurn;

@@ -20,27 +20,28 @@ namespace itin::viewshed {
 
 class VoidShadow {
  public:
-  /// Grid units; what lies in it is hidden under kBlock and undecided under kUnknown. Cost: the edges, each as often as
-  /// the sectors of the horizon it spans, if any faces away from the eye.
+  /// Finds the shadow of an eye, in grid units. Places in it are hidden under kBlock and undecided under kUnknown.
+  /// Cost: the number of edges; if any faces away from the eye, each counts as often as the sectors of the horizon it
+  /// spans.
   VoidShadow(const std::vector<RimEdge>& rim, const Point3& eye, NoData rule = NoData::kBlock);
 
-  /// Whether the line from the eye to a place comes back to the surface, be it at the place itself, but not at the
-  /// eye's own. Both lie on the surface. Cost: the edges of one sector.
+  /// Tells whether the line from the eye to a place comes back to the surface, be it at the place itself, but not at
+  /// the eye's own place. Both lie on the surface. Cost: the edges of one sector.
   bool holds(double x, double y) const;
 
-  /// What it makes of a visible cell: Verdict::kHidden, or Verdict::kUndecided under kUnknown.
+  /// Returns what a visible cell in the shadow becomes: Verdict::kHidden, or Verdict::kUndecided under kUnknown.
   Verdict shaded() const { return shaded_; }
 
-  /// Each of the tile's cells that is Verdict::kVisible and lies in it becomes shaded().
+  /// Sets each of the tile's cells that is Verdict::kVisible and lies in the shadow to shaded().
   void apply_to(const TileCentres& centres, TileValues<Verdict>& values) const;
 
  private:
-  /// From the eye, grid units.
+  /// A vector from the eye, grid units.
   struct Vector {
     double x = 0, y = 0;
     friend bool operator==(const Vector&, const Vector&) = default;
   };
-  /// The surface is to the left of from -> to.
+  /// An edge of the rim. The surface is to the left of from -> to.
   struct Edge {
     Vector from, to;
   };
@@ -54,15 +55,15 @@ class VoidShadow {
 
   Point3 eye_;
   Verdict shaded_;
-  std::vector<Edge> edges_;       ///< none where no edge faces away
-  std::vector<Numbers> sectors_;  ///< clockwise from the south; as edges_
+  std::vector<Edge> edges_;       ///< empty where no edge faces away
+  std::vector<Numbers> sectors_;  ///< clockwise from the south; empty where edges_ is
 };
 
-/// Holds what ground without data, beyond this rim, hides from the eye or leaves undecided; null where that changes
+/// Returns the shadow of ground without data beyond this rim, as seen from the eye; null where the shadow changes
 /// nothing in the result.
 std::shared_ptr<const VoidShadow> shadow_of(const Eye& eye, const std::vector<RimEdge>& rim, const Result& result);
 
-/// Whether a sight line from a place to another within the radius, metres, may cross ground without data.
+/// Tells whether a sight line from the position to a place within the radius, metres, may cross ground without data.
 bool may_cross_voids(const Grid& units, const std::vector<RimEdge>& rim, Point2 position, double radius);
 /// Finds out whether sight lines of the result's request may cross ground without data. `rim` is where the surface
 /// ends, in these units.

@@ -68,7 +68,7 @@ std::vector<std::uint8_t> rings_of_cells(const Rings& rings, const RasterGrid& g
   return found;
 }
 
-/// How many cells of each ring have no ground, on the raster and beyond it.
+/// Counts the cells of each ring that have no ground, on the raster and beyond it.
 std::vector<double> cells_without_ground(const Zone& zone, const Rings& rings) {
   std::vector<double> counts(rings.size());
   const auto add = [&](const RasterGrid& grid, const std::vector<std::uint8_t>& cells, double each) {
@@ -124,8 +124,8 @@ class AreaTable {
  private:
   const Zone& zone_;
   Rings rings_;
-  std::vector<std::uint8_t> ring_of_;   ///< each cell with ground
-  std::vector<double> without_ground_;  ///< cells of each ring
+  std::vector<std::uint8_t> ring_of_;   ///< the ring of each cell with ground
+  std::vector<double> without_ground_;  ///< how many cells without ground each ring has
   std::string text_;
 };
 

@@ -14,7 +14,7 @@ namespace itin::viewshed {
 
 namespace {
 
-/// As many of km2 as tell one cell from two.
+/// Returns how many decimals of km2 tell one cell from two.
 int decimals(const Zone& zone) {
   return static_cast<int>(std::clamp(1 + std::ceil(-std::log10(zone.grid.cell_area() / 1e6)), 2.0, 6.0));
 }

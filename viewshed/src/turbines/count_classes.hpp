@@ -1,4 +1,4 @@
-// The classes of cells that maps, polygons and tables have of how many turbines are seen.
+// The classes into which maps, polygons and tables sort cells by how many turbines are seen.
 //
 //   const CountClasses classes(zone, zone.bare.tip_count, zone.bare.tip_undecided);
 //   if (const auto c = classes.of(cell)) ++cells[*c];
@@ -16,16 +16,16 @@ namespace itin::viewshed {
 
 class CountClasses {
  public:
-  /// Takes those of hubs or of tips. All must outlive it.
+  /// Takes the counts of hubs or of tips. All arguments must outlive the classes.
   CountClasses(const Zone& zone, const std::vector<std::uint16_t>& counts, const std::vector<std::uint16_t>& undecided);
 
-  /// None, then the bands of counts; and last, where the zone leaves_open(), a class of cells of which it is undecided
-  /// whether any turbine is seen.
+  /// Returns the classes: none seen; the bands of counts; and last, where the zone leaves_open(), the cells from which
+  /// it is undecided whether any turbine is seen.
   const std::vector<ValueBand>& classes() const { return classes_; }
   bool is_undecided(std::size_t of_class) const { return of_class == undecided_class_; }
-  /// The class of a cell; nothing where it has no value.
+  /// Returns the class of a cell; nothing where the cell has no value.
   std::optional<std::size_t> of(std::size_t cell) const;
-  /// Whether ground without data leaves open how many are seen.
+  /// Tells whether ground without data leaves open how many turbines are seen from a cell.
   bool is_open(std::size_t cell) const { return undecided_class_ && of(cell) && undecided_[cell] > 0; }
 
  private:

@@ -61,7 +61,7 @@ bool has_value(const Visibility& visibility, std::size_t cell) {
   return visibility.tip_count[cell] != kCountOutside;
 }
 
-/// Those of the whole zone, bare or screened, in an order of their own: none is the first.
+/// Returns the sets of the whole zone, bare or screened, sorted, the empty set first.
 std::vector<FarmSet> sets_present(const Zone& zone, const FarmSets& sets) {
   std::set<FarmSet> present{FarmSet(bit_grids(sets.names().size()))};
   const auto add = [&](const Visibility& visibility) {
@@ -76,7 +76,7 @@ std::vector<FarmSet> sets_present(const Zone& zone, const FarmSets& sets) {
   return {present.begin(), present.end()};
 }
 
-/// The combinations of cells of which ground without data leaves some turbine undecided alone.
+/// Returns the combinations of only those cells from which some turbine is undecided; kOutsideFarms elsewhere.
 std::vector<std::uint32_t> where_open(std::vector<std::uint32_t> farms, const Visibility& visibility) {
   for (std::size_t i = 0; i < farms.size(); ++i)
     if (visibility.tip_undecided.empty() || visibility.tip_undecided[i] == 0) farms[i] = kOutsideFarms;

@@ -22,9 +22,9 @@ namespace itin::viewshed {
 
 namespace {
 
-/// The coarse surfaces have so much fewer points than the full one.
+/// The full surface has at least this many times the points of the coarse surfaces.
 constexpr std::uint64_t kEnclosingShare = 2;
-/// Points of the bare ground beneath one roof.
+/// The number of points of the bare ground beneath one roof.
 constexpr double kPointsPerTile = 8;
 
 Envelope enclosing(const Store& store, const ThemeChoice& themes, const Window& window, Progress& progress) {
@@ -42,7 +42,7 @@ bool may_tell_open_lines(const Store& store, const ZoneRequest& request) {
   return store.metadata().levels.size() > 1 && level_within(store.metadata(), request.detail.coarsest()) == 0;
 }
 
-/// The lines of one tile to one turbine after another.
+/// Marks the open lines from one tile, to one turbine after another.
 class OpenLines::TileMarker {
  public:
   TileMarker(const OpenLines& lines, const FullSurface& ground, std::size_t tile, Visibility& open)
@@ -75,7 +75,7 @@ class OpenLines::TileMarker {
     if (bundle.from_z < kInfinity) lines_.pyramid_->search(bundle, [&](std::uint32_t roof) { needed.add(roof / 2); });
   }
 
-  /// Marks cells likewise, and adds their lines to the bundle.
+  /// Marks the cells of the block that are not hidden for certain, and adds their lines to the bundle.
   void mark(const CellBlock& block, LineBundle& bundle) {
     if (block.side() > kSmallest) {
       for_each_quarter(block, [&](const CellBlock& quarter) {
@@ -110,7 +110,7 @@ class OpenLines::TileMarker {
     return {p.x, p.y, lines_.zone_.ground_m[turbine_] / lines_.units_.resolution};
   }
 
-  /// Where there is ground.
+  /// Visits the eyes of the block's cells that have ground.
   template <class Visit>
   void for_each_eye(const CellBlock& block, const Visit& visit) const {
     for_each_cell(block, [&](std::size_t cell) {
@@ -161,7 +161,7 @@ void OpenLines::view_turbines() {
 }
 
 void OpenLines::roof_tiles() {
-  // Beyond all rounding of places and heights.
+  // Margins beyond all rounding of places and heights.
   constexpr std::int32_t kBeside = 2, kAbove = 2;
   roofs_.grid = units_;
   for (std::size_t tile = 0; tile < tiles_->count(); ++tile) {

@@ -27,17 +27,19 @@
 
 namespace itin::viewshed {
 
-/// Whether lines over the zone's surface with features can be told open: at full detail, in a store of several levels.
+/// Tells whether the open lines over the zone's surface with features can be found: at full detail, in a store of
+/// several levels.
 bool may_tell_open_lines(const Store& store, const ZoneRequest& request);
 
 class OpenLines {
  public:
-  /// Retrieves the coarse surfaces within the window, which holds all lines. Store and zone must outlive this.
+  /// Retrieves the coarse surfaces within the window, which holds all lines. Store and zone must outlive this object.
   /// Precondition: may_tell_open_lines().
   OpenLines(const Store& store, const Zone& zone, const Window& window, Progress& progress);
 
-  /// Sets the bits of `open.turbines` of all lines that are left from the cells of these tiles. Returns where they may
-  /// be hidden; nothing where none is left. Eyes stand on `ground`, whose grid is the zone's. Throws Cancelled.
+  /// Sets the bits in `open.turbines` of all lines from the cells of these tiles that are left open. Returns the ground
+  /// where features may hide them; nothing where no line is left open. Eyes stand on `ground`, whose grid is the
+  /// zone's. Throws Cancelled.
   std::optional<Window> mark(const FullSurface& ground, std::span<const std::size_t> tiles, Visibility& open,
                              Progress& progress) const;
 
@@ -56,7 +58,7 @@ class OpenLines {
   std::optional<EnvelopeBounds> bounds_;
   std::vector<HorizonView> views_;  ///< one for each turbine
   std::optional<GroundTiles> tiles_;
-  Tin roofs_;  ///< above each tile two level triangles as high as anything on it
+  Tin roofs_;  ///< above each tile, two level triangles as high as anything on the tile
   std::optional<HeightPyramid> pyramid_;
 };
 

@@ -22,7 +22,7 @@ Eye eye_of_radar(const Grid& units, std::optional<double> ground_m, const ZoneRe
 struct RadarSurvey::Screen {
   const FullSurface& ground;
   const RadialSweep::View& view;
-  const std::optional<VoidShadow>& shadow;  ///< behind ground without data; nothing where no line crosses any
+  const std::optional<VoidShadow>& shadow;  ///< nothing where no line crosses ground without data
 
   bool shades(Point2 units) const { return shadow && shadow->holds(units.x, units.y); }
 };

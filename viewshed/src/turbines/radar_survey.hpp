@@ -1,6 +1,6 @@
-// How high something must stand to rise above a radar's horizon.
+// The least height at which something rises above a radar's horizon.
 //
-//   RadarSurvey radar(units, ground_m, zone);      // zone.radar knows of nothing seen yet
+//   RadarSurvey radar(units, ground_m, zone);      // zone.radar has no findings yet
 //   radar.run(surface, part, stage);               // for every part
 #pragma once
 
@@ -18,10 +18,12 @@ namespace itin::viewshed {
 
 class RadarSurvey {
  public:
-  /// `ground_m` is under the zone's radar. The zone must outlive it. Throws InputError where there is none.
+  /// Takes the elevation of the ground under the zone's radar. The zone must outlive the survey. Throws InputError
+  /// where there is no such ground.
   RadarSurvey(const Grid& units, std::optional<double> ground_m, Zone& zone);
 
-  /// Enters what is seen over the tiles and of the turbines that the part has for the radar. Every tile is a step.
+  /// Enters the least visible heights over the part's radar_tiles, and what the radar sees of its radar_turbines. Every
+  /// tile is a step.
   void run(const FullSurface& ground, const ZonePart& part, Stage& stage);
 
  private:

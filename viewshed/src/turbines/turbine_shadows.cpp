@@ -10,7 +10,7 @@ namespace itin::viewshed {
 
 namespace {
 
-/// The part of the rim that lines within the turbine's radius may cross.
+/// Returns the part of the rim that lines within the turbine's radius may cross.
 std::vector<RimEdge> rim_about(const Turbine& turbine, const FullSurface& ground) {
   const Box within =
       square_about(place_in_units(ground.units(), turbine.position), turbine.radius / ground.units().resolution + 1);

@@ -1,4 +1,4 @@
-// What ground without data hides from a turbine, or leaves undecided.
+// The places that ground without data hides from a turbine, or leaves undecided.
 //
 //   const TurbineShadows shadows = shadows_of_turbines(ground, zone);
 //   if (shadows[turbine] && shadows[turbine]->holds(eye.x, eye.y)) ...
@@ -14,10 +14,11 @@
 
 namespace itin::viewshed {
 
-/// One for each turbine of the zone: nothing where no sight line to it crosses ground without data and comes back.
+/// A shadow for each turbine of the zone; nothing where no sight line to the turbine leaves the data and comes back.
 using TurbineShadows = std::vector<std::optional<VoidShadow>>;
 
-/// The ground may be that of a part of the zone (turbines/zone_parts.hpp): it then tells of the lines of that part.
+/// Finds the shadows of all turbines. The ground may be that of a part of the zone (turbines/zone_parts.hpp); the
+/// shadows then hold for the lines of that part.
 TurbineShadows shadows_of_turbines(const FullSurface& ground, const Zone& zone);
 
 }  // namespace itin::viewshed

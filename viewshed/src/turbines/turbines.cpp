@@ -25,7 +25,7 @@ namespace itin::viewshed {
 
 namespace {
 
-/// Tiles to look from or over, each over the ground and, of the turbines, over what screens.
+/// Counts the tiles surveyed: each over the ground and, for turbines, also over the surface that screens.
 std::size_t steps_of(const std::vector<ZonePart>& parts, bool screened) {
   std::size_t steps = 0;
   for (const ZonePart& part : parts) steps += (screened ? 2 : 1) * part.tiles.size() + part.radar_tiles.size();
@@ -35,19 +35,20 @@ std::size_t steps_of(const std::vector<ZonePart>& parts, bool screened) {
 /// Surveys the parts of a zone, one after another.
 class ZoneWork {
  public:
-  /// `ground` tells that under the radar, metres. Throws InputError where there is none.
+  /// Prepares the surveys; `ground` gives the elevation under the radar, metres. Throws InputError where there is no
+  /// ground.
   template <class Ground>
   ZoneWork(const Grid& units, const Ground& ground, Zone& zone) : zone_(zone) {
     if (const auto& radar = zone.request.radar) radar_.emplace(units, ground(radar->position), zone);
   }
 
-  /// What stands on the ground, and hides.
+  /// The surface with features, which screens.
   struct Screen {
     const FullSurface& surface;
-    bool open_alone = false;  ///< it may lie beneath lines alone that are marked as open (open_lines.hpp)
+    bool open_alone = false;  ///< whether the surface may cover only the ground beneath open lines (open_lines.hpp)
   };
 
-  /// There is no screen where the part has no turbines to look for, or nothing screens them.
+  /// Surveys a part. There is no screen where the part has no turbines to look for, or nothing screens them.
   void survey(const FullSurface& ground, const std::optional<Screen>& screen, const ZonePart& part, Stage& stage) {
     Stopwatch watch;
     if (!part.tiles.empty()) {
@@ -69,13 +70,13 @@ class ZoneWork {
   std::optional<RadarSurvey> radar_;
 };
 
-/// The share of the time, about, that reading takes.
+/// The share of the time that reading takes, about.
 constexpr double kReadingZone = 0.3;
 
 /// Reads the surfaces under the parts of a zone, one after another.
 class PartReader {
  public:
-  /// `whole` shows the progress of reading where there is but one part; else null.
+  /// Prepares to read. `whole` shows the progress of reading where there is only one part; else it is null.
   PartReader(const Store& store, Zone& zone, CallProgress* whole, Progress& progress)
       : store_(store), zone_(zone), tiles_(grid_of_tiles(zone.grid)), whole_(whole), quiet_(progress) {}
 
@@ -94,13 +95,14 @@ class PartReader {
     std::unique_ptr<OwnedSurface> surface;
     bool open_alone = false;
 
-    /// What that means to the lines over a part; nothing where no features were asked for.
+    /// Returns the screen for the lines over a part; nothing where no features were asked for.
     std::optional<ZoneWork::Screen> over(const FullSurface& ground) const {
       if (surface) return ZoneWork::Screen{surface->full, open_alone};
       return open_alone ? std::optional(ZoneWork::Screen{ground, true}) : std::nullopt;
     }
   };
-  /// With its features, all of it, or where it may rise into lines that are left open: marks these.
+  /// Reads the surface with features: all of the part, or only where features may rise into lines that are left open.
+  /// In the latter case, marks these lines.
   Screen screen(const ZonePart& part, const FullSurface& ground) {
     const ThemeChoice& themes = *zone_.request.themes;
     if (!may_tell_open_lines(store_, zone_.request)) return {read(part.window, themes), false};
@@ -111,7 +113,7 @@ class PartReader {
   void forget_time() { watch_.lap(); }
 
  private:
-  /// Marks them. Returns the ground that they need.
+  /// Marks the open lines. Returns the ground that they need.
   std::optional<Window> open_lines(const ZonePart& part, const FullSurface& ground) {
     const OpenLines open(store_, zone_, part.window, quiet_);
     zone_.statistics.retrieval += open.retrieval();
@@ -131,7 +133,7 @@ class PartReader {
   Stopwatch watch_;
 };
 
-/// The ground of the whole zone, where that is a lattice and the memory holds it.
+/// Reads the ground of the whole zone, where it is a lattice and the memory holds it.
 std::optional<Surface> lattice_under(const Store& store, const Zone& zone, Progress& progress) {
   std::uint64_t most_posts = kAnyLattice;
   if (const auto memory = zone.request.memory_bytes)

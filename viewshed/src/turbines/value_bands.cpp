@@ -14,7 +14,8 @@ namespace itin::viewshed {
 
 namespace {
 
-// From few to many, told apart over a grey base map with every kind of colour blindness (after Okabe and Ito).
+// Colours from few to many that are told apart over a grey base map with every kind of colour blindness (after Okabe
+// and Ito).
 constexpr std::array<Rgba, 8> kBands{{{240, 228, 66},
                                       {86, 180, 233},
                                       {0, 158, 115},
@@ -81,7 +82,7 @@ std::size_t band_of(const std::vector<ValueBand>& bands, double value) {
 
 Rgba distinct_colour(std::size_t index) {
   if (index < kBands.size()) return kBands[index];
-  // Further ones by golden angles about the circle of hues.
+  // Further colours are golden angles apart on the circle of hues.
   const double hue = std::fmod(static_cast<double>(index) * 0.61803398875, 1.0) * 6;
   const auto channel = [&](double shift) {
     const double d = std::abs(std::fmod(hue + shift, 6.0) - 3) - 1;

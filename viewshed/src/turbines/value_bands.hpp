@@ -10,35 +10,36 @@
 
 namespace itin::viewshed {
 
-/// What tables and styles call cells from which nothing is seen.
+/// The name in tables and styles of cells from which nothing is seen.
 inline constexpr const char* kNoneSeen = "none";
-/// Those of which ground without data leaves open whether anything is; in no colour of a band.
+/// The name and colour of cells from which ground without data leaves open whether anything is seen. No band has this
+/// colour.
 inline constexpr const char* kUndecidedSeen = "undecided";
 inline constexpr Rgba kUndecidedGrey{140, 140, 140};
 
-/// Values above the last band's limit up to this one.
+/// The band of the values above the previous band's limit, up to this one's.
 struct ValueBand {
   double to = 0;  ///< may be infinite
   std::string label;
   Rgba colour = {};
 };
 
-/// 0 (clear of colour), then 1 to `most` in bands up to these limits, the last one up to `most`; without limits in at
-/// most seven bands of equal width.
+/// Returns a band for 0 (transparent), then bands for 1 to `most` up to these limits, the last one up to `most`.
+/// Without limits there are at most seven bands of equal width.
 std::vector<ValueBand> count_bands(std::size_t most, std::vector<std::size_t> limits = {});
-/// 0 (clear of colour), then between the limits, the last open. `unit` as in "10 - 25 m".
+/// Returns a band for 0 (transparent), then bands between the limits, the last one open. `unit` is as in "10 - 25 m".
 std::vector<ValueBand> limit_bands(const std::vector<double>& limits, const std::string& unit);
-/// What parts diffraction losses, from slight to beyond use; dB.
+/// Limits of bands of diffraction losses, from slight to beyond use; dB.
 inline constexpr std::array<double, 4> kLossLimitsDb{6, 15, 30, 50};
-/// Those of shares of the ground, 0 to 1.
+/// Returns the bands of shares of the ground, 0 to 1.
 std::vector<ValueBand> share_bands();
-/// The band that holds a value: the first whose limit it does not exceed.
+/// Returns the band that holds a value: the first whose limit it does not exceed.
 std::size_t band_of(const std::vector<ValueBand>& bands, double value);
 
-/// Hues that are told apart, for classes without an order.
+/// Returns hues that are easily told apart, for classes without an order.
 Rgba distinct_colour(std::size_t index);
 
-/// A QGIS layer style that draws a raster of values in these bands, or of classes.
+/// Returns a QGIS layer style that draws a raster of values in these bands, or of classes.
 std::string banded_style(const std::vector<ValueBand>& bands);
 struct StyleClass {
   std::int64_t value = 0;

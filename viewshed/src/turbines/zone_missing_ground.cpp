@@ -9,7 +9,8 @@ namespace itin::viewshed {
 
 namespace {
 
-/// Calls found(place) on any thread for cells within the radii without ground. Returns how many they are.
+/// Calls found(place) on any thread for each cell within the radii that has no ground. Returns the number of these
+/// cells.
 template <class Found>
 std::uint64_t for_each_without_ground(const Zone& zone, const Found& found) {
   return for_each_cell_in_view(

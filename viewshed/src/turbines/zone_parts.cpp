@@ -26,7 +26,7 @@ namespace itin::viewshed {
 
 namespace {
 
-/// A disc about the farm's middle that holds every turbine's reach.
+/// Returns a disc about the farm's middle that holds every turbine's reach.
 Window::Polygon farm_disc(const std::vector<const Turbine*>& farm) {
   Box box;
   for (const Turbine* t : farm) box.extend(t->position);
@@ -37,7 +37,7 @@ Window::Polygon farm_disc(const std::vector<const Turbine*>& farm) {
   return Window::disc(middle, radius).parts().front();
 }
 
-/// Convex about the radar, the rest and all cells, so that it holds the radar's sight lines.
+/// Returns a convex window about the radar, the other parts and all cells, so that it holds the radar's sight lines.
 Window::Polygon box_with_radar(const std::vector<Window::Polygon>& parts, const ZoneRequest& request) {
   Box box = square_about(request.radar->position, 1);
   for (const Window::Polygon& part : parts)
@@ -46,7 +46,7 @@ Window::Polygon box_with_radar(const std::vector<Window::Polygon>& parts, const 
     const Box cells = request.grid->bounds();
     box.extend(Point2{cells.xmin, cells.ymin}), box.extend(Point2{cells.xmax, cells.ymax});
   }
-  // Cells that are aligned end less than one beyond the rest.
+  // Aligned cells end less than one cell beyond the other parts.
   const double beyond = request.cell_size.value_or(0);
   return Window::rectangle({box.xmin - beyond, box.ymin - beyond, box.xmax + beyond, box.ymax + beyond});
 }
@@ -65,7 +65,7 @@ std::vector<std::size_t> numbers_to(std::size_t count) {
   return numbers;
 }
 
-/// Bytes per triangle, as measured on OS Terrain 50: of one surface, and of two.
+/// Bytes per triangle of one surface, and of two, as measured on OS Terrain 50.
 constexpr double kBareGround = 160, kScreened = 270;
 
 class Partition {
@@ -100,7 +100,7 @@ class Partition {
       parts.push_back({window_of(ground), {ground.of.begin(), ground.of.end()}, {}, {}});
   }
 
-  /// Divides the survey of what the radar sees, over all cells and of all turbines.
+  /// Divides the survey of the radar, over all cells and of all turbines.
   void divide_radar(std::vector<ZonePart>& parts) const {
     const Point2 radar = zone_.request.radar->position;
     std::vector<Box> boxes;
@@ -122,7 +122,7 @@ class Partition {
   using Numbers = std::span<const std::size_t>;
   struct Ground {
     Numbers of;
-    std::vector<Point2> hull;  ///< holds all their sight lines
+    std::vector<Point2> hull;  ///< holds all sight lines of the tiles and turbines in `of`
   };
   static Window window_of(const Ground& ground) { return Window::polygons({{ground.hull, {}}}); }
 
@@ -131,7 +131,7 @@ class Partition {
     return bytes_per_triangle * triangles + static_cast<double>(bytes_of_results(zone_));
   }
 
-  /// Cuts them in halves until the ground under each fits.
+  /// Halves the numbers until the ground under each part fits.
   template <class HullOver>
   std::vector<Ground> divide(Numbers of, double bytes_per_triangle, const HullOver& hull_over) const {
     const auto ground = [](Numbers some) { return Ground{some, {}}; };

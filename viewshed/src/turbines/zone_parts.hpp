@@ -14,22 +14,23 @@
 
 namespace itin::viewshed {
 
-/// The part that one reading of the ground decides, or of the ground and of what stands on it.
+/// The part of a zone that is decided by reading the ground once, or the ground and what stands on it.
 struct ZonePart {
-  Window window;                            ///< holds every sight line of what follows
-  std::vector<std::size_t> tiles;           ///< places in grid_of_tiles(zone.grid): turbines are looked for from there
-  std::vector<std::size_t> radar_tiles;     ///< over their cells the radar's heights are looked for
-  std::vector<std::size_t> radar_turbines;  ///< indices in zone.request.turbines: those that the radar looks for
+  Window window;                            ///< holds every sight line of the members below
+  std::vector<std::size_t> tiles;           ///< places in grid_of_tiles(zone.grid) from which turbines are looked for
+  std::vector<std::size_t> radar_tiles;     ///< tiles over whose cells the radar's least visible heights are found
+  std::vector<std::size_t> radar_turbines;  ///< indices in zone.request.turbines of those that the radar looks for
 };
 
-/// Holds all lines to every turbine, and from the radar to them and to every cell.
+/// Returns a window that holds all lines to every turbine, and from the radar to the turbines and to every cell.
 Window window_of(const ZoneRequest& request);
 
 ZonePart whole_zone(const Zone& zone);
 
-/// One part of everything where the zone's memory_bytes hold that, or are not given. Else tiles in the order of their
-/// azimuth about the turbines, as many together as they hold, and then, over the bare ground alone, about the radar.
-/// Throws InputError where that is impossible, saying about how much is needed.
+/// Returns one part with everything where the zone's memory_bytes hold that, or are not given. Otherwise the tiles are
+/// sorted by azimuth about the turbines, and each part takes as many as fit into the memory; parts for the radar, over
+/// the bare ground alone, follow in the same way. Throws InputError where that is impossible, saying about how much is
+/// needed.
 std::vector<ZonePart> zone_parts(const Store& store, const Zone& zone, bool screened);
 
 }  // namespace itin::viewshed

@@ -21,7 +21,7 @@ std::vector<ZoneFile> write_radar_raster(const std::string& folder, const Zone& 
                     "no ground") +
             (open ? ", or undecided: see radar-height-undecided.tif" : ""),
         zone.radar->height_m);
-  // What is to stay out of a radar's sight must stay below this, too.
+  // A turbine that is to stay out of a radar's sight must stay below this height, too.
   if (open)
     write("radar-height-undecided",
           "least height above the ground that the radar may see, where ground without data alone leaves open whether "

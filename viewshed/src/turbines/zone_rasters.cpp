@@ -24,7 +24,7 @@ struct Quantity {
   std::vector<float> Visibility::*values;
   const char* what;
   const char* unit;
-  std::vector<double> limits;  ///< where its bands end
+  std::vector<double> limits;  ///< upper ends of its bands
 };
 
 const std::vector<Quantity>& quantities() {
@@ -73,11 +73,11 @@ const std::vector<Quantity>& quantities() {
   return kQuantities;
 }
 
-/// What is seen over one of the zone's surfaces.
+/// The visibility over one of the zone's surfaces.
 struct View {
   const Visibility& seen;
   std::string suffix;  ///< ends the names of its rasters
-  std::string remark;  ///< what each of them says besides
+  std::string remark;  ///< a remark added to the description of each raster
 };
 
 View view_over(const Zone& zone, const Visibility& seen, const std::string& suffix) {
@@ -106,7 +106,7 @@ void write_counts(const Zone& zone, const View& view, RasterFolder& folder) {
   write("undecided", undecided("tip"), view.seen.tip_undecided);
 }
 
-/// Whether any turbine of the first 32 is seen: which one it is, QGIS's identify tool tells.
+/// Returns a style that shows whether any of the first 32 turbines is seen. QGIS's identify tool tells which ones.
 std::string seen_style() {
   return banded_style(
       {{0, "none", kTransparent}, {4294967295.0, "some turbine of the first 32 seen", distinct_colour(3)}});
@@ -131,7 +131,7 @@ void write_quantities(const View& view, RasterFolder& folder) {
                  with_nodata(kNaN), banded_style(limit_bands(q.limits, q.unit)));
 }
 
-/// Where either has no value there is none: 65535 less 65535 must not become 0.
+/// Returns bare less screened. Where either has no value the difference has none: 65535 less 65535 must not become 0.
 template <class T>
 std::vector<float> difference(const std::vector<T>& bare, const std::vector<T>& screened, T none) {
   std::vector<float> result(bare.size());
@@ -153,7 +153,7 @@ void write_differences(const Zone& zone, RasterFolder& folder) {
   folder.write("tip-count-difference", what("tips seen"), difference(bare.tip_count, screened.tip_count, kCountOutside),
                with_nodata(kNaN), banded_style(bands));
   for (const Quantity& q : quantities()) {
-    // An azimuth's difference says nothing, nor does that of a distance that may not be there.
+    // The difference of azimuths means nothing, nor does that of distances of which one may be missing.
     if (q.values == &Visibility::horizontal_from_deg || q.values == &Visibility::nearest_m) continue;
     folder.write(fmt::format("{}-difference", q.name), what(q.what),
                  difference(bare.*q.values, screened.*q.values, std::numeric_limits<float>::quiet_NaN()),
@@ -161,7 +161,7 @@ void write_differences(const Zone& zone, RasterFolder& folder) {
   }
 }
 
-/// The commonest combinations in colours that are told apart.
+/// Returns a style that gives the commonest combinations colours that are told apart.
 std::string style_of_commonest(const std::vector<std::uint32_t>& farms, std::vector<Combination> present) {
   constexpr std::size_t kMostColours = 24;
   present = commonest_first(std::move(present), cells_by_combination(farms));
@@ -173,7 +173,8 @@ std::string style_of_commonest(const std::vector<std::uint32_t>& farms, std::vec
   return class_style(style);
 }
 
-/// Up to seven farms are classes of a Byte raster, with names and colours; more are numbers, whose names farms.csv has.
+/// Writes the raster of farms. Up to seven farms are classes of a Byte raster, with names and colours; the combinations
+/// of more farms are numbers, whose names farms.csv has.
 void write_farm_raster(const std::vector<std::uint32_t>& farms, const std::vector<Combination>& present,
                        std::size_t farm_count, const View& view, RasterFolder& folder) {
   const std::string name = "farms" + view.suffix;
@@ -213,7 +214,7 @@ void write_farm_rasters(const Zone& zone, const std::vector<View>& views, Raster
   if (zone.screened) write_farm_raster(screened, present, count, views.back(), folder);
 }
 
-/// Beside the others, whose cells without a value may be either.
+/// Writes the study area, since cells without a value in the other rasters may lie outside it or have no ground.
 void write_study_area(const Zone& zone, RasterFolder& folder) {
   constexpr std::uint8_t kNoGround = 0, kGround = 1, kOutsideStudy = 255;
   const std::vector<std::uint8_t> missing = cells_without_ground(zone);

@@ -63,7 +63,7 @@ void place_turbines(const std::function<std::optional<double>(Point2)>& ground, 
   zone.request.turbines = std::move(placed);
 }
 
-/// Finds whether sight lines may cross ground without data, where that does not count as clear.
+/// Finds out whether sight lines may cross ground without data, where such ground does not count as clear.
 void find_voids_of_zone(const Tin& outline, Zone& zone) {
   const ZoneRequest& request = zone.request;
   if (request.nodata == NoData::kClear) return;

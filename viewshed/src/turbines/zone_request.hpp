@@ -10,20 +10,22 @@
 
 namespace itin::viewshed {
 
-/// Throws InputError, naming the turbine or the option.
+/// Checks a request. Throws InputError, naming the turbine or the option.
 void validate(const ZoneRequest& request);
 
-/// The zone before any line of sight: its turbines on their ground, those without any among the misplaced, its grid
-/// over what of the outline's box lies within a radius, and no cell seen, nor with what `screens`. The outline is a
-/// surface that ends where the ground does, within all sight lines' reach; `ground` gives metres.
-/// Throws InputError where no turbine stands on the ground, and where the memory does not hold the results.
+/// Returns the zone before any sight line is cast: its turbines on their ground, turbines without ground among the
+/// misplaced, and no cell seen, nor screened if `screens`. Its grid covers the part of the outline's box that lies
+/// within a radius. The outline is a surface that ends where the ground does, within all sight lines' reach; `ground`
+/// gives metres. Throws InputError where no turbine stands on the ground, and where the memory does not hold the
+/// results.
 Zone lay_out(const ZoneRequest& request, const Tin& outline, const std::function<std::optional<double>(Point2)>& ground,
              bool screens);
 
-/// The memory of all results of the cells.
+/// Returns the memory that the results of all cells take.
 std::uint64_t bytes_of_results(const Zone& zone);
 
-/// How far the centre of a cell lies from a turbine in plan, metres squared; whether that is within its radius.
+/// Return how far the centre of a cell lies from a turbine in plan, metres squared; and whether that is within its
+/// radius.
 inline double squared_distance(const Turbine& turbine, const RasterGrid& grid, RasterGrid::Cell cell) {
   const double dx = grid.centre_x(cell.column) - turbine.position.x, dy = grid.centre_y(cell.row) - turbine.position.y;
   return dx * dx + dy * dy;
@@ -32,10 +34,10 @@ inline bool in_reach(const Turbine& turbine, const RasterGrid& grid, RasterGrid:
   return squared_distance(turbine, grid, cell) <= turbine.radius * turbine.radius;
 }
 
-/// Whether any turbine's hub is known: otherwise nothing is said of hubs.
+/// Tells whether any turbine's hub is known; otherwise no results of hubs are given.
 bool knows_hubs(const Zone& zone);
 
-/// What the zone looks at, as observers' fields of view: the turbines' radii.
+/// Returns a request whose observers' fields of view are the discs of the turbines' radii.
 Request view_of(const ZoneRequest& request);
 
 }  // namespace itin::viewshed

@@ -28,17 +28,17 @@ struct ZoneSurvey::TileSightings {
     open.fill(true);
     for (auto& word : seen) word.fill(0);
   }
-  const std::unique_ptr<FullSurface::TileCells> place;  ///< its targets are eyes, seen of the turbine at hand
+  const std::unique_ptr<FullSurface::TileCells> place;  ///< its targets are the eyes, as seen from the current turbine
   const Tile& tile;
   const TileCentres& centres;
   const TileValues<double>& ground;  ///< grid units
   TileValues<double> eyes;           ///< elevations, grid units
   TileValues<std::uint16_t> hubs, tips;
-  TileValues<std::uint16_t> open_hubs, open_tips;  ///< counts of what stands in the shadow of voids
+  TileValues<std::uint16_t> open_hubs, open_tips;  ///< counts of those in the shadow of voids
   TileValues<double> height, angle, angle_sum, nearest;
   std::vector<TileValues<std::uint32_t>> seen;
-  TileValues<bool> open;     ///< lines to the turbine at hand
-  std::vector<double> sums;  ///< by turbine
+  TileValues<bool> open;     ///< whether the line to the current turbine is open
+  std::vector<double> sums;  ///< one per turbine
   std::uint64_t lines = 0;
 };
 
@@ -70,7 +70,8 @@ std::uint64_t ZoneSurvey::run(const Screen& screen, std::span<const std::size_t>
   return lines;
 }
 
-/// Rounded so that sums are exact: the result depends on no order, and so on no division into parts.
+/// Adds the tiles' sums. The values are rounded so that sums are exact: the result then does not depend on the order,
+/// and so not on the division into parts.
 void ZoneSurvey::add_sums(const std::vector<std::vector<double>>& of_tiles, Visibility& result) const {
   double tallest = 0;
   for (const Turbine& t : zone_.request.turbines) tallest = std::max(tallest, t.tip_height);
@@ -84,7 +85,7 @@ ZoneSurvey::Views ZoneSurvey::views_over(const RadialSweep& sweep) const {
   Views views(axes_.size());
   parallel_for(views.size(), [&](std::size_t k) {
     const Axis& axis = axes_[k];
-    // Which cells lie within the radius is decided in metres.
+    // The reach is one unit wider than the radius, since the exact test of cells against the radius is in metres.
     const double reach = zone_.request.turbines[k].radius / ground_.units().resolution + 1;
     views[k].emplace(sweep.view_of({axis.x, axis.y, axis.base, axis.tip, reach}));
   });
@@ -112,7 +113,7 @@ std::uint64_t ZoneSurvey::decide(std::size_t tile, const Screen& screen, const V
   return work->lines;
 }
 
-/// Other eyes are taken out.
+/// Keeps only the eyes whose lines to the turbine are open.
 void ZoneSurvey::take_open_lines(std::size_t turbine, const Visibility& open, TileSightings& work) const {
   const RasterBit bit = turbine_bit(zone_.request.turbines[turbine].number);
   const std::uint32_t* const bits = open.turbines.data() + bit.grid * zone_.grid.cell_count();
@@ -122,7 +123,7 @@ void ZoneSurvey::take_open_lines(std::size_t turbine, const Visibility& open, Ti
   });
 }
 
-/// Whether a cell's centre may lie within the radius.
+/// Tells whether the centre of one of the tile's cells may lie within the radius.
 bool ZoneSurvey::in_reach(const Axis& axis, const Tile& tile) const {
   return squared_distance(axis.position, box_of_centres(zone_.grid, tile)) <= axis.radius_squared;
 }
@@ -152,7 +153,7 @@ void ZoneSurvey::observe(std::size_t turbine, const Screen& screen, const Radial
   });
 }
 
-/// The turbine is seen from the cell, down to `least` grid units of elevation.
+/// Records that the turbine is seen from the cell, down to `least` grid units of elevation.
 void ZoneSurvey::record(std::size_t turbine, std::size_t cell, double distance, double least,
                         TileSightings& work) const {
   const Axis& axis = axes_[turbine];

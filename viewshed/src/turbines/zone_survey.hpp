@@ -19,29 +19,30 @@ namespace itin::viewshed {
 
 class ZoneSurvey {
  public:
-  /// `zone` has its request, grid and ground; eyes stand on `ground`, whose grid is the zone's. All must outlive it.
+  /// Prepares the survey. `zone` has its request, grid and ground; eyes stand on `ground`, whose grid is the zone's.
+  /// Both must outlive the survey.
   ZoneSurvey(const FullSurface& ground, const Zone& zone);
 
-  /// The surface that hides, and what voids hide of each turbine or leave undecided.
+  /// The surface that hides, and the shadows of voids behind which each turbine is hidden or undecided.
   struct Screen {
     const RadialSweep& sweep;
     const TurbineShadows& shadows;
     bool open_alone = false;  ///< lines whose bits the result's `turbines` does not have yet are known to be hidden
   };
-  /// Enters what is seen from the cells of these tiles, each a step. Returns how many lines that took.
+  /// Enters what is seen from the cells of these tiles, each a step. Returns the number of lines that were cast.
   std::uint64_t run(const Screen& screen, std::span<const std::size_t> tiles, Visibility& result, Stage& stage) const;
 
  private:
   struct Axis {
     double x = 0, y = 0;       ///< grid units
     double base = 0, tip = 0;  ///< elevation, grid units
-    double hub = 0;            ///< -infinity where it is not known
+    double hub = 0;            ///< -infinity where the hub is not known
     Point2 position;
     double radius_squared = 0;  ///< metres squared
   };
   struct TileSightings;
 
-  /// The turbines over a surface.
+  /// Views of the turbines over a surface.
   using Views = std::vector<std::optional<RadialSweep::View>>;
   Views views_over(const RadialSweep& sweep) const;
   /// `sums` are the tile's part of the visible heights; empty where the request has no weights.

@@ -22,7 +22,8 @@ constexpr double kNarrowest = 0.5;  ///< metres
 
 class SurfaceBinner {
  public:
-  /// A quarter of the memory is for bins, as much for those that are divided, and the rest for what is read.
+  /// Divides the memory: a quarter is for bins, a quarter for bins that are divided, and the rest for triangles read at
+  /// once.
   SurfaceBinner(const Store& store, const SiteSurvey& survey, std::uint64_t bytes, Statistics& statistics)
       : store_(store),
         survey_(survey),
@@ -65,7 +66,7 @@ class SurfaceBinner {
 
   void add(const CellRectangle& piece, Progress& progress) {
     CallProgress call(progress);
-    // A little more, so that nothing at its edge is missing.
+    // Reads a little more than the piece, so that nothing at its edge is missing.
     const Box box = box_of(piece);
     const Window window = Window::box({box.xmin - 1, box.ymin - 1, box.xmax + 1, box.ymax + 1});
     const Tin surface = read(window, survey_.themes, call.step(0.5));
@@ -95,7 +96,7 @@ class SurfaceBinner {
 
   const Store& store_;
   const SiteSurvey& survey_;
-  std::uint64_t most_points_;  ///< that are read at once
+  std::uint64_t most_points_;  ///< the most points that are read at once
   Statistics& statistics_;
   BinnedSurface binned_;
   RasterGrid tiles_;  ///< its cells are tiles of bins

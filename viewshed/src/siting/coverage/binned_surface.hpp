@@ -1,6 +1,6 @@
-// The full surface, with what stands on it, as little as a first look from very many sites needs to know of it: how low
-// and how high it is within bins, and how high the ground under each target is. It is made once for all sites, piece by
-// piece, so that the memory need not hold the surface itself.
+// The full surface, with what stands on it, reduced to what a first look from very many sites needs: how low and how
+// high it is within bins, and how high the ground under each target is. It is made once for all sites, piece by piece,
+// so that the memory need not hold the surface itself.
 #pragma once
 
 #include <cstdint>
@@ -15,12 +15,13 @@ namespace itin::viewshed {
 
 struct BinnedSurface {
   SurfaceBins bins;
-  /// Under each cell of the targets' grid, row by row, or each point; grid units, kNoSurface where there is none.
+  /// The ground's height under each cell of the targets' grid, row by row, or under each point; grid units, kNoSurface
+  /// where there is no ground.
   std::vector<double> ground;
 };
 
-/// What lies within the radius of a site; the bins are as narrow as so many bytes allow, for them and what is read at
-/// once, but no narrower than half a metre. Throws as triangulate() does.
+/// Bins the surface within the radius of any site. `bytes` is the memory for the bins and for what is read at once; the
+/// bins are as narrow as it allows, but no narrower than half a metre. Throws as triangulate() does.
 BinnedSurface bin_surface(const Store& store, const SiteSurvey& survey, std::uint64_t bytes, Statistics& statistics,
                           Progress& progress);
 

@@ -27,7 +27,7 @@ class BinnedSurvey final : public GroupSurvey {
                                     Statistics& statistics) const override {
     std::vector<CoverageBounds> result =
         survey_.targets.grid ? judge_cells(sites, progress, statistics) : judge_points(sites, progress, statistics);
-    // What is in sight may lie behind missing ground, or its zone be cut.
+    // Targets in sight may lie behind missing ground, or have their Fresnel zone cut.
     if (survey_.nodata == NoData::kBlock || survey_.fresnel)
       for (std::size_t i = 0; i < result.size(); ++i) result[i].certain = sites.bounds[i]->certain;
     return result;

@@ -7,8 +7,8 @@
 
 namespace itin::viewshed {
 
-/// Whether a sight line from a site to a place within the radius may cross ground without data. Reads the outline of
-/// the data about all sites.
+/// Tells whether a sight line from a site to a place within the radius may cross ground without data. Reads the outline
+/// of the data about all sites.
 bool sites_may_cross_voids(const Store& store, const SiteSurvey& survey, Progress& progress);
 
 }  // namespace itin::viewshed

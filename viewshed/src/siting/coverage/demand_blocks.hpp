@@ -23,7 +23,7 @@ class DemandBlocks {
     return static_cast<unsigned>(cell.row % kSide * kSide + cell.column % kSide);
   }
   std::size_t element(RasterGrid::Cell cell) const { return std::size_t{64} * block(cell) + bit(cell); }
-  /// May lie outside the grid, for elements that are no cell.
+  /// Returns an element's cell; it lies outside the grid for elements that are padding.
   RasterGrid::Cell cell(std::size_t element) const {
     const auto b = static_cast<std::int64_t>(element / 64), i = static_cast<std::int64_t>(element % 64);
     return {b % columns_ * kSide + i % kSide, b / columns_ * kSide + i / kSide};

@@ -15,9 +15,9 @@ namespace itin::viewshed {
 
 namespace {
 
-/// Points of the full surface about each site.
+/// The number of points of the full surface that are read about each site.
 constexpr double kSiteNearPoints = 128;
-/// The share of the time, about, that reading one surface takes of reading two and judging.
+/// The share of the time that reading one surface takes, about, if two are read and judged.
 constexpr double kReadingGroup = 0.2;
 
 }  // namespace
@@ -64,7 +64,7 @@ Request GroupSurfaces::request_of(std::span<const std::size_t> options, bool the
   return request;
 }
 
-/// About all sites, whatever the group.
+/// Bins the surface about all sites, whatever the group.
 std::unique_ptr<GroupSurvey> GroupSurfaces::binned(Progress& progress) {
   Stopwatch watch;
   auto survey = survey_by_bins(store_, survey_, stages_.memory(), statistics_, progress);
@@ -78,7 +78,7 @@ std::unique_ptr<GroupSurvey> GroupSurfaces::exact_cells(const std::vector<std::s
   CallProgress call(progress);
   const Window window = window_about(survey_, group);
   const Detail full = Detail::tolerance(0);
-  // Zones are cut by triangles one by one.
+  // Fresnel zones are tested against single triangles, so that no lattice is read.
   const std::uint64_t most_posts = survey_.fresnel || stages_.casts_rays() ? 0 : kAnyLattice;
   Surface surface = whole_lattice_
                         ? std::move(*std::exchange(whole_lattice_, std::nullopt))
@@ -117,7 +117,7 @@ std::unique_ptr<GroupSurvey> GroupSurfaces::enveloped(const std::vector<std::siz
   return result;
 }
 
-/// Less about each site than a single viewshed reads: they are many.
+/// Reads less about each site than a single viewshed does, since the sites are many.
 EnvelopeRequest GroupSurfaces::what_to_read(const std::vector<std::size_t>& group, int level) const {
   EnvelopeRequest read;
   read.level = level;

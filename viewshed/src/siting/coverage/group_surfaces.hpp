@@ -19,23 +19,24 @@ namespace itin::viewshed {
 
 class GroupSurfaces {
  public:
-  /// All must outlive it. Counts into the statistics.
+  /// All arguments must outlive it. Readings are counted in `statistics`.
   GroupSurfaces(const Store& store, const SiteSurvey& survey, const SurveyStages& stages, Statistics& statistics);
 
-  /// Tries to read the full surface about all sites as a lattice, which takes little memory; but whether it is one is
-  /// known only then.
+  /// Tries to read the full surface about all sites as a lattice, which takes little memory. Only reading tells whether
+  /// the surface is a lattice.
   bool read_whole_lattice(Progress& progress);
 
-  /// The survey of a group over the surface of a stage. Throws as triangulate() does.
+  /// Returns the survey of a group over the surface of a stage. Throws as triangulate() does.
   std::unique_ptr<GroupSurvey> survey_of(const std::vector<std::size_t>& group, const StageSurface& surface,
                                          Progress& progress);
-  /// That over the full surface about all sites, which is kept. Precondition: the memory holds it.
+  /// Returns the survey over the full surface about all sites, which is kept. Precondition: the memory holds that
+  /// surface.
   const GroupSurvey& whole(const StageSurface& surface, Progress& progress);
-  /// Lets go of what is kept.
+  /// Frees the surveys that are kept.
   void release();
 
-  /// The request of some sites, over a surface with the themes or without. Without them targets on roofs are seen from
-  /// afar as some so high above the bare ground may be.
+  /// Returns the request of some sites, over a surface with the themes or without. Without the themes, targets on roofs
+  /// are raised above the bare ground so far that they are seen from wherever the real ones may be.
   Request request_of(std::span<const std::size_t> options, bool themed) const;
 
  private:
@@ -50,8 +51,8 @@ class GroupSurfaces {
   const SiteSurvey& survey_;
   const SurveyStages& stages_;
   Statistics& statistics_;
-  double raise_ = 0;                                   ///< metres: of targets on what stands, over the bare ground
-  std::optional<Surface> whole_lattice_;               ///< until it is looked at
+  double raise_ = 0;                      ///< metres by which targets on features are raised above the bare ground
+  std::optional<Surface> whole_lattice_;  ///< until a survey takes it
   std::array<std::unique_ptr<GroupSurvey>, 2> whole_;  ///< bare, and with the themes
 };
 

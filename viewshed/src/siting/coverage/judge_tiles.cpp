@@ -16,14 +16,14 @@ namespace itin::viewshed {
 
 namespace {
 
-constexpr std::int64_t kBlocks = Tile::kSide / DemandBlocks::kSide;  ///< a side of a tile
+constexpr std::int64_t kBlocks = Tile::kSide / DemandBlocks::kSide;  ///< blocks per side of a tile
 static_assert(Tile::kSide % DemandBlocks::kSide == 0);
 
 using TileWords = std::array<std::uint64_t, kBlocks * kBlocks>;
 
 /// The part of one tile that one option serves.
 struct TileCover {
-  std::size_t entry = 0;  ///< the option's place among those that are judged
+  std::size_t entry = 0;  ///< the option's index among those that are judged
   TileWords certain{}, possible{};
 
   bool any() const {
@@ -36,7 +36,7 @@ std::uint32_t block_of(const DemandBlocks& blocks, const Tile& tile, std::size_t
   return blocks.block({tile.column + n % kBlocks * DemandBlocks::kSide, tile.row + n / kBlocks * DemandBlocks::kSide});
 }
 
-/// Whether the grid reaches block `i` of the tile.
+/// Tells whether the grid reaches block `i` of the tile.
 bool in_grid(const Tile& tile, std::size_t i) {
   const auto n = static_cast<std::int64_t>(i);
   return n % kBlocks * DemandBlocks::kSide < tile.columns && n / kBlocks * DemandBlocks::kSide < tile.rows;
@@ -55,7 +55,8 @@ std::size_t cell_in_tile(std::size_t block, unsigned bit) {
   return row * Tile::kSide + column;
 }
 
-/// Opens in `values`, which are all outside, what the bounds leave open. Returns whether anything is.
+/// Sets the cells that the bounds leave open to kUndecided in `values`, which are all kOutside before. Returns whether
+/// there are any.
 bool open(const DemandBlocks& blocks, const Tile& tile, const CoverageBounds& bounds, TileCover& cover,
           TileValues<Verdict>& values) {
   bool any = false;
@@ -91,7 +92,7 @@ DemandSet set_of(std::vector<DemandSet::Block>& blocks) {
   return set;
 }
 
-/// What every site serves, tile by tile.
+/// Finds tile by tile what every site serves.
 class SiteTiles {
  public:
   SiteTiles(const TileJudge& judge, const std::optional<ClearZone>& zone, const SiteSurvey& survey,
@@ -113,7 +114,7 @@ class SiteTiles {
   }
 
  private:
-  /// Returns how many sight lines that took.
+  /// Judges tile `t`. Returns the number of sight lines that were cast.
   std::uint64_t judge(std::size_t t) {
     const Tile tile = tile_at(grid_, tiles_, t);
     const Box box = box_of(grid_, tile);
@@ -163,7 +164,7 @@ class SiteTiles {
   const RasterGrid& grid_;
   const RasterGrid tiles_;
   const DemandBlocks blocks_;
-  std::vector<std::vector<TileCover>> covers_;  ///< each tile's
+  std::vector<std::vector<TileCover>> covers_;  ///< one list per tile
 };
 
 }  // namespace

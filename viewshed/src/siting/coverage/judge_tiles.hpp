@@ -13,8 +13,8 @@
 
 namespace itin::viewshed {
 
-/// The judge has the eyes of the sites, in their order; where a zone is given, what is seen must leave it clear. On
-/// all threads. The bounds are not yet said to be exact.
+/// Judges the sites on all threads. The judge has the eyes of the sites, in their order; where a zone is given, targets
+/// in sight count only if they leave it clear. The bounds returned are not yet marked as exact.
 std::vector<CoverageBounds> judge_tiles(const TileJudge& judge, const std::optional<ClearZone>& zone,
                                         const SiteSurvey& survey, const SitesToJudge& sites, Progress& progress,
                                         Statistics& statistics);

@@ -11,7 +11,7 @@
 
 namespace itin::viewshed {
 
-/// About as many as there are points, up to a quarter of a million.
+/// Returns a grid of about as many bins as there are points, up to a quarter of a million.
 inline RasterGrid bins_of_points(const std::vector<Point2>& points) {
   Box box;
   for (const Point2& p : points) box.extend(p);

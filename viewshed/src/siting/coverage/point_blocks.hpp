@@ -14,8 +14,8 @@ struct ServedPoints {
   std::uint64_t certain = 0, never = 0;
 };
 
-/// Calls judge(first point, those that are asked about) -> ServedPoints for every block, of which `before` leaves some
-/// points open. Returns how many these are.
+/// Calls judge(first point, the open ones as bits) -> ServedPoints for every block of `before.possible`; the open
+/// points are those that `before` leaves open. Returns the number of open points.
 template <class Judge>
 std::uint64_t judge_points(const CoverageBounds& before, CoverageBounds& after, const Judge& judge) {
   std::uint64_t asked = 0;

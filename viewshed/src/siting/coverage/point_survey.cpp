@@ -21,7 +21,7 @@ namespace itin::viewshed {
 
 namespace {
 
-/// Between these the ground under a point lies, grid units; NaN where there is none.
+/// Bounds of the ground's height under a point, grid units; NaN where there is no ground.
 struct GroundBounds {
   double low = kNoSurface;
   double high = kNoSurface;
@@ -52,7 +52,7 @@ class PointPass {
             const std::vector<GroundBounds>& grounds)
       : scene_(scene), zone_(zone), survey_(survey), grounds_(grounds) {}
 
-  /// What becomes of `open` ones among points `first` and on.
+  /// Judges the `open` points among points `first` and on.
   ServedPoints judge(const EnvelopeScene::View& view, std::size_t first, std::uint64_t open, Occluder& occluder) const {
     ServedPoints served;
     for (unsigned at = 0; at < 64; at += SightLines::kSize) {
@@ -90,9 +90,9 @@ class PointPass {
     return decided;
   }
 
-  /// Keeps of what is seen or may be only what the Fresnel zones leave.
+  /// Keeps the points seen, or possibly seen, only if their Fresnel zones are clear, or possibly clear.
   void judge_zones(const EnvelopePacket& packet, unsigned lines, Decided& decided) const {
-    // One by one: points may lie far apart.
+    // Points are judged one by one, since they may lie far apart.
     SightLines low = packet.low, high = packet.high;
     for_each_bit(lines & ~decided.hidden, [&](unsigned i) {
       const unsigned bit = 1U << i;
@@ -106,7 +106,7 @@ class PointPass {
     });
   }
 
-  /// Aims a line at the point's target, unless it is decided without.
+  /// Aims a line at the point's target and returns kUndecided, or returns the verdict where none is needed.
   Verdict aim(const EnvelopeScene::View& view, std::size_t point, unsigned i, EnvelopePacket& packet) const {
     const Grid& grid = scene_.envelope.lower.grid;
     const GroundBounds& ground = grounds_[point];

@@ -19,16 +19,16 @@ namespace itin::viewshed {
 
 namespace {
 
-/// Points of the surface that the index is measured on.
+/// The number of points of the surface on which the visibility index is measured.
 constexpr std::uint64_t kPoints = 400000;
-/// "20 to 30 random targets suffice".
+/// The number of random targets by which each post is judged ("20 to 30 random targets suffice").
 constexpr unsigned kTargets = 2 * SightLines::kSize;
 /// Posts tried in a square: the highest, and others spread over the rest.
 constexpr std::size_t kHighest = 8, kOthers = 8;
 constexpr double kMostSquares = 1e6;
-/// Roofs to stand on are so high, and their triangles so large; metres and square metres.
+/// The least height of a roof to stand on and the least area of its triangles; metres and square metres.
 constexpr double kLeastRoofHeight = 3, kLeastRoofArea = 2;
-/// What rises by more above a post, metres, stands on it.
+/// A surface that rises by more than this above a post, metres, stands on the post.
 constexpr double kStandsOnPost = 0.05;
 
 /// A place where a site may stand.
@@ -54,7 +54,8 @@ bool is_raised(const Tin& tin, std::uint32_t vertex) {
   return !tin.raised_theme.empty() && tin.raised_theme[vertex] != 0;
 }
 
-/// Vertices of the ground that nothing stands on, nor beside where these are the surface's own.
+/// Returns the vertices of the ground that nothing stands on, without vertices beside features where `tin` is the
+/// surface itself.
 std::vector<Post> posts_on_ground(const Tin& tin, const SampledSurface* surface) {
   std::vector<bool> beside(tin.vertices.size());
   for (const Triangle& t : tin.triangles) {
@@ -77,13 +78,13 @@ std::vector<Post> posts_on_ground(const Tin& tin, const SampledSurface* surface)
 bool is_roof(const Tin& tin, const Triangle& t, const std::vector<ThemeInfo>& themes) {
   const std::uint16_t theme = tin.theme(t);
   if (theme == 0 || themes[theme - 1U].kind != ThemeKind::Buildings) return false;
-  // Walls have a corner at their foot.
+  // Walls have a corner at their foot, which is not raised.
   if (!std::all_of(t.begin(), t.end(), [&](std::uint32_t v) { return is_raised(tin, v); })) return false;
   const Point3 a = tin.point(t[0]), b = tin.point(t[1]), c = tin.point(t[2]);
   return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x) >= 2 * kLeastRoofArea;
 }
 
-/// The middles of the triangles of roofs, on the grid.
+/// Adds the middles of the triangles of roofs, rounded to the grid.
 void add_roofs(const Store& store, const Tin& tin, const SampledSurface& surface, const SampledSurface& ground,
                std::vector<Post>& posts) {
   const Grid& units = tin.grid;
@@ -106,7 +107,8 @@ void add_roofs(const Store& store, const Tin& tin, const SampledSurface& surface
 
 class Proposer {
  public:
-  /// `surface` hides; `ground` is what lies under all that stands on it, or null where nothing does.
+  /// Prepares the proposals. `surface` hides; `ground` is the ground under the features of the surface, or null where
+  /// it has none.
   Proposer(const Store& store, const Surface& surface, const Surface* ground, const Window& area,
            const ProposalRequest& request)
       : area_(area),
@@ -168,7 +170,7 @@ class Proposer {
 
   Point2 plan(std::uint32_t post) const { return {posts_[post].place.x, posts_[post].place.y}; }
 
-  /// The share seen; what has no ground is not seen.
+  /// Returns the share of targets seen; targets without ground are not seen.
   double visibility_index(std::uint32_t post) const {
     const auto& [place, seed, summit, roof] = posts_[post];
     const auto tally = sampler_->observe({place.x, place.y}, place.z + request_.mast_height, seed);

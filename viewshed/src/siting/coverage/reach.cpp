@@ -75,7 +75,7 @@ double blocks_in_reach(const SiteTargets& targets, double radius) {
 
 }  // namespace
 
-/// Bounds from above and from below, now and after the first stage.
+/// Counts four sets per site: bounds from above and from below, now and after the first stage.
 std::uint64_t bytes_of_coverage(const SiteSurvey& survey) {
   constexpr double kSets = 4;
   const double of_set = sizeof(DemandSet::Block) * std::ceil(blocks_in_reach(survey.targets, survey.radius));
@@ -84,7 +84,7 @@ std::uint64_t bytes_of_coverage(const SiteSurvey& survey) {
 
 namespace {
 
-/// The members of each block.
+/// Makes a set from the members of each block.
 DemandSet set_of_words(const std::vector<std::uint64_t>& words) {
   DemandSet set;
   for (std::size_t b = 0; b < words.size(); ++b) set.add(static_cast<std::uint32_t>(b), words[b]);

@@ -21,9 +21,9 @@ namespace itin::viewshed {
 
 namespace {
 
-/// Options; fewer of them make less of what they share.
+/// The number of options that are judged together; fewer would share less work.
 constexpr std::size_t kJudgedTogether = 32;
-/// The share of the time, about, that reading a surface takes before it is judged from all sites.
+/// The share of the time that reading a surface takes, about, before it is judged from all sites.
 constexpr double kReadingFirst = 0.2;
 
 }  // namespace
@@ -65,12 +65,13 @@ class SiteCoverage::Impl {
     states_.resize(survey_.positions.size());
     parallel_for(states_.size(), [&](std::size_t i) {
       const CoverageBounds reach{{}, within_reach(survey_.targets, survey_.positions[i].position, survey_.radius)};
-      // Copies have no room to grow: bytes_of_coverage() counts on that.
+      // Copies reserve no memory for growth: bytes_of_coverage() counts on that.
       states_[i].bounds = states_[i].first = reach;
     });
   }
 
-  /// Over the surfaces of all options, group by group, so that what is found does not depend on what was found before.
+  /// Judges options over the surfaces of the groups of all options, so that the results do not depend on what was
+  /// judged before.
   void explore() {
     CallProgress call(progress_);
     const auto together = stages_.groups(all_options(survey_), stages_.at(0));
@@ -85,7 +86,7 @@ class SiteCoverage::Impl {
     call.finish();
   }
 
-  /// Each option's next stage.
+  /// Takes each option to its next stage.
   void refine(std::span<const std::size_t> options) {
     std::vector<std::vector<std::size_t>> at_stage(static_cast<std::size_t>(stages_.last_stage()) + 1);
     for (const std::size_t option : options) {
@@ -101,7 +102,7 @@ class SiteCoverage::Impl {
 
   struct State {
     CoverageBounds bounds, first;
-    int stage = -1;  ///< the last one
+    int stage = -1;  ///< the last stage judged; -1: none
   };
   const State& state(std::size_t option) const { return states_[option]; }
   const SurveyStages& stages() const { return stages_; }
@@ -123,14 +124,14 @@ class SiteCoverage::Impl {
     if (survey.positions.empty()) throw InputError("no site to look from: give at least one on the data");
     return survey.nodata != NoData::kClear && sites_may_cross_voids(store, survey, progress);
   }
-  /// What is seen across ground without data is not certain: there it hides. Where no line crosses any, no look is
-  /// taken at its rim.
+  /// Returns the survey of what is certainly served: ground without data hides. Where no line crosses such ground, its
+  /// rim need not be examined, and the rule is kClear.
   static SiteSurvey certain_survey(SiteSurvey survey, bool crosses_voids) {
     survey.nodata = crosses_voids ? NoData::kBlock : NoData::kClear;
     return survey;
   }
 
-  /// Takes the options, all at one stage, to the next.
+  /// Takes the options, which are all at one stage, to the next.
   void judge(const std::vector<std::size_t>& options, Progress& progress) {
     const int stage = states_[options.front()].stage + 1;
     CallProgress call(progress);
@@ -140,8 +141,8 @@ class SiteCoverage::Impl {
       judge_group(group, group, stage, call.step(1 / static_cast<double>(left--)));
   }
 
-  /// `options` among those of the group, over whose surface they are looked at: or over that of all, where there is
-  /// one.
+  /// Judges `options`, some of the group, over the surface of the group, or over that of all sites where the memory
+  /// holds it.
   void judge_group(const std::vector<std::size_t>& options, const std::vector<std::size_t>& group, int stage,
                    Progress& progress) {
     CallProgress call(progress);
@@ -150,7 +151,7 @@ class SiteCoverage::Impl {
     if (surface.binned() || surface.level > 0 || !stages_.whole_fits())
       own = surfaces_.survey_of(group, surface, call.step(kReadingFirst));
     const GroupSurvey& survey = own ? *own : surfaces_.whole(surface, call.step(kReadingFirst));
-    // Few at a time: a run that is killed goes on from what has been recorded.
+    // Only few are judged at a time, so that a run that is killed can resume from the bounds recorded.
     for (std::size_t first = 0; first < options.size(); first += kJudgedTogether) {
       const auto begin = options.begin() + static_cast<std::ptrdiff_t>(first);
       const auto count = static_cast<std::ptrdiff_t>(std::min(kJudgedTogether, options.size() - first));
@@ -179,7 +180,7 @@ class SiteCoverage::Impl {
     if (on_refined != nullptr && *on_refined) (*on_refined)(option, stage, states_[option].bounds);
   }
 
-  const bool crosses_voids_;  ///< sight lines may do so, and the rule does not let them pass
+  const bool crosses_voids_;  ///< sight lines may cross ground without data, and the rule does not let them pass
   const bool leaves_open_;
   const SiteSurvey survey_;  ///< its rule is kBlock or kClear
   Progress& progress_;

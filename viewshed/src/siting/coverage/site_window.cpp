@@ -34,7 +34,7 @@ Window window_about(const SiteSurvey& survey, const std::vector<std::size_t>& op
   std::vector<bool> met(cells.cell_count());
   for (const std::size_t option : options) {
     const Box disc = square_about(positions[option].position, radius);
-    // Aligned cells may end a hair within the box.
+    // Aligned cells may end slightly within the box.
     const auto within = [](double at, std::int64_t count) {
       return std::clamp<std::int64_t>(static_cast<std::int64_t>(std::floor(at)), 0, count - 1);
     };

@@ -17,10 +17,10 @@ namespace itin::viewshed {
 
 namespace {
 
-/// The first pass reads at most one in so many of the full surface's points: fewer where a second pass is cheap, since
-/// the memory holds the full surface for all of them.
+/// The first stage reads at most one in this many of the full surface's points. Fewer are read where a second stage is
+/// cheap, since the memory holds the full surface for all sites.
 constexpr std::uint64_t kFirstShare = 2, kFirstShareOfWhole = 8;
-/// No coarse stage for so few points: the full surface is as fast.
+/// Up to this number of points there is no coarse stage: the full surface is as fast.
 constexpr std::uint64_t kFewPoints = 40000;
 
 std::uint64_t required_sets(const SiteSurvey& survey) {
@@ -50,14 +50,14 @@ bool SurveyStages::whole_fits_as_triangles() const {
 void SurveyStages::choose(bool whole_fits) {
   whole_fits_ = whole_fits;
   stages_.clear();
-  // Foundations cut into the ground: what the bare one hides may be seen.
+  // Where foundations cut into the ground, a target that the bare ground hides may be seen.
   if (themed_ && (!survey_.tolerance || cut_)) {
-    // Over a surface in memory, a site is judged exactly in the time that its bounds would take.
+    // Over a surface in memory, judging a site exactly takes no longer than bounding it.
     if (!whole_fits_) stages_.push_back({.kind = StageSurface::Kind::kBins});
     stages_.push_back({.kind = StageSurface::Kind::kThemed});
     return;
   }
-  // To look at cells exactly takes no longer than to look at them coarsely.
+  // Judging cells exactly takes no longer than judging them coarsely.
   const bool exact_at_once = points_ <= kFewPoints || (survey_.targets.grid && whole_fits_);
   const int first = survey_.tolerance ? level_within(store_.metadata(), *survey_.tolerance)
                     : exact_at_once
@@ -77,10 +77,10 @@ std::string SurveyStages::name(int stage) const {
   return fmt::format("tolerance {:g} m", store_.metadata().levels[static_cast<std::size_t>(surface.level)].tolerance);
 }
 
-/// Whether so many options can be looked at together over a surface of so many points.
+/// Tells whether this many options can be judged together over a surface of this many points.
 bool SurveyStages::fits(std::uint64_t points, std::size_t options, int level) const {
   const bool swept = judges_cells_exactly(level) && !casts_rays();
-  // Judging them makes bounds anew, which mostly hold half of what is within reach.
+  // Judging makes new bounds, which mostly hold half of the elements within reach.
   const std::uint64_t sets = sets_ / survey_.positions.size() * options / 2;
   return points * (swept ? kBytesPerSurfacePoint : kBytesPerCastEnvelopePoint) + sets <= memory();
 }
@@ -103,7 +103,7 @@ std::vector<std::vector<std::size_t>> SurveyStages::groups(std::vector<std::size
   return result;
 }
 
-/// Those in the west and in the east, or in the south and in the north.
+/// Returns the options in the west and in the east, or in the south and in the north.
 std::pair<SurveyStages::Options, SurveyStages::Options> SurveyStages::halves_across(Options options) const {
   Box box;
   for (const std::size_t option : options) box.extend(survey_.positions[option].position);

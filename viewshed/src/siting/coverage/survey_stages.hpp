@@ -1,4 +1,4 @@
-// How sites are surveyed under a memory: in stages, from coarse to exact, and at each stage which of them together.
+// How sites are surveyed within a memory limit: the stages, from coarse to exact, and the groups of sites in each.
 #pragma once
 
 #include <cstddef>
@@ -13,12 +13,12 @@
 
 namespace itin::viewshed {
 
-/// What a stage judges over.
+/// The surface over which a stage judges.
 struct StageSurface {
   enum class Kind : std::uint8_t {
     kBareLevel,  ///< the bare terrain of a level
     kThemed,     ///< the full surface with the themes
-    kBins        ///< bins of this
+    kBins        ///< bins of the full surface with the themes
   };
   Kind kind = Kind::kBareLevel;
   int level = 0;  ///< the bare terrain's; 0 with the themes
@@ -29,22 +29,25 @@ struct StageSurface {
 
 class SurveyStages {
  public:
-  /// Both must outlive it. Throws InputError where what is known of the sites takes too much of the memory.
+  /// Store and survey must outlive it. Throws InputError where the bounds on what the sites serve take too much of the
+  /// memory.
   SurveyStages(const Store& store, const SiteSurvey& survey);
 
-  /// Whether raised features count.
+  /// Tells whether raised features count.
   bool themed() const { return themed_; }
   bool casts_rays() const { return survey_.engine == Engine::kRays; }
-  /// Cells are judged over the full surface at its own level; everything else over envelopes.
+  /// Tells whether cells are judged exactly: over the full surface at its own level. Everything else is judged over
+  /// envelopes.
   bool judges_cells_exactly(int level) const { return level == 0 && survey_.targets.grid; }
-  /// Over coarse surfaces zones take as long as over the full one, which comes next, if the memory holds it.
+  /// Tells whether Fresnel zones are judged at a level. Over coarse surfaces they take as long as over the full one,
+  /// which comes next, if the memory holds it.
   bool judges_zones(int level) const { return survey_.fresnel && (level == 0 || !whole_fits_); }
 
-  /// Bytes for surfaces; what is left is for the rest of the program.
+  /// Returns the bytes for surfaces; the remaining memory is for the rest of the program.
   std::uint64_t memory() const { return (survey_.memory_bytes - sets_) / 4 * 3; }
-  /// Bytes of what is known of all sites.
+  /// Returns the bytes that the bounds of all sites take.
   std::uint64_t sets() const { return sets_; }
-  /// Whether the memory holds the full surface about all sites as triangles.
+  /// Tells whether the memory holds the full surface about all sites as triangles.
   bool whole_fits_as_triangles() const;
 
   /// Chooses the stages. `whole_fits`: the memory holds the full surface about all sites, in whatever form.
@@ -52,10 +55,10 @@ class SurveyStages {
   bool whole_fits() const { return whole_fits_; }
   int last_stage() const { return static_cast<int>(stages_.size()) - 1; }
   const StageSurface& at(int stage) const { return stages_[static_cast<std::size_t>(stage)]; }
-  /// In words: "tolerance 4 m", "exact", ...
+  /// Returns the stage in words: "tolerance 4 m", "exact", ...
   std::string name(int stage) const;
 
-  /// Neighbours together, as many as the memory holds.
+  /// Divides the options into groups of neighbours, each as large as the memory holds.
   std::vector<std::vector<std::size_t>> groups(std::vector<std::size_t> options, const StageSurface& surface) const;
 
  private:
@@ -70,8 +73,8 @@ class SurveyStages {
   const bool themed_;
   const std::uint64_t sets_;
   const Box reach_;             ///< the box within which any site may serve
-  const std::uint64_t points_;  ///< how many the full surface has there
-  const bool cut_;              ///< features are lower than it somewhere there
+  const std::uint64_t points_;  ///< the number of the full surface's points within reach_
+  const bool cut_;              ///< whether features cut into the full ground somewhere within reach_
   bool whole_fits_ = false;
   std::vector<StageSurface> stages_;
 };

@@ -1,4 +1,4 @@
-// How high the ground under targets is.
+// The height of the ground under targets.
 #pragma once
 
 #include <cstddef>
