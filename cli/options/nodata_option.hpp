@@ -9,6 +9,9 @@
 
 namespace itin::cli {
 
+/// The choices that decide what ground without data leaves undecided.
+inline constexpr const char* kDecidesMissingGround = "--nodata block or clear";
+
 class NoDataOption {
  public:
   void declare(CLI::App& app);

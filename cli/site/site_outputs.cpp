@@ -50,7 +50,7 @@ Document undecided_document(const SiteResult& r) {
   const std::uint64_t cells = r.rasters.count(viewshed::Verdict::kUndecided);
   document["cells"] = cells;
   document["area_m2"] = static_cast<double>(cells) * r.rasters.grid.cell_area();
-  document["decided_by"] = "--nodata block or clear";
+  document["decided_by"] = kDecidesMissingGround;
   return document;
 }
 

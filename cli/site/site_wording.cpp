@@ -60,7 +60,7 @@ std::string undecided_in_words(const SiteResult& r) {
   const std::string amount = r.options.placement.sums_heights()
                                  ? fmt::format("{:.10g} m", r.undecided)
                                  : fmt::format("{:.10g} ({:.1f} %)", r.undecided, r.undecided_percent());
-  return amount + " more, across ground without data; --nodata block or clear decides that";
+  return fmt::format("{} more, across ground without data; {} decides that", amount, kDecidesMissingGround);
 }
 
 std::string least_in_words(const SiteResult& r) {

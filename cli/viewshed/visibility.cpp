@@ -153,7 +153,7 @@ class VisibilityVerb final : public Verb {
     document["mean_share"] = index.mean;
     document["mean_share_standard_error"] = index.mean_error;
     document["mean_share_undecided"] = index.mean_undecided;
-    if (index.mean_undecided > 0) document["undecided_decided_by"] = "--nodata block or clear";
+    if (index.mean_undecided > 0) document["undecided_decided_by"] = kDecidesMissingGround;
     document["sources"] = sources_document(sources);
     document["outputs"] = {output_, style_beside(output_)};
     if (!sheet_.file().empty()) document["outputs"].push_back(sheet_.file());

@@ -13,6 +13,7 @@
 #include <viewshed/missing_ground.hpp>
 #include <viewshed/zone_files.hpp>
 
+#include "options/nodata_option.hpp"
 #include "output/store_document.hpp"
 #include "ztv/ztv_turbines.hpp"
 #include "ztv/ztv_undecided.hpp"

@@ -10,11 +10,11 @@
 #include <profile/links.hpp>
 #include <viewshed/link_exclusion.hpp>
 
+#include "options/nodata_option.hpp"
 #include "options/off_the_data.hpp"
 #include "options/wave_options.hpp"
 #include "output/store_document.hpp"
 #include "program/call_files.hpp"
-#include "ztv/ztv_undecided.hpp"
 
 namespace itin::cli {
 

@@ -22,7 +22,4 @@ UndecidedArea undecided_area(const viewshed::Zone& zone, const std::vector<std::
 /// nothing is undecided.
 std::string undecided_in_words(const UndecidedArea& tips);
 
-/// The options that decide what is undecided.
-inline constexpr const char* kDecidesMissingGround = "--nodata block or clear";
-
 }  // namespace itin::cli
