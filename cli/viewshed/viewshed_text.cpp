@@ -30,7 +30,7 @@ std::string certified_text(const viewshed::Result& result) {
 /// The cells whose value is unknown only because of ground without data, in modes that give every cell a value.
 std::string unknown_values_text(const viewshed::Result& result) {
   const auto without = viewshed::cells_without_value(result);
-  if (!without || without->cells == 0 || !result.crosses_voids || result.request.nodata != NoData::kUnknown) return "";
+  if (!without || without->cells == 0 || !result.leaves_open()) return "";
   return fmt::format(
       "no {} is known of {}, to which lines cross ground without data; --nodata block or clear decides them\n",
       without->value, counted(without->cells, "cell"));

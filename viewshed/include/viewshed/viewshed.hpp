@@ -259,6 +259,8 @@ struct Result {
   std::vector<std::string> warnings;     ///< one line each
   Statistics statistics;
 
+  /// Tells whether ground without data may leave cells or their values open.
+  bool leaves_open() const { return crosses_voids && request.nodata == NoData::kUnknown; }
   /// The values of the mode, such as get<Counts>(). Throws std::bad_variant_access where they are another mode's.
   template <class Values>
   const Values& get() const {

@@ -112,7 +112,7 @@ class Writer {
 
   void heights() {
     const char* base = result_.request.targets_on_surface ? "the surface with its features" : "the ground";
-    const char* unknown = leaves_values_open() ? ", or ground without data leaves it open" : "";
+    const char* unknown = result_.leaves_open() ? ", or ground without data leaves it open" : "";
     write<float>(
         {fmt::format("least height above {} at which a target is seen, metres; no value: at none{}", base, unknown)},
         kNaN, result_.get<LeastHeights>().height_m);
@@ -123,8 +123,8 @@ class Writer {
     for (const Verdict v : result_.visible)
       values.push_back(v == Verdict::kOutside ? std::numeric_limits<float>::quiet_NaN()
                                               : static_cast<float>(code_of(v)));
-    const std::string unknown = leaves_values_open() ? "; no value: ground without data leaves it open" : "";
-    const std::string open = leaves_values_open() ? "; 2: undecided" : "";
+    const std::string unknown = result_.leaves_open() ? "; no value: ground without data leaves it open" : "";
+    const std::string open = result_.leaves_open() ? "; 2: undecided" : "";
     write<float>(
         {"probability of being visible, in 512 simulated surfaces" + unknown, "visible as the heights are" + open},
         kNaN, values);
@@ -165,8 +165,6 @@ class Writer {
   }
 
  private:
-  bool leaves_values_open() const { return result_.crosses_voids && result_.request.nodata == NoData::kUnknown; }
-
   static constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
   template <class T>

@@ -1,11 +1,11 @@
 #include "modes/blocker_observation.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include <itin/sort_unique.hpp>
 
 #include "line/infinity.hpp"
-#include "request/void_shadow.hpp"
 
 namespace itin::viewshed {
 
@@ -13,8 +13,7 @@ namespace {
 
 /// Tells whether the line crosses ground without data before it comes to this fraction of its length.
 bool is_behind_missing_ground(const TileView& tile, const Sight& sight, double at) {
-  const auto& shadow = tile.from().shadow;
-  return shadow && shadow->holds(std::lerp(sight.from.x, sight.to.x, at), std::lerp(sight.from.y, sight.to.y, at));
+  return tile.crosses_void(std::lerp(sight.from.x, sight.to.x, at), std::lerp(sight.from.y, sight.to.y, at));
 }
 
 }  // namespace

@@ -58,9 +58,8 @@ bool LeastHeightObservation::raise(const TileView& tile, const CellView& view, E
 void LeastHeightObservation::record(const TileView& tile, const CellView& view, const Ends& ends) {
   const FullSurface::TileCells& cells = tile.cells();
   const Point3 highest = cells.target(view.cell);
-  const auto& shadow = tile.from().shadow;
-  const bool over_missing = shadow && shadow->holds(highest.x, highest.y);
-  if (over_missing && shadow->shaded() == Verdict::kHidden) return;
+  const bool over_missing = tile.crosses_void(highest.x, highest.y);
+  if (over_missing && tile.from().shadow->shaded() == Verdict::kHidden) return;
   // At the eye's own place nothing hides.
   const double found = cells.seen[view.cell], seen = std::isinf(found) ? ends.lowest[view.cell] : found;
   const double ground = cells.ground[view.cell], wanted = ends.wanted[view.cell];

@@ -43,6 +43,8 @@ struct TileView {
 
   const EyeView& from() const { return work.view(number); }
   const Eye& eye() const { return from().eye; }
+  /// Tells whether the line from the eye to a place, grid units, crosses ground without data.
+  bool crosses_void(double x, double y) const { return from().shadow && from().shadow->holds(x, y); }
   FullSurface::TileCells& cells() const { return work.cells; }
   double resolution() const { return work.surface().units().resolution; }
 

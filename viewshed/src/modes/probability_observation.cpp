@@ -23,9 +23,9 @@ void ProbabilityObservation::keep(const CellView& view) {
 }
 
 void ProbabilityObservation::study(const TileView& tile, const CellView& view, const Sight& sight) {
-  const auto& shadow = tile.from().shadow;
-  const bool over_missing = shadow && shadow->holds(sight.to.x, sight.to.y);
-  if (over_missing && shadow->shaded() == Verdict::kHidden) return;
+  const bool over_missing = sight.verdict == Verdict::kUndecided ||
+                            (sight.verdict == Verdict::kHidden && tile.crosses_void(sight.to.x, sight.to.y));
+  if (over_missing && tile.from().shadow->shaded() == Verdict::kHidden) return;
   float& greatest = (over_missing ? open_ : known_)[view.cell];
   const VisibilityProbability::Line line{sight.from, sight.to, !sight.eye.absolute, !sight.eye.target_absolute};
   greatest = std::max(greatest, static_cast<float>(tile.studies->odds->of_line(line, *scratch_).probability));
