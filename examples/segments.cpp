@@ -9,6 +9,7 @@
 
 #include <itin/itin.hpp>
 #include <viewshed/plan.hpp>
+#include <viewshed/result_files.hpp>
 
 int main(int argc, char** argv) {
   if (argc != 5 && argc != 6) {

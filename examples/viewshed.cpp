@@ -6,6 +6,7 @@
 
 #include <itin/itin.hpp>
 #include <viewshed/map_image.hpp>
+#include <viewshed/result_files.hpp>
 #include <viewshed/viewshed.hpp>
 
 int main(int argc, char** argv) {

@@ -8,6 +8,7 @@
 #include <benchmark/benchmark.h>
 
 #include <itin/progress.hpp>
+#include <viewshed/result_files.hpp>
 #include <viewshed/viewshed.hpp>
 
 #include "bounds/binned_heights.hpp"

@@ -5,7 +5,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include <viewshed/viewshed.hpp>
+#include <viewshed/request.hpp>
 
 namespace itin::cli {
 

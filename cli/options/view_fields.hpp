@@ -8,7 +8,7 @@
 #include <CLI/CLI.hpp>
 
 #include <itin/sites.hpp>
-#include <viewshed/viewshed.hpp>
+#include <viewshed/request.hpp>
 
 namespace itin::cli {
 

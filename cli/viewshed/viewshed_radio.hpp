@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include <viewshed/viewshed.hpp>
+#include <viewshed/result.hpp>
 
 #include "options/wave_options.hpp"
 

@@ -6,7 +6,7 @@
 
 #include <itin/store.hpp>
 #include <viewshed/missing_ground.hpp>
-#include <viewshed/viewshed.hpp>
+#include <viewshed/result.hpp>
 
 #include "options/sheet_options.hpp"
 

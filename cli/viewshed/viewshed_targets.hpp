@@ -6,7 +6,7 @@
 #include <CLI/CLI.hpp>
 
 #include <itin/store.hpp>
-#include <viewshed/viewshed.hpp>
+#include <viewshed/request.hpp>
 
 #include "options/observer_options.hpp"
 #include "program/verb.hpp"

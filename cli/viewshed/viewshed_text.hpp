@@ -5,7 +5,7 @@
 
 #include <itin/store.hpp>
 #include <viewshed/missing_ground.hpp>
-#include <viewshed/viewshed.hpp>
+#include <viewshed/result.hpp>
 
 namespace itin::cli {
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include <viewshed/viewshed.hpp>
+#include <viewshed/result.hpp>
 
 namespace itin::cli {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include <itin/grid_units.hpp>
-#include <viewshed/viewshed.hpp>
+#include <viewshed/result.hpp>
 
 #include "line/sight_line.hpp"
 #include "request/eye.hpp"

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include <itin/import.hpp>
-#include <viewshed/viewshed.hpp>
+#include <viewshed/request.hpp>
 
 #include "support/alexandria.hpp"
 #include "support/raster_file.hpp"

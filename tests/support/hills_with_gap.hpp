@@ -12,7 +12,7 @@
 
 #include <itin/import.hpp>
 #include <itin/store.hpp>
-#include <viewshed/viewshed.hpp>
+#include <viewshed/request.hpp>
 
 #include "support/raster_file.hpp"
 #include "support/seed.hpp"

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include <viewshed/viewshed.hpp>
+#include <viewshed/result.hpp>
 
 #include "support/same_bits.hpp"
 

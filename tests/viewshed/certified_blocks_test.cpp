@@ -7,7 +7,7 @@
 
 #include <itin/level_choice.hpp>
 #include <itin/triangulate.hpp>
-#include <viewshed/viewshed.hpp>
+#include <viewshed/result.hpp>
 
 #include "bounds/binned_heights.hpp"
 #include "bounds/envelope_bounds.hpp"

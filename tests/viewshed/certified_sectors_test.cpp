@@ -9,7 +9,7 @@
 
 #include <itin/import.hpp>
 #include <itin/store.hpp>
-#include <viewshed/viewshed.hpp>
+#include <viewshed/result.hpp>
 
 #include "certify/certified_blocks.hpp"
 #include "support/full_detail.hpp"

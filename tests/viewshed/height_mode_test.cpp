@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include <viewshed/viewshed.hpp>
+#include <viewshed/result.hpp>
 
 #include "support/exact_line_of_sight.hpp"
 #include "support/real_terrain.hpp"

@@ -13,7 +13,7 @@
 
 #include <gtest/gtest.h>
 
-#include <viewshed/viewshed.hpp>
+#include <viewshed/result.hpp>
 
 #include "bounds/boundary.hpp"
 #include "judge/envelope_judge.hpp"

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <itin/error.hpp>
-#include <viewshed/viewshed.hpp>
+#include <viewshed/result.hpp>
 
 #include "support/exact_line_of_sight.hpp"
 #include "support/terrain_tin.hpp"

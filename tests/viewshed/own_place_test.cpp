@@ -12,7 +12,7 @@
 #include <itin/grazing.hpp>
 #include <itin/grid_units.hpp>
 #include <itin/same_place.hpp>
-#include <viewshed/viewshed.hpp>
+#include <viewshed/result.hpp>
 
 #include "bounds/boundary.hpp"
 #include "support/exact_line_of_sight.hpp"

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <itin/error.hpp>
-#include <viewshed/viewshed.hpp>
+#include <viewshed/result.hpp>
 
 #include "modes/error_realisations.hpp"
 #include "support/exact_line_of_sight.hpp"

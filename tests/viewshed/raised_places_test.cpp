@@ -17,9 +17,9 @@
 #include <itin/import.hpp>
 #include <itin/tin_heights.hpp>
 #include <itin/triangulate.hpp>
+#include <viewshed/result.hpp>
 #include <viewshed/site_coverage.hpp>
 #include <viewshed/turbines.hpp>
-#include <viewshed/viewshed.hpp>
 
 #include "certify/certified_blocks.hpp"
 #include "features/terrain_heights.hpp"

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include <viewshed/viewshed.hpp>
+#include <viewshed/result.hpp>
 
 #include "compute/store_viewshed.hpp"
 #include "compute/tin_segments.hpp"

@@ -12,7 +12,7 @@
 #include <gtest/gtest.h>
 
 #include <itin/error.hpp>
-#include <viewshed/viewshed.hpp>
+#include <viewshed/request.hpp>
 
 #include "line/hulls.hpp"
 #include "support/seed.hpp"

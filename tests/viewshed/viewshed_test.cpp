@@ -9,6 +9,7 @@
 
 #include <itin/error.hpp>
 #include <itin/parallel.hpp>
+#include <viewshed/result_files.hpp>
 #include <viewshed/viewshed.hpp>
 
 #include "support/impatient.hpp"

@@ -95,6 +95,20 @@ class RasterGrid {
 /// run from west to east (rotated) or if its CRS and `crs_wkt` are both known and differ.
 RasterGrid raster_grid_like(const std::string& path, const std::string& crs_wkt);
 
+/// The place of the bit that tells whether thing `number` (from 0) is in the set of a cell. A raster of sets consists
+/// of grids of 32-bit words, one for every 32 things, one grid after the other.
+struct RasterBit {
+  std::size_t grid = 0;
+  std::uint32_t mask = 0;
+};
+constexpr RasterBit raster_bit(std::size_t number) {
+  return {number / 32, std::uint32_t{1} << (number % 32)};
+}
+/// How many grids a raster of sets of `count` things has.
+constexpr std::size_t bit_grids(std::size_t count) {
+  return (count + 31) / 32;
+}
+
 /// A colour; its opacity is 255 where nothing shows through.
 struct Rgba {
   std::uint8_t red = 0, green = 0, blue = 0, alpha = 255;

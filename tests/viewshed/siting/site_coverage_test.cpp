@@ -8,9 +8,9 @@
 #include <gtest/gtest.h>
 
 #include <itin/import.hpp>
+#include <viewshed/result.hpp>
 #include <viewshed/site_coverage.hpp>
 #include <viewshed/site_proposal.hpp>
-#include <viewshed/viewshed.hpp>
 
 #include "support/alexandria.hpp"
 #include "support/full_detail.hpp"

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include <itin/store.hpp>
+#include <viewshed/result_files.hpp>
 #include <viewshed/viewshed.hpp>
 
 namespace itin::viewshed {

@@ -32,8 +32,8 @@
 
 #include <itin/raster.hpp>
 #include <itin/store.hpp>
+#include <viewshed/result.hpp>
 #include <viewshed/siting.hpp>
-#include <viewshed/viewshed.hpp>
 
 namespace itin::viewshed {
 

@@ -29,7 +29,7 @@
 #include <itin/store.hpp>
 #include <itin/theme.hpp>
 #include <itin/tin.hpp>
-#include <viewshed/viewshed.hpp>
+#include <viewshed/result.hpp>
 
 namespace itin::viewshed {
 

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include <itin/window.hpp>
+#include <viewshed/result_files.hpp>
 #include <viewshed/viewshed.hpp>
 
 namespace itin::viewshed {

@@ -8,7 +8,7 @@
 #include <itin/document.hpp>
 #include <viewshed/horizon.hpp>
 #include <viewshed/missing_ground.hpp>
-#include <viewshed/viewshed.hpp>
+#include <viewshed/result.hpp>
 
 namespace itin::viewshed {
 

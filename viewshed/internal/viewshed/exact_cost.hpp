@@ -2,7 +2,7 @@
 #pragma once
 
 #include <itin/store.hpp>
-#include <viewshed/viewshed.hpp>
+#include <viewshed/request.hpp>
 
 namespace itin::viewshed {
 

@@ -16,8 +16,8 @@
 
 #include <itin/progress.hpp>
 #include <itin/store.hpp>
+#include <viewshed/result.hpp>
 #include <viewshed/turbines.hpp>
-#include <viewshed/viewshed.hpp>
 #include <viewshed/visibility_index.hpp>
 
 namespace itin::viewshed {

@@ -6,7 +6,7 @@
 
 #include <string>
 
-#include <viewshed/viewshed.hpp>
+#include <viewshed/request.hpp>
 
 namespace itin::viewshed {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include <viewshed/map_image.hpp>
-#include <viewshed/viewshed.hpp>
+#include <viewshed/result.hpp>
 #include <viewshed/visibility_index.hpp>
 
 namespace itin::viewshed {

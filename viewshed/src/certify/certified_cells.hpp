@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-#include <viewshed/viewshed.hpp>
+#include <viewshed/result.hpp>
 
 #include "judge/tile_judge.hpp"
 #include "line/tile_parts.hpp"

@@ -5,7 +5,7 @@
 
 #include <itin/progress.hpp>
 #include <itin/store.hpp>
-#include <viewshed/viewshed.hpp>
+#include <viewshed/result.hpp>
 
 #include "judge/block_judge.hpp"
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include <itin/store.hpp>
-#include <viewshed/viewshed.hpp>
+#include <viewshed/result.hpp>
 
 #include "judge/tile_judge.hpp"
 #include "line/cell_tiles.hpp"

@@ -11,7 +11,7 @@
 
 #include <itin/sort_unique.hpp>
 #include <viewshed/documents.hpp>
-#include <viewshed/viewshed.hpp>
+#include <viewshed/result.hpp>
 
 #include "line/infinity.hpp"
 #include "modes/feature_names.hpp"

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include <viewshed/map_image.hpp>
-#include <viewshed/viewshed.hpp>
+#include <viewshed/result.hpp>
 
 #include "drawing/canvas.hpp"
 

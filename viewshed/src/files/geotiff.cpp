@@ -6,7 +6,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <viewshed/viewshed.hpp>
+#include <viewshed/result.hpp>
+#include <viewshed/result_files.hpp>
 #include <viewshed/visibility_index.hpp>
 
 #include "files/verdict_classes.hpp"

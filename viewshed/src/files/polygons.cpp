@@ -6,7 +6,8 @@
 #include <fmt/format.h>
 
 #include <itin/raster_regions.hpp>
-#include <viewshed/viewshed.hpp>
+#include <viewshed/result.hpp>
+#include <viewshed/result_files.hpp>
 
 #include "files/verdict_classes.hpp"
 #include "line/verdicts.hpp"

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include <itin/raster.hpp>
-#include <viewshed/viewshed.hpp>
+#include <viewshed/result.hpp>
 
 #include "drawing/map_overlay.hpp"
 #include "line/verdicts.hpp"

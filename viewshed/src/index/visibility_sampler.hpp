@@ -6,7 +6,7 @@
 #include <vector>
 
 #include <itin/geometry.hpp>
-#include <viewshed/viewshed.hpp>
+#include <viewshed/result.hpp>
 
 #include "index/sampled_surface.hpp"
 

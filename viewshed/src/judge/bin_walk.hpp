@@ -9,7 +9,7 @@
 #include <vector>
 
 #include <itin/geometry.hpp>
-#include <viewshed/viewshed.hpp>
+#include <viewshed/result.hpp>
 
 #include "bounds/surface_bins.hpp"
 

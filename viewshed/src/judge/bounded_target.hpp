@@ -9,7 +9,7 @@
 
 #include <itin/geometry.hpp>
 #include <itin/grazing.hpp>
-#include <viewshed/viewshed.hpp>
+#include <viewshed/result.hpp>
 
 #include "request/eye.hpp"
 

@@ -15,7 +15,7 @@
 #include <itin/earth.hpp>
 #include <itin/fresnel_zone.hpp>
 #include <itin/tin.hpp>
-#include <viewshed/viewshed.hpp>
+#include <viewshed/request.hpp>
 
 #include "bounds/height_pyramid.hpp"
 #include "line/sight_line.hpp"

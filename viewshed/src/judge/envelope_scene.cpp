@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numeric>
 
-#include <viewshed/viewshed.hpp>
+#include <viewshed/request.hpp>
 
 #include "bounds/boundary.hpp"
 #include "bounds/surface_heights.hpp"

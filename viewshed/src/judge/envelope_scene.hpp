@@ -15,7 +15,7 @@
 #include <optional>
 #include <span>
 
-#include <viewshed/viewshed.hpp>
+#include <viewshed/request.hpp>
 
 #include "bounds/triangle_bins.hpp"
 #include "line/sight_lines.hpp"

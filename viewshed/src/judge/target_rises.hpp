@@ -10,7 +10,7 @@
 
 #include <itin/raster.hpp>
 #include <itin/store.hpp>
-#include <viewshed/viewshed.hpp>
+#include <viewshed/request.hpp>
 
 #include "bounds/cell_blocks.hpp"
 

@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <memory>
 
-#include <viewshed/viewshed.hpp>
+#include <viewshed/result.hpp>
 
 #include "line/cell_tiles.hpp"
 #include "request/eye.hpp"

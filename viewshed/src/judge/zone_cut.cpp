@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include <viewshed/viewshed.hpp>
+#include <viewshed/result.hpp>
 
 namespace itin::viewshed {
 

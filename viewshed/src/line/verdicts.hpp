@@ -7,7 +7,7 @@
 #include <type_traits>
 #include <vector>
 
-#include <viewshed/viewshed.hpp>
+#include <viewshed/result.hpp>
 
 #include "line/cell_tiles.hpp"
 

@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-#include <viewshed/viewshed.hpp>
+#include <viewshed/result.hpp>
 
 namespace itin::viewshed {
 

@@ -6,7 +6,7 @@
 
 #include <itin/progress.hpp>
 #include <itin/store.hpp>
-#include <viewshed/viewshed.hpp>
+#include <viewshed/result.hpp>
 
 namespace itin::viewshed {
 

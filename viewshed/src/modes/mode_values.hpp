@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-#include <viewshed/viewshed.hpp>
+#include <viewshed/result.hpp>
 
 namespace itin::viewshed {
 

@@ -13,7 +13,7 @@
 #include <span>
 #include <vector>
 
-#include <viewshed/viewshed.hpp>
+#include <viewshed/result.hpp>
 
 #include "judge/exact_judge.hpp"
 #include "line/cell_tiles.hpp"

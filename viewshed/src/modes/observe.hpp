@@ -7,7 +7,7 @@
 #include <vector>
 
 #include <itin/progress.hpp>
-#include <viewshed/viewshed.hpp>
+#include <viewshed/result.hpp>
 
 #include "judge/exact_judge.hpp"
 #include "line/tile_parts.hpp"

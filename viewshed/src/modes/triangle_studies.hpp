@@ -4,7 +4,7 @@
 #include <optional>
 
 #include <itin/tin.hpp>
-#include <viewshed/viewshed.hpp>
+#include <viewshed/request.hpp>
 
 #include "judge/clear_zone.hpp"
 #include "modes/first_blocker.hpp"

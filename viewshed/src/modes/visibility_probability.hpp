@@ -23,7 +23,7 @@
 
 #include <itin/earth.hpp>
 #include <itin/tin.hpp>
-#include <viewshed/viewshed.hpp>
+#include <viewshed/request.hpp>
 
 #include "bounds/height_pyramid.hpp"
 #include "modes/error_realisations.hpp"

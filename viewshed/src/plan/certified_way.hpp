@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include <itin/store.hpp>
-#include <viewshed/viewshed.hpp>
+#include <viewshed/request.hpp>
 
 namespace itin::viewshed {
 

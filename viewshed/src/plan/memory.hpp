@@ -5,7 +5,7 @@
 
 #include <itin/raster.hpp>
 #include <itin/store.hpp>
-#include <viewshed/viewshed.hpp>
+#include <viewshed/request.hpp>
 
 namespace itin::viewshed {
 

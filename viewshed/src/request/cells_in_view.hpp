@@ -11,7 +11,7 @@
 
 #include <itin/parallel.hpp>
 #include <itin/raster.hpp>
-#include <viewshed/viewshed.hpp>
+#include <viewshed/request.hpp>
 
 #include "line/cell_tiles.hpp"
 #include "line/infinity.hpp"

@@ -5,7 +5,7 @@
 #include <string>
 
 #include <itin/same_place.hpp>
-#include <viewshed/viewshed.hpp>
+#include <viewshed/request.hpp>
 
 #include "request/field_of_view.hpp"
 

@@ -8,7 +8,7 @@
 #include <itin/azimuth.hpp>
 #include <itin/degrees.hpp>
 #include <itin/grazing.hpp>
-#include <viewshed/viewshed.hpp>
+#include <viewshed/request.hpp>
 
 #include "line/infinity.hpp"
 

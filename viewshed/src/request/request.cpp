@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <itin/error.hpp>
+#include <viewshed/result.hpp>
 
 #include "request/eye.hpp"
 

@@ -5,7 +5,7 @@
 
 #include <itin/store.hpp>
 #include <itin/window.hpp>
-#include <viewshed/viewshed.hpp>
+#include <viewshed/request.hpp>
 
 namespace itin::viewshed {
 

@@ -11,7 +11,7 @@
 
 #include <itin/geometry.hpp>
 #include <itin/lattice_tin.hpp>
-#include <viewshed/viewshed.hpp>
+#include <viewshed/result.hpp>
 
 #include "line/cell_tiles.hpp"
 #include "request/eye.hpp"

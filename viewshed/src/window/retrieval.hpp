@@ -7,7 +7,7 @@
 
 #include <itin/progress.hpp>
 #include <itin/store.hpp>
-#include <viewshed/viewshed.hpp>
+#include <viewshed/request.hpp>
 
 #include "request/eye.hpp"
 #include "window/envelope.hpp"

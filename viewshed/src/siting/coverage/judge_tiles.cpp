@@ -5,7 +5,7 @@
 #include <atomic>
 
 #include <itin/parallel.hpp>
-#include <viewshed/viewshed.hpp>
+#include <viewshed/result.hpp>
 
 #include "judge/zone_cut.hpp"
 #include "line/set_bits.hpp"

@@ -1,0 +1,168 @@
+// What a viewshed tells: the verdict on every cell, and what its mode tells besides.
+//
+//   const viewshed::Result result = viewshed::compute(store, request, progress);
+//   const std::size_t cell = result.grid.index(result.grid.cell_at({318500, 176500}).value());
+//   if (result.visible[cell] == viewshed::Verdict::kVisible) std::cout << "in sight\n";
+//   std::cout << result.cells.visible << " of " << result.cells.in_view() << " cells\n";
+//   // In mode kHeight:
+//   const float least = result.get<viewshed::LeastHeights>().height_m[cell];
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include <itin/raster.hpp>
+#include <itin/tin.hpp>
+#include <viewshed/request.hpp>
+
+namespace itin::viewshed {
+
+/// Says whether a line of sight is clear, or the zone about it, as far as that is known. Rasters hold these numbers.
+enum class Verdict : std::uint8_t {
+  kHidden = 0,
+  kVisible = 1,
+  kUndecided = 2,  ///< at the detail asked for, or for want of ground
+  kZoneCut = 3,    ///< in sight, but something rises into the Fresnel zone; kFresnel alone
+  kOutside = 255   ///< outside every field of view, or no ground to look at
+};
+
+inline constexpr std::uint16_t kCountOutside = 65535;
+
+inline constexpr std::uint32_t kNoBlocker = 0xffffffff;
+/// The blocker where ground without data comes first: it hides under NoData::kBlock, and may hide under
+/// NoData::kUnknown.
+inline constexpr std::uint32_t kMissingGround = 0xfffffffe;
+/// A triangle of the surface that hides something.
+struct BlockingTriangle {
+  std::array<GridPoint, 3> corners;
+  std::uint16_t theme = 0;  ///< from 1; 0: terrain
+  friend auto operator<=>(const BlockingTriangle&, const BlockingTriangle&) = default;
+};
+
+struct CellCounts {
+  std::uint64_t visible = 0;  ///< to at least one observer
+  std::uint64_t hidden = 0;
+  std::uint64_t undecided = 0;
+  std::uint64_t outside = 0;
+  std::uint64_t zone_cut = 0;  ///< in sight of at least one, with no clear zone; kFresnel
+
+  CellCounts& operator+=(const CellCounts& c) {
+    visible += c.visible, hidden += c.hidden, undecided += c.undecided, outside += c.outside, zone_cut += c.zone_cut;
+    return *this;
+  }
+  std::uint64_t in_view() const { return visible + hidden + undecided + zone_cut; }
+};
+
+struct Statistics {
+  RetrievalStatistics retrieval;
+  std::uint64_t triangles = 0;
+  std::uint64_t lines = 0;  ///< sight lines decided
+  double retrieval_seconds = 0;
+  double scene_seconds = 0;
+  double lines_seconds = 0;
+
+  /// Adds the retrieval of another surface, which has `of_triangles` triangles or posts.
+  void add_retrieval(const RetrievalStatistics& read, std::uint64_t of_triangles, double seconds) {
+    retrieval += read;
+    triangles += of_triangles;
+    retrieval_seconds += seconds;
+  }
+  Statistics& operator+=(const Statistics& s) {
+    add_retrieval(s.retrieval, s.triangles, s.retrieval_seconds);
+    lines += s.lines;
+    scene_seconds += s.scene_seconds;
+    lines_seconds += s.lines_seconds;
+    return *this;
+  }
+};
+
+// What modes tell of each cell besides whether it is seen, row by row.
+
+/// kCount: how many observers certainly see the cell, or kCountOutside.
+struct Counts {
+  std::vector<std::uint16_t> count;
+};
+/// kWhich: the set of observers that do, see raster_bit().
+struct ObserverSets {
+  std::vector<std::uint32_t> words;
+};
+/// kAngle: the greatest elevation angle of the lines after curvature and refraction; NaN where no observer sees the
+/// cell.
+struct Angles {
+  std::vector<float> angle_deg;
+};
+/// kNearest: the observer's number from 1 in their order, 0 where none sees; and how far away it is horizontally, or
+/// NaN.
+struct NearestObservers {
+  std::vector<std::uint32_t> number;
+  std::vector<float> distance_m;
+};
+/// kBlocker.
+struct Blockers {
+  std::vector<BlockingTriangle> triangles;  ///< those that first hide a cell, ascending
+  /// What hides each hidden cell: which of these triangles rises above the sight line first, kMissingGround, or
+  /// kNoBlocker; and its theme (from 1; 0: terrain), or the same value.
+  std::vector<std::uint32_t> triangle;
+  std::vector<std::uint32_t> theme;
+  /// Which feature of that theme the triangle is part of, by features_at(), if the surface is a store's; kNoBlocker
+  /// where it is part of none.
+  std::vector<std::uint32_t> feature;
+};
+/// kHeight: 0 where the ground is seen. NaN where there is no height (outside, beyond the elevations in view, or behind
+/// missing ground that blocks). NaN also where none is known: where the line crosses ground without data under
+/// NoData::kUnknown, unless another observer certainly sees as low. Exact: the sight line to that height touches the
+/// surface within a micrometre.
+struct LeastHeights {
+  std::vector<float> height_m;
+};
+/// kProbability: the probability that the whole line is clear, with a standard error of at most 0.022, alike in
+/// neighbouring cells. 0 for a target at an elevation below the ground, or behind ground without data that blocks. NaN
+/// outside, and where ground without data leaves it open under NoData::kUnknown.
+struct Probabilities {
+  std::vector<float> probability;
+};
+/// kLoss: delta-Bullington diffraction by ITU-R P.526 (profile/diffraction.hpp), and the loss in free space along the
+/// slant line, of the observer for whom their sum is least. NaN outside; at an observer's own place; where a raised
+/// feature holds an end; and where a line crosses ground without data, unless NoData::kClear lets it pass or
+/// NoData::kBlock leaves that observer out.
+struct Losses {
+  std::vector<float> diffraction_db;
+  std::vector<float> free_space_db;
+};
+/// The values of a mode; kVisible and kFresnel have none.
+using ModeValues = std::variant<std::monostate, Counts, ObserverSets, Angles, NearestObservers, Blockers, LeastHeights,
+                                Probabilities, Losses>;
+
+struct Result {
+  Request request;  ///< as understood
+  RasterGrid grid;
+  /// The verdicts, in every mode. A cell is undecided where only ground without data leaves it open, under
+  /// NoData::kUnknown, and in certified results where the level leaves it open.
+  std::vector<Verdict> visible;
+  bool certified = false;                ///< made by compute_certified(): verdicts at a level are certain
+  bool decided_exactly = false;          ///< a certified one over the full surface, where the level is no cheaper
+  ModeValues values;                     ///< what request.mode tells besides
+  std::vector<std::string> theme_names;  ///< from a store: of theme 1 and so on
+  CellCounts cells;                      ///< areas are these times grid.cell_area()
+  std::vector<double> ground_m;          ///< elevation of the ground, or of what stands on it, under each observer
+  bool crosses_voids = false;            ///< some sight line may have passed over ground without data
+  std::vector<std::string> warnings;     ///< one line each
+  Statistics statistics;
+
+  /// Tells whether ground without data may leave cells or their values open.
+  bool leaves_open() const { return crosses_voids && request.nodata == NoData::kUnknown; }
+  /// The values of the mode, such as get<Counts>(). Throws std::bad_variant_access where they are another mode's.
+  template <class Values>
+  const Values& get() const {
+    return std::get<Values>(values);
+  }
+  template <class Values>
+  Values& get() {
+    return std::get<Values>(values);
+  }
+};
+
+}  // namespace itin::viewshed
