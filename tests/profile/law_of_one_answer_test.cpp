@@ -11,13 +11,13 @@
 #include <itin/import.hpp>
 #include <itin/store.hpp>
 #include <itin/triangulate.hpp>
-#include <profile/line_of_sight.hpp>
 #include <profile/profile.hpp>
 
 #include "lines/line_clearance.hpp"
 #include "lines/obstructions.hpp"
 #include "support/same_bits.hpp"
 #include "support/seed.hpp"
+#include "support/sight_lines.hpp"
 #include "support/slow_section.hpp"
 #include "support/temporary_directory.hpp"
 
@@ -71,7 +71,7 @@ TEST_F(CoastalStore, GivesOneAnswer) {
       triangles.push_back({tin.vertices[a], tin.vertices[b], tin.vertices[c]});
     }
     const Earth earth;
-    const SightLines sight_lines(tin, earth);
+    const test::SightLines sight_lines(tin, earth);
     const SectionSurface surface(*store_, detail);
     std::uniform_real_distribution<double> height(0, 300);
     for (int i = 0; i < 300; ++i) {
@@ -91,7 +91,7 @@ TEST_F(CoastalStore, GivesOneAnswer) {
         ASSERT_EQ(section.breakpoints[k].position, tiled.breakpoints[k].position);
       }
       const Antennas antennas{height(random_), height(random_)};
-      const SightLine truth = sight_lines.between({a.x, a.y, antennas.from_m}, {b.x, b.y, antennas.to_m});
+      const test::SightLine truth = sight_lines.between({a.x, a.y, antennas.from_m}, {b.x, b.y, antennas.to_m});
       const Profile profile = from_section(section);
       const auto found = line_clearance(profile, antennas, earth);
       ASSERT_EQ(truth.clearance.has_value(), found.has_value());

@@ -85,23 +85,4 @@ class LineOverGround {
   Bulge bulge_;
 };
 
-/// The least clearance over pieces of ground, and where it is: among several places, the one nearest to the line's
-/// start.
-struct LeastClearance {
-  std::optional<double> clearance;
-  GroundPoint place;
-
-  void consider(const LineOverGround& line, const GroundPoint& p) {
-    const double c = line.clearance(p);
-    if (clearance && (c > *clearance || (c == *clearance && p.distance >= place.distance))) return;
-    clearance = c;
-    place = p;
-  }
-  void consider(const LineOverGround& line, const GroundPoint& a, const GroundPoint& b) {
-    consider(line, a);
-    consider(line, b);
-    if (const auto lowest = line.lowest_between(a, b)) consider(line, *lowest);
-  }
-};
-
 }  // namespace itin

@@ -7,6 +7,7 @@
 #include <itin/clearance.hpp>
 
 #include "support/seed.hpp"
+#include "support/sight_lines.hpp"
 
 namespace itin {
 namespace {
@@ -63,7 +64,7 @@ TEST_F(Clearance, IsLeastWhereItIsSaidToBe) {
   int between = 0;
   for (int i = 0; i < 1000; ++i) {
     const Case c = draw_case();
-    LeastClearance least;
+    test::LeastClearance least;
     least.consider(c.line(), c.a, c.b);
     ASSERT_TRUE(least.clearance);
     for (int k = 0; k <= 1000; ++k)

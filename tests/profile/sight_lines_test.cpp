@@ -1,20 +1,22 @@
+#include "support/sight_lines.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <iostream>
 #include <limits>
 #include <optional>
 #include <random>
-#include <type_traits>
 
 #include <gtest/gtest.h>
 
-#include <profile/line_of_sight.hpp>
+#include <itin/earth.hpp>
+#include <itin/tin.hpp>
 
-#include "lines/triangle_buckets.hpp"
 #include "support/same_bits.hpp"
 #include "support/seed.hpp"
+#include "support/triangle_buckets.hpp"
 
-namespace itin::profile {
+namespace itin::test {
 
 namespace {
 
@@ -46,7 +48,7 @@ Tin ridge() {
   return lattice(2, 2, 50, [](int c, int) { return c == 1 ? 10.0 : 0.0; });
 }
 
-TEST(LineOfSight, IsBlockedByARidgeAsFarAsItRisesAboveTheRay) {
+TEST(SightLines, IsBlockedByARidgeAsFarAsItRisesAboveTheRay) {
   const Tin tin = ridge();
   const SightLine line = SightLines(tin, Earth::flat()).between({10, 30, 5}, {90, 30, 7});
   EXPECT_FALSE(line.visible());
@@ -56,13 +58,7 @@ TEST(LineOfSight, IsBlockedByARidgeAsFarAsItRisesAboveTheRay) {
   EXPECT_EQ(line.critical, (Point3{50, 30, 10}));
 }
 
-TEST(LineOfSight, TakesNoTinThatIsGoneTheNextMoment) {
-  static_assert(std::is_constructible_v<SightLines, const Tin&, Earth>);
-  static_assert(!std::is_constructible_v<SightLines, Tin, Earth>);
-  static_assert(!std::is_constructible_v<SightLines, Tin, Earth, std::optional<double>>);
-}
-
-TEST(LineOfSight, GrazingTheSurfaceIsVisible) {
+TEST(SightLines, GrazingTheSurfaceIsVisible) {
   const Tin tin = ridge();
   const SightLines sight_lines(tin, Earth::flat());
   EXPECT_EQ(sight_lines.between({0, 30, 10}, {100, 30, 10}).clearance, 0.0);
@@ -71,7 +67,7 @@ TEST(LineOfSight, GrazingTheSurfaceIsVisible) {
   EXPECT_FALSE(sight_lines.between({0, 30, 9.999}, {100, 30, 10}).visible());
 }
 
-TEST(LineOfSight, RunsAlongEdgesAndThroughVertices) {
+TEST(SightLines, RunsAlongEdgesAndThroughVertices) {
   const Tin tin = ridge();
   const SightLines sight_lines(tin, Earth::flat());
   EXPECT_EQ(sight_lines.between({0, 50, 8}, {100, 50, 8}).clearance, -2.0);   // along edges, through a vertex
@@ -80,7 +76,7 @@ TEST(LineOfSight, RunsAlongEdgesAndThroughVertices) {
   EXPECT_EQ(sight_lines.between({-10, 50, 3}, {10, 50, 3}).clearance, 1.0);   // from outside: ground at 2 below its end
 }
 
-TEST(LineOfSight, DipsBetweenTheEndsOnACurvedEarth) {
+TEST(SightLines, DipsBetweenTheEndsOnACurvedEarth) {
   // A plane of two triangles: no breakpoint between the ends. The chord dips by L^2 (1 - k) / 8 R at its middle.
   const Tin tin = lattice(1, 1, 10000, [](int, int) { return 0.0; });
   const Earth earth = Earth{};
@@ -96,7 +92,7 @@ TEST(LineOfSight, DipsBetweenTheEndsOnACurvedEarth) {
   EXPECT_NEAR(tilted.critical.x, 1000 + 8000 * (0.5 - 1 / (2 * c * 8000.0 * 8000.0)), 1e-6);
 }
 
-TEST(LineOfSight, SeesAcrossGroundWithoutData) {
+TEST(SightLines, SeesAcrossGroundWithoutData) {
   const Tin tin = ridge();
   const SightLine line = SightLines(tin, Earth::flat()).between({500, 0, -5}, {600, 0, -5});
   EXPECT_EQ(line.clearance, std::nullopt);
@@ -105,7 +101,7 @@ TEST(LineOfSight, SeesAcrossGroundWithoutData) {
   EXPECT_TRUE(SightLines(nothing, Earth::flat()).between({0, 0, 0}, {1, 1, 1}).visible());
 }
 
-TEST(LineOfSight, OfLengthZeroLooksDown) {
+TEST(SightLines, OfLengthZeroLooksDown) {
   const Tin tin = ridge();
   const SightLines sight_lines(tin, Earth::flat());
   EXPECT_DOUBLE_EQ(*sight_lines.between({25, 30, 6}, {25, 30, 6}).clearance, 1);
@@ -114,7 +110,7 @@ TEST(LineOfSight, OfLengthZeroLooksDown) {
   EXPECT_FALSE(sight_lines.between({25, 30, 4}, {25, 30, 4}).visible());
 }
 
-TEST(LineOfSight, WithinAStepOfTheGridOnlyTheEndsMatter) {
+TEST(SightLines, WithinAStepOfTheGridOnlyTheEndsMatter) {
   // A wall of 50 m between two posts that are neighbours on the grid.
   const Tin tin = lattice(3, 3, 0.01, [](int c, int) { return c == 1 ? 50.0 : 0.0; });
   const SightLines sight_lines(tin, Earth::flat());
@@ -133,7 +129,7 @@ class RandomSights : public ::testing::Test {
   static constexpr double kSpacing = 100;
 
   void SetUp() override {
-    random_.seed(test::seed());
+    random_.seed(seed());
     std::normal_distribution<double> height(100, 20);
     tin_ = lattice(kPosts, kPosts, kSpacing, [&](int, int) { return height(random_); });
   }
@@ -156,9 +152,9 @@ TEST_F(RandomSights, AreTheSameFromEitherEnd) {
     const SightLine there = sight_lines.between(a, b), back = sight_lines.between(b, a);
     ASSERT_EQ(there.clearance.has_value(), back.clearance.has_value());
     if (!there.clearance) continue;
-    ASSERT_TRUE(test::same_bits(*there.clearance, *back.clearance));
+    ASSERT_TRUE(same_bits(*there.clearance, *back.clearance));
     ASSERT_EQ(there.critical, back.critical);
-    ASSERT_TRUE(test::same_bits(there.length, back.length));
+    ASSERT_TRUE(same_bits(there.length, back.length));
   }
 }
 
@@ -223,4 +219,4 @@ TEST_F(RandomSights, FindEveryTriangleTheyCross) {
 
 }  // namespace
 
-}  // namespace itin::profile
+}  // namespace itin::test

@@ -1,20 +1,47 @@
-#include "lines/triangle_buckets.hpp"
+// A grid of buckets over a Tin, to find the triangles near a line.
+#pragma once
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <utility>
+#include <vector>
 
+#include <itin/bucket_lists.hpp>
 #include <itin/sort_unique.hpp>
+#include <itin/tin.hpp>
 
-namespace itin::profile {
+namespace itin::test {
 
-namespace {
+/// A grid of buckets. Immutable and safe for concurrent use. It has about two triangles per bucket; a triangle is in
+/// every bucket its box meets.
+class TriangleBuckets {
+ public:
+  explicit TriangleBuckets(const Tin& tin);
 
-/// Widens searches by a part of a bucket, so that rounding of the line's course never loses a triangle.
-constexpr double kSlack = 1e-6;
+  /// All triangles that meet the segment ab, and others nearby; ascending, each once.
+  std::vector<std::uint32_t> near(Point2 a, Point2 b) const;
 
-}  // namespace
+ private:
+  /// Widens searches by a part of a bucket, so that rounding of the line's course never loses a triangle.
+  static constexpr double kSlack = 1e-6;
 
-TriangleBuckets::TriangleBuckets(const Tin& tin) {
+  struct Span {
+    int first = 0;
+    int last = -1;
+  };
+  Span columns(double xmin, double xmax) const;
+  Span rows(double ymin, double ymax) const;
+  std::size_t bucket(int column, int row) const { return static_cast<std::size_t>(row) * column_count_ + column; }
+
+  Box bounds_;
+  double side_ = 1;  ///< the side of a bucket, metres
+  int column_count_ = 0;
+  int row_count_ = 0;
+  BucketLists triangles_;  ///< by bucket, row by row
+};
+
+inline TriangleBuckets::TriangleBuckets(const Tin& tin) {
   if (tin.triangles.empty()) return;
   bounds_ = tin.bounds();
   const double area = bounds_.width() * bounds_.height();
@@ -35,19 +62,19 @@ TriangleBuckets::TriangleBuckets(const Tin& tin) {
                 }};
 }
 
-TriangleBuckets::Span TriangleBuckets::columns(double xmin, double xmax) const {
+inline TriangleBuckets::Span TriangleBuckets::columns(double xmin, double xmax) const {
   const double last = column_count_ - 1;
   const auto column = [&](double x) { return static_cast<int>(std::clamp((x - bounds_.xmin) / side_, 0.0, last)); };
   return {column(xmin - kSlack * side_), column(xmax + kSlack * side_)};
 }
 
-TriangleBuckets::Span TriangleBuckets::rows(double ymin, double ymax) const {
+inline TriangleBuckets::Span TriangleBuckets::rows(double ymin, double ymax) const {
   const double last = row_count_ - 1;
   const auto row = [&](double y) { return static_cast<int>(std::clamp((y - bounds_.ymin) / side_, 0.0, last)); };
   return {row(ymin - kSlack * side_), row(ymax + kSlack * side_)};
 }
 
-std::vector<std::uint32_t> TriangleBuckets::near(Point2 a, Point2 b) const {
+inline std::vector<std::uint32_t> TriangleBuckets::near(Point2 a, Point2 b) const {
   std::vector<std::uint32_t> found;
   if (b.x < a.x) std::swap(a, b);
   Box course;
@@ -72,4 +99,4 @@ std::vector<std::uint32_t> TriangleBuckets::near(Point2 a, Point2 b) const {
   return found;
 }
 
-}  // namespace itin::profile
+}  // namespace itin::test
