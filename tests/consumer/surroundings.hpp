@@ -16,7 +16,6 @@ extern NoProgress progress;
 
 namespace itin::viewshed {
 extern const Request request;
-extern const ZoneRequest zone_request;
 extern const RasterGrid grid;
 extern Coverage& coverage;
 }  // namespace itin::viewshed

@@ -1,5 +1,6 @@
 // A viewshed's result as files: rasters, polygons, and the JSON document.
 //
+//   const viewshed::Result result = viewshed::compute(store, request, progress);
 //   viewshed::write_geotiff("out.tif", result, {.crs_wkt = store.metadata().crs_wkt});
 //   viewshed::write_polygons("out.gpkg", result, store.metadata().crs_wkt, /*overwrite=*/false);
 //   std::cout << viewshed::json_of(result, store.metadata()) << '\n';
