@@ -1,5 +1,9 @@
-// The commands of the README, run as they stand there and in their order.
+// The commands of the README and of the guides that it lists, run as they stand there and in their order.
+#include <algorithm>
+#include <filesystem>
 #include <fstream>
+#include <regex>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -11,12 +15,40 @@ namespace itin::test {
 
 namespace {
 
+const std::filesystem::path kSource = ITIN_SOURCE_DIR;
+
+std::string text_of(const std::filesystem::path& page) {
+  std::ostringstream text;
+  text << std::ifstream(page).rdbuf();
+  return text.str();
+}
+
+/// Returns what the links and pictures of a page lead to, in their order; without the places within pages.
+std::vector<std::string> links_of(const std::filesystem::path& page) {
+  const std::string text = text_of(page);
+  const std::regex link(R"(\]\(([^)#]+)[^)]*\))");
+  std::vector<std::string> links;
+  for (std::sregex_iterator at(text.begin(), text.end(), link), end; at != end; ++at) links.push_back((*at)[1]);
+  return links;
+}
+
+/// The README, and then the guides in the order in which it lists them.
+std::vector<std::filesystem::path> pages() {
+  std::vector<std::filesystem::path> pages{kSource / "README.md"};
+  for (const std::string& link : links_of(pages.front())) {
+    const std::filesystem::path page = kSource / link;
+    const bool listed = std::find(pages.begin(), pages.end(), page) != pages.end();
+    if (link.starts_with("docs/") && !listed) pages.push_back(page);
+  }
+  return pages;
+}
+
 /// The lines of all blocks marked `sh`.
-std::vector<std::string> readme_commands() {
+std::vector<std::string> commands_of(const std::filesystem::path& page) {
   std::vector<std::string> commands;
-  std::ifstream readme(ITIN_SOURCE_DIR "/README.md");
+  std::istringstream text(text_of(page));
   bool inside = false;
-  for (std::string line; std::getline(readme, line);) {
+  for (std::string line; std::getline(text, line);) {
     if (line.starts_with("```")) {
       inside = line == "```sh";
     } else if (inside) {
@@ -28,27 +60,38 @@ std::vector<std::string> readme_commands() {
 
 TEST(Readme, CommandsDoWhatTheySay) {
   const Shell shell;
-  std::filesystem::create_directory_symlink(ITIN_SOURCE_DIR "/scripts", shell.directory() / "scripts");
-  const std::vector<std::string> commands = readme_commands();
-  EXPECT_GT(commands.size(), 6u);
-  for (const std::string& command : commands) {
-    const Outcome outcome = shell.run(command);
-    EXPECT_EQ(outcome.status, 0) << command << "\n" << outcome.err;
-    EXPECT_EQ(outcome.err.find("keep no candidate away"), std::string::npos) << command << "\n" << outcome.err;
+  std::filesystem::create_directory_symlink(kSource / "scripts", shell.directory() / "scripts");
+  std::size_t count = 0;
+  for (const std::filesystem::path& page : pages()) {
+    for (const std::string& command : commands_of(page)) {
+      const Outcome outcome = shell.run(command);
+      EXPECT_EQ(outcome.status, 0) << page << ": " << command << "\n" << outcome.err;
+      EXPECT_EQ(outcome.err.find("keep no candidate away"), std::string::npos) << command << "\n" << outcome.err;
+      ++count;
+    }
   }
+  EXPECT_GT(count, 40u);
   for (const char* made :
        {"cardiff.itin", "garth.glb", "bay.gpkg", "summit.json", "fine.tif", "fine.png", "hills.tif"}) {
     EXPECT_TRUE(std::filesystem::exists(shell.directory() / made)) << made;
   }
 }
 
-TEST(Readme, PictureIsThere) {
-  std::ifstream readme(ITIN_SOURCE_DIR "/README.md");
-  std::string line;
-  while (std::getline(readme, line) && !line.starts_with("![")) {
+TEST(Readme, ListsAllGuides) {
+  const std::vector<std::filesystem::path> listed = pages();
+  for (const auto& entry : std::filesystem::directory_iterator(kSource / "docs")) {
+    if (entry.path().extension() != ".md") continue;
+    EXPECT_NE(std::find(listed.begin(), listed.end(), entry.path()), listed.end()) << entry.path();
   }
-  const std::size_t begin = line.find('(') + 1;
-  EXPECT_TRUE(std::filesystem::exists(ITIN_SOURCE_DIR "/" + line.substr(begin, line.find(')') - begin))) << line;
+}
+
+TEST(Readme, LinksLeadToFiles) {
+  for (const std::filesystem::path& page : pages()) {
+    const std::vector<std::string> links = links_of(page);
+    EXPECT_FALSE(links.empty()) << page;
+    for (const std::string& link : links)
+      EXPECT_TRUE(std::filesystem::exists(page.parent_path() / link)) << page << ": " << link;
+  }
 }
 
 }  // namespace
