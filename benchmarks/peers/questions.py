@@ -57,7 +57,7 @@ class Row(NamedTuple):
 
 ROWS = [
     *(Row(f"{place.name}, exact", place.terrain, seen_from(place, "--precise"), place) for place in PLACES),
-    Row("fractal, exact, --memory 100M", "fractal", fractal("--precise", "--memory", "100M")),
+    Row("fractal, exact, --memory 150M", "fractal", fractal("--precise", "--memory", "150M")),
     Row("fractal, tolerance 2 m", "fractal", fractal("--tolerance", "2")),
     Row("fractal, tolerance 8 m", "fractal", fractal("--tolerance", "8")),
     Row("fractal, certified at 32 m", "fractal", fractal("--mode", "certified", "--tolerance", "32")),

@@ -22,13 +22,14 @@ def timed(command):
     began = stage_began = time.monotonic()
     process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=side)
     os.close(side)
-    seconds, stage, text = {}, None, ""
+    seconds, stage, text, said = {}, None, "", ""
     while True:
         try:
             text += os.read(terminal, 65536).decode(errors="replace")
         except OSError:  # the program has closed its end
             break
         *lines, text = re.split(r"[\r\n]", text)
+        said = next(filter(str.strip, reversed([*lines, text])), said)
         for named in filter(None, map(stage_in, lines + [text])):
             now = time.monotonic()
             if named != stage:
@@ -37,7 +38,7 @@ def timed(command):
                 stage, stage_began = named, now
     os.close(terminal)
     if process.wait() != 0:
-        raise Failed(f"{' '.join(map(str, command))} failed: {text.strip()}")
+        raise Failed(f"{' '.join(map(str, command))} failed: {said.strip()}")
     now = time.monotonic()
     if stage:
         seconds[stage] = seconds.get(stage, 0) + now - stage_began

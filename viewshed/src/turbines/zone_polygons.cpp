@@ -1,5 +1,7 @@
-#include <algorithm>
+#include <functional>
+#include <utility>
 
+#include <itin/parallel.hpp>
 #include <itin/raster_regions.hpp>
 #include <viewshed/zone_files.hpp>
 
@@ -33,30 +35,45 @@ void write_farm_polygons(const std::string& path, const Zone& zone, const std::v
   write_regions(path, zone.grid, std::span<const std::uint32_t>(farms), description);
 }
 
+/// A file that does not depend on the others.
+struct PolygonFile {
+  ZoneFile file;
+  std::function<void(const std::string& path)> write;
+};
+
+/// Adds the files of what is seen. Both the zone and the options must outlive them.
+void add_files(const Zone& zone, const Visibility& seen, const std::string& suffix, const ZoneFileOptions& options,
+               std::vector<PolygonFile>& files) {
+  const std::string undecided =
+      zone.leaves_open() ? "; the class undecided is where ground without data leaves open whether any is" : "";
+  files.push_back(
+      {{"tip-count" + suffix + ".gpkg",
+        "polygons of the areas from which tips are seen, by bands of their number, with the area in m²" + undecided},
+       [&](const std::string& path) {
+         write_bands(path, "tip-count", zone, {zone, seen.tip_count, seen.tip_undecided}, options);
+       }});
+  if (knows_hubs(zone))
+    files.push_back(
+        {{"hub-count" + suffix + ".gpkg", "where a band of turbines has its hubs seen: polygons, m²" + undecided},
+         [&](const std::string& path) {
+           write_bands(path, "hub-count", zone, {zone, seen.hub_count, seen.hub_undecided}, options);
+         }});
+  if (farms_of(zone).size() < 2) return;
+  files.push_back(
+      {{"farms" + suffix + ".gpkg", "where a combination of farms has tips seen: polygons, m²"},
+       [&](const std::string& path) { write_farm_polygons(path, zone, farm_combinations(zone, seen), options); }});
+}
+
 }  // namespace
 
 std::vector<ZoneFile> write_zone_polygons(const std::string& folder, const Zone& zone, const ZoneFileOptions& options) {
-  std::vector<ZoneFile> files;
-  const std::size_t farms = farms_of(zone).size();
-  const std::string undecided =
-      zone.leaves_open() ? "; the class undecided is where ground without data leaves open whether any is" : "";
-  const auto write_all = [&](const Visibility& v, const std::string& suffix) {
-    files.push_back(
-        {"tip-count" + suffix + ".gpkg",
-         "polygons of the areas from which tips are seen, by bands of their number, with the area in m²" + undecided});
-    write_bands(folder + "/" + files.back().name, "tip-count", zone, {zone, v.tip_count, v.tip_undecided}, options);
-    if (knows_hubs(zone)) {
-      files.push_back(
-          {"hub-count" + suffix + ".gpkg", "where a band of turbines has its hubs seen: polygons, m²" + undecided});
-      write_bands(folder + "/" + files.back().name, "hub-count", zone, {zone, v.hub_count, v.hub_undecided}, options);
-    }
-    if (farms < 2) return;
-    files.push_back({"farms" + suffix + ".gpkg", "where a combination of farms has tips seen: polygons, m²"});
-    write_farm_polygons(folder + "/" + files.back().name, zone, farm_combinations(zone, v), options);
-  };
-  write_all(zone.bare, "");
-  if (zone.screened) write_all(*zone.screened, "-screened");
-  return files;
+  std::vector<PolygonFile> files;
+  add_files(zone, zone.bare, "", options, files);
+  if (zone.screened) add_files(zone, *zone.screened, "-screened", options, files);
+  parallel_for(files.size(), [&](std::size_t i) { files[i].write(folder + "/" + files[i].file.name); });
+  std::vector<ZoneFile> written;
+  for (PolygonFile& f : files) written.push_back(std::move(f.file));
+  return written;
 }
 
 }  // namespace itin::viewshed
