@@ -189,6 +189,22 @@ TEST(Comments, BeginWithTheirSubject) {
   }
 }
 
+/// So is each sentence of a page.
+TEST(Pages, HaveSentencesThatBeginWithTheirSubject) {
+  const std::regex opening("(.*[.:|] )?(Of|The same|So many|So few|Likewise|That of|Those|As above) .*");
+  std::vector<fs::path> pages{"README.md", "CHANGELOG.md", "CONTRIBUTING.md", "libitin/FORMAT.md",
+                              "benchmarks/README.md"};
+  for (const fs::directory_entry& entry : fs::directory_iterator(kRoot / "docs"))
+    if (entry.path().extension() == ".md") pages.push_back(entry.path());
+  EXPECT_GT(pages.size(), 12u);
+  for (const fs::path& page : pages) {
+    std::ifstream stream(kRoot / page);
+    ASSERT_TRUE(stream) << page;
+    for (std::string line; std::getline(stream, line);)
+      EXPECT_FALSE(std::regex_match(line, opening)) << page << ": " << line;
+  }
+}
+
 /// A comment behind code, or behind a line of a header's example, says what a thing is: `///< the side of a cell`. One
 /// that begins with "of" has to be completed from the name.
 TEST(Comments, BehindCodeSayWhatTheyDescribe) {
