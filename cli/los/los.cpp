@@ -24,6 +24,7 @@
 #include "output/output_path.hpp"
 #include "output/store_document.hpp"
 #include "program/call_files.hpp"
+#include "program/help.hpp"
 #include "program/values.hpp"
 #include "program/verb.hpp"
 
@@ -39,6 +40,7 @@ class LosVerb final : public Verb {
   void declare(CLI::App& app) override {
     reads(app.add_option("STORE", store_, "The store (not with --profile-csv)"));
     line_.declare(app);
+    begin_group(app, "A given profile");
     reads(app.add_option("--profile-csv", profile_csv_, "Work on this profile instead of a store: d_km,h_m[,clutter_m]")
               ->type_name("FILE"));
     app.add_option("--heights", heights_text_, "Heights of the two ends above that profile")->type_name("h1,h2");
@@ -49,6 +51,7 @@ class LosVerb final : public Verb {
     reports_.declare(app);
     people_.declare(app);
     policy_.declare(app);
+    line_.declare_memory(app);
   }
 
   void validate() override {

@@ -14,6 +14,7 @@
 #include "options/off_the_data.hpp"
 #include "output/store_document.hpp"
 #include "program/call_files.hpp"
+#include "program/help.hpp"
 #include "program/values.hpp"
 
 namespace itin::cli {
@@ -37,6 +38,7 @@ std::string first_error(const LinkTable& table, const std::vector<LinkResult>& r
 }  // namespace
 
 void LosLinks::declare(CLI::App& app) {
+  begin_group(app, "Many links");
   reads(app.add_option(
                "--links", path_,
                "Many links: a table id,x1,y1,h1,x2,y2,h2 (.csv; also lon1,lat1,lon2,lat2, or position1,position2 with "

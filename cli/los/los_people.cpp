@@ -6,10 +6,12 @@
 #include <itin/magnetic_north.hpp>
 
 #include "options/day_of_run.hpp"
+#include "program/help.hpp"
 
 namespace itin::cli {
 
 void LosPeople::declare(CLI::App& app) {
+  begin_group(app, "Reports");
   app.add_option("--project", project_, "The project, named at the head of the report")->type_name("TEXT");
   app.add_option("--operator", operator_, "Who makes the report or answers for it, named there as well")
       ->type_name("TEXT");

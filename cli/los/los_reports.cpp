@@ -14,6 +14,7 @@
 #include "output/store_document.hpp"
 #include "program/call_files.hpp"
 #include "program/field_names.hpp"
+#include "program/help.hpp"
 #include "program/values.hpp"
 
 namespace itin::cli {
@@ -43,6 +44,7 @@ std::string failure_of(const std::vector<Written>& all) {
 }  // namespace
 
 void LosReports::declare(CLI::App& app) {
+  begin_group(app, "Reports");
   writes(app.add_option("--report", paths_,
                         "Write the report, as its ending says: .json .csv .txt .svg .pdf .png .html .kml .gpkg; may be "
                         "given again. The .txt is the profile for other programs: distance km, ground m, height of "

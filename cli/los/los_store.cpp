@@ -7,6 +7,7 @@
 
 #include "options/off_the_data.hpp"
 #include "output/store_document.hpp"
+#include "program/help.hpp"
 #include "program/unusable_options.hpp"
 
 namespace itin::cli {
@@ -27,6 +28,7 @@ std::vector<std::string> warnings_about(const profile::LosReport& report) {
 }  // namespace
 
 void LosStoreOptions::declare(CLI::App& app) {
+  begin_group(app, "The line");
   app_ = &app;
   app.add_option(
          "--from", from_text_,
@@ -43,6 +45,9 @@ void LosStoreOptions::declare(CLI::App& app) {
   detail_.declare(app, "--from");
   themes_.declare(app);
   nodata_.declare(app);
+}
+
+void LosStoreOptions::declare_memory(CLI::App& app) {
   memory_.declare(app, kKeptOfTheStore);
 }
 

@@ -24,6 +24,7 @@ namespace itin::cli {
 class LosStoreOptions {
  public:
   void declare(CLI::App& app);
+  void declare_memory(CLI::App& app);
   bool given() const { return !from_text_.empty() || !to_text_.empty(); }
   /// Requires, for a call without a store, that none of the options is given. Throws InputError.
   void require_none() const;

@@ -2,11 +2,13 @@
 
 #include <itin/error.hpp>
 
+#include "program/help.hpp"
 #include "program/values.hpp"
 
 namespace itin::cli {
 
 void DetailOptions::declare(CLI::App& app, const std::string& rings_about) {
+  begin_group(app, kSurface);
   app.add_option("--tolerance", tolerance_text_,
                  "Vertical tolerance of the surface; 0: every stored point (default: 0)")
       ->type_name("METRES");

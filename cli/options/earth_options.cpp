@@ -4,11 +4,13 @@
 
 #include <itin/error.hpp>
 
+#include "program/help.hpp"
 #include "program/values.hpp"
 
 namespace itin::cli {
 
 void EarthOptions::declare(CLI::App& app) {
+  begin_group(app, kEarth);
   app.add_option("--curvature", curvature_text_, "Whether the earth is curved (default: on)")->type_name("on|off");
   app.add_option(
          "--refraction", refraction_text_,
@@ -21,6 +23,7 @@ void EarthOptions::declare(CLI::App& app) {
 }
 
 void EarthOptions::declare_radius(CLI::App& app) {
+  begin_group(app, kEarth);
   app.add_option("--effective-earth-km", effective_km_text_, "The effective Earth's radius instead of its factor K")
       ->type_name("KM");
 }

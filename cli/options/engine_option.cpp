@@ -1,10 +1,12 @@
 #include "options/engine_option.hpp"
 
+#include "program/help.hpp"
 #include "program/values.hpp"
 
 namespace itin::cli {
 
 void EngineOption::declare(CLI::App& app) {
+  begin_group(app, kRunning);
   app.add_option("--engine", text_,
                  "What decides sight lines to cells: a sweep about each observer, or rays; auto takes the faster one "
                  "(the default). The result does not depend on it")

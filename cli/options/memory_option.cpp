@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "program/help.hpp"
 #include "program/values.hpp"
 
 namespace itin::cli {
@@ -15,6 +16,7 @@ std::uint64_t part_of(std::optional<std::uint64_t> memory_bytes, std::uint64_t s
 }  // namespace
 
 void MemoryOption::declare(CLI::App& app, const std::string& help) {
+  begin_group(app, kRunning);
   app.add_option("--memory", text_, help)->type_name("SIZE");
 }
 

@@ -1,5 +1,6 @@
 #include "options/nodata_option.hpp"
 
+#include "program/help.hpp"
 #include "program/values.hpp"
 
 namespace itin::cli {
@@ -12,6 +13,7 @@ void NoDataOption::declare(CLI::App& app) {
 }
 
 void NoDataOption::declare(CLI::App& app, const std::string& help) {
+  begin_group(app, kSurface);
   app.add_option("--nodata", text_, help)->type_name("unknown|block|clear");
 }
 

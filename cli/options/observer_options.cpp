@@ -7,10 +7,12 @@
 #include "options/off_the_data.hpp"
 #include "options/site_list.hpp"
 #include "program/call_files.hpp"
+#include "program/help.hpp"
 
 namespace itin::cli {
 
 void ObserverOptions::declare(CLI::App& app) {
+  begin_group(app, "Observers");
   app.add_option("--observer", observers_, "An observer; may be given again, or several in a row")
       ->type_name("x,y[,h]")
       ->expected(1)

@@ -6,11 +6,13 @@
 #include <itin/triangulate.hpp>
 
 #include "program/call_files.hpp"
+#include "program/help.hpp"
 #include "program/values.hpp"
 
 namespace itin::cli {
 
 void PictureOptions::declare(CLI::App& app, const std::string& of) {
+  begin_group(app, "Picture");
   writes(app.add_option("--image", path_, "A picture of " + of + " (.png, .jpg, ...), seen obliquely from afar")
              ->type_name("FILE"));
   app.add_flag("--edges", edges_, "Draw the edges of all triangles into the picture");

@@ -5,6 +5,7 @@
 #include <itin/error.hpp>
 #include <profile/radio_text.hpp>
 
+#include "program/help.hpp"
 #include "program/values.hpp"
 
 namespace itin::cli {
@@ -22,6 +23,7 @@ profile::TallObject parse_object(const std::string& text) {
 }  // namespace
 
 void RadioOptions::declare(CLI::App& app) {
+  begin_group(app, kRadio);
   wave_.declare(app, "Work out Fresnel zones and diffraction at this frequency: GHz, or 7500MHz");
   app.add_option("--criterion", criteria_text_,
                  "Ask for this fraction of the first Fresnel zone on an Earth of this factor; may be given again. ke "

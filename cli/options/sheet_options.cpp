@@ -9,11 +9,13 @@
 
 #include "options/day_of_run.hpp"
 #include "program/call_files.hpp"
+#include "program/help.hpp"
 #include "program/values.hpp"
 
 namespace itin::cli {
 
 void SheetOptions::declare(CLI::App& app) {
+  begin_group(app, kMapsOnPaper);
   papers_option_ = "--sheets";
   app.add_option(papers_option_, papers_text_,
                  "Maps on paper, to scale, with title block, legend, grid references and sources, as PDF and PNG on "
@@ -23,6 +25,7 @@ void SheetOptions::declare(CLI::App& app) {
 }
 
 void SheetOptions::declare_file(CLI::App& app) {
+  begin_group(app, kMapsOnPaper);
   writes(app.add_option("--sheet", file_,
                         "A map on paper, to scale, with title block, legend, grid references and sources (.pdf, .png)")
              ->type_name("FILE"));

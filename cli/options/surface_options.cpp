@@ -1,8 +1,11 @@
 #include "options/surface_options.hpp"
 
+#include "program/help.hpp"
+
 namespace itin::cli {
 
 void ThemeOptions::declare(CLI::App& app) {
+  begin_group(app, kSurface);
   app.add_option(
          "--themes", themes_,
          "Surface features to include: all (the default), none, or their names. Lines of the terrain are always "

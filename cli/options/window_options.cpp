@@ -7,6 +7,7 @@
 
 #include "options/off_the_data.hpp"
 #include "program/call_files.hpp"
+#include "program/help.hpp"
 #include "program/values.hpp"
 
 namespace itin::cli {
@@ -45,15 +46,16 @@ Point2 middle(const Box& box) {
 }  // namespace
 
 void WindowOptions::declare(CLI::App& app) {
+  begin_group(app, "Window, one of");
   const auto shape = [&](const char* name, std::string& value, const char* what, std::string_view form) {
-    return app.add_option(name, value, what)->type_name(std::string(form))->group("Window, one of");
+    return app.add_option(name, value, what)->type_name(std::string(form));
   };
   shape("--bbox", bbox_, "A box", kBoxShape);
   reads(shape("--polygon", polygon_, "A polygon as WKT, or a vector file of polygons", "WKT|FILE"));
   shape("--disc", disc_, "A disc", kDiscShape);
   shape("--wedge", wedge_, "A sector; azimuth of its axis and width in degrees", kWedgeShape);
   shape("--corridor", corridor_, "A strip along a line", kCorridorShape);
-  app.add_flag("--all", all_, "Everything the store covers")->group("Window, one of");
+  app.add_flag("--all", all_, "Everything the store covers");
   in_crs_.declare(app);
 }
 

@@ -6,9 +6,12 @@
 #include <itin/error.hpp>
 #include <itin/file_ending.hpp>
 
+#include "program/help.hpp"
+
 namespace itin::cli {
 
 void OutputPolicy::declare(CLI::App& app) {
+  begin_group(app, kOutputs);
   app_ = &app;
   app.add_flag("--overwrite", overwrite, "Replace existing outputs");
 }

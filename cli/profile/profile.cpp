@@ -25,6 +25,7 @@
 #include "output/tin_export_options.hpp"
 #include "profile/profile_output.hpp"
 #include "program/call_files.hpp"
+#include "program/help.hpp"
 #include "program/values.hpp"
 #include "program/verb.hpp"
 
@@ -61,6 +62,7 @@ class ProfileVerb final : public Verb {
 
   void declare(CLI::App& app) override {
     reads(app.add_option("STORE", store_, "The store")->required());
+    begin_group(app, "The line");
     app.add_option("--from", from_text_, "Where the line begins")->type_name("x,y");
     const auto repeated = [](CLI::Option* option) {
       return option->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
@@ -69,6 +71,7 @@ class ProfileVerb final : public Verb {
     app.add_option("--to", to_text_, "Where it ends")->type_name("x,y");
     reads(app.add_option("--path", path_, "Follow the one line of this vector file instead")->type_name("FILE"));
     in_crs_.declare(app);
+    begin_group(app, kSurface);
     repeated(app.add_option("--tolerance", tolerance_texts_,
                             "Vertical tolerance of the surface; 0: every stored point (default: 0); may be given again "
                             "for several profiles side by side")
@@ -78,6 +81,7 @@ class ProfileVerb final : public Verb {
            "Tolerances that grow with the distance from --from, nearest ring first; features are thinned with the "
            "terrain")
         ->type_name("RADIUS:TOLERANCE,...");
+    begin_group(app, kOutputs);
     repeated(writes(
         app.add_option(
                "-o,--output", outputs_,

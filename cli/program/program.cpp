@@ -23,6 +23,7 @@
 #include "program/call_error.hpp"
 #include "program/call_files.hpp"
 #include "program/field_names.hpp"
+#include "program/help.hpp"
 #include "program/interruption.hpp"
 #include "program/likely_meant.hpp"
 #include "program/stderr_progress.hpp"
@@ -43,6 +44,7 @@ struct Everywhere {
   std::string threads;
 
   void declare(CLI::App& app) {
+    begin_group(app, kRunning);
     app.add_flag("--json", json, "Print the result as one JSON document");
     app.add_flag("--quiet", quiet, "No progress");
     app.add_option("--threads", threads, "Threads to use; the result never depends on it (default: all cores)")
@@ -154,6 +156,7 @@ void parse_and_run(const std::vector<std::string>& arguments) {
   require_known_verb(arguments, verbs);
 
   CLI::App app("Intervisibility and viewsheds on a multiscale implicit TIN", "itin");
+  app.formatter(std::make_shared<HelpText>());
   app.set_version_flag("--version", "itin " ITIN_VERSION);
   app.require_subcommand(1);
   Everywhere everywhere;

@@ -7,12 +7,14 @@
 #include <itin/error.hpp>
 
 #include "program/call_files.hpp"
+#include "program/help.hpp"
 #include "program/unusable_options.hpp"
 #include "program/values.hpp"
 
 namespace itin::cli {
 
 void PlacementOptions::declare(CLI::App& app) {
+  begin_group(app, "Turbines to place");
   app_ = &app;
   app.add_flag("--turbines", given_, "Place wind turbines where the demand sees least of them");
   size_options_.declare(app, "of the turbines that are placed");

@@ -13,6 +13,7 @@
 #include "options/wave_options.hpp"
 #include "output/store_document.hpp"
 #include "program/call_files.hpp"
+#include "program/help.hpp"
 
 namespace itin::cli {
 
@@ -27,19 +28,16 @@ std::optional<double> number(const char* option, const std::string& text, Range 
 void SiteOptions::declare(CLI::App& app) {
   app_ = &app;
   reads(app.add_option("STORE", store, "The store")->required());
-  writes(app.add_option("-o,--output", directory, "The folder to write into; made where it is not there")
-             ->type_name("DIR")
-             ->required());
-  reads(app.add_option("--params", params_, "Options from a JSON file, by name; those of the call come before them")
-            ->type_name("FILE"));
   declare_candidates(app);
   placement.declare(app);
   declare_demand(app);
   declare_choice(app);
+  declare_outputs(app);
   declare_work(app);
 }
 
 void SiteOptions::declare_candidates(CLI::App& app) {
+  begin_group(app, "Candidates");
   reads(app.add_option("--candidates", candidates.path,
                        "Candidates from a vector file, or from CSV with columns x,y or lon,lat")
             ->type_name("FILE"));
@@ -70,6 +68,7 @@ void SiteOptions::declare_candidates(CLI::App& app) {
 }
 
 void SiteOptions::declare_demand(CLI::App& app) {
+  begin_group(app, "Demand");
   reads(app.add_option(
                "--demand", demand,
                "What is to be served: cells (default: those within the radius of a candidate), a raster of weights, or "
@@ -98,6 +97,7 @@ void SiteOptions::declare_demand(CLI::App& app) {
 }
 
 void SiteOptions::declare_choice(CLI::App& app) {
+  begin_group(app, "Choice");
   app.add_option("--count", count_text_, "How many sites to choose, or turbines to place")->type_name("K");
   app.add_option("--budget", budget_text_, "Choose sites whose costs add up to at most this")->type_name("COST");
   app.add_option("--share", share_text_, "Choose sites until this share of the demand is served (0.8, or 80%)")
@@ -126,7 +126,17 @@ void SiteOptions::declare_choice(CLI::App& app) {
       ->type_name("on|off");
 }
 
+void SiteOptions::declare_outputs(CLI::App& app) {
+  begin_group(app, kOutputs);
+  writes(app.add_option("-o,--output", directory, "The folder to write into; made where it is not there")
+             ->type_name("DIR")
+             ->required());
+  policy.declare(app);
+  sheets.declare(app);
+}
+
 void SiteOptions::declare_work(CLI::App& app) {
+  begin_group(app, kSurface);
   app.add_option(
          "--tolerance", tolerance_text_,
          "Tolerance of the terrain for the first estimate of all candidates; the choice is made on exact coverage "
@@ -141,9 +151,9 @@ void SiteOptions::declare_work(CLI::App& app) {
                  "it pass");
   engine.declare(app);
   memory.declare(app, kReadInParts);
-  sheets.declare(app);
+  reads(app.add_option("--params", params_, "Options from a JSON file, by name; those of the call come before them")
+            ->type_name("FILE"));
   app.add_flag("--resume", resume, "Go on where a run with the same parameters was killed");
-  policy.declare(app);
 }
 
 void SiteOptions::validate() {

@@ -105,6 +105,7 @@ class SiteOptions {
   void declare_candidates(CLI::App& app);
   void declare_demand(CLI::App& app);
   void declare_choice(CLI::App& app);
+  void declare_outputs(CLI::App& app);
   void declare_work(CLI::App& app);
   void validate_candidates();
   void validate_masts();

@@ -13,6 +13,7 @@
 #include "options/store_scale.hpp"
 #include "output/store_document.hpp"
 #include "program/call_files.hpp"
+#include "program/help.hpp"
 #include "program/values.hpp"
 #include "program/verb.hpp"
 
@@ -110,6 +111,7 @@ class ImportVerb final : public Verb {
  private:
   /// Declares the sources, and what their numbers mean.
   void declare_sources(CLI::App& app) {
+    begin_group(app, "Sources");
     writes(app.add_option("STORE", store_, "The store, created if there is none")->required());
     reads(app.add_option("SOURCE", options_.sources, "Rasters, point files, LAS, or layers of lines and polygons")
               ->required());
@@ -127,11 +129,6 @@ class ImportVerb final : public Verb {
                    "CRS of the sources, in place of what they say themselves; a part that it lacks, horizontal or "
                    "vertical, stays theirs")
         ->type_name("CRS");
-    app.add_option(
-           "--to-crs", options_.to_crs,
-           "CRS of a new store: projected, in metres, with lengths true to 0.5 % where the sources lie (default: their "
-           "own if it is such a one, else their UTM zone)")
-        ->type_name("CRS");
     app.add_option("--z-field", options_.z_field,
                    "The field or column that holds heights, of points and of lines that are part of the terrain")
         ->type_name("FIELD");
@@ -146,11 +143,12 @@ class ImportVerb final : public Verb {
 
   /// Declares the options about what stands on the terrain, and how high.
   void declare_raised(CLI::App& app) {
+    begin_group(app, "What stands on the terrain");
     app.add_option("--height-field", options_.height_field,
                    "Buildings, walls, vegetation: the field of their height above the base, in the unit of the CRS's "
                    "heights (metres or feet)")
         ->type_name("FIELD");
-    app.add_option("--height", height_, "Height of those that have none in the fields")->type_name("METRES");
+    app.add_option("--height", height_, "Height of features that have none in the fields")->type_name("METRES");
     app.add_option("--eaves-field", options_.eaves_field, "Buildings: the field of the eaves' height above the base")
         ->type_name("FIELD");
     app.add_option("--base-field", options_.base_field, "Buildings: the field of the base's elevation")
@@ -166,7 +164,7 @@ class ImportVerb final : public Verb {
                    "ground slopes to it from the terrain's next vertices, cut away where it is higher")
         ->type_name("KIND");
     app.add_option("--roof", roof_, "Buildings: flat (default), gabled, hipped or skeleton")->type_name("KIND");
-    app.add_option("--thickness", thickness_, "Of walls and hedges that are given as lines (default: 0.3)")
+    app.add_option("--thickness", thickness_, "Thickness of walls and hedges that are given as lines (default: 0.3)")
         ->type_name("METRES");
     app.add_option(
            "--wall-offset", wall_offset_,
@@ -188,6 +186,7 @@ class ImportVerb final : public Verb {
 
   /// Declares what the store keeps of lines and footprints besides their shape.
   void declare_features(CLI::App& app) {
+    begin_group(app, "Names and attributes");
     app.add_option("--id-field", options_.id_field,
                    "Lines, footprints and CityJSON: the field of a feature's id, for exports and reports (default: the "
                    "source's own number or key for it)")
@@ -205,6 +204,7 @@ class ImportVerb final : public Verb {
 
   /// Declares which points are ground, and where ground is.
   void declare_terrain(CLI::App& app) {
+    begin_group(app, "Terrain");
     app.add_option("--band", band_, "The band of rasters that holds heights (default: their only one)")->type_name("N");
     app.add_option("--class", classes_, "LAS: only these classes (default: all but noise, 7 and 18)")
         ->type_name("C,C...");
@@ -239,6 +239,12 @@ class ImportVerb final : public Verb {
 
   /// Declares what a new store is like, and the memory to work in.
   void declare_store(CLI::App& app) {
+    begin_group(app, "The store");
+    app.add_option(
+           "--to-crs", options_.to_crs,
+           "CRS of a new store: projected, in metres, with lengths true to 0.5 % where the sources lie (default: their "
+           "own if it is such a one, else their UTM zone)")
+        ->type_name("CRS");
     app.add_option("--levels", levels_,
                    "Tolerances of a new store's levels (default: those of 0.5,1,2,4,8,16,32 that are no less than "
                    "--resolution)")

@@ -25,6 +25,7 @@
 #include "output/store_document.hpp"
 #include "output/tin_export_options.hpp"
 #include "program/call_files.hpp"
+#include "program/help.hpp"
 #include "program/values.hpp"
 #include "program/verb.hpp"
 
@@ -40,10 +41,10 @@ class TinVerb final : public Verb {
   void declare(CLI::App& app) override {
     reads(app.add_option("STORE", store_, "The store")->required());
     window_.declare(app);
+    begin_group(app, kOutputs);
     writes(
         app.add_option("-o,--output", output_, "What to write: .ply, .obj, .glb, .gpkg or .geojson; a topology: .json")
             ->type_name("FILE"));
-    picture_.declare(app, "the surface");
     app.add_option("--topology", topology_, "Write this structure of the triangulation: triangle, vertex or edge")
         ->type_name("KIND");
     app.add_option("--lines", lines_,
@@ -51,6 +52,7 @@ class TinVerb final : public Verb {
                    "attributes; those of the terrain simplified to the tolerance (.gpkg or .geojson)")
         ->type_name("THEME,...")
         ->delimiter(',');
+    picture_.declare(app, "the surface");
     detail_.declare(app, "the middle of the window (the centre of a disc, the apex of a wedge)");
     themes_.declare(app);
     memory_.declare(app, "Memory to work in, for example 2G; a window that needs more is refused (default: no limit)");

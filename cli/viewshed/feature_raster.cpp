@@ -11,6 +11,7 @@
 #include "output/output_path.hpp"
 #include "output/store_document.hpp"
 #include "program/call_files.hpp"
+#include "program/help.hpp"
 
 namespace itin::cli {
 
@@ -27,6 +28,7 @@ RasterClass class_of(int number, const std::string& name) {
 }  // namespace
 
 void FeatureRaster::declare(CLI::App& app) {
+  begin_group(app, kOutputs);
   writes(app.add_option("--features", path_,
                         "Also write which of --themes is under each cell's centre, by number, 0 for none (.tif)")
              ->type_name("FILE"));

@@ -16,6 +16,7 @@
 #include "options/site_list.hpp"
 #include "output/output_path.hpp"
 #include "program/call_files.hpp"
+#include "program/help.hpp"
 #include "program/values.hpp"
 
 namespace itin::cli {
@@ -61,6 +62,7 @@ profile::Panorama panorama(const viewshed::Horizon& horizon, const viewshed::Req
 }  // namespace
 
 void HorizonOutput::declare(CLI::App& app) {
+  begin_group(app, "Sky line");
   writes(app.add_option(
                 "--horizon", paths_,
                 "Write the observer's sky line: azimuth, elevation and distance (.csv, .json), or drawn as a panorama "

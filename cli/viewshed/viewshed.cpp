@@ -30,6 +30,7 @@
 #include "output/store_document.hpp"
 #include "program/call_files.hpp"
 #include "program/field_names.hpp"
+#include "program/help.hpp"
 #include "program/verb.hpp"
 #include "viewshed/feature_raster.hpp"
 #include "viewshed/horizon_output.hpp"
@@ -60,37 +61,42 @@ class ViewshedVerb final : public Verb {
 
   void declare(CLI::App& app) override {
     reads(app.add_option("STORE", store_, "The store")->required());
-    outputs_.declare(app);
-    sheet_.declare_file(app);
-    horizon_.declare(app);
-    features_.declare(app);
-    app.add_option(
-           "--mode", mode_text_,
-           "visible (to any observer; the default); count (how many observers see it); certified (certainly visible, "
-           "certainly hidden, or undecided at this tolerance); which (one bit for each observer, in UInt32 bands of "
-           "32); angle (elevation angle of the sight line, degrees, the greatest of several observers; at an "
-           "observer's own place -90 or 90, and 0 at the height of its eye); "
-           "nearest (two bands: distance and number of the nearest visible observer); blocker (two bands: theme and "
-           "feature of what first hides the cell from the nearest observer, none where the target itself is below the "
-           "ground, 4294967294 where ground without data comes first); height (the least height above the "
-           "ground at which a target is seen, metres, no value where none is or is known); probability (two bands: the "
-           "probability of being visible under --vertical-error, and 1, 0 or 2 for visible, hidden or undecided as the "
-           "heights are stored)")
-        ->type_name("MODE");
     observers_.declare(app);
     targets_.declare(app);
+    begin_group(app, "What each cell has");
+    app.add_option(
+           "--mode", mode_text_,
+           "One of these:\n"
+           "visible - whether any observer sees it (default)\n"
+           "certified - certainly visible, certainly hidden, or undecided at this tolerance\n"
+           "count - how many observers see it\n"
+           "which - one bit for each observer, in UInt32 bands of 32\n"
+           "nearest - two bands: distance and number of the nearest observer that sees it\n"
+           "angle - elevation angle of the sight line in degrees, the greatest of several observers; at an observer's "
+           "own place -90 or 90, and 0 at the height of its eye\n"
+           "height - the least height above the ground at which a target is seen, metres; no value where none is or is "
+           "known\n"
+           "blocker - two bands: theme and feature of what first hides it from the nearest observer; none where the "
+           "target itself is below the ground, 4294967294 where ground without data comes first\n"
+           "probability - two bands: the probability of being visible under --vertical-error, and 1, 0 or 2 for "
+           "visible, hidden or undecided as the heights are stored")
+        ->type_name("MODE");
     app.add_option("--vertical-error", sigma_text_, "Standard deviation of heights, for --mode probability")
         ->type_name("METRES");
     app.add_option("--error-correlation", correlation_text_,
                    "L: errors x apart are correlated as exp(-x / L) (default: 0, independent)")
         ->type_name("METRES");
+    outputs_.declare(app);
+    features_.declare(app);
+    sheet_.declare_file(app);
+    horizon_.declare(app);
     radio_.declare(app);
     detail_.declare(app, "the observer");
     themes_.declare(app);
     earth_.declare(app);
     nodata_.declare(app);
-    engine_.declare(app);
     app.add_flag("--precise", precise_, "Exact for the full surface: the same as --tolerance 0");
+    engine_.declare(app);
     memory_.declare(app, kReadInParts);
   }
 

@@ -15,6 +15,7 @@
 
 #include "output/file_names.hpp"
 #include "program/call_files.hpp"
+#include "program/help.hpp"
 #include "viewshed/viewshed_title.hpp"
 
 namespace itin::cli {
@@ -28,6 +29,7 @@ bool is_polygons(const std::string& path) {
 }  // namespace
 
 void ViewshedOutputs::declare(CLI::App& app) {
+  begin_group(app, kOutputs);
   writes(
       app.add_option(
              "-o,--output", outputs_,

@@ -7,6 +7,7 @@
 #include <viewshed/documents.hpp>
 
 #include "output/store_document.hpp"
+#include "program/help.hpp"
 
 namespace itin::cli {
 
@@ -44,6 +45,7 @@ std::string loss_text(const viewshed::Result& result) {
 }  // namespace
 
 void ViewshedRadio::declare(CLI::App& app) {
+  begin_group(app, kRadio);
   wave_.declare(app,
                 "Tell in sight with the first Fresnel zone clear at this frequency (1) from in sight with the zone cut "
                 "(3): GHz, or 7500MHz");

@@ -10,6 +10,7 @@
 #include <itin/raster.hpp>
 
 #include "program/call_files.hpp"
+#include "program/help.hpp"
 #include "program/values.hpp"
 
 namespace itin::cli {
@@ -45,6 +46,7 @@ std::optional<viewshed::AngleRange> parse_elevations(const std::string& text) {
 }  // namespace
 
 void ViewshedTargets::declare(CLI::App& app) {
+  begin_group(app, "Targets, field of view and cells");
   app.add_option("--target-height", height_text_, "Height h of the targets, one in every cell (default: 0)")
       ->type_name("METRES");
   app.add_option("--target-on", on_, "ground (default), or the surface with the roofs and tops of --themes")

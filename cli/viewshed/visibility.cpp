@@ -33,6 +33,7 @@
 #include "output/store_document.hpp"
 #include "program/call_files.hpp"
 #include "program/field_names.hpp"
+#include "program/help.hpp"
 #include "program/values.hpp"
 #include "program/verb.hpp"
 
@@ -49,6 +50,7 @@ class VisibilityVerb final : public Verb {
 
   void declare(CLI::App& app) override {
     reads(app.add_option("STORE", store_, "The store")->required());
+    begin_group(app, kOutputs);
     writes(
         app.add_option(
                "-o,--output", output_,
@@ -57,6 +59,7 @@ class VisibilityVerb final : public Verb {
                "ground without data alone could hide it. Its QGIS style is written beside it (.qml)")
             ->type_name("FILE")
             ->required());
+    begin_group(app, "Observers and targets");
     app.add_option("--cell", cell_text_, "Distance between observers, which is the size of the raster's cells")
         ->type_name("METRES")
         ->required();

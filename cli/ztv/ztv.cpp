@@ -33,6 +33,7 @@
 #include "output/store_document.hpp"
 #include "program/call_files.hpp"
 #include "program/field_names.hpp"
+#include "program/help.hpp"
 #include "program/values.hpp"
 #include "program/verb.hpp"
 #include "ztv/ztv_folder.hpp"
@@ -64,7 +65,9 @@ class ZtvVerb final : public Verb {
   void declare(CLI::App& app) override {
     reads(app.add_option("STORE", store_, "The store")->required());
     turbines_.declare(app);
+    begin_group(app, kOutputs);
     replaces(app.add_option("-o,--output", output_, "The folder to write")->required()->type_name("DIR"));
+    begin_group(app, "Area and cells");
     app.add_option("--cell", cell_text_, "Size of the rasters' cells (default: 50)")->type_name("METRES");
     reads(app.add_option("--like", like_, "Take the cells of this raster")->type_name("FILE"));
     app.add_option("--bands", bands_text_,

@@ -15,6 +15,7 @@
 #include "options/wave_options.hpp"
 #include "output/store_document.hpp"
 #include "program/call_files.hpp"
+#include "program/help.hpp"
 
 namespace itin::cli {
 
@@ -36,6 +37,7 @@ bool radar_leaves_open(const viewshed::RadarView& radar, std::size_t k) {
 }  // namespace
 
 void ZtvRadioOptions::declare(CLI::App& app) {
+  begin_group(app, "Radio links and radar");
   reads(app.add_option(
                "--links", links_path_,
                "Radio links that rotors must stay clear of: a table id,x1,y1,h1,x2,y2,h2 (.csv), or a file of lines")

@@ -19,6 +19,7 @@
 #include "output/output_path.hpp"
 #include "output/store_document.hpp"
 #include "program/call_files.hpp"
+#include "program/help.hpp"
 #include "program/values.hpp"
 #include "ztv/ztv_sights.hpp"
 
@@ -173,6 +174,7 @@ std::string route_name(const Path& route, std::size_t number) {
 }
 
 void RouteOptions::declare(CLI::App& app) {
+  begin_group(app, "Routes");
   reads(app.add_option("--route", path_,
                        "Roads or paths from a vector file of lines: tables and charts of the hubs and tips visible "
                        "along each")

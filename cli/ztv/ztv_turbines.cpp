@@ -14,6 +14,7 @@
 #include "options/site_list.hpp"
 #include "program/call_files.hpp"
 #include "program/field_names.hpp"
+#include "program/help.hpp"
 #include "program/values.hpp"
 
 namespace itin::cli {
@@ -61,6 +62,7 @@ void warn_of_duplicates(TurbineList& list) {
 }  // namespace
 
 void TurbineOptions::declare(CLI::App& app) {
+  begin_group(app, "Turbines");
   reads(app.add_option(
                "--turbines", query_.path,
                "The turbines, from a vector file of points, or CSV with columns x,y or lon,lat. Fields hub_height and "

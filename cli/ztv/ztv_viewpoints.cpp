@@ -19,6 +19,7 @@
 #include "options/site_list.hpp"
 #include "program/call_files.hpp"
 #include "program/field_names.hpp"
+#include "program/help.hpp"
 #include "program/values.hpp"
 
 namespace itin::cli {
@@ -125,6 +126,7 @@ Viewpoint viewpoint_of(const SiteRow& row, std::size_t number, const SectionSurf
 }  // namespace
 
 void ViewpointOptions::declare(CLI::App& app) {
+  begin_group(app, "Viewpoints and wirelines");
   reads(app.add_option("--viewpoints", query_.path,
                        "Viewpoints for tables and wirelines, from a vector file of points, or CSV with columns x,y or "
                        "lon,lat; fields "
