@@ -12,7 +12,7 @@ namespace itin::viewshed {
 
 namespace {
 
-/// A level that leaves out less than this share of the points is looked at exactly.
+/// A level that keeps at least one in this many points of the surface is looked at exactly.
 constexpr std::uint64_t kLeastShare = 2;
 /// Costs, counted in posts of an exact answer: of a point that is triangulated; of bounds, blocks and finer levels
 /// about the observer.
@@ -22,7 +22,8 @@ constexpr std::uint64_t kPostsPerPoint = 40, kPostsPerBlocks = 2500000;
 constexpr std::uint64_t kPostsPerPlainPoint = 16;
 /// Bounds know nothing of features, and decide far less among them, where they must be cheaper by this factor.
 constexpr std::uint64_t kFeaturesFactor = 4;
-/// More points take over a gigabyte: larger levels are looked at in sectors, if they leave out nearly everything.
+/// A level of more than kMostPoints points takes over a gigabyte. It is looked at in sectors if it keeps fewer than one
+/// in kVastShare points of the surface, and exactly otherwise.
 constexpr std::uint64_t kMostPoints = 1500000, kVastShare = 128;
 
 bool may_be_lattice(const Store& store, const Request& request, std::uint64_t points) {

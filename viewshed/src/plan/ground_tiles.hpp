@@ -32,13 +32,14 @@ class TileSet {
 
 class GroundTiles {
  public:
-  /// Cuts the box into tiles with about `points_of_tile` points each of the level's surface, or more where there would
-  /// be too many tiles.
+  /// Cuts the box into square tiles. In a square box each has about `points_of_tile` points of the level's surface. A
+  /// tile has more where one side of the box is longer than the other, for the longer side alone decides the size, and
+  /// where the longer side would have over 160 tiles.
   GroundTiles(const Store& store, int level, const Box& box, double points_of_tile = 512);
 
   std::size_t count() const { return grid_.cell_count(); }
   Box box(std::size_t tile) const;
-  /// About how many points of that surface lie in a tile, or in some tiles.
+  /// Returns about how many points of that surface lie in a tile, or in some tiles.
   std::uint64_t points(std::size_t tile) const { return points_[tile]; }
   std::uint64_t points(const TileSet& tiles) const;
   /// Returns the tiles for whose box a test holds; all threads run the test.
@@ -48,7 +49,7 @@ class GroundTiles {
   /// Adds what add_line() adds for lines from a position to every place of a box, and perhaps tiles between these
   /// lines.
   void add_lines(Point2 from, const Box& to, TileSet& tiles) const;
-  /// The union of the tiles.
+  /// Returns the union of the tiles.
   Window window(const TileSet& tiles) const;
 
  private:

@@ -25,8 +25,9 @@ class VoidShadow {
   /// spans.
   VoidShadow(const std::vector<RimEdge>& rim, const Point3& eye, NoData rule = NoData::kBlock);
 
-  /// Tells whether the line from the eye to a place comes back to the surface, be it at the place itself, but not at
-  /// the eye's own place. Both lie on the surface. Cost: the edges of one sector.
+  /// Tells whether the line from the eye to a place, grid units, crosses ground without data and comes back to the
+  /// surface, be it at the place itself. Returns false for the eye's own place. The eye and the place lie on the
+  /// surface. Cost: the edges of one sector.
   bool holds(double x, double y) const;
 
   /// Returns what a visible cell in the shadow becomes: Verdict::kHidden, or Verdict::kUndecided under kUnknown.

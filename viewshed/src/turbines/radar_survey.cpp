@@ -19,7 +19,7 @@ Eye eye_of_radar(const Grid& units, std::optional<double> ground_m, const ZoneRe
 
 }  // namespace
 
-struct RadarSurvey::Screen {
+struct RadarSurvey::PartView {
   const FullSurface& ground;
   const RadialSweep::View& view;
   const std::optional<VoidShadow>& shadow;  ///< nothing where no line crosses ground without data
@@ -38,22 +38,22 @@ void RadarSurvey::run(const FullSurface& ground, const ZonePart& part, Stage& st
   std::optional<VoidShadow> shadow;
   // The part's window is convex: where it ends, no sight line does.
   if (zone_.radar->crosses_voids) shadow.emplace(ground.rim(), eye_.units);
-  const Screen screen{ground, view, shadow};
+  const PartView over{ground, view, shadow};
   stage.for_each(part.radar_tiles.size(), [&](std::size_t i) {
-    survey_tile(screen, part.radar_tiles[i]);
+    survey_tile(over, part.radar_tiles[i]);
     return std::size_t{1};
   });
-  for (const std::size_t turbine : part.radar_turbines) survey_turbine(screen, turbine);
+  for (const std::size_t turbine : part.radar_turbines) survey_turbine(over, turbine);
 }
 
-void RadarSurvey::survey_tile(const Screen& screen, std::size_t tile) {
-  const auto work = screen.ground.begin(tile);
-  const double resolution = screen.ground.units().resolution;
+void RadarSurvey::survey_tile(const PartView& over, std::size_t tile) {
+  const auto work = over.ground.begin(tile);
+  const double resolution = over.ground.units().resolution;
   for (std::size_t i = 0; i < work->ground.size(); ++i) work->targets[i] = work->ground[i] + kRadarCeiling / resolution;
-  screen.ground.raise_from(screen.view, {work->ground, work->ground}, *work);
+  over.ground.raise_from(over.view, {work->ground, work->ground}, *work);
   for_each_cell(work->tile, [&](std::size_t cell, RasterGrid::Cell place) {
     if (std::isnan(work->ground[cell]) || std::isnan(work->seen[cell])) return;
-    const bool shaded = screen.shades(work->centres.at(cell));
+    const bool shaded = over.shades(work->centres.at(cell));
     std::vector<float>& heights = shaded ? zone_.radar->undecided_height_m : zone_.radar->height_m;
     if (heights.empty()) return;  // it is hidden
     const bool at_radar = std::isinf(work->seen[cell]);
@@ -62,14 +62,14 @@ void RadarSurvey::survey_tile(const Screen& screen, std::size_t tile) {
   });
 }
 
-void RadarSurvey::survey_turbine(const Screen& screen, std::size_t turbine) {
+void RadarSurvey::survey_turbine(const PartView& over, std::size_t turbine) {
   const Turbine& t = zone_.request.turbines[turbine];
   const double ground_m = zone_.ground_m[turbine];
-  const Grid& units = screen.ground.units();
+  const Grid& units = over.ground.units();
   const double tip = (ground_m + t.tip_height) / units.resolution;
-  const double least = screen.ground.raise_from(screen.view, t.position, ground_m / units.resolution, tip);
+  const double least = over.ground.raise_from(over.view, t.position, ground_m / units.resolution, tip);
   if (std::isnan(least)) return;
-  const bool shaded = screen.shades(place_in_units(units, t.position));
+  const bool shaded = over.shades(place_in_units(units, t.position));
   std::vector<double>& seen = shaded ? zone_.radar->undecided_turbine_m : zone_.radar->turbine_m;
   if (seen.empty()) return;  // it is hidden
   seen[turbine] = std::isinf(least) ? t.tip_height : (tip - least) * units.resolution;

@@ -27,9 +27,9 @@ class RadarSurvey {
   void run(const FullSurface& ground, const ZonePart& part, Stage& stage);
 
  private:
-  struct Screen;
-  void survey_tile(const Screen& screen, std::size_t tile);
-  void survey_turbine(const Screen& screen, std::size_t turbine);
+  struct PartView;
+  void survey_tile(const PartView& over, std::size_t tile);
+  void survey_turbine(const PartView& over, std::size_t turbine);
 
   Zone& zone_;
   Eye eye_;

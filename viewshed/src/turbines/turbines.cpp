@@ -91,8 +91,9 @@ class PartReader {
     return owned;
   }
 
-  struct Screen {
-    std::unique_ptr<OwnedSurface> surface;
+  /// What was read to screen a part.
+  struct OwnedScreen {
+    std::unique_ptr<OwnedSurface> surface;  ///< null where no features had to be read
     bool open_alone = false;
 
     /// Returns the screen for the lines over a part; nothing where no features were asked for.
@@ -103,7 +104,7 @@ class PartReader {
   };
   /// Reads the surface with features: all of the part, or only where features may rise into lines that are left open.
   /// In the latter case, marks these lines.
-  Screen screen(const ZonePart& part, const FullSurface& ground) {
+  OwnedScreen screen(const ZonePart& part, const FullSurface& ground) {
     const ThemeChoice& themes = *zone_.request.themes;
     if (!may_tell_open_lines(store_, zone_.request)) return {read(part.window, themes), false};
     const std::optional<Window> window = open_lines(part, ground);
@@ -174,7 +175,7 @@ Zone survey_turbines(const Store& store, const ZoneRequest& request, Progress& p
   std::optional<Stage> stage;
   for (const ZonePart& part : parts) {
     const auto ground = lattice ? reader.take(std::move(*lattice)) : reader.ground(part);
-    const auto screen = screens && !part.tiles.empty() ? reader.screen(part, ground->full) : PartReader::Screen{};
+    const auto screen = screens && !part.tiles.empty() ? reader.screen(part, ground->full) : PartReader::OwnedScreen{};
     if (!stage) stage.emplace("sight lines", steps_of(parts, screens), call.step(1));
     work.survey(ground->full, screen.over(ground->full), part, *stage);
     reader.forget_time();
