@@ -6,6 +6,7 @@
 #include <initializer_list>
 #include <map>
 #include <regex>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -171,6 +172,36 @@ TEST(Names, AreGivenOnceAmongSourcesThatAreCompiledTogether) {
   for (const auto& [together, names] : declared)
     for (const auto& [name, files] : names)
       EXPECT_EQ(files.size(), 1u) << name << " of " << files.front() << " is of " << files.back() << ", too";
+}
+
+/// The types that a header defines, but not within other types, with their namespaces.
+std::vector<std::string> types_of(const fs::path& header) {
+  const std::regex opens("namespace ([\\w:]+) \\{"), closes("\\}  // namespace.*"),
+      defines("(?:struct|class|enum class|enum) (?:alignas\\(\\d+\\) )?(\\w+)\\b.*\\{.*");
+  std::vector<std::string> types, spaces;
+  std::smatch match;
+  std::ifstream stream(header);
+  for (std::string line; std::getline(stream, line);) {
+    if (std::regex_match(line, match, opens)) spaces.push_back(match[1]);
+    if (std::regex_match(line, closes) && !spaces.empty()) spaces.pop_back();
+    if (!std::regex_match(line, match, defines)) continue;
+    std::string name;
+    for (const std::string& space : spaces) name += space + "::";
+    types.push_back(name + match[1].str());
+  }
+  return types;
+}
+
+/// Two types of one name in one namespace are one type to the linker, whatever they hold.
+TEST(Names, OfTypesInHeadersAreGivenOnce) {
+  std::map<std::string, std::set<fs::path>> headers;
+  for (const char* folder : {"libitin", "viewshed", "profile", "cli"})
+    for (const fs::path& file : sources_below(kRoot / folder))
+      if (file.extension() == ".hpp")
+        for (const std::string& type : types_of(file)) headers[type].insert(file);
+  EXPECT_GT(headers.size(), 500u);
+  for (const auto& [type, files] : headers)
+    EXPECT_EQ(files.size(), 1u) << type << " is in " << *files.begin() << " and in " << *files.rbegin();
 }
 
 /// A comment is a sentence: its subject is not to be looked for in the line before.

@@ -26,10 +26,10 @@ struct Earth {
   static Earth flat();
   static Earth effective_earth(double factor);
 
-  /// Throws InputError unless the radius is positive, the factor (where given) is positive, and k is below 1. From
-  /// k = 1 on, sight lines would bend as much as the Earth, and there would be no horizon.
+  /// Throws InputError unless the radius and the factor (where given) are positive, k is below 1, and all are finite.
+  /// From k = 1 on, sight lines would bend as much as the Earth, and there would be no horizon.
   void validate() const;
-  /// Returns metres of drop per square metre of squared distance; 0 without curvature.
+  /// Returns what the square of a distance is multiplied by to give the drop there, 1/m; 0 without curvature.
   double drop_coefficient() const;
   /// The drop at a distance, both metres.
   double drop(double distance) const { return drop_coefficient() * distance * distance; }
@@ -44,7 +44,7 @@ enum class NoData {
   kClear     ///< sight lines pass
 };
 
-/// Returns the radius, km, of the Earth over which rays are straight. Precondition: the surface drops.
+/// Returns the radius, km, of the Earth over which rays are straight; infinity without curvature.
 double effective_earth_km(const Earth& earth);
 
 /// The speed of light, metres times GHz.

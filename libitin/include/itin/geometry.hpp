@@ -129,7 +129,7 @@ struct Grid {
   Point2 position(std::int32_t x, std::int32_t y) const {
     return {origin.x + x * resolution, origin.y + y * resolution};
   }
-  /// Returns the nearest grid position (halves away from zero). Precondition: covers({p.x, p.y}).
+  /// Returns the nearest grid position (halves away from zero). Precondition: covers({p.x, p.y}), |z| < 2^31 units.
   GridPoint quantise(Point3 p) const {
     return {static_cast<std::int32_t>(std::llround((p.x - origin.x) / resolution)),
             static_cast<std::int32_t>(std::llround((p.y - origin.y) / resolution)),

@@ -103,7 +103,7 @@ class Store {
   double greatest_feature_height(const ThemeChoice& themes, const Box& box) const;
   /// Returns the same height for those features alone that a query at `level` leaves out.
   double greatest_height_left_out(const ThemeChoice& themes, int level, const Box& box) const;
-  /// Estimates how many points of this level and coarser ones lie in the box; reads the directory, no points.
+  /// Estimates how many points of this level and coarser lie in the box; reads none. Throws as certified_error() does.
   std::uint64_t points_about(int level, const Box& box) const;
 
   // The following functions serve the libraries of this toolkit.

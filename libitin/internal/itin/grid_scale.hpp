@@ -24,7 +24,7 @@ std::string error_in_words(const GridScale& scale);
 /// understood, or whose axes are not in metres.
 std::optional<GridScale> grid_scale(const std::string& crs, const Box& area);
 
-/// Returns what grid_scale() does, and nothing for a CRS that is not understood.
+/// Returns what grid_scale() does, and nothing where that throws InputError.
 std::optional<GridScale> grid_scale_if_known(const std::string& crs, const Box& area);
 
 }  // namespace itin

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <itin/feature_at.hpp>
+#include <itin/segment_distance.hpp>
 #include <itin/store.hpp>
 
 #include "store/feature_table.hpp"
@@ -26,13 +27,6 @@ Point2 in_plan(const Point3& p) {
   return {p.x, p.y};
 }
 
-double squared_distance(Point2 p, Point2 a, Point2 b) {
-  const double dx = b.x - a.x, dy = b.y - a.y, square = dx * dx + dy * dy;
-  const double t = square > 0 ? std::clamp(((p.x - a.x) * dx + (p.y - a.y) * dy) / square, 0.0, 1.0) : 0;
-  const double ex = a.x + t * dx - p.x, ey = a.y + t * dy - p.y;
-  return ex * ex + ey * ey;
-}
-
 /// How near a place is to rings, read by the even-odd rule.
 class Nearness {
  public:
@@ -42,7 +36,8 @@ class Nearness {
   void consider(const Ring& ring) {
     for (std::size_t i = 0; i < ring.size(); ++i) {
       const Point2 a = in_plan(ring[i]), b = in_plan(ring[(i + 1) % ring.size()]);
-      squared_ = std::min(squared_, squared_distance(place_, a, b));
+      const Point2 way = way_from_segment(place_, a, b);
+      squared_ = std::min(squared_, way.x * way.x + way.y * way.y);
       if ((a.y > place_.y) != (b.y > place_.y) && place_.x < a.x + (place_.y - a.y) / (b.y - a.y) * (b.x - a.x)) {
         inside_ = !inside_;
       }

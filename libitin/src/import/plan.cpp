@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <itin/error.hpp>
+#include <itin/file_ending.hpp>
 #include <itin/window_source.hpp>
 
 #include "gdal/source_path.hpp"
@@ -53,7 +54,7 @@ Identified identify(const std::string& path) {
   if (std::vector<std::string> rasters = find_rasters(path); !rasters.empty())
     return {std::move(rasters), SourceKind::raster};
   if (is_missing(path)) throw FileError(path, "there is no such file");
-  if (path.ends_with(".zip")) throw FileError(path, "holds no raster that can be read; unpack other files first");
+  if (ending_of(path) == ".zip") throw FileError(path, "holds no raster that can be read; unpack other files first");
   return {{path}, is_delimited_text(path) ? SourceKind::text : SourceKind::points};
 }
 

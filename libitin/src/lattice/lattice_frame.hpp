@@ -41,19 +41,19 @@ class PostSpacing {
 bool lay(const PostSpacing& spacing, const GridBox& box, LatticeTin& lattice);
 
 /// The column and row of the place at a point, or to its north-west.
-struct LatticePlace {
+struct PointPlace {
   std::uint32_t column = 0, row = 0;
   bool post = false;  ///< the point lies at the place itself
 };
 /// Returns the place of a point; nothing beyond the lattice.
-inline std::optional<LatticePlace> place_of(const LatticeTin& lattice, const GridPoint& p) {
+inline std::optional<PointPlace> place_of(const LatticeTin& lattice, const GridPoint& p) {
   const auto spacing = static_cast<std::uint32_t>(lattice.spacing);
   // A negative difference wraps round to a number that is far too large.
   const auto east = static_cast<std::uint32_t>(p.x - lattice.west),
              south = static_cast<std::uint32_t>(lattice.north - p.y);
   const std::uint32_t column = east / spacing, row = south / spacing;
   if (column >= lattice.columns || row >= lattice.rows) return std::nullopt;
-  return LatticePlace{column, row, column * spacing == east && row * spacing == south};
+  return PointPlace{column, row, column * spacing == east && row * spacing == south};
 }
 
 /// The places from a first to a last column and row, all included.

@@ -91,7 +91,7 @@ class LatticeReader::Work {
     being_read_[tile] = true;
   }
   /// Sets the height in the tiles that are being read.
-  void set_height(const LatticePlace& place, std::int32_t z) {
+  void set_height(const PointPlace& place, std::int32_t z) {
     lattice_.for_each_tile_of(place.column, place.row, [&](std::uint32_t tile, std::uint32_t post) {
       if (being_read_[tile]) (*lattice_.tiles[tile].heights)[post] = z;
     });
@@ -203,7 +203,7 @@ bool LatticeReader::Work::place_all(const std::vector<Group>& groups, std::size_
 
 bool LatticeReader::Work::place(const Leaf& leaf, Heights heights) {
   const auto block = heights == Heights::kNone ? index_.unordered_block(leaf) : index_.block_once(leaf);
-  return for_each_post(*block, [&](const LatticePlace& place, std::int32_t z) {
+  return for_each_post(*block, [&](const PointPlace& place, std::int32_t z) {
     if (heights == Heights::kAll) {
       set_height(place, z);
     } else {
@@ -227,7 +227,7 @@ bool LatticeReader::Work::place_square(Group leaves) {
     return true;
   }
   return std::all_of(leaves.begin(), leaves.end(), [&](const Leaf& leaf) {
-    return for_each_post(*index_.plan_once(leaf), [](const LatticePlace&, std::int32_t) {});
+    return for_each_post(*index_.plan_once(leaf), [](const PointPlace&, std::int32_t) {});
   });
 }
 

@@ -19,9 +19,9 @@ namespace itin {
 namespace {
 
 /// The index, with some points raised.
-class RaisedIndex final : public PointIndex {
+class IndexWithRaises final : public PointIndex {
  public:
-  RaisedIndex(const PointIndex& base, const RaisedLevels& raised) : base_(base), raised_(raised) {
+  IndexWithRaises(const PointIndex& base, const RaisedLevels& raised) : base_(base), raised_(raised) {
     for (const auto& [code, level] : raised) {
       const std::int32_t x = morton_x(code), y = morton_y(code);
       base.leaves(0, {x, y, x, y}, leaves_);
@@ -83,7 +83,7 @@ class CellVerification {
   void verify(int k, bool mend, LeafBounds& bounds) {
     const std::int32_t tolerance = tolerances_[static_cast<std::size_t>(k)];
     while (true) {
-      const RaisedIndex raised(points_, raised_);
+      const IndexWithRaises raised(points_, raised_);
       const RegionMesh coarse =
           triangulate_region(raised, levels_from(k, tolerances_),
                              lattice_ ? lattice_->posts().bounds() : box_of(fine_.vertices, &SelectedVertex::point));

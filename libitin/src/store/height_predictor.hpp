@@ -39,7 +39,7 @@ class HeightPredictor {
   std::size_t next_ = 0;   // the next point
   std::int64_t last_ = 0;  // the latest height
   bool moderate_ = true;   // all heights so far are moderate
-  PointBatch batch_;
+  NextPoints batch_;
   OfBatch<const Shares*> shares_{};
 };
 

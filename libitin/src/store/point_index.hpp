@@ -35,7 +35,7 @@ struct Leaf {
 
 /// A leaf's points.
 struct Block {
-  std::vector<GridPoint> points;  ///< in ascending Morton order
+  std::vector<GridPoint> points;  ///< in ascending Morton order where in_order is true
   bool in_order = true;           ///< false: points may be in any order, and `sources` do not correspond to them one by
                                   ///< one
   PointSources sources;

@@ -34,7 +34,7 @@ constexpr std::size_t kLanes = 4;
 
 }  // namespace
 
-void LatticeSamples::find_shares_around(const PointBatch& batch, OfBatch<const Shares*>& shares) {
+void LatticeSamples::find_shares_around(const NextPoints& batch, OfBatch<const Shares*>& shares) {
   for (std::size_t j = 0; j < batch.points.size(); ++j) {
     std::uint8_t* const around = &around_[batch.buckets[j]];
     there_[j] = *around;
@@ -46,7 +46,7 @@ void LatticeSamples::find_shares_around(const PointBatch& batch, OfBatch<const S
 ScatteredSamples::ScatteredSamples(const BucketGrid& buckets)
     : buckets_(&buckets), offset_shift_(std::max(0, buckets.shift() - 3)), samples_(buckets.count()) {}
 
-void ScatteredSamples::find_shares_around(const PointBatch& batch, OfBatch<const Shares*>& shares) {
+void ScatteredSamples::find_shares_around(const NextPoints& batch, OfBatch<const Shares*>& shares) {
   for (std::size_t j = 0; j < batch.points.size(); ++j) {
     Position* const samples = &samples_[batch.buckets[j]];
     for (std::size_t i = 0; i < kSamplesAround; ++i) {

@@ -23,7 +23,7 @@ template <class T>
 using OfBatch = std::array<T, kPointsOfBatch>;
 
 /// The points that come next, and their buckets.
-struct PointBatch {
+struct NextPoints {
   std::span<const LocalPosition> points;
   OfBatch<std::size_t> buckets;
 };
@@ -43,7 +43,7 @@ class LatticeSamples {
 
   /// Finds the shares of the samples around each point before the point becomes its bucket's sample. They are null
   /// where no sample is around, else valid until the next call.
-  void find_shares_around(const PointBatch& batch, OfBatch<const Shares*>& shares);
+  void find_shares_around(const NextPoints& batch, OfBatch<const Shares*>& shares);
   /// Returns the sample in the i-th of kBucketsAround, for the latest batch's point j.
   SampleAround sample(std::size_t j, std::size_t i) const {
     return {(there_[j] >> i & 1) != 0, kBucketsAround[i].x, kBucketsAround[i].y};
@@ -61,7 +61,7 @@ class ScatteredSamples {
   explicit ScatteredSamples(const BucketGrid& buckets);
 
   /// Finds shares as LatticeSamples does.
-  void find_shares_around(const PointBatch& batch, OfBatch<const Shares*>& shares);
+  void find_shares_around(const NextPoints& batch, OfBatch<const Shares*>& shares);
   SampleAround sample(std::size_t j, std::size_t i) const {
     return {sample_x_[i][j] != kNone, (sample_x_[i][j] - x_[j]) >> offset_shift_,
             (sample_y_[i][j] - y_[j]) >> offset_shift_};

@@ -34,7 +34,7 @@ class Values {
 
   /// Returns the chosen values, ascending.
   std::vector<std::int32_t> choose() {
-    const std::uint32_t least = most_posts_count() / kLeastPart;
+    const std::uint32_t least = count_at_median() / kLeastPart;
     std::vector<std::int32_t> chosen;
     for (const Slot& slot : slots_) {
       if (slot.number > 0 && slot.number >= least) chosen.push_back(slot.value);
@@ -70,7 +70,7 @@ class Values {
   }
 
   /// Returns how often the value of the median position comes.
-  std::uint32_t most_posts_count() const {
+  std::uint32_t count_at_median() const {
     std::vector<std::uint32_t> counts;
     for (const Slot& slot : slots_) {
       if (slot.number > 0) counts.push_back(slot.number);

@@ -61,19 +61,21 @@ struct LinkTable {
   std::vector<std::string> other_columns;  ///< names of columns that are not understood, but kept for the output
 };
 
-/// Reads a CSV table `id,x1,y1,h1,x2,y2,h2`, or a file of lines, whose ends are the links' ends at `heights` above the
-/// surface.
+/// Reads a table `id,x1,y1,h1,x2,y2,h2`, if the name ends in .csv, in whatever case. Otherwise reads a file of lines,
+/// whose ends are the links' ends at `heights` above the surface.
 ///
-/// A table may have a header line. If that has all these names, the columns may come in another order, and there may be
+/// A table may have a header line. If that has these names, the columns may come in another order, and there may be
 /// others: `name1`, `name2`, `frequency`, `polarisation` and `criteria` (with blanks between several) of each link, and
 /// further ones that are kept. `name` or `link` may stand for `id`; where none of the three is there, links have the
 /// numbers of their rows from 1. Easting and northing, or lon and lat, each with 1 or 2 behind it, may stand for x and
-/// y; so may one column `position` (`gridref`) with a grid reference. Semicolons or tabs may separate the columns, and
-/// then commas may be decimal.
+/// y; so may `position1` and `position2` (or `gridref1` and `gridref2`) with grid references, or with latitudes and
+/// longitudes in degrees and their letters. Semicolons or tabs may separate the columns, and then commas may be
+/// decimal.
 ///
 /// The links are in the CRS `to_crs` (WKT). CSV tables are taken to be in `csv_crs`; if that is empty, in longitude and
 /// latitude where the header calls them so, else in `to_crs`. Throws FileError for a file that is missing or not
-/// understood, InputError for an unknown CRS and for a file without links.
+/// understood, InputError for an unknown CRS, for a header that has some of these names without the others, and for a
+/// file without links.
 LinkTable read_link_table(const std::string& path, const std::string& to_crs, const LinkHeights& heights,
                           const std::string& csv_crs = {});
 
@@ -100,7 +102,7 @@ struct LinkResult {
   EndGrounds stands_on;               ///< elevations of what the ends stand on
   double gap_m = 0;                   ///< length of the parts of the distance without data
   std::optional<RadioPath> radio;
-  std::optional<PathLosses> losses;  ///< nothing also where an antenna is within a feature
+  std::optional<PathLosses> losses;  ///< nothing without `radio`, without a length, or with an antenna within a feature
   std::optional<Reflection> reflection;
   std::optional<VisibleHeight> visible;
   std::string message;  ///< what went wrong, where there was an error
@@ -112,7 +114,7 @@ struct LinkResult {
 /// Returns one result per link, in order, whatever the number of threads. Links over one area share the tiles that are
 /// read and triangulated for them. The answers are those of analyse() to the last bit. A link that cannot be computed
 /// (no ground under an end) is an error row. Required heights are found for links with a frequency or criteria. Throws
-/// CorruptStore, FileError, Cancelled.
+/// InputError for a theme that the store does not have, CorruptStore, FileError, Cancelled.
 std::vector<LinkResult> survey_links(const Store& store, const std::vector<Link>& links, const LinkQuery& query,
                                      Progress& progress);
 

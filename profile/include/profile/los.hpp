@@ -139,7 +139,7 @@ struct LineFindings {
   std::vector<Obstruction> obstructions;
   std::vector<CriterionResult> criteria;
   std::vector<NamedHeights> required;
-  std::optional<FresnelClearance> fresnel;  ///< nothing without a frequency
+  std::optional<FresnelClearance> fresnel;  ///< nothing without a frequency, and as fresnel_clearance() tells
 };
 
 /// The report on a line. Its findings are about all that stands on the ground, clutter included.
@@ -151,7 +151,7 @@ struct LosReport : LineFindings {
   EndGrounds stands_on;              ///< elevations of what the ends stand on
   Antennas antennas;                 ///< elevations
   LosEnd from, to;
-  std::optional<PathLosses> losses;      ///< nothing without a frequency, or where an antenna is within a feature
+  std::optional<PathLosses> losses;  ///< nothing without a frequency or a length, or with an antenna within a feature
   std::optional<Reflection> reflection;  ///< nothing without a frequency, and where there is none
   std::optional<VisibleHeight> visible;
 

@@ -66,7 +66,8 @@ struct EndGrounds {
 };
 /// The elevations of the profile's own ends. Precondition: it has points.
 EndGrounds ends_of(const Profile& profile);
-/// The profile's height at a distance, the greater one at a vertical face; nothing in a gap. O(log n).
+/// The profile's height at a distance, the greater one at a vertical face; nothing in a gap or beyond the points.
+/// O(log n).
 std::optional<double> height_at(const Profile& profile, double distance_m);
 /// Whether there is ground under both ends.
 bool has_ground_at_ends(const Profile& profile);
@@ -81,7 +82,8 @@ std::vector<std::string> theme_names(const StoreMetadata& metadata);
 /// whose names (of any case, in this order) are checked. Empty lines and lines that begin with # are skipped. The
 /// decimal sign is a point, or a comma where commas separate nothing. Distances ascend (two equal ones are a vertical
 /// face) and begin anywhere: the first is the profile's origin. Throws InputError, naming `name` and the line, for
-/// anything else, for numbers that are not finite, negative clutter, and fewer than two rows.
+/// anything else, for numbers that are not finite, negative clutter, heights beyond 1,000 km or that customarily
+/// mark missing data, distances that are all the same, and fewer than two rows.
 Profile read_profile_csv(std::istream& text, const std::string& name);
 /// Reads such a profile from a file. Throws FileError where it cannot be read.
 Profile read_profile_csv(const std::string& path);

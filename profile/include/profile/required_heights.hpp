@@ -54,13 +54,13 @@ std::vector<HeightPair> height_curve(const Profile& profile, const PlannedHeight
                                      const Requirement& requirement, const std::optional<double>& both_equal_m,
                                      const std::optional<EndGrounds>& grounds = {});
 
-/// A tall upright object, such as a wind turbine.
+/// A tall upright object, such as a wind turbine. Its foot is on what the end stands on.
 struct TallObject {
-  std::optional<double> hub_m;  ///< above its ground, no higher than the tip; nothing: no hub
-  double tip_m = 0;             ///< above its ground
+  std::optional<double> hub_m;  ///< above its foot, no higher than the tip; nothing: no hub
+  double tip_m = 0;             ///< above its foot
 };
 
-/// A part of an object that reaches from its ground up to some height.
+/// A part of an object that reaches from its foot up to some height.
 struct VisiblePart {
   double visible_m = 0;  ///< length of the part that is seen, from its top down
   double fraction = 0;   ///< the visible part of its height, 0 to 1
@@ -68,12 +68,12 @@ struct VisiblePart {
 
 /// The visible part of an object at the second end, seen from an antenna or eye at the first.
 struct VisibleHeight {
-  double from_m = 0;               ///< above the object's ground: anything below it is hidden
+  double from_m = 0;               ///< above the object's foot: anything below it is hidden
   VisiblePart tip;                 ///< up to the tip
   std::optional<VisiblePart> hub;  ///< up to the hub, where there is one
 };
 
-/// Finds the visible part. `eye_m` is above the ground at the first end.
+/// Finds the visible part. `eye_m` is above what the first end stands on. Precondition: there is ground at both ends.
 VisibleHeight visible_height(const Profile& profile, double eye_m, const TallObject& object, const Earth& earth,
                              const std::optional<EndGrounds>& grounds = {});
 

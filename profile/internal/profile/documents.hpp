@@ -16,10 +16,10 @@ Document profile_document(const StoreMetadata& metadata, const ThemeChoice& them
                           const std::vector<SurfaceProfile>& profiles);
 Document gaps_document(const Profile& profile);
 
-/// The document of a report: `crs`, `refraction`, `from`, `to`, `magnetic_north`, `distance_m`, `verdict`,
-/// `known_verdict`, `clearance_m`, `critical`, `tightest`, `obstructions`, `criteria`, `required_heights`; these
-/// findings again in `bare` for the ground without its clutter; `cover`, `radio`, `visible_height`, `gaps`, `gap_m`.
-/// Positions are null in a profile without any.
+/// The document of a report: `crs`, `refraction`, `from`, `to`, `magnetic_north`, `distance_m`, `geodesic_distance_m`,
+/// `verdict`, `known_verdict`, `clearance_m`, `critical`, `tightest`, `obstructions`, `criteria`, `required_heights`;
+/// these findings again in `bare` for the ground without its clutter; `cover`, `radio`, `visible_height`, `gaps`,
+/// `gap_m`. Positions are null in a profile without any.
 Document los_document(const LosReport& report);
 /// Makes the same document with `surface`, `sources` and `statistics` in addition.
 Document los_document(const StoreMetadata& metadata, const StoreLine& line, const LosReport& report);

@@ -99,9 +99,9 @@ struct MapSheet {
   TitleBlock title;
 };
 
-/// The scale at which a sheet is drawn.
+/// The scale at which a sheet is drawn. Throws InputError for a given scale at which the area does not fit the frame.
 double scale_of(const MapSheet& sheet);
-/// The ground inside the frame at that scale: what layers may fill.
+/// The ground inside the frame at that scale: what layers may fill. Throws as scale_of() does.
 Box ground_in_frame(const MapSheet& sheet);
 
 /// Throws InputError unless the name ends in .pdf or .png.

@@ -8,8 +8,8 @@
 
 namespace itin::profile {
 
-/// Reads a frequency in GHz: "7.5", "7.5 GHz", "7500MHz". Throws InputError, which says what is wrong with the text,
-/// also for a number without a unit that would be beyond all radio.
+/// Reads a frequency and returns it in GHz: "7.5", "7.5 GHz", "7500MHz". Throws InputError, which says what is wrong,
+/// for other text, and for frequencies below 1 MHz and above 300 GHz.
 double parse_frequency_ghz(std::string_view text);
 
 /// Reads K and the fraction of F1, "4/3:1.0" or "1.33:0.6"; "ke:0.3" stands for the K of the worst fade on the line.

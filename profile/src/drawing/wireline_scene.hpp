@@ -21,7 +21,9 @@ using WirelineProjection = std::function<Point2(double across_deg, double elevat
 
 struct PlacedTurbine {
   const WirelineTurbine* turbine;
-  double distance, across, base, top;  ///< metres; then degrees, from the left edge and of elevation
+  double distance;   ///< metres
+  double across;     ///< degrees clockwise from the left edge
+  double base, top;  ///< elevation angles, degrees
 };
 
 /// The turbines within the field of view and its reach, from the farthest.

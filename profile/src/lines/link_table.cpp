@@ -13,6 +13,7 @@
 #include <itin/coordinates.hpp>
 #include <itin/counted.hpp>
 #include <itin/error.hpp>
+#include <itin/file_ending.hpp>
 #include <itin/height_limit.hpp>
 #include <itin/paths.hpp>
 #include <itin/position_columns.hpp>
@@ -266,10 +267,6 @@ class TableReader {
   std::size_t width_ = kLinkColumns;
 };
 
-bool is_table(const std::string& path) {
-  return path.size() > 4 && path.ends_with(".csv");
-}
-
 LinkTable read_lines(const std::string& path, const std::string& to_crs, const LinkHeights& heights) {
   LinkTable table;
   const PathFile file = read_path_file(path, to_crs);
@@ -285,7 +282,7 @@ LinkTable read_lines(const std::string& path, const std::string& to_crs, const L
 LinkTable read_link_table(const std::string& path, const std::string& to_crs, const LinkHeights& heights,
                           const std::string& csv_crs) {
   LinkTable table;
-  if (is_table(path)) {
+  if (ending_of(path) == ".csv") {
     TableReader(path, to_crs, csv_crs, table).read();
   } else {
     table = read_lines(path, to_crs, heights);

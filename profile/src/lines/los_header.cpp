@@ -89,7 +89,7 @@ std::string angle_text(double degrees) {
   return fmt::format("{:.3f}\xC2\xB0", degrees);
 }
 
-/// Writes degrees like 51\xC2\xB032'37.3"N.
+/// Writes degrees like 51°32'37.3"N.
 std::string degrees_minutes_seconds(double degrees, char positive, char negative) {
   const auto tenths = static_cast<std::int64_t>(std::llround(std::abs(degrees) * 36000));
   return fmt::format("{}\xC2\xB0{:02}'{:02}.{}\"{}", tenths / 36000, tenths / 600 % 60, tenths / 10 % 60, tenths % 10,
@@ -116,7 +116,7 @@ std::string magnetic_fact(const LosReport& report, const CalendarDay& day) {
                      declination_text(report.to.site->declination_deg), day_text(day), magnetic_model_text());
 }
 
-/// Writes azimuths like "31.100\xC2\xB0 grid, 32.440\xC2\xB0 true, 33.1\xC2\xB0 magnetic". The last has no more digits
+/// Writes azimuths like "31.100° grid, 32.440° true, 33.1° magnetic". The last has no more digits
 /// than its model justifies.
 std::string azimuths_text(const LosEnd::Site& site) {
   const std::string text =

@@ -18,14 +18,15 @@ namespace {
 /// ground.
 constexpr double kLeastGhz = 1e-3, kMostGhz = 300;
 
-std::string lower_trimmed(std::string_view text) {
+std::string lower_without_blanks(std::string_view text) {
   std::string result;
   for (const char c : text)
     if (c != ' ' && c != '\t') result += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   return result;
 }
 
-std::optional<double> positive_number(std::string_view text) {
+/// Returns a number of 0 or more; nothing for other text.
+std::optional<double> unsigned_number(std::string_view text) {
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value) || value < 0)
@@ -35,8 +36,8 @@ std::optional<double> positive_number(std::string_view text) {
 
 std::optional<double> ratio(std::string_view text) {
   const std::size_t slash = text.find('/');
-  if (slash == std::string_view::npos) return positive_number(text);
-  const auto above = positive_number(text.substr(0, slash)), below = positive_number(text.substr(slash + 1));
+  if (slash == std::string_view::npos) return unsigned_number(text);
+  const auto above = unsigned_number(text.substr(0, slash)), below = unsigned_number(text.substr(slash + 1));
   if (!above || !below || *below == 0) return std::nullopt;
   return *above / *below;
 }
@@ -44,7 +45,7 @@ std::optional<double> ratio(std::string_view text) {
 }  // namespace
 
 double parse_frequency_ghz(std::string_view text) {
-  const std::string given = lower_trimmed(text);
+  const std::string given = lower_without_blanks(text);
   std::string_view digits = given;
   double unit = 1;
   for (const auto& [name, ghz] : {std::pair("ghz", 1.0), std::pair("mhz", 1e-3), std::pair("khz", 1e-6)}) {
@@ -52,7 +53,7 @@ double parse_frequency_ghz(std::string_view text) {
     digits.remove_suffix(3), unit = ghz;
     break;
   }
-  const auto number = positive_number(digits);
+  const auto number = unsigned_number(digits);
   if (!number || *number == 0) throw InputError("no frequency; give GHz, such as 7.5, or 7500MHz");
   const bool bare = digits.size() == given.size();
   if (*number * unit < kLeastGhz) throw InputError(fmt::format("{:g} GHz is below radio links", *number * unit));
@@ -64,13 +65,13 @@ double parse_frequency_ghz(std::string_view text) {
 }
 
 Criterion parse_criterion(std::string_view text) {
-  const std::string given = lower_trimmed(text);
+  const std::string given = lower_without_blanks(text);
   const std::size_t colon = given.find(':');
   const std::string_view factor = std::string_view(given).substr(0, colon);
   const bool fade = factor == "ke";
   const auto k = fade ? std::optional(Criterion().k) : ratio(factor);
   const auto fraction =
-      colon == std::string::npos ? std::nullopt : positive_number(std::string_view(given).substr(colon + 1));
+      colon == std::string::npos ? std::nullopt : unsigned_number(std::string_view(given).substr(colon + 1));
   if (!k || *k == 0 || !fraction) throw InputError("expected K:fraction, such as 4/3:1.0 or ke:0.3");
   return {*k, *fraction, fade};
 }
@@ -80,7 +81,7 @@ std::string factor_text(const Criterion& criterion, double k) {
 }
 
 Polarisation parse_polarisation(std::string_view text) {
-  const std::string given = lower_trimmed(text);
+  const std::string given = lower_without_blanks(text);
   if (given == "h" || given == "horizontal") return Polarisation::kHorizontal;
   if (given == "v" || given == "vertical") return Polarisation::kVertical;
   throw InputError("expected h or v");

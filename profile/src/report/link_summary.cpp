@@ -15,7 +15,8 @@ namespace itin::profile {
 
 namespace {
 
-/// The criterion that is missed by most, or met by least; null if there is none.
+/// The criterion that fails, else one that is undecided, else one that is met; among these the one with the least
+/// margin. Null if there is none.
 const CriterionResult* governing(const LineFindings& found) {
   const auto rank = [](const CriterionResult& c) {
     constexpr int kRanks[] = {2, 0, 1};  // meets, fails, undecided

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include <itin/coordinates.hpp>
+#include <itin/counted.hpp>
 #include <itin/round_length.hpp>
 #include <itin/void_stripes.hpp>
 
@@ -16,16 +18,7 @@
 
 namespace itin::profile {
 
-namespace {
-
-/// Writes 100000 as "100,000".
-std::string with_commas(double number) {
-  std::string digits = fmt::format("{:.0f}", number);
-  for (std::size_t i = digits.size(); i > 3; i -= 3) digits.insert(i - 3, 1, ',');
-  return digits;
-}
-
-}  // namespace
+namespace {}  // namespace
 
 SidePanel::SidePanel(Drawing& drawing, const Paper& paper, const MapSheet& sheet, double scale,
                      std::string below_legend)
@@ -157,7 +150,8 @@ void SidePanel::draw_scale() {
   const double unit = length >= 2000 ? 1000 : 1;
   const Lettering small{.size = 6.5 * paper_.type, .colour = kInk, .align = Align::kCentre};
   drawing_.text({left_, y_ + 9 * paper_.type},
-                fmt::format("Scale 1:{} at {}", with_commas(scale_), name_of(sheet_.paper)),
+                fmt::format("Scale 1:{} at {}", grouped(static_cast<std::uint64_t>(std::nearbyint(scale_))),
+                            name_of(sheet_.paper)),
                 {.size = 8.5 * paper_.type, .colour = kInk, .bold = true});
   y_ += 13 * paper_.type;
   constexpr int kParts = 4;

@@ -9,6 +9,7 @@
 
 #include <itin/error.hpp>
 #include <itin/file_digest.hpp>
+#include <itin/file_ending.hpp>
 #include <itin/raster_values.hpp>
 
 #include "gdal/source_path.hpp"
@@ -24,7 +25,7 @@ namespace {
 /// Tells CityJSON by the file's name, and by a word that the format asks for near the beginning: members come in any
 /// order.
 bool is_city_json(const std::string& path) {
-  if (!path.ends_with(".json") && !path.ends_with(".cityjson")) return false;
+  if (const std::string ending = ending_of(path); ending != ".json" && ending != ".cityjson") return false;
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(path, ignored)) return false;
   std::ifstream file(path, std::ios::binary);

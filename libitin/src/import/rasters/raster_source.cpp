@@ -16,6 +16,7 @@
 
 #include <itin/counted.hpp>
 #include <itin/error.hpp>
+#include <itin/file_ending.hpp>
 #include <itin/raster_values.hpp>
 
 #include "gdal/quiet_gdal.hpp"
@@ -245,7 +246,7 @@ class RasterFile final : public SourceFile {
 
 std::vector<std::string> find_rasters(const std::string& path) {
   const QuietGdal quiet;
-  if (EQUAL(CPLGetExtension(path.c_str()), "zip"))
+  if (ending_of(path) == ".zip")
     return rasters_in_archive(path.starts_with("/vsizip/") ? path : "/vsizip/" + path);
   return is_raster(path) ? std::vector{path} : std::vector<std::string>{};
 }
