@@ -49,6 +49,8 @@ void LosLinks::declare(CLI::App& app) {
                  "Height of both ends of the lines of a file (default: 2, and at the second end the tip of "
                  "--visible-height)")
       ->type_name("METRES");
+  app.add_option("--layer", choice_.layer, "The layer of a file of lines (default: all layers)")->type_name("NAME");
+  app.add_option("--where", choice_.where, "Only lines of a file that this SQL condition holds for")->type_name("SQL");
   writes(app.add_option("-o,--output", outputs_,
                         "With --links: what to write: the table (.csv), the links as lines with its columns (.gpkg, "
                         ".kml), a page that sums them up (.pdf); may be given again")
@@ -74,15 +76,20 @@ void LosLinks::validate(const std::optional<profile::TallObject>& object) {
 void LosLinks::require_none() const {
   if (!outputs_.empty())
     throw InputError(fmt::format("-o '{}' works only with --links; for one line give --report", outputs_.front()));
-  if (!height_text_.empty()) throw InputError("--link-height works only with --links");
+  for (const auto& [option, text] : {std::pair("--link-height", &height_text_), std::pair("--layer", &choice_.layer),
+                                     std::pair("--where", &choice_.where)})
+    if (!text->empty()) throw InputError(fmt::format("{} works only with --links", option));
 }
 
 Document LosLinks::parameters() const {
-  return {{"links", path_}, {"link_height_m", heights_.from_m}, {"link_height_to_m", heights_.to_m}};
+  Document parameters{{"links", path_}, {"link_height_m", heights_.from_m}, {"link_height_to_m", heights_.to_m}};
+  if (!choice_.layer.empty()) parameters["layer"] = choice_.layer;
+  if (!choice_.where.empty()) parameters["where"] = choice_.where;
+  return parameters;
 }
 
 LinkTable LosLinks::table(const Store& store, const LosStoreOptions& surface) const {
-  return profile::read_link_table(path_, store.metadata().crs_wkt, heights_, surface.in_crs());
+  return profile::read_link_table(path_, store.metadata().crs_wkt, heights_, surface.in_crs(), choice_);
 }
 
 profile::LinkQuery LosLinks::query(const profile::LosQuery& line, const LosStoreOptions& surface) {

@@ -52,6 +52,7 @@ class LosLinks {
   std::string path_, height_text_;
   std::vector<std::string> outputs_;
   profile::LinkHeights heights_{2, 2};
+  profile::LinkChoice choice_;
 };
 
 }  // namespace itin::cli

@@ -1,6 +1,7 @@
 // itin profile: the surface along a line or a path.
 
 #include <algorithm>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -205,7 +206,7 @@ class ProfileVerb final : public Verb {
     }
     std::vector<Point2> corners;
     for (const Place& p : given_) corners.push_back(in_crs_.of(p).transform_to(metadata.crs_wkt)(p.position));
-    return corners;
+    return without_repeats(std::move(corners));
   }
 
   std::string where_it_begins(const StoreMetadata& metadata) const {

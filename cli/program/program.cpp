@@ -46,7 +46,7 @@ struct Everywhere {
   void declare(CLI::App& app) {
     begin_group(app, kRunning);
     app.add_flag("--json", json, "Print the result as one JSON document");
-    app.add_flag("--quiet", quiet, "No progress");
+    app.add_flag("--quiet", quiet, "No progress; the result and warnings are still told");
     app.add_option("--threads", threads, "Threads to use; the result never depends on it (default: all cores)")
         ->type_name("N");
   }

@@ -18,6 +18,12 @@ using std::chrono::milliseconds;
 constexpr milliseconds kRedraw{100};
 constexpr milliseconds kPlainLine{3000};
 
+/// Writes so far as that is possible: a call does not depend on who reads its progress, or on the disk that keeps it.
+void write_to_stderr(const std::string& text) {
+  std::fwrite(text.data(), 1, text.size(), stderr);
+  std::fflush(stderr);
+}
+
 }  // namespace
 
 StderrProgress::Style StderrProgress::style_for(bool quiet) {
@@ -43,12 +49,7 @@ void StderrProgress::report(std::string_view stage, double reported) {
   last_drawn_ = now;
   const std::string text = fmt::format("{} {:3.0f} %{}", stage, std::floor(100 * fraction),
                                        left ? fmt::format(", {} left", about(*left)) : "");
-  if (style_ == Style::kTerminal) {
-    fmt::print(stderr, "\r\x1b[K{}", text);
-  } else {
-    fmt::print(stderr, "{}\n", text);
-  }
-  std::fflush(stderr);
+  write_to_stderr(style_ == Style::kTerminal ? "\r\x1b[K" + text : text + "\n");
   drawn_ = true;
 }
 
@@ -58,7 +59,7 @@ bool StderrProgress::cancelled() const {
 
 void StderrProgress::clear() {
   const std::lock_guard lock(mutex_);
-  if (drawn_ && style_ == Style::kTerminal) fmt::print(stderr, "\r\x1b[K");
+  if (drawn_ && style_ == Style::kTerminal) write_to_stderr("\r\x1b[K");
   drawn_ = false;
 }
 

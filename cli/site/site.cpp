@@ -164,8 +164,9 @@ class SiteVerb final : public Verb {
     std::string why;
     for (const Barred& barred : inputs.barred)
       why += fmt::format("{} each of {} {}", why.empty() ? ":" : ",", counted(barred.count, "other"), barred.why);
-    throw Error(fmt::format("--count: {} asked for, but only {} may carry a turbine{}",
-                            counted(*options_.count, "turbine"), counted(inputs.candidates.size(), "candidate"), why));
+    throw Error(
+        fmt::format("--count: {} asked for, but only {} may carry a turbine{}; ask for fewer, or give more places",
+                    counted(*options_.count, "turbine"), counted(inputs.candidates.size(), "candidate"), why));
   }
 
   /// Returns a key that differs for runs whose results could differ.

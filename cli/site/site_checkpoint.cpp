@@ -1,5 +1,6 @@
 #include "site/site_checkpoint.hpp"
 
+#include <cerrno>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -120,7 +121,7 @@ void SiteCheckpoint::add(std::size_t option, int stage, const CoverageBounds& bo
   put(frame, record.size()), put(frame, checksum(record));
   frame += record;
   if (std::fwrite(frame.data(), 1, frame.size(), file_.get()) != frame.size() || std::fflush(file_.get()) != 0)
-    throw FileError(path_, "cannot be written; is the disk full?");
+    throw FileError(path_, std::string("cannot be written: ") + std::strerror(errno));
 }
 
 void SiteCheckpoint::remove() {

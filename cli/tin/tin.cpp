@@ -101,6 +101,8 @@ class TinVerb final : public Verb {
     const Tin tin = triangulate(store, window, detail, progress, themes);
     if (tin.triangles.empty() && !picture_.path().empty())
       throw InputError(window_.no_ground(store.metadata()) + "; there is nothing to draw");
+    if (tin.triangles.empty() && std::filesystem::exists(output_))
+      throw InputError(fmt::format("{}; '{}' stays as it was", window_.no_ground(store.metadata()), output_));
     const Document surface = surface_document(store.metadata(), detail, themes);
     Result result;
     if (!output_.empty()) write(store, {tin, window, detail, lines}, surface, progress, result.warnings);

@@ -16,7 +16,7 @@ struct Path {
   std::int64_t feature = 0;     ///< the file's own number for the feature
   std::string id;               ///< the feature's `id` or `name` field, else its number
   std::string name;             ///< the feature's `name` or `id` field; may be empty
-  std::vector<Point2> corners;  ///< at least two, in the CRS asked for
+  std::vector<Point2> corners;  ///< at least two, in the CRS asked for; a corner that is given again at once is one
 };
 
 /// A feature that is no line, or has a place that the CRS asked for does not know.
@@ -32,13 +32,22 @@ struct PathFile {
   std::vector<BadPath> bad;  ///< in the file's order
 };
 
-/// Returns every line of every layer, in the file's order, in the CRS `to_crs` (WKT); a file that states no CRS is
-/// taken to be in that one. Throws FileError for a file that is missing or not understood, InputError for a CRS that is
-/// unknown.
-PathFile read_path_file(const std::string& path, const std::string& to_crs);
+/// Which lines of a file are read: by default all lines of all layers.
+struct PathChoice {
+  std::string layer = {};  ///< the only layer to read; with `where` it may be empty if the file has but one
+  std::string where = {};  ///< an attribute filter in OGR's SQL
+};
+
+/// Returns the chosen lines, in the file's order, in the CRS `to_crs` (WKT); a file that states no CRS is taken to be
+/// in that one. Throws FileError for a file, layer or field that is missing or not understood, InputError for a CRS
+/// that is unknown, and a filter that makes no sense or leaves nothing.
+PathFile read_path_file(const std::string& path, const std::string& to_crs, const PathChoice& choice = {});
 
 /// Returns the lines alone. Throws as read_path_file() does, and FileError naming the first feature that is no line.
 std::vector<Path> read_paths(const std::string& path, const std::string& to_crs);
+
+/// Returns the corners, each that equals the one before it left out; but two where all are equal.
+std::vector<Point2> without_repeats(std::vector<Point2> corners);
 
 /// Returns how far along the path each corner is, horizontally: 0 at the first, the path's length at the last.
 std::vector<double> distances_along(const std::vector<Point2>& corners);

@@ -22,7 +22,8 @@ double rounded_distance(double metres) {
 SectionLine::SectionLine(const Grid& grid, Point2 a, Point2 b) : grid_(grid) {
   const auto rounded = [&](double v, double origin) {
     const double units = (v - origin) / grid.resolution;
-    if (!(std::abs(units) <= 0x1p31)) throw InputError(fmt::format("the coordinate {} is too far from the store", v));
+    if (!(std::abs(units) <= 0x1p31))
+      throw InputError(fmt::format("the coordinate {:.12g} is too far from the store; check it, and its CRS", v));
     return std::llround(snapped_to_units(units) * kSubgrid);
   };
   std::int64_t bx = rounded(b.x, grid.origin.x), by = rounded(b.y, grid.origin.y);

@@ -3,6 +3,7 @@
 #include <itin/error.hpp>
 
 #include "gdal/drivers.hpp"
+#include "gdal/write_failure.hpp"
 
 namespace itin {
 
@@ -40,7 +41,7 @@ void GeoPackage::close() {
 }
 
 void GeoPackage::require(bool done, const char* otherwise) const {
-  if (!done) throw FileError(path_, QuietGdal::message(otherwise));
+  if (!done) throw FileError(path_, write_failure(otherwise));
 }
 
 }  // namespace itin

@@ -7,7 +7,7 @@
 //   package.close();
 //   output.commit();
 //
-// Every failure throws FileError with the reason that GDAL gives.
+// Every failure throws FileError with the reason, as write_failure() words it.
 #pragma once
 
 #include <string>

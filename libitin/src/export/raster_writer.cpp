@@ -17,6 +17,7 @@
 #include "gdal/drivers.hpp"
 #include "gdal/memory_raster.hpp"
 #include "gdal/quiet_gdal.hpp"
+#include "gdal/write_failure.hpp"
 
 namespace itin {
 
@@ -175,8 +176,7 @@ void write_cog(const std::string& path, const RasterGrid& grid, std::span<const 
   const bool created = written != nullptr;
   written.reset();  // the last bytes are written on closing
   progress.throw_if_cancelled();
-  if (!created || QuietGdal::failed())
-    throw FileError(path, "cannot be written: " + QuietGdal::message("unknown reason"));
+  if (!created || QuietGdal::failed()) throw FileError(path, write_failure("cannot be written; GDAL gives no reason"));
   file.commit();
   // A side file would describe the raster that was replaced.
   std::error_code ignored;

@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 #include <memory>
 #include <numbers>
 #include <string_view>
@@ -24,6 +26,9 @@ constexpr double kHalfLine = 250;
 // The scale at a place is an ellipse, which three directions determine.
 constexpr std::array<Point2, 3> kDirections{{{1, 0}, {0, 1}, {std::numbers::sqrt2 / 2, std::numbers::sqrt2 / 2}}};
 constexpr std::size_t kEnds = 2 * kDirections.size();
+// How far from itself a place may come back from its longitude and latitude, metres.
+constexpr double kReturned = 1;
+constexpr double kNowhere = std::numeric_limits<double>::quiet_NaN();
 
 std::vector<Point2> line_ends(std::span<const Point2> places) {
   std::vector<Point2> ends;
@@ -74,6 +79,7 @@ ScaleMeter::ScaleMeter(const Crs& crs) {
   const double inverse_flattening = geographic->GetInvFlattening();
   ellipsoid_ = {geographic->GetSemiMajor(), inverse_flattening > 0 ? 1 / inverse_flattening : 0};
   to_geographic_.emplace(crs.wkt, wkt_of(*geographic), crs.name);
+  from_geographic_.emplace(wkt_of(*geographic), crs.wkt, crs.name);
 }
 
 std::vector<Point2> ScaleMeter::lon_lat(std::span<const Point2> places) const {
@@ -82,6 +88,9 @@ std::vector<Point2> ScaleMeter::lon_lat(std::span<const Point2> places) const {
   to_geographic_->transform(x, y);
   std::vector<Point2> result;
   for (std::size_t i = 0; i < x.size(); ++i) result.push_back({x[i] * degrees_, y[i] * degrees_});
+  from_geographic_->transform(x, y);
+  for (std::size_t i = 0; i < x.size(); ++i)
+    if (!(std::hypot(x[i] - places[i].x, y[i] - places[i].y) <= kReturned)) result[i] = {kNowhere, kNowhere};
   return result;
 }
 

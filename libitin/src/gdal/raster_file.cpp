@@ -3,6 +3,7 @@
 #include <itin/error.hpp>
 #include <itin/raster_values.hpp>
 
+#include "gdal/ascii_grid.hpp"
 #include "gdal/drivers.hpp"
 #include "gdal/quiet_gdal.hpp"
 #include "gdal/source_path.hpp"
@@ -22,6 +23,7 @@ GDALDatasetUniquePtr open_raster_file(const std::string& path) {
   const QuietGdal quiet;
   GDALDatasetUniquePtr dataset = open_dataset(path, GDAL_OF_RASTER);
   if (!dataset) throw FileError(path, why_not_read(path, "a raster"));
+  require_whole_ascii_grid(*dataset, path);
   return dataset;
 }
 

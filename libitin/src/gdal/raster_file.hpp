@@ -7,8 +7,8 @@
 
 namespace itin {
 
-/// Opens the file. Throws FileError, also where it is missing, empty, a pipe or no raster. Precondition: a QuietGdal
-/// lives.
+/// Opens the file. Throws FileError, also where it is missing, empty, a pipe, no raster or an ASCII grid that is cut
+/// short. Precondition: a QuietGdal lives.
 GDALDatasetUniquePtr open_raster_file(const std::string& path);
 
 }  // namespace itin

@@ -47,6 +47,12 @@ struct LinkHeights {
   double from_m = 0, to_m = 0;
 };
 
+/// Which lines of a file of lines are links: by default all lines of all layers.
+struct LinkChoice {
+  std::string layer = {};  ///< the only layer to read
+  std::string where = {};  ///< a condition in OGR's SQL
+};
+
 /// A row, or a feature of a file of lines, that cannot be understood.
 struct BadLink {
   std::size_t row = 0;  ///< from 1, not counting the header
@@ -74,10 +80,11 @@ struct LinkTable {
 ///
 /// The links are in the CRS `to_crs` (WKT). CSV tables are taken to be in `csv_crs`; if that is empty, in longitude and
 /// latitude where the header calls them so, else in `to_crs`. Throws FileError for a file that is missing or not
-/// understood, InputError for an unknown CRS, for a header that has some of these names without the others, and for a
-/// file without links.
+/// understood, or has no such layer or field, InputError for an unknown CRS, for a header that has some of these names
+/// without the others, for a file without links, and for a choice that makes no sense, leaves nothing or is of the rows
+/// of a table.
 LinkTable read_link_table(const std::string& path, const std::string& to_crs, const LinkHeights& heights,
-                          const std::string& csv_crs = {});
+                          const std::string& csv_crs = {}, const LinkChoice& choice = {});
 
 struct LinkQuery {
   Earth earth;

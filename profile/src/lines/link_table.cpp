@@ -267,9 +267,20 @@ class TableReader {
   std::size_t width_ = kLinkColumns;
 };
 
-LinkTable read_lines(const std::string& path, const std::string& to_crs, const LinkHeights& heights) {
+/// A table is no layer, and its cells are not a database's.
+void require_no_choice(const std::string& path, const LinkChoice& choice) {
+  if (!choice.layer.empty())
+    throw InputError(fmt::format("`layer` '{}': {} is a table, which has no layers; leave it out", choice.layer, path));
+  if (!choice.where.empty())
+    throw InputError(fmt::format(
+        "`where` {}: {} is a table, of which all rows are links; take out the others, or give a file of lines",
+        choice.where, path));
+}
+
+LinkTable read_lines(const std::string& path, const std::string& to_crs, const LinkHeights& heights,
+                     const LinkChoice& choice) {
   LinkTable table;
-  const PathFile file = read_path_file(path, to_crs);
+  const PathFile file = read_path_file(path, to_crs, {choice.layer, choice.where});
   for (const Path& line : file.paths)
     table.links.push_back({line.id, line.corners.front(), heights.from_m, line.corners.back(), heights.to_m});
   for (const BadPath& bad : file.bad)
@@ -280,12 +291,13 @@ LinkTable read_lines(const std::string& path, const std::string& to_crs, const L
 }  // namespace
 
 LinkTable read_link_table(const std::string& path, const std::string& to_crs, const LinkHeights& heights,
-                          const std::string& csv_crs) {
+                          const std::string& csv_crs, const LinkChoice& choice) {
   LinkTable table;
   if (ending_of(path) == ".csv") {
+    require_no_choice(path, choice);
     TableReader(path, to_crs, csv_crs, table).read();
   } else {
-    table = read_lines(path, to_crs, heights);
+    table = read_lines(path, to_crs, heights, choice);
   }
   if (table.links.empty() && table.bad.empty())
     throw InputError(fmt::format("{}: holds no link; give rows id,x1,y1,h1,x2,y2,h2, or lines", path));

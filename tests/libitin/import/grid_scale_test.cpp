@@ -65,6 +65,11 @@ TEST(GridScale, TakesPolesAndOtherBodies) {
 
 TEST(GridScale, IsNoneWhereThereIsNoGround) {
   EXPECT_FALSE(grid_scale("EPSG:3035", about({9e7, 9e7})));
+  // Transverse Mercator and Mercator go round the world again; nothing lies there.
+  EXPECT_FALSE(grid_scale("EPSG:27700", about({300000, 1e9})));
+  EXPECT_FALSE(grid_scale("EPSG:32630", about({300000, 2e7})));
+  EXPECT_FALSE(grid_scale("EPSG:3857", about({6e7, 0})));
+  EXPECT_TRUE(grid_scale("EPSG:27700", about({300000, 180000})));
   EXPECT_THROW(grid_scale("EPSG:4326", about({0, 0})), InputError);
   EXPECT_THROW(grid_scale("EPSG:2229", about({0, 0})), InputError);
 }

@@ -15,7 +15,7 @@ void for_each_centre(const Tin& tin, std::span<const std::uint32_t> triangles, c
                      const TileCentres& centres, const Visit& visit) {
   const auto& [x, y] = centres;
   const auto a_unit = [](double first, double last, std::int64_t count) {
-    return count > 1 ? static_cast<double>(count - 1) / std::abs(last - first) : 1.0;
+    return count > 1 && last != first ? static_cast<double>(count - 1) / std::abs(last - first) : 1.0;
   };
   const double columns_per_unit = a_unit(x[0], x[static_cast<std::size_t>(tile.columns - 1)], tile.columns);
   const double rows_per_unit = a_unit(y[0], y[static_cast<std::size_t>(tile.rows - 1)], tile.rows);

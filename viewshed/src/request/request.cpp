@@ -14,6 +14,9 @@ namespace itin::viewshed {
 
 namespace {
 
+/// The finest step of a store's grid, metres: nothing finer is known of any ground.
+constexpr double kFinestCell = 0.0001;
+
 bool positive(double v) {
   return std::isfinite(v) && v > 0;
 }
@@ -59,6 +62,8 @@ void validate_cells(const Request& request) {
   if (request.cell_size && request.grid) throw InputError("both a cell size and a grid are given: give one of them");
   if (request.cell_size && !positive(*request.cell_size))
     throw InputError(fmt::format("cell size {:g}: give a positive number of metres", *request.cell_size));
+  if (request.cell_size && *request.cell_size < kFinestCell)
+    throw InputError(fmt::format("cell size {:g}: give at least {} metres", *request.cell_size, kFinestCell));
   const double cell =
       request.grid ? std::max(request.grid->cell_width(), request.grid->cell_height()) : request.cell_size.value_or(0);
   for (const Observer& observer : request.observers) {

@@ -21,6 +21,13 @@ std::vector<Point2> transformed(std::span<const Point2> places, const PointTrans
   return images;
 }
 
+[[noreturn]] void refuse(const std::string& path, const Crs& crs) {
+  throw InputError(
+      fmt::format("{}: lies where {} is not defined; check the file's CRS (`crs`), or choose another for the store "
+                  "with `to_crs`",
+                  path, crs.name));
+}
+
 }  // namespace
 
 std::vector<Point2> TrueScale::places_of(const OpenedFile& file) {
@@ -30,12 +37,12 @@ std::vector<Point2> TrueScale::places_of(const OpenedFile& file) {
 }
 
 GridScale TrueScale::of(const OpenedFile& file) {
+  const Crs own = file.crs();
+  // A transformation would take numbers beyond the world to a place within it.
+  const bool other = own.metric() && own.wkt != crs_.wkt;
+  if (other && !ScaleMeter(own).at(places_in(file.extent()))) refuse(file.path(), own);
   const auto scale = meter_.at(places_of(file));
-  if (!scale)
-    throw InputError(
-        fmt::format("{}: lies where {} is not defined; check the file's CRS (`crs`), or choose another for the store "
-                    "with `to_crs`",
-                    file.path(), crs_.name));
+  if (!scale) refuse(file.path(), crs_);
   return *scale;
 }
 

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -49,27 +50,40 @@ Path path_of(const OGRFeature& feature, const CoordinateTransform* transform) {
     const Point2 p{line->getX(i), line->getY(i)};
     path.corners.push_back(transform != nullptr ? (*transform)(p) : p);
   }
+  path.corners = without_repeats(std::move(path.corners));
   return path;
+}
+
+std::vector<OGRLayer*> chosen_layers(GDALDataset& dataset, const std::string& path, const PathChoice& choice) {
+  if (!choice.layer.empty() || !choice.where.empty()) return {&choose_layer(dataset, path, choice.layer)};
+  std::vector<OGRLayer*> layers;
+  for (OGRLayer* layer : dataset.GetLayers())
+    if (!holds_styles(*layer)) layers.push_back(layer);
+  return layers;
+}
+
+void add_lines_of(OGRLayer& layer, const std::string& path, const std::string& to_crs, PathFile& file) {
+  std::optional<CoordinateTransform> transform;
+  if (const OGRSpatialReference* own = layer.GetSpatialRef()) transform.emplace(wkt_of(*own), to_crs);
+  while (const OGRFeatureUniquePtr feature = next_feature(layer, path)) {
+    try {
+      file.paths.push_back(path_of(*feature, transform ? &*transform : nullptr));
+    } catch (const InputError& error) {
+      const std::size_t row = file.paths.size() + file.bad.size() + 1;
+      file.bad.push_back({row, feature->GetFID(), id_of(*feature), error.what()});
+    }
+  }
 }
 
 }  // namespace
 
-PathFile read_path_file(const std::string& path, const std::string& to_crs) {
+PathFile read_path_file(const std::string& path, const std::string& to_crs, const PathChoice& choice) {
   const QuietGdal quiet;
   const GDALDatasetUniquePtr dataset = open_vector_file(path, nullptr);
   PathFile file;
-  for (OGRLayer* layer : dataset->GetLayers()) {
-    if (holds_styles(*layer)) continue;
-    std::optional<CoordinateTransform> transform;
-    if (const OGRSpatialReference* own = layer->GetSpatialRef()) transform.emplace(wkt_of(*own), to_crs);
-    while (const OGRFeatureUniquePtr feature = next_feature(*layer, path)) {
-      try {
-        file.paths.push_back(path_of(*feature, transform ? &*transform : nullptr));
-      } catch (const InputError& error) {
-        const std::size_t row = file.paths.size() + file.bad.size() + 1;
-        file.bad.push_back({row, feature->GetFID(), id_of(*feature), error.what()});
-      }
-    }
+  for (OGRLayer* layer : chosen_layers(*dataset, path, choice)) {
+    select_features(*layer, path, choice.where);
+    add_lines_of(*layer, path, to_crs, file);
   }
   return file;
 }
@@ -79,6 +93,13 @@ std::vector<Path> read_paths(const std::string& path, const std::string& to_crs)
   if (!file.bad.empty())
     throw FileError(fmt::format("{}: feature {}", path, file.bad.front().feature), file.bad.front().message);
   return std::move(file.paths);
+}
+
+std::vector<Point2> without_repeats(std::vector<Point2> corners) {
+  const Point2 last = corners.back();
+  corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+  if (corners.size() == 1) corners.push_back(last);
+  return corners;
 }
 
 std::vector<double> distances_along(const std::vector<Point2>& corners) {
