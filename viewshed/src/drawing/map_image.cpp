@@ -260,7 +260,7 @@ class MapDrawing {
     return size;
   }
 
-  static constexpr double kArrowRadius = 2.3;  ///< of the north arrow's disc, units
+  static constexpr double kArrowRadius = 2.3;  ///< radius of the north arrow's disc, units
   Point2 north_arrow() const { return {left_ + width_ - 3.0 * unit_, top_ + 3.2 * unit_}; }
 
   void draw_north_arrow() {
