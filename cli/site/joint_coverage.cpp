@@ -17,6 +17,7 @@ SiteSurvey survey_of_serving(const SiteOptions& options, const SiteInputs& input
   survey.positions.clear();
   for (const std::size_t site : sites) survey.positions.push_back(inputs.positions[site]);
   survey.tolerance = 0;
+  survey.open = viewshed::OpenTargets::kUnserved;
   return survey;
 }
 
@@ -51,6 +52,12 @@ std::vector<std::size_t> serving_sites(const SiteInputs& inputs, const viewshed:
   return sites;
 }
 
+std::vector<DemandSet> served_by_existing(const Store& store, const SiteOptions& options, const SiteInputs& inputs,
+                                          Progress& progress) {
+  if (inputs.existing() == 0) return {};
+  return served_exactly(store, survey_of_serving(options, inputs, serving_sites(inputs, {})), progress);
+}
+
 JointCoverage joint_coverage(const Store& store, const SiteOptions& options, const SiteInputs& inputs,
                              const viewshed::SiteCoverage& coverage, const viewshed::Choice& choice,
                              Progress& progress) {
@@ -59,8 +66,10 @@ JointCoverage joint_coverage(const Store& store, const SiteOptions& options, con
   for (const std::size_t site : sites) joint.certain.push_back(coverage.bounds(site).certain);
   if (sites.empty() || !coverage.leaves_open()) return joint;
   const SiteSurvey survey = survey_of_serving(options, inputs, sites);
-  const bool exact =
-      std::all_of(sites.begin(), sites.end(), [&](std::size_t site) { return coverage.bounds(site).exact; });
+  const bool worst_case = options.open_targets() == viewshed::OpenTargets::kServed;
+  if (worst_case) joint.certain = served_exactly(store, survey, progress);
+  const bool exact = worst_case || std::all_of(sites.begin(), sites.end(),
+                                               [&](std::size_t site) { return coverage.bounds(site).exact; });
   joint.undecided = open_to_missing_ground(
       store, survey, exact ? joint.certain : served_exactly(store, survey, progress), options.cover, progress);
   // Existing sites may serve what no candidate reaches.

@@ -18,14 +18,19 @@ namespace itin::cli {
 /// Returns indices in the inputs' positions: the chosen sites in their order, then the existing ones.
 std::vector<std::size_t> serving_sites(const SiteInputs& inputs, const viewshed::Choice& choice);
 
+/// Returns exactly what each existing site certainly serves. Throws as SiteCoverage::refine() does.
+std::vector<viewshed::DemandSet> served_by_existing(const Store& store, const SiteOptions& options,
+                                                    const SiteInputs& inputs, Progress& progress);
+
 /// The elements of the targets that are served.
 struct JointCoverage {
   viewshed::SiteTargets targets;
-  std::vector<viewshed::DemandSet> certain;  ///< what each of the serving sites serves
+  std::vector<viewshed::DemandSet> certain;  ///< what each of the serving sites certainly serves
   viewshed::DemandSet undecided;             ///< what is served only if ground without data hides nothing
 };
 
-/// Returns the coverage of the demand, from exact coverage or its certain part. Throws as SiteCoverage::refine() does.
+/// Returns the coverage of the demand. For masts `certain` is the certain part of `coverage`. Throws as
+/// SiteCoverage::refine() does.
 JointCoverage joint_coverage(const Store& store, const SiteOptions& options, const SiteInputs& inputs,
                              const viewshed::SiteCoverage& coverage, const viewshed::Choice& choice,
                              Progress& progress);

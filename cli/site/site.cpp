@@ -79,7 +79,7 @@ class SiteVerb final : public Verb {
 
     const bool heights = options_.placement.sums_heights();
     std::vector<double> heights_m;
-    if (heights) heights_m = certain_heights(store, inputs, progress);
+    if (heights) heights_m = possible_heights(store, inputs, progress);
     const viewshed::Demand shown(heights_m);
     viewshed::SiteCoverage coverage(store, site_survey(options_, inputs), progress);
     SiteCheckpoint checkpoint(options_.path("site.work"), key(), options_.resume, inputs.positions.size(), coverage);
@@ -88,14 +88,13 @@ class SiteVerb final : public Verb {
     };
     SiteResult site{options_, inputs, coverage, heights ? shown : inputs.demand, {}, {}, {}, {}, {}, {}};
     site.choice = heights ? choose_by_heights(inputs, coverage, shown, goal, progress)
-                          : choose_by_coverage(inputs, coverage, goal, progress);
+                          : choose_by_coverage(store, inputs, coverage, goal, progress);
     coverage.release_surfaces();
     site.network = site_network(store, options_, inputs, site.choice, hub_position, progress);
     site.routes = site_routes(options_, site.network);
     site.ground_m = site_grounds(store, inputs, site.choice, progress);
     const JointCoverage joint = joint_coverage(store, options_, inputs, coverage, site.choice, progress);
-    site.undecided = heights ? undecided_heights(store, site, heights_m, progress)
-                             : inputs.demand.in_metric(inputs.demand.weight(joint.undecided));
+    site.undecided = heights ? undecided_heights(store, site, heights_m, progress) : undecided_demand(site, joint);
     site.rasters = site_rasters(
         store, options_, inputs, site.choice,
         inputs.targets.grid ? joint : joint_coverage_on_cells(store, options_, inputs, coverage, site.choice, progress),
@@ -108,26 +107,38 @@ class SiteVerb final : public Verb {
   }
 
  private:
-  /// Returns how much of its turbine each option certainly shows.
-  std::vector<double> certain_heights(const Store& store, const SiteInputs& inputs, Progress& progress) const {
+  /// Returns how much of its turbine each option may show.
+  std::vector<double> possible_heights(const Store& store, const SiteInputs& inputs, Progress& progress) const {
     std::vector<std::size_t> all(inputs.options.size());
     std::iota(all.begin(), all.end(), std::size_t{0});
-    const NoData rule = options_.nodata.rule() == NoData::kClear ? NoData::kClear : NoData::kBlock;
+    const NoData rule = options_.nodata.rule() == NoData::kBlock ? NoData::kBlock : NoData::kClear;
     return summed_visible_heights(store, {options_, inputs, all, rule}, progress);
   }
 
-  /// Returns how much more the chosen turbines show if ground without data hides nothing, metres. `certain` has a value
-  /// for each option.
-  double undecided_heights(const Store& store, const SiteResult& site, const std::vector<double>& certain,
+  /// Returns how much less the chosen turbines show if ground without data hides all behind it, metres. `possible` has
+  /// a value for each option.
+  double undecided_heights(const Store& store, const SiteResult& site, const std::vector<double>& possible,
                            Progress& progress) const {
     if (!site.coverage.leaves_open()) return 0;
     std::vector<std::size_t> chosen;
     for (const viewshed::ChosenSite& turbine : site.choice.chosen) chosen.push_back(turbine.option);
-    const std::vector<double> possible =
-        summed_visible_heights(store, {options_, site.inputs, chosen, NoData::kClear}, progress);
+    const std::vector<double> certain =
+        summed_visible_heights(store, {options_, site.inputs, chosen, NoData::kBlock}, progress);
     double sum = 0;
-    for (std::size_t i = 0; i < chosen.size(); ++i) sum += possible[i] - certain[chosen[i]];
+    for (std::size_t i = 0; i < chosen.size(); ++i) sum += possible[chosen[i]] - certain[i];
     return sum;
+  }
+
+  /// Returns the demand that ground without data leaves open: of turbines only what may see a chosen one.
+  double undecided_demand(const SiteResult& site, const JointCoverage& joint) const {
+    viewshed::DemandSet open = joint.undecided;
+    if (options_.placement.given()) {
+      viewshed::DemandSet possible;
+      for (const viewshed::ChosenSite& turbine : site.choice.chosen)
+        possible = set_union(possible, site.coverage.bounds(turbine.option).possible);
+      open = intersection(open, possible);
+    }
+    return site.inputs.demand.in_metric(site.inputs.demand.weight(open));
   }
 
   /// Returns the hash of every file on which the result depends.
@@ -209,15 +220,28 @@ class SiteVerb final : public Verb {
     while (!coverage.bounds(option).exact) coverage.refine({&option, 1});
   }
 
-  /// Chooses by coverage of the demand that existing sites do not serve.
-  viewshed::Choice choose_by_coverage(const SiteInputs& inputs, viewshed::SiteCoverage& coverage,
-                                      viewshed::ChoiceGoal& goal, Progress& progress) const {
-    coverage.explore();
+  /// Returns what each existing site certainly serves of the demand.
+  std::vector<viewshed::DemandSet> existing_coverage(const Store& store, const SiteInputs& inputs,
+                                                     viewshed::SiteCoverage& coverage, Progress& progress) const {
+    std::vector<viewshed::DemandSet> served;
     for (std::size_t i = inputs.options.size(); i < inputs.positions.size(); ++i) {
       refine_fully(coverage, i);
-      const viewshed::DemandSet& served = coverage.bounds(i).certain;
-      goal.existing.push_back(inputs.cells.empty() ? served : intersection(served, inputs.cells));
+      served.push_back(coverage.bounds(i).certain);
     }
+    if (coverage.leaves_open() && options_.open_targets() == viewshed::OpenTargets::kServed) {
+      coverage.release_surfaces();  // --memory holds those of one survey
+      served = served_by_existing(store, options_, inputs, progress);
+    }
+    if (!inputs.cells.empty())
+      for (viewshed::DemandSet& set : served) set = intersection(set, inputs.cells);
+    return served;
+  }
+
+  /// Chooses by coverage of the demand that existing sites do not certainly serve.
+  viewshed::Choice choose_by_coverage(const Store& store, const SiteInputs& inputs, viewshed::SiteCoverage& coverage,
+                                      viewshed::ChoiceGoal& goal, Progress& progress) const {
+    coverage.explore();
+    goal.existing = existing_coverage(store, inputs, coverage, progress);
     if (options_.share) goal.wanted = wanted(inputs, goal);
     return viewshed::choose(inputs.demand, inputs.options, coverage, goal, progress);
   }

@@ -59,6 +59,19 @@ struct SiteMap {
   viewshed::MissingGround missing = {};
 };
 
+/// Tells what the maps are for, in one line.
+std::string subtitle_of(const SiteOptions& options) {
+  const double kilometres = options.radius / 1000;
+  if (options.placement.given())
+    return fmt::format("{} {:g} m above the ground, eyes {:g} m, within {:g} km",
+                       options.placement.minimised() == Minimised::kHubs ? "hubs" : "blade tips",
+                       options.placement.minimised_height(), options.target_height, kilometres);
+  return fmt::format(
+      "radius {:g} km, targets {:g} m up{}{}", kilometres, options.target_height,
+      options.frequency_ghz ? fmt::format(", {:g} F1 clear at {:g} GHz", options.fresnel, *options.frequency_ghz) : "",
+      options.cover > 1 ? fmt::format(", by at least {} sites", options.cover) : "");
+}
+
 std::vector<SiteMap> site_maps(const Store& store, const SiteResult& r, Progress& progress) {
   viewshed::Result result = as_viewshed(r);
   const viewshed::MissingGround missing = viewshed::missing_ground(store, result, progress);
@@ -75,11 +88,7 @@ std::vector<SiteMap> site_maps(const Store& store, const SiteResult& r, Progress
   options.observers = wording.mark + (result.request.observers.size() == 1 ? "" : "s");
   options.outside = wording.nothing;
   options.title = fmt::format("{} {}", wording.by, counted(r.choice.chosen.size(), wording.one));
-  options.subtitle = fmt::format(
-      "radius {:g} km, targets {:g} m up{}{}", r.options.radius / 1000, r.options.target_height,
-      r.options.frequency_ghz ? fmt::format(", {:g} F1 clear at {:g} GHz", r.options.fresnel, *r.options.frequency_ghz)
-                              : "",
-      r.options.cover > 1 ? fmt::format(", by at least {} sites", r.options.cover) : "");
+  options.subtitle = subtitle_of(r.options);
   std::vector<SiteMap> maps{{"coverage", result, options, missing}};
   result.request.mode = viewshed::Mode::kCount;
   result.values = viewshed::Counts{r.rasters.redundancy};
@@ -110,7 +119,7 @@ ResultSheet sheet_of(const Store& store, const SiteResult& r, const SiteMap& map
   const std::string one = wording_of(r.options).one;
   sheet.title.facts = {
       {turbines ? "Objective" : "Served", r.meaning()},
-      {"Targets", map.options.subtitle},
+      {turbines ? "Turbines" : "Targets", map.options.subtitle},
       {"Choice",
        fmt::format("{}, {}", counted(r.choice.chosen.size(), one),
                    turbines ? least_in_words(r) : fmt::format("{:.1f} % of the demand served", r.served_percent()))},

@@ -145,10 +145,11 @@ void SiteOptions::declare_work(CLI::App& app) {
       ->type_name("METRES");
   themes.declare(app);
   earth.declare(app);
-  nodata.declare(app,
-                 "What ground without data does to a sight line: unknown (default) leaves it undecided unless known "
-                 "ground hides it, and what is undecided neither serves nor links; block hides the target, clear lets "
-                 "it pass");
+  nodata.declare(
+      app,
+      "What ground without data does to a sight line: unknown (default) leaves it undecided unless known "
+      "ground hides it; what is undecided neither serves nor links, and with --turbines it counts as seen; block "
+      "hides the target, clear lets it pass");
   engine.declare(app);
   memory.declare(app, kReadInParts);
   reads(app.add_option("--params", params_, "Options from a JSON file, by name; those of the call come before them")

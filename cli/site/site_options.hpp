@@ -52,6 +52,10 @@ class SiteOptions {
   viewshed::Objective objective() const {
     return placement.given() ? viewshed::Objective::kLeast : viewshed::Objective::kMost;
   }
+  /// Returns what targets count as that only ground without data could hide: turbines are hidden in the worst case.
+  viewshed::OpenTargets open_targets() const {
+    return placement.given() ? viewshed::OpenTargets::kServed : viewshed::OpenTargets::kUnserved;
+  }
   /// Tells whether sites at both places may be chosen, as far as distances go.
   bool may_both_stand(Point2 a, Point2 b) const;
   /// Returns a sentence that tells when a target is served, or which targets see turbines.

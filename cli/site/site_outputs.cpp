@@ -45,7 +45,7 @@ NamesAndContents files_of_turbines() {
 
 /// Returns how much ground without data leaves open, as the value measures it and in cells of the rasters.
 Document undecided_document(const SiteResult& r) {
-  Document document{{"value", r.undecided}};
+  Document document{{"value", r.undecided}, {"part_of_value", r.options.placement.given()}};
   if (!r.options.placement.sums_heights()) document["percent"] = r.undecided_percent();
   const std::uint64_t cells = r.rasters.count(viewshed::Verdict::kUndecided);
   document["cells"] = cells;

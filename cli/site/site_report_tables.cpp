@@ -70,10 +70,11 @@ std::string sites_html(const SiteResult& r) {
 }
 
 std::string turbines_html(const SiteResult& r) {
-  const bool heights = r.options.placement.sums_heights();
-  HtmlTable table(
-      {"", "Turbine", "Easting", "Northing", "Ground m", heights ? "Shows m" : "Adds", "Together", "Seen from, alone"},
-      2);
+  const bool heights = r.options.placement.sums_heights(), open = r.coverage.leaves_open();
+  const char* const shows = open ? "May show m" : "Shows m";
+  HtmlTable table({"", "Turbine", "Easting", "Northing", "Ground m", heights ? shows : "Adds", "Together",
+                   open ? "May be seen from, alone" : "Seen from, alone"},
+                  2);
   for (std::size_t i = 0; i < r.choice.chosen.size(); ++i) {
     const viewshed::ChosenSite& site = r.choice.chosen[i];
     const viewshed::SitePosition& place = r.place_of(site);

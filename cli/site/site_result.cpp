@@ -68,6 +68,7 @@ viewshed::SiteSurvey site_survey(const SiteOptions& options, const SiteInputs& i
   survey.radius = options.radius;
   survey.earth = options.earth.earth();
   survey.nodata = options.nodata.rule();
+  survey.open = options.open_targets();
   survey.themes = options.themes.choice();
   survey.fresnel = options.criterion();
   survey.tolerance = options.tolerance;
@@ -96,7 +97,8 @@ double SiteResult::undecided_percent() const {
 
 std::string SiteResult::meaning() const {
   if (!coverage.leaves_open()) return options.meaning_of_served();
-  return options.meaning_of_served() + "; what only ground without data could hide is undecided, and does not count";
+  return options.meaning_of_served() + "; what only ground without data could hide is undecided, and " +
+         (options.placement.given() ? "counts as seen" : "does not count");
 }
 
 std::size_t SiteResult::refined() const {

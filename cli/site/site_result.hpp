@@ -44,7 +44,9 @@ struct SiteResult {
   viewshed::Choice choice;
   SiteNetwork network;
   std::vector<SiteRoute> routes;  ///< from the network's sites to the hub; empty without a hub
-  double undecided = 0;           ///< by how much the value would grow if ground without data hid nothing
+  /// By how much the value of masts would grow if ground without data hid nothing; the part of the value of turbines
+  /// that is seen only then.
+  double undecided = 0;
   SiteRasters rasters;
   std::vector<double> ground_m;  ///< elevation of the ground under each chosen site, which may stand on a roof
 

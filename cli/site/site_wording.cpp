@@ -60,27 +60,27 @@ std::string undecided_in_words(const SiteResult& r) {
   const std::string amount = r.options.placement.sums_heights()
                                  ? fmt::format("{:.10g} m", r.undecided)
                                  : fmt::format("{:.10g} ({:.1f} %)", r.undecided, r.undecided_percent());
-  return fmt::format("{} more, across ground without data; {} decides that", amount, kDecidesMissingGround);
+  return fmt::format("{} {}, across ground without data; {} decides that", amount,
+                     r.options.placement.given() ? "of these" : "more", kDecidesMissingGround);
 }
 
 std::string least_in_words(const SiteResult& r) {
   const PlacementOptions& placement = r.options.placement;
-  const std::string least =
-      r.coverage.leaves_open() ? "proved to be the least that is certain" : "proved to be the least there is";
-  // This holds even if ground without data hides nothing, since then more is seen.
-  const std::string proved = r.is_best() ? least
+  const bool open = r.undecided > 0;
+  const std::string proved = r.is_best() ? "proved to be the least there is"
                                          : fmt::format("no choice has less than {:.10g} (gap {:.1f} %)",
                                                        r.in_metric(r.choice.lower_bound), gap_percent(r.choice));
   if (placement.minimised() == Minimised::kHeight)
-    return fmt::format("{}visible height, summed: {:.10g} m; {}", certainly(r), r.in_metric(r.choice.value), proved);
+    return fmt::format("visible height, summed: {}{:.10g} m; {}", open ? "at most " : "", r.in_metric(r.choice.value),
+                       proved);
   const std::string existing =
       r.choice.existing > 0
-          ? fmt::format(", besides {:.10g} from which {} already", r.in_metric(r.choice.existing),
-                        r.inputs.existing() == 1 ? "an existing one is seen" : "existing ones are seen")
+          ? fmt::format(", besides {:.10g} from which {} {}seen already", r.in_metric(r.choice.existing),
+                        r.inputs.existing() == 1 ? "an existing one is" : "existing ones are", certainly(r))
           : "";
   return fmt::format(
-      "{} of a turbine is {}seen from {:.10g} of a demand of {:.10g} ({:.1f} %){}; {}", placement.minimised_part(),
-      certainly(r), r.in_metric(r.choice.value), r.in_metric(r.inputs.total),
+      "{} of a turbine {} seen from {:.10g} of a demand of {:.10g} ({:.1f} %){}; {}", placement.minimised_part(),
+      open ? "may be" : "is", r.in_metric(r.choice.value), r.in_metric(r.inputs.total),
       r.inputs.total == 0 ? 0 : 100 * static_cast<double>(r.choice.value) / static_cast<double>(r.inputs.total),
       existing, proved);
 }

@@ -1,5 +1,7 @@
 #include <filesystem>
 #include <fstream>
+#include <functional>
+#include <numeric>
 #include <unistd.h>
 
 #include <gdal_priv.h>
@@ -89,6 +91,50 @@ TEST(MapImage, NamesDoNotCoverEachOther) {
   };
   EXPECT_GT(ink(2), ink(1));
   EXPECT_EQ(ink(30), ink(12));
+}
+
+/// A small crowd of observers had names, a greater one none.
+TEST(MapImage, ManyObserversHaveTheNamesThatHaveRoom) {
+  SurveyedHills s = survey(Mode::kVisible);
+  const auto drawn = [&](const std::string& name) {
+    s.result.request.observers.clear();
+    for (int i = 0; i < 60; ++i)
+      s.result.request.observers.push_back({name, {300200.0 + 250 * (i % 10), 200300.0 + 400 * (i / 10)}, 30});
+    return draw_map(s.tin, s.result, {.title = "", .subtitle = "x", .observers = "x", .map_pixels = 800}).rgb;
+  };
+  const std::vector<std::uint8_t> named = drawn("M"), nameless = drawn("");
+  ASSERT_EQ(named.size(), nameless.size());
+  EXPECT_GT(std::inner_product(named.begin(), named.end(), nameless.begin(), std::size_t{0}, std::plus<>(),
+                               [](int a, int b) { return std::size_t{a != b}; }),
+            1000U);
+}
+
+/// The names of observers at one place stand beside it one after another, but for the side where the arrow is.
+TEST(MapImage, NamesStayOutOfTheNorthArrow) {
+  SurveyedHills s = survey(Mode::kVisible);
+  constexpr int kPixels = 800, kUnit = 10;
+  // The disc's middle lies 3 units from the map's right edge and 3.2 below its top; the mark is 4 units to the west.
+  const Box box = s.result.grid.bounds();
+  const double metres = box.width() / kPixels;
+  const Point2 mark{box.xmax - 7 * kUnit * metres, box.ymax - 3.2 * kUnit * metres};
+  const auto drawn = [&](const std::string& name) {
+    s.result.request.observers = {{name, mark, 30}};
+    return draw_map(s.tin, s.result, {.title = "", .subtitle = "x", .observers = "x", .map_pixels = kPixels});
+  };
+  const MapImage named = drawn("MM"), nameless = drawn("");
+  const int left = (named.width - kPixels) / 2, top = 6 * kUnit;
+  const auto differ = [&](int from, int to) {
+    std::size_t count = 0;
+    for (int y = top; y < top + 7 * kUnit; ++y)
+      for (int x = left + kPixels - from; x < left + kPixels - to; ++x) {
+        const auto i =
+            3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(named.width) + static_cast<std::size_t>(x));
+        count += named.rgb[i] != nameless.rgb[i] ? 1U : 0U;
+      }
+    return count;
+  };
+  EXPECT_EQ(differ(6 * kUnit, 0), 0U);
+  EXPECT_GT(differ(14 * kUnit, 6 * kUnit), 10U);
 }
 
 TEST(MapImage, RefusesSizesOutOfRange) {

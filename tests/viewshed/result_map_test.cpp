@@ -85,6 +85,19 @@ TEST(ResultMap, TargetsBelowTheGroundAreAClassOfBlockers) {
   EXPECT_EQ(numbers_of(s.map.keys[1].colours), hidden);
 }
 
+TEST(ResultMap, TargetsBelowTheGroundAreAClassOfHeights) {
+  const SurveyedMap s = surveyed_map(Mode::kHeight, true);
+  const std::set<std::uint32_t> seen = s.shown(Verdict::kVisible), hidden = s.shown(Verdict::kHidden);
+  EXPECT_EQ(s.map.scale.back().text, "target below ground");
+  const std::uint32_t buried = number_of(s.map.scale.back().colours.front());
+  EXPECT_TRUE(hidden.contains(buried));
+  EXPECT_FALSE(seen.contains(buried));
+  // Targets above the ground are seen at other heights than 0, too.
+  EXPECT_GT(seen.size(), 1U);
+  EXPECT_EQ(numbers_of(s.map.keys[0].colours), seen);
+  EXPECT_EQ(numbers_of(s.map.keys[1].colours), hidden);
+}
+
 TEST(ResultMap, SmallAreasAreInSquareMetres) {
   Request request;
   request.observers = {{"Mast", {301000, 201500}, 30}};

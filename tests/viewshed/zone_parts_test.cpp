@@ -9,6 +9,7 @@
 #include <itin/error.hpp>
 #include <itin/import.hpp>
 #include <viewshed/turbines.hpp>
+#include <viewshed/viewshed.hpp>
 
 #include "support/houses.hpp"
 #include "support/raster_file.hpp"
@@ -88,7 +89,7 @@ class ZoneParts : public testing::Test {
   /// With what holds a part of the surfaces alone.
   Zone survey_in_parts(const Zone& whole, double share) {
     const double surfaces = 110 * static_cast<double>(whole.statistics.triangles);
-    Zone parts = survey(bytes_of_results(whole) + static_cast<std::uint64_t>(share * surfaces));
+    Zone parts = survey(bytes_beside_surfaces(whole) + static_cast<std::uint64_t>(share * surfaces));
     EXPECT_GT(zone_parts(Store(path()), parts, whole.screened.has_value()).size(), 1U);
     return parts;
   }
@@ -206,6 +207,24 @@ TEST_F(ZoneParts, HoldWhatARadarSeesFarFromTheTurbines) {
 TEST_F(ZoneParts, ARadarOffTheDataIsRefused) {
   request_.radar = Observer{"radar", {kZoneCorner.x - 1000, kZoneCorner.y}, 15};
   EXPECT_THROW(survey(std::nullopt), InputError);
+}
+
+/// What the shadows of the lake take is no room for surfaces.
+TEST_F(ZoneParts, LeaveRoomForTheShadowsOfMissingGround) {
+  request_.themes.reset();
+  const Zone whole = survey(std::nullopt);
+  ASSERT_TRUE(whole.leaves_open());
+  ASSERT_GT(whole.shadow_bytes, 5U * 4096 * sizeof(std::vector<std::uint32_t>));
+  const auto parts_within = [&](std::uint64_t memory) {
+    Zone zone = whole;
+    zone.request.memory_bytes = memory;
+    return zone_parts(Store(path()), zone, false).size();
+  };
+  std::uint64_t surfaces = whole.statistics.triangles;  // bytes; far too few
+  while (parts_within(bytes_beside_surfaces(whole) + 100 * surfaces) > 1) surfaces += whole.statistics.triangles / 10;
+  EXPECT_GT(parts_within(bytes_of_results(whole) + 100 * surfaces), 1U);
+  request_.nodata = NoData::kClear;
+  EXPECT_EQ(survey(std::nullopt).shadow_bytes, 0U);
 }
 
 TEST_F(ZoneParts, LittleMemoryIsRefusedWithWhatIsNeeded) {

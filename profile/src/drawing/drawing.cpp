@@ -76,22 +76,41 @@ std::vector<std::string> Drawing::lines(const std::string& text, double width, c
   std::istringstream words(text);
   for (std::string word; words >> word;) {
     const std::string longer = lines.back().empty() ? word : lines.back() + " " + word;
-    if (lines.back().empty() || text_width(longer, lettering) <= width) {
+    if (text_width(longer, lettering) <= width) {
       lines.back() = longer;
-    } else {
-      lines.push_back(word);
+      continue;
+    }
+    if (!lines.back().empty()) lines.emplace_back();
+    lines.back() = word;
+    while (text_width(lines.back(), lettering) > width) {
+      const std::size_t end = end_within(lines.back(), width, lettering);
+      if (end == lines.back().size()) break;  // a single character is wider than the line
+      std::string rest = lines.back().substr(end);
+      lines.back().resize(end);
+      lines.push_back(std::move(rest));
     }
   }
   return lines;
 }
 
+std::size_t Drawing::end_within(const std::string& word, double width, const Lettering& lettering) const {
+  const auto next = [&](std::size_t at) {
+    do ++at;
+    while (at < word.size() && (static_cast<unsigned char>(word[at]) & 0xC0) == 0x80);
+    return at;
+  };
+  std::size_t end = next(0);
+  while (end < word.size() && text_width(word.substr(0, next(end)), lettering) <= width) end = next(end);
+  return end;
+}
+
 Lettering Drawing::lettering_for(const std::string& text, double width, std::size_t most, Lettering lettering) const {
   constexpr double kLeast = 5, kStep = 0.5;
   const auto fits = [&] {
-    const std::vector<std::string> all = lines(text, width, lettering);
-    return all.size() <= most && std::all_of(all.begin(), all.end(), [&](const std::string& line) {
-             return text_width(line, lettering) <= width;
-           });
+    std::istringstream words(text);
+    const bool breaks_words = std::any_of(std::istream_iterator<std::string>(words), {},
+                                          [&](const std::string& word) { return text_width(word, lettering) > width; });
+    return !breaks_words && lines(text, width, lettering).size() <= most;
   };
   while (lettering.size > kLeast && !fits()) lettering.size = std::max(kLeast, lettering.size - kStep);
   return lettering;

@@ -72,10 +72,10 @@ class Drawing {
   /// The text cut to a width, with an ellipsis.
   std::string fitted(std::string text, double width, const Lettering& lettering) const;
 
-  /// The text broken at blanks into lines of a width.
+  /// The text broken into lines of a width: at blanks, and within words that are longer than a line.
   std::vector<std::string> lines(const std::string& text, double width, const Lettering& lettering) const;
-  /// Returns this lettering, or one just small enough for the text to stand in `most` lines of a width; 5 points at
-  /// least.
+  /// Returns this lettering, or one just small enough for the text to stand in `most` lines of a width without a broken
+  /// word; 5 points at least.
   Lettering lettering_for(const std::string& text, double width, std::size_t most, Lettering lettering) const;
 
   /// Keeps everything from being drawn outside the box, until unclip().
@@ -88,6 +88,9 @@ class Drawing {
   std::string finish();
 
  private:
+  /// Returns where the characters of a word end that fit into the width, but at least the first.
+  std::size_t end_within(const std::string& word, double width, const Lettering& lettering) const;
+
   double width_, height_;
   std::unique_ptr<Surface> surface_;
 };

@@ -231,6 +231,31 @@ TEST_F(Sites, WhatIsMissingLeavesOpenWhatViewshedsLeaveUndecided) {
   EXPECT_GT(undecided, 0U);
 }
 
+/// The worst case for a site that is to be hidden: what is undecided counts as seen, at every stage.
+TEST_F(Sites, OpenTargetsCountAsServedWhereTheSurveyAsksForTheWorstCase) {
+  make_terrain(100, 200, true);
+  make_survey(7);
+  survey_.positions.push_back(mast(kWestOfTheHole, 300));
+  survey_.targets.grid = grid_of_reach(*store_, survey_.positions, kRadius, 60);
+  survey_.open = OpenTargets::kServed;
+  std::vector<DemandSet> truth;
+  std::size_t undecided = 0;
+  for (std::size_t site = 0; site < survey_.positions.size(); ++site) {
+    truth.push_back(precise(site, NoData::kUnknown, {Verdict::kVisible, Verdict::kUndecided}));
+    undecided += precise(site, NoData::kUnknown, {Verdict::kUndecided}).size();
+  }
+  ASSERT_GT(undecided, 0U);
+  SiteCoverage coverage(*store_, survey_, progress_);
+  EXPECT_TRUE(coverage.leaves_open());
+  expect_bounds_at_every_stage(coverage, truth);
+  survey_.nodata = NoData::kBlock;
+  SiteCoverage blocked(*store_, survey_, progress_);
+  std::vector<DemandSet> seen;
+  for (std::size_t site = 0; site < survey_.positions.size(); ++site)
+    seen.push_back(precise(site, NoData::kUnknown, {Verdict::kVisible}));
+  expect_bounds_at_every_stage(blocked, seen);
+}
+
 TEST_F(Sites, NothingIsLeftOpenWhereNoLineCrossesMissingGround) {
   make_terrain(100, 200, true);
   make_survey(8);

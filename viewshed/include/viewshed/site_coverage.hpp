@@ -18,6 +18,7 @@
 // further stage. (Where flat foundations cut into the terrain, the surface with its features comes first all the same.)
 //
 // Under NoData::kUnknown the bounds are of what is certainly served, that is, by no line across ground without data.
+// Sites that are to be hidden need the worst case: with OpenTargets::kServed what such ground leaves open counts, too.
 //
 // With a FresnelCriterion the Fresnel zone is judged over the same surfaces, after the line (over coarse surfaces only
 // where the memory does not hold the full one). A target whose zone the lower surface cuts is not served; a target
@@ -60,14 +61,20 @@ struct SiteTargets {
   bool on_surface = false;  ///< the height is above the surface with the themes instead
 };
 
+/// What the targets count as that only ground without data could hide, under NoData::kUnknown.
+enum class OpenTargets {
+  kUnserved,  ///< the bounds are of what is certainly served
+  kServed     ///< the bounds are of what may be served: the worst case for sites that are to be hidden
+};
+
 struct SiteSurvey {
   std::vector<SitePosition> positions;  ///< one per option
   SiteTargets targets;
   double radius = 10000;  ///< metres: no site serves farther
   Earth earth;
-  /// A target counts as served if it is certainly seen: under kUnknown, as under kBlock, no target across ground
-  /// without data is.
+  /// Under kBlock no target across ground without data is served; under kUnknown `open` decides.
   NoData nodata = NoData::kUnknown;
+  OpenTargets open = OpenTargets::kUnserved;
   ThemeChoice themes = ThemeChoice::none();
   /// With a criterion, a target in sight is served only if its link meets the criterion, too.
   std::optional<FresnelCriterion> fresnel;
@@ -128,7 +135,7 @@ class SiteCoverage final : public Coverage {
 
   const Statistics& statistics() const;
   /// Tells whether ground without data may leave open what the sites serve: the rule is kUnknown, and a sight line may
-  /// cross such ground. A survey under kClear tells what the sites serve if that ground hides nothing.
+  /// cross such ground. Surveys under kBlock and kClear tell what the sites serve if that ground hides all, or nothing.
   bool leaves_open() const;
 
  private:

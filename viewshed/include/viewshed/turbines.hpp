@@ -120,8 +120,9 @@ struct Zone {
   std::vector<double> ground_m;  ///< under each turbine of the request
   std::vector<Misplaced> misplaced;
   RasterGrid grid;
-  std::size_t words = 1;       ///< grids in Visibility::turbines
-  bool crosses_voids = false;  ///< sight lines to turbines may pass over ground without data, unless it is kClear
+  std::size_t words = 1;           ///< grids in Visibility::turbines
+  bool crosses_voids = false;      ///< sight lines to turbines may pass over ground without data, unless it is kClear
+  std::uint64_t shadow_bytes = 0;  ///< about the memory that the survey took to tell which lines do
   Visibility bare;
   std::optional<Visibility> screened;  ///< with the themes' features standing on the ground, where asked for
   std::optional<RadarView> radar;

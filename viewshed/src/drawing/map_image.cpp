@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include <fmt/format.h>
 
@@ -204,9 +205,12 @@ class MapDrawing {
 
   /// Draws the names that have room, and returns their number.
   std::size_t draw_names(const std::vector<const Observer*>& named) {
-    constexpr std::size_t kMostLabels = 40;
-    if (named.size() > kMostLabels) return 0;
+    // A map has room for fewer names; more than these would only be tried in vain.
+    constexpr std::size_t kMostTried = 1000;
     LabelPlaces places;
+    const Point2 arrow = north_arrow();
+    const double around = kArrowRadius * unit_;
+    places.take({arrow.x - around, arrow.y - around, arrow.x + around, arrow.y + around});
     const double mark = 0.62 * unit_;
     for (const Observer* observer : named) {
       const Point2 at = place_of(observer->position);
@@ -215,7 +219,7 @@ class MapDrawing {
     const int size = unit_ * 5 / 4;
     const Box frame{1.0 * left_, 1.0 * top_, 1.0 * (left_ + width_), 1.0 * (top_ + height_)};
     std::size_t drawn = 0;
-    for (const Observer* observer : named) {
+    for (const Observer* observer : std::span(named).first(std::min(named.size(), kMostTried))) {
       const MarkLabel label{place_of(observer->position), 0.9 * unit_, 1.0 * letters_.width(observer->name, size),
                             0.72 * size, 2};
       const auto baseline = places.take_beside(label, frame);
@@ -256,9 +260,12 @@ class MapDrawing {
     return size;
   }
 
+  static constexpr double kArrowRadius = 2.3;  ///< radius of the north arrow's disc, units
+  Point2 north_arrow() const { return {left_ + width_ - 3.0 * unit_, top_ + 3.2 * unit_}; }
+
   void draw_north_arrow() {
-    const Point2 centre{left_ + width_ - 3.0 * unit_, top_ + 3.2 * unit_};
-    canvas_.fill_disc(centre, 2.3 * unit_, kMapPaper, 0.8);
+    const Point2 centre = north_arrow();
+    canvas_.fill_disc(centre, kArrowRadius * unit_, kMapPaper, 0.8);
     const Point2 tip{centre.x, centre.y - 1.1 * unit_}, tail{centre.x, centre.y + 0.9 * unit_};
     canvas_.fill_triangle({tip, {centre.x - 0.8 * unit_, centre.y + 1.5 * unit_}, tail}, kInk);
     canvas_.fill_triangle({tip, {centre.x + 0.8 * unit_, centre.y + 1.5 * unit_}, tail}, kFaint);

@@ -29,6 +29,9 @@ constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
 constexpr std::array<Rgba, 7> kPalette{
     {{0, 114, 178}, {73, 0, 146}, {0, 158, 115}, {204, 121, 167}, {86, 180, 233}, {213, 94, 0}, {240, 228, 66}}};
 
+/// The colour of targets below the ground on maps of heights.
+constexpr Rgba kBuriedColour{110, 75, 45};
+
 /// The opacity of step i of n, weak to strong.
 double opacity_of(int i, int n) {
   return n == 1 ? kOpacity : 0.25 + 0.6 * i / (n - 1);
@@ -87,11 +90,29 @@ std::optional<Tint> MapOverlay::at(std::size_t cell) const {
   if (seen == Verdict::kUndecided) return Tint{kUndecidedColour, kOpacity};
   if (seen == Verdict::kZoneCut) return Tint{kZoneCutColour, kOpacity};
   if (steps_.empty()) return Tint{kSeenColour, seen == Verdict::kVisible ? kOpacity : 0};
+  const std::optional<std::size_t> step = step_of(cell);
+  return step ? steps_[*step].tint : Tint{};
+}
+
+/// Returns the step of the scale that a cell shows, if any. Precondition: there is a scale.
+std::optional<std::size_t> MapOverlay::step_of(std::size_t cell) const {
+  if (is_buried(cell)) return steps_.size() - 1;
   const double v = value(cell);
-  if (std::isnan(v)) return Tint{};
+  if (std::isnan(v)) return std::nullopt;
   const auto step = std::lower_bound(most_.begin(), most_.end(), v);
-  const auto i = std::min(static_cast<std::size_t>(step - most_.begin()), steps_.size() - 1);
-  return steps_[i].tint;
+  return std::min(static_cast<std::size_t>(step - most_.begin()), steps_.size() - 1);
+}
+
+/// Returns the tints of the steps that cells of a verdict show, in the scale's order.
+std::vector<Tint> MapOverlay::tints_of(Verdict verdict) const {
+  std::vector<bool> shown(steps_.size());
+  for (std::size_t i = 0; i < result_.visible.size(); ++i)
+    if (result_.visible[i] == verdict)
+      if (const auto step = step_of(i)) shown[*step] = true;
+  std::vector<Tint> tints;
+  for (std::size_t i = 0; i < steps_.size(); ++i)
+    if (shown[i]) tints.push_back(steps_[i].tint);
+  return tints;
 }
 
 double MapOverlay::value(std::size_t cell) const {
@@ -127,6 +148,14 @@ double MapOverlay::value(std::size_t cell) const {
       break;
   }
   return kNoValue;
+}
+
+/// Tells whether a map of heights has a target below the ground in the cell: such a target is hidden, though the
+/// ground is seen from height 0 on or from above.
+bool MapOverlay::is_buried(std::size_t cell) const {
+  const Request& request = result_.request;
+  return request.mode == Mode::kHeight && request.target_absolute && result_.visible[cell] == Verdict::kHidden &&
+         result_.get<LeastHeights>().height_m[cell] == 0;
 }
 
 /// The theme's number on the scale of blockers.
@@ -263,6 +292,8 @@ void MapOverlay::scale_heights() {
     from = limit;
   }
   if (!limits.empty()) add(kInfinity, fmt::format("> {:.10g}", limits.back()));
+  for (std::size_t i = 0; i < result_.visible.size(); ++i)
+    if (is_buried(i)) return add_step(kInfinity, {kBuriedColour, kOpacity}, "target below ground");
 }
 
 void MapOverlay::scale_probabilities() {
@@ -301,10 +332,13 @@ void MapOverlay::add_verdict_keys(const MapOptions& options) {
   const Mode mode = result_.request.mode;
   // The steps of this mode show what is seen and what is hidden alike.
   if (mode == Mode::kProbability) return;
-  // The first step of these modes is what is seen, and the others are what is hidden.
-  const bool both = mode == Mode::kBlocker || mode == Mode::kHeight;
   std::vector<Tint> seen, hidden;
-  for (const Step& step : steps_) (both && !seen.empty() ? hidden : seen).push_back(step.tint);
+  if (mode == Mode::kHeight) {
+    seen = tints_of(Verdict::kVisible), hidden = tints_of(Verdict::kHidden);
+  } else {
+    // The first step of blockers is what is seen, and the others are what is hidden.
+    for (const Step& step : steps_) (mode == Mode::kBlocker && !seen.empty() ? hidden : seen).push_back(step.tint);
+  }
   if (seen.empty()) seen.push_back({kSeenColour, kOpacity});
   const bool zones = mode == Mode::kFresnel;
   keys_ = {{std::move(seen),

@@ -49,6 +49,9 @@ class MapOverlay {
  private:
   /// The value that the scale shows; NaN where it shows none.
   double value(std::size_t cell) const;
+  bool is_buried(std::size_t cell) const;
+  std::optional<std::size_t> step_of(std::size_t cell) const;
+  std::vector<Tint> tints_of(Verdict verdict) const;
   void make_scale(const MapOptions& options);
   void scale_counts(const std::string& title);
   void scale_angles();

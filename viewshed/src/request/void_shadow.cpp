@@ -38,6 +38,7 @@ VoidShadow::VoidShadow(const std::vector<RimEdge>& rim, const Point3& eye, NoDat
   const auto from_eye = [&](const GridPlace& p) { return Vector{p.x - eye.x, p.y - eye.y}; };
   // The surface lies to the left: seen from its right side it begins here.
   const auto faces_away = [](const Edge& edge) { return cross(edge.from, edge.to) < 0; };
+  edges_.reserve(rim.size());
   for (const RimEdge& edge : rim) edges_.push_back({from_eye(edge.from), from_eye(edge.to)});
   if (std::none_of(edges_.begin(), edges_.end(), faces_away)) {
     edges_ = {};
@@ -102,6 +103,11 @@ void VoidShadow::apply_to(const TileCentres& centres, TileValues<Verdict>& value
 std::size_t VoidShadow::sector_of(const Vector& place) {
   const double turns = std::atan2(place.x, place.y) / kTurn + 0.5;
   return std::min(kSectors - 1, static_cast<std::size_t>(turns * kSectors));
+}
+
+std::uint64_t bytes_of_shadow(std::size_t edges) {
+  constexpr std::uint64_t kInSectors = 18;  // an edge spans three sectors and more; as measured
+  return kSectors * sizeof(std::vector<std::uint32_t>) + edges * (sizeof(RimEdge) + kInSectors);
 }
 
 std::shared_ptr<const VoidShadow> shadow_of(const Eye& eye, const std::vector<RimEdge>& rim, const Result& result) {

@@ -60,6 +60,9 @@ class VoidShadow {
   std::vector<Numbers> sectors_;  ///< clockwise from the south; empty where edges_ is
 };
 
+/// Returns about the memory of a shadow of a rim of so many edges, some of which face away.
+std::uint64_t bytes_of_shadow(std::size_t edges);
+
 /// Returns the shadow of ground without data beyond this rim, as seen from the eye; null where the shadow changes
 /// nothing in the result.
 std::shared_ptr<const VoidShadow> shadow_of(const Eye& eye, const std::vector<RimEdge>& rim, const Result& result);

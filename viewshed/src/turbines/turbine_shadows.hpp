@@ -4,6 +4,7 @@
 //   if (shadows[turbine] && shadows[turbine]->holds(eye.x, eye.y)) ...
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -20,5 +21,9 @@ using TurbineShadows = std::vector<std::optional<VoidShadow>>;
 /// Finds the shadows of all turbines. The ground may be that of a part of the zone (turbines/zone_parts.hpp); the
 /// shadows then hold for the lines of that part.
 TurbineShadows shadows_of_turbines(const FullSurface& ground, const Zone& zone);
+
+/// Returns about the memory that the shadows of turbines take over ground with this rim; 0 where there are none.
+std::uint64_t bytes_of_shadows(const std::vector<Turbine>& turbines, const Grid& units,
+                               const std::vector<RimEdge>& rim);
 
 }  // namespace itin::viewshed

@@ -138,7 +138,7 @@ class PartReader {
 std::optional<Surface> lattice_under(const Store& store, const Zone& zone, Progress& progress) {
   std::uint64_t most_posts = kAnyLattice;
   if (const auto memory = zone.request.memory_bytes)
-    most_posts = (*memory - std::min(*memory, bytes_of_results(zone))) / kBytesPerPost;
+    most_posts = (*memory - std::min(*memory, bytes_beside_surfaces(zone))) / kBytesPerPost;
   return retrieve_lattice(store, window_of(zone.request), zone.request.detail, ThemeChoice::none(),
                           LatticeReader::Heights::kAll, most_posts, progress);
 }

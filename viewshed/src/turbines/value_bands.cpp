@@ -33,6 +33,24 @@ void colour_bands(std::vector<ValueBand>& bands) {
   for (std::size_t i = 1; i < bands.size(); ++i) bands[i].colour = kBands[(i - 1) % kBands.size()];
 }
 
+/// Returns the colour after so many golden angles on the circle of hues.
+Rgba hue_after(std::size_t turn) {
+  const double hue = std::fmod(static_cast<double>(turn) * 0.61803398875, 1.0) * 6;
+  const auto channel = [&](double shift) {
+    const double d = std::abs(std::fmod(hue + shift, 6.0) - 3) - 1;
+    return static_cast<std::uint8_t>(60 + 160 * std::clamp(d, 0.0, 1.0));
+  };
+  return {channel(0), channel(4), channel(2)};
+}
+
+/// Tells whether a colour may be taken for one of the bands, by the distance of their red, green and blue.
+bool is_near_a_band(const Rgba& colour) {
+  constexpr double kApart = 70;
+  return std::any_of(kBands.begin(), kBands.end(), [&](const Rgba& band) {
+    return std::hypot(colour.red - band.red, colour.green - band.green, colour.blue - band.blue) < kApart;
+  });
+}
+
 std::string style(const std::string& renderer) {
   return "<!DOCTYPE qgis PUBLIC 'http://mrcc.com/qgis.dtd' 'SYSTEM'>\n"
          "<qgis version=\"3.22\" styleCategories=\"Symbology\">\n  <pipe>\n" +
@@ -82,13 +100,11 @@ std::size_t band_of(const std::vector<ValueBand>& bands, double value) {
 
 Rgba distinct_colour(std::size_t index) {
   if (index < kBands.size()) return kBands[index];
-  // Further colours are golden angles apart on the circle of hues.
-  const double hue = std::fmod(static_cast<double>(index) * 0.61803398875, 1.0) * 6;
-  const auto channel = [&](double shift) {
-    const double d = std::abs(std::fmod(hue + shift, 6.0) - 3) - 1;
-    return static_cast<std::uint8_t>(60 + 160 * std::clamp(d, 0.0, 1.0));
-  };
-  return {channel(0), channel(4), channel(2)};
+  std::size_t left = index - kBands.size();
+  for (std::size_t turn = kBands.size();; ++turn) {
+    const Rgba colour = hue_after(turn);
+    if (!is_near_a_band(colour) && left-- == 0) return colour;
+  }
 }
 
 std::string banded_style(const std::vector<ValueBand>& bands) {

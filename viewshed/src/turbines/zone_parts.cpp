@@ -128,7 +128,7 @@ class Partition {
 
   double memory(const std::vector<Point2>& window, double bytes_per_triangle) const {
     const double triangles = 2 * static_cast<double>(points_.within(Window::polygons({{window, {}}})));
-    return bytes_per_triangle * triangles + static_cast<double>(bytes_of_results(zone_));
+    return bytes_per_triangle * triangles + static_cast<double>(bytes_beside_surfaces(zone_));
   }
 
   /// Halves the numbers until the ground under each part fits.

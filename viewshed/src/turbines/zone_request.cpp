@@ -14,7 +14,7 @@
 #include "line/infinity.hpp"
 #include "plan/memory.hpp"
 #include "request/request_window.hpp"
-#include "request/void_shadow.hpp"
+#include "turbines/turbine_shadows.hpp"
 
 namespace itin::viewshed {
 
@@ -68,9 +68,8 @@ void find_voids_of_zone(const Tin& outline, Zone& zone) {
   const ZoneRequest& request = zone.request;
   if (request.nodata == NoData::kClear) return;
   const std::vector<RimEdge> rim = rim_of(outline, boundary_edges(outline));
-  zone.crosses_voids = std::any_of(request.turbines.begin(), request.turbines.end(), [&](const Turbine& t) {
-    return may_cross_voids(outline.grid, rim, t.position, t.radius);
-  });
+  zone.shadow_bytes = bytes_of_shadows(request.turbines, outline.grid, rim);
+  zone.crosses_voids = zone.shadow_bytes > 0;
   if (!zone.radar) return;
   Box ends = zone.grid.bounds();
   for (const Turbine& t : request.turbines) ends.extend(t.position);
@@ -162,6 +161,10 @@ std::uint64_t bytes_of_results(const Zone& zone) {
                       open_heights = zone.request.nodata == NoData::kUnknown && zone.radar && zone.radar->crosses_voids,
                       of_radar = zone.radar ? 4 * (1 + open_heights) : 0;
   return (surfaces * (32 + counts + 4 * zone.words) + of_radar) * zone.grid.cell_count();
+}
+
+std::uint64_t bytes_beside_surfaces(const Zone& zone) {
+  return bytes_of_results(zone) + zone.shadow_bytes;
 }
 
 }  // namespace itin::viewshed

@@ -23,6 +23,8 @@ Zone lay_out(const ZoneRequest& request, const Tin& outline, const std::function
 
 /// Returns the memory that the results of all cells take.
 std::uint64_t bytes_of_results(const Zone& zone);
+/// Returns the memory that results and shadows of ground without data take.
+std::uint64_t bytes_beside_surfaces(const Zone& zone);
 
 /// Return how far the centre of a cell lies from a turbine in plan, metres squared; and whether that is within its
 /// radius.

@@ -57,7 +57,7 @@ class SiteCoverage::Impl {
   Impl(const Store& store, SiteSurvey survey, Progress& progress)
       : crosses_voids_(voids_matter(store, survey, progress)),
         leaves_open_(crosses_voids_ && survey.nodata == NoData::kUnknown),
-        survey_(certain_survey(std::move(survey), crosses_voids_)),
+        survey_(decided_survey(std::move(survey), crosses_voids_)),
         progress_(progress),
         stages_(store, survey_),
         surfaces_(store, survey_, stages_, statistics_) {
@@ -124,10 +124,11 @@ class SiteCoverage::Impl {
     if (survey.positions.empty()) throw InputError("no site to look from: give at least one on the data");
     return survey.nodata != NoData::kClear && sites_may_cross_voids(store, survey, progress);
   }
-  /// Returns the survey of what is certainly served: ground without data hides. Where no line crosses such ground, its
-  /// rim need not be examined, and the rule is kClear.
-  static SiteSurvey certain_survey(SiteSurvey survey, bool crosses_voids) {
-    survey.nodata = crosses_voids ? NoData::kBlock : NoData::kClear;
+  /// Returns the survey under the rule by which the targets count. Where no line crosses ground without data, its rim
+  /// need not be examined, and the rule is kClear.
+  static SiteSurvey decided_survey(SiteSurvey survey, bool crosses_voids) {
+    const bool open_served = survey.nodata == NoData::kUnknown && survey.open == OpenTargets::kServed;
+    survey.nodata = crosses_voids && !open_served ? NoData::kBlock : NoData::kClear;
     return survey;
   }
 
