@@ -32,7 +32,8 @@ std::string first_error(const LinkTable& table, const std::vector<LinkResult>& r
   const Link& link = table.links[static_cast<std::size_t>(first - results.begin())];
   const Point2 end = is_on_the_data(link.from, metadata) ? link.to : link.from;
   const std::optional<std::string> off = off_the_data(end, {}, metadata);
-  return fmt::format("{}: {}{}", link.id, first->message, off ? "; it " + *off : "");
+  const std::string where = off ? fmt::format("; {:.10g},{:.10g} {}", end.x, end.y, *off) : "";
+  return fmt::format("{}: {}{}", link.id, first->message, where);
 }
 
 }  // namespace

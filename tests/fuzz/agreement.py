@@ -26,6 +26,7 @@ ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)
 ITIN = os.environ.get("ITIN_PROGRAM", ROOT + "/build/test/bin/itin")
 X0, Y0 = 300000, 200000
 HIDDEN, VISIBLE, UNDECIDED, ZONE_CUT, OUTSIDE = 0, 1, 2, 3, 255
+VERDICTS = {"hidden": HIDDEN, "visible": VISIBLE, "undecided": UNDECIDED}
 COUNT_OUTSIDE, NO_BLOCKER = 65535, 0xffffffff
 ROUNDING_M = 2e-6
 GRID_STEP_M = 0.01
@@ -204,7 +205,7 @@ class Trial:
     def shared_options(self):
         r = self.random
         themes = r.choice(["none", "all"] + self.raised)
-        return ["--themes", themes, "--nodata", r.choice(["clear", "block"]), "--refraction", r.choice([0, 0.13, 0.25])]
+        return ["--themes", themes, "--nodata", r.choice(["unknown", "clear", "block"]), "--refraction", r.choice([0, 0.13, 0.25])]
 
     def cell_size(self):
         return f"{max(self.side / self.random.choice([60, 110]), 0.05):.4f}"
@@ -226,7 +227,7 @@ class Trial:
         itin(*call, "--tolerance", 0, "-o", self.path("plain.tif"))
         itin(*call, "--mode", "certified", "--tolerance", r.choice([0, 0.5, 2, 8]), "-o", self.path("certified.tif"))
         precise, plain, certified = map(self.raster, ("precise.tif", "plain.tif", "certified.tif"))
-        wrong = (certified == VISIBLE) & (precise != VISIBLE) | (certified == HIDDEN) & (precise == VISIBLE)
+        wrong = (certified != UNDECIDED) & (certified != precise)
         if wrong.any():
             self.faults.append(f"certified: {wrong.sum()} cells")
         cells = np.argwhere(precise != OUTSIDE)
@@ -237,8 +238,8 @@ class Trial:
         self.look_for_heights(call, target, precise)
         cells = self.drawn(cells, 250)
         targets = self.centres("precise.tif", cells)
-        for (row, column), (sees, clearance) in zip(cells, self.lines([(eye, height, t, target) for t in targets], shared)):
-            if (precise[row, column] == VISIBLE) != sees:
+        for (row, column), (verdict, clearance) in zip(cells, self.lines([(eye, height, t, target) for t in targets], shared)):
+            if precise[row, column] != verdict:
                 self.faults.append(f"cell {row},{column}: precise {precise[row, column]}, los clears by {clearance}")
 
     def look_at_radio(self):
@@ -261,13 +262,15 @@ class Trial:
             return
         cells = self.drawn(cells, 250)
         targets = self.centres("zones.tif", cells)
-        blocked = shared[shared.index("--nodata") + 1] == "block"
+        needs_ground = shared[shared.index("--nodata") + 1] != "clear"
         for (row, column), link in zip(cells, self.links([(eye, height, t, target) for t in targets], shared)):
             clear = float(link["fresnel_fraction"] or "inf")
-            expected = HIDDEN if link["verdict"] == "hidden" else VISIBLE if clear >= fraction else ZONE_CUT
+            expected = VERDICTS.get(link["verdict"])
+            if expected == VISIBLE and clear < fraction:
+                expected = ZONE_CUT
             if zones[row, column] != expected and abs(clear - fraction) > 1e-4:
                 self.faults.append(f"zone of cell {row},{column}: {zones[row, column]}, los {link['verdict']} {clear}")
-            known = link["ld_db"] and not (blocked and float(link["gap_m"]) > 0)
+            known = link["ld_db"] and not (needs_ground and float(link["gap_m"]) > 0)
             said = [float(link[name]) if known else math.nan for name in ("ld_db", "free_space_db")]
             if not np.allclose([losses[row, column], in_free_space[row, column]], said, 0, 0.006, equal_nan=True):
                 self.faults.append(f"loss of cell {row},{column}: {losses[row, column]}, los {link['ld_db']}")
@@ -324,7 +327,7 @@ class Trial:
             return self.raster(name)
 
         precise = seen("precise.tif", "--precise", "--memory", r.choice(["4M", "20M", "1G"]))
-        visible, hidden, outside = precise == VISIBLE, precise == 0, precise == OUTSIDE
+        visible, hidden, outside = precise == VISIBLE, precise == HIDDEN, precise == OUTSIDE
         certified = seen("certified.tif", "--mode", "certified", "--tolerance", r.choice([0, 0.5, 2, 8]))
         angle, height_seen = seen("angle.tif", "--mode", "angle"), seen("height.tif", "--mode", "height")
         (distance, number), blocker = seen("nearest.tif", "--mode", "nearest"), seen("blocker.tif", "--mode", "blocker")[0]
@@ -334,11 +337,12 @@ class Trial:
         unseen = np.isnan(height_seen)
         agree = {
             "plain": seen("plain.tif", "--tolerance", 0) == precise,
-            "certified": ~((certified == VISIBLE) & ~visible | (certified == HIDDEN) & visible),
+            "certified": (certified == UNDECIDED) | (certified == precise),
             "count": count == np.where(outside, COUNT_OUTSIDE, visible), "which": which == visible,
             "angle": np.isfinite(angle) == visible, "nearest": np.isfinite(distance) == visible,
             "number": (number == 1) == visible, "blocker": (blocker != NO_BLOCKER) == hidden,
-            "probability": np.isfinite(probability) == ~outside, "probability's": (as_is == VISIBLE) == visible,
+            "probability": np.isfinite(probability) == (visible | hidden),
+            "probability's": np.where(np.isnan(as_is), OUTSIDE, as_is) == precise,
             "height": ~np.isinf(height_seen) & (near | np.where(unseen, ~visible, lower == visible)),
         }
         own = np.array([[math.dist(eye, at) < SAME_PLACE_M - 1e-7 for at in row] for row in self.centre_rows("like.tif", side)])
@@ -352,7 +356,7 @@ class Trial:
         back = self.lines([(t, target, eye, height) for t in targets],
                           [*shared, "--target-on", ends["--observer-on"], "--observer-on", ends["--target-on"]])
         for at, line, mirrored in zip(cells, there, back):
-            if line is None or mirrored is None or not line[0] == mirrored[0] == visible[tuple(at)]:
+            if not line[0] == mirrored[0] == precise[tuple(at)]:
                 self.faults.append(f"cell {at} about {place}: precise {precise[tuple(at)]}, los {line}, back {mirrored}")
 
     def look_at_turbines(self):
@@ -379,9 +383,8 @@ class Trial:
                     lines.append((eye, 2, *turbines[k]))
                     where.append((row, column, k))
         for (row, column, k), line in zip(where, self.lines(lines, shared)):
-            if line is None:  # a turbine without ground
-                continue
-            sees, clearance = line
+            verdict, clearance = line
+            sees = verdict == VISIBLE
             if bool(seen[k // 32, row, column] >> k % 32 & 1) != sees and abs(clearance) > ROUNDING_M:
                 self.faults.append(f"cell {row},{column}: ztv sees turbine {k}: {not sees}, los clears by {clearance}")
 
@@ -434,9 +437,9 @@ class Trial:
         return [links[i] for i in range(len(ends))]
 
     def lines(self, ends, options):
-        """Of each (place, height, place, height): whether it is a line of sight, and its clearance in metres."""
-        return [(link["verdict"] == "visible", float(link["clearance_m"] or "nan")) if link["verdict"] else None
-                for link in self.links(ends, options)]
+        """Of each (place, height, place, height): its verdict as rasters have it, none of an error, and its clearance in
+        metres."""
+        return [(VERDICTS.get(link["verdict"]), float(link["clearance_m"] or "nan")) for link in self.links(ends, options)]
 
     def run(self):
         self.import_terrain()

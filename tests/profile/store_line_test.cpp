@@ -163,9 +163,11 @@ TEST_F(StoreLines, TakeElevations) {
 
 TEST_F(StoreLines, RefuseWhatHasNoAnswer) {
   const Point2 ground{300100, 199900}, hole{300560, 199430}, outside{310000, 199900};
-  expect_refusal({hole, ground}, query(2, 2), "`from`: there is no ground at 300560.00,199430.00");
-  expect_refusal({ground, hole}, query(2, 2), "`to`: there is no ground at 300560.00,199430.00");
-  expect_refusal({outside, hole}, query(2, 2), "`from`: there is no ground at 310000.00,199900.00");
+  expect_refusal({hole, ground}, query(2, 2),
+                 "`from`: there is no ground at 300560.00,199430.00; move it onto the data");
+  expect_refusal({ground, hole}, query(2, 2), "`to`: there is no ground at 300560.00,199430.00; move it onto the data");
+  expect_refusal({outside, hole}, query(2, 2),
+                 "`from`: there is no ground at 310000.00,199900.00; move it onto the data");
   const std::string negative = ": a height must not be negative; for an elevation set `elevations`";
   expect_refusal({ground, hole}, query(-1, 2), "`from_height_m`" + negative);
   expect_refusal({hole, ground}, query(2, -1), "`to_height_m`" + negative);

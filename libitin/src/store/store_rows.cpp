@@ -22,7 +22,9 @@ using FileHeader = std::array<unsigned char, kHeaderBytes>;
 
 struct stat file_status(const std::string& path) {
   struct stat status = {};
-  if (::stat(path.c_str(), &status) != 0) throw FileError(path, std::strerror(errno));
+  if (::stat(path.c_str(), &status) != 0)
+    throw FileError(path,
+                    errno == ENOENT ? "there is no such store; name one that itin import made" : std::strerror(errno));
   return status;
 }
 

@@ -24,7 +24,7 @@ void require_heights(const StoreLine& line, const LosQuery& query) {
 
 void require_ground(const StoreLine& line, const Profile& profile) {
   const auto none_at = [](const char* field, Point2 p) {
-    return InputError(fmt::format("{}: there is no ground at {:.2f},{:.2f}", field, p.x, p.y));
+    return InputError(fmt::format("{}: there is no ground at {:.2f},{:.2f}; move it onto the data", field, p.x, p.y));
   };
   if (profile.points.empty() || profile.points.front().distance_m != 0) throw none_at("`from`", line.from);
   if (profile.points.back().distance_m != profile.length_m) throw none_at("`to`", line.to);

@@ -119,7 +119,7 @@ TEST_F(StoreDamage, AnyTruncation) {
 
 TEST_F(StoreDamage, WrongKindsOfFile) {
   std::filesystem::remove(path_);
-  expect_message<FileError>("No such file");
+  expect_message<FileError>("there is no such store; name one that itin import made");
   std::filesystem::create_directory(path_);
   expect_message<FileError>("is a directory");
   std::filesystem::remove(path_);
