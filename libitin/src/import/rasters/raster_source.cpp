@@ -246,8 +246,7 @@ class RasterFile final : public SourceFile {
 
 std::vector<std::string> find_rasters(const std::string& path) {
   const QuietGdal quiet;
-  if (ending_of(path) == ".zip")
-    return rasters_in_archive(path.starts_with("/vsizip/") ? path : "/vsizip/" + path);
+  if (ending_of(path) == ".zip") return rasters_in_archive(path.starts_with("/vsizip/") ? path : "/vsizip/" + path);
   return is_raster(path) ? std::vector{path} : std::vector<std::string>{};
 }
 
