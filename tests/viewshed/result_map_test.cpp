@@ -88,7 +88,7 @@ TEST(ResultMap, TargetsBelowTheGroundAreAClassOfBlockers) {
 TEST(ResultMap, TargetsBelowTheGroundAreAClassOfHeights) {
   const SurveyedMap s = surveyed_map(Mode::kHeight, true);
   const std::set<std::uint32_t> seen = s.shown(Verdict::kVisible), hidden = s.shown(Verdict::kHidden);
-  EXPECT_EQ(s.map.scale.back().text, "target below ground");
+  EXPECT_EQ(s.map.scale.back().text, "buried");
   const std::uint32_t buried = number_of(s.map.scale.back().colours.front());
   EXPECT_TRUE(hidden.contains(buried));
   EXPECT_FALSE(seen.contains(buried));

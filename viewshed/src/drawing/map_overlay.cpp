@@ -293,7 +293,7 @@ void MapOverlay::scale_heights() {
   }
   if (!limits.empty()) add(kInfinity, fmt::format("> {:.10g}", limits.back()));
   for (std::size_t i = 0; i < result_.visible.size(); ++i)
-    if (is_buried(i)) return add_step(kInfinity, {kBuriedColour, kOpacity}, "target below ground");
+    if (is_buried(i)) return add_step(kInfinity, {kBuriedColour, kOpacity}, "buried");
 }
 
 void MapOverlay::scale_probabilities() {
