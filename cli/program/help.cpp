@@ -43,7 +43,7 @@ void begin_group(CLI::App& app, const char* group) {
   app.option_defaults()->group(group);
 }
 
-HelpText::HelpText() : width_(columns_of_terminal() - kNameColumns) {
+HelpText::HelpText() {
   column_width(kNameColumns);
 }
 
@@ -54,9 +54,10 @@ std::string HelpText::make_group(std::string group, bool positional, std::vector
 }
 
 std::string HelpText::make_option_desc(const CLI::Option* option) const {
+  const std::size_t width = columns_of_terminal() - kNameColumns;
   std::istringstream description(option->get_description());
   std::string lines;
-  for (std::string line; std::getline(description, line);) lines += (lines.empty() ? "" : "\n") + broken(line, width_);
+  for (std::string line; std::getline(description, line);) lines += (lines.empty() ? "" : "\n") + broken(line, width);
   return lines;
 }
 

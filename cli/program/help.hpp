@@ -1,7 +1,6 @@
 // What --help shows: groups of options, and descriptions that are broken into lines.
 #pragma once
 
-#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -28,9 +27,6 @@ class HelpText : public CLI::Formatter {
   HelpText();
   std::string make_group(std::string group, bool positional, std::vector<const CLI::Option*> options) const override;
   std::string make_option_desc(const CLI::Option* option) const override;
-
- private:
-  std::size_t width_;  ///< columns for descriptions
 };
 
 }  // namespace itin::cli

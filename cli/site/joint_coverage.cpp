@@ -67,11 +67,11 @@ JointCoverage joint_coverage(const Store& store, const SiteOptions& options, con
   if (sites.empty() || !coverage.leaves_open()) return joint;
   const SiteSurvey survey = survey_of_serving(options, inputs, sites);
   const bool worst_case = options.open_targets() == viewshed::OpenTargets::kServed;
-  if (worst_case) joint.certain = served_exactly(store, survey, progress);
-  const bool exact = worst_case || std::all_of(sites.begin(), sites.end(),
-                                               [&](std::size_t site) { return coverage.bounds(site).exact; });
-  joint.undecided = open_to_missing_ground(
-      store, survey, exact ? joint.certain : served_exactly(store, survey, progress), options.cover, progress);
+  const bool known = !worst_case && std::all_of(sites.begin(), sites.end(),
+                                                [&](std::size_t site) { return coverage.bounds(site).exact; });
+  const std::vector<DemandSet> certain = known ? joint.certain : served_exactly(store, survey, progress);
+  joint.undecided = open_to_missing_ground(store, survey, certain, options.cover, progress);
+  if (worst_case) joint.certain = certain;
   // Existing sites may serve what no candidate reaches.
   if (!inputs.cells.empty()) joint.undecided = intersection(joint.undecided, inputs.cells);
   return joint;

@@ -224,13 +224,14 @@ class SiteVerb final : public Verb {
   std::vector<viewshed::DemandSet> existing_coverage(const Store& store, const SiteInputs& inputs,
                                                      viewshed::SiteCoverage& coverage, Progress& progress) const {
     std::vector<viewshed::DemandSet> served;
-    for (std::size_t i = inputs.options.size(); i < inputs.positions.size(); ++i) {
-      refine_fully(coverage, i);
-      served.push_back(coverage.bounds(i).certain);
-    }
     if (coverage.leaves_open() && options_.open_targets() == viewshed::OpenTargets::kServed) {
       coverage.release_surfaces();  // --memory holds those of one survey
       served = served_by_existing(store, options_, inputs, progress);
+    } else {
+      for (std::size_t i = inputs.options.size(); i < inputs.positions.size(); ++i) {
+        refine_fully(coverage, i);
+        served.push_back(coverage.bounds(i).certain);
+      }
     }
     if (!inputs.cells.empty())
       for (viewshed::DemandSet& set : served) set = intersection(set, inputs.cells);

@@ -18,8 +18,6 @@
 
 namespace itin::profile {
 
-namespace {}  // namespace
-
 SidePanel::SidePanel(Drawing& drawing, const Paper& paper, const MapSheet& sheet, double scale,
                      std::string below_legend)
     : drawing_(drawing),
