@@ -5,7 +5,8 @@ from typing import NamedTuple
 from results import key, run_name
 
 BY_CHANCE = {"seconds": "time, s", "megabytes": "memory, MB"}
-CERTAIN = {"iou": "IoU", "differing": "differing", "decided": "decided, %", "bytes_per_vertex": "bytes per vertex", "amount": "amount"}
+CERTAIN = {"iou": "IoU", "differing": "differing", "decided": "decided, %", "bytes_per_vertex": "bytes per vertex",
+           "points_per_vertex": "points read for each vertex", "amount": "amount"}
 NOTABLE = 1.03
 
 

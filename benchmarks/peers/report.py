@@ -3,7 +3,8 @@ from results import is_busy, key, times_run
 
 HEADINGS = {"viewshed": "Viewsheds", "10,000 links": "10,000 links of 10 km", "section": "Sections",
             "zone": "Zone of visibility", "sites": "Sites", "import": "Import"}
-COLUMNS = ["time", "processor", "memory", "of the peer's time", "of its processor time", "per second", "IoU", "decided", "bytes per vertex"]
+COLUMNS = ["time", "processor", "memory", "of the peers' time", "of their processor time", "per second", "IoU", "decided",
+           "bytes per vertex", "points read for each vertex"]
 
 
 def table(header, rows):
@@ -13,10 +14,12 @@ def table(header, rows):
     return "".join("| " + " | ".join(line) + " |\n" for line in lines)
 
 
-def peer_of(rows, row):
-    """Returns the row of the peer that a row is compared with; None where there is none."""
-    peer = next((other for other in rows if key(other) == (row["group"], row["question"], row["peer"])), None)
-    return None if peer is row else peer
+def peers_of(rows, row):
+    """Returns the rows of the peers that a row is compared with, in the question's order; none for a peer's own row."""
+    if row["who"] in row["peers"]:
+        return []
+    found = {key(other): other for other in rows}
+    return [found[k] for k in ((row["group"], row["question"], peer) for peer in row["peers"]) if k in found]
 
 
 def seconds(value):
@@ -30,22 +33,27 @@ def rate(row):
     return f"{float(digits):,.0f} {row['unit']}"
 
 
-def cells(row, peer):
+def multiples(row, peers, what):
+    return "; ".join(f"{row[what] / max(peer[what], 1e-3):.2f}" for peer in peers)
+
+
+def cells(row, peers):
     """Returns the cells of a row, in the order of COLUMNS."""
     return [seconds(row["seconds"]), seconds(row["processor"]), f"{row['megabytes']:.0f} MB",
-            f"{row['seconds'] / peer['seconds']:.2f}" if peer else "",
-            f"{row['processor'] / max(peer['processor'], 1e-3):.2f}" if peer else "", rate(row),
+            multiples(row, peers, "seconds"), multiples(row, peers, "processor"), rate(row),
             f"{row['iou']:.4f}" if "iou" in row else "", f"{row['decided']:g} %" if "decided" in row else "",
-            f"{row['bytes_per_vertex']:.2f}" if "bytes_per_vertex" in row else ""]
+            f"{row['bytes_per_vertex']:.2f}" if "bytes_per_vertex" in row else "",
+            f"{row['points_per_vertex']:g}" if "points_per_vertex" in row else ""]
 
 
 def group_table(rows):
-    """Returns the table of one group. Each question is named in its first row."""
+    """Returns the table of one group. Each question is named in its first row. Where a question has several peers, the
+    multiples are of each peer's in turn, in the order of their rows."""
     lines, named = [], None
     for row in rows:
         question = row["question"] if row["question"] != named else ""
         named = row["question"]
-        lines.append([question, row["who"], *cells(row, peer_of(rows, row))])
+        lines.append([question, row["who"], *cells(row, peers_of(rows, row))])
     return table(["question", "answered by", *COLUMNS], lines)
 
 

@@ -2,10 +2,12 @@
 
     {"when": "2026-11-25T18:00:00", "commit": "d189510d", "machine": "...", "load": 0.1, "runs": 5, "program": "...",
      "left_out": ["Rainier: ..."],
-     "rows": [{"group": "viewshed", "question": "fractal", "who": "exact", "peer": "gdal_viewshed", "seconds": 0.97, ...}]}
+     "rows": [{"group": "viewshed", "question": "fractal", "who": "exact", "peers": ["gdal_viewshed"], "seconds": 0.97,
+               ...}]}
 
 A row has `seconds`, `processor`, `megabytes`, `spread` and `runs`, and where they are known `iou` and `differing` (of the
-verdicts that the exact answer has, too), `decided` (per cent), `amount`, `unit` and `bytes_per_vertex`.
+verdicts that the exact answer has, too), `decided` (per cent), `amount`, `unit`, `bytes_per_vertex` and
+`points_per_vertex`.
 """
 import datetime
 import json

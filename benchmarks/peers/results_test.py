@@ -12,7 +12,7 @@ from stages import stage_in
 
 
 def row(who, seconds, **more):
-    return {"group": "viewshed", "question": "fractal", "who": who, "peer": "gdal_viewshed", "seconds": seconds,
+    return {"group": "viewshed", "question": "fractal", "who": who, "peers": ["gdal_viewshed", "deflated"], "seconds": seconds,
             "processor": seconds, "megabytes": 100, "spread": 1, "runs": 5, **more}
 
 
@@ -55,14 +55,14 @@ class Reports(unittest.TestCase):
         self.assertEqual(table(["a", "b", "c"], [["", "", "1"], ["", "", ""]]), "| a | c |\n| --- | --- |\n|  | 1 |\n|  |  |\n")
 
     def test_rows_changes_and_what_is_left_out(self):
-        now = run_of(2, row("exact", 1.5, iou=1.0), row("gdal_viewshed", 0.5, iou=0.9886), load=3)
+        now = run_of(2, row("exact", 1.5, iou=1.0), row("gdal_viewshed", 0.5, iou=0.9886), row("deflated", 0.75), load=3)
         now["left_out"].append("r.viewshed: grass is not installed")
         text = report(now, *changes([run_of(1, row("exact", 1))], now["rows"]))
-        for line in ("| fractal | exact | 1.50 s | 1.50 s | 100 MB | 3.00 | 3.00 | 1.0000 |",
+        for line in ("| fractal | exact | 1.50 s | 1.50 s | 100 MB | 3.00; 2.00 | 3.00; 2.00 | 1.0000 |",
                      "|  | gdal_viewshed | 0.50 s | 0.50 s | 100 MB |  |  | 0.9886 |",
                      "- r.viewshed: grass is not installed",
                      "| viewshed | fractal | exact | time, s | 1 | 1.5 | 1.50 | 2026-11-01 12:00 c1 |",
-                     "1 of 2 rows were not measured before."):
+                     "2 of 3 rows were not measured before."):
             self.assertIn(line, text.splitlines())
         self.assertIn("The machine was busy", text)
         self.assertNotIn("The machine was busy", report(run_of(2, row("exact", 1)), [], []))

@@ -101,12 +101,30 @@ def cut(place):
     return path
 
 
+DEFLATED = "deflated raster"  # what the rasters of benchmarks are, as most rasters that are handed on
+
+
+def uncompressed(path):
+    """Returns a copy of the raster that is read without inflating it; None where there is no raster."""
+    if not path:
+        return None
+    copy = WORK / f"{path.stem}-uncompressed.tif"
+    if not copy.exists():
+        part = copy.with_suffix(".part.tif")
+        quietly("gdal_translate", "-q", "-co", "TILED=YES", path, part)
+        part.rename(copy)
+    return copy
+
+
 def sources_of(store_name):
     """Returns the files that the store of this name is imported from; None where they are absent."""
     if store_name == "lidar-all":
         return LIDAR_TILES if all(tile.exists() for tile in LIDAR_TILES) else None
     if store_name == "town":
         return [DEMO / "alexandria-dtm.tif"]
+    if store_name == "contours":
+        contours = DATA / "os-terrain50-contours-sk00/SK00.gml"
+        return [contours] if contours.exists() else None
     path = raster(store_name)
     return path and [path]
 
