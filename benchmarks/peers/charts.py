@@ -1,10 +1,9 @@
-"""Charts of results. What they show is chosen here; itin_chart (benchmarks/chart) draws it with the program's own drawing.
+"""Charts of results: what they show, as documents, and their drawing by matplotlib.
 
     {"title": "...", "note": "...", "axis": "what the bars measure", "line": 1.0, "series": ["exact", ...],
      "groups": [{"name": "fractal", "bars": [{"series": 0, "value": 0.97, "text": "0.97 s"}]}]}
 """
-import json
-import subprocess
+import importlib.util
 
 from results import key, run_name, times_run
 
@@ -37,7 +36,7 @@ def of_run(results):
 
 
 def beside_the_peer(results):
-    names = ["certified at 32 m", "exact", "gdal_viewshed"]
+    names = ["certified at 32 m", "exact", "gdal_viewshed", "gdal_viewshed, deflated raster"]
     return {"title": "Viewsheds beside gdal_viewshed", "note": of_run(results), "line": 1,
             "axis": "time by the clock, in multiples of gdal_viewshed's", "series": names,
             "groups": viewsheds(results, names, "gdal_viewshed")}
@@ -72,14 +71,52 @@ def chosen(runs):
     return [(name, chart) for name, chart in described.items() if chart["groups"]]
 
 
-def draw(runs, results_path, program):
+def colours(count):
+    """A few series have colours that are told apart with every kind of colour blindness (Okabe and Ito); more have an order,
+    which shades of blue show."""
+    if count <= 4:
+        return ["#009e73", "#0072b2", "#8c8c8c", "#d55e00"][:count]
+    return [(0.08 + 0.62 * i / (count - 1), 0.25 + 0.55 * i / (count - 1), 0.45 + 0.45 * i / (count - 1))
+            for i in range(count)]
+
+
+def draw_bars(chart, path):
+    """Draws bars from left to right, those of a group below each other, with what they stand for at their ends."""
+    from matplotlib.figure import Figure
+
+    count = sum(len(group["bars"]) for group in chart["groups"])
+    figure = Figure(figsize=(10, 1.6 + 0.17 * count + 0.15 * len(chart["groups"])), layout="constrained")
+    axes = figure.add_subplot()
+    hues = colours(len(chart["series"]))
+    place, middles = 0.0, []
+    for group in chart["groups"]:
+        first = place
+        for bar in group["bars"]:
+            axes.barh(place, bar["value"], 0.85, color=hues[bar["series"]])
+            axes.annotate(bar["text"], (bar["value"], place), (3, 0), textcoords="offset points", va="center", fontsize=7)
+            place += 1
+        middles.append((first + place - 1) / 2)
+        place += 0.9
+    axes.set_yticks(middles, [group["name"] for group in chart["groups"]], fontsize=8)
+    axes.invert_yaxis()
+    axes.axvline(chart["line"], color="black", linewidth=0.8, linestyle="--")
+    axes.grid(axis="x", linewidth=0.4)
+    axes.set_axisbelow(True)
+    axes.margins(x=0.12)
+    axes.set_xlabel(chart["axis"], fontsize=8)
+    figure.suptitle(f"{chart['title']}\n{chart['note']}", fontsize=9)
+    keys = [axes.barh(0, 0, color=hue) for hue in hues]
+    axes.legend(keys, chart["series"], fontsize=8, loc="best")
+    figure.savefig(path, dpi=120)
+
+
+def draw(runs, results_path):
     """Draws the charts beside the last run's results. Returns lines that say where they are, or why there are none."""
-    drawer = program.parent / "itin_chart"
-    if not drawer.exists():
-        return [f"no charts: {drawer} is not built (ITIN_BUILD_BENCHMARKS)"]
+    if not importlib.util.find_spec("matplotlib"):
+        return ["no charts: python3-matplotlib is not installed"]
     lines = []
     for name, chart in chosen(runs):
         path = results_path.with_name(f"{results_path.stem}-{name}.png")
-        subprocess.run([drawer, path], input=json.dumps(chart), text=True, check=True)
+        draw_bars(chart, path)
         lines.append(str(path))
     return lines
