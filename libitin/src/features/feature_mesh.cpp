@@ -12,6 +12,7 @@
 #include "base/stoppable.hpp"
 #include "features/feature_group.hpp"
 #include "features/prepare_feature.hpp"
+#include "features/united_parts.hpp"
 #include "geometry/cell.hpp"
 
 namespace itin {
@@ -130,14 +131,7 @@ std::vector<PlanRing> band_about(const PlanRing& line, double thickness, const G
     const GridPoint q = grid.quantise({p.x, p.y, 0});
     positions.push_back({q.x, q.y});
   }
-  std::vector<PlanRing> rings;
-  for (const GridPolygon& polygon : thickened(positions, thickness / grid.resolution)) {
-    for_each_ring(polygon, [&](const GridRing& ring) {
-      PlanRing& out = rings.emplace_back();
-      for (const Position& p : ring) out.push_back(grid.position(p.x, p.y));
-    });
-  }
-  return rings;
+  return rings_in_metres(thickened(positions, thickness / grid.resolution), grid);
 }
 
 }  // namespace itin

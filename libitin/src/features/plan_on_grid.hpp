@@ -13,10 +13,9 @@
 
 namespace itin {
 
-/// Returns the plan of rings of Point2 or Point3, by the even-odd rule; nothing where one has coordinates beyond the
-/// grid. Throws OverlayError.
+/// Returns rings of Point2 or Point3 as positions; nothing where one has coordinates beyond the grid.
 template <class Rings>
-std::optional<EvenOdd> plan_on_grid(const Rings& rings, const Grid& grid) {
+std::optional<std::vector<GridRing>> rings_on_grid(const Rings& rings, const Grid& grid) {
   std::vector<GridRing> on_grid;
   for (const auto& ring : rings) {
     GridRing& positions = on_grid.emplace_back();
@@ -26,7 +25,15 @@ std::optional<EvenOdd> plan_on_grid(const Rings& rings, const Grid& grid) {
       positions.push_back({q.x, q.y});
     }
   }
-  return even_odd(on_grid);
+  return on_grid;
+}
+
+/// Returns the plan of rings of Point2 or Point3, by the even-odd rule; nothing where one has coordinates beyond the
+/// grid. Throws OverlayError.
+template <class Rings>
+std::optional<EvenOdd> plan_on_grid(const Rings& rings, const Grid& grid) {
+  const auto on_grid = rings_on_grid(rings, grid);
+  return on_grid ? std::optional(even_odd(*on_grid)) : std::nullopt;
 }
 
 /// Returns the plan that these surfaces cover together, without surfaces beyond the grid. Throws OverlayError.

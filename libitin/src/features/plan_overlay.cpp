@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <geos_c.h>
+#include <iterator>
 #include <limits>
 #include <memory>
 #include <set>
@@ -10,6 +11,8 @@
 #include <utility>
 
 #include <fmt/format.h>
+
+#include <itin/sort_unique.hpp>
 
 #include "base/stoppable.hpp"
 #include "features/odd_faces.hpp"
@@ -220,6 +223,13 @@ std::vector<GridRing> bare_rings(const std::vector<GridRing>& rings) {
   return result;
 }
 
+std::vector<GridEdge> edges_of_rings(const std::vector<GridRing>& rings) {
+  std::vector<GridEdge> edges;
+  for (const GridRing& ring : rings)
+    for_each_edge(GridPolygon{ring, {}}, [&](Position a, Position b) { edges.emplace_back(a, b); });
+  return edges;
+}
+
 void require_few_crossings(const std::vector<GridEdge>& edges) {
   const std::uint64_t most = most_conflicts(edges.size()), found = count_conflicts(edges, kCountedConflicts);
   if (found <= most) return;
@@ -238,10 +248,7 @@ bool valid(const Geometry& g) {
 
 EvenOdd even_odd(const std::vector<GridRing>& rings) {
   const std::vector<GridRing> bare = bare_rings(rings);
-  std::vector<GridEdge> edges;
-  for (const GridRing& ring : bare)
-    for_each_edge(GridPolygon{ring, {}}, [&](Position a, Position b) { edges.emplace_back(a, b); });
-  require_few_crossings(edges);
+  require_few_crossings(edges_of_rings(bare));
   std::vector<Geometry> shells;
   EvenOdd result;
   for (const GridRing& ring : bare) {
@@ -257,6 +264,21 @@ EvenOdd even_odd(const std::vector<GridRing>& rings) {
       shells[i] = checked(GEOSSymDifferencePrec_r(geos(), shells[i].get(), shells[i + step].get(), kGridSize));
   }
   if (!shells.empty()) result.polygons = from_geos(on_grid(shells.front()));
+  return result;
+}
+
+EvenOdd union_of(std::vector<std::vector<GridRing>> parts) {
+  sort_unique(parts);
+  std::vector<GridRing> all;
+  for (const std::vector<GridRing>& part : parts) all.insert(all.end(), part.begin(), part.end());
+  require_few_crossings(edges_of_rings(bare_rings(all)));
+  EvenOdd result;
+  for (const std::vector<GridRing>& part : parts) {
+    EvenOdd own = even_odd(part);
+    result.repaired |= own.repaired;
+    std::move(own.polygons.begin(), own.polygons.end(), std::back_inserter(result.polygons));
+  }
+  result.polygons = merged(result.polygons);
   return result;
 }
 

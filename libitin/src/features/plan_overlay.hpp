@@ -67,6 +67,9 @@ struct EvenOdd {
 /// The area that rings enclose, which may be empty. Throws OverlayError where they cross more often than
 /// most_conflicts() (planarity.hpp), before any memory is spent on it.
 EvenOdd even_odd(const std::vector<GridRing>& rings);
+/// The area that parts enclose together, each by the even-odd rule of its own rings. Parts may overlap, and their order
+/// does not matter. Throws OverlayError as even_odd() does.
+EvenOdd union_of(std::vector<std::vector<GridRing>> parts);
 
 /// A bounded face of an arrangement, with a position inside it.
 struct PlanFace {

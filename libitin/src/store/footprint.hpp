@@ -1,7 +1,8 @@
 // A feature that stands on the ground, as sources give it: its footprint in plan and its heights.
 //
 // Units: metres, in the CRS of the store. Rings are open or closed, of any orientation, and are read by the even-odd
-// rule: a ring inside another is a courtyard, one inside that is solid again.
+// rule: a ring inside another is a courtyard, one inside that is solid again. Sources give features of several parts,
+// whose union the rings are (features/united_parts.hpp).
 #pragma once
 
 #include <cstdint>

@@ -15,6 +15,7 @@
 
 #include "base/stoppable.hpp"
 #include "features/feature_mesh.hpp"
+#include "features/united_parts.hpp"
 #include "gdal/crs.hpp"
 #include "gdal/quiet_gdal.hpp"
 #include "import/source/findings.hpp"
@@ -86,9 +87,12 @@ class FootprintLayer {
     const std::unique_ptr<OGRGeometry> linear(geometry->getLinearGeometry());
     lowest_ = std::numeric_limits<double>::infinity(), highest_ = -lowest_;
     try {
-      if (!linear || !add_rings(*linear, footprint))
+      std::vector<FeaturePart> parts;
+      if (!linear || !add_parts(*linear, parts))
         return pass_over(footprint.name, std::string("is a ") + geometry->getGeometryName());
-      if (footprint.rings.empty()) return pass_over(footprint.name, "has no length");
+      if (parts.empty()) return pass_over(footprint.name, "has no length");
+      unite(parts, footprint);
+      if (footprint.rings.empty()) return pass_over(footprint.name, "has no area");
     } catch (const InputError& error) {
       return pass_over(footprint.name, error.what());
     } catch (const OverlayError& error) {
@@ -104,21 +108,29 @@ class FootprintLayer {
   }
 
   /// Returns false for a kind of geometry that has no footprint.
-  bool add_rings(const OGRGeometry& geometry, FootprintFeature& footprint) {
+  bool add_parts(const OGRGeometry& geometry, std::vector<FeaturePart>& parts) {
     const OGRwkbGeometryType type = wkbFlatten(geometry.getGeometryType());
     if (type == wkbPolygon || type == wkbTriangle) {
-      for (const OGRLinearRing* ring : *geometry.toPolygon()) footprint.rings.push_back(plan(*ring));
+      FeaturePart& part = parts.emplace_back();
+      for (const OGRLinearRing* ring : *geometry.toPolygon()) part.push_back(plan(*ring));
       return true;
     }
     if (type == wkbLineString) {
-      const OGRLineString& line = *geometry.toLineString();
-      for (PlanRing& ring : band_about(plan(line), query_.thickness, grid_)) footprint.rings.push_back(std::move(ring));
+      FeaturePart band = band_about(plan(*geometry.toLineString()), query_.thickness, grid_);
+      if (!band.empty()) parts.push_back(std::move(band));
       return true;
     }
     if (type != wkbMultiPolygon && type != wkbMultiLineString && type != wkbGeometryCollection) return false;
-    const OGRGeometryCollection& parts = *geometry.toGeometryCollection();
-    return std::all_of(parts.begin(), parts.end(),
-                       [&](const OGRGeometry* part) { return add_rings(*part, footprint); });
+    const OGRGeometryCollection& members = *geometry.toGeometryCollection();
+    return std::all_of(members.begin(), members.end(),
+                       [&](const OGRGeometry* member) { return add_parts(*member, parts); });
+  }
+
+  void unite(const std::vector<FeaturePart>& parts, FootprintFeature& footprint) {
+    UnitedParts united = united_parts(parts, grid_);
+    if (united.repaired)
+      findings_.add(fmt::format("{}: a part crosses or touches itself; taken by the even-odd rule", footprint.name));
+    footprint.rings = std::move(united.rings);
   }
 
   PlanRing plan(const OGRSimpleCurve& line) {
