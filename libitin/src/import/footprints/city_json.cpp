@@ -125,9 +125,11 @@ class CityModel {
       scale = coordinates(member(model_.at("transform"), "scale"), "scale of the transform");
       shift = coordinates(member(model_.at("transform"), "translate"), "translate of the transform");
     }
-    const Crs crs = source_crs(query_.path, query_.crs, reference_system());
-    const SourceHeights heights = source_heights(query_.path, std::nullopt, crs);
-    source_.crs = heights.crs;
+    const Crs crs = source_crs(query_.path, query_.crs, reference_system(), Elevations::in_coordinates);
+    if (query_.datums != nullptr) query_.datums->add(crs, query_.path);
+    SourceHeights heights = source_heights(query_.path, std::nullopt, crs);
+    source_.crs = std::move(heights.crs);
+    if (!heights.warning.empty()) source_.warnings.push_back(std::move(heights.warning));
     const double metres = heights.axis.factor();
     std::vector<double> x, y;
     for (const Json& vertex : items_of(member(model_, "vertices"), "vertices")) {

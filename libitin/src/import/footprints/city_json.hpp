@@ -15,8 +15,9 @@ struct CityJsonQuery {
   std::string path;
   std::string crs;  ///< overrides the file's own
   std::uint64_t memory_bytes = std::uint64_t{4} << 30;
-  bool ground_as_base = true;  ///< base: that of the building's top; else the terrain's
-  FeatureQuery kept;           ///< attributes; an object is called by its key if it has no name or id among them
+  bool ground_as_base = true;        ///< base: that of the building's top; else the terrain's
+  VerticalDatums* datums = nullptr;  ///< those of other sources, whose datum must be the same; null: it need not
+  FeatureQuery kept;                 ///< attributes; an object is called by its key if it has no name or id among them
 };
 
 /// Reads the file, in the CRS `to_crs` (WKT). Objects that cannot be used are passed over with a warning: one line per
