@@ -85,10 +85,10 @@ std::vector<std::unique_ptr<LineLayer>> open_lines(const ImportOptions& options)
 
 Crs metric_crs(const std::string& text, const std::string& place) {
   Crs crs = parse_crs(text, place);
-  if (!crs.metric())
+  if (!crs.fits_store())
     throw InputError(
-        fmt::format("{}: {} is not projected with axes in metres, as a store's CRS must be; choose one "
-                    "that is, such as a UTM zone",
+        fmt::format("{}: {} is not projected with axes in metres, to the east and to the north, as a store's CRS must "
+                    "be; choose one that is, such as a UTM zone",
                     place, crs.name));
   return crs;
 }
@@ -112,7 +112,14 @@ StoreCrs choose_crs(const ImportOptions& options, const StoreMetadata* existing,
   }
   if (!options.to_crs.empty()) return {metric_crs(options.to_crs, "`to_crs`")};
   const Crs crs = first.crs();
-  if (!crs.metric()) return {utm_zone(crs, first.centre(), first.path()), true};
+  if (!crs.fits_store()) {
+    const Crs zone = utm_zone(crs, first.centre(), first.path());
+    return {zone, true,
+            crs.east_north ? ""
+                           : fmt::format("{}: the axes of its CRS, {}, do not run to the east and to the north; the "
+                                         "store's is {} instead",
+                                         first.path(), crs.name, zone.name)};
+  }
   const GridScale scale = TrueScale(crs, false).of(first);
   if (scale.is_true()) return {crs};
   const Crs zone = utm_zone(crs, first.centre(), first.path());

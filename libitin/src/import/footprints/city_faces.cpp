@@ -244,8 +244,8 @@ RoofSurface surface_of(const UpwardFace& piece, const std::vector<Point3>& verti
 }
 
 /// The least and greatest elevation of faces; the least is above the greatest where there are none.
-std::pair<double, double> elevations_of(const std::vector<const CityFace*>& faces,
-                                        const std::vector<Point3>& vertices) {
+std::pair<double, double> height_range_of(const std::vector<const CityFace*>& faces,
+                                          const std::vector<Point3>& vertices) {
   double least = std::numeric_limits<double>::infinity(), greatest = -least;
   for (const CityFace* face : faces)
     for (const auto& ring : face->rings)
@@ -270,7 +270,7 @@ BuildingTop top_of(const std::vector<CityFace>& faces, const std::vector<Point3>
       upward.push_back(turned_up(face, plane));
     }
   }
-  const auto [lowest, highest] = elevations_of(all, vertices);
+  const auto [lowest, highest] = height_range_of(all, vertices);
   const std::vector<UpwardFace> pieces = joined(upward, vertices);
   const SeenFromAbove seen(pieces, vertices, highest);
   bool confused = false;  // a top is called ground
@@ -279,7 +279,7 @@ BuildingTop top_of(const std::vector<CityFace>& faces, const std::vector<Point3>
     confused |= pieces[i].name == FaceName::ground;
     top.surfaces.push_back(surface_of(pieces[i], vertices));
   }
-  top.base = grounds.empty() || confused ? lowest : elevations_of(grounds, vertices).first;
+  top.base = grounds.empty() || confused ? lowest : height_range_of(grounds, vertices).first;
   return top;
 }
 
