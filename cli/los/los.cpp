@@ -150,7 +150,7 @@ class LosVerb final : public Verb {
   LosCase run_store() {
     const Store store(store_, cache_within(line_.memory_bytes()));
     LosCase one = los_case(store, line_.run(store, query_), header());
-    warn_of_scale(store.metadata(), one.result.warnings);
+    warn_of_grid(store.metadata(), one.result.warnings);
     warn_of_date(one.result);
     return one;
   }
@@ -166,7 +166,7 @@ class LosVerb final : public Verb {
     const bool radio = query_.radio || std::any_of(table.links.begin(), table.links.end(),
                                                    [](const profile::Link& l) { return l.frequency_ghz.has_value(); });
     if (radio) warn_of_refraction(profile::effective_earth_km(query_.earth), survey.result);
-    warn_of_scale(store.metadata(), survey.result.warnings);
+    warn_of_grid(store.metadata(), survey.result.warnings);
     warn_of_date(survey.result);
     // A link without a verdict has no report; the table says why.
     std::erase_if(jobs, [&](const LosReports::Job& job) { return !survey.computed[job.link]; });

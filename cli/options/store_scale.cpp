@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <itin/coordinates.hpp>
+#include <itin/grid_axes.hpp>
 
 namespace itin::cli {
 
@@ -15,7 +16,12 @@ Document scale_document(const std::optional<GridScale>& scale) {
   return scale ? Document{{"least", scale->least}, {"greatest", scale->greatest}} : Document(nullptr);
 }
 
-void warn_of_scale(const StoreMetadata& metadata, std::vector<std::string>& warnings) {
+void warn_of_grid(const StoreMetadata& metadata, std::vector<std::string>& warnings) {
+  if (!runs_east_north(metadata.crs_wkt))
+    warnings.push_back(fmt::format(
+        "the axes of the store's CRS, {}, do not run to the east and to the north, so that azimuths, wedges "
+        "and north arrows are turned; import the sources into a new store, which will have a UTM zone",
+        crs_title(metadata.crs_wkt)));
   const auto scale = scale_of(metadata);
   if (!scale || scale->is_true()) return;
   warnings.push_back(

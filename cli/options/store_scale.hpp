@@ -1,4 +1,4 @@
-// Tells how true lengths in a store are, for documents and warnings.
+// Tells how true lengths and directions in a store are, for documents and warnings.
 #pragma once
 
 #include <optional>
@@ -18,7 +18,8 @@ std::optional<GridScale> scale_of(const StoreMetadata& metadata);
 /// The document `scale`: `least` and `greatest`, or null.
 Document scale_document(const std::optional<GridScale>& scale);
 
-/// Warns where lengths are not true, as in stores from before imports refused that.
-void warn_of_scale(const StoreMetadata& metadata, std::vector<std::string>& warnings);
+/// Warns where lengths are not true, or axes do not run to the east and to the north, as in stores from before imports
+/// refused that.
+void warn_of_grid(const StoreMetadata& metadata, std::vector<std::string>& warnings);
 
 }  // namespace itin::cli

@@ -170,7 +170,7 @@ class ProfileVerb final : public Verb {
     }
     for (const std::string& output : outputs_)
       if (is_text(output)) profile::require_profile_text(profiles.front().profile, fmt::format("-o '{}'", output));
-    warn_of_scale(store.metadata(), result.warnings);
+    warn_of_grid(store.metadata(), result.warnings);
     result.document = profile::profile_document(store.metadata(), themes_.choice(), profiles);
     if (!outputs().empty()) result.document["outputs"] = outputs();
     result.document["statistics"] = statistics_document(cost.read, cost.triangles);

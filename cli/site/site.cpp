@@ -270,7 +270,7 @@ class SiteVerb final : public Verb {
     Result result;
     result.warnings = std::move(warnings);
     warn_of(site, store, result.warnings);
-    warn_of_scale(store.metadata(), result.warnings);
+    warn_of_grid(store.metadata(), result.warnings);
     result.document = site_document(site, store.metadata());
     for (const SiteOutput& output : outputs_)
       result.document["outputs"].push_back({{"path", output.path}, {"what", output.what}});

@@ -104,7 +104,7 @@ class ImportVerb final : public Verb {
         options_.kind ? import_lines(store_, options_, progress) : import_terrain(store_, options_, progress);
     const Store store(store_);
     Result result{document(report, store.metadata()), text(report, store.metadata()), report.warnings, {}};
-    warn_of_scale(store.metadata(), result.warnings);
+    warn_of_grid(store.metadata(), result.warnings);
     return result;
   }
 

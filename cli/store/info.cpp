@@ -115,7 +115,7 @@ class InfoVerb final : public Verb {
     const Store store(store_);
     const StatedHeights heights(store.metadata());
     Result result{info_document(store, heights), info_text(store, heights), {}, {}};
-    warn_of_scale(store.metadata(), result.warnings);
+    warn_of_grid(store.metadata(), result.warnings);
     return result;
   }
 

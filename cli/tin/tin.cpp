@@ -108,7 +108,7 @@ class TinVerb final : public Verb {
     if (!output_.empty()) write(store, {tin, window, detail, lines}, surface, progress, result.warnings);
     if (!picture_.path().empty()) picture_.write(store, tin, detail, policy_.overwrite, progress);
     result.document = document(tin, store.metadata(), surface), result.text = text(tin);
-    warn_of_scale(store.metadata(), result.warnings);
+    warn_of_grid(store.metadata(), result.warnings);
     if (tin.triangles.empty()) result.warnings.push_back(window_.no_ground(store.metadata()));
     return result;
   }

@@ -169,7 +169,7 @@ class ViewshedVerb final : public Verb {
       result.warnings.emplace_back(
           "no cell has its centre in view of an observer and on ground data: check --cell, --radius and the field of "
           "view");
-    warn_of_scale(metadata, result.warnings);
+    warn_of_grid(metadata, result.warnings);
     if (radio_.is_given()) earth_.warn_of_light(result.warnings);
     // Certified and exact answers are about the full surface.
     viewshed::Request answered = computed.result.request;

@@ -145,7 +145,7 @@ class VisibilityVerb final : public Verb {
     const viewshed::MissingGround missing = viewshed::missing_ground(index);
     if (const auto warning = missing.warning("what lies within the radius, on average over the observers,"))
       result.warnings.push_back(in_options(*warning));
-    warn_of_scale(metadata, result.warnings);
+    warn_of_grid(metadata, result.warnings);
     Document& document = result.document;
     document["crs"] = crs_identifier(metadata.crs_wkt);
     document["surface"] = surface;

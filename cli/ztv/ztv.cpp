@@ -165,7 +165,7 @@ class ZtvVerb final : public Verb {
     result.document = document(zone, metadata);
     write(store, zone, folder.working(), result.document, progress);
     result.warnings = warnings(zone);
-    warn_of_scale(metadata, result.warnings);
+    warn_of_grid(metadata, result.warnings);
     write_manifest(folder.working(), result);
     folder.publish();
     result.text = text(zone);

@@ -38,6 +38,22 @@ TEST(OldStore, WithWrongLengthsIsWarnedOf) {
   }
 }
 
+TEST(OldStore, WithAxesToTheWestAndSouthIsWarnedOf) {
+  const Shell shell;
+  write_hill(shell.directory() / "hill.asc");
+  ASSERT_EQ(shell.run("itin import --quiet old.itin hill.asc").status, 0);
+  relabel((shell.directory() / "old.itin").string(), "EPSG:2065");
+  for (const char* call : {"info old.itin", "los old.itin --from 300500,170500 --to 301500,171400",
+                           "tin old.itin --wedge 301025,171025,90,30,500 -o t.ply"}) {
+    const Outcome outcome = shell.run(std::string("itin ") + call);
+    EXPECT_NE(
+        outcome.err.find("itin: warning: the axes of the store's CRS, S-JTSK (Ferro) / Krovak, do not run to the"),
+        std::string::npos)
+        << call << "\n"
+        << outcome.err;
+  }
+}
+
 }  // namespace
 
 }  // namespace itin::test

@@ -14,8 +14,6 @@ namespace itin {
 
 namespace {
 
-/// Surfaces steeper than this are walls, whatever they are called; seen from above they are next to nothing.
-constexpr double kSteepest = 10;
 /// A roof surface that leaves its plane by more is worth a line.
 constexpr double kPlaneTolerance = 0.1;
 
@@ -117,7 +115,7 @@ class Preparing {
       nx += py * qz - pz * qy, ny += pz * qx - px * qz, nz += px * qy - py * qx;
       cx += px, cy += py, cz += pz;
     }
-    if (std::hypot(nx, ny) > kSteepest * std::abs(nz)) return std::nullopt;
+    if (std::hypot(nx, ny) > kSteepestRoof * std::abs(nz)) return std::nullopt;
     const double n = static_cast<double>(ring.size()), sx = -nx / nz, sy = -ny / nz;
     return Plane{sx, sy, o.z + cz / n - sx * (o.x + cx / n) - sy * (o.y + cy / n)};
   }

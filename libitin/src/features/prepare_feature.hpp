@@ -9,6 +9,9 @@
 
 namespace itin {
 
+/// Surfaces steeper than this are walls, whatever they are called; seen from above they are next to nothing.
+inline constexpr double kSteepestRoof = 10;
+
 struct Preparation {
   PreparedFeature feature;
   std::vector<std::string> findings;  ///< one line each; if it cannot stand, the last says why

@@ -1,7 +1,9 @@
 #include "gdal/crs.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -97,6 +99,16 @@ std::string text_of(const OGRSpatialReference& reference) {
   return reference.GetAuthorityCode(nullptr) ? name_of(reference) : wkt_of(reference);
 }
 
+/// Tells whether coordinates, in the order that they are in here, count to the east and to the north. About the poles
+/// both count towards the pole, or both away from it, along two meridians.
+bool axes_run_east_north(const OGRSpatialReference& projected) {
+  std::array<OGRAxisOrientation, 2> axes{};
+  const std::vector<int>& order = projected.GetDataAxisToSRSAxisMapping();
+  for (std::size_t i = 0; i < axes.size(); ++i) projected.GetAxis(nullptr, std::abs(order.at(i)) - 1, &axes[i]);
+  if (axes[0] == OAO_Other || axes[1] == OAO_Other) return true;
+  return (axes[0] == OAO_East && axes[1] == OAO_North) || (axes[0] == axes[1] && axes[0] != OAO_West);
+}
+
 /// Returns the EPSG code of the whole CRS or of its part called `key`; empty where it has none.
 std::string epsg_code(const OGRSpatialReference& reference, const char* key) {
   const char* authority = reference.GetAuthorityName(key);
@@ -167,7 +179,9 @@ Crs parse_any_crs(const std::string& text, const std::string& place) {
   const std::string horizontal_code = epsg_code(reference, nullptr);
   if (!has_code && !horizontal_code.empty() && !vertical_code.empty())
     crs.whole = fmt::format("EPSG:{}+{}", horizontal_code, vertical_code);
-  if (reference.IsProjected()) crs.metres_per_axis = reference.GetLinearUnits();
+  if (!reference.IsProjected()) return crs;
+  crs.metres_per_axis = reference.GetLinearUnits();
+  crs.east_north = axes_run_east_north(reference);
   return crs;
 }
 
@@ -178,7 +192,7 @@ Crs utm_zone(const Crs& crs, Point2 position, const std::string& place) {
   if (!geographic) throw InputError(fmt::format("{}: no UTM zone for {}; give `to_crs`", place, crs.name));
   geographic->SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
   PointTransform(crs.wkt, wkt_of(*geographic), place).transform(std::span(&position.x, 1), std::span(&position.y, 1));
-  const double longitude = in_degrees(position.x * geographic->GetAngularUnits());
+  const double longitude = in_degrees(position.x * geographic->GetAngularUnits()) + geographic->GetPrimeMeridian();
   const double latitude = in_degrees(position.y * geographic->GetAngularUnits());
   const std::optional<int> zone = utm_zone_at({longitude, latitude});
   if (!zone)

@@ -24,8 +24,12 @@ struct Crs {
   bool heights_given = false;             ///< `heights` come from --crs, whatever the source itself says
   std::string whole;                      ///< authority:code or WKT 2, vertical part included
 
-  /// Tells whether the CRS is projected with axes in metres, and so fit for a store.
+  bool east_north = true;  ///< the axes of a projected CRS run to the east and to the north, or at a pole
+
+  /// Tells whether the CRS is projected with axes in metres.
   bool metric() const { return metres_per_axis == 1.0; }
+  /// Tells whether it may be a store's. Azimuths, wedges and north arrows count on axes to the east and to the north.
+  bool fits_store() const { return metric() && east_north; }
 };
 
 /// Reads `text`: authority:code, WKT, PROJ or whatever else GDAL understands. A CRS that agrees to a millimetre with

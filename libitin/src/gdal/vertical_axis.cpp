@@ -30,7 +30,7 @@ std::optional<HeightAxis> vertical_axis(const OGRSpatialReference& reference) {
     axis.metres = reference.GetTargetLinearUnits(kVertical, &name);
     reference.GetAxis(kVertical, 0, &towards);
   } else if (reference.GetAxesCount() == 3) {
-    axis.datum = "the ellipsoid";
+    axis.datum = kEllipsoid;
     reference.GetAxis(nullptr, 2, &towards, &axis.metres);
   } else {
     return std::nullopt;

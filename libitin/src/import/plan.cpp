@@ -85,10 +85,10 @@ std::vector<std::unique_ptr<LineLayer>> open_lines(const ImportOptions& options)
 
 Crs metric_crs(const std::string& text, const std::string& place) {
   Crs crs = parse_crs(text, place);
-  if (!crs.metric())
+  if (!crs.fits_store())
     throw InputError(
-        fmt::format("{}: {} is not projected with axes in metres, as a store's CRS must be; choose one "
-                    "that is, such as a UTM zone",
+        fmt::format("{}: {} is not projected with axes in metres, to the east and to the north, as a store's CRS must "
+                    "be; choose one that is, such as a UTM zone",
                     place, crs.name));
   return crs;
 }
@@ -112,7 +112,14 @@ StoreCrs choose_crs(const ImportOptions& options, const StoreMetadata* existing,
   }
   if (!options.to_crs.empty()) return {metric_crs(options.to_crs, "`to_crs`")};
   const Crs crs = first.crs();
-  if (!crs.metric()) return {utm_zone(crs, first.centre(), first.path()), true};
+  if (!crs.fits_store()) {
+    const Crs zone = utm_zone(crs, first.centre(), first.path());
+    return {zone, true,
+            crs.east_north ? ""
+                           : fmt::format("{}: the axes of its CRS, {}, do not run to the east and to the north; the "
+                                         "store's is {} instead",
+                                         first.path(), crs.name, zone.name)};
+  }
   const GridScale scale = TrueScale(crs, false).of(first);
   if (scale.is_true()) return {crs};
   const Crs zone = utm_zone(crs, first.centre(), first.path());
@@ -121,10 +128,15 @@ StoreCrs choose_crs(const ImportOptions& options, const StoreMetadata* existing,
                       error_in_words(scale), zone.name)};
 }
 
-void check_vertical_datums(const OpenedFiles& opened, const ImportOptions& options, const StoreMetadata* existing) {
+/// Returns a warning; empty where there is nothing to say.
+std::string check_vertical_datums(const OpenedFiles& opened, const ImportOptions& options,
+                                  const StoreMetadata* existing) {
+  if (options.allow_mixed_vertical || (options.kind && !is_terrain(*options.kind))) return {};
   VerticalDatums datums = existing ? VerticalDatums(*existing) : VerticalDatums();
-  if (!options.to_crs.empty()) datums.add(parse_crs(options.to_crs, "`to_crs`"), "`to_crs`");
+  if (const Crs crs = options.to_crs.empty() ? Crs{} : parse_crs(options.to_crs, "`to_crs`"); crs.heights)
+    datums.add(crs, "`to_crs`");
   for (const OpenedFile* file : opened) datums.add(file->crs(), file->path());
+  return datums.warning();
 }
 
 Grid choose_grid(const ImportOptions& options, const StoreMetadata* existing, const OpenedFile& first, const Crs& crs) {
@@ -204,7 +216,8 @@ ImportPlan plan_import(const ImportOptions& options, const StoreMetadata* existi
   OpenedFiles opened;
   for (const auto& file : points) opened.push_back(file.get());
   for (const auto& file : plan.lines) opened.push_back(file.get());
-  if (!options.allow_mixed_vertical) check_vertical_datums(opened, options, existing);
+  if (std::string warning = check_vertical_datums(opened, options, existing); !warning.empty())
+    plan.warnings.push_back(std::move(warning));
   const auto [crs, chosen, why] = choose_crs(options, existing, *opened.front());
   if (!why.empty()) plan.warnings.push_back(why);
   plan.scale = std::make_unique<TrueScale>(crs, existing != nullptr);

@@ -99,6 +99,42 @@ TEST_F(Plan, ChoosesTheUtmZoneWhereLengthsWouldBeWrong) {
   }
 }
 
+TEST_F(Plan, ChoosesTheUtmZoneWhereAxesRunWestOrSouth) {
+  for (const auto& [crs, x, y, zone] :
+       {std::tuple("EPSG:2048", 55000.0, 3753000.0, "EPSG:32734"),
+        std::tuple("EPSG:22275", 55000.0, 3753000.0, "EPSG:32733"),
+        std::tuple("EPSG:2065", 1040000.0, 740000.0, "EPSG:32633"),
+        std::tuple("EPSG:5513", 1040000.0, 740000.0, "EPSG:32633"),
+        std::tuple("+proj=tmerc +lon_0=15 +ellps=GRS80 +axis=wnu +units=m", 1000.0, 5540000.0, "EPSG:32633")}) {
+    options_.crs = crs;
+    const ImportPlan made = plan({raster("m.tif", crs, {x, 50, 0, y, 0, -50})});
+    EXPECT_EQ(made.crs_name, zone) << crs;
+    EXPECT_TRUE(made.crs_chosen);
+    ASSERT_EQ(made.warnings.size(), 1U) << crs;
+    EXPECT_THAT(made.warnings.front(),
+                HasSubstr("do not run to the east and to the north; the store's is " + std::string(zone)));
+    options_ = {};
+    options_.to_crs = crs;
+    EXPECT_THAT(refusal<InputError>({british()}),
+                HasSubstr("is not projected with axes in metres, to the east and to the north"));
+    options_ = {};
+  }
+}
+
+TEST_F(Plan, KeepsGridsAboutThePoles) {
+  for (const auto& [crs, x, y] :
+       {std::tuple("EPSG:3031", 1480000.0, 1480000.0), std::tuple("EPSG:3413", -300000.0, -2170000.0),
+        std::tuple("EPSG:32661", 2680000.0, 1320000.0), std::tuple("EPSG:32761", 2680000.0, 1320000.0)}) {
+    options_.to_crs = crs;
+    EXPECT_EQ(plan({raster("p.tif", crs, {x, 50, 0, y, 0, -50})}).crs_name, crs);
+  }
+}
+
+TEST_F(Plan, CountsZonesFromGreenwich) {
+  const std::string degrees = raster("d.tif", "EPSG:4807", {4.2, 0.0005, 0, 54, 0, -0.0005});
+  EXPECT_EQ(plan({degrees}).crs_name, "EPSG:32632");
+}
+
 TEST_F(Plan, KeepsNationalGrids) {
   const std::tuple<const char*, double, double> grids[] = {
       {"EPSG:27700", 5000, 900000},     {"EPSG:27700", 650000, 310000},   {"EPSG:28992", 85000, 446000},

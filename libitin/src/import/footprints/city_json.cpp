@@ -14,9 +14,10 @@
 #include <itin/error.hpp>
 #include <itin/height_limit.hpp>
 
-#include "base/disjoint_sets.hpp"
+#include "features/plan_overlay.hpp"
 #include "gdal/crs.hpp"
 #include "gdal/quiet_gdal.hpp"
+#include "import/footprints/city_faces.hpp"
 #include "import/footprints/city_json_attributes.hpp"
 #include "import/footprints/city_json_values.hpp"
 #include "import/source/findings.hpp"
@@ -27,24 +28,7 @@ namespace itin {
 namespace {
 
 using Json = nlohmann::json;
-using Index = std::uint32_t;
 
-enum class Facing { up, down, other };
-
-struct Surface {
-  std::vector<std::vector<Index>> rings;
-  Facing facing = Facing::other;
-};
-
-struct SurfacePlane {
-  std::array<double, 3> normal{};  ///< a unit vector
-  double offset = 0;
-};
-
-/// Planes that differ by less than this in direction, and in metres, are one.
-constexpr double kSameDirection = 1e-3, kSamePlace = 0.02;
-/// The least upward part of a unit normal for a surface that is no wall.
-constexpr double kUpright = 0.05;
 /// Bytes of memory that a byte of text takes while it is read.
 constexpr std::uint64_t kMemoryPerByte = 16;
 
@@ -67,6 +51,10 @@ class CityModel {
     });
     for (const auto& [type, count] : others)
       source_.warnings.push_back(fmt::format("{}: {} objects of type {} passed over", query_.path, count, type));
+    if (closures_ > 0)
+      source_.warnings.push_back(
+          fmt::format("{}: {} ClosureSurface{} left out, of {} for instance; they close openings", query_.path,
+                      closures_, closures_ == 1 ? "" : "s", closed_));
     for (std::string& line : findings_.lines()) source_.warnings.push_back(std::move(line));
     for (std::string& line : attributes_.warnings()) source_.warnings.push_back(std::move(line));
     return std::move(source_);
@@ -137,9 +125,11 @@ class CityModel {
       scale = coordinates(member(model_.at("transform"), "scale"), "scale of the transform");
       shift = coordinates(member(model_.at("transform"), "translate"), "translate of the transform");
     }
-    const Crs crs = source_crs(query_.path, query_.crs, reference_system());
-    const SourceHeights heights = source_heights(query_.path, std::nullopt, crs);
-    source_.crs = heights.crs;
+    const Crs crs = source_crs(query_.path, query_.crs, reference_system(), Elevations::in_coordinates);
+    if (query_.datums != nullptr) query_.datums->add(crs, query_.path);
+    SourceHeights heights = source_heights(query_.path, std::nullopt, crs);
+    source_.crs = std::move(heights.crs);
+    if (!heights.warning.empty()) source_.warnings.push_back(std::move(heights.warning));
     const double metres = heights.axis.factor();
     std::vector<double> x, y;
     for (const Json& vertex : items_of(member(model_, "vertices"), "vertices")) {
@@ -168,17 +158,17 @@ class CityModel {
     if (!best)
       return pass_over(name, fmt::format("none of its geometries ({} ...) is a surface or solid of LoD 1 or 2",
                                          text_member(geometries.front(), "type")));
-    std::vector<Surface> surfaces;
+    std::vector<CityFace> faces;
     const Json& semantics = member_or_empty(*best, "semantics", Json::value_t::object);
     collect(member(*best, "boundaries"), semantics.value("values", Json()), semantics,
-            depth_of(text_member(*best, "type")), surfaces);
-    if (!std::all_of(surfaces.begin(), surfaces.end(), [&](const Surface& s) { return has_place(name, s); }))
+            depth_of(text_member(*best, "type")), faces);
+    if (!std::all_of(faces.begin(), faces.end(), [&](const CityFace& face) { return has_place(name, face); }))
       return pass_over(name, "a vertex has no place in the CRS of the store");
-    add(name, surfaces);
+    add(name, faces);
   }
 
   void collect(const Json& boundaries, const Json& values, const Json& semantics, int depth,
-               std::vector<Surface>& out) const {
+               std::vector<CityFace>& out) const {
     const auto& items = items_of(boundaries, depth > 1 ? "shells or surfaces" : "surfaces");
     for (std::size_t i = 0; i < items.size(); ++i) {
       const Json value = values.is_array() && i < values.size() ? values[i] : Json();
@@ -186,28 +176,28 @@ class CityModel {
         collect(items[i], value, semantics, depth - 1, out);
         continue;
       }
-      Surface surface{rings_of(items[i]), Facing::other};
-      if (surface.rings.empty() || surface.rings.front().size() < 3) continue;
-      surface.facing = value.is_number() ? named_facing(semantic(semantics, value)) : facing(surface);
-      out.push_back(std::move(surface));
+      CityFace face{rings_of(items[i])};
+      if (face.rings.empty() || face.rings.front().size() < 3) continue;
+      if (value.is_number()) face.name = face_name(semantic(semantics, value));
+      out.push_back(std::move(face));
     }
   }
 
-  std::vector<std::vector<Index>> rings_of(const Json& surface) const {
-    std::vector<std::vector<Index>> rings;
+  std::vector<std::vector<std::uint32_t>> rings_of(const Json& surface) const {
+    std::vector<std::vector<std::uint32_t>> rings;
     for (const Json& ring : items_of(surface, "rings")) {
       auto& indices = rings.emplace_back();
       for (const Json& number : items_of(ring, "vertex indices"))
-        indices.push_back(static_cast<Index>(index_of(number, vertices_.size(), "vertices")));
+        indices.push_back(static_cast<std::uint32_t>(index_of(number, vertices_.size(), "vertices")));
     }
     return rings;
   }
 
-  /// Whether all vertices of the surface have a place. Throws InputError for a height beyond all heights.
-  bool has_place(const std::string& name, const Surface& surface) const {
+  /// Whether all vertices of the face have a place. Throws InputError for a height beyond all heights.
+  bool has_place(const std::string& name, const CityFace& face) const {
     bool all = true;
-    for (const auto& ring : surface.rings) {
-      for (const Index v : ring) {
+    for (const auto& ring : face.rings) {
+      for (const std::uint32_t v : ring) {
         if (!is_height(vertices_[v].z)) require_height(vertices_[v].z, query_.path + ": " + name);
         all = all && std::isfinite(vertices_[v].x) && std::isfinite(vertices_[v].y);
       }
@@ -220,122 +210,27 @@ class CityModel {
     return surfaces[index_of(number, surfaces.size(), "semantic surfaces")];
   }
 
-  static Facing named_facing(const Json& semantic) {
+  static FaceName face_name(const Json& semantic) {
     const std::string type = text_member(semantic, "type");
-    return type == "RoofSurface" ? Facing::up : type == "GroundSurface" ? Facing::down : Facing::other;
+    if (type == "RoofSurface") return FaceName::roof;
+    if (type == "GroundSurface") return FaceName::ground;
+    return type == "ClosureSurface" ? FaceName::closure : FaceName::other;
   }
 
-  SurfacePlane plane(const Surface& surface) const {
-    const std::vector<Index>& ring = surface.rings.front();
-    const Point3& o = vertices_[ring.front()];
-    std::array<double, 3> n{};
-    for (std::size_t i = 0; i < ring.size(); ++i) {
-      const Point3 &p = vertices_[ring[i]], &q = vertices_[ring[(i + 1) % ring.size()]];
-      n[0] += (p.y - o.y) * (q.z - o.z) - (p.z - o.z) * (q.y - o.y);
-      n[1] += (p.z - o.z) * (q.x - o.x) - (p.x - o.x) * (q.z - o.z);
-      n[2] += (p.x - o.x) * (q.y - o.y) - (p.y - o.y) * (q.x - o.x);
+  void add(const std::string& name, const std::vector<CityFace>& faces) {
+    BuildingTop top;
+    try {
+      top = top_of(faces, vertices_);
+    } catch (const OverlayError& error) {
+      return pass_over(name, error.what());
     }
-    const double length = std::hypot(n[0], n[1], n[2]);
-    if (length > 0) n = {n[0] / length, n[1] / length, n[2] / length};
-    return {n, n[0] * o.x + n[1] * o.y + n[2] * o.z};
-  }
-
-  Facing facing(const Surface& surface) const {
-    const double up = plane(surface).normal[2];
-    return up > kUpright ? Facing::up : up < -kUpright ? Facing::down : Facing::other;
-  }
-
-  void add(const std::string& name, const std::vector<Surface>& surfaces) {
-    std::vector<Surface> roofs, grounds;
-    for (const Surface& surface : surfaces) {
-      if (surface.facing == Facing::up) roofs.push_back(surface);
-      if (surface.facing == Facing::down) grounds.push_back(surface);
-    }
-    if (roofs.empty()) return pass_over(name, "has no roof surface");
-    FootprintFeature feature;
+    if (top.closures > 0 && closures_ == 0) closed_ = name;
+    closures_ += top.closures;
+    if (top.surfaces.empty()) return pass_over(name, "has no roof: all of its faces are walls or floors");
+    FootprintFeature& feature = source_.features.emplace_back();
     feature.name = name;
-    for (const auto& piece : plane_pieces(roofs)) {
-      RoofSurface& roof = feature.surfaces.emplace_back();
-      for (const auto& ring : piece) {
-        auto& points = roof.rings.emplace_back();
-        for (const Index v : ring) points.push_back(vertices_[v]);
-      }
-    }
-    // Solids without a floor stand on the feet of their walls.
-    for (const Surface& ground : grounds.empty() ? surfaces : grounds)
-      for (const auto& ring : ground.rings)
-        for (const Index v : ring) feature.base = std::min(feature.base.value_or(vertices_[v].z), vertices_[v].z);
-    if (!query_.ground_as_base) feature.base.reset();
-    source_.features.push_back(std::move(feature));
-  }
-
-  using Rings = std::vector<std::vector<Index>>;
-
-  /// Joins surfaces where they share an edge and a plane.
-  std::vector<Rings> plane_pieces(const std::vector<Surface>& surfaces) const {
-    std::vector<SurfacePlane> planes;
-    for (const Surface& s : surfaces) planes.push_back(plane(s));
-    const auto count = static_cast<std::uint32_t>(surfaces.size());
-    DisjointSets sets(count);
-    std::map<std::pair<Index, Index>, std::uint32_t> left_of;
-    for (std::uint32_t s = 0; s < count; ++s)
-      for_each_edge(surfaces[s].rings, [&](Index a, Index b) { left_of[{a, b}] = s; });
-    for (const auto& [edge, s] : left_of) {
-      const auto other = left_of.find({edge.second, edge.first});
-      if (other == left_of.end() || !same_plane(planes[s], planes[other->second], edge.first)) continue;
-      sets.join(s, other->second);
-    }
-    std::map<std::uint32_t, std::vector<const Surface*>> groups;
-    for (std::uint32_t s = 0; s < count; ++s) groups[sets.least(s)].push_back(&surfaces[s]);
-    std::vector<Rings> pieces;
-    for (const auto& [first, group] : groups) pieces.push_back(outline(group));
-    return pieces;
-  }
-
-  bool same_plane(const SurfacePlane& a, const SurfacePlane& b, Index shared) const {
-    double deviation = 0;
-    for (std::size_t i = 0; i < 3; ++i) deviation = std::max(deviation, std::abs(a.normal[i] - b.normal[i]));
-    const Point3& p = vertices_[shared];
-    const auto off = [&](const SurfacePlane& s) {
-      return std::abs(s.normal[0] * p.x + s.normal[1] * p.y + s.normal[2] * p.z - s.offset);
-    };
-    return deviation < kSameDirection && off(a) < kSamePlace && off(b) < kSamePlace;
-  }
-
-  template <class Visit>
-  static void for_each_edge(const Rings& rings, const Visit& visit) {
-    for (const auto& ring : rings)
-      for (std::size_t i = 0; i < ring.size(); ++i) visit(ring[i], ring[(i + 1) % ring.size()]);
-  }
-
-  /// The edges that have surface on one side only, as rings.
-  static Rings outline(const std::vector<const Surface*>& surfaces) {
-    if (surfaces.size() == 1) return surfaces.front()->rings;
-    std::multiset<std::pair<Index, Index>> edges;
-    for (const Surface* s : surfaces) {
-      for_each_edge(s->rings, [&](Index a, Index b) {
-        const auto reverse = edges.find({b, a});
-        if (reverse == edges.end()) {
-          edges.insert({a, b});
-        } else {
-          edges.erase(reverse);
-        }
-      });
-    }
-    Rings rings;
-    while (!edges.empty()) {
-      std::vector<Index>& ring = rings.emplace_back();
-      auto edge = edges.begin();
-      // Every vertex has as many edges in as out, so a walk ends where it began.
-      while (edge != edges.end()) {
-        const Index next = edge->second;
-        ring.push_back(edge->first);
-        edges.erase(edge);
-        edge = edges.lower_bound({next, 0});
-        if (edge != edges.end() && edge->first != next) edge = edges.end();
-      }
-    }
-    return rings;
+    feature.surfaces = std::move(top.surfaces);
+    if (query_.ground_as_base) feature.base = top.base;
   }
 
   const CityJsonQuery& query_;
@@ -343,6 +238,8 @@ class CityModel {
   const Json model_;
   CityJsonAttributes attributes_;
   std::vector<Point3> vertices_;
+  std::size_t closures_ = 0;  ///< number of closures that were left out
+  std::string closed_;        ///< the first building with one
   FootprintSource source_;
 };
 

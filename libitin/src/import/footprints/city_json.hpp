@@ -1,8 +1,7 @@
 // Reads buildings from CityJSON 1.0 to 2.0 (OGC 20-072r5): solids and surfaces, LoD 1 and 2.
 //
-// Each Building and BuildingPart gives its geometry of the greatest level of detail. Roof and ground surfaces are known
-// by their semantics where they have any, otherwise by facing up or down. Pieces of one plane that share edges
-// (triangulated roofs) are joined.
+// Each Building and BuildingPart gives its geometry of the greatest level of detail. Its top is made of the faces that
+// are open to the sky (city_faces.hpp).
 #pragma once
 
 #include <cstdint>
@@ -16,8 +15,9 @@ struct CityJsonQuery {
   std::string path;
   std::string crs;  ///< overrides the file's own
   std::uint64_t memory_bytes = std::uint64_t{4} << 30;
-  bool ground_as_base = true;  ///< base: the least elevation of the ground surfaces, or of all; else the terrain's
-  FeatureQuery kept;           ///< attributes; an object is called by its key if it has no name or id among them
+  bool ground_as_base = true;        ///< base: that of the building's top; else the terrain's
+  VerticalDatums* datums = nullptr;  ///< those of other sources, whose datum must be the same; null: it need not
+  FeatureQuery kept;                 ///< attributes; an object is called by its key if it has no name or id among them
 };
 
 /// Reads the file, in the CRS `to_crs` (WKT). Objects that cannot be used are passed over with a warning: one line per

@@ -64,7 +64,15 @@ SourceKind kind_of(const std::string& path, const ImportOptions& options) {
   return options.kind == ThemeKind::Buildings ? SourceKind::buildings : SourceKind::walls;
 }
 
-FootprintSource read_model(const std::string& path, const ImportOptions& options, const StoreMetadata& store) {
+/// What is the same for all files of an import.
+struct FootprintImport {
+  const ImportOptions& options;
+  const StoreMetadata& store;
+  VerticalDatums* datums;  ///< null where elevations need not share one
+};
+
+FootprintSource read_model(const std::string& path, const FootprintImport& import) {
+  const ImportOptions& options = import.options;
   if (options.kind != ThemeKind::Buildings)
     throw InputError(path + ": CityJSON holds buildings; import it with `kind` buildings");
   CityJsonQuery query;
@@ -73,11 +81,12 @@ FootprintSource read_model(const std::string& path, const ImportOptions& options
   query.ground_as_base = !options.base;
   query.memory_bytes = options.memory_bytes;
   query.kept = feature_query(options);
-  return read_city_json(query, store.crs_wkt);
+  query.datums = import.datums;
+  return read_city_json(query, import.store.crs_wkt);
 }
 
-FootprintSource read_layer(const std::string& path, const ImportOptions& options, const StoreMetadata& store,
-                           Progress& progress) {
+FootprintSource read_layer(const std::string& path, const FootprintImport& import, Progress& progress) {
+  const ImportOptions& options = import.options;
   FootprintQuery query;
   query.path = path;
   query.layer = options.layer;
@@ -91,11 +100,12 @@ FootprintSource read_layer(const std::string& path, const ImportOptions& options
   query.kind = feature_kind(*options.kind);
   query.roof = options.roof.value_or(query.roof);
   query.thickness = options.thickness.value_or(query.thickness);
-  return read_footprints(query, store.crs_wkt, store.grid, progress);
+  query.datums = import.datums;
+  return read_footprints(query, import.store.crs_wkt, import.store.grid, progress);
 }
 
-FootprintFile read_raster(const std::string& path, const ImportOptions& options, const StoreMetadata& store,
-                          Progress& progress) {
+FootprintFile read_raster(const std::string& path, const FootprintImport& import, Progress& progress) {
+  const ImportOptions& options = import.options;
   if (!is_raster(path)) {
     if (is_missing(path)) throw FileError(path, "there is no such file");
     throw InputError(path +
@@ -110,21 +120,19 @@ FootprintFile read_raster(const std::string& path, const ImportOptions& options,
   query.step = options.height_step.value_or(query.step);
   query.threshold = options.height_threshold.value_or(query.threshold);
   query.rounding = options.height_rounding.value_or(query.rounding);
-  query.allow_mixed_vertical = options.allow_mixed_vertical;
+  query.datums = import.datums;
   query.memory_bytes = options.memory_bytes;
-  HeightRaster raster = read_height_raster(query, store, progress);
+  HeightRaster raster = read_height_raster(query, import.store, progress);
   FootprintFile file;
   file.footprints = std::move(raster.footprints);
   file.cells = raster.cells, file.voids = raster.voids, file.low_cells = raster.low;
   return file;
 }
 
-FootprintFile read_file(const std::string& path, SourceKind kind, const ImportOptions& options,
-                        const StoreMetadata& store, Progress& progress) {
-  if (kind == SourceKind::canopy || kind == SourceKind::surface) return read_raster(path, options, store, progress);
+FootprintFile read_file(const std::string& path, SourceKind kind, const FootprintImport& import, Progress& progress) {
+  if (kind == SourceKind::canopy || kind == SourceKind::surface) return read_raster(path, import, progress);
   FootprintFile file;
-  file.footprints =
-      kind == SourceKind::city_model ? read_model(path, options, store) : read_layer(path, options, store, progress);
+  file.footprints = kind == SourceKind::city_model ? read_model(path, import) : read_layer(path, import, progress);
   for (const FootprintFeature& feature : file.footprints.features) file.vertices += vertex_count(feature);
   return file;
 }
@@ -163,10 +171,12 @@ std::vector<FootprintFile> read_footprint_files(const ImportOptions& options, co
   std::vector<SourceKind> kinds;
   for (const std::string& path : options.sources) kinds.push_back(kind_of(path, options));
   require_useful_options(options, kinds);
+  VerticalDatums datums(store);
+  const FootprintImport import{options, store, options.allow_mixed_vertical ? nullptr : &datums};
   std::vector<FootprintFile> files;
   for (std::size_t i = 0; i < kinds.size(); ++i) {
     const std::string& path = options.sources[i];
-    FootprintFile& file = files.emplace_back(read_file(path, kinds[i], options, store, progress));
+    FootprintFile& file = files.emplace_back(read_file(path, kinds[i], import, progress));
     if (file.footprints.features.empty()) throw FileError(path, why_empty(file.footprints.warnings));
     for (FootprintFeature& feature : file.footprints.features) {
       feature.base_rule = options.base.value_or(BaseRule::minimum);
@@ -179,6 +189,8 @@ std::vector<FootprintFile> read_footprint_files(const ImportOptions& options, co
     file.info.sha256 = path.starts_with("/vsi") ? std::string() : file_sha256(path, progress);
     file.info.imported = utc_now();
   }
+  if (std::string warning = datums.warning(); !warning.empty())
+    files.front().footprints.warnings.push_back(std::move(warning));
   return files;
 }
 

@@ -43,7 +43,8 @@ class FootprintLayer {
     source_.fields = kept_->fields();
     source_.filtered = select_features(*layer_, query.path, query.where);
     const OGRSpatialReference* own = layer_->GetSpatialRef();
-    const Crs crs = source_crs(query.path, query.crs, own ? wkt_of(*own) : std::string());
+    const Crs crs = source_crs(query.path, query.crs, own ? wkt_of(*own) : std::string(), elevations());
+    if (elevations() != Elevations::none && query.datums != nullptr) query.datums->add(crs, query.path);
     transform_.emplace(crs.wkt, to_crs, query.path);
     SourceHeights heights = source_heights(query.path, std::nullopt, crs);
     axis_ = std::move(heights.axis);
@@ -73,6 +74,11 @@ class FootprintLayer {
   }
 
  private:
+  Elevations elevations() const {
+    if (!query_.base_field.empty()) return Elevations::in_field;
+    return query_.z == FootprintZ::ignored ? Elevations::none : Elevations::in_coordinates;
+  }
+
   int field(const std::string& name) { return name.empty() ? -1 : field_of_layer(*layer_, query_.path, name); }
 
   void add(const OGRFeature& feature) {

@@ -15,6 +15,7 @@
 #include <itin/progress.hpp>
 
 #include "import/source/kept_features.hpp"
+#include "import/source/vertical_datums.hpp"
 #include "store/footprint.hpp"
 
 namespace itin {
@@ -39,7 +40,8 @@ struct FootprintQuery {
   FeatureKind kind = FeatureKind::building;
   RoofKind roof = RoofKind::flat;
   FootprintZ z = FootprintZ::ignored;
-  double thickness = 0.3;  ///< thickness of bands about lines, metres
+  double thickness = 0.3;            ///< thickness of bands about lines, metres
+  VerticalDatums* datums = nullptr;  ///< those of other sources, whose datum the bases must share; null: they need not
 };
 
 struct FootprintSource {

@@ -22,7 +22,6 @@
 #include "import/rasters/raster_source.hpp"
 #include "import/rasters/raster_windows.hpp"
 #include "import/source/source_context.hpp"
-#include "import/source/vertical_datums.hpp"
 
 namespace itin {
 
@@ -76,13 +75,14 @@ class HeightRasterReading {
 
  private:
   void understand(const StoreMetadata& store) {
-    const Crs crs = source_crs(query_.path, query_.crs, crs_text(*dataset_));
+    const Crs crs = source_crs(query_.path, query_.crs, crs_text(*dataset_),
+                               query_.absolute ? Elevations::in_coordinates : Elevations::none);
     if (!PointTransform(crs.wkt, store.crs_wkt, query_.path).identity())
       throw InputError(
           fmt::format("{}: is in {}, and the store in {}; bring it into the store's CRS first, with gdalwarp -t_srs",
                       query_.path, crs.name, parse_crs(store.crs_wkt, "the store's CRS").name));
     SourceHeights heights = source_heights(query_.path, crs.heights_given ? std::nullopt : band_.stated_unit(), crs);
-    if (query_.absolute && !query_.allow_mixed_vertical) VerticalDatums(store).add(crs, query_.path);
+    if (query_.absolute && query_.datums != nullptr) query_.datums->add(crs, query_.path);
     metres_ = query_.absolute ? heights.axis.factor() : heights.axis.metres;
     result_.footprints.crs = std::move(heights.crs);
     if (!heights.warning.empty()) result_.footprints.warnings.push_back(std::move(heights.warning));

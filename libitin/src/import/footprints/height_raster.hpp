@@ -14,6 +14,7 @@
 #include <itin/store.hpp>
 
 #include "import/footprints/footprint_reader.hpp"
+#include "import/source/vertical_datums.hpp"
 
 namespace itin {
 
@@ -24,7 +25,7 @@ struct HeightRasterQuery {
   bool absolute = false;           ///< whether values are elevations; else they are heights above the ground
   double step = 2, threshold = 2;  ///< metres: whole millimetres
   HeightRounding rounding = HeightRounding::nearest;
-  bool allow_mixed_vertical = false;
+  VerticalDatums* datums = nullptr;  ///< elevations must share their datum; null: they need not
   std::uint64_t memory_bytes = 0;
 };
 

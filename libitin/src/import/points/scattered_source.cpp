@@ -81,7 +81,8 @@ class ScatteredFile final : public SourceFile {
  public:
   ScatteredFile(std::unique_ptr<PointReader> reader, const ImportOptions& options)
       : reader_(std::move(reader)),
-        crs_(source_crs(reader_->path(), options.crs, reader_->crs())),
+        crs_(source_crs(reader_->path(), options.crs, reader_->crs(),
+                        options.z_field.empty() ? Elevations::in_coordinates : Elevations::in_field)),
         max_gap_(options.max_gap),
         warnings_(reader_->warnings()) {
     heights_ = source_heights(reader_->path(), reader_->height_unit(), crs_);

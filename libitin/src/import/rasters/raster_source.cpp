@@ -214,7 +214,7 @@ class RasterFile final : public SourceFile {
     RasterWindows(band, options.memory_bytes).require_small_blocks(*dataset);
     present_ = RasterWindows::present(band);
     raster_ = {path, options.band, options.memory_bytes, lattice_of(*dataset, path), {}, {}, {}};
-    raster_.crs = source_crs(path, options.crs, crs_text(*dataset));
+    raster_.crs = source_crs(path, options.crs, crs_text(*dataset), Elevations::in_coordinates);
     raster_.heights = source_heights(path, raster_.crs.heights_given ? std::nullopt : band.stated_unit(), raster_.crs);
     if (const char* copyright = dataset->GetMetadataItem("TIFFTAG_COPYRIGHT")) raster_.copyright = copyright;
     if (!raster_.heights.warning.empty()) warnings_.push_back(raster_.heights.warning);

@@ -16,6 +16,8 @@
 #include <itin/error.hpp>
 #include <itin/height_limit.hpp>
 
+#include "gdal/vertical_axis.hpp"
+
 namespace itin {
 
 namespace {
@@ -49,9 +51,17 @@ Crs own_crs(const std::string& path, const std::string& found, bool needed) {
   }
 }
 
+/// Removes the datum of heights; their unit stays.
+void forget_datum(Crs& crs, const std::string& path) {
+  if (!crs.heights) return;
+  crs.heights->datum.clear();
+  crs.whole = parse_crs(crs.wkt, path).whole;
+}
+
 }  // namespace
 
-Crs source_crs(const std::string& path, const std::string& option_crs, const std::string& found) {
+Crs source_crs(const std::string& path, const std::string& option_crs, const std::string& found,
+               Elevations elevations) {
   const Crs given = option_crs.empty() ? Crs{} : parse_any_crs(option_crs, "`crs`");
   const Crs own = own_crs(path, found, given.wkt.empty());
   Crs crs = given.wkt.empty() ? own : given;
@@ -60,6 +70,10 @@ Crs source_crs(const std::string& path, const std::string& option_crs, const std
                                  given.heights || own.heights ? "horizontal " : ""));
   crs.heights_given = given.heights.has_value();
   crs.heights = crs.heights_given ? given.heights : own.heights;
+  // The ellipsoid is that of the file's own CRS, of which nothing is left where another one is given.
+  const bool in_own_crs = elevations == Elevations::in_coordinates && given.wkt.empty();
+  const bool on_ellipsoid = crs.heights && crs.heights->datum == kEllipsoid && !crs.heights_given;
+  if (elevations == Elevations::none || (on_ellipsoid && !in_own_crs)) forget_datum(crs, path);
   return crs;
 }
 

@@ -51,9 +51,17 @@ class SourceFile : public OpenedFile {
   virtual std::unique_ptr<TerrainSource> bind(const SourceContext& context) = 0;
 };
 
+/// Where the elevations of a source come from.
+enum class Elevations {
+  in_coordinates,
+  in_field,  ///< the ellipsoid does not count unless --crs says so: GDAL infers it from coordinates with a Z (GeoJSON)
+  none       ///< the source has none, or its heights are above the ground; no datum counts
+};
+
 /// The CRS of a source: the one of --crs, in which a missing horizontal or vertical part is taken from `found`, the
-/// text that the file holds. Throws InputError that says `--crs EPSG:xxxx` where neither has a horizontal part.
-Crs source_crs(const std::string& path, const std::string& option_crs, const std::string& found);
+/// text that the file holds. It has no datum of heights that does not count. Throws InputError that says
+/// `--crs EPSG:xxxx` where neither has a horizontal part.
+Crs source_crs(const std::string& path, const std::string& option_crs, const std::string& found, Elevations elevations);
 
 /// Whether a number customarily stands for a missing height, and surely is no height.
 bool is_missing_mark(double height);

@@ -38,7 +38,7 @@ struct Option {
 constexpr std::array kOptions{
     Option{"`to_crs`", [](const ImportOptions& o) { return !o.to_crs.empty(); }, kTerrain | kLines},
     Option{"`allow_mixed_vertical`", [](const ImportOptions& o) { return o.allow_mixed_vertical; },
-           kTerrain | kLines | kSurfaces},
+           kTerrain | kLines | kBuildings | kCityModels | kSurfaces},
     Option{"`replace`", [](const ImportOptions& o) { return o.replace; }, kTerrain},
     Option{"`stay`", [](const ImportOptions& o) { return o.stay; }, kContours | kTerrainLines},
     Option{"`sea_level`", [](const ImportOptions& o) { return o.sea_level.has_value(); }, kRasters},

@@ -26,6 +26,11 @@ bool has_length(const std::vector<GridPoint>& line) {
                      [&](const GridPoint& p) { return p.x != line.front().x || p.y != line.front().y; });
 }
 
+Elevations elevations_of(const ImportOptions& options) {
+  if (!is_terrain(options.kind.value())) return Elevations::none;
+  return options.z_field.empty() ? Elevations::in_coordinates : Elevations::in_field;
+}
+
 }  // namespace
 
 LineLayer::LineLayer(const std::string& path, const ImportOptions& options)
@@ -33,7 +38,7 @@ LineLayer::LineLayer(const std::string& path, const ImportOptions& options)
       fields_(layer_.feature_fields(options)),
       kind_(options.kind.value()),
       max_gap_(options.max_gap),
-      crs_(source_crs(path, options.crs, layer_.crs())) {
+      crs_(source_crs(path, options.crs, layer_.crs(), elevations_of(options))) {
   layer_.select(options);
   heights_ = source_heights(path, std::nullopt, crs_);
   if (!heights_.warning.empty() && is_terrain(kind_)) warnings_.push_back(heights_.warning);
