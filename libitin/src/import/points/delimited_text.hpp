@@ -1,13 +1,12 @@
-// Reads points in delimited text: CSV, XYZ, TXT. There is one point per line. Columns are separated by semicolons,
-// tabs, commas or blanks, as the first line tells. Blank lines and lines that begin with # are skipped.
+// Reads points in delimited text: CSV, XYZ, TXT. There is one point per row of a TextTable, whose cells blanks may
+// separate, too.
 //
 //   DelimitedText text("survey.csv", "height_od");
 //   text.read([](PointBatch& points, double fraction) { ... });
 //
-// A first line without anything like a number is a header, and the columns are found by name: the position's as
+// A first row without anything like a number is a header, and the columns are found by name: the position's as
 // position_columns() tells, and the height's by its usual names (z, height, elevation, ...). Otherwise the first three
-// columns are x, y and height. Numbers have a decimal point, whatever the locale, or a decimal comma where commas do
-// not separate columns; an empty height is a void.
+// columns are x, y and height. Numbers are those of number_in(); an empty height is a void.
 #pragma once
 
 #include <array>
@@ -39,13 +38,12 @@ class DelimitedText final : public PointReader {
   std::uint64_t read(const Sink& sink) override;
 
  private:
-  void understand(std::string_view line, const std::string& z_field);
+  void understand(const std::vector<std::string>& first, const std::string& z_field);
   void choose_columns(const std::vector<std::string>& names, const std::string& z_field);
   std::size_t height_column(const std::vector<std::string>& names, const std::string& z_field) const;
 
   std::string path_;
   double size_ = 0;  ///< bytes
-  char separator_ = ' ';
   std::array<std::size_t, 3> columns_{0, 1, 2};
   bool has_header_ = false;
   bool geographic_ = false;
