@@ -14,6 +14,7 @@ using Names = std::pair<std::string_view, std::string_view>;
 
 constexpr std::array kNames{
     Names{"allow_mixed_vertical", "--allow-mixed-vertical"},
+    Names{"allow_network", "--allow-network"},
     Names{"attributes", "--attributes"},
     Names{"azimuth", "--azimuth"},
     Names{"band", "--band"},

@@ -18,6 +18,7 @@
 
 #include <itin/document.hpp>
 #include <itin/error.hpp>
+#include <itin/network.hpp>
 #include <itin/parallel.hpp>
 
 #include "program/call_error.hpp"
@@ -41,6 +42,7 @@ enum Status { kDone = 0, kFailed = 1, kWrongCall = 2, kInterrupted = kInterrupte
 struct Everywhere {
   bool json = false;
   bool quiet = false;
+  bool network = false;
   std::string threads;
 
   void declare(CLI::App& app) {
@@ -49,8 +51,11 @@ struct Everywhere {
     app.add_flag("--quiet", quiet, "No progress; the result and warnings are still told");
     app.add_option("--threads", threads, "Threads to use; the result never depends on it (default: all cores)")
         ->type_name("N");
+    app.add_flag("--allow-network", network,
+                 "Let sources send the requests that they name; none leaves this machine else");
   }
   void apply() const {
+    if (network) allow_network();
     if (!threads.empty()) set_thread_count(parse_whole("--threads", threads, 1, 4096));
   }
 };
@@ -135,8 +140,8 @@ void run_verb(Verb& verb, CLI::App& options, const Everywhere& everywhere) {
   const auto start = std::chrono::steady_clock::now();
   verb.complete();
   require_values(options);
-  static_cast<void>(CallFiles(options));  // throws where a file would be lost
   everywhere.apply();
+  static_cast<void>(CallFiles(options));  // throws where a file would be lost
   verb.validate();
   require_threads();
   Result result;

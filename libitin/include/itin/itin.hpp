@@ -13,6 +13,7 @@
 #include <itin/feature_at.hpp>
 #include <itin/geometry.hpp>
 #include <itin/import.hpp>
+#include <itin/network.hpp>
 #include <itin/progress.hpp>
 #include <itin/raster.hpp>
 #include <itin/store.hpp>

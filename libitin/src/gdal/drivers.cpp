@@ -7,6 +7,9 @@
 
 #include <itin/gdal_ready.hpp>
 
+#include "gdal/guard_driver.hpp"
+#include "gdal/network.hpp"
+
 namespace itin {
 
 namespace {
@@ -16,7 +19,9 @@ void register_once(std::once_flag& done, void (*drivers)()) {
   static std::mutex registering;
   std::call_once(done, [&] {
     const std::lock_guard lock(registering);
+    settle_network();
     drivers();
+    put_guard_first();
   });
 }
 
@@ -25,26 +30,40 @@ void register_all_drivers() {
   register_once(done, [] { GDALAllRegister(); });
 }
 
-/// Returns what `find` finds with the drivers of make_gdal_ready(), else with all drivers.
+/// Returns what `find` finds with the drivers of make_gdal_ready(), else with all drivers. Throws FileError for what is
+/// refused.
 template <class Find>
-auto found_by_drivers(const Find& find) {
+auto found_by_drivers(const std::string& path, const Find& find) {
   make_gdal_ready();
-  if (auto found = find()) return found;
+  take_refusal();
+  auto found = find();
+  require_no_refusal(path);
+  if (found) return found;
   register_all_drivers();
-  return find();
+  found = find();
+  require_no_refusal(path);
+  return found;
+}
+
+/// A virtual file opens what its layers name when they are first used, and leaves out what cannot be opened.
+void open_layers(GDALDataset& dataset) {
+  if (dataset.GetDriver() == nullptr || !EQUAL(dataset.GetDriver()->GetDescription(), "OGR_VRT")) return;
+  for (OGRLayer* layer : dataset.GetLayers()) layer->GetLayerDefn();
 }
 
 }  // namespace
 
 GDALDatasetUniquePtr open_dataset(const std::string& path, unsigned kinds, const char* const* options) {
-  return found_by_drivers([&] {
-    return GDALDatasetUniquePtr(GDALDataset::Open(path.c_str(), kinds | GDAL_OF_READONLY, nullptr, options, nullptr));
+  return found_by_drivers(path, [&] {
+    GDALDatasetUniquePtr dataset(GDALDataset::Open(path.c_str(), kinds | GDAL_OF_READONLY, nullptr, options, nullptr));
+    if (dataset) open_layers(*dataset);
+    return dataset;
   });
 }
 
 GDALDriver* driver_of(const std::string& path, unsigned kinds) {
   return found_by_drivers(
-      [&] { return static_cast<GDALDriver*>(GDALIdentifyDriverEx(path.c_str(), kinds, nullptr, nullptr)); });
+      path, [&] { return static_cast<GDALDriver*>(GDALIdentifyDriverEx(path.c_str(), kinds, nullptr, nullptr)); });
 }
 
 void make_gdal_ready() {

@@ -8,21 +8,27 @@
 #include <cpl_error.h>
 #include <cpl_port.h>
 
+#include "gdal/network.hpp"
+
 namespace itin {
 
 /// Keeps this thread's GDAL errors, instead of printing them, for as long as the object lives. The static functions
 /// answer for this thread's innermost object. Precondition: there is one.
 class QuietGdal {
  public:
-  QuietGdal() { CPLPushErrorHandlerEx(remember, this); }
+  QuietGdal() {
+    settle_network();
+    CPLPushErrorHandlerEx(remember, this);
+  }
   ~QuietGdal() { CPLPopErrorHandler(); }
   QuietGdal(const QuietGdal&) = delete;
   QuietGdal& operator=(const QuietGdal&) = delete;
 
   /// Tells whether anything failed since the object was made, even if GDAL went on afterwards.
   static bool failed() { return innermost().failure_.has_value(); }
-  /// Returns the first failure on one line, else GDAL's last warning, else `otherwise`.
+  /// Returns why something was refused, else the first failure on one line, else GDAL's last warning, else `otherwise`.
   static std::string message(const std::string& otherwise) {
+    if (std::string refused = take_refusal(); !refused.empty()) return refused;
     const QuietGdal& self = innermost();
     std::string text = self.failure_.value_or(self.warning_);
     std::replace(text.begin(), text.end(), '\n', ' ');

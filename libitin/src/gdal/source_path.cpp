@@ -11,6 +11,7 @@
 #include <itin/error.hpp>
 #include <itin/raster_values.hpp>
 
+#include "gdal/network.hpp"
 #include "gdal/quiet_gdal.hpp"
 
 namespace itin {
@@ -22,8 +23,12 @@ namespace fs = std::filesystem;
 }  // namespace
 
 bool is_missing(const std::string& path) {
+  const QuietGdal quiet;
   VSIStatBufL status;
-  return VSIStatL(path.c_str(), &status) != 0;
+  take_refusal();
+  const bool missing = VSIStatL(path.c_str(), &status) != 0;
+  require_no_refusal(path);
+  return missing;
 }
 
 void require_plain_file(const std::string& path) {

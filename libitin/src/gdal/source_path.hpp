@@ -9,7 +9,8 @@ namespace itin {
 /// and a directory, may still be a data set: only reading tells. Names that begin with /vsi are GDAL's.
 void require_plain_file(const std::string& path);
 
-/// Tells whether nothing has that name, GDAL's names of files within others included.
+/// Tells whether nothing has that name, GDAL's names of files within others included. Throws FileError where only a
+/// request that is not allowed would tell.
 bool is_missing(const std::string& path);
 
 /// Explains why a reader has failed: there is no such file, it is a directory, or it is a raster where `what` ("a layer

@@ -37,13 +37,22 @@ bool is_virtual(GDALDataset& dataset) {
   return dataset.GetDriver() != nullptr && EQUAL(dataset.GetDriver()->GetDescription(), "VRT");
 }
 
-/// Checks a dataset at `path`. A file that cannot be opened is reported when it is read.
+/// Null for a file that cannot be opened, which is reported when it is read.
+GDALDatasetUniquePtr open_part(const std::string& path) {
+  try {
+    return open_dataset(path, GDAL_OF_RASTER);
+  } catch (const FileError&) {
+    return nullptr;
+  }
+}
+
+/// Checks a dataset at `path`.
 void require_small_blocks(GDALDataset& dataset, const std::string& path, std::uint64_t memory_bytes, int depth) {
   if (is_virtual(dataset) && depth < kMostNested) {
     const CPLStringList files(dataset.GetFileList());
     for (int i = 0; i < files.size(); ++i) {
       if (path == files[i]) continue;
-      const GDALDatasetUniquePtr part = open_dataset(files[i], GDAL_OF_RASTER);
+      const GDALDatasetUniquePtr part = open_part(files[i]);
       if (part) require_small_blocks(*part, files[i], memory_bytes, depth + 1);
     }
     return;
