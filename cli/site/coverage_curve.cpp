@@ -18,8 +18,8 @@ class CoverageCurve {
  public:
   explicit CoverageCurve(const SiteResult& r) : result_(r), total_(std::max(1.0, whole(r))) {
     const bool turbines = r.options.placement.given();
-    bound_ = static_cast<double>(turbines ? r.choice.lower_bound : r.choice.upper_bound) / total_;
-    const auto most = static_cast<double>(turbines ? r.choice.value : r.choice.upper_bound);
+    bound_ = static_cast<double>(turbines ? r.choice.lower_bound : existing(r) + r.choice.upper_bound) / total_;
+    const auto most = static_cast<double>(turbines ? r.choice.value : existing(r) + r.choice.upper_bound);
     most_ = std::max(most, 1.0) / total_ * 1.08;
   }
 
@@ -37,9 +37,13 @@ class CoverageCurve {
   static double whole(const SiteResult& r) {
     return static_cast<double>(r.options.placement.sums_heights() ? r.choice.value : r.inputs.total);
   }
+  /// Returns what counts besides the chosen sites: what sees existing turbines does not.
+  static viewshed::Weight existing(const SiteResult& r) { return r.options.placement.given() ? 0 : r.choice.existing; }
   std::size_t sites() const { return result_.choice.chosen.size(); }
+  /// Returns the share that the first sites serve, with the existing ones.
   double share(std::size_t sites) const {
-    return sites == 0 ? 0 : static_cast<double>(result_.choice.chosen[sites - 1].cumulative) / total_;
+    const viewshed::Weight chosen = sites == 0 ? 0 : result_.choice.chosen[sites - 1].cumulative;
+    return static_cast<double>(existing(result_) + chosen) / total_;
   }
   double across(std::size_t site) const {
     return kLeft +

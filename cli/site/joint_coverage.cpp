@@ -93,4 +93,17 @@ JointCoverage joint_coverage_on_cells(const Store& store, const SiteOptions& opt
   return joint;
 }
 
+viewshed::ClassShares demand_shares(const SiteOptions& options, const SiteInputs& inputs,
+                                    const JointCoverage& coverage) {
+  const viewshed::Demand& demand = inputs.demand;
+  DemandSet served = served_elements(demand, coverage.certain, options.cover);
+  // Existing sites may serve what no candidate reaches.
+  if (!inputs.cells.empty()) served = intersection(served, inputs.cells);
+  const auto percent = [&](viewshed::Weight weight) {
+    return 100 * demand.in_metric(weight) / demand.in_metric(inputs.total);
+  };
+  const viewshed::Weight seen = demand.weight(served), undecided = demand.weight(coverage.undecided);
+  return {"the demand", percent(seen), percent(inputs.total - seen - undecided), percent(undecided)};
+}
+
 }  // namespace itin::cli

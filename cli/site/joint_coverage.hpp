@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <itin/store.hpp>
+#include <viewshed/map_image.hpp>
 #include <viewshed/site_coverage.hpp>
 #include <viewshed/siting.hpp>
 
@@ -39,5 +40,9 @@ JointCoverage joint_coverage(const Store& store, const SiteOptions& options, con
 JointCoverage joint_coverage_on_cells(const Store& store, const SiteOptions& options, const SiteInputs& inputs,
                                       const viewshed::SiteCoverage& coverage, const viewshed::Choice& choice,
                                       Progress& progress);
+
+/// Returns what part of the demand is served, undecided, and neither: as parts of all demand.
+viewshed::ClassShares demand_shares(const SiteOptions& options, const SiteInputs& inputs,
+                                    const JointCoverage& coverage);
 
 }  // namespace itin::cli

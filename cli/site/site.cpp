@@ -86,7 +86,7 @@ class SiteVerb final : public Verb {
     coverage.on_refined = [&](std::size_t option, int stage, const viewshed::CoverageBounds& bounds) {
       checkpoint.add(option, stage, bounds);
     };
-    SiteResult site{options_, inputs, coverage, heights ? shown : inputs.demand, {}, {}, {}, {}, {}, {}};
+    SiteResult site{options_, inputs, coverage, heights ? shown : inputs.demand, {}, {}, {}, {}, {}, {}, {}};
     site.choice = heights ? choose_by_heights(inputs, coverage, shown, goal, progress)
                           : choose_by_coverage(store, inputs, coverage, goal, progress);
     coverage.release_surfaces();
@@ -95,6 +95,7 @@ class SiteVerb final : public Verb {
     site.ground_m = site_grounds(store, inputs, site.choice, progress);
     const JointCoverage joint = joint_coverage(store, options_, inputs, coverage, site.choice, progress);
     site.undecided = heights ? undecided_heights(store, site, heights_m, progress) : undecided_demand(site, joint);
+    site.shares = demand_shares(options_, inputs, joint);
     site.rasters = site_rasters(
         store, options_, inputs, site.choice,
         inputs.targets.grid ? joint : joint_coverage_on_cells(store, options_, inputs, coverage, site.choice, progress),

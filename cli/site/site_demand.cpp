@@ -43,14 +43,7 @@ class DemandReader {
     inputs_.targets.grid = grid;
     inputs_.demand = viewshed::Demand(viewshed::element_count(grid));
     const viewshed::DemandSet ground = viewshed::with_ground(store_, inputs_.targets, progress_);
-    std::vector<std::uint64_t> reached(inputs_.demand.block_count());
-    for (std::size_t i = 0; i < of_options.size(); ++i) {
-      if (i > 0 && inputs_.options[i].place == inputs_.options[i - 1].place) continue;
-      const viewshed::DemandSet reach =
-          viewshed::within_reach(inputs_.targets, of_options[i].position, options_.radius);
-      for (const auto& block : reach.blocks()) reached[block.number] |= block.members;
-    }
-    for (const auto& block : ground.blocks()) inputs_.cells.add(block.number, block.members & reached[block.number]);
+    inputs_.cells = intersection(ground, viewshed::within_reach(inputs_.targets, of_options, options_.radius));
     inputs_.total = inputs_.demand.weight(inputs_.cells);
   }
 

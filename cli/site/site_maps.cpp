@@ -79,21 +79,18 @@ std::vector<SiteMap> site_maps(const Store& store, const SiteResult& r, Progress
   options.no_data = viewshed::cells_without_ground(store, result, progress);
   if (missing.without_ground > 0) options.no_data_text = missing.key_text(kWithinRadius);
   options.map_pixels = kMapPixels;
-  // Where demand is weighted, the served share of the area differs from the served share of the demand.
-  const bool of_area = r.options.demand != "cells";
   const SiteWording wording = wording_of(r.options);
-  const bool turbines = r.options.placement.given();
-  options.seen = of_area && !turbines ? "Area served" : wording.served;
-  options.unseen = of_area && !turbines ? "Area not served" : wording.unserved;
+  options.seen = wording.served, options.unseen = wording.unserved, options.shares = r.shares;
   options.observers = wording.mark + (result.request.observers.size() == 1 ? "" : "s");
-  options.outside = wording.nothing;
+  options.outside = "Beyond the radius, or no data";
   options.title = fmt::format("{} {}", wording.by, counted(r.choice.chosen.size(), wording.one));
+  if (r.inputs.existing() > 0) options.title += fmt::format(" and {} existing", r.inputs.existing());
   options.subtitle = subtitle_of(r.options);
   std::vector<SiteMap> maps{{"coverage", result, options, missing}};
   result.request.mode = viewshed::Mode::kCount;
   result.values = viewshed::Counts{r.rasters.redundancy};
   options.title = wording.how_many;
-  options.counts = turbines ? "Turbines" : "Served by sites";
+  options.counts = r.options.placement.given() ? "Turbines" : "Served by sites";
   maps.push_back({"redundancy", std::move(result), std::move(options), missing});
   return maps;
 }
@@ -105,7 +102,7 @@ ResultSheet sheet_of(const Store& store, const SiteResult& r, const SiteMap& map
   ResultSheet sheet{map.result.grid,
                     shown_area(r),
                     viewshed::result_map(map.result, map.options),
-                    wording_of(r.options).share,
+                    "Demand, and area within the radius",
                     in_cells(map.result.grid,
                              [&](std::size_t cell) { return map.result.visible[cell] != viewshed::Verdict::kOutside; }),
                     objects,
@@ -117,13 +114,11 @@ ResultSheet sheet_of(const Store& store, const SiteResult& r, const SiteMap& map
   sheet.title.statement = statement_of(metadata, r.options.themes.choice(), Detail::tolerance(0));
   const bool turbines = r.options.placement.given();
   const std::string one = wording_of(r.options).one;
-  sheet.title.facts = {
-      {turbines ? "Objective" : "Served", r.meaning()},
-      {turbines ? "Turbines" : "Targets", map.options.subtitle},
-      {"Choice",
-       fmt::format("{}, {}", counted(r.choice.chosen.size(), one),
-                   turbines ? least_in_words(r) : fmt::format("{:.1f} % of the demand served", r.served_percent()))},
-      {"Earth", r.options.earth.earth().convention()}};
+  sheet.title.facts = {{turbines ? "Objective" : "Served", r.meaning()},
+                       {turbines ? "Turbines" : "Targets", map.options.subtitle},
+                       {"Choice", fmt::format("{}, {}", counted(r.choice.chosen.size(), one),
+                                              turbines ? least_in_words(r) : served_in_words(r))},
+                       {"Earth", r.options.earth.earth().convention()}};
   if (r.undecided > 0) sheet.title.facts.insert(sheet.title.facts.end() - 1, {"Undecided", undecided_in_words(r)});
   sheet.title.sources = sources;
   return sheet;

@@ -24,10 +24,10 @@ void write_site_rasters(const SiteResult& r, const std::string& crs_wkt, const s
   classes.nodata = 255;
   classes.classes = {{0, turbines ? wording.unserved : "not served", {225, 225, 225}},
                      {1, turbines ? wording.served : "served", {0, 114, 178}},
-                     {255, "no data", kTransparent}};
+                     {255, "beyond the radius, or no data", kTransparent}};
   if (r.coverage.leaves_open()) classes.classes.insert(classes.classes.end() - 1, {2, "undecided", {230, 159, 0}});
   write_raster(r.options.path("coverage.tif"), rasters.grid, std::span<const std::uint8_t>(served), classes);
-  description.nodata = SiteRasters::kNoDemand;
+  description.nodata = SiteRasters::kOutside;
   description.band_name = wording.count;
   write_raster(r.options.path("redundancy.tif"), rasters.grid, std::span<const std::uint16_t>(rasters.redundancy),
                description);

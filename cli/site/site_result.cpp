@@ -16,19 +16,19 @@ using viewshed::Verdict;
 /// Finds the best server of each cell: the nearest site, whose signal is the strongest in the open.
 class BestServer {
  public:
-  BestServer(const RasterGrid& grid, const DemandSet& ground)
+  BestServer(const RasterGrid& grid, const DemandSet& in_reach)
       : grid_(grid), nearest_(grid.cell_count(), std::numeric_limits<double>::infinity()) {
     rasters_ = {grid,
-                std::vector<std::uint16_t>(grid.cell_count(), SiteRasters::kNoDemand),
-                std::vector<std::uint16_t>(grid.cell_count(), SiteRasters::kNoDemand),
+                std::vector<std::uint16_t>(grid.cell_count(), SiteRasters::kOutside),
+                std::vector<std::uint16_t>(grid.cell_count(), SiteRasters::kOutside),
                 {}};
     rasters_.served.reserve(grid.cell_count());
-    for_each_cell(ground, [&](std::size_t i, Point2) { rasters_.redundancy[i] = rasters_.best_server[i] = 0; });
+    for_each_cell(in_reach, [&](std::size_t i, Point2) { rasters_.redundancy[i] = rasters_.best_server[i] = 0; });
   }
 
   void add(const SitePosition& place, std::uint16_t number, const DemandSet& served) {
     for_each_cell(served, [&](std::size_t i, Point2 centre) {
-      if (rasters_.redundancy[i] == SiteRasters::kNoDemand) return;
+      if (rasters_.redundancy[i] == SiteRasters::kOutside) return;
       ++rasters_.redundancy[i];
       const double distance = std::hypot(centre.x - place.position.x, centre.y - place.position.y);
       if (distance < nearest_[i]) nearest_[i] = distance, rasters_.best_server[i] = number;
@@ -37,9 +37,9 @@ class BestServer {
   /// Returns the rasters. `undecided` holds the undecided ones of the cells that fewer than `cover` sites serve.
   SiteRasters rasters(int cover, const DemandSet& undecided) && {
     for (const std::uint16_t n : rasters_.redundancy)
-      rasters_.served.push_back(n == SiteRasters::kNoDemand ? Verdict::kOutside
-                                : n >= cover                ? Verdict::kVisible
-                                                            : Verdict::kHidden);
+      rasters_.served.push_back(n == SiteRasters::kOutside ? Verdict::kOutside
+                                : n >= cover               ? Verdict::kVisible
+                                                           : Verdict::kHidden);
     for_each_cell(undecided, [&](std::size_t i, Point2) {
       if (rasters_.served[i] == Verdict::kHidden) rasters_.served[i] = Verdict::kUndecided;
     });
@@ -133,11 +133,26 @@ std::string SiteResult::reason(std::size_t option) const {
                      margin->chosen * unit);
 }
 
+namespace {
+
+/// Returns the cells of the rasters that are not outside.
+DemandSet cells_in_reach(const Store& store, const SiteOptions& options, const SiteInputs& inputs,
+                         const std::vector<std::size_t>& serving, const viewshed::SiteTargets& cells,
+                         Progress& progress) {
+  if (!inputs.cells.empty()) return inputs.cells;
+  std::vector<SitePosition> sites;
+  for (const std::size_t site : serving) sites.push_back(inputs.positions[site]);
+  if (inputs.targets.grid || sites.empty()) sites = inputs.positions;
+  return intersection(viewshed::with_ground(store, cells, progress),
+                      viewshed::within_reach(cells, sites, options.radius));
+}
+
+}  // namespace
+
 SiteRasters site_rasters(const Store& store, const SiteOptions& options, const SiteInputs& inputs,
                          const viewshed::Choice& choice, const JointCoverage& cells, Progress& progress) {
   const std::vector<std::size_t> sites = serving_sites(inputs, choice);
-  BestServer best(*cells.targets.grid,
-                  inputs.cells.empty() ? viewshed::with_ground(store, cells.targets, progress) : inputs.cells);
+  BestServer best(*cells.targets.grid, cells_in_reach(store, options, inputs, sites, cells.targets, progress));
   for (std::size_t i = 0; i < sites.size(); ++i)
     best.add(inputs.positions[sites[i]], static_cast<std::uint16_t>(i + 1), cells.certain[i]);
   return std::move(best).rasters(options.cover, cells.undecided);

@@ -26,10 +26,10 @@ struct CoverageSummary {
 /// Rasters of the chosen sites, numbered first, and the existing ones behind them.
 struct SiteRasters {
   RasterGrid grid;
-  std::vector<std::uint16_t> redundancy;   ///< how many serve a cell; kNoDemand where nothing is to be served
+  std::vector<std::uint16_t> redundancy;   ///< how many serve a cell; kOutside beyond reach or data
   std::vector<std::uint16_t> best_server;  ///< 1: the first chosen; 0: none
   std::vector<viewshed::Verdict> served;   ///< kVisible: by enough sites
-  static constexpr std::uint16_t kNoDemand = 65535;
+  static constexpr std::uint16_t kOutside = 65535;
 
   std::uint64_t count(viewshed::Verdict verdict) const {
     return static_cast<std::uint64_t>(std::count(served.begin(), served.end(), verdict));
@@ -47,6 +47,7 @@ struct SiteResult {
   /// By how much the value of masts would grow if ground without data hid nothing; the part of the value of turbines
   /// that is seen only then.
   double undecided = 0;
+  viewshed::ClassShares shares;  ///< of the demand that the chosen and the existing sites serve, or leave undecided
   SiteRasters rasters;
   std::vector<double> ground_m;  ///< elevation of the ground under each chosen site, which may stand on a roof
 
@@ -83,7 +84,8 @@ viewshed::SiteSurvey site_survey(const SiteOptions& options, const SiteInputs& i
 std::vector<double> site_grounds(const Store& store, const SiteInputs& inputs, const viewshed::Choice& choice,
                                  Progress& progress);
 
-/// Returns rasters of the cells that the chosen and the existing sites serve.
+/// Returns rasters of the cells that the chosen and the existing sites serve. Outside is what has no ground or is
+/// beyond reach: of all candidates and existing sites, or, where demand is points, of the chosen and existing ones.
 SiteRasters site_rasters(const Store& store, const SiteOptions& options, const SiteInputs& inputs,
                          const viewshed::Choice& choice, const JointCoverage& cells, Progress& progress);
 

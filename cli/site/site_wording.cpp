@@ -13,13 +13,11 @@ SiteWording of_sites() {
           .mark = "Site",
           .served = "Served",
           .unserved = "Not served",
-          .nothing = "Nothing to serve, or no data",
-          .share = "Share of the places to serve",
           .by = "Served by",
           .how_many = "Sites that serve a place",
           .count = "sites that serve the cell",
           .nearest = "nearest site that serves the cell; 0 none",
-          .coverage_curve = "Share served by number of sites",
+          .coverage_curve = "Share of the demand served, by number of sites",
           .order = "Chosen sites, in the order in which they add most",
           .count_heading = "How many sites serve each place",
           .bound = "no choice serves more than",
@@ -33,13 +31,12 @@ SiteWording of_turbines(const PlacementOptions& placement) {
           .mark = "Turbine",
           .served = fmt::format("A {} is seen", part),
           .unserved = fmt::format("No {} is seen", part),
-          .nothing = "No demand, or no data",
-          .share = "Share of the places that count",
           .by = fmt::format("Where a {} is seen:", part),
           .how_many = fmt::format("How many {}s are seen", part),
           .count = fmt::format("turbines whose {} is seen from the cell", part),
           .nearest = fmt::format("nearest turbine whose {} is seen from the cell; 0 none", part),
-          .coverage_curve = "What sees them, turbine by turbine",
+          .coverage_curve = placement.sums_heights() ? "Share of the height that is seen in all, turbine by turbine"
+                                                     : "Share of the demand that sees them, turbine by turbine",
           .order = "Turbines, in the order in which they add least",
           .count_heading = fmt::format("How many {}s are seen", part),
           .bound = "no choice has less than",
@@ -57,11 +54,20 @@ std::string certainly(const SiteResult& r) {
 }
 
 std::string undecided_in_words(const SiteResult& r) {
-  const std::string amount = r.options.placement.sums_heights()
-                                 ? fmt::format("{:.10g} m", r.undecided)
-                                 : fmt::format("{:.10g} ({:.1f} %)", r.undecided, r.undecided_percent());
-  return fmt::format("{} {}, across ground without data; {} decides that", amount,
-                     r.options.placement.given() ? "of these" : "more", kDecidesMissingGround);
+  const PlacementOptions& placement = r.options.placement;
+  return fmt::format("{:.10g}{} {}{}, across ground without data; {} decides that", r.undecided,
+                     placement.sums_heights() ? " m" : "", placement.given() ? "of these" : "more",
+                     placement.sums_heights() ? "" : fmt::format(" ({:.1f} % of the demand)", r.undecided_percent()),
+                     kDecidesMissingGround);
+}
+
+std::string served_in_words(const SiteResult& r) {
+  const std::size_t chosen = r.choice.chosen.size(), existing = r.inputs.existing();
+  return fmt::format("which {}{}serve{} {:.10g} of a demand of {:.10g} ({:.1f} %)",
+                     existing > 0 ? fmt::format("together with {} ", counted(existing, "existing site"))
+                     : chosen > 1 ? "together "
+                                  : "",
+                     certainly(r), chosen == 1 ? "s" : "", r.served(), r.in_metric(r.inputs.total), r.served_percent());
 }
 
 std::string least_in_words(const SiteResult& r) {

@@ -9,6 +9,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,10 +19,17 @@
 
 namespace itin::viewshed {
 
+/// Shares of `of` that fall to the classes of a legend, percent.
+struct ClassShares {
+  std::string of;  ///< "the demand"
+  double seen = 0, unseen = 0, undecided = 0;
+};
+
 struct MapOptions {
   std::string title = "Viewshed";
   std::string subtitle;                             ///< empty: observer and target heights, radius, refraction
   std::string seen = "Visible", unseen = "Hidden";  ///< in the legend, where cells are one of the two
+  std::optional<ClassShares> shares = {};           ///< in the legend; nothing: shares of the cells with data in view
   std::string observers = {};                       ///< what the legend calls them; empty: "Observers"
   std::string counts = "Number of observers that see the place";  ///< heads the scale of Mode::kCount
   std::string outside = "Outside the field of view, or no data";

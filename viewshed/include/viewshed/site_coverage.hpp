@@ -28,6 +28,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -101,6 +102,8 @@ DemandSet with_ground(const Store& store, const SiteTargets& targets, Progress& 
 
 /// Returns all targets within the radius of a site, with or without ground.
 DemandSet within_reach(const SiteTargets& targets, Point2 position, double radius);
+/// Returns all targets within the radius of any of the sites.
+DemandSet within_reach(const SiteTargets& targets, std::span<const SitePosition> sites, double radius);
 
 /// Returns the most bytes that the bounds on what each site serves take; see SiteSurvey::memory_bytes.
 std::uint64_t bytes_of_coverage(const SiteSurvey& survey);

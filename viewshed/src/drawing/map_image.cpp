@@ -10,7 +10,6 @@
 #include <itin/parallel.hpp>
 #include <itin/round_length.hpp>
 #include <itin/void_stripes.hpp>
-#include <viewshed/area_text.hpp>
 #include <viewshed/map_image.hpp>
 #include <viewshed/surface.hpp>
 
@@ -303,7 +302,14 @@ class MapDrawing {
       canvas_.fill_rectangle(x + from, y, to - from, height, tint.colour, tint.opacity);
     }
     canvas_.frame(x, y, width, height, kFaint);
-    letters_.draw(canvas_, text, {x + 2.6 * unit_, y + 1.05 * unit_}, unit_, kInk);
+    draw_key_text(text, y);
+  }
+
+  /// Draws a key's text, which leaves room for the scale beside it, or else for the scale bar.
+  void draw_key_text(const std::string& text, int y) {
+    const double indent = 2.6 * unit_;
+    const int room = width_ * (overlay_.scale().empty() ? 7 : 4) / 10 - static_cast<int>(indent) - unit_;
+    letters_.draw(canvas_, text, {left_ + indent, y + 1.05 * unit_}, fitting_size(text, room, unit_), kInk);
   }
 
   void draw_void_key(int row) {
@@ -312,18 +318,12 @@ class MapDrawing {
     for (int i = 0; i < width; ++i)
       for (int j = 0; j < height; ++j) draw_void(x + i, y + j);
     canvas_.frame(x, y, width, height, kFaint);
-    letters_.draw(canvas_, options_.no_data_text, {x + 2.6 * unit_, y + 1.05 * unit_}, unit_, kInk);
-  }
-
-  std::string share_text(const std::string& what, std::uint64_t cells) const {
-    const std::uint64_t decided = std::max<std::uint64_t>(1, result_.cells.in_view());
-    return fmt::format("{}: {} ({:.1f} %)", what, area_text(static_cast<double>(cells) * result_.grid.cell_area()),
-                       100.0 * static_cast<double>(cells) / static_cast<double>(decided));
+    draw_key_text(options_.no_data_text, y);
   }
 
   void draw_legend() {
     int row = 0;
-    for (const MapOverlay::Key& key : overlay_.keys()) draw_key(row++, key.tints, 0, share_text(key.text, key.cells));
+    for (const MapOverlay::Key& key : overlay_.keys()) draw_key(row++, key.tints, 0, key.text);
     if (has_outside_) draw_key(row++, {}, kOutsideFade, options_.outside);
     if (has_void_) draw_void_key(row++);
     if (!options_.beyond_text.empty())

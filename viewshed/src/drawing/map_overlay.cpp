@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <itin/sort_unique.hpp>
+#include <viewshed/area_text.hpp>
 #include <viewshed/documents.hpp>
 #include <viewshed/result.hpp>
 
@@ -317,14 +318,33 @@ void MapOverlay::scale_losses() {
   add_step(kInfinity, {kPalette[3], kOpacity}, fmt::format("> {:.10g}", from));
 }
 
+/// Adds a key with the cells' share of those with data in view.
+void MapOverlay::add_key(std::vector<Tint> tints, const std::string& what, std::uint64_t cells) {
+  const double decided = static_cast<double>(std::max<std::uint64_t>(1, result_.cells.in_view()));
+  keys_.push_back({std::move(tints), fmt::format("{}: {} ({:.1f} %)", what, area_of(cells),
+                                                 100.0 * static_cast<double>(cells) / decided)});
+}
+
+/// Adds a key with the class's share as the options give it, if they do.
+void MapOverlay::add_key(std::vector<Tint> tints, const std::string& what, std::uint64_t cells,
+                         const MapOptions& options, double ClassShares::*share) {
+  if (!options.shares) return add_key(std::move(tints), what, cells);
+  keys_.push_back({std::move(tints), fmt::format("{}: {:.1f} % of {} ({})", what, *options.shares.*share,
+                                                 options.shares->of, area_of(cells))});
+}
+
+std::string MapOverlay::area_of(std::uint64_t cells) const {
+  return area_text(static_cast<double>(cells) * result_.grid.cell_area());
+}
+
 void MapOverlay::make_keys(const MapOptions& options) {
   const CellCounts& cells = result_.cells;
   if (result_.request.mode != Mode::kLoss) add_verdict_keys(options);
   // Undecided cells have no value, either, but a key of their own.
   if (const auto without = cells_without_value(result_); without && without->cells > cells.undecided)
-    keys_.push_back({{}, fmt::format("No {} known", without->value), without->cells - cells.undecided});
+    add_key({}, fmt::format("No {} known", without->value), without->cells - cells.undecided);
   if (cells.undecided > 0 || result_.certified)
-    keys_.push_back({{{kUndecidedColour, kOpacity}}, "Undecided", cells.undecided});
+    add_key({{kUndecidedColour, kOpacity}}, "Undecided", cells.undecided, options, &ClassShares::undecided);
 }
 
 void MapOverlay::add_verdict_keys(const MapOptions& options) {
@@ -341,13 +361,14 @@ void MapOverlay::add_verdict_keys(const MapOptions& options) {
   }
   if (seen.empty()) seen.push_back({kSeenColour, kOpacity});
   const bool zones = mode == Mode::kFresnel;
-  keys_ = {{std::move(seen),
-            result_.certified ? "Certainly visible"
-            : zones           ? fmt::format("In sight, {:g} F1 clear", result_.request.fresnel.fraction)
-                              : options.seen,
-            cells.visible}};
-  if (zones) keys_.push_back({{{kZoneCutColour, kOpacity}}, "In sight, zone cut", cells.zone_cut});
-  keys_.push_back({std::move(hidden), result_.certified ? "Certainly hidden" : options.unseen, cells.hidden});
+  add_key(std::move(seen),
+          result_.certified ? "Certainly visible"
+          : zones           ? fmt::format("In sight, {:g} F1 clear", result_.request.fresnel.fraction)
+                            : options.seen,
+          cells.visible, options, &ClassShares::seen);
+  if (zones) add_key({{kZoneCutColour, kOpacity}}, "In sight, zone cut", cells.zone_cut);
+  add_key(std::move(hidden), result_.certified ? "Certainly hidden" : options.unseen, cells.hidden, options,
+          &ClassShares::unseen);
 }
 
 }  // namespace itin::viewshed

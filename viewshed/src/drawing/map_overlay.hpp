@@ -33,8 +33,7 @@ class MapOverlay {
   /// Classes of the legend: what a patch of colours stands for.
   struct Key {
     std::vector<Tint> tints;  ///< side by side; none: bare ground
-    std::string text;
-    std::uint64_t cells = 0;
+    std::string text;         ///< with the class's area and its share
   };
   const std::vector<Key>& keys() const { return keys_; }
 
@@ -63,6 +62,10 @@ class MapOverlay {
   void scale_losses();
   double blocker_value(std::uint32_t theme) const;
   void add_step(double most, Tint tint, std::string text);
+  void add_key(std::vector<Tint> tints, const std::string& what, std::uint64_t cells);
+  void add_key(std::vector<Tint> tints, const std::string& what, std::uint64_t cells, const MapOptions& options,
+               double ClassShares::*share);
+  std::string area_of(std::uint64_t cells) const;
   void make_keys(const MapOptions& options);
   void add_verdict_keys(const MapOptions& options);
 

@@ -32,12 +32,11 @@ ResultMap result_map(const Result& result, const MapOptions& options) {
   map.cells.resize(result.grid.cell_count(), kTransparent);
   for (std::size_t i = 0; i < map.cells.size(); ++i)
     if (const auto tint = overlay.at(i)) map.cells[i] = colour_of(*tint);
-  const std::uint64_t decided = std::max<std::uint64_t>(1, result.cells.in_view());
   for (const MapOverlay::Key& key : overlay.keys()) {
     std::vector<Rgba> colours;
     for (const Tint& tint : key.tints) colours.push_back(colour_of(tint));
     if (colours.empty()) colours.push_back(kTransparent);
-    map.keys.push_back({std::move(colours), key_text(key.text, key.cells, decided, result.grid.cell_area())});
+    map.keys.push_back({std::move(colours), key.text});
   }
   map.scale_title = overlay.scale_title();
   for (const MapOverlay::Step& step : overlay.scale()) map.scale.push_back({{colour_of(step.tint)}, step.text});

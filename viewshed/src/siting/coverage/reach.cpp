@@ -62,6 +62,31 @@ DemandSet within_reach(const SiteTargets& targets, Point2 position, double radiu
 
 namespace {
 
+std::size_t elements_of(const SiteTargets& targets) {
+  return targets.grid ? element_count(*targets.grid) : targets.points.size();
+}
+
+/// Makes a set from the members of each block.
+DemandSet set_of_words(const std::vector<std::uint64_t>& words) {
+  DemandSet set;
+  for (std::size_t b = 0; b < words.size(); ++b) set.add(static_cast<std::uint32_t>(b), words[b]);
+  return set;
+}
+
+}  // namespace
+
+DemandSet within_reach(const SiteTargets& targets, std::span<const SitePosition> sites, double radius) {
+  std::vector<std::uint64_t> members((elements_of(targets) + 63) / 64);
+  for (std::size_t i = 0; i < sites.size(); ++i) {
+    if (i > 0 && sites[i].position == sites[i - 1].position) continue;  // another mast at the same place
+    const DemandSet of_site = within_reach(targets, sites[i].position, radius);
+    for (const DemandSet::Block& block : of_site.blocks()) members[block.number] |= block.members;
+  }
+  return set_of_words(members);
+}
+
+namespace {
+
 /// Counts the blocks of cells or points that may lie within a radius, more rather than fewer.
 double blocks_in_reach(const SiteTargets& targets, double radius) {
   if (!targets.grid) return std::ceil(static_cast<double>(targets.points.size()) / 64);
@@ -83,13 +108,6 @@ std::uint64_t bytes_of_coverage(const SiteSurvey& survey) {
 }
 
 namespace {
-
-/// Makes a set from the members of each block.
-DemandSet set_of_words(const std::vector<std::uint64_t>& words) {
-  DemandSet set;
-  for (std::size_t b = 0; b < words.size(); ++b) set.add(static_cast<std::uint32_t>(b), words[b]);
-  return set;
-}
 
 DemandSet cells_with_ground(const Tin& ground, const RasterGrid& grid) {
   const DemandBlocks blocks(grid);
