@@ -236,6 +236,21 @@ TEST(Pages, HaveSentencesThatBeginWithTheirSubject) {
   }
 }
 
+/// A page that leads through the code names files and folders that are there.
+TEST(Pages, NameFilesThatAreThere) {
+  const std::regex named("`((?:libitin|viewshed|profile|cli|tests|benchmarks|scripts|docs|examples)/[\\w./-]+)`");
+  int count = 0;
+  for (const char* page : {"CONTRIBUTING.md", "docs/how-it-works.md"}) {
+    std::ifstream stream(kRoot / page);
+    ASSERT_TRUE(stream) << page;
+    for (std::string line; std::getline(stream, line);) {
+      for (std::sregex_iterator name(line.begin(), line.end(), named), end; name != end; ++name, ++count)
+        EXPECT_TRUE(fs::exists(kRoot / (*name)[1].str())) << page << ": " << (*name)[1];
+    }
+  }
+  EXPECT_GT(count, 40);
+}
+
 /// A comment behind code, or behind a line of a header's example, says what a thing is: `///< the side of a cell`. One
 /// that begins with "of" has to be completed from the name.
 TEST(Comments, BehindCodeSayWhatTheyDescribe) {

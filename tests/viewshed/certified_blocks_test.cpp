@@ -1,6 +1,4 @@
 // What the blocks of a coarse level hide, against the full surface and its exact answer.
-#include "certify/certified_blocks.hpp"
-
 #include <utility>
 
 #include <gtest/gtest.h>
@@ -11,6 +9,7 @@
 
 #include "bounds/binned_heights.hpp"
 #include "bounds/envelope_bounds.hpp"
+#include "certify/level_source.hpp"
 #include "support/full_detail.hpp"
 #include "support/hills_with_gap.hpp"
 #include "window/envelope.hpp"
@@ -31,7 +30,7 @@ class CertifiedBlocks : public test::HillsWithGap {
   double expect_nothing_wrong(Request request, double tolerance) {
     const Result exact = test::compute_at_full_detail(*store_, request, {}, progress_).result;
     request.detail = Detail::tolerance(tolerance);
-    const Result blocks = certify_by_blocks(*store_, request, progress_).result;
+    const Result blocks = certify_by_blocks(*store_, request, {}, progress_).result;
     EXPECT_EQ(blocks.visible.size(), exact.visible.size());
     CellCounts cells;
     std::size_t wrong = 0;

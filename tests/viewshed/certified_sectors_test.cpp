@@ -1,5 +1,4 @@
 // Certified viewsheds sector by sector, against the level as a whole and the exact answer.
-#include "certify/certified_sectors.hpp"
 
 #include <cmath>
 #include <filesystem>
@@ -11,7 +10,7 @@
 #include <itin/store.hpp>
 #include <viewshed/result.hpp>
 
-#include "certify/certified_blocks.hpp"
+#include "certify/level_source.hpp"
 #include "support/full_detail.hpp"
 #include "support/raster_file.hpp"
 #include "support/seed.hpp"
@@ -56,9 +55,9 @@ TEST(CertifiedSectors, SayWhatTheLevelSaysAndNothingWrong) {
       request.mode = Mode::kVisible;
       const Result exact = test::compute_at_full_detail(store, request, {}, progress).result;
       request.detail = Detail::tolerance(16);
-      const Result whole = certify_by_blocks(store, request, progress).result;
+      const Result whole = certify_by_blocks(store, request, {}, progress).result;
       ASSERT_GT(whole.cells.undecided, 0U) << "not of the level";
-      const Result parts = certify_by_sectors(store, request, 700, progress).result;
+      const Result parts = certify_by_sectors(store, request, 700, {}, progress).result;
       ASSERT_EQ(parts.visible.size(), exact.visible.size());
       ASSERT_EQ(parts.visible.size(), whole.visible.size());
       CellCounts cells;

@@ -13,7 +13,7 @@
 #include <itin/triangulate.hpp>
 #include <viewshed/viewshed.hpp>
 
-#include "certify/certified_blocks.hpp"
+#include "certify/level_source.hpp"
 #include "request/eye.hpp"
 #include "scene/rays/scene.hpp"
 #include "support/brute_force_viewshed.hpp"
@@ -78,7 +78,7 @@ Terrain cardiff(int side, double void_radius = 0) {
 /// What the level decides, even where the exact answer costs less.
 Result certify(const Store& store, const Request& request, Progress& progress) {
   if (request.detail.coarsest() == 0) return compute_certified(store, request, {}, progress).result;
-  return certify_by_blocks(store, request, progress).result;
+  return certify_by_blocks(store, request, {}, progress).result;
 }
 
 std::vector<Verdict> brute_force(const Terrain& terrain, const Request& request, const RasterGrid& cells) {

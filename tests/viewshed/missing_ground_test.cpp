@@ -18,7 +18,7 @@
 #include <viewshed/zone_files.hpp>
 
 #include "bounds/pixel_heights.hpp"
-#include "compute/lattice_sectors.hpp"
+#include "exact/lattice_sectors.hpp"
 #include "line/infinity.hpp"
 #include "support/full_detail.hpp"
 #include "support/raster_file.hpp"
@@ -119,7 +119,7 @@ TEST_F(VerdictsOverVoids, OneRunIsTwoInAnyMemory) {
     SCOPED_TRACE(options.memory_bytes);
     expect_same(expected, test::compute_at_full_detail(store, request, options, progress_).result);
   }
-  const auto sectors = compute_by_lattice_sectors(store, request, 400000, progress_);
+  const auto sectors = compute_by_lattice_sectors(store, request, 400000, {}, progress_);
   ASSERT_TRUE(sectors);
   expect_same(expected, sectors->result);
   EXPECT_GT(sectors->result.statistics.triangles, std::uint64_t{2 * kSide * kSide}) << "not in sectors";
@@ -231,9 +231,9 @@ TEST_F(VerdictsOverVoids, ProgressOnlyGrowsAndReachesTheEnd) {
     test::compute_at_full_detail(store, of_mode, {kMuch, false}, whole);
     whole.expect_whole("sight lines");
     test::compute_at_full_detail(store, of_mode, {4000000, false}, segments);
-    segments.expect_whole("cells decided");
-    ASSERT_TRUE(compute_by_lattice_sectors(store, of_mode, 400000, sectors));
-    sectors.expect_whole("cells decided");
+    segments.expect_whole("sight lines");
+    ASSERT_TRUE(compute_by_lattice_sectors(store, of_mode, 400000, {}, sectors));
+    sectors.expect_whole("sight lines");
   }
 }
 

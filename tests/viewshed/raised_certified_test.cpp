@@ -9,7 +9,7 @@
 #include <itin/triangulate.hpp>
 #include <viewshed/viewshed.hpp>
 
-#include "certify/certified_blocks.hpp"
+#include "certify/level_source.hpp"
 #include "support/brute_force_viewshed.hpp"
 #include "support/full_detail.hpp"
 #include "support/raster_file.hpp"
@@ -139,7 +139,7 @@ class RaisedCertified : public testing::Test {
     const std::vector<Verdict> truth = test::brute_force(surface_, ground_, r, compute(*store_, r, progress).grid);
     for (const double tolerance : {2.0, 8.0, 32.0}) {
       r.detail = Detail::tolerance(tolerance);
-      const Result result = certify_by_blocks(*store_, r, progress).result;
+      const Result result = certify_by_blocks(*store_, r, {}, progress).result;
       EXPECT_GT(result.cells.undecided, 0U);
       if (share_hidden && !on_surface && tolerance == 2) {
         EXPECT_GT(result.cells.hidden, truth.size() / *share_hidden);

@@ -21,7 +21,7 @@
 #include <viewshed/site_coverage.hpp>
 #include <viewshed/turbines.hpp>
 
-#include "certify/certified_blocks.hpp"
+#include "certify/level_source.hpp"
 #include "features/terrain_heights.hpp"
 #include "support/full_detail.hpp"
 #include "support/raster_file.hpp"
@@ -179,7 +179,7 @@ class RaisedPlace : public testing::Test {
       const Result truth = test::compute_at_full_detail(*store_, request, {}, progress_).result;
       for (const double tolerance : {0.5, 2.0, 8.0}) {
         request.detail = Detail::tolerance(tolerance);
-        const Result result = certify_by_blocks(*store_, request, progress_).result;
+        const Result result = certify_by_blocks(*store_, request, {}, progress_).result;
         certain += result.cells.hidden + result.cells.visible;
         EXPECT_EQ(wrong_cells(result, truth), 0U) << tolerance << " m, on the surface: " << on_surface;
       }

@@ -19,7 +19,7 @@
 
 #include "bounds/binned_heights.hpp"
 #include "bounds/surface_heights.hpp"
-#include "compute/lattice_sectors.hpp"
+#include "exact/lattice_sectors.hpp"
 #include "support/full_detail.hpp"
 #include "support/raster_file.hpp"
 #include "support/same_result.hpp"
@@ -170,7 +170,7 @@ TEST_F(Reveal, GroundHidesThoughTargetsWithinItAreHidden) {
   EXPECT_GT(whole.cells.visible, 0U);
   EXPECT_EQ(whole.visible[whole.grid.index({10, whole.grid.rows() / 2})], Verdict::kHidden);
   expect_same(whole, compute(surface(Heights::kNone), nullptr, request, progress_));
-  const auto parts = compute_by_lattice_sectors(*store_, request, 800000, progress_);
+  const auto parts = compute_by_lattice_sectors(*store_, request, 800000, {}, progress_);
   ASSERT_TRUE(parts);
   expect_same(whole, parts->result);
 }
@@ -196,7 +196,7 @@ TEST_F(Reveal, SectorsMakeTheWhole) {
         EXPECT_EQ(whole.crosses_voids, void_radius > 0);
       }
       for (const std::uint64_t memory : {2000000, 800000}) {
-        const auto parts = compute_by_lattice_sectors(*store_, request, memory, progress_);
+        const auto parts = compute_by_lattice_sectors(*store_, request, memory, {}, progress_);
         ASSERT_TRUE(parts);
         expect_same(whole, parts->result);
         EXPECT_GT(parts->result.statistics.triangles, whole.statistics.triangles) << "not in sectors";
@@ -224,7 +224,7 @@ TEST_F(Reveal, CellsDoNotDependOnWhatIsRead) {
   request.nodata = NoData::kClear;
   const Result whole = compute(*store_, request, progress_);
   EXPECT_NEAR(whole.grid.bounds().xmin, request.observers[0].position.x - 5000, 40);
-  const auto parts = compute_by_lattice_sectors(*store_, request, 800000, progress_);
+  const auto parts = compute_by_lattice_sectors(*store_, request, 800000, {}, progress_);
   ASSERT_TRUE(parts);
   EXPECT_EQ(parts->result.grid.bounds(), whole.grid.bounds());
   expect_same(whole, parts->result);
@@ -238,7 +238,7 @@ TEST_F(Reveal, TooLittleMemoryIsRefused) {
   for (const Mode mode : {Mode::kVisible, Mode::kHeight}) {
     Request request = look(1);
     request.mode = mode;
-    EXPECT_THROW(compute_by_lattice_sectors(*store_, request, 20000, progress_), InputError);
+    EXPECT_THROW(compute_by_lattice_sectors(*store_, request, 20000, {}, progress_), InputError);
   }
 }
 

@@ -5,8 +5,8 @@
 
 #include <viewshed/result.hpp>
 
-#include "compute/store_viewshed.hpp"
-#include "compute/tin_segments.hpp"
+#include "exact/store_viewshed.hpp"
+#include "exact/tin_segments.hpp"
 #include "support/hills_with_gap.hpp"
 #include "support/raster_file.hpp"
 #include "support/same_result.hpp"
@@ -28,8 +28,8 @@ class SeenGround : public test::HillsWithGap {
   /// Adds up how many triangles of the whole surface were read.
   void expect_the_whole_answer(const Request& request, std::uint64_t memory = kAmple) {
     ASSERT_TRUE(reads_what_may_be_seen(*store_, request));
-    const Result whole = compute_over_tin(*store_, request, progress_).result;
-    const Result seen = compute_in_tin_segments(*store_, request, memory, progress_).result;
+    const Result whole = compute_over_tin(*store_, request, {}, progress_).result;
+    const Result seen = compute_in_tin_segments(*store_, request, memory, {}, progress_).result;
     test::expect_same_result(whole, seen);
     triangles_ += static_cast<double>(whole.statistics.triangles);
     read_ += static_cast<double>(seen.statistics.triangles);

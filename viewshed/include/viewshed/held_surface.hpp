@@ -59,8 +59,8 @@ class HeldSurface {
   bool covers(const Request& request) const;
   /// Computes as compute() does on the store with this surface's detail and themes, which count instead of the
   /// request's; the result is equal to the last bit. Throws InputError for a request that is not covered, and what
-  /// compute() throws.
-  Result compute(const Request& request, Progress& progress) const;
+  /// compute() throws. `sink` gets cells as they are decided.
+  Result compute(const Request& request, Progress& progress, const CellSink& sink = {}) const;
 
  private:
   friend Result decide(const HeldSurface& surface, const Plan& plan, std::size_t segment, Progress& progress);
@@ -93,8 +93,8 @@ class PagedSurface {
 
   /// Computes as compute() does on the store with this surface's detail and themes, which count instead of the
   /// request's; the result is equal to the last bit. A request whose surface exceeds the memory drops all areas and is
-  /// computed from the store, in segments. Throws what compute() throws.
-  Result compute(const Request& request, Progress& progress);
+  /// computed from the store, in segments. Throws what compute() throws. `sink` gets cells as they are decided.
+  Result compute(const Request& request, Progress& progress, const CellSink& sink = {});
 
  private:
   friend Result decide(PagedSurface& surface, const Plan& plan, std::size_t segment, Progress& progress);

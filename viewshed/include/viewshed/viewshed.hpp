@@ -15,10 +15,12 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 
 #include <itin/progress.hpp>
+#include <itin/raster.hpp>
 #include <itin/store.hpp>
 #include <itin/tin.hpp>
 #include <viewshed/request.hpp>
@@ -37,6 +39,19 @@ Result compute(const Tin& tin, const Request& request, Progress& progress);
 /// Computes as above, but ends that are not on the surface stand on `ground`, which must cover what the surface covers.
 Result compute(const Tin& tin, const Tin& ground, const Request& request, Progress& progress);
 
+/// A rectangle of a result's cells.
+struct DecidedCells {
+  RasterGrid::Cell north_west;
+  std::int64_t columns = 0;
+  std::int64_t rows = 0;
+};
+
+/// Gets every rectangle of cells that an observer may see, as soon as all of it is decided: those nearest to an observer
+/// first where the surface fits into the memory at once, else all at the end. `result` has the final verdicts of the
+/// cells and the values of its mode there, but in mode kBlocker, which numbers blockers at the end. One call at
+/// a time, on any thread, which it keeps from deciding other cells meanwhile.
+using CellSink = std::function<void(const Result& result, const DecidedCells& cells)>;
+
 struct ComputeOptions {
   // These change the speed, never the answer.
   std::uint64_t memory_bytes = std::uint64_t{1} << 30;
@@ -44,6 +59,7 @@ struct ComputeOptions {
   /// Whether ViewshedWithSurface::surface is wanted as a whole, where the memory holds it, for maps and horizons. If
   /// not, no more of a large surface is read than may be seen.
   bool whole_surface = true;
+  CellSink sink = {};  ///< gets cells as they are decided
 };
 
 /// The surface over which sight lines were decided. Opaque: draw_map() and compute_on_surface() take it.

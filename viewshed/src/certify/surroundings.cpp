@@ -33,7 +33,7 @@ double Surroundings::reach_of(const Observer& observer) const {
 }
 
 std::optional<ExactNearby> Surroundings::decide(const Observer& observer, Statistics& statistics,
-                                                Progress& progress) const {
+                                                const Progress& progress) const {
   const double reach = reach_of(observer);
   const CellRectangle part = cells_meeting(grid_, square_about(observer.position, reach));
   if (part.columns <= 0 || part.rows <= 0 || reach < std::max(grid_.cell_width(), grid_.cell_height()) ||

@@ -18,7 +18,7 @@ class Surroundings {
 
   /// Decides the cells of the grid near an observer; nothing where no cell lies that near. Adds the lines that this
   /// takes to the statistics. Throws what compute_with_surface() throws.
-  std::optional<ExactNearby> decide(const Observer& observer, Statistics& statistics, Progress& progress) const;
+  std::optional<ExactNearby> decide(const Observer& observer, Statistics& statistics, const Progress& progress) const;
 
  private:
   double reach_of(const Observer& observer) const;

@@ -60,6 +60,7 @@ class ExactJudge final : public TileJudge {
     return surface_.hides(views_[eye].eye, views_[eye].view, tile);
   }
   const Eye& eye(std::size_t number) const override { return views_[number].eye; }
+  std::size_t eye_count() const { return views_.size(); }
   const FullSurface& surface() const { return surface_; }
 
  private:

@@ -168,18 +168,6 @@ void Observation::prepare(Result& result) {
   result.values = values_outside(result.request, result.grid.cell_count());
 }
 
-std::vector<std::unique_ptr<Observation>> Observations::of_tiles(const RasterGrid& tiles) {
-  std::vector<std::unique_ptr<Observation>> all(tiles.cell_count());
-  for (auto& observation : all) observation = of_tile();
-  return all;
-}
-
-void store_all(const std::vector<std::unique_ptr<Observation>>& observations, const RasterGrid& tiles, Result& result) {
-  Observation::prepare(result);
-  for (std::size_t i = 0; i < observations.size(); ++i)
-    observations[i]->store(tile_at(result.grid, tiles, i), result, result.cells);
-}
-
 void Observations::finish(Result& result) const {
   if (request_.mode == Mode::kBlocker) blockers_.give(result);
 }

@@ -74,6 +74,9 @@ class Observation {
     verdicts_.add(view.cell, verdict);
     if (verdict == Verdict::kVisible) keep(view);
   }
+  void add(const TileValues<Verdict>& of_observer) { verdicts_.add(of_observer); }
+  /// Tells whether an observer certainly sees a cell.
+  bool sees(std::size_t cell) const { return !verdicts_.open(cell); }
   /// Tells whether more is asked of a hidden target than that it is hidden.
   virtual bool asks_of_the_hidden() const { return false; }
   /// Adds all cells of these parts of the tile as hidden, and returns their number.
@@ -111,8 +114,6 @@ class Observations {
   explicit Observations(const Request& request) : request_(request) {}
 
   std::unique_ptr<Observation> of_tile();
-  /// Makes one for each tile.
-  std::vector<std::unique_ptr<Observation>> of_tiles(const RasterGrid& tiles);
   /// Completes what tiles have in common, after the last of them has been stored.
   void finish(Result& result) const;
 
@@ -120,9 +121,6 @@ class Observations {
   const Request& request_;
   BlockerTable blockers_;
 };
-
-/// Makes room in the result and writes all tiles' observations and counts to it.
-void store_all(const std::vector<std::unique_ptr<Observation>>& observations, const RasterGrid& tiles, Result& result);
 
 template <class Visit>
 void TileView::for_each_cell(const Visit& visit) const {

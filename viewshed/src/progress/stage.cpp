@@ -1,6 +1,7 @@
 #include "progress/stage.hpp"
 
 #include <algorithm>
+#include <atomic>
 
 #include <itin/parallel.hpp>
 
@@ -24,10 +25,19 @@ void Stage::advance_to(std::size_t step) {
 }
 
 void Stage::for_each(std::size_t count, const std::function<std::size_t(std::size_t)>& body) {
-  parallel_for(count, [&](std::size_t i) {
-    progress_.throw_if_cancelled();
-    advance(body(i));
-  });
+  std::atomic<std::size_t> next = 0;
+  const auto take_steps = [&](std::size_t) {
+    try {
+      for (std::size_t i = next++; i < count; i = next++) {
+        progress_.throw_if_cancelled();
+        advance(body(i));
+      }
+    } catch (...) {
+      next = count;  // the other threads end, too
+      throw;
+    }
+  };
+  parallel_for(std::min(count, static_cast<std::size_t>(thread_count())), take_steps);
 }
 
 /// Must run within the lock: else a thread could report what another has long passed.

@@ -2,7 +2,7 @@
 //
 //   for_each_step(tiles.cell_count(), "sight lines", progress, [&](std::size_t tile) { ... });
 //
-//   Stage stage("cells decided", observers * cells, progress);              // shared by several loops
+//   Stage stage("sight lines", observers * cells, progress);                // shared by several loops
 //   stage.for_each(tiles.size(), [&](std::size_t i) { ...; return cells_in(tiles[i]); });
 //   stage.advance_to(cells);
 //
@@ -28,7 +28,8 @@ class Stage {
   void advance(std::size_t steps);
   void advance_to(std::size_t step);
 
-  /// Runs body(i) for i in [0, count) on all threads; body returns how many steps it has made. Throws Cancelled.
+  /// Runs body(i) for i in [0, count) on all threads, beginning them in this order; body returns how many steps it has
+  /// made. Throws Cancelled.
   void for_each(std::size_t count, const std::function<std::size_t(std::size_t)>& body);
 
  private:

@@ -17,6 +17,7 @@ namespace itin::viewshed {
 /// the surface alone, bytes. Precondition: takes_a_lattice(). Throws what compute_with_surface() throws, and InputError
 /// where the line to a single cell does not fit.
 std::optional<ViewshedWithSurface> compute_by_lattice_sectors(const Store& store, const Request& request,
-                                                              std::uint64_t memory, Progress& progress);
+                                                              std::uint64_t memory, const CellSink& sink,
+                                                              Progress& progress);
 
 }  // namespace itin::viewshed

@@ -2,7 +2,7 @@
 // and which ground the other cells need.
 //
 //   const auto pass = make_coarse_pass(way, std::move(envelope), {request, ground, rim, tiles, result});
-//   const CoarsePass::Left left = pass->decide(eye, verdicts, stage);
+//   const CoarsePass::Left left = pass->decide(eye, verdicts);
 #pragma once
 
 #include <cstdint>
@@ -12,23 +12,13 @@
 #include <itin/store.hpp>
 #include <viewshed/result.hpp>
 
-#include "judge/tile_judge.hpp"
-#include "line/cell_tiles.hpp"
 #include "plan/ground_tiles.hpp"
-#include "progress/stage.hpp"
 #include "request/eye.hpp"
 #include "request/void_shadow.hpp"
+#include "run/eye_verdicts.hpp"
 #include "window/envelope.hpp"
 
 namespace itin::viewshed {
-
-/// One eye's verdicts on each tile of the cells, in the making.
-using TileVerdicts = std::vector<TileValues<Verdict>>;
-
-/// Judges what is undecided of these tiles, for the judge's only eye, and advances the stage by the cells that this
-/// decides. Returns how many sight lines it took.
-std::uint64_t judge_undecided(const TileJudge& judge, const std::vector<std::size_t>& tiles, TileVerdicts& verdicts,
-                              Stage& stage);
 
 enum class CoarseWay : std::uint8_t {
   kNothing,  ///< decides nothing: all ground under the lines is needed
@@ -50,7 +40,6 @@ class CoarsePass {
   struct Left {
     std::vector<TileSet> needed;  ///< the ground that each tile's undecided lines need; empty: there are none
     std::shared_ptr<const VoidShadow> shadow;
-    std::uint64_t lines = 0;  ///< the sight lines that this took
   };
 
   CoarsePass() = default;
@@ -58,8 +47,8 @@ class CoarsePass {
   CoarsePass(const CoarsePass&) = delete;
   CoarsePass& operator=(const CoarsePass&) = delete;
 
-  /// Decides what it can of the cells that are Verdict::kUndecided.
-  virtual Left decide(const Eye& eye, TileVerdicts& verdicts, Stage& stage) = 0;
+  /// Decides what it can of the cells that the eye is asked about.
+  virtual Left decide(const Eye& eye, EyeVerdicts& verdicts) = 0;
 };
 
 /// Makes the pass; `envelope` encloses the full surface or, for kBlocks, the request's.

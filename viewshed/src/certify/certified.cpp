@@ -1,4 +1,4 @@
-#include "compute/certified.hpp"
+#include "certify/certified.hpp"
 
 #include <fmt/format.h>
 
@@ -7,8 +7,7 @@
 #include <itin/level_choice.hpp>
 #include <viewshed/viewshed.hpp>
 
-#include "certify/certified_blocks.hpp"
-#include "certify/certified_sectors.hpp"
+#include "certify/level_source.hpp"
 #include "plan/memory.hpp"
 #include "request/request.hpp"
 #include "request/request_window.hpp"
@@ -58,8 +57,8 @@ ViewshedWithSurface compute_certified(const Store& store, const Request& request
   require_memory(store, request, way, options.memory_bytes);
   CallProgress call(progress);
   ViewshedWithSurface computed = way == CertifiedWay::kBySectors
-                                     ? certify_by_sectors(store, request, kPointsOfSector, call)
-                                     : certify_by_blocks(store, request, call);
+                                     ? certify_by_sectors(store, request, kPointsOfSector, options.sink, call)
+                                     : certify_by_blocks(store, request, options.sink, call);
   call.finish();
   return computed;
 }

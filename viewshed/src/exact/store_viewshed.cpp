@@ -1,4 +1,4 @@
-#include "compute/store_viewshed.hpp"
+#include "exact/store_viewshed.hpp"
 
 #include <itin/call_progress.hpp>
 #include <itin/triangulate.hpp>
@@ -23,8 +23,9 @@ double share_of_triangulating(const Request& request) {
   return request.mode == Mode::kLoss ? 0.05 : 0.6;
 }
 
-ViewshedWithSurface survey(const Request& request, ViewshedWithSurface computed, double seconds, Progress& progress) {
-  computed.result = compute(*computed.surface, computed.ground ? &*computed.ground : nullptr, request, progress);
+ViewshedWithSurface survey(const Request& request, ViewshedWithSurface computed, double seconds, const CellSink& sink,
+                           Progress& progress) {
+  computed.result = compute(*computed.surface, computed.ground ? &*computed.ground : nullptr, request, progress, sink);
   computed.result.statistics.retrieval_seconds = seconds;
   return computed;
 }
@@ -32,18 +33,20 @@ ViewshedWithSurface survey(const Request& request, ViewshedWithSurface computed,
 }  // namespace
 
 std::optional<ViewshedWithSurface> compute_over_lattice(const Store& store, const Request& request,
-                                                        std::uint64_t most_posts, Progress& progress) {
+                                                        std::uint64_t most_posts, const CellSink& sink,
+                                                        Progress& progress) {
   Stopwatch watch;
   CallProgress call(progress);
   auto surface = retrieve_lattice(store, window_of(request), request.detail, request.themes,
                                   heights_for(request, store.points_about(0, box_of_window(store, request))),
                                   most_posts, call.step(kReadingPosts));
   if (!surface) return std::nullopt;
-  return survey(request, {std::make_shared<Surface>(std::move(*surface)), std::nullopt, true, {}}, watch.lap(),
+  return survey(request, {std::make_shared<Surface>(std::move(*surface)), std::nullopt, true, {}}, watch.lap(), sink,
                 call.step(1));
 }
 
-ViewshedWithSurface compute_over_tin(const Store& store, const Request& request, Progress& progress) {
+ViewshedWithSurface compute_over_tin(const Store& store, const Request& request, const CellSink& sink,
+                                     Progress& progress) {
   Stopwatch watch;
   CallProgress call(progress);
   ViewshedWithSurface computed;
@@ -59,7 +62,7 @@ ViewshedWithSurface compute_over_tin(const Store& store, const Request& request,
   if (has_raised_features(store, request) && (on_ground || needs_bare_lines(request)))
     computed.ground = triangulate(store, window_of(request), request.detail, call.step(share_of_triangulating(request)),
                                   ThemeChoice::none());
-  return survey(request, std::move(computed), seconds, call.step(1));
+  return survey(request, std::move(computed), seconds, sink, call.step(1));
 }
 
 Result compute_on_surface(const Store& store, const ViewshedWithSurface& computed, const Request& request,

@@ -10,11 +10,11 @@
 #include <viewshed/held_surface.hpp>
 #include <viewshed/surface.hpp>
 
-#include "compute/planned_surface.hpp"
-#include "compute/surface_in_memory.hpp"
+#include "exact/surface_in_memory.hpp"
 #include "modes/feature_names.hpp"
 #include "plan/memory.hpp"
 #include "plan/planned_result.hpp"
+#include "plans/planned_surface.hpp"
 #include "request/request.hpp"
 #include "request/request_window.hpp"
 #include "window/retrieval.hpp"
@@ -64,7 +64,7 @@ class HeldSurface::Impl {
     return asked.empty() || intersection(area_, asked) == asked;
   }
 
-  Result compute(Request request, Progress& progress) const {
+  Result compute(Request request, Progress& progress, const CellSink& sink) const {
     request.detail = detail_, request.themes = themes_;
     validate(request);
     if (!covers(request))
@@ -74,7 +74,7 @@ class HeldSurface::Impl {
                       area_.xmin, area_.ymin, area_.xmax, area_.ymax));
     CallProgress call(progress);
     const SurfaceInMemory over = surface_for(request, call);
-    Result result = viewshed::compute(over, request, call);
+    Result result = viewshed::compute(over, request, call, sink);
     name_features(store_, result, call);
     call.finish();
     return result;
@@ -156,8 +156,8 @@ std::uint64_t HeldSurface::bytes() const {
 bool HeldSurface::covers(const Request& request) const {
   return impl_->covers(request);
 }
-Result HeldSurface::compute(const Request& request, Progress& progress) const {
-  return impl_->compute(request, progress);
+Result HeldSurface::compute(const Request& request, Progress& progress, const CellSink& sink) const {
+  return impl_->compute(request, progress, sink);
 }
 
 Result decide(const HeldSurface& surface, const Plan& plan, std::size_t segment, Progress& progress) {

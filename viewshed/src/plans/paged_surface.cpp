@@ -3,10 +3,10 @@
 #include <itin/call_progress.hpp>
 #include <viewshed/held_surface.hpp>
 
-#include "compute/compute.hpp"
-#include "compute/held_areas.hpp"
-#include "compute/planned_surface.hpp"
+#include "exact/compute.hpp"
 #include "plan/planned_result.hpp"
+#include "plans/held_areas.hpp"
+#include "plans/planned_surface.hpp"
 #include "request/request.hpp"
 #include "request/request_window.hpp"
 
@@ -23,7 +23,7 @@ class PagedSurface::Impl {
   const HeldAreas& areas() const { return areas_; }
 
   /// Computes a request that is a part of `whole`.
-  Result compute(Request request, const Request& whole, Progress& progress) {
+  Result compute(Request request, const Request& whole, Progress& progress, const CellSink& sink = {}) {
     request.detail = detail_, request.themes = themes_;
     validate(request);
     const Box under = area_under(store_, request);
@@ -33,10 +33,13 @@ class PagedSurface::Impl {
       under_whole.extend(under);
       const SurfaceForm needed =
           needs_triangles(request) || casts_rays(request) ? SurfaceForm::kTriangles : SurfaceForm::kPosts;
-      if (const auto surface = areas_.get(under_whole, under, needed, call)) return surface->compute(request, call);
+      if (const auto surface = areas_.get(under_whole, under, needed, call))
+        return surface->compute(request, call, sink);
       areas_.drop_all();
     }
-    return compute_result(store_, request, options_, call);
+    ComputeOptions options = options_;
+    options.sink = sink;
+    return compute_result(store_, request, std::move(options), call);
   }
 
  private:
@@ -66,8 +69,8 @@ std::vector<Box> PagedSurface::areas() const {
 std::uint64_t PagedSurface::readings() const {
   return impl_->areas().readings();
 }
-Result PagedSurface::compute(const Request& request, Progress& progress) {
-  return impl_->compute(request, request, progress);
+Result PagedSurface::compute(const Request& request, Progress& progress, const CellSink& sink) {
+  return impl_->compute(request, request, progress, sink);
 }
 
 Result decide(PagedSurface& surface, const Plan& plan, std::size_t segment, Progress& progress) {

@@ -8,8 +8,8 @@
 #include <itin/error.hpp>
 #include <viewshed/plan.hpp>
 
-#include "compute/certified.hpp"
-#include "compute/compute.hpp"
+#include "certify/certified.hpp"
+#include "exact/compute.hpp"
 #include "line/cell_tiles.hpp"
 #include "modes/blocker_table.hpp"
 #include "modes/mode_values.hpp"

@@ -13,9 +13,11 @@ namespace itin::viewshed {
 /// Computes over a lattice; nothing where the surface is no lattice of at most `most_posts` posts. Precondition:
 /// takes_a_lattice().
 std::optional<ViewshedWithSurface> compute_over_lattice(const Store& store, const Request& request,
-                                                        std::uint64_t most_posts, Progress& progress);
+                                                        std::uint64_t most_posts, const CellSink& sink,
+                                                        Progress& progress);
 
 /// Computes over triangles: takes every surface, mode and detail.
-ViewshedWithSurface compute_over_tin(const Store& store, const Request& request, Progress& progress);
+ViewshedWithSurface compute_over_tin(const Store& store, const Request& request, const CellSink& sink,
+                                     Progress& progress);
 
 }  // namespace itin::viewshed

@@ -22,6 +22,6 @@ bool reads_what_may_be_seen(const Store& store, const Request& request);
 /// Returns the answer of the surface at the request's detail, with a coarse surface. `memory` is for the surfaces
 /// alone, bytes. Throws what compute_with_surface() throws.
 ViewshedWithSurface compute_in_tin_segments(const Store& store, const Request& request, std::uint64_t memory,
-                                            Progress& progress);
+                                            const CellSink& sink, Progress& progress);
 
 }  // namespace itin::viewshed

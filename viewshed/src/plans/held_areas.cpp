@@ -1,4 +1,4 @@
-#include "compute/held_areas.hpp"
+#include "plans/held_areas.hpp"
 
 #include <algorithm>
 #include <chrono>

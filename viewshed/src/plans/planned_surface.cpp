@@ -1,4 +1,4 @@
-#include "compute/planned_surface.hpp"
+#include "plans/planned_surface.hpp"
 
 #include <algorithm>
 

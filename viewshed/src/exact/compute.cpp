@@ -1,5 +1,5 @@
 // How much of a store's surface is read at once, under a memory budget.
-#include "compute/compute.hpp"
+#include "exact/compute.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -8,9 +8,9 @@
 #include <viewshed/surface.hpp>
 #include <viewshed/viewshed.hpp>
 
-#include "compute/lattice_sectors.hpp"
-#include "compute/store_viewshed.hpp"
-#include "compute/tin_segments.hpp"
+#include "exact/lattice_sectors.hpp"
+#include "exact/store_viewshed.hpp"
+#include "exact/tin_segments.hpp"
 #include "modes/feature_names.hpp"
 #include "plan/memory.hpp"
 #include "request/request.hpp"
@@ -40,14 +40,15 @@ ViewshedWithSurface climb(const Store& store, const Request& request, const Comp
   const std::uint64_t points = points_about(store, request.detail, box_of_window(store, request));
   const bool lattice = options.lattices && takes_a_lattice(store, request);
   if (lattice && points <= memory / kBytesPerPost)
-    if (auto computed = compute_over_lattice(store, request, memory / kBytesPerPost, progress))
+    if (auto computed = compute_over_lattice(store, request, memory / kBytesPerPost, options.sink, progress))
       return std::move(*computed);
   const bool whole = options.whole_surface || !may_be_mostly_hidden(store, request, points);
-  if (whole && points <= memory / bytes_per_point(request)) return compute_over_tin(store, request, progress);
+  if (whole && points <= memory / bytes_per_point(request))
+    return compute_over_tin(store, request, options.sink, progress);
   if (lattice)
-    if (auto computed = compute_by_lattice_sectors(store, request, memory / kSectorShare, progress))
+    if (auto computed = compute_by_lattice_sectors(store, request, memory / kSectorShare, options.sink, progress))
       return std::move(*computed);
-  return compute_in_tin_segments(store, request, memory, progress);
+  return compute_in_tin_segments(store, request, memory, options.sink, progress);
 }
 
 }  // namespace

@@ -24,6 +24,6 @@ struct SurfaceInMemory {
 };
 
 /// Computes a viewshed over the surface. Safe for concurrent use where there is no reader.
-Result compute(const SurfaceInMemory& over, const Request& request, Progress& progress);
+Result compute(const SurfaceInMemory& over, const Request& request, Progress& progress, const CellSink& sink = {});
 
 }  // namespace itin::viewshed

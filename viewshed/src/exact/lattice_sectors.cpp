@@ -1,4 +1,4 @@
-#include "compute/lattice_sectors.hpp"
+#include "exact/lattice_sectors.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -18,15 +18,13 @@
 #include <viewshed/surface.hpp>
 
 #include "bounds/boundary.hpp"
-#include "compute/store_viewshed.hpp"
 #include "line/hulls.hpp"
-#include "modes/observe.hpp"
 #include "plan/sight_sectors.hpp"
-#include "progress/stage.hpp"
 #include "progress/stopwatch.hpp"
 #include "request/request.hpp"
 #include "request/request_window.hpp"
 #include "request/void_shadow.hpp"
+#include "run/surface_source.hpp"
 #include "scene/full_surface.hpp"
 #include "scene/reveal.hpp"
 #include "window/retrieval.hpp"
@@ -44,44 +42,36 @@ constexpr double kCoarseSurface = 0.05;
 /// The surface that maps are drawn over has at most this many points.
 constexpr std::uint64_t kCoarsePoints = 200000;
 
-class LatticeSectors {
+class LatticeSectors final : public SurfaceSource {
  public:
-  LatticeSectors(const Store& store, const Request& request, std::uint64_t memory, Progress& progress)
+  LatticeSectors(const Store& store, const Request& request, std::uint64_t memory, const Progress& progress)
       : store_(store),
         request_(request),
         memory_(memory),
         all_heights_(asks_for_all_heights(request)),
         share_seen_(all_heights_ ? 1 : kFirstShareSeen),
-        progress_(progress),
         reading_(progress) {}
 
-  std::optional<ViewshedWithSurface> run() {
-    Result& result = computed_.result;
-    result.request = request_;
-    computed_.whole = false;
-    const std::vector<Eye> eyes = eyes_on_surface(store_, request_, Detail::tolerance(0), result.ground_m, progress_);
-    progress_.step(kCoarseSurface);
-    retrieve_coarse();
-    Observations observations(request_);
-    observations_ = observations.of_tiles(tiles_);
-    stage_.emplace("cells decided", eyes.size() * result.grid.cell_count(), progress_.step(1));
-    for (std::uint32_t i = 0; i < eyes.size(); ++i)
-      if (!observe_from(eyes[i], i)) return std::nullopt;
-    store_all(observations_, tiles_, result);
-    observations.finish(result);
-    result.statistics.lines_seconds += watch_.lap();
-    return std::move(computed_);
+  std::vector<Eye> begin(Result& result, CallProgress& call) override {
+    std::vector<Eye> eyes = eyes_on_surface(store_, request_, Detail::tolerance(0), result.ground_m, call);
+    retrieve_coarse(result, call.step(kCoarseSurface));
+    return eyes;
   }
 
+  bool decide(const EyeGroup& group, ViewshedCells& cells) override {
+    return observe_from(group.eyes.front(), group.first, cells);
+  }
+
+  /// The surface that maps are drawn over.
+  std::shared_ptr<Surface> coarse() const { return coarse_; }
+
  private:
-  void retrieve_coarse() {
-    Result& result = computed_.result;
+  void retrieve_coarse(Result& result, Progress& progress) {
     const Box box = box_of_window(store_, request_);
     const int level = finest_level_of(store_, box, kCoarsePoints);
-    computed_.surface = std::make_shared<Surface>();
-    Tin& coarse = computed_.surface->tin;
+    Tin& coarse = coarse_->tin;
     coarse =
-        triangulate(store_, window_of(request_), detail_of(store_.metadata(), level), progress_, ThemeChoice::none());
+        triangulate(store_, window_of(request_), detail_of(store_.metadata(), level), progress, ThemeChoice::none());
     result.grid = cells_of(request_, extent_of(store_));
     tiles_ = grid_of_tiles(result.grid);
     find_voids(coarse.grid, rim_of(coarse, boundary_edges(coarse)), result);
@@ -91,8 +81,8 @@ class LatticeSectors {
   }
 
   /// Observes all that one eye looks at. Returns false where the surface is no lattice.
-  bool observe_from(const Eye& eye, std::uint32_t observer) {
-    SightSectors sectors(computed_.result.grid, eye);
+  bool observe_from(const Eye& eye, std::uint32_t observer, ViewshedCells& cells) {
+    SightSectors sectors(cells.result().grid, eye);
     while (!sectors.empty()) {
       const SightSectors::Sector sector = sectors.next([&](const std::vector<Point2>& hull) {
         return bytes_of(hull, share_seen_) <= static_cast<double>(memory_) && has_numbers(hull);
@@ -107,13 +97,12 @@ class LatticeSectors {
         if (!reader && (!is_lattice_ || sector.parts.size() == 1)) return false;
         if (reader) {
           is_lattice_ = true;
-          reach = observe_over(*reader, eye, observer, sectors, sector.parts);
+          reach = observe_over(*reader, eye, observer, sectors, sector.parts, cells);
           learn(reader->lattice(), std::isinf(reach));
         }
       }
       sectors.remove_decided(sector, reach);
     }
-    stage_->advance_to((observer + 1) * computed_.result.grid.cell_count());
     return true;
   }
 
@@ -148,8 +137,8 @@ class LatticeSectors {
 
   /// Decides the cells within a reach, as far as what the eye may see fits into the memory. Returns the reach, metres.
   double observe_over(LatticeReader& reader, const Eye& eye, std::uint32_t observer, const SightSectors& sectors,
-                      std::span<const Tile> parts) {
-    Result& result = computed_.result;
+                      std::span<const Tile> parts, ViewshedCells& cells) {
+    Result& result = cells.result();
     FullSurface surface(reader.lattice(), request_.earth, result.grid, tiles_);
     const double unread = kBytesPerUnreadPost * static_cast<double>(reader.lattice().triangle_count()) / 2;
     const double tiles =
@@ -161,9 +150,8 @@ class LatticeSectors {
     std::vector<Tile> decided;
     std::copy_if(parts.begin(), parts.end(), std::back_inserter(decided),
                  [&](const Tile& part) { return sectors.within(reach, part); });
-    const std::vector<PartsOfTile> cells = by_tile(decided, tiles_);
     const ExactJudge judge(surface, {eye, std::move(revealed.view), shadow_of(eye, surface.rim(), result)});
-    result.statistics.lines += observe(judge, observer, cells, observations_, nullptr, *stage_);
+    cells.observe({judge, observer, by_tile(decided, tiles_)});
     result.statistics.lines_seconds += watch_.lap();
     return reach;
   }
@@ -172,25 +160,26 @@ class LatticeSectors {
   const Request& request_;
   std::uint64_t memory_;
   bool all_heights_;
-  double share_seen_;  ///< the part of a sector's tiles that is seen, as far as it is known
-  CallProgress progress_;
+  double share_seen_;       ///< the part of a sector's tiles that is seen, as far as it is known
   SilentProgress reading_;  ///< while a sector is read
   Stopwatch watch_;
-  ViewshedWithSurface computed_;
+  const std::shared_ptr<Surface> coarse_ = std::make_shared<Surface>();
   RasterGrid tiles_;
   double posts_per_square_metre_ = 0;
-  double tile_side_m_ = 0;                                  ///< the side of the lattice's tiles, as far as it is known
-  bool is_lattice_ = false;                                 ///< as far as has been read
-  std::optional<Stage> stage_;                              ///< its steps are cells, of all observers
-  std::vector<std::unique_ptr<Observation>> observations_;  ///< per tile
+  double tile_side_m_ = 0;   ///< the side of the lattice's tiles, as far as it is known
+  bool is_lattice_ = false;  ///< as far as has been read
 };
 
 }  // namespace
 
 std::optional<ViewshedWithSurface> compute_by_lattice_sectors(const Store& store, const Request& request,
-                                                              std::uint64_t memory, Progress& progress) {
+                                                              std::uint64_t memory, const CellSink& sink,
+                                                              Progress& progress) {
   if (has_raised_features(store, request)) return std::nullopt;
-  return LatticeSectors(store, request, memory, progress).run();
+  LatticeSectors source(store, request, memory, progress);
+  std::optional<Result> result = run(source, request, sink, progress);
+  if (!result) return std::nullopt;
+  return ViewshedWithSurface{source.coarse(), std::nullopt, false, std::move(*result)};
 }
 
 }  // namespace itin::viewshed

@@ -1,7 +1,5 @@
-#include "compute/coarse_pass.hpp"
+#include "exact/coarse_pass.hpp"
 
-#include <atomic>
-#include <numeric>
 #include <utility>
 
 #include <itin/level_choice.hpp>
@@ -17,22 +15,16 @@ namespace itin::viewshed {
 
 namespace {
 
-std::vector<std::size_t> all_of(const TileVerdicts& verdicts) {
-  std::vector<std::size_t> all(verdicts.size());
-  std::iota(all.begin(), all.end(), std::size_t{0});
-  return all;
-}
-
 /// The ground under the lines to each tile's undecided cells: all of it, or only what is in the set `of` or under a
 /// cell.
-std::vector<TileSet> under_lines(const CoarsePass::Over& over, const Eye& eye, const TileVerdicts& verdicts,
+std::vector<TileSet> under_lines(const CoarsePass::Over& over, const Eye& eye, const EyeVerdicts& verdicts,
                                  const TileSet* of = nullptr) {
   const RasterGrid& grid = over.result.grid;
-  std::vector<TileSet> needed(verdicts.size());
+  std::vector<TileSet> needed(verdicts.tile_count());
   parallel_for(needed.size(), [&](std::size_t i) {
     Box targets;
     for_each_cell(tile_at(grid, over.tiles, i), [&](std::size_t cell, RasterGrid::Cell place) {
-      if (verdicts[i][cell] == Verdict::kUndecided) targets.extend(grid.centre(place.column, place.row));
+      if (verdicts.of_tile(i)[cell] == Verdict::kUndecided) targets.extend(grid.centre(place.column, place.row));
     });
     if (targets.empty()) return;
     needed[i] = TileSet(over.ground.count());
@@ -48,7 +40,7 @@ class Nothing final : public CoarsePass {
  public:
   explicit Nothing(const Over& over) : over_(over) {}
 
-  Left decide(const Eye& eye, TileVerdicts& verdicts, Stage&) override {
+  Left decide(const Eye& eye, EyeVerdicts& verdicts) override {
     return {under_lines(over_, eye, verdicts), shadow_of(eye, over_.rim, over_.result)};
   }
 
@@ -61,12 +53,12 @@ class Blocks final : public CoarsePass {
  public:
   Blocks(Envelope envelope, const Over& over) : over_(over), bounded_(std::move(envelope), over.tiles, no_rises_) {}
 
-  Left decide(const Eye& eye, TileVerdicts& verdicts, Stage& stage) override {
+  Left decide(const Eye& eye, EyeVerdicts& verdicts) override {
     bounded_.bound_for(eye);
     const BlockJudge judge(bounded_, over_.request, over_.result.grid, over_.tiles, eye, nullptr);
-    const std::uint64_t lines = judge_undecided(judge, all_of(verdicts), verdicts, stage);
+    verdicts.judge(judge);
     const TileSet seen = over_.ground.those([&](const Box& ground) { return judge.may_see(ground); });
-    return {under_lines(over_, eye, verdicts, &seen), shadow_of(eye, over_.rim, over_.result), lines};
+    return {under_lines(over_, eye, verdicts, &seen), shadow_of(eye, over_.rim, over_.result)};
   }
 
  private:
@@ -80,15 +72,15 @@ class Rays final : public CoarsePass {
   Rays(Envelope envelope, const Over& over)
       : over_(over), scene_(std::move(envelope), over.request, over.tiles, over.request.nodata) {}
 
-  Left decide(const Eye& eye, TileVerdicts& verdicts, Stage& stage) override {
-    std::vector<TileSet> needed(verdicts.size());
+  Left decide(const Eye& eye, EyeVerdicts& verdicts) override {
+    std::vector<TileSet> needed(verdicts.tile_count());
     const EnvelopeJudge judge(scene_, over_.result.grid, over_.tiles, {eye},
                               [&](std::size_t tile, const EnvelopePacket& packet) {
                                 if (needed[tile].empty()) needed[tile] = TileSet(over_.ground.count());
                                 add_ground(packet, needed[tile]);
                               });
-    const std::uint64_t lines = judge_undecided(judge, all_of(verdicts), verdicts, stage);
-    return {std::move(needed), judge.view(0).shadow, lines};
+    verdicts.judge(judge);
+    return {std::move(needed), judge.view(0).shadow};
   }
 
  private:
@@ -114,19 +106,6 @@ class Rays final : public CoarsePass {
 };
 
 }  // namespace
-
-std::uint64_t judge_undecided(const TileJudge& judge, const std::vector<std::size_t>& tiles, TileVerdicts& verdicts,
-                              Stage& stage) {
-  const auto undecided = [](const TileValues<Verdict>& values) { return count_of(values, Verdict::kUndecided); };
-  std::atomic<std::uint64_t> lines = 0;
-  stage.for_each(tiles.size(), [&](std::size_t i) {
-    TileValues<Verdict>& values = verdicts[tiles[i]];
-    const std::uint64_t before = undecided(values);
-    lines += judge.begin(tiles[i])->judge(0, values);
-    return before - undecided(values);
-  });
-  return lines;
-}
 
 CoarseWay coarse_way(const Store& store, const Request& request) {
   // Cells that a coarse level decides have no exact height of ground.
