@@ -47,7 +47,7 @@ struct SiteResult {
   /// By how much the value of masts would grow if ground without data hid nothing; the part of the value of turbines
   /// that is seen only then.
   double undecided = 0;
-  viewshed::ClassShares shares;  ///< of the demand that the chosen and the existing sites serve, or leave undecided
+  viewshed::ClassShares shares;  ///< what the chosen and the existing sites serve of the demand, or leave undecided
   SiteRasters rasters;
   std::vector<double> ground_m;  ///< elevation of the ground under each chosen site, which may stand on a roof
 
