@@ -149,7 +149,7 @@ TEST_F(StoreLines, OverRingsThatLeaveFeaturesOutAreCertainOrUndecided) {
 TEST_F(StoreLines, TakeElevations) {
   StoreLine line{{300100, 199900}, {300400, 199600}};
   const LosReport heights = analyse(*store_, line, query(5, 9));
-  line.elevations = true;
+  line.from_is_elevation = line.to_is_elevation = true;
   const LosReport elevations = analyse(*store_, line, query(heights.antennas.from_m, heights.antennas.to_m));
   EXPECT_NEAR(elevations.query.from_height_m, 5, 1e-9);
   EXPECT_NEAR(*elevations.clearance_m, *heights.clearance_m, 1e-9);
