@@ -168,9 +168,11 @@ TEST_F(StoreLines, RefuseWhatHasNoAnswer) {
   expect_refusal({ground, hole}, query(2, 2), "`to`: there is no ground at 300560.00,199430.00; move it onto the data");
   expect_refusal({outside, hole}, query(2, 2),
                  "`from`: there is no ground at 310000.00,199900.00; move it onto the data");
-  const std::string negative = ": a height must not be negative; for an elevation set `elevations`";
-  expect_refusal({ground, hole}, query(-1, 2), "`from_height_m`" + negative);
-  expect_refusal({hole, ground}, query(2, -1), "`to_height_m`" + negative);
+  const auto negative = [](const std::string& end) {
+    return "`" + end + "_height_m`: a height must not be negative; for an elevation set `" + end + "_is_elevation`";
+  };
+  expect_refusal({ground, hole}, query(-1, 2), negative("from"));
+  expect_refusal({hole, ground}, query(2, -1), negative("to"));
   EXPECT_THROW(analyse(*store_, {ground, ground}, query(NAN, 2)), InputError);
 }
 

@@ -14,13 +14,14 @@ namespace itin::profile {
 namespace {
 
 void require_heights(const StoreLine& line, const LosQuery& query) {
-  const auto require = [](const char* field, double height, bool is_elevation) {
-    require_height(height, field);
+  const auto require = [](const char* end, double height, bool is_elevation) {
+    require_height(height, fmt::format("`{}_height_m`", end));
     if (height < 0 && !is_elevation)
-      throw InputError(fmt::format("{}: a height must not be negative, unless it is an elevation", field));
+      throw InputError(
+          fmt::format("`{0}_height_m`: a height must not be negative; for an elevation set `{0}_is_elevation`", end));
   };
-  require("`from_height_m`", query.from_height_m, line.from_is_elevation);
-  require("`to_height_m`", query.to_height_m, line.to_is_elevation);
+  require("from", query.from_height_m, line.from_is_elevation);
+  require("to", query.to_height_m, line.to_is_elevation);
 }
 
 void require_ground(const StoreLine& line, const Profile& profile) {

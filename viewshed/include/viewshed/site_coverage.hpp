@@ -59,7 +59,7 @@ struct SiteTargets {
   std::optional<RasterGrid> grid;
   std::vector<Point2> points;
   double height = 0;            ///< metres above the ground
-  std::vector<double> heights;  ///< of each point; empty where all have `height`
+  std::vector<double> heights;  ///< one for each point; empty where all have `height`
   bool on_surface = false;      ///< heights are above the surface with the themes instead
 
   double height_of(std::size_t point) const { return heights.empty() ? height : heights[point]; }
