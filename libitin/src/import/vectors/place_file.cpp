@@ -20,6 +20,7 @@
 #include "gdal/archive.hpp"
 #include "gdal/crs.hpp"
 #include "gdal/drivers.hpp"
+#include "gdal/network.hpp"
 #include "gdal/quiet_gdal.hpp"
 #include "gdal/source_path.hpp"
 #include "import/source/source_layer.hpp"
@@ -33,13 +34,17 @@ bool is_text_table(const std::string& path) {
   return ending == ".csv" || ending == ".tsv" || ending == ".txt";
 }
 
-/// Returns the contents of a file, GDAL's names of files within others included.
+/// Returns the contents of a file, GDAL's names of files within others, and addresses, included.
 std::string contents_of(const std::string& path) {
   require_plain_file(path);
+  const std::string name = path.starts_with("http://") || path.starts_with("https://") ? "/vsicurl/" + path : path;
+  take_refusal();
   GByte* bytes = nullptr;
   vsi_l_offset size = 0;
-  if (VSIIngestFile(nullptr, path.c_str(), &bytes, &size, -1) == 0)
+  if (VSIIngestFile(nullptr, name.c_str(), &bytes, &size, -1) == 0) {
+    require_no_refusal(path);
     throw FileError(path, why_not_read(path, "a table of places"));
+  }
   const std::unique_ptr<GByte, decltype(&VSIFree)> owned(bytes, &VSIFree);
   return {reinterpret_cast<const char*>(bytes), static_cast<std::size_t>(size)};
 }
