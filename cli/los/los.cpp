@@ -135,7 +135,8 @@ class LosVerb final : public Verb {
   LosCase run_profile() {
     query_.from_height_m = heights_[0], query_.to_height_m = heights_[1];
     query_.points_as_given = true;
-    profile::LosReport report = profile::analyse(profile::read_profile_csv(profile_csv_), query_);
+    std::vector<std::string> warnings;
+    profile::LosReport report = profile::analyse(profile::read_profile_csv(profile_csv_, warnings), query_);
     report.facts = {{"Profile", fmt::format("{}, {}", std::filesystem::path(profile_csv_).filename().string(),
                                             counted(report.profile.points.size(), "point"))}};
     for (const auto& [end, lines] :
@@ -144,7 +145,9 @@ class LosVerb final : public Verb {
                             end.elevation_m),
                 fmt::format("elevation angle {:.3f}\xC2\xB0", end.elevation_angle_deg)};
     }
-    return los_case(std::move(report), header());
+    LosCase one = los_case(std::move(report), header());
+    one.result.warnings.insert(one.result.warnings.begin(), warnings.begin(), warnings.end());
+    return one;
   }
 
   LosCase run_store() {

@@ -127,6 +127,7 @@ LosLinks::Survey LosLinks::run(const Store& store, const LinkTable& table, const
   result.text = fmt::format("{}: {}, {} visible", outputs_.front(), counted(all, "link"), grouped(counts.visible));
   if (counts.undecided > 0) result.text += fmt::format(", {} undecided", grouped(counts.undecided));
   result.text += "\n";
+  result.warnings = table.warnings;
   for (const std::string& column : table.other_columns)
     result.warnings.push_back(
         fmt::format("{}: the column '{}' is not understood; the outputs keep its cells as they are", path_, column));

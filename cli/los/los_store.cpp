@@ -36,6 +36,8 @@ void LosStoreOptions::declare(CLI::App& app) {
       ->type_name("x,y[,h]");
   app.add_option("--to", to_text_, "The second end; h is 2 where not given")->type_name("x,y[,h]");
   app.add_flag("--absolute-heights", absolute_heights_, "Every h is an elevation, not a height above the surface");
+  app.add_flag("--observer-absolute", from_absolute_, "The first end's h alone is an elevation");
+  app.add_flag("--target-absolute", to_absolute_, "The second end's h alone is an elevation");
   app.add_option("--observer-on", from_on_,
                  "What the first end stands on: ground (default), or the surface with the roofs and tops of --themes")
       ->type_name("ground|surface");
@@ -54,8 +56,8 @@ void LosStoreOptions::declare_memory(CLI::App& app) {
 void LosStoreOptions::require_none() const {
   if (given()) throw InputError("--from and --to need a STORE; with --profile-csv give --heights h1,h2");
   require_not_given(*app_,
-                    {"--absolute-heights", "--observer-on", "--target-on", "--in-crs", "--tolerance", "--rings",
-                     "--themes", "--nodata", "--memory"},
+                    {"--absolute-heights", "--observer-absolute", "--target-absolute", "--observer-on", "--target-on",
+                     "--in-crs", "--tolerance", "--rings", "--themes", "--nodata", "--memory"},
                     "works only with a STORE");
 }
 
@@ -66,10 +68,12 @@ void LosStoreOptions::validate(std::optional<double> object_tip_m) {
   if (absolute_heights_ && !(from_.height && to_.height)) {
     throw InputError("--absolute-heights: give both ends' elevations, x,y,h");
   }
+  if (from_absolute_ && !from_.height) throw InputError("--observer-absolute: give the elevation at --from, x,y,h");
+  if (to_absolute_ && !to_.height) throw InputError("--target-absolute: give the elevation at --to, x,y,h");
   from_height_ = from_.height.value_or(2);
   to_height_ = to_.height.value_or(object_tip_m.value_or(2));
   validate_choices();
-  if (!absolute_heights_ && (from_height_ < 0 || to_height_ < 0)) {
+  if ((!from_is_elevation() && from_height_ < 0) || (!to_is_elevation() && to_height_ < 0)) {
     throw InputError("--from, --to: a height must not be negative; for an elevation give --absolute-heights");
   }
 }
@@ -86,7 +90,10 @@ void LosStoreOptions::validate_choices() {
 void LosStoreOptions::validate_surface() {
   validate_choices();
   if (detail_.has_rings()) throw InputError("--rings have no one centre for many links; give --tolerance");
-  if (absolute_heights_) throw InputError("--absolute-heights is not for --links, whose heights are above the ground");
+  for (const auto& [given, option] :
+       {std::pair(absolute_heights_, "--absolute-heights"), std::pair(from_absolute_, "--observer-absolute"),
+        std::pair(to_absolute_, "--target-absolute")})
+    if (given) throw InputError(fmt::format("{} is not for --links, whose heights are above the ground", option));
 }
 
 Document LosStoreOptions::surface_parameters() const {
@@ -100,13 +107,14 @@ Document LosStoreOptions::surface_parameters() const {
 }
 
 Document LosStoreOptions::parameters() const {
-  const auto end = [&](const Place& place, double height) {
+  const auto end = [](const Place& place, double height, bool is_elevation) {
     Document document{
-        {"x", place.position.x}, {"y", place.position.y}, {absolute_heights_ ? "elevation_m" : "height_m", height}};
+        {"x", place.position.x}, {"y", place.position.y}, {is_elevation ? "elevation_m" : "height_m", height}};
     if (!place.crs.empty()) document["crs"] = place.crs;
     return document;
   };
-  Document parameters{{"from", end(from_, from_height_)}, {"to", end(to_, to_height_)}};
+  Document parameters{{"from", end(from_, from_height_, from_is_elevation())},
+                      {"to", end(to_, to_height_, to_is_elevation())}};
   parameters.update(surface_parameters());
   return parameters;
 }
@@ -120,7 +128,8 @@ LosStoreOptions::Result LosStoreOptions::run(const Store& store, profile::LosQue
 }
 
 LosStoreOptions::Result LosStoreOptions::run(const Store& store, profile::LosQuery query, const Ends& ends) const {
-  const profile::StoreLine line{ends.from, ends.to, detail_.detail(ends.from), themes(), absolute_heights_};
+  const profile::StoreLine line{ends.from,           ends.to,          detail_.detail(ends.from), themes(),
+                                from_is_elevation(), to_is_elevation()};
   query.from_height_m = ends.from_height, query.to_height_m = ends.to_height;
   query.from_on_surface = from_on_surface(), query.to_on_surface = to_on_surface();
   query.nodata = nodata();

@@ -59,12 +59,14 @@ class LosStoreOptions {
   Result run(const Store& store, profile::LosQuery query, const Ends& ends) const;
 
  private:
+  bool from_is_elevation() const { return absolute_heights_ || from_absolute_; }
+  bool to_is_elevation() const { return absolute_heights_ || to_absolute_; }
   void validate_choices();
 
   CLI::App* app_ = nullptr;
   std::string from_text_, to_text_;
   std::string from_on_ = "ground", to_on_ = "ground";
-  bool absolute_heights_ = false;
+  bool absolute_heights_ = false, from_absolute_ = false, to_absolute_ = false;
   InCrs in_crs_;
   DetailOptions detail_;
   ThemeOptions themes_;

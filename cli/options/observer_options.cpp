@@ -30,6 +30,7 @@ void ObserverOptions::declare(CLI::App& app) {
   app.add_option("--observer-height", height_text_, "Height h of observers that have none of their own (default: 2)")
       ->type_name("METRES");
   app.add_flag("--absolute-heights", absolute_heights_, "Every h is an elevation, not a height above the surface");
+  app.add_flag("--observer-absolute", absolute_, "Heights of observers alone are elevations");
   app.add_option("--observer-on", observer_on_, "ground (default), or the surface with the roofs and tops of --themes")
       ->type_name("ground|surface");
   in_crs_.declare(app);
@@ -56,30 +57,38 @@ void ObserverOptions::validate() {
     throw InputError("--arcgis-fields takes heights from OFFSETA; leave out --height-field");
   parse_choice("--observer-on", observer_on_, {"ground", "surface"});
   if (!height_text_.empty()) height_ = parse_height("--observer-height", height_text_);
-  require_above_ground("--observer-height", height_);
+  if (!height_text_.empty()) height_of("--observer-height", height_);
   for (const std::string& text : observers_) {
     given_.push_back(parse_place("--observer", text));
-    require_above_ground(fmt::format("--observer '{}'", text), given_.back().height.value_or(height_));
+    height_of(fmt::format("--observer '{}'", text), given_.back().height);
   }
 }
 
-void ObserverOptions::require_above_ground(const std::string& where, double height) const {
-  if (!absolute_heights_ && height < 0) {
+/// Returns the height of an observer: its own, or that of the call. Elevations have no default.
+double ObserverOptions::height_of(const std::string& where, std::optional<double> own) const {
+  const double height = own.value_or(height_);
+  if (absolute() && !own && height_text_.empty())
+    throw InputError(where + ": it has no elevation; give it one, or --observer-height");
+  if (!absolute() && height < 0)
     throw InputError(where + ": a height must not be negative; for an elevation give --absolute-heights");
-  }
+  return height;
 }
 
 std::vector<viewshed::Observer> ObserverOptions::observers(const StoreMetadata& metadata,
-                                                           const viewshed::Request& request,
+                                                           const viewshed::Request& request, bool target_height_given,
                                                            std::vector<std::string>& warnings) {
   if (sites_.path.empty()) return observers_given(metadata);
   const bool names_heights = views_.arcgis() || !sites_.height_field.empty();
   const LayerFields fields(sites_);
-  if (!names_heights) take_heights(sites_, fields, height_text_.empty() ? "" : "--observer-height", warnings);
+  if (!names_heights) {
+    HeightChoice choice{height_text_.empty() ? "" : "--observer-height", "--height-field"};
+    for (const NumberField& field : views_.numbers()) choice.used.push_back(field.name);
+    take_heights(sites_, fields, choice, warnings);
+  }
   took_heights_ = !names_heights && !sites_.height_field.empty();
   take_names(sites_, fields);
   if (!views_.reads_radii()) warn_of_unused(sites_, fields, "radius", "--radius-field", warnings);
-  return observers_of_file(metadata, request);
+  return observers_of_file(metadata, request, target_height_given, warnings);
 }
 
 Document ObserverOptions::parameters() const {
@@ -99,24 +108,28 @@ std::vector<viewshed::Observer> ObserverOptions::observers_given(const StoreMeta
   for (std::size_t i = 0; i < given_.size(); ++i) {
     const std::string what = fmt::format("--observer '{}'", observers_[i]);
     observers.push_back({fmt::format("{}", i + 1), on_the_data(what, given_[i], in_crs_, metadata),
-                         given_[i].height.value_or(height_), absolute_heights_});
+                         given_[i].height.value_or(height_), absolute()});
   }
   return observers;
 }
 
 std::vector<viewshed::Observer> ObserverOptions::observers_of_file(const StoreMetadata& metadata,
-                                                                   const viewshed::Request& request) const {
+                                                                   const viewshed::Request& request,
+                                                                   bool target_height_given,
+                                                                   std::vector<std::string>& warnings) const {
   SiteQuery query = sites_;
   query.crs = in_crs_.crs;
   query.numbers = views_.numbers();
   std::vector<viewshed::Observer> observers;
-  for (const Site& site : read_sites(query, metadata.crs_wkt)) {
-    const std::string where = fmt::format("{}: feature {}", query.path, site.feature);
+  for (const Site& site : read_sites(query, metadata.crs_wkt, warnings)) {
+    const std::string where = fmt::format("{}: {}", query.path, site.place);
     require_on_the_data(where, site.position, in_crs_, metadata);
-    viewshed::Observer observer{site.name, site.position, site.height.value_or(height_), absolute_heights_};
+    viewshed::Observer observer{site.name, site.position, site.height.value_or(height_), absolute()};
     views_.fill(observer, site.numbers, where);
     views_.require_agreement(observer, request, where);
-    if (!observer.absolute) require_above_ground(where, observer.height);
+    if (!views_.arcgis()) height_of(where, site.height);
+    if (request.target_absolute && !observer.target_height && !target_height_given)
+      throw InputError(where + ": it has no elevation of its targets; give it one, or --target-height");
     observers.push_back(std::move(observer));
   }
   if (observers.empty()) throw InputError(none_in(query, "observer"));

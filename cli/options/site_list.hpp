@@ -4,6 +4,7 @@
 // places; where the call gives that option, the option goes first.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,13 +15,23 @@ namespace itin::cli {
 /// The fields with heights and names where the call names no others.
 inline constexpr const char *kHeightField = "height", *kNameField = "name";
 
-/// Lets the query take heights from kHeightField where the query names no field and the file has that one. `given` is
-/// an option of the call that states these heights; then the field stays unused, with a warning. It is empty where
-/// there is none. `fields` are the fields of the query's file, here as below.
-void take_heights(SiteQuery& query, const LayerFields& fields, const std::string& given,
+/// What a call says of the heights of a list of places.
+struct HeightChoice {
+  std::string given = {};              ///< the option of the call that states these heights; empty: there is none
+  std::string field_option = {};       ///< the option that names the field with heights; empty: there is none
+  std::vector<std::string> used = {};  ///< fields that are read for something else
+};
+
+/// Lets the query take heights from kHeightField where the query names no field and the file has that one. Where the
+/// call states these heights, the field stays unused, with a warning. A warning tells of other fields that seem to hold
+/// heights. `fields` are the fields of the query's file, here as below.
+void take_heights(SiteQuery& query, const LayerFields& fields, const HeightChoice& choice,
                   std::vector<std::string>& warnings);
 
-/// Lets the query take names from kNameField where the query names no field and the file has that one.
+/// The field of names: kNameField, or else the only field that seems to hold names; nothing where there is none.
+std::optional<std::string> name_field_of(const LayerFields& fields);
+
+/// Lets the query take names from name_field_of() where the query names no field.
 void take_names(SiteQuery& query, const LayerFields& fields);
 
 /// Warns of a field that the file has and that nobody reads unless `option` names it.

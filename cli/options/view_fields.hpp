@@ -20,6 +20,7 @@ class ViewFields {
   bool given() const { return !fields_.empty() || !text_given().empty(); }
   bool arcgis() const { return arcgis_; }
   bool reads_radii() const { return arcgis_ || !radius_.empty(); }
+  bool reads_target_heights() const { return !target_height_.empty(); }
   /// The fields to read, in the order in which fill() takes them.
   std::vector<NumberField> numbers() const;
   /// Gives the observer the values of its fields; where they are empty it keeps its own. Throws InputError for a value

@@ -151,8 +151,8 @@ class ProfileVerb final : public Verb {
     for (const std::string& output : outputs()) policy_.require_writable(output);
     if (!triangles_.empty()) require_tin_output(triangles_, policy_.overwrite);
     const Store store(store_, cache_within(memory_.bytes()));
-    const std::vector<Point2> corners = corners_in(store.metadata());
     Result result;
+    const std::vector<Point2> corners = corners_in(store.metadata(), result.warnings);
     std::vector<SurfaceProfile> profiles;
     Cost cost;
     for (const auto& [detail, label] : details(corners.front())) {
@@ -197,9 +197,9 @@ class ProfileVerb final : public Verb {
     return whole;
   }
 
-  std::vector<Point2> corners_in(const StoreMetadata& metadata) const {
+  std::vector<Point2> corners_in(const StoreMetadata& metadata, std::vector<std::string>& warnings) const {
     if (!path_.empty()) {
-      const std::vector<Path> paths = read_paths(path_, metadata.crs_wkt);
+      const std::vector<Path> paths = read_paths(path_, metadata.crs_wkt, warnings);
       if (paths.size() != 1)
         throw FileError(path_, fmt::format("has {}; a profile follows one", counted(paths.size(), "line")));
       return paths.front().corners;

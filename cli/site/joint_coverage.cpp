@@ -82,7 +82,7 @@ JointCoverage joint_coverage_on_cells(const Store& store, const SiteOptions& opt
                                       Progress& progress) {
   const std::vector<std::size_t> sites = serving_sites(inputs, choice);
   SiteSurvey survey = survey_of_serving(options, inputs, sites);
-  survey.targets.points.clear();
+  survey.targets.points.clear(), survey.targets.heights.clear();
   survey.targets.grid = viewshed::grid_of_reach(store, sites.empty() ? inputs.positions : survey.positions,
                                                 options.radius, options.cell_size());
   JointCoverage joint{survey.targets, {}, {}};

@@ -65,51 +65,70 @@ class DemandReader {
     inputs_.total = inputs_.demand.total();
   }
 
+  /// A place to serve.
+  struct Target {
+    Point2 position;
+    double weight, height;
+  };
+
   void read_points() {
     SiteQuery query;
     query.path = options_.demand;
     query.crs = options_.in_crs.crs;
+    query.height_field = options_.demand_height_field;
     if (options_.weight_field.empty()) {
       warn_of_unused(query, LayerFields(query), "weight", "--weight-field", inputs_.warnings);
     } else {
       query.numbers.push_back({options_.weight_field});
     }
-    std::vector<std::pair<Point2, double>> points;
-    for (const Site& site : read_sites(query, crs_, inputs_.rejected)) {
-      const double weight = site.numbers.empty() ? 1 : site.numbers.front().value_or(-1);
-      if (!(weight >= 0)) {
-        inputs_.rejected.push_back(
-            fmt::format("{}: feature {}: its weight is missing or negative", query.path, site.feature));
-      } else {
-        points.emplace_back(site.position, weight);
-      }
-    }
-    if (points.empty()) throw InputError(query.path + ": holds no point to serve");
-    sort_by_place(points);
+    std::vector<Target> targets = targets_of(query);
+    if (targets.empty()) throw InputError(query.path + ": holds no point to serve");
+    sort_by_place(targets);
     std::vector<double> weights;
-    for (const auto& [position, weight] : points) {
-      inputs_.targets.points.push_back(position);
-      weights.push_back(weight);
+    for (const Target& target : targets) {
+      inputs_.targets.points.push_back(target.position);
+      if (!query.height_field.empty()) inputs_.targets.heights.push_back(target.height);
+      weights.push_back(target.weight);
     }
     inputs_.demand = viewshed::Demand(weights);
     inputs_.total = inputs_.demand.total();
     const std::size_t on_ground = viewshed::with_ground(store_, inputs_.targets, progress_).size();
-    inputs_.demand_without_ground = points.size() - on_ground;
+    inputs_.demand_without_ground = targets.size() - on_ground;
     if (on_ground == 0 && !options_.placement.given())
       throw InputError(fmt::format("{}: none of its {} has ground data below it; the data is {}", query.path,
-                                   counted(points.size(), "point"), extent_of(store_.metadata())));
+                                   counted(targets.size(), "point"), extent_of(store_.metadata())));
+  }
+
+  std::vector<Target> targets_of(const SiteQuery& query) {
+    std::vector<Target> targets;
+    for (const Site& site : read_sites(query, crs_, inputs_.warnings, inputs_.rejected)) {
+      const double weight = site.numbers.empty() ? 1 : site.numbers.front().value_or(-1);
+      const double height = site.height.value_or(options_.target_height);
+      const char* const wrong = !(weight >= 0) ? "its weight is missing or negative"
+                                : height < 0   ? "its height is negative"
+                                : height == 0 && options_.frequency_ghz
+                                    ? "its height is 0: no link to the ground is clear"
+                                    : nullptr;
+      if (wrong == nullptr) {
+        targets.push_back({site.position, weight, height});
+      } else {
+        inputs_.rejected.push_back(fmt::format("{}: {}: {}", query.path, site.place, wrong));
+      }
+    }
+    return targets;
   }
 
   /// Sorts the points in strips, each from west to east, so that neighbours are next to each other: their sight lines
   /// are judged together.
-  static void sort_by_place(std::vector<std::pair<Point2, double>>& points) {
+  static void sort_by_place(std::vector<Target>& targets) {
     Box box;
-    for (const auto& [p, weight] : points) box.extend(p);
+    for (const Target& target : targets) box.extend(target.position);
     const double strip =
-        std::max(box.height() / std::max(1.0, std::sqrt(static_cast<double>(points.size()) / 8)), 1e-3);
-    std::stable_sort(points.begin(), points.end(), [&](const auto& a, const auto& b) {
-      const double sa = std::floor((a.first.y - box.ymin) / strip), sb = std::floor((b.first.y - box.ymin) / strip);
-      return sa != sb ? sa < sb : a.first.x != b.first.x ? a.first.x < b.first.x : a.first.y < b.first.y;
+        std::max(box.height() / std::max(1.0, std::sqrt(static_cast<double>(targets.size()) / 8)), 1e-3);
+    std::stable_sort(targets.begin(), targets.end(), [&](const Target& one, const Target& other) {
+      const Point2 a = one.position, b = other.position;
+      const double sa = std::floor((a.y - box.ymin) / strip), sb = std::floor((b.y - box.ymin) / strip);
+      return sa != sb ? sa < sb : a.x != b.x ? a.x < b.x : a.y < b.y;
     });
   }
 

@@ -94,8 +94,8 @@ class InputReader {
     } else {
       query.numbers.push_back({options_.cost_field});
     }
-    for (const Site& site : read_sites(query, crs_, inputs_.rejected)) {
-      const std::string place = fmt::format("{}: feature {}", query.path, site.feature);
+    for (const Site& site : read_sites(query, crs_, inputs_.warnings, inputs_.rejected)) {
+      const std::string place = fmt::format("{}: {}", query.path, site.place);
       const double cost = site.numbers.empty() ? 0 : site.numbers.front().value_or(std::nan(""));
       if (!(cost >= 0)) {
         reject(place + ": its cost is missing or negative");
@@ -142,13 +142,13 @@ class InputReader {
   }
 
   /// Reads the dwellings, which are points or polygons. No dwelling may be left out.
-  viewshed::Dwellings read_dwellings() const {
+  viewshed::Dwellings read_dwellings() {
     SiteQuery query;
     query.path = options_.placement.dwellings;
     query.crs = options_.in_crs.crs;
     std::vector<std::string> no_points;
     std::vector<Point2> points;
-    for (const Site& site : read_sites(query, crs_, no_points)) points.push_back(site.position);
+    for (const Site& site : read_sites(query, crs_, inputs_.warnings, no_points)) points.push_back(site.position);
     if (points.empty() && no_points.empty()) throw InputError(none_in(query, "dwelling"));
     if (points.empty()) return {{}, window_from_polygon(query.path, crs_)};
     if (!no_points.empty())
@@ -210,7 +210,7 @@ class InputReader {
     query.height_field = options_.existing_height_field;
     query.crs = options_.in_crs.crs;
     const std::size_t rejected = inputs_.rejected.size();
-    const std::vector<Site> sites = read_sites(query, crs_, inputs_.rejected);
+    const std::vector<Site> sites = read_sites(query, crs_, inputs_.warnings, inputs_.rejected);
     if (sites.empty() && inputs_.rejected.size() == rejected) throw InputError(none_in(query, "site"));
     return sites;
   }
@@ -222,7 +222,7 @@ class InputReader {
     for (std::size_t i = 0; i < sites.size(); ++i) {
       const double height = sites[i].height.value_or(options_.masts.front().height);
       if (!ground[i] || height < 0) {
-        reject(fmt::format("{}: feature {}: {}", options_.existing, sites[i].feature,
+        reject(fmt::format("{}: {}: {}", options_.existing, sites[i].place,
                            ground[i] ? "its height is negative" : "there is no data there"));
       } else {
         inputs_.positions.push_back({sites[i].name, sites[i].position, height, *ground[i]});

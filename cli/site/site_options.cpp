@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <itin/error.hpp>
+#include <itin/raster_values.hpp>
 #include <profile/fresnel.hpp>
 
 #include "options/radius_preset.hpp"
@@ -76,7 +77,8 @@ void SiteOptions::declare_demand(CLI::App& app) {
             ->type_name("cells|FILE"));
   app.add_option("--weight-field", weight_field, "The field of the points that holds weights (default: 1 each)")
       ->type_name("FIELD");
-  app.add_option("--target-height", target_height_text_, "Height of the targets above what they stand on (default: 2)")
+  app.add_option("--target-height", target_height_text_,
+                 "Height of the targets above what they stand on (default: the field height of points, else 2)")
       ->type_name("METRES");
   app.add_option("--target-on", target_on_, "ground (default), or the surface with the roofs and tops of --themes")
       ->type_name("ground|surface");
@@ -235,22 +237,36 @@ void SiteOptions::validate_links() {
 }
 
 void SiteOptions::take_fields(std::vector<std::string>& warnings) {
+  take_demand_heights(warnings);
   existing_height_field = candidates.height_field;
   if (placement.given()) return;
   if (!candidates.path.empty() && candidates.height_field.empty()) {
-    take_heights(candidates, LayerFields(candidates), mast_height_text_.empty() ? "" : "--mast-height", warnings);
+    take_heights(candidates, LayerFields(candidates),
+                 {mast_height_text_.empty() ? "" : "--mast-height", "--height-field"}, warnings);
     took_heights_ = !candidates.height_field.empty();
   }
   if (existing.empty() || !existing_height_field.empty()) return;
   SiteQuery standing;
   standing.path = existing;
-  take_heights(standing, LayerFields(standing), "", warnings);
+  take_heights(standing, LayerFields(standing), {"", "--height-field"}, warnings);
   existing_height_field = standing.height_field;
 }
 
+void SiteOptions::take_demand_heights(std::vector<std::string>& warnings) {
+  if (demand == "cells" || is_raster(demand)) return;
+  SiteQuery points;
+  points.path = demand;
+  take_heights(points, LayerFields(points), {target_height_text_.empty() ? "" : "--target-height", "", {weight_field}},
+               warnings);
+  demand_height_field = points.height_field;
+}
+
 std::string SiteOptions::heights_text() const {
-  if (!took_heights_) return {};
-  return fmt::format("heights of masts are those of the field '{}' of {}\n", candidates.height_field, candidates.path);
+  const auto taken = [](const char* what, const std::string& field, const std::string& path) {
+    return field.empty() ? "" : fmt::format("heights of {} are those of the field '{}' of {}\n", what, field, path);
+  };
+  return taken("masts", took_heights_ ? candidates.height_field : "", candidates.path) +
+         taken("targets", demand_height_field, demand);
 }
 
 std::optional<viewshed::FresnelCriterion> SiteOptions::criterion() const {
@@ -322,6 +338,7 @@ Document SiteOptions::parameters() const {
   p["observer_on"] = observer_on_;
   p["demand"] = demand;
   p["target_height_m"] = target_height;
+  if (!demand_height_field.empty()) p["demand_height_field"] = demand_height_field;
   p["target_on"] = target_on_;
   p["radius_m"] = radius;
   p["cell_m"] = cell.value_or(50);

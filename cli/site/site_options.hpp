@@ -41,8 +41,8 @@ class SiteOptions {
   /// Decides which fields of the files of sites hold heights. `warnings` gets one where a file's heights are not used.
   /// Throws FileError.
   void take_fields(std::vector<std::string>& warnings);
-  /// Returns a line about heights of masts that a file gives unasked; empty where no file does. To be called after
-  /// take_fields().
+  /// Returns lines about heights of masts and targets that a file gives unasked; empty where no file does. To be called
+  /// after take_fields().
   std::string heights_text() const;
   /// Returns the values given, by option name without dashes, as a parameter file holds them.
   Document given() const;
@@ -78,6 +78,7 @@ class SiteOptions {
   std::string demand = "cells";
   std::string weight_field;
   double target_height = 2;
+  std::string demand_height_field;  ///< the field of the demand's points that holds heights; empty: there is none
   bool targets_on_surface = false;
   double radius = 10000;
   std::optional<double> cell;
@@ -120,6 +121,8 @@ class SiteOptions {
 
   CLI::App* app_ = nullptr;
   std::string params_;
+  void take_demand_heights(std::vector<std::string>& warnings);
+
   bool took_heights_ = false;  ///< whether heights come from the usual field, for which the call did not ask
   std::string spacing_text_, mast_height_text_, mast_cost_text_, observer_on_ = "ground";
   std::string target_height_text_, target_on_ = "ground", radius_text_, cell_text_;

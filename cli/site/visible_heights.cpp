@@ -73,7 +73,7 @@ std::vector<double> heights_over_points(const Store& store, const ShownTurbines&
       near.ground_m.push_back(inputs.positions[options[i]].ground);
       numbers.push_back(i);
     }
-    const Viewpoint eye{p, {}, points[p], call.target_height, *grounds[p]};
+    const Viewpoint eye{p, {}, points[p], inputs.targets.height_of(p), *grounds[p]};
     const std::vector<Sight> sights = sights_to_all(surface, eye, near);
     for (std::size_t k = 0; k < numbers.size(); ++k)
       sums[numbers[k]] += weight_of(inputs.demand, p) * sights[k].visible;

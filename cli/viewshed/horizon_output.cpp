@@ -99,22 +99,23 @@ void HorizonOutput::validate() {
     throw InputError("--horizon-name-field and --horizon-height-field work only with --horizon-targets");
 }
 
-void HorizonOutput::read_targets(const viewshed::Request& request, bool height_given, const InCrs& in_crs,
+void HorizonOutput::read_targets(const viewshed::Request& request, const ViewshedTargets& targets, const InCrs& in_crs,
                                  const StoreMetadata& metadata, std::vector<std::string>& warnings) {
   if (sites_.path.empty()) return;
   const LayerFields fields(sites_);
-  take_heights(sites_, fields, height_given ? "--target-height" : "", warnings);
+  take_heights(sites_, fields, {targets.height_given() ? "--target-height" : "", "--horizon-height-field"}, warnings);
   take_names(sites_, fields);
   sites_.crs = in_crs.crs;
-  for (const Site& site : read_sites(sites_, metadata.crs_wkt)) {
-    const std::string where = fmt::format("{}: feature {}", sites_.path, site.feature);
+  for (const Site& site : read_sites(sites_, metadata.crs_wkt, warnings)) {
+    const std::string where = fmt::format("{}: {}", sites_.path, site.place);
     require_on_the_data(where, site.position, in_crs, metadata);
-    if (!request.target_absolute && site.height.value_or(0) < 0)
+    const bool absolute = site.height ? targets.absolute() : request.target_absolute;
+    if (!absolute && site.height.value_or(0) < 0)
       throw InputError(
           fmt::format("{}: field '{}' holds {:.10g}: a height must not be negative; for an elevation give "
                       "--absolute-heights",
                       where, sites_.height_field, *site.height));
-    targets_.push_back({site.name, site.position, site.height.value_or(request.target_height), where});
+    targets_.push_back({site.name, site.position, site.height.value_or(request.target_height), where, absolute});
   }
   if (targets_.empty()) throw InputError(none_in(sites_, "place"));
 }

@@ -12,6 +12,7 @@
 
 #include "options/in_crs.hpp"
 #include "program/verb.hpp"
+#include "viewshed/viewshed_targets.hpp"
 
 namespace itin::cli {
 
@@ -21,9 +22,9 @@ class HorizonOutput {
   /// Throws InputError.
   void validate();
   const std::vector<std::string>& paths() const { return paths_; }
-  /// Reads the targets. `height_given` tells whether the call states the height of targets. `warnings` gets one where
-  /// the file's heights are not used. Throws FileError, InputError.
-  void read_targets(const viewshed::Request& request, bool height_given, const InCrs& in_crs,
+  /// Reads the targets. `targets` tells what the call says of their heights. `warnings` gets one where the file's
+  /// heights are not used. Throws FileError, InputError.
+  void read_targets(const viewshed::Request& request, const ViewshedTargets& targets, const InCrs& in_crs,
                     const StoreMetadata& metadata, std::vector<std::string>& warnings);
   /// The parameters: the targets' file and its fields.
   Document parameters() const;

@@ -263,12 +263,12 @@ class ViewshedVerb final : public Verb {
   /// Completes the request from the store's CRS and the fields of files.
   void complete_request(const StoreMetadata& metadata, std::vector<std::string>& warnings) {
     targets_.complete(metadata, request_);
-    request_.observers = observers_.observers(metadata, request_, warnings);
+    request_.observers = observers_.observers(metadata, request_, targets_.height_given(), warnings);
     if (detail_.has_rings() && request_.observers.size() > 1) {
       throw InputError("--rings lie about one observer; for several give --tolerance");
     }
     request_.detail = detail_.detail(request_.observers.front().position);
-    horizon_.read_targets(request_, targets_.height_given(), observers_.in_crs(), metadata, warnings);
+    horizon_.read_targets(request_, targets_, observers_.in_crs(), metadata, warnings);
   }
 
   std::string text(const StoreMetadata& metadata, const viewshed::Result& result,
@@ -276,7 +276,7 @@ class ViewshedVerb final : public Verb {
     std::string text;
     for (const std::string& path : outputs_.paths())
       text += fmt::format("{}: {}\n", path, readable_bytes(std::filesystem::file_size(path)));
-    return text + observers_.text() + viewshed_text(metadata, result, missing);
+    return text + observers_.text() + targets_.text(request_) + viewshed_text(metadata, result, missing);
   }
 
   std::string store_, mode_text_;

@@ -49,6 +49,8 @@ void ViewshedTargets::declare(CLI::App& app) {
   begin_group(app, "Targets, field of view and cells");
   app.add_option("--target-height", height_text_, "Height h of the targets, one in every cell (default: 0)")
       ->type_name("METRES");
+  app.add_flag("--target-absolute", absolute_,
+               "Heights of targets alone are elevations, not heights above the surface");
   app.add_option("--target-on", on_, "ground (default), or the surface with the roofs and tops of --themes")
       ->type_name("ground|surface");
   app.add_option("--radius", radius_text_, "How far to look (default: as far as there is ground)")->type_name("METRES");
@@ -65,7 +67,10 @@ void ViewshedTargets::declare(CLI::App& app) {
 
 void ViewshedTargets::validate(const ObserverOptions& observers, viewshed::Request& request) {
   if (!height_text_.empty()) request.target_height = parse_height("--target-height", height_text_);
-  request.target_absolute = observers.absolute_heights();
+  const bool stated = height_given() || observers.reads_target_heights();
+  if (absolute_ && !stated) throw InputError("--target-absolute: give the elevation of the targets by --target-height");
+  absolute_ = absolute_ || observers.absolute_heights();
+  request.target_absolute = absolute_ && stated;
   if (!request.target_absolute && request.target_height < 0) {
     throw InputError("--target-height: a height must not be negative; for an elevation give --absolute-heights");
   }
@@ -90,6 +95,11 @@ void ViewshedTargets::validate(const ObserverOptions& observers, viewshed::Reque
 
 void ViewshedTargets::complete(const StoreMetadata& metadata, viewshed::Request& request) const {
   if (!like_.empty()) request.grid = raster_grid_like(like_, metadata.crs_wkt);
+}
+
+std::string ViewshedTargets::text(const viewshed::Request& request) const {
+  if (!absolute_ || request.target_absolute || request.mode == viewshed::Mode::kHeight) return {};
+  return "targets stay on the ground: no --target-height gives them an elevation\n";
 }
 
 Document ViewshedTargets::parameters(const viewshed::Request& request) const {

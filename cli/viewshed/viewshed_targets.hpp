@@ -20,6 +20,10 @@ class ViewshedTargets {
   void validate(const ObserverOptions& observers, viewshed::Request& request);
   /// Fills in the cells of --like. Throws InputError, FileError.
   void complete(const StoreMetadata& metadata, viewshed::Request& request) const;
+  /// Whether heights of targets, where any are stated, are elevations.
+  bool absolute() const { return absolute_; }
+  /// A line where targets stay above the ground though heights are elevations; else empty.
+  std::string text(const viewshed::Request& request) const;
   /// Whether the call states the height of targets.
   bool height_given() const { return !height_text_.empty(); }
   /// "ground" or "surface".
@@ -30,6 +34,7 @@ class ViewshedTargets {
  private:
   std::string height_text_, radius_text_, min_radius_text_, azimuth_text_, elevation_text_, cell_text_, like_;
   std::string on_ = "ground";
+  bool absolute_ = false;
 };
 
 }  // namespace itin::cli

@@ -152,7 +152,7 @@ class ZtvVerb final : public Verb {
     complete_request(metadata);
     Zone zone = viewshed::survey_turbines(store, request_, progress);
     for (const viewshed::Misplaced& m : zone.misplaced)
-      list_.bad.push_back({m.number, list_.features[m.number - 1], m.message});
+      list_.bad.push_back({m.number, list_.places[m.number - 1].first, list_.places[m.number - 1].second, m.message});
     sources_ = sources_in(store, zone.grid.bounds(), request_.themes.value_or(ThemeChoice::none()));
     missing_ = viewshed::missing_ground(zone);
     if (missing_.study_m2() == 0)
@@ -221,6 +221,7 @@ class ZtvVerb final : public Verb {
       RouteOptions::Written written = route_.write(folder, store, zone, progress);
       add(std::move(written.files));
       routes = std::move(written.routes);
+      route_warnings_ = std::move(written.warnings);
     }
     if (sheets_.given())
       add(write_ztv_sheets(folder, store, zone, sheets_,
@@ -249,7 +250,7 @@ class ZtvVerb final : public Verb {
     for (std::size_t k = 0; k < zone.request.turbines.size(); ++k) {
       const Turbine& t = zone.request.turbines[k];
       rows[t.number - 1] = fmt::format(
-          "{},{},{},{},{:.3f},{:.3f},{:.2f},{},{},{:g},{:g},used,{}\n", t.number, list_.features[t.number - 1],
+          "{},{},{},{},{:.3f},{:.3f},{:.2f},{},{},{:g},{:g},used,{}\n", t.number, list_.places[t.number - 1].first,
           csv_cell(t.name), csv_cell(t.farm), t.position.x, t.position.y, zone.ground_m[k], csv_cell(t.hub_height, 2),
           csv_cell(t.rotor_diameter, 2), t.tip_height, t.radius / 1000, radio_.cells(zone, k));
     }
@@ -339,10 +340,12 @@ class ZtvVerb final : public Verb {
     std::vector<std::string> warnings = zone.warnings;
     if (const auto warning = missing_.warning("the study area, all turbines' radii,")) warnings.push_back(*warning);
     for (const BadRow& bad : list_.bad) warnings.push_back(bad_row_warning(turbines_.path(), bad));
-    for (const std::string& warning : list_.warnings) warnings.push_back(turbines_.path() + ": " + warning);
+    for (const std::string& warning : list_.warnings) warnings.push_back(warning);
     const auto of_radio = radio_.warnings(zone);
     warnings.insert(warnings.end(), of_radio.begin(), of_radio.end());
     for (const BadRow& bad : seen_.bad) warnings.push_back(bad_row_warning(seen_.path, bad));
+    warnings.insert(warnings.end(), seen_.warnings.begin(), seen_.warnings.end());
+    warnings.insert(warnings.end(), route_warnings_.begin(), route_warnings_.end());
     // The program translates them, too, but only after they are in the document of the folder.
     std::transform(warnings.begin(), warnings.end(), warnings.begin(), in_options);
     return warnings;
@@ -385,6 +388,7 @@ class ZtvVerb final : public Verb {
   RadiusOptions radius_;
   ViewpointOptions viewpoints_;
   RouteOptions route_;
+  std::vector<std::string> route_warnings_;
   ZtvRadioOptions radio_;
   SheetOptions sheets_;
   DetailOptions detail_;

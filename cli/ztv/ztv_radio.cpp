@@ -74,7 +74,9 @@ void ZtvRadioOptions::load(const InCrs& in_crs, const StoreMetadata& metadata) {
   const profile::LinkTable table = profile::read_link_table(links_path_, metadata.crs_wkt, {}, in_crs.crs);
   for (const profile::Link& link : table.links) links_.push_back({link.id, link.from, link.to});
   for (const profile::BadLink& link : table.bad)
-    bad_links_.push_back({link.row, static_cast<std::int64_t>(link.row), link.message});
+    bad_links_.push_back(
+        {link.row, static_cast<std::int64_t>(link.row), fmt::format("feature {}", link.row), link.message});
+  file_warnings_ = table.warnings;
   if (!links_.empty()) return;
   throw InputError(fmt::format("{}: none of its rows can be used ({} in all); the first: {}", links_path_,
                                bad_links_.size(), bad_links_.front().message));
@@ -177,7 +179,7 @@ std::vector<std::string> ZtvRadioOptions::methods(const Zone& zone) const {
 
 std::vector<std::string> ZtvRadioOptions::warnings(const Zone& zone) const {
   if (links_.empty()) return {};
-  std::vector<std::string> warnings;
+  std::vector<std::string> warnings = file_warnings_;
   for (const BadRow& bad : bad_links_) warnings.push_back(bad_row_warning(links_path_, bad));
   const auto& turbines = zone.request.turbines;
   const auto unknown =

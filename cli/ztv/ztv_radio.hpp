@@ -57,6 +57,7 @@ class ZtvRadioOptions {
   std::optional<viewshed::Observer> radar_;
   std::vector<viewshed::RadioLink> links_;
   std::vector<BadRow> bad_links_;
+  std::vector<std::string> file_warnings_;  ///< about the links' file
 };
 
 }  // namespace itin::cli

@@ -212,7 +212,7 @@ RouteOptions::Written RouteOptions::write(const std::string& folder, const Store
       "route,name,surface,length_km,tips_visible_km,tips_visible_percent,hubs_visible_km,hubs_visible_percent,"
       "most_tips_visible,stretches_with_tips,no_data_km,tips_undecided_km\n";
   std::size_t number = 0;
-  written.routes = read_paths(path_, metadata.crs_wkt);
+  written.routes = read_paths(path_, metadata.crs_wkt, written.warnings);
   for (const Path& path : written.routes) {
     Route route;
     route.number = ++number;

@@ -30,6 +30,7 @@ class RouteOptions {
   struct Written {
     std::vector<viewshed::ZoneFile> files;
     std::vector<Path> routes;
+    std::vector<std::string> warnings;  ///< about the file
   };
   /// Writes route-N-NAME.csv, .pdf and .svg of each line of the file, bare and screened, and routes.csv with a row for
   /// each line. Throws FileError, InputError, Cancelled.

@@ -1,6 +1,7 @@
 #include "ztv/ztv_turbines.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <map>
 #include <utility>
 
@@ -9,6 +10,7 @@
 #include <itin/decimal_comma.hpp>
 #include <itin/error.hpp>
 #include <itin/file_digest.hpp>
+#include <itin/position_columns.hpp>
 #include <itin/progress.hpp>
 
 #include "options/site_list.hpp"
@@ -38,7 +40,7 @@ Document bad_rows_document(const std::string& file, std::size_t rows, std::size_
 }
 
 std::string bad_row_warning(const std::string& file, const BadRow& row) {
-  return fmt::format("{}: row {} (feature {}) is not used: {}", file, row.number, row.feature, row.message);
+  return fmt::format("{}: row {} ({}) is not used: {}", file, row.number, row.place, row.message);
 }
 
 std::size_t known_hubs(const std::vector<viewshed::Turbine>& turbines) {
@@ -48,14 +50,35 @@ std::size_t known_hubs(const std::vector<viewshed::Turbine>& turbines) {
 
 namespace {
 
+/// Warns of fields that seem to hold a size of turbines, and are not read.
+void warn_of_likely_sizes(const std::string& file, const LayerFields& layer, const std::vector<SiteField>& read,
+                          std::vector<std::string>& warnings) {
+  constexpr std::pair<const char*, const char*> kSizes[] = {{"hub", "--hub-height-field"},
+                                                            {"rotor", "--rotor-diameter-field"},
+                                                            {"blade", "--tip-height-field"},
+                                                            {"tip", "--tip-height-field"},
+                                                            {"height", "--tip-height-field"}};
+  for (const std::string& name : layer.names()) {
+    const auto is_it = [&](const SiteField& field) { return same_column_name(field.name, name); };
+    if (std::any_of(read.begin(), read.end(), is_it)) continue;
+    std::string lower = name;
+    std::transform(lower.begin(), lower.end(), lower.begin(), [](unsigned char c) { return std::tolower(c); });
+    const auto size = std::find_if(std::begin(kSizes), std::end(kSizes),
+                                   [&](const auto& s) { return lower.find(s.first) != std::string::npos; });
+    if (size != std::end(kSizes))
+      warnings.push_back(
+          fmt::format("{}: its field '{}' is not used; {} '{}' would use it", file, name, size->second, name));
+  }
+}
+
 /// Warns of turbines at one place: they count twice, which is seldom meant.
-void warn_of_duplicates(TurbineList& list) {
+void warn_of_duplicates(const std::string& file, TurbineList& list) {
   std::map<std::pair<double, double>, std::size_t> first;
   for (const viewshed::Turbine& t : list.turbines) {
     const auto [at, fresh] = first.emplace(std::pair(t.position.x, t.position.y), t.number);
     if (!fresh)
-      list.warnings.push_back(fmt::format("row {} stands at the same place as row {}, {:.10g},{:.10g}; both count",
-                                          t.number, at->second, t.position.x, t.position.y));
+      list.warnings.push_back(fmt::format("{}: row {} stands at the same place as row {}, {:.10g},{:.10g}; both count",
+                                          file, t.number, at->second, t.position.x, t.position.y));
   }
 }
 
@@ -115,17 +138,19 @@ viewshed::Turbine TurbineOptions::turbine_of(const SiteRow& row) const {
 TurbineList TurbineOptions::read(const StoreMetadata& metadata, const std::function<double(double)>& radius) const {
   // A field that was asked for has to be there.
   const auto field = [](const std::string& name, const char* usual) { return SiteField{name, name != usual}; };
-  const auto rows = read_site_rows(
-      query_,
-      {field(hub_field_, kHubField), field(rotor_field_, kRotorField), field(tip_field_, kTipField),
-       field(farm_field_, kFarmField), field(query_.name_field.empty() ? kNameField : query_.name_field, kNameField)},
-      metadata.crs_wkt);
+  const LayerFields layer(query_);
+  const std::string names = query_.name_field.empty() ? name_field_of(layer).value_or(kNameField) : query_.name_field;
+  const std::vector<SiteField> fields{field(hub_field_, kHubField), field(rotor_field_, kRotorField),
+                                      field(tip_field_, kTipField), field(farm_field_, kFarmField),
+                                      SiteField{names, !query_.name_field.empty()}};
   TurbineList list;
+  const auto rows = read_site_rows(query_, fields, metadata.crs_wkt, list.warnings);
+  warn_of_likely_sizes(query_.path, layer, fields, list.warnings);
   NoProgress quiet;
   list.sha256 = file_sha256(query_.path, quiet);
   for (const SiteRow& row : rows) {
     const std::size_t k = ++list.rows;
-    list.features.push_back(row.feature);
+    list.places.emplace_back(row.feature, row.place);
     try {
       viewshed::Turbine turbine = turbine_of(row);
       turbine.number = k;
@@ -133,10 +158,10 @@ TurbineList TurbineOptions::read(const StoreMetadata& metadata, const std::funct
       turbine.radius = radius(turbine.tip_height);
       list.turbines.push_back(std::move(turbine));
     } catch (const InputError& error) {
-      list.bad.push_back({k, row.feature, in_options(error.what())});
+      list.bad.push_back({k, row.feature, row.place, in_options(error.what())});
     }
   }
-  warn_of_duplicates(list);
+  warn_of_duplicates(query_.path, list);
   if (list.rows == 0) throw InputError(none_in(query_, "turbine"));
   if (list.turbines.empty())
     throw InputError(fmt::format("{}: none of its rows can be used ({} in all); the first: {}", query_.path, list.rows,

@@ -5,6 +5,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -22,6 +23,7 @@ namespace itin::cli {
 struct BadRow {
   std::size_t number = 0;    ///< from 1, in the file's order
   std::int64_t feature = 0;  ///< the file's own number for it
+  std::string place;         ///< where it stands in the file: "feature 3"
   std::string message;
 };
 
@@ -36,9 +38,10 @@ struct TurbineList {
   std::size_t rows = 0;
   std::vector<viewshed::Turbine> turbines;
   std::vector<BadRow> bad;
-  std::vector<std::int64_t> features;  ///< one for each row: the file's own number for it
-  std::string sha256;                  ///< checksum of the file
-  std::vector<std::string> warnings;   ///< about rows that are used
+  std::vector<std::pair<std::int64_t, std::string>>
+      places;                         ///< one for each row: the file's own number for it, and its place
+  std::string sha256;                 ///< checksum of the file
+  std::vector<std::string> warnings;  ///< about rows that are used
 };
 
 class TurbineOptions {

@@ -230,7 +230,12 @@ ViewpointOptions::Written ViewpointOptions::write(const std::string& folder, con
   std::string table = fmt::format("{}{}\n", kHeader, features ? kScreenedHeader : "");
   std::string summary = summary_header(features.has_value());
   WirelineWriter wirelines(folder, store, zone, choice_, sheets);
-  for (const SiteRow& row : read_site_rows(query_, {{kNameField}, {kHeightField}}, metadata.crs_wkt)) {
+  SiteQuery query = query_;
+  const LayerFields fields(query);
+  take_names(query, fields);
+  take_heights(query, fields, {}, written.warnings);
+  for (const SiteRow& row :
+       read_site_rows(query, {{query.name_field}, {query.height_field}}, metadata.crs_wkt, written.warnings)) {
     const std::size_t number = ++written.rows;
     try {
       const Viewpoint v = viewpoint_of(row, number, ground, zone.request.observer_height);
@@ -250,7 +255,7 @@ ViewpointOptions::Written ViewpointOptions::write(const std::string& folder, con
       wirelines.write(v, {ground, "Bare ground", "", ""}, sights, progress);
       if (features) wirelines.write(v, {*features, screened_title, "-screened", remark}, screened, progress);
     } catch (const InputError& error) {
-      written.bad.push_back({number, row.feature, in_options(error.what())});
+      written.bad.push_back({number, row.feature, row.place, in_options(error.what())});
     }
   }
   if (written.rows == 0) throw InputError(none_in(query_, "viewpoint"));

@@ -34,7 +34,8 @@ class ViewpointOptions {
     std::size_t rows = 0;
     std::vector<BadRow> bad;
     std::string path;
-    std::vector<NamedPlace> places;  ///< one for each viewpoint used
+    std::vector<std::string> warnings;  ///< about the file
+    std::vector<NamedPlace> places;     ///< one for each viewpoint used
   };
   /// Writes viewpoints.csv, viewpoints-summary.csv, and the files of WirelineWriter for the viewpoints chosen. Throws
   /// FileError, InputError (a wireline of no viewpoint), Cancelled.

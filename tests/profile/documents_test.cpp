@@ -61,9 +61,10 @@ TEST_F(Documents, OfALineOverAStore) {
 /// Without positions or a CRS.
 TEST_F(Documents, OfALineOverAProfile) {
   std::istringstream csv("0,10\n1,80\n2,20\n");
+  std::vector<std::string> warnings;
   LosQuery query;
   query.from_height_m = query.to_height_m = 2;
-  const LosReport report = analyse(read_profile_csv(csv, "profile"), query);
+  const LosReport report = analyse(read_profile_csv(csv, "profile", warnings), query);
   const Document found = found_in(json_of(report));
   EXPECT_EQ(found, los_document(report));
   EXPECT_TRUE(found["crs"].is_null());

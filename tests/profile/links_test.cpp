@@ -231,6 +231,47 @@ TEST(LinkTable, NamesTheColumnsThatItsHeaderLacks) {
   EXPECT_EQ(refusal_of("id,e1,n1,h1,e3,n3,h2\na,1,2,3,4,5,6\n").substr(0, 31), "its header has no column x2, y2");
 }
 
+TEST(LinkTable, TellsWhatItTakesByPlace) {
+  const LinkTable table = table_of("Site;Lat;Lon;Antenna Height;A;B;C\na;1;2;3,5;4;5;6\n");
+  ASSERT_EQ(table.links.size(), 1U);
+  EXPECT_EQ(table.links[0].from_height, 3.5);
+  ASSERT_EQ(table.warnings.size(), 1U);
+  EXPECT_NE(
+      table.warnings[0].find("its header is not understood; columns are taken by their order: 'Site' as id, 'Lat' "
+                             "as x1, 'Lon' as y1, 'Antenna Height' as h1"),
+      std::string::npos);
+  EXPECT_TRUE(table_of("name,e,n,h,e,n,h\na,1,2,3,4,5,6\n").warnings.empty());
+  EXPECT_TRUE(table_of("a,1,2,3,4,5,6\n").warnings.empty());
+}
+
+TEST(LinkTable, TakesHeightsAndFrequenciesInOtherWords) {
+  const LinkTable table = table_of(
+      "id,x1,y1,Antenna height 1 (m),x2,y2,height_2,Freq (MHz)\na,1,2,3,4,5,6,\"7,500\"\nb,1,2,3,4,5,6,7500.5\n");
+  ASSERT_EQ(table.links.size(), 1U);
+  EXPECT_EQ(table.links[0].to_height, 6);
+  EXPECT_EQ(table.links[0].frequency_ghz, 7.5005);
+  ASSERT_EQ(table.bad.size(), 1U);
+  EXPECT_EQ(table_of("id,x1,y1,h1,x2,y2,h2,freq\na,1,2,3,4,5,6,\"7,125\"\n").links.at(0).frequency_ghz, 7.125);
+  EXPECT_EQ(
+      refusal_of("id,x1,y1,observ_hgt,x2,y2,h2\na,1,2,3,4,5,6\n"),
+      "its header has no column h1; name the columns id,x1,y1,h1,x2,y2,h2, in any order; 'observ_hgt' may be meant "
+      "by h1 or h2");
+}
+
+TEST(LinkTable, ReadsDecimalCommasOfDegrees) {
+  for (const char* text :
+       {"id;lat1;lon1;h1;lat2;lon2;h2\na;51,543;-3,293;3;51,6;-3,1;6\n",
+        "id,lat1,lon1,h1,lat2,lon2,h2\na,\"51\xC2\xB0 32,58' N\",\"3\xC2\xB0 17,58' W\",3,51.6,-3.1,6\n",
+        "id,position1,h1,position2,h2\na,\"51,543N 3,293W\",3,\"51,6N 3,1W\",6\n"}) {
+    const LinkTable table = table_of(text);
+    ASSERT_EQ(table.links.size(), 1U) << text;
+    EXPECT_NEAR(table.links[0].from.x, 310400, 100) << text;
+    EXPECT_NEAR(table.links[0].from.y, 183450, 100) << text;
+  }
+  EXPECT_EQ(table_of("id;x1;y1;h1;x2;y2;h2\na;310,375;2;3;4;5;6\n").bad.at(0).message,
+            "x1 '310,375' has a comma that may part thousands; write numbers with a decimal point");
+}
+
 TEST(LinkTable, InLongitudeAndLatitudeIsGeographic) {
   const LinkTable table = table_of("id,lon1,lat1,h1,lon2,lat2,h2\na,-3.2934,51.5437,3,-3.1,51.6,6\n");
   ASSERT_EQ(table.links.size(), 1U);

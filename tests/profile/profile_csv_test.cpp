@@ -11,7 +11,8 @@ namespace {
 
 Profile read(const std::string& text) {
   std::istringstream stream(text);
-  return read_profile_csv(stream, "p.csv");
+  std::vector<std::string> warnings;
+  return read_profile_csv(stream, "p.csv", warnings);
 }
 
 std::string refusal(const std::string& text) {
@@ -59,8 +60,35 @@ TEST(ProfileCsv, NamesTheLineThatIsWrong) {
   EXPECT_NE(refusal("1\n2\n").find("line 1: 1 column;"), std::string::npos);
 }
 
+TEST(ProfileCsv, KnowsMetresFromKilometres) {
+  for (const char* text : {"d_m,h_m\n0,1\n900,2\n", "Distance (m);Height (m)\n5;1\n905;2\n"})
+    EXPECT_EQ(read(text).length_m, 900) << text;
+  std::istringstream unnamed("0,1\n12500,2\n25000,3\n");
+  std::vector<std::string> warnings;
+  const Profile profile = read_profile_csv(unnamed, "p.csv", warnings);
+  EXPECT_EQ(profile.length_m, 25000);
+  EXPECT_EQ(profile.points[1].distance_m, 12500);
+  EXPECT_EQ(warnings, std::vector<std::string>{"p.csv: its distances reach 25000 and are taken for metres, not "
+                                               "kilometres; a header d_m,h_m or d_km,h_m states the unit"});
+  EXPECT_EQ(refusal("d_km,h_m\n0,1\n25000,3\n").substr(0, 25), "p.csv: is 25000 km long, ");
+}
+
+TEST(ProfileCsv, TakesTheTextThatReportsWrite) {
+  const Profile profile = read("0.000000\t102.30\t0.00\tN\n0.010000\t101.00\t7.50\tT\n0.020000\t99.00\t0.00\tN\n");
+  ASSERT_EQ(profile.points.size(), 3U);
+  EXPECT_EQ(profile.points[1].clutter_m, 7.5);
+  EXPECT_NEAR(profile.length_m, 20, 1e-9);
+}
+
+TEST(ProfileCsv, TakesDecimalCommas) {
+  const Profile profile = read("sep=;\nd_km;h_m\n0,000;\"101,5\"\n0,125;99\n");
+  EXPECT_EQ(profile.length_m, 125);
+  EXPECT_EQ(profile.points[0].ground_m, 101.5);
+}
+
 TEST(ProfileCsv, AFileThatIsNotThereIsAFileError) {
-  EXPECT_THROW(read_profile_csv("/nowhere/p.csv"), FileError);
+  std::vector<std::string> warnings;
+  EXPECT_THROW(read_profile_csv("/nowhere/p.csv", warnings), FileError);
 }
 
 }  // namespace

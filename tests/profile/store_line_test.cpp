@@ -149,7 +149,7 @@ TEST_F(StoreLines, OverRingsThatLeaveFeaturesOutAreCertainOrUndecided) {
 TEST_F(StoreLines, TakeElevations) {
   StoreLine line{{300100, 199900}, {300400, 199600}};
   const LosReport heights = analyse(*store_, line, query(5, 9));
-  line.elevations = true;
+  line.from_is_elevation = line.to_is_elevation = true;
   const LosReport elevations = analyse(*store_, line, query(heights.antennas.from_m, heights.antennas.to_m));
   EXPECT_NEAR(elevations.query.from_height_m, 5, 1e-9);
   EXPECT_NEAR(*elevations.clearance_m, *heights.clearance_m, 1e-9);
@@ -168,9 +168,11 @@ TEST_F(StoreLines, RefuseWhatHasNoAnswer) {
   expect_refusal({ground, hole}, query(2, 2), "`to`: there is no ground at 300560.00,199430.00; move it onto the data");
   expect_refusal({outside, hole}, query(2, 2),
                  "`from`: there is no ground at 310000.00,199900.00; move it onto the data");
-  const std::string negative = ": a height must not be negative; for an elevation set `elevations`";
-  expect_refusal({ground, hole}, query(-1, 2), "`from_height_m`" + negative);
-  expect_refusal({hole, ground}, query(2, -1), "`to_height_m`" + negative);
+  const auto negative = [](const std::string& end) {
+    return "`" + end + "_height_m`: a height must not be negative; for an elevation set `" + end + "_is_elevation`";
+  };
+  expect_refusal({ground, hole}, query(-1, 2), negative("from"));
+  expect_refusal({hole, ground}, query(2, -1), negative("to"));
   EXPECT_THROW(analyse(*store_, {ground, ground}, query(NAN, 2)), InputError);
 }
 

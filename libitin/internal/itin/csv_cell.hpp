@@ -8,10 +8,13 @@
 
 #include <fmt/format.h>
 
+#include <itin/plain_text.hpp>
+
 namespace itin {
 
-/// Returns the text, quoted where it has to be.
-inline std::string csv_cell(const std::string& text) {
+/// Returns the text as printable_text(), quoted where it has to be.
+inline std::string csv_cell(const std::string& given) {
+  const std::string text = printable_text(given);
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
   std::string quoted = "\"";
   for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);

@@ -1,6 +1,6 @@
 // Lines to follow, from any vector file.
 //
-//   for (const Path& path : read_paths("ridge.gpkg", store.metadata().crs_wkt)) ...
+//   for (const Path& path : read_paths("ridge.gpkg", store.metadata().crs_wkt, warnings)) ...
 #pragma once
 
 #include <cstddef>
@@ -17,6 +17,7 @@ struct Path {
   std::string id;               ///< the feature's `id` or `name` field, else its number
   std::string name;             ///< the feature's `name` or `id` field; may be empty
   std::vector<Point2> corners;  ///< at least two, in the CRS asked for; a corner that is given again at once is one
+  bool has_z = false;           ///< whether the file has a height for any corner that is not 0
 };
 
 /// A feature that is no line, or has a place that the CRS asked for does not know.
@@ -29,7 +30,8 @@ struct BadPath {
 
 struct PathFile {
   std::vector<Path> paths;
-  std::vector<BadPath> bad;  ///< in the file's order
+  std::vector<BadPath> bad;           ///< in the file's order
+  std::vector<std::string> warnings;  ///< about names that were not plain text, a line each
 };
 
 /// Which lines of a file are read: by default all lines of all layers.
@@ -43,8 +45,9 @@ struct PathChoice {
 /// that is unknown, and a filter that makes no sense or leaves nothing.
 PathFile read_path_file(const std::string& path, const std::string& to_crs, const PathChoice& choice = {});
 
-/// Returns the lines alone. Throws as read_path_file() does, and FileError naming the first feature that is no line.
-std::vector<Path> read_paths(const std::string& path, const std::string& to_crs);
+/// Returns the lines alone, and adds to `warnings`. Throws as read_path_file() does, and FileError naming the first
+/// feature that is no line.
+std::vector<Path> read_paths(const std::string& path, const std::string& to_crs, std::vector<std::string>& warnings);
 
 /// Returns the corners, each that equals the one before it left out; but two where all are equal.
 std::vector<Point2> without_repeats(std::vector<Point2> corners);

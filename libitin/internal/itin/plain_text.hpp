@@ -22,6 +22,9 @@ bool is_plain_text(std::string_view text);
 /// Latin-1 is a part), tabs and line breaks become blanks, and other control characters become question marks.
 std::string plain_text(std::string_view text);
 
+/// Does the same, but keeps tabs and line breaks: the text as any document may hold it, whatever it was made of.
+std::string printable_text(std::string_view text);
+
 /// Makes the texts of one file plain, and remembers which were not.
 class PlainTexts {
  public:

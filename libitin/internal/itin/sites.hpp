@@ -3,7 +3,7 @@
 //   SiteQuery query;
 //   query.path = "masts.gpkg";
 //   query.height_field = "mast_m";
-//   for (const Site& site : read_sites(query, store.metadata().crs_wkt)) ...
+//   for (const Site& site : read_sites(query, store.metadata().crs_wkt, warnings)) ...
 #pragma once
 
 #include <cstdint>
@@ -22,7 +22,7 @@ struct NumberField {
 };
 
 struct SiteQuery {
-  std::string path;          ///< GeoPackage, GeoJSON, Shapefile, CSV with columns of x and y; whatever GDAL reads
+  std::string path;          ///< a text table with columns of x and y, or whatever vector format GDAL reads
   std::string layer;         ///< default: the file's only layer
   std::string where;         ///< an attribute filter in OGR's SQL; default: all features
   std::string height_field;  ///< metres; default: no heights
@@ -34,11 +34,12 @@ struct SiteQuery {
 };
 
 struct Site {
-  std::int64_t feature = 0;  ///< the file's own number for the feature
-  std::int64_t row = 0;      ///< the feature's place among the features asked for, from 0
-  std::string name;
-  Point2 position;                             ///< in the CRS asked for
-  std::optional<double> height;                ///< nothing where the field is empty, or none is asked for
+  std::int64_t feature = 0;      ///< the file's own number for the feature
+  std::int64_t row = 0;          ///< the feature's place among the features asked for, from 0
+  std::string place;             ///< where it stands in the file: "feature 3", or "feature 3, line 9" of a table
+  std::string name;              ///< with a number behind it for each of several points of one feature
+  Point2 position;               ///< in the CRS asked for
+  std::optional<double> height;  ///< nothing where the field is empty, or none is asked for
   std::vector<std::optional<double>> numbers;  ///< one for each SiteQuery::numbers; nothing where the field is empty
 };
 
@@ -47,19 +48,23 @@ class LayerFields {
  public:
   /// Throws FileError for a file or layer that is missing or not understood.
   explicit LayerFields(const SiteQuery& query);
-  /// Tells whether the layer has the field, in any case of letters.
-  bool has(const std::string& name) const;
+  /// Returns the name of the field that same_column_name() says is the same: `name` itself, but for the case of its
+  /// letters, or else what the layer calls it.
+  std::optional<std::string> named(const std::string& name) const;
+  const std::vector<std::string>& names() const { return names_; }
 
  private:
   std::vector<std::string> names_;
 };
 
-/// Returns all sites in the file's order, in the CRS `to_crs` (WKT). Throws FileError for a file, layer, field, filter
-/// or feature that is missing or not understood (naming it), InputError for a CRS that is unknown, a height beyond
+/// Returns all sites in the file's order, in the CRS `to_crs` (WKT). `warnings` gets a line for each kind of thing that
+/// was read otherwise than it is written, or not at all. Throws FileError for a file, layer, field, filter or feature
+/// that is missing or not understood (naming it), InputError for a CRS that is unknown, a height beyond
 /// kFarthestHeight, and a filter that leaves nothing.
-std::vector<Site> read_sites(const SiteQuery& query, const std::string& to_crs);
+std::vector<Site> read_sites(const SiteQuery& query, const std::string& to_crs, std::vector<std::string>& warnings);
 
 /// Does the same, but leaves out features that are not understood, each with a line in `rejected` that names it.
-std::vector<Site> read_sites(const SiteQuery& query, const std::string& to_crs, std::vector<std::string>& rejected);
+std::vector<Site> read_sites(const SiteQuery& query, const std::string& to_crs, std::vector<std::string>& warnings,
+                             std::vector<std::string>& rejected);
 
 }  // namespace itin

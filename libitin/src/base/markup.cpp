@@ -1,10 +1,11 @@
 #include <itin/markup.hpp>
+#include <itin/plain_text.hpp>
 
 namespace itin {
 
 std::string escaped_markup(std::string_view text) {
   std::string result;
-  for (const char c : text) {
+  for (const char c : printable_text(text)) {
     switch (c) {
       case '&':
         result += "&amp;";

@@ -83,10 +83,16 @@ bool is_plain_text(std::string_view text) {
   return std::none_of(text.begin(), text.end(), is_control) && is_utf8(text);
 }
 
+std::string printable_text(std::string_view text) {
+  std::string printable = is_utf8(text) ? std::string(text) : from_windows(text);
+  std::replace_if(
+      printable.begin(), printable.end(), [](char c) { return is_control(c) && !parts_lines(c); }, '?');
+  return printable;
+}
+
 std::string plain_text(std::string_view text) {
-  std::string plain = is_utf8(text) ? std::string(text) : from_windows(text);
+  std::string plain = printable_text(text);
   std::replace_if(plain.begin(), plain.end(), parts_lines, ' ');
-  std::replace_if(plain.begin(), plain.end(), is_control, '?');
   return plain;
 }
 

@@ -1,5 +1,6 @@
 #include <memory>
 
+#include <itin/plain_text.hpp>
 #include <itin/vector_export.hpp>
 
 #include "export/geopackage.hpp"
@@ -11,7 +12,7 @@ namespace {
 void set(OGRFeature& row, int field, const VectorLayer::Value& value) {
   if (const auto* number = std::get_if<double>(&value)) row.SetField(field, *number);
   if (const auto* whole = std::get_if<std::int64_t>(&value)) row.SetField(field, static_cast<GIntBig>(*whole));
-  if (const auto* text = std::get_if<std::string>(&value)) row.SetField(field, text->c_str());
+  if (const auto* text = std::get_if<std::string>(&value)) row.SetField(field, printable_text(*text).c_str());
 }
 
 void set_geometry(OGRFeature& row, const std::vector<Point3>& points, bool point) {

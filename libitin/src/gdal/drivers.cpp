@@ -74,7 +74,6 @@ void make_gdal_ready() {
     GDALRegister_MEM();
     RegisterOGRGeoPackage();
     RegisterOGRMEM();
-    RegisterOGRCSV();
   });
 }
 

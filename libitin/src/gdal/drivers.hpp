@@ -1,5 +1,5 @@
-// GDAL's formats, registered when the first call needs them. All 210 take 9 MB and 2 ms. The formats that itin writes,
-// and tables (CSV), take 2 MB. They come first; all others are registered when a file is opened that is none of these.
+// GDAL's formats, registered when the first call needs them. All 210 take 9 MB and 2 ms. The formats that itin writes
+// take 2 MB. They come first; all others are registered when a file is opened that is none of these.
 #pragma once
 
 #include <string>

@@ -65,18 +65,19 @@ struct LinkTable {
   std::vector<Link> links;
   std::vector<BadLink> bad;                ///< in order
   std::vector<std::string> other_columns;  ///< names of columns that are not understood, but kept for the output
+  std::vector<std::string> warnings;       ///< about what was read otherwise than it may be meant, a line each
 };
 
-/// Reads a table `id,x1,y1,h1,x2,y2,h2`, if the name ends in .csv, in whatever case. Otherwise reads a file of lines,
-/// whose ends are the links' ends at `heights` above the surface.
+/// Reads a table `id,x1,y1,h1,x2,y2,h2`, if the name ends in .csv, .tsv or .txt, in whatever case. Otherwise reads a
+/// file of lines, whose ends are the links' ends at `heights` above the surface.
 ///
-/// A table may have a header line. If that has these names, the columns may come in another order, and there may be
+/// A table may have a header. If that has these names, the columns may come in another order, and there may be
 /// others: `name1`, `name2`, `frequency`, `polarisation` and `criteria` (with blanks between several) of each link, and
 /// further ones that are kept. `name` or `link` may stand for `id`; where none of the three is there, links have the
 /// numbers of their rows from 1. Easting and northing, or lon and lat, each with 1 or 2 behind it, may stand for x and
 /// y; so may `position1` and `position2` (or `gridref1` and `gridref2`) with grid references, or with latitudes and
-/// longitudes in degrees and their letters. Semicolons or tabs may separate the columns, and then commas may be
-/// decimal.
+/// longitudes in degrees and their letters. Semicolons or tabs may separate the columns, and a comma that cannot
+/// part thousands is decimal.
 ///
 /// The links are in the CRS `to_crs` (WKT). CSV tables are taken to be in `csv_crs`; if that is empty, in longitude and
 /// latitude where the header calls them so, else in `to_crs`. Throws FileError for a file that is missing or not

@@ -103,7 +103,8 @@ struct StoreLine {
   Point2 from, to;                           ///< in the store's CRS
   Detail detail = Detail::tolerance(0);      ///< the surface's level of detail
   ThemeChoice themes = ThemeChoice::none();  ///< raised features on the surface
-  bool elevations = false;  ///< the query's heights are elevations, not heights above what the ends stand on
+  /// Whether the query's height of an end is an elevation, not a height above what the end stands on.
+  bool from_is_elevation = false, to_is_elevation = false;
 };
 
 /// One end of a line, so far as it is known: a profile from a file has no positions.

@@ -77,16 +77,16 @@ Profile from_section(const CrossSection& section);
 /// The names of a store's themes by ProfilePoint::theme; 0 is the terrain.
 std::vector<std::string> theme_names(const StoreMetadata& metadata);
 
-/// Reads a profile from others: `d_km,h_m[,clutter_m]`, one row per point, a header line optional. Columns are
-/// separated by commas, semicolons or tabs, whichever the first line has. A first line that is not numbers is a header,
-/// whose names (of any case, in this order) are checked. Empty lines and lines that begin with # are skipped. The
-/// decimal sign is a point, or a comma where commas separate nothing. Distances ascend (two equal ones are a vertical
-/// face) and begin anywhere: the first is the profile's origin. Throws InputError, naming `name` and the line, for
-/// anything else, for numbers that are not finite, negative clutter, heights beyond 1,000 km or that customarily
-/// mark missing data, distances that are all the same, and fewer than two rows.
-Profile read_profile_csv(std::istream& text, const std::string& name);
+/// Reads a profile from others: `d_km,h_m[,clutter_m]`, one row per point, a header optional. A header may name d_m for
+/// distances in metres. Rows of four columns are those that `itin los --report FILE.txt` writes: the last tells what
+/// stands there. Distances ascend (two equal ones are a vertical face) and begin anywhere: the first is the profile's
+/// origin. Where no header states their unit, distances that reach 1,000 or more from the first are metres; a line in
+/// `warnings` says so. Throws InputError, naming `name` and the line, for anything else, for numbers that are not
+/// finite, negative clutter, heights beyond 1,000 km or that customarily mark missing data, distances that are all the
+/// same or too long for any sight, and fewer than two rows.
+Profile read_profile_csv(std::istream& text, const std::string& name, std::vector<std::string>& warnings);
 /// Reads such a profile from a file. Throws FileError where it cannot be read.
-Profile read_profile_csv(const std::string& path);
+Profile read_profile_csv(const std::string& path, std::vector<std::string>& warnings);
 
 /// The surface at one detail along a line.
 struct SurfaceProfile {

@@ -7,6 +7,7 @@
 
 #include <itin/degrees.hpp>
 #include <itin/error.hpp>
+#include <itin/plain_text.hpp>
 
 #include "drawing/surface.hpp"
 
@@ -123,11 +124,12 @@ class CairoSurface final : public Surface {
   double text_width(const std::string& text, const Lettering& lettering) const override {
     select_font(cairo_, lettering);
     cairo_text_extents_t extents;
-    cairo_text_extents(cairo_, text.c_str(), &extents);
+    cairo_text_extents(cairo_, printable_text(text).c_str(), &extents);
     return extents.x_advance;
   }
 
-  void text(Point2 anchor, const std::string& text, const Lettering& lettering) override {
+  void text(Point2 anchor, const std::string& any_text, const Lettering& lettering) override {
+    const std::string text = printable_text(any_text);
     double shift = 0;
     if (lettering.align != Align::kLeft) {
       shift = -text_width(text, lettering) / (lettering.align == Align::kCentre ? 2 : 1);

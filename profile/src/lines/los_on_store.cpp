@@ -14,12 +14,14 @@ namespace itin::profile {
 namespace {
 
 void require_heights(const StoreLine& line, const LosQuery& query) {
-  for (const auto& [field, height] :
-       {std::pair("`from_height_m`", query.from_height_m), std::pair("`to_height_m`", query.to_height_m)}) {
-    require_height(height, field);
-    if (height < 0 && !line.elevations)
-      throw InputError(fmt::format("{}: a height must not be negative; for an elevation set `elevations`", field));
-  }
+  const auto require = [](const char* end, double height, bool is_elevation) {
+    require_height(height, fmt::format("`{}_height_m`", end));
+    if (height < 0 && !is_elevation)
+      throw InputError(
+          fmt::format("`{0}_height_m`: a height must not be negative; for an elevation set `{0}_is_elevation`", end));
+  };
+  require("from", query.from_height_m, line.from_is_elevation);
+  require("to", query.to_height_m, line.to_is_elevation);
 }
 
 void require_ground(const StoreLine& line, const Profile& profile) {
@@ -50,11 +52,9 @@ LosReport analyse(const Store& store, const StoreLine& line, LosQuery query) {
     ground = from_section(bare);
     section.statistics += bare.statistics;
   }
-  if (line.elevations) {
-    const EndGrounds grounds = stands_on(profile, ground, query);
-    query.from_height_m = height_above("`from`", grounds.from_m, query.from_height_m);
-    query.to_height_m = height_above("`to`", grounds.to_m, query.to_height_m);
-  }
+  const EndGrounds grounds = stands_on(profile, ground, query);
+  if (line.from_is_elevation) query.from_height_m = height_above("`from`", grounds.from_m, query.from_height_m);
+  if (line.to_is_elevation) query.to_height_m = height_above("`to`", grounds.to_m, query.to_height_m);
   query.clearance_error_m += clearance_error(store, line.detail, line.themes, line.from, line.to);
 
   LosReport report = analyse(std::move(profile), query, std::move(ground));

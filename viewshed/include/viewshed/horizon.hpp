@@ -25,8 +25,9 @@ namespace itin::viewshed {
 struct HorizonTarget {
   std::string name;
   Point2 position;
-  double height = 0;        ///< metres above the ground, or an elevation with Request::target_absolute
+  double height = 0;        ///< metres above the ground, or an elevation when `absolute`
   std::string source = {};  ///< where it was read, for messages, such as "peaks.csv: feature 7"; or empty
+  bool absolute = false;
 };
 
 struct HorizonOptions {

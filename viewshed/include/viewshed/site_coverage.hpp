@@ -58,8 +58,11 @@ std::vector<std::optional<double>> ground_under(const Store& store, const std::v
 struct SiteTargets {
   std::optional<RasterGrid> grid;
   std::vector<Point2> points;
-  double height = 0;        ///< metres above the ground
-  bool on_surface = false;  ///< the height is above the surface with the themes instead
+  double height = 0;            ///< metres above the ground
+  std::vector<double> heights;  ///< one for each point; empty where all have `height`
+  bool on_surface = false;      ///< heights are above the surface with the themes instead
+
+  double height_of(std::size_t point) const { return heights.empty() ? height : heights[point]; }
 };
 
 /// What the targets count as that only ground without data could hide, under NoData::kUnknown.

@@ -127,7 +127,7 @@ class Survey {
                          distance, reach_));
     if (!ground) refuse(target, "there is no ground data; move it onto the data, or leave it out");
     SightedTarget& sighted = result_.targets.emplace_back(SightedTarget{target});
-    sighted.elevation_m = request_.target_absolute ? target.height : *ground + target.height;
+    sighted.elevation_m = target.absolute ? target.height : *ground + target.height;
     const Point3 to = units_of(sighted);
     const auto [dx, dy] = eye_.offset_to(p, {to.x, to.y});
     sighted.distance_m = std::hypot(dx, dy);

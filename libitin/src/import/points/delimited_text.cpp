@@ -36,12 +36,6 @@ std::string in_quotes(std::string_view text) {
   return fmt::format("'{}{}'", plain_text(text.substr(0, 60)), text.size() > 60 ? "..." : "");
 }
 
-std::optional<std::size_t> column_named(const std::vector<std::string>& names, std::string_view name) {
-  const auto found = std::find_if(names.begin(), names.end(), [&](const auto& n) { return same_column_name(n, name); });
-  if (found == names.end()) return std::nullopt;
-  return static_cast<std::size_t>(found - names.begin());
-}
-
 /// Turns rows into points.
 class RowParser {
  public:

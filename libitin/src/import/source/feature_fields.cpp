@@ -38,7 +38,7 @@ std::string number_of(const OGRFeature& feature) {
 }  // namespace
 
 FeatureFields::FeatureFields(OGRLayer& layer, std::string path, FeatureQuery query)
-    : path_(std::move(path)), query_(std::move(query)), texts_(path_) {
+    : path_(std::move(path)), query_(std::move(query)), texts_(path_), plain_(path_) {
   if (!query_.id_field.empty()) id_ = field_of_layer(layer, path_, query_.id_field);
   if (!query_.name_field.empty()) name_ = field_of_layer(layer, path_, query_.name_field);
   if (query_.attributes) {
@@ -67,8 +67,8 @@ void FeatureFields::add(OGRLayer& layer, int index) {
   indices_.push_back(index);
 }
 
-std::string FeatureFields::text(const OGRFeature& feature, int index) const {
-  return feature.IsFieldSetAndNotNull(index) ? feature.GetFieldAsString(index) : "";
+std::string FeatureFields::text(const OGRFeature& feature, int index) {
+  return feature.IsFieldSetAndNotNull(index) ? plain_.plain(feature.GetFieldAsString(index), number_of(feature)) : "";
 }
 
 AttributeValue FeatureFields::value(const OGRFeature& feature, std::size_t field) {
@@ -99,6 +99,7 @@ FeatureRecord FeatureFields::record(const OGRFeature& feature) {
 std::vector<std::string> FeatureFields::warnings() const {
   std::vector<std::string> lines = warnings_;
   for (std::string& line : texts_.warnings()) lines.push_back(std::move(line));
+  for (std::string& line : plain_.warnings()) lines.push_back(std::move(line));
   return lines;
 }
 

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include <itin/plain_text.hpp>
+
 #include "import/source/kept_features.hpp"
 
 class OGRFeature;
@@ -31,12 +33,13 @@ class FeatureFields {
 
  private:
   void add(OGRLayer& layer, int index);
-  std::string text(const OGRFeature& feature, int index) const;
+  std::string text(const OGRFeature& feature, int index);
   AttributeValue value(const OGRFeature& feature, std::size_t field);
 
   std::string path_;
   FeatureQuery query_;
   KeptTexts texts_;
+  PlainTexts plain_;
   int id_ = -1, name_ = -1;
   std::vector<AttributeField> fields_;
   std::vector<int> indices_;  ///< the index of each of fields_ in the layer

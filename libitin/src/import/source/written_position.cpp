@@ -6,6 +6,8 @@
 
 #include <itin/written_position.hpp>
 
+#include "import/source/square_references.hpp"
+
 namespace itin {
 
 namespace {
@@ -49,22 +51,36 @@ std::optional<Point2> national_grid(std::string_view text) {
                 north * kSquare + digits_value(digits.substr(half))};
 }
 
+/// Takes the number that the text begins with. A point or a comma between two digits is its decimal sign. Nothing for a
+/// number with two of them: it cannot be told which is meant.
+std::optional<double> take_number(std::string_view& text) {
+  const auto is_sign_at = [&](std::size_t i) {
+    return i > 0 && i + 1 < text.size() && (text[i] == '.' || text[i] == ',') && is_digit(text[i - 1]) &&
+           is_digit(text[i + 1]);
+  };
+  std::string digits;
+  for (std::size_t i = 0; i < text.size() && (is_digit(text[i]) || is_sign_at(i)); ++i)
+    digits += is_digit(text[i]) ? text[i] : '.';
+  text.remove_prefix(digits.size());
+  double value = 0;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  if (error != std::errc() || end != digits.data() + digits.size()) return std::nullopt;
+  return value;
+}
+
 /// Reads the numbers of a text that has only marks (degrees, primes, colons, blanks) between them; nothing for a text
 /// with letters.
 std::optional<std::vector<double>> numbers_among_marks(std::string_view text) {
   std::vector<double> numbers;
-  for (std::size_t i = 0; i < text.size();) {
-    if (std::isalpha(static_cast<unsigned char>(text[i])) != 0) return std::nullopt;
-    if (!is_digit(text[i])) {
-      ++i;
+  while (!text.empty()) {
+    if (std::isalpha(static_cast<unsigned char>(text.front())) != 0) return std::nullopt;
+    if (!is_digit(text.front())) {
+      text.remove_prefix(1);
       continue;
     }
-    double value = 0;
-    const auto [end, error] =
-        std::from_chars(text.data() + i, text.data() + text.size(), value, std::chars_format::fixed);
-    if (error != std::errc()) return std::nullopt;
-    numbers.push_back(value);
-    i = static_cast<std::size_t>(end - text.data());
+    const auto number = take_number(text);
+    if (!number) return std::nullopt;
+    numbers.push_back(*number);
   }
   return numbers;
 }
@@ -103,6 +119,8 @@ std::optional<double> written_angle(std::string_view text, char positive, char n
 
 std::optional<WrittenPosition> written_position(std::string_view text) {
   if (const auto grid = national_grid(text)) return WrittenPosition{*grid, "EPSG:27700"};
+  if (const auto square = military_grid(text)) return square;
+  if (const auto square = maidenhead(text)) return square;
   const std::size_t first = next_letter(text, 0);
   if (first == std::string_view::npos) return std::nullopt;
   const std::size_t second = next_letter(text, first + 1);

@@ -10,7 +10,9 @@
 #include <itin/coordinates.hpp>
 #include <itin/error.hpp>
 #include <itin/paths.hpp>
+#include <itin/plain_text.hpp>
 
+#include "gdal/archive.hpp"
 #include "gdal/crs.hpp"
 #include "gdal/quiet_gdal.hpp"
 #include "import/source/source_layer.hpp"
@@ -20,10 +22,12 @@ namespace itin {
 namespace {
 
 /// The first of two fields that has a value, else the text.
-std::string first_of(const OGRFeature& feature, const char* first, const char* second, const std::string& otherwise) {
+std::string first_of(const OGRFeature& feature, const char* first, const char* second, const std::string& otherwise,
+                     PlainTexts& texts) {
   for (const char* field : {first, second}) {
     const int index = feature.GetFieldIndex(field);
-    if (index >= 0 && feature.IsFieldSetAndNotNull(index)) return feature.GetFieldAsString(index);
+    if (index >= 0 && feature.IsFieldSetAndNotNull(index))
+      return texts.plain(feature.GetFieldAsString(index), fmt::format("feature {}", feature.GetFID()));
   }
   return otherwise;
 }
@@ -37,18 +41,19 @@ const OGRLineString* line_of(const OGRFeature& feature) {
   return geometry->toMultiLineString()->getGeometryRef(0);
 }
 
-std::string id_of(const OGRFeature& feature) {
-  return first_of(feature, "id", "name", std::to_string(feature.GetFID()));
+std::string id_of(const OGRFeature& feature, PlainTexts& texts) {
+  return first_of(feature, "id", "name", std::to_string(feature.GetFID()), texts);
 }
 
 /// Reads a path. Throws InputError where the feature is no line.
-Path path_of(const OGRFeature& feature, const CoordinateTransform* transform) {
+Path path_of(const OGRFeature& feature, const CoordinateTransform* transform, PlainTexts& texts) {
   const OGRLineString* line = line_of(feature);
   if (line == nullptr || line->getNumPoints() < 2) throw InputError("is not one line of two or more points");
-  Path path{feature.GetFID(), id_of(feature), first_of(feature, "name", "id", ""), {}};
+  Path path{feature.GetFID(), id_of(feature, texts), first_of(feature, "name", "id", "", texts), {}};
   for (int i = 0; i < line->getNumPoints(); ++i) {
     const Point2 p{line->getX(i), line->getY(i)};
     path.corners.push_back(transform != nullptr ? (*transform)(p) : p);
+    path.has_z = path.has_z || line->getZ(i) != 0;
   }
   path.corners = without_repeats(std::move(path.corners));
   return path;
@@ -62,15 +67,16 @@ std::vector<OGRLayer*> chosen_layers(GDALDataset& dataset, const std::string& pa
   return layers;
 }
 
-void add_lines_of(OGRLayer& layer, const std::string& path, const std::string& to_crs, PathFile& file) {
+void add_lines_of(OGRLayer& layer, const std::string& path, const std::string& to_crs, PlainTexts& texts,
+                  PathFile& file) {
   std::optional<CoordinateTransform> transform;
   if (const OGRSpatialReference* own = layer.GetSpatialRef()) transform.emplace(wkt_of(*own), to_crs);
   while (const OGRFeatureUniquePtr feature = next_feature(layer, path)) {
     try {
-      file.paths.push_back(path_of(*feature, transform ? &*transform : nullptr));
+      file.paths.push_back(path_of(*feature, transform ? &*transform : nullptr, texts));
     } catch (const InputError& error) {
       const std::size_t row = file.paths.size() + file.bad.size() + 1;
-      file.bad.push_back({row, feature->GetFID(), id_of(*feature), error.what()});
+      file.bad.push_back({row, feature->GetFID(), id_of(*feature, texts), error.what()});
     }
   }
 }
@@ -79,17 +85,20 @@ void add_lines_of(OGRLayer& layer, const std::string& path, const std::string& t
 
 PathFile read_path_file(const std::string& path, const std::string& to_crs, const PathChoice& choice) {
   const QuietGdal quiet;
-  const GDALDatasetUniquePtr dataset = open_vector_file(path, nullptr);
+  const GDALDatasetUniquePtr dataset = open_vector_file(within_archive(path), nullptr);
   PathFile file;
+  PlainTexts texts(path);
   for (OGRLayer* layer : chosen_layers(*dataset, path, choice)) {
     select_features(*layer, path, choice.where);
-    add_lines_of(*layer, path, to_crs, file);
+    add_lines_of(*layer, path, to_crs, texts, file);
   }
+  file.warnings = texts.warnings();
   return file;
 }
 
-std::vector<Path> read_paths(const std::string& path, const std::string& to_crs) {
+std::vector<Path> read_paths(const std::string& path, const std::string& to_crs, std::vector<std::string>& warnings) {
   PathFile file = read_path_file(path, to_crs);
+  warnings.insert(warnings.end(), file.warnings.begin(), file.warnings.end());
   if (!file.bad.empty())
     throw FileError(fmt::format("{}: feature {}", path, file.bad.front().feature), file.bad.front().message);
   return std::move(file.paths);

@@ -55,10 +55,12 @@ class BinnedSurvey final : public GroupSurvey {
     return result;
   }
 
-  ServedPoints served(const Eye& eye, std::size_t first, std::uint64_t open) const {
+  ServedPoints served(Eye eye, std::size_t first, std::uint64_t open) const {
     ServedPoints served;
+    const double usual = eye.target_height;
     for_each_bit(open, [&](unsigned bit) {
       const Point2 p = survey_.targets.points[first + bit];
+      eye.target_height = usual + survey_.targets.height_of(first + bit) - survey_.targets.height;
       const Verdict verdict =
           verdict_by_bins(walk_, eye, units().resolution, p, place_in_units(units(), p), surface_.ground[first + bit]);
       if (verdict == Verdict::kVisible) served.certain |= std::uint64_t{1} << bit;

@@ -116,7 +116,10 @@ class PointPass {
     const Point2 place{easting_in_units(grid, p.x), northing_in_units(grid, p.y)};
     if (view.eye.stands_at(place)) return Verdict::kVisible;
     if (view.shadow && view.shadow->holds(place.x, place.y)) return Verdict::kHidden;
-    const auto target = [&](double units) { return view.eye.target(units * grid.resolution) * (1 / grid.resolution); };
+    const double higher = survey_.targets.height_of(point) - survey_.targets.height;
+    const auto target = [&](double units) {
+      return (view.eye.target(units * grid.resolution) + higher) * (1 / grid.resolution);
+    };
     const double low = target(ground.low), high = target(scene_.exact ? ground.low : ground.high);
     scene_.aim(view, {place, low, high, ground.high, squared}, i, packet);
     return Verdict::kUndecided;

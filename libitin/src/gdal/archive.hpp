@@ -1,0 +1,12 @@
+// Vector files within a .zip, as they are handed on.
+#pragma once
+
+#include <string>
+
+namespace itin {
+
+/// Returns GDAL's name of the one vector file or table in a .zip, or `path` where that is no .zip. Throws FileError for
+/// an archive with none or several.
+std::string within_archive(const std::string& path);
+
+}  // namespace itin
