@@ -58,7 +58,7 @@ struct SightedTarget {
   Verdict verdict = Verdict::kHidden;  ///< in line of sight or not, whatever the field of view; or undecided
 };
 
-/// Throws InputError for a step that makes no turn, or is not from 0.001 to 10 degrees.
+/// Throws InputError for a step that makes no turn, or is not from 0.001 to 90 degrees.
 void require_whole_turn(double step_deg);
 
 struct Horizon {

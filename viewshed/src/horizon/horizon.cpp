@@ -190,9 +190,9 @@ void heed_missing_ground(const Store& store, const Request& request, const Compu
 }  // namespace
 
 void require_whole_turn(double step) {
-  if (!(step >= 0.001 && step <= 10) || std::abs(std::round(360 / step) * step - 360) > 1e-6)
+  if (!(step >= 0.001 && step <= 90) || std::abs(std::round(360 / step) * step - 360) > 1e-6)
     throw InputError(fmt::format(
-        "a step of {:g} degrees: give one from 0.001 to 10 that divides 360, for instance 0.1 or 0.25", step));
+        "a step of {:g} degrees: give one from 0.001 to 90 that divides 360, for instance 0.1 or 15", step));
 }
 
 Horizon horizon(const Tin& surface, const Tin& ground, const Request& request, const HorizonOptions& options,
