@@ -17,6 +17,7 @@
 #include <itin/position_columns.hpp>
 
 #include "import/source/line_reader.hpp"
+#include "import/source/middle_place.hpp"
 
 namespace itin {
 
@@ -157,7 +158,10 @@ DelimitedText::DelimitedText(std::string path, const std::string& z_field) : pat
   size_ = static_cast<double>(std::filesystem::file_size(path_, error));
   if (error) throw FileError(path_, "is not a plain file");
   bool understood = false;
-  while (const auto line = lines.next()) {
+  std::vector<Point2> places;
+  while (places.size() < kFirstPlaces) {
+    const auto line = lines.next();
+    if (!line) break;
     if (is_skipped(*line)) continue;
     if (!understood) {
       understand(*line, z_field);
@@ -165,10 +169,10 @@ DelimitedText::DelimitedText(std::string path, const std::string& z_field) : pat
       if (has_header_) continue;
     }
     const Point3 point = RowParser(path_, separator_, columns_)(*line, lines.line_number());
-    first_ = {point.x, point.y};
-    return;
+    places.push_back({point.x, point.y});
   }
-  throw FileError(path_, "holds no points");
+  if (places.empty()) throw FileError(path_, "holds no points");
+  centre_ = middle_place(std::move(places));
 }
 
 void DelimitedText::understand(std::string_view line, const std::string& z_field) {
