@@ -41,11 +41,6 @@ std::string bad_row_warning(const std::string& file, const BadRow& row) {
   return fmt::format("{}: row {} (feature {}) is not used: {}", file, row.number, row.feature, row.message);
 }
 
-std::size_t known_hubs(const std::vector<viewshed::Turbine>& turbines) {
-  return static_cast<std::size_t>(std::count_if(turbines.begin(), turbines.end(),
-                                                [](const viewshed::Turbine& t) { return t.hub_height.has_value(); }));
-}
-
 namespace {
 
 /// Warns of turbines at one place: they count twice, which is seldom meant.
