@@ -63,8 +63,9 @@ std::string text_of_findings(const profile::LosReport& report, const profile::Li
                         o.depth_m, o.peak_at_m, cause_of(report, o.theme, o.feature));
   }
   for (const profile::CriterionResult& c : found.criteria)
-    text += fmt::format("K = {}, {:g} F1: {}\n", factor_text(c.criterion, c.k), c.criterion.fraction, outcome_text(c));
-  if (const std::string note = profile::fade_note(found); !note.empty()) text += note + "\n";
+    text += fmt::format("K = {}, {:g} F1: {}{}\n", factor_text(c.criterion, c.k), c.criterion.fraction, outcome_text(c),
+                        least_fraction_text(c));
+  if (const std::string note = profile::fade_note(found, report.profile.length_m); !note.empty()) text += note + "\n";
   for (const profile::NamedHeights& r : found.required) {
     text +=
         fmt::format("heights needed for {}: {} at the first end alone, or {} at the second end alone, or {} at both\n",

@@ -25,9 +25,11 @@ profile::TallObject parse_object(const std::string& text) {
 void RadioOptions::declare(CLI::App& app) {
   begin_group(app, kRadio);
   wave_.declare(app, "Work out Fresnel zones and diffraction at this frequency: GHz, or 7500MHz");
-  app.add_option("--criterion", criteria_text_,
-                 "Ask for this fraction of the first Fresnel zone on an Earth of this factor; may be given again. ke "
-                 "stands for the factor exceeded for 99.9 % of the worst month, 157 / (144 + 2670 / length in km)")
+  app.add_option(
+         "--criterion", criteria_text_,
+         "Ask for this fraction of the first Fresnel zone on an Earth of this factor; may be given again. ke "
+         "stands for the factor exceeded for 99.9 % of the worst month, 157 / (144 + 2670 / length in km), below 10 "
+         "km that of 10 km")
       ->type_name("K:FRACTION")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);

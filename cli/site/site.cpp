@@ -82,7 +82,8 @@ class SiteVerb final : public Verb {
     if (heights) heights_m = possible_heights(store, inputs, progress);
     const viewshed::Demand shown(heights_m);
     viewshed::SiteCoverage coverage(store, site_survey(options_, inputs), progress);
-    SiteCheckpoint checkpoint(options_.path("site.work"), key(), options_.resume, inputs.positions.size(), coverage);
+    SiteCheckpoint checkpoint(options_.path("site.work"), key(), options_.resume, inputs.positions.size(), coverage,
+                              progress);
     coverage.on_refined = [&](std::size_t option, int stage, const viewshed::CoverageBounds& bounds) {
       checkpoint.add(option, stage, bounds);
     };
@@ -282,7 +283,7 @@ class SiteVerb final : public Verb {
     const auto profiles = write_site_profiles(store, site, policy_.overwrite, progress);
     for (const SiteProfile& profile : profiles)
       result.document["outputs"].push_back({{"path", profile.path}, {"what", "profile of the link " + profile.what}});
-    const std::vector<SourceInfo> sources = sources_in(store, site.rasters.grid.bounds(), options_.themes.choice());
+    const std::vector<SourceInfo> sources = sources_in(store, looked_at(site), options_.themes.choice());
     result.document["sources"] = sources_document(sources);
     const std::vector<std::string> in_words = described(sources, store.metadata());
     write_site_sheets(store, site, in_words, policy_.overwrite, progress);
@@ -297,6 +298,18 @@ class SiteVerb final : public Verb {
     result.document["statistics"] = viewshed::statistics_document(site.coverage.statistics());
     result.text = text(site, result.document["outputs"].size());
     return result;
+  }
+
+  /// The box that all sight lines between sites and to targets lie in.
+  Box looked_at(const SiteResult& site) const {
+    Box box = site.rasters.grid.bounds();
+    for (const viewshed::SitePosition& place : site.inputs.positions) box.extend(place.position);
+    for (const LinkEnd& end : site.network.ends) box.extend(end.place.position);
+    const viewshed::SiteTargets& targets = site.inputs.targets;
+    if (targets.grid) return box;
+    for_each_element(viewshed::within_reach(targets, site.inputs.positions, options_.radius),
+                     [&](std::size_t point) { box.extend(targets.points[point]); });
+    return box;
   }
 
   std::string outcome(const SiteResult& site) const {

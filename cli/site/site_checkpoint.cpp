@@ -74,9 +74,11 @@ std::string header(const std::string& key) {
 
 /// Puts records back. Returns where the last whole one ends.
 std::size_t restore(const std::string& bytes, std::size_t from, std::size_t options, viewshed::SiteCoverage& coverage,
-                    std::size_t& count) {
+                    std::size_t& count, Progress& progress) {
   std::size_t end = from;
   for (;;) {
+    progress.throw_if_cancelled();
+    progress.report("results of the earlier run", static_cast<double>(end) / static_cast<double>(bytes.size()));
     RecordReader frame(bytes, end);
     const auto size = frame.word(), sum = frame.word();
     if (!sum) return end;
@@ -96,14 +98,15 @@ std::size_t restore(const std::string& bytes, std::size_t from, std::size_t opti
 }  // namespace
 
 SiteCheckpoint::SiteCheckpoint(std::string path, const std::string& key, bool resume, std::size_t options,
-                               viewshed::SiteCoverage& coverage)
+                               viewshed::SiteCoverage& coverage, Progress& progress)
     : path_(std::move(path)) {
   const std::string head = header(key);
   std::size_t keep = 0;
   if (resume) {
     std::ifstream file(path_, std::ios::binary);
     const std::string bytes{std::istreambuf_iterator<char>(file), {}};
-    if (bytes.compare(0, head.size(), head) == 0) keep = restore(bytes, head.size(), options, coverage, restored_);
+    if (bytes.compare(0, head.size(), head) == 0)
+      keep = restore(bytes, head.size(), options, coverage, restored_, progress);
   }
   std::error_code failed;
   if (keep > 0) std::filesystem::resize_file(path_, keep, failed);

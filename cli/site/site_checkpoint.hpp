@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+#include <itin/progress.hpp>
 #include <viewshed/site_coverage.hpp>
 
 namespace itin::cli {
@@ -13,9 +14,10 @@ namespace itin::cli {
 class SiteCheckpoint {
  public:
   /// Opens the file. `key` tells runs apart. With `resume`, bounds that an earlier run of the same key found are put
-  /// back into `coverage`; otherwise, and for other keys, the file begins anew. Throws FileError.
+  /// back into `coverage`, of so many `options`; otherwise, and for other keys, the file begins anew. Throws FileError,
+  /// Cancelled.
   SiteCheckpoint(std::string path, const std::string& key, bool resume, std::size_t options,
-                 viewshed::SiteCoverage& coverage);
+                 viewshed::SiteCoverage& coverage, Progress& progress);
 
   /// Returns how many records were put back.
   std::size_t restored() const { return restored_; }

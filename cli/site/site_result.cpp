@@ -119,18 +119,30 @@ std::string SiteResult::reason(std::size_t option) const {
   if (!margin)
     return options.placement.given() ? "ruled out at every step by the spacing"
                                      : "ruled out at every step: by spacing, links, cost, or another mast at its place";
-  if (margin->taken)
+  const std::string at_step = fmt::format("at step {} of the first selection it ", margin->step + 1);
+  using enum viewshed::Margin::Outcome;
+  if (margin->outcome == kTaken)
     return fmt::format("taken at step {} of the first selection, and replaced by a better choice", margin->step + 1);
   const double unit = measure.in_metric(1);
-  if (options.placement.given())
-    return fmt::format("at step {} of the first selection it would have added {} {:.10g}; the one taken added {:.10g}",
-                       margin->step + 1, exact ? "exactly" : "at least", margin->upper * unit, margin->chosen * unit);
-  return fmt::format("at step {} of the first selection it would have added {} {:.10g}{}; the one taken added {:.10g}",
-                     margin->step + 1, exact ? "exactly" : "at most", margin->upper * unit,
-                     options.budget         ? " per unit of cost"
-                     : options.intervisible ? " per site, with the relays that it needs"
-                                            : "",
-                     margin->chosen * unit);
+  const std::string gains = fmt::format("would have added {} {:.10g}{}; the one taken added {:.10g}",
+                                        exact                       ? "exactly"
+                                        : options.placement.given() ? "at least"
+                                                                    : "at most",
+                                        margin->upper * unit,
+                                        options.budget         ? " per unit of cost"
+                                        : options.intervisible ? " per site, with the relays that it needs"
+                                                               : "",
+                                        margin->chosen * unit);
+  if (margin->outcome == kOutbid) return at_step + gains;
+  return at_step + (margin->outcome == kTooNear ? too_near(option) : "would have left too few places for the others") +
+         "; it " + gains;
+}
+
+std::string SiteResult::too_near(std::size_t option) const {
+  const Point2 place = inputs.positions[option].position;
+  for (const viewshed::ChosenSite& site : choice.chosen)
+    if (!options.may_both_stand(place, place_of(site).position)) return "stood too near " + place_of(site).name;
+  return "stood too near one chosen before, which was replaced";
 }
 
 namespace {

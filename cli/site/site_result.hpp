@@ -75,6 +75,10 @@ struct SiteResult {
   /// Returns in words why an option is not part of the choice.
   std::string reason(std::size_t option) const;
   bool is_chosen(std::size_t option) const;
+
+ private:
+  /// Tells which chosen one an option is too near to stand beside.
+  std::string too_near(std::size_t option) const;
 };
 
 /// Returns the survey for which sight lines are computed.

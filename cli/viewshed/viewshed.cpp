@@ -154,7 +154,7 @@ class ViewshedVerb final : public Verb {
     compute_options_.whole_surface = outputs_.draws_map() || !horizon_.paths().empty();
     viewshed::ViewshedWithSurface computed = survey(store, request_, progress);
     const viewshed::MissingGround missing = viewshed::missing_ground(store, computed.result, progress);
-    const std::vector<SourceInfo> sources = sources_in(store, computed.result.grid.bounds(), request_.themes);
+    const std::vector<SourceInfo> sources = sources_in(store, looked_at(computed.result), request_.themes);
     const ViewshedOutputs::Context context{metadata.crs_wkt,
                                            surface_document(metadata, request_.detail, request_.themes),
                                            {{"mode", mode_name()},
@@ -201,6 +201,13 @@ class ViewshedVerb final : public Verb {
   }
 
  private:
+  /// The box that all sight lines from the observers to the cells lie in.
+  static Box looked_at(const viewshed::Result& result) {
+    Box box = result.grid.bounds();
+    for (const viewshed::Observer& observer : result.request.observers) box.extend(observer.position);
+    return box;
+  }
+
   std::vector<std::string> other_outputs() const {
     std::vector<std::string> paths = horizon_.paths();
     for (const std::string& path : features_.paths()) paths.push_back(path);

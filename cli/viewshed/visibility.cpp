@@ -139,7 +139,7 @@ class VisibilityVerb final : public Verb {
         output_, index, request_,
         {metadata.crs_wkt, {{"itin", ITIN_VERSION}, {"surface", json_text(surface)}}, policy_.overwrite}, progress);
     write_file(style_beside(output_), viewshed::qgis_style_of_shares(), policy_.overwrite);
-    const std::vector<SourceInfo> sources = sources_in(store, index.grid.bounds(), request_.themes);
+    const std::vector<SourceInfo> sources = sources_in(store, looked_at(index), request_.themes);
     if (!sheet_.file().empty()) write_sheet(store, index, described(sources, metadata), progress);
     Result result;
     const viewshed::MissingGround missing = viewshed::missing_ground(index);
@@ -171,6 +171,12 @@ class VisibilityVerb final : public Verb {
   }
 
  private:
+  /// The box that all sight lines of the observers lie in.
+  Box looked_at(const viewshed::VisibilityIndex& index) const {
+    const Box observers = index.grid.bounds();
+    const double reach = request_.radius;
+    return {observers.xmin - reach, observers.ymin - reach, observers.xmax + reach, observers.ymax + reach};
+  }
   static std::string missing_in_words(const viewshed::MissingGround& missing) {
     if (missing.share() == 0) return "";
     return fmt::format("no ground data: {} of what lies within that distance\n", missing.text());

@@ -153,7 +153,7 @@ class ZtvVerb final : public Verb {
     Zone zone = viewshed::survey_turbines(store, request_, progress);
     for (const viewshed::Misplaced& m : zone.misplaced)
       list_.bad.push_back({m.number, list_.places[m.number - 1].first, list_.places[m.number - 1].second, m.message});
-    sources_ = sources_in(store, zone.grid.bounds(), request_.themes.value_or(ThemeChoice::none()));
+    sources_ = sources_in(store, looked_at(zone), request_.themes.value_or(ThemeChoice::none()));
     missing_ = viewshed::missing_ground(zone);
     if (missing_.study_m2() == 0)
       throw InputError(
@@ -173,6 +173,14 @@ class ZtvVerb final : public Verb {
   }
 
  private:
+  /// The box that all sight lines from cells to turbines and from the radar lie in.
+  static Box looked_at(const Zone& zone) {
+    Box box = zone.grid.bounds();
+    for (const Turbine& turbine : zone.request.turbines) box.extend(turbine.position);
+    if (zone.request.radar) box.extend(zone.request.radar->position);
+    return box;
+  }
+
   /// Completes the request by the options that need the store.
   void complete_request(const StoreMetadata& metadata) {
     list_ = turbines_.read(metadata, [&](double tip) { return radius_.radius(tip); });
@@ -294,6 +302,7 @@ class ZtvVerb final : public Verb {
     document["grid"] = viewshed::grid_document(zone.grid);
     document["turbines"] = bad_rows_document(turbines_.path(), list_.rows, zone.request.turbines.size(), list_.bad);
     document["turbines"]["sha256"] = list_.sha256;
+    document["turbines"]["hub_heights_known"] = viewshed::known_hubs(zone);
     document["farms"] = viewshed::farms_of(zone);
     document["study_area"] = {{"km2", missing_.study_m2() / 1e6},
                               {"without_data_km2", missing_.missing_m2() / 1e6},
@@ -318,7 +327,7 @@ class ZtvVerb final : public Verb {
     }
     const auto km2 = [&](std::uint64_t cells) { return static_cast<double>(cells) * zone.grid.cell_area() / 1e6; };
     Document areas{{"any_tip_seen", km2(tips)}, {"any_hub_seen", nullptr}, {"studied", km2(all)}};
-    const bool hubs_known = known_hubs(zone.request.turbines) > 0;
+    const bool hubs_known = viewshed::known_hubs(zone) > 0;
     if (hubs_known) areas["any_hub_seen"] = km2(hubs);
     const UndecidedArea of_tips = undecided_area(zone, v.tip_count, v.tip_undecided);
     areas.update({{"any_tip_undecided", of_tips.any_m2 / 1e6}, {"more_tips_undecided", of_tips.more_m2 / 1e6}});
@@ -365,6 +374,8 @@ class ZtvVerb final : public Verb {
     std::string text = fmt::format(
         "{}: {} of {}; a blade tip is visible {}, of the {:.1f} km² that have terrain data\n", output_,
         zone.request.turbines.size(), counted(list_.rows, "turbine"), seen_from(bare), bare["studied"].get<double>());
+    if (const std::string known = viewshed::of_known_hubs(zone); !known.empty())
+      text += fmt::format("hubs{}: the hub heights of the others are not known\n", known);
     const auto add_undecided = [&](const char* where, const viewshed::Visibility& v) {
       const std::string what = undecided_in_words(undecided_area(zone, v.tip_count, v.tip_undecided));
       if (!what.empty())

@@ -35,7 +35,7 @@ std::string turbines_in_words(const viewshed::Zone& zone, const ZtvMethods& fact
                   counted(turbines.size(), "wind turbine"), range(least->tip_height, most->tip_height, "m"));
   const std::vector<std::string> farms = viewshed::farms_of(zone);
   if (farms.size() > 1) text += fmt::format(" The wind farms are {}.", fmt::join(farms, ", "));
-  const std::size_t unknown = turbines.size() - known_hubs(turbines);
+  const std::size_t unknown = turbines.size() - viewshed::known_hubs(zone);
   if (unknown == turbines.size())
     text += " Hub heights are unknown for all turbines; hubs are not assessed.";
   else if (unknown > 0)

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -115,16 +116,27 @@ Rgba farm_colour(std::size_t farm) {
   return kColours[farm];
 }
 
-MapObjects turbine_objects(const Zone& zone) {
+/// Returns what a map of hubs adds to the key of turbines of which some have no hub that is known.
+std::string unknown_hubs(std::size_t unknown, std::size_t all) {
+  if (unknown == 0) return "";
+  return unknown == all ? ", of unknown hub height" : fmt::format(", {} of unknown hub height", unknown);
+}
+
+MapObjects turbine_objects(const Zone& zone, bool of_hubs) {
   std::vector<std::string> farms = viewshed::farms_of(zone);
   if (farms.size() > kMostFarmColours) farms = {""};
   const bool single = farms.size() == 1;
   MapObjects objects;
   for (std::size_t f = 0; f < farms.size(); ++f) {
     profile::SheetMarks marks{profile::SheetSymbol::kTurbine, farm_colour(f), {}};
-    for (const Turbine& t : zone.request.turbines)
-      if (single || t.farm == farms[f]) marks.marks.push_back({t.position, fmt::format("{}", t.number)});
-    const std::string turbines = counted(marks.marks.size(), "wind turbine") + ", numbered";
+    std::size_t unknown = 0;
+    for (const Turbine& t : zone.request.turbines) {
+      if (!single && t.farm != farms[f]) continue;
+      marks.marks.push_back({t.position, fmt::format("{}", t.number)});
+      if (!t.hub_height) ++unknown;
+    }
+    const std::string turbines = counted(marks.marks.size(), "wind turbine") + ", numbered" +
+                                 (of_hubs ? unknown_hubs(unknown, marks.marks.size()) : "");
     objects.keys.push_back({SheetKey::Sample::kMark,
                             {marks.colour},
                             farms[f].empty() ? turbines : fmt::format("{}: {}", farms[f], turbines),
@@ -158,12 +170,13 @@ MapObjects radar_objects(const viewshed::Observer& radar) {
   return {{mark}, {{SheetKey::Sample::kMark, {kRadar}, "Radar", mark.symbol}}};
 }
 
-/// Returns the objects that every map of the zone has above its classes.
-std::vector<MapObjects> objects_of(const Zone& zone, const ZtvSheetFacts& facts) {
-  std::vector<MapObjects> objects{distance_objects(zone)};
+/// Returns the objects that a map of hubs, or of what else is seen of the zone, has above its classes.
+std::vector<MapObjects> objects_of(const Zone& zone, const MapObjects& distances, const ZtvSheetFacts& facts,
+                                   bool of_hubs) {
+  std::vector<MapObjects> objects{distances};
   if (!facts.routes.empty()) objects.push_back(route_objects(facts.routes));
   if (!facts.links.empty()) objects.push_back(radio_link_objects(facts.links));
-  objects.push_back(turbine_objects(zone));
+  objects.push_back(turbine_objects(zone, of_hubs));
   if (facts.radar) objects.push_back(radar_objects(*facts.radar));
   if (!facts.viewpoints.empty()) objects.push_back(viewpoint_objects(facts.viewpoints));
   return objects;
@@ -208,6 +221,15 @@ std::string heights_in_words(const Zone& zone) {
   return fmt::format("{}, {} m to blade tip", zone.request.turbines.size(), tips);
 }
 
+bool shows_hubs(const ZoneMap& map) {
+  return std::string_view(map.seen) == "hub";
+}
+
+std::string hub_heights_in_words(const Zone& zone) {
+  const std::string known = viewshed::of_known_hubs(zone);
+  return known.empty() ? "" : fmt::format("; hubs{}, those of the others are not known", known);
+}
+
 std::string radii_in_words(const Zone& zone) {
   double least = std::numeric_limits<double>::infinity(), most = 0;
   for (const Turbine& t : zone.request.turbines) least = std::min(least, t.radius), most = std::max(most, t.radius);
@@ -223,7 +245,7 @@ profile::TitleBlock title_block(const StoreMetadata& metadata, const Zone& zone,
   block.statement =
       statement_of(metadata, map.screened ? *zone.request.themes : ThemeChoice::none(), zone.request.detail);
   if (!map.screened) block.statement += " What is shown as visible may be hidden by them.";
-  block.facts = {{"Turbines", heights_in_words(zone)},
+  block.facts = {{"Turbines", heights_in_words(zone) + (shows_hubs(map) ? hub_heights_in_words(zone) : "")},
                  {"Study area", radii_in_words(zone) + without_terrain_in_words(facts.missing)},
                  {"Observer", fmt::format("eyes {:g} m above the ground at the centre of cells of {:g} m",
                                           zone.request.observer_height, zone.grid.cell_width())},
@@ -244,7 +266,7 @@ std::vector<viewshed::ZoneFile> write_ztv_sheets(const std::string& folder, cons
                                                  Progress& progress) {
   std::vector<viewshed::ZoneFile> files;
   const std::vector<ZoneMap> maps = viewshed::zone_maps(zone);
-  const std::vector<MapObjects> objects = objects_of(zone, facts);
+  const MapObjects distances = distance_objects(zone);
   const MissingOnSheet missing =
       missing_on_sheet(viewshed::places_without_ground(zone), facts.missing, "the study area");
   const auto content_of = [&](const ZoneMap& map) {
@@ -253,7 +275,7 @@ std::vector<viewshed::ZoneFile> write_ztv_sheets(const std::string& folder, cons
                        classes_of(zone, map),
                        map.heading + ", and share of the area that has terrain data",
                        [&](Point2 p) { return beyond_study_area(zone, p) <= 0; },
-                       objects,
+                       objects_of(zone, distances, facts, shows_hubs(map)),
                        title_block(store.metadata(), zone, map, facts),
                        missing};
   };

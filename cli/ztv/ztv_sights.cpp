@@ -62,9 +62,11 @@ std::vector<Sight> sights_to_all(const SectionSurface& surface, const Viewpoint&
   return sights;
 }
 
-viewshed::Arc arc_to_all(const std::vector<Sight>& sights) {
+viewshed::Arc arc_to_shown(const std::vector<Sight>& sights) {
+  const bool none = std::none_of(sights.begin(), sights.end(), is_shown);
   std::vector<viewshed::Arc> arcs;
-  for (const Sight& s : sights) arcs.push_back({s.azimuth, 0});
+  for (const Sight& s : sights)
+    if (none || is_shown(s)) arcs.push_back({s.azimuth, 0});
   return rotor_horizon(arcs).held;
 }
 
@@ -75,6 +77,7 @@ Seen seen_of(const Zone& zone, const std::vector<Sight>& sights, const std::vect
   for (const std::size_t k : turbines) {
     const Sight& s = sights[k];
     if (s.hub) {
+      ++seen.hubs_known;
       seen.hubs = seen.hubs.value_or(0) + (*s.hub == Sight::Verdict::kVisible ? 1 : 0);
       seen.hubs_undecided = seen.hubs_undecided.value_or(0) + (*s.hub == Sight::Verdict::kUndecided ? 1 : 0);
     }

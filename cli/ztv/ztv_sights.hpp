@@ -34,8 +34,12 @@ struct Sight {
 /// Returns the sight of each turbine. Both ends of a line keep their bare ground whatever the surface.
 std::vector<Sight> sights_to_all(const SectionSurface& surface, const Viewpoint& from, const viewshed::Zone& zone);
 
-/// Returns the smallest part of the horizon that holds all turbines' axes.
-viewshed::Arc arc_to_all(const std::vector<Sight>& sights);
+/// Tells whether the tip is seen, or may be: whether a wireline shows the turbine.
+inline bool is_shown(const Sight& sight) {
+  return sight.tip != Sight::Verdict::kHidden;
+}
+/// Returns the smallest part of the horizon that holds the axes of the turbines shown; of all, where none is.
+viewshed::Arc arc_to_shown(const std::vector<Sight>& sights);
 
 /// What is seen of some turbines together.
 struct Seen {
@@ -44,7 +48,8 @@ struct Seen {
   std::size_t tips_undecided = 0;   ///< in addition to those seen
   std::optional<std::size_t> hubs;  ///< nothing: no hub's height is known
   std::optional<std::size_t> hubs_undecided;
-  std::size_t nearest = 0;  ///< index in the request
+  std::size_t hubs_known = 0;  ///< turbines whose hub height is known
+  std::size_t nearest = 0;     ///< index in the request
   std::optional<std::size_t> nearest_seen;
   std::optional<viewshed::Arc> arc;  ///< the smallest that holds the rotors whose tips are seen
   double vertical_deg = 0;           ///< the greatest vertical angle that the visible part of a turbine takes up

@@ -43,11 +43,6 @@ std::string bad_row_warning(const std::string& file, const BadRow& row) {
   return fmt::format("{}: row {} ({}) is not used: {}", file, row.number, row.place, row.message);
 }
 
-std::size_t known_hubs(const std::vector<viewshed::Turbine>& turbines) {
-  return static_cast<std::size_t>(std::count_if(turbines.begin(), turbines.end(),
-                                                [](const viewshed::Turbine& t) { return t.hub_height.has_value(); }));
-}
-
 namespace {
 
 /// Warns of fields that seem to hold a size of turbines, and are not read.

@@ -31,9 +31,6 @@ struct BadRow {
 Document bad_rows_document(const std::string& file, std::size_t rows, std::size_t used, const std::vector<BadRow>& bad);
 std::string bad_row_warning(const std::string& file, const BadRow& row);
 
-/// Returns how many turbines have a known hub height.
-std::size_t known_hubs(const std::vector<viewshed::Turbine>& turbines);
-
 struct TurbineList {
   std::size_t rows = 0;
   std::vector<viewshed::Turbine> turbines;

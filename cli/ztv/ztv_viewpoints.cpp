@@ -134,8 +134,8 @@ void ViewpointOptions::declare(CLI::App& app) {
             ->type_name("FILE"));
   app.add_option("--wireline-field", field_text_, "Least width of a wireline (default: 53.5)")->type_name("DEGREES");
   app.add_option("--wireline-bearing", bearing_text_,
-                 "Bearing of every wireline's middle, from grid north (default: the middle of the turbines; sheets too "
-                 "narrow for all look at the nearest that is seen)")
+                 "Bearing of every wireline's middle, from grid north (default: the middle of the turbines that are "
+                 "seen, or of all where none is; sheets too narrow for them look at the nearest that is seen)")
       ->type_name("DEGREES");
   app.add_flag("--wireline-hidden", choice_.hidden_dashed, "Draw the hidden parts of turbines dashed in wirelines");
   app.add_option("--wireline-blades", blades_text_,

@@ -37,7 +37,7 @@ std::string visible_in_words(const Zone& zone, const Seen& seen) {
   if (seen.hubs) text += fmt::format(", the hubs of {}", *seen.hubs);
   if (seen.tips_undecided > 0)
     text += fmt::format("; undecided, across ground without data, for {} more, marked ?", seen.tips_undecided);
-  const std::size_t hubs = known_hubs(zone.request.turbines);
+  const std::size_t hubs = viewshed::known_hubs(zone);
   if (hubs < seen.turbines)
     text += hubs == 0 ? "; hub heights are unknown for all turbines"
                       : fmt::format("; hub heights are unknown for {}", seen.turbines - hubs);
@@ -69,13 +69,18 @@ std::string bearing_in_words(double degrees) {
   return fmt::format("{:.1f}° from grid north", degrees);
 }
 
+/// Tells what a picture looks at where no turbine is in sight.
+std::string towards_in_words(const std::vector<Sight>& sights) {
+  return std::any_of(sights.begin(), sights.end(), is_shown) ? "" : "; no turbine is in sight";
+}
+
 Facts facts_of(const Viewpoint& v, const ViewedSurface& view, const Zone& zone, const std::vector<Sight>& sights,
                double centre_deg, const Store& store) {
   const Seen seen = seen_of(zone, sights, all_turbines(zone));
   Facts facts{{"Grid reference", place_in_words(v, store.metadata().crs_wkt)},
               {"Ground", fmt::format("{:.1f} m", v.ground)},
               {"Eye", fmt::format("{:g} m above the ground, {:.1f} m", v.height, v.ground + v.height)},
-              {kMiddle, bearing_in_words(centre_deg)},
+              {kMiddle, bearing_in_words(centre_deg) + towards_in_words(sights)},
               {"Nearest turbine", fmt::format("{:.2f} km, {}", sights[seen.nearest].distance / 1000,
                                               turbine_in_words(zone.request.turbines[seen.nearest]))},
               {"Visible", visible_in_words(zone, seen)},
@@ -114,17 +119,25 @@ profile::WirelineQuery query_of(const Viewpoint& v, const ViewedSurface& view, c
   return query;
 }
 
+std::string and_undecided(std::size_t seen, std::size_t undecided) {
+  return undecided > 0 ? fmt::format("{}, {} undecided", seen, undecided) : fmt::format("{}", seen);
+}
+
+/// Returns how many hubs are seen, and of how many where the others are not known.
+std::string hubs_in_words(const Seen& seen) {
+  if (!seen.hubs) return "unknown";
+  const std::string of = seen.hubs_known < seen.turbines ? fmt::format(" of {} known", seen.hubs_known) : "";
+  return and_undecided(*seen.hubs, *seen.hubs_undecided) + of;
+}
+
 /// Returns a row for each farm, and one for all turbines where there are several farms.
 std::vector<std::vector<std::string>> farm_table(const Zone& zone, const std::vector<Sight>& sights) {
   std::vector<std::vector<std::string>> rows{
       {"Wind farm", "Turbines", "Hubs visible", "Tips visible", "Nearest, km", "Horizontal extent", "Vertical angle"}};
   const auto add = [&](const std::string& name, const std::vector<std::size_t>& turbines) {
     const Seen s = seen_of(zone, sights, turbines);
-    const auto and_undecided = [](std::size_t seen, std::size_t undecided) {
-      return undecided > 0 ? fmt::format("{}, {} undecided", seen, undecided) : fmt::format("{}", seen);
-    };
-    rows.push_back({name, fmt::format("{}", s.turbines), s.hubs ? and_undecided(*s.hubs, *s.hubs_undecided) : "unknown",
-                    and_undecided(s.tips, s.tips_undecided), fmt::format("{:.2f}", sights[s.nearest].distance / 1000),
+    rows.push_back({name, fmt::format("{}", s.turbines), hubs_in_words(s), and_undecided(s.tips, s.tips_undecided),
+                    fmt::format("{:.2f}", sights[s.nearest].distance / 1000),
                     s.arc ? fmt::format("{:.1f}°", s.arc->width) : "none",
                     s.tips > 0 ? fmt::format("{:.2f}°", s.vertical_deg) : "none"});
   };
@@ -146,18 +159,34 @@ double bearing_of_nearest(const Zone& zone, const std::vector<Sight>& sights) {
   return sights[seen.nearest_seen.value_or(seen.nearest)].azimuth;
 }
 
-/// Returns a sheet that looks in one direction and says how many turbines lie beside the picture.
-profile::WirelineSheet sheet_towards(double bearing_deg, double field_deg, const std::vector<Sight>& sights,
-                                     profile::WirelineSheet sheet) {
-  sheet.centre_deg = bearing_deg;
+/// A part of the horizon, degrees.
+struct PartOfHorizon {
+  double bearing = 0;  ///< of its middle
+  double width = 0;
+};
+
+/// Counts the turbines shown that lie beside a field of view.
+std::size_t shown_beside(const std::vector<Sight>& sights, const PartOfHorizon& field) {
+  return static_cast<std::size_t>(std::count_if(sights.begin(), sights.end(), [&](const Sight& s) {
+    return is_shown(s) && std::abs(within_turn(s.azimuth - field.bearing + 180) - 180) > field.width / 2;
+  }));
+}
+
+/// Returns a sheet that looks in one direction and says how many of the turbines shown lie beside the picture, and
+/// whether the cylindrical sheets have them.
+profile::WirelineSheet sheet_towards(const PartOfHorizon& field, const PartOfHorizon& cylinders,
+                                     const std::vector<Sight>& sights, profile::WirelineSheet sheet) {
+  sheet.centre_deg = field.bearing;
   for (auto& [name, value] : sheet.facts)
-    if (name == kMiddle) value = bearing_in_words(bearing_deg);
-  const auto beside = std::count_if(sights.begin(), sights.end(), [&](const Sight& s) {
-    return std::abs(within_turn(s.azimuth - bearing_deg + 180) - 180) > field_deg / 2;
-  });
-  if (beside > 0)
-    sheet.facts.emplace_back("Beside this field", fmt::format("{} of {} turbines, which the cylindrical sheets show",
-                                                              beside, sights.size()));
+    if (name == kMiddle) value = bearing_in_words(field.bearing) + towards_in_words(sights);
+  const std::size_t beside = shown_beside(sights, field), lacking = shown_beside(sights, cylinders);
+  if (beside == 0) return sheet;
+  const auto shown = static_cast<std::size_t>(std::count_if(sights.begin(), sights.end(), is_shown));
+  const std::string elsewhere = lacking == 0 ? "which the cylindrical sheets show"
+                                             : fmt::format("of which the cylindrical sheets lack {}", lacking);
+  sheet.facts.emplace_back(
+      "Beside this field",
+      fmt::format("{} of {}, {}", beside, counted(shown, "turbine in sight", "turbines in sight"), elsewhere));
   return sheet;
 }
 
@@ -197,7 +226,7 @@ void WirelineWriter::add(const std::string& name, const std::string& what, const
 
 void WirelineWriter::write(const Viewpoint& v, const ViewedSurface& view, const std::vector<Sight>& sights,
                            Progress& progress) {
-  const viewshed::Arc arc = arc_to_all(sights);
+  const viewshed::Arc arc = arc_to_shown(sights);
   const double centre = choice_.bearing_deg.value_or(within_turn(arc.from + arc.width / 2));
   const Facts facts = facts_of(v, view, zone_, sights, centre, store_);
   profile::WirelineQuery query = query_of(v, view, zone_, sights, choice_, facts);
@@ -224,9 +253,11 @@ void WirelineWriter::write(const Viewpoint& v, const ViewedSurface& view, const 
   std::optional<profile::Wireline> turned;
   if (!fits) turned = profile::survey_wireline(view.surface, query, progress);
   const profile::Wireline& narrow = turned ? *turned : wide;
+  const PartOfHorizon cylinders{centre, fields * kCylinder};
   std::string planar = name_of_file("wireline", v, view.suffix + "-planar.pdf");
   add(planar, "sheet of 841 by 297 mm: planar wireline of 53.5 degrees from " + of,
-      profile::draw_planar_sheet(narrow, sheet_towards(bearing, profile::kPlanarField, sights, sheet), planar));
+      profile::draw_planar_sheet(narrow, sheet_towards({bearing, profile::kPlanarField}, cylinders, sights, sheet),
+                                 planar));
   std::string cylindrical = name_of_file("wireline", v, view.suffix + "-cylindrical.pdf");
   std::optional<profile::Wireline> alone;
   if (!choice_.alone.empty()) alone = of_one_farm(wide, choice_.alone);
@@ -242,10 +273,11 @@ void WirelineWriter::write(const Viewpoint& v, const ViewedSurface& view, const 
   sheet.title = fmt::format("Viewpoint {}: {}", v.number, v.name);
   const std::string name = name_of_file("viewpoint", v, view.suffix + ".pdf");
   add(name, "sheet about " + of,
-      profile::draw_viewpoint_sheet(narrow,
-                                    {sheet_towards(bearing, kCylinder, sights, sheet), farm_table(zone_, sights),
-                                     location_map(store_, zone_, v, sights, sheets_.basemap(), progress)},
-                                    name));
+      profile::draw_viewpoint_sheet(
+          narrow,
+          {sheet_towards({bearing, kCylinder}, cylinders, sights, sheet), farm_table(zone_, sights),
+           location_map(store_, zone_, v, sights, sheets_.basemap(), progress)},
+          name));
 }
 
 }  // namespace itin::cli

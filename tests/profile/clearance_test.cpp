@@ -213,6 +213,35 @@ TEST(Analyse, AgreesWithDenseSamplingAndWithItsMirrorImage) {
   }
 }
 
+TEST(Analyse, TellsTheGreatestLackOfMetresAlongTheLine) {
+  std::mt19937 random(4104);
+  const Earth earth = Earth::effective_earth(4.0 / 3);
+  int lacking = 0;
+  for (int round = 0; round < 200; ++round) {
+    const Profile profile = random_profile(random, round);
+    LosQuery q = query(1 + round % 50, 2 + round % 90, earth);
+    q.radio = RadioPath{.frequency_ghz = 6, .effective_earth_km = 6371 * 4.0 / 3};
+    q.criteria = {{4.0 / 3, round % 2 == 0 ? 0.6 : 2.5}};
+    const LosReport report = analyse(profile, q);
+    const CriterionResult& c = report.criteria.front();
+    if (!c.margin_f1 || *c.margin_f1 >= 0) continue;
+    ++lacking;
+    const auto left = [&](double at, double clearance) {
+      return clearance - c.criterion.fraction * fresnel_radius_m(at, profile.length_m - at, wavelength_m(6));
+    };
+    double sampled = std::numeric_limits<double>::infinity(), at_place = sampled, nearest = sampled;
+    sample(profile, report.antennas, earth, [&](double at, double clearance) {
+      sampled = std::min(sampled, left(at, clearance));
+      if (const double away = std::abs(at - *c.margin_at_m); away < nearest)
+        nearest = away, at_place = left(at, clearance);
+    });
+    EXPECT_LE(*c.margin_m, sampled + 1e-9);
+    EXPECT_NEAR(*c.margin_m, sampled, 0.05);
+    EXPECT_NEAR(*c.margin_m, at_place, 0.1);
+  }
+  EXPECT_GT(lacking, 50);
+}
+
 TEST(Analyse, JudgesCriteriaOnTheirOwnEarth) {
   // 20 km over flat ground: the bulge is 11.8 m at K = 1/2 x 4/3 ... worked from d^2 / (2 K R) at the middle.
   const Profile profile = even_profile(10000, {0, 0, 0});
@@ -259,6 +288,7 @@ TEST(Judge, FindsWhatAnalyseFinds) {
 TEST(Analyse, JudgesTheWorstFadeByTheLineItself) {
   EXPECT_NEAR(fade_factor(20000), 0.5658, 1e-4);   // 157 / (144 + 133.5)
   EXPECT_NEAR(fade_factor(100000), 0.9198, 1e-4);  // 157 / (144 + 26.7)
+  for (const double shorter : {10000.0, 660.0, 1.0}) EXPECT_NEAR(fade_factor(shorter), 157.0 / 411, 1e-9);
   const Profile profile = even_profile(10000, {0, 20, 0});
   LosQuery q = query(60, 60, Earth::effective_earth(4.0 / 3));
   q.radio = RadioPath{.frequency_ghz = 6, .effective_earth_km = 8494.7};

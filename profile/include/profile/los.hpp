@@ -58,18 +58,24 @@ struct Criterion {
   friend bool operator==(const Criterion&, const Criterion&) = default;
 };
 /// The effective Earth factor that is exceeded for 99.9 % of the worst month on a path of this length. With d as its
-/// kilometres, ke = 157 / (144 + 2670 / d), after the curve of ITU-R P.530 section 2.2. The curve begins at 10 km; for
-/// shorter paths it is continued. The formula has not been confirmed from the recommendation's text.
+/// kilometres, ke = 157 / (144 + 2670 / d), after the curve of ITU-R P.530 section 2.2. The curve begins at
+/// kShortestFade; shorter paths have the factor of that length, for the formula goes to 0 with the length. The formula
+/// has not been confirmed from the recommendation's text.
 double fade_factor(double length_m);
+inline constexpr double kShortestFade = 10000;  ///< metres
 struct CriterionResult {
   Criterion criterion;
   double k = 0;  ///< the effective Earth factor by which it was judged
   CriterionVerdict verdict = CriterionVerdict::kMeets;
-  // The following are over known ground, at the critical point on this Earth.
-  std::optional<double> clearance_m;
-  std::optional<double> clearance_f1;  ///< least ratio to F1; nothing without a frequency
-  std::optional<double> margin_m;      ///< clearance beyond the fraction wanted at the point; negative: it is missing
-  std::optional<double> margin_f1;     ///< the margin as a fraction of F1
+  // The following are over known ground on this Earth.
+  std::optional<double> clearance_m;     ///< at the critical point
+  std::optional<double> clearance_f1;    ///< least ratio to F1; nothing without a frequency
+  std::optional<double> margin_f1;       ///< how much of F1 that leaves beyond the fraction wanted; negative: it lacks
+  std::optional<double> margin_f1_at_m;  ///< the distance at which it does
+  /// Negative: the greatest lack of metres along the line. Otherwise the metres left where the ratio to F1 is least,
+  /// and for a fraction of 0 the clearance at the critical point.
+  std::optional<double> margin_m;
+  std::optional<double> margin_at_m;  ///< the distance of the place of margin_m
 };
 struct NamedHeights {
   std::string name;  ///< "line of sight", "0.6 F1", "K = 1.333, 1 F1"

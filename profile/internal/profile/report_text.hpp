@@ -14,15 +14,17 @@ namespace itin::profile {
 /// Tells of gaps: "no data over 1.200 km of the line, which leaves it undecided; known ground does not hide it". Empty
 /// without gaps.
 std::string gap_text(const LosReport& report);
-/// A note about the factor ke; empty where no criterion asks for it.
-std::string fade_note(const LineFindings& found);
+/// A note about the factor ke on a line of this length; empty where no criterion asks for it.
+std::string fade_note(const LineFindings& found, double length_m);
 /// The text of gap_text() or, where that is empty, why the verdict is undecided; empty where neither needs words.
 std::string reason_of(const LosReport& report);
 /// Returns "Visible", or "Undecided: " with the reason. Any verdict may have a colon and a note on missing data after
 /// it.
 std::string verdict_text(const LosReport& report);
-/// Returns "meets by 0.40 F1 (3.10 m)", "fails by ...", "undecided".
+/// Returns "meets by 3.10 m at 5.021 km", "fails by ...", "undecided".
 std::string outcome_text(const CriterionResult& result);
+/// Returns what may follow it: "; least clearance 1.00 F1 at 5.021 km"; empty where no fraction of F1 is wanted.
+std::string least_fraction_text(const CriterionResult& result);
 /// Tells about the reflection: "clear", "screened by terrain at 5.310 km, 12.00 m above it", or that nothing is known.
 /// Precondition: the report has a reflection.
 std::string screen_text(const LosReport& report);

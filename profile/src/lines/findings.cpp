@@ -1,5 +1,6 @@
 #include "lines/findings.hpp"
 
+#include <algorithm>
 #include <limits>
 
 #include <fmt/format.h>
@@ -9,6 +10,7 @@
 #include <profile/radio_text.hpp>
 
 #include "lines/critical_point.hpp"
+#include "lines/fresnel_lack.hpp"
 #include "lines/line_clearance.hpp"
 #include "lines/obstructions.hpp"
 #include "lines/sight_verdict.hpp"
@@ -66,17 +68,22 @@ CriterionResult criterion_result(const Sight& sight, const LosQuery& query, cons
   const double k = factor_of(criterion, sight.profile.length_m);
   const Earth earth = with_factor(k, query.earth);
   const Clearance as_is = clearance_over(sight, query, earth);
-  CriterionResult result{criterion, k, criterion_verdict(sight, query, criterion, earth), {}, {}, {}, {}};
+  CriterionResult result{criterion, k, criterion_verdict(sight, query, criterion, earth), {}, {}, {}, {}, {}, {}};
   if (!as_is.critical) return result;
   result.clearance_m = result.margin_m = as_is.critical->clearance_m;
+  result.margin_at_m = as_is.critical->point.distance_m;
   if (!query.radio || !as_is.zone) return result;
   const FresnelClearance& zone = *as_is.zone;
   result.clearance_f1 = zone.fraction;
   if (criterion.fraction == 0) return result;
   const double left = sight.profile.length_m - zone.distance_m;
-  result.margin_f1 = zone.fraction - criterion.fraction;
+  result.margin_f1 = zone.fraction - criterion.fraction, result.margin_f1_at_m = zone.distance_m;
   result.margin_m =
       zone.clearance_m - criterion.fraction * fresnel_radius_m(zone.distance_m, left, wavelength_of(query));
+  result.margin_at_m = zone.distance_m;
+  if (*result.margin_f1 >= 0) return result;
+  if (const auto lack = fresnel_lack(sight.profile, sight.antennas, earth, criterion.fraction, wavelength_of(query)))
+    result.margin_m = -lack->metres, result.margin_at_m = lack->distance_m;
   return result;
 }
 
@@ -99,7 +106,7 @@ void require_valid(const Profile& profile, const LosQuery& query, const Profile&
 }
 
 double fade_factor(double length_m) {
-  return 157 / (144 + 2670 / (length_m / 1000));
+  return 157 / (144 + 2670 / (std::max(length_m, kShortestFade) / 1000));
 }
 
 Earth with_factor(double k, const Earth& earth) {

@@ -20,8 +20,8 @@ const CriterionResult* worst_fade(const LosReport& report) {
 }
 
 std::string fade_line(const CriterionResult& fade) {
-  return fmt::format("At K = {}, where {:g} F1 is wanted: {}.", factor_text(fade.criterion, fade.k),
-                     fade.criterion.fraction, outcome_text(fade));
+  return fmt::format("At K = {}, where {:g} F1 is wanted: {}{}.", factor_text(fade.criterion, fade.k),
+                     fade.criterion.fraction, outcome_text(fade), least_fraction_text(fade));
 }
 
 LosReport over_earth_of(const LosReport& report, const CriterionResult& fade) {

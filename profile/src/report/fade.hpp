@@ -10,7 +10,7 @@ namespace itin::profile {
 /// The criterion with the least K, if its Earth bulges more than the report's; null if there is none.
 const CriterionResult* worst_fade(const LosReport& report);
 
-/// Tells about it: "At K = 0.6667, where 0.3 F1 is wanted: fails by 1.65 F1 (4.81 m)."
+/// Tells about it: "At K = 0.6667, where 0.3 F1 is wanted: fails by 4.81 m at 5.021 km; least ..."
 std::string fade_line(const CriterionResult& fade);
 
 /// Returns what a drawing needs for the same line over that criterion's Earth. It has no criteria, losses and

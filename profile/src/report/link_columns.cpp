@@ -207,6 +207,7 @@ class ColumnList {
     of("_clearance_m", kNumber, [](const CriterionResult& c) { return number(c.clearance_m); });
     of("_clearance_f1", kNumber, [](const CriterionResult& c) { return number(c.clearance_f1); });
     of("_margin_m", kNumber, [](const CriterionResult& c) { return number(c.margin_m); });
+    of("_margin_at_m", kNumber, [](const CriterionResult& c) { return number(c.margin_at_m); });
   }
   /// The place of a criterion's heights among the required heights of a link.
   static Place place_of(const Criterion& criterion) {

@@ -1,4 +1,4 @@
-// Shows many links on one page: first the links that need attention.
+// Shows many links on pages: first the links that need attention.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -28,13 +28,26 @@ const CriterionResult* governing(const LineFindings& found) {
   return worst == found.criteria.end() ? nullptr : &*worst;
 }
 
-/// Ranks a row: one with a lower number needs attention sooner.
-int urgency(const LinkRow& row) {
-  if (row.found() == nullptr) return 0;
-  if (row.found()->verdict != SightVerdict::kVisible) return row.found()->verdict == SightVerdict::kHidden ? 1 : 2;
-  const CriterionResult* c = governing(*row.found());
-  if (c == nullptr || c->verdict == CriterionVerdict::kMeets) return 5;
-  return c->verdict == CriterionVerdict::kFails ? 3 : 4;
+/// Ranks a row, by verdict and then by metres: one with a lower rank needs attention sooner.
+std::pair<int, double> urgency(const LinkRow& row) {
+  if (row.found() == nullptr) return {0, 0};
+  const LineFindings& found = *row.found();
+  const double clearance = found.clearance_m.value_or(0);
+  if (found.verdict != SightVerdict::kVisible) return {found.verdict == SightVerdict::kHidden ? 1 : 2, clearance};
+  const CriterionResult* c = governing(found);
+  if (c == nullptr) return {5, clearance};
+  constexpr int kRanks[] = {5, 3, 4};  // meets, fails, undecided
+  return {kRanks[static_cast<int>(c->verdict)], c->margin_m.value_or(0)};
+}
+
+/// Returns the note on ke, for the shortest link that a criterion judges by it.
+std::string fade_note_of(const std::vector<LinkRow>& rows) {
+  const LinkRow* shortest = nullptr;
+  for (const LinkRow& row : rows) {
+    if (row.found() == nullptr || fade_note(*row.found(), row.result->distance_m).empty()) continue;
+    if (shortest == nullptr || row.result->distance_m < shortest->result->distance_m) shortest = &row;
+  }
+  return shortest == nullptr ? "" : fade_note(*shortest->found(), shortest->result->distance_m);
 }
 
 std::string ends_text(const LinkRow& row) {
@@ -82,30 +95,39 @@ std::string counts_text(const std::vector<LinkRow>& rows) {
   return text;
 }
 
-}  // namespace
-
-std::string link_summary(const LinkSurvey& survey, const std::vector<LinkRow>& rows) {
-  Drawing drawing(Drawing::Format::kPdf, kWidth, kHeight);
-  draw_title(drawing, survey.title);
-  const double top = draw_headline(drawing, counts_text(rows)) + 14;
-  const Facts facts = fact_lines(drawing, survey.facts);
-  const double bottom = kHeight - kMargin - kFactRow * static_cast<double>(facts.size());
-  std::vector<const LinkRow*> order;
-  for (const LinkRow& row : rows) order.push_back(&row);
-  std::stable_sort(order.begin(), order.end(),
-                   [](const LinkRow* a, const LinkRow* b) { return urgency(*a) < urgency(*b); });
-  PageColumn column(drawing, kMargin, kWidth - 2 * kMargin, top);
+Table table_of(const std::vector<LinkRow>& rows) {
+  std::vector<std::pair<std::pair<int, double>, const LinkRow*>> order;
+  for (const LinkRow& row : rows) order.emplace_back(urgency(row), &row);
+  std::stable_sort(order.begin(), order.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   Table table{"Links, the most urgent first",
               {"id", "ends", "grid km", "geodesic km", "verdict", "clearance m", "clearance / F1", "no data km",
                "governing criterion"},
               {},
-              "Clearance is that at the critical point, clearance / F1 the least over the line."};
-  const std::size_t fitting = std::min(rows.size(), column.rows_that_fit(table, bottom - 30));
-  for (std::size_t i = 0; i < fitting; ++i) table.rows.push_back(cells_of(*order[i]));
-  if (fitting < rows.size()) table.note += fmt::format(" The table has {} more.", rows.size() - fitting);
-  column.set(table);
-  draw_facts(drawing, facts, bottom + 12);
-  return drawing.finish();
+              "The order is by verdict, then by metres. Clearance is that at the critical point, clearance / F1 the "
+              "least over the line."};
+  for (const auto& [rank, row] : order) table.rows.push_back(cells_of(*row));
+  if (const std::string note = fade_note_of(rows); !note.empty()) table.note += " " + note;
+  return table;
+}
+
+}  // namespace
+
+std::string link_summary(const LinkSurvey& survey, const std::vector<LinkRow>& rows) {
+  const Table table = table_of(rows);
+  return numbered_pdf([&](Pages& pages) {
+    Drawing& drawing = pages.drawing();
+    draw_title(drawing, survey.title);
+    const double top = draw_headline(drawing, counts_text(rows)) + 14;
+    const Facts facts = fact_lines(drawing, survey.facts);
+    const double bottom = kHeight - kMargin - kFactRow * static_cast<double>(facts.size());
+    draw_facts(drawing, facts, bottom + 12);
+    std::size_t row = PageColumn(drawing, kMargin, kWidth - 2 * kMargin, top).set_rows(table, 0, bottom - 30);
+    while (row < table.rows.size()) {
+      pages.begin_page();
+      draw_title(drawing, survey.title);
+      row = PageColumn(drawing, kMargin, kWidth - 2 * kMargin, kBelowTitle).set_rows(table, row);
+    }
+  });
 }
 
 }  // namespace itin::profile

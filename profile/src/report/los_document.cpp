@@ -74,7 +74,9 @@ Document criteria_document(const LineFindings& found) {
                     {"clearance_m", number_or_null(c.clearance_m)},
                     {"clearance_f1", number_or_null(c.clearance_f1)},
                     {"margin_m", number_or_null(c.margin_m)},
-                    {"margin_f1", number_or_null(c.margin_f1)}});
+                    {"margin_at_m", number_or_null(c.margin_at_m)},
+                    {"margin_f1", number_or_null(c.margin_f1)},
+                    {"margin_f1_at_m", number_or_null(c.margin_f1_at_m)}});
   }
   return list;
 }

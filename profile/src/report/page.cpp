@@ -96,6 +96,15 @@ void PageColumn::set(const Table& table) {
   y_ += 16;
 }
 
+std::size_t PageColumn::set_rows(const Table& table, std::size_t from, double bottom) {
+  Table part{table.title + (from == 0 ? "" : ", continued"), table.header, {}, table.note};
+  const std::size_t to = std::min(table.rows.size(), from + rows_that_fit(part, bottom));
+  part.rows.assign(table.rows.begin() + static_cast<std::ptrdiff_t>(from),
+                   table.rows.begin() + static_cast<std::ptrdiff_t>(to));
+  set(part);
+  return to;
+}
+
 std::vector<std::string> PageColumn::note_lines(const Table& table) const {
   if (table.note.empty()) return {};
   return drawing_.lines(table.note, width_, kNote);

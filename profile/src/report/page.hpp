@@ -14,6 +14,7 @@ namespace itin::profile {
 
 // The size is A4 in landscape.
 inline constexpr double kWidth = 842, kHeight = 595, kMargin = 36;
+inline constexpr double kBelowTitle = 62;  ///< where a page begins that has no headline
 
 inline const Lettering kPlain{8.5, kReportInk, Align::kLeft, false, 0}, kBold{8.5, kReportInk, Align::kLeft, true, 0};
 
@@ -61,6 +62,8 @@ class PageColumn {
   /// The number of rows of such a table that fit.
   std::size_t rows_that_fit(const Table& table, double bottom) const;
   void set(const Table& table);
+  /// Sets as many rows of a longer table as fit above `bottom`, `from` the first. Returns the number of the next row.
+  std::size_t set_rows(const Table& table, std::size_t from, double bottom = kHeight - kMargin);
 
  private:
   std::vector<std::string> note_lines(const Table& table) const;

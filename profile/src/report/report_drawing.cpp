@@ -38,8 +38,6 @@ void draw_first_page(Drawing& drawing, const LosReport& report) {
   draw_facts(drawing, facts, kHeight - kMargin - facts_height + 12);
 }
 
-constexpr double kBelowTitle = 62;
-
 /// Draws the line over the Earth of the worst fade that a criterion asks about.
 void draw_fade_page(Pages& pages, const LosReport& report) {
   const CriterionResult* fade = worst_fade(report);
@@ -97,17 +95,10 @@ class TablePages {
 void draw_profile_pages(Pages& pages, const LosReport& report) {
   const std::optional<Table> whole = profile_table(report);
   if (!whole) return;
-  for (auto row = whole->rows.begin(); row != whole->rows.end();) {
+  for (std::size_t row = 0; row < whole->rows.size();) {
     pages.begin_page();
     draw_title(pages.drawing(), report.title);
-    PageColumn column(pages.drawing(), kMargin, kWidth - 2 * kMargin, kBelowTitle);
-    const bool first = row == whole->rows.begin();
-    Table part{whole->title + (first ? "" : ", continued"), whole->header, {}, whole->note};
-    const auto rest = static_cast<std::size_t>(whole->rows.end() - row);
-    const auto end = row + static_cast<std::ptrdiff_t>(std::min(rest, column.rows_that_fit(part, kHeight - kMargin)));
-    part.rows.assign(row, end);
-    column.set(part);
-    row = end;
+    row = PageColumn(pages.drawing(), kMargin, kWidth - 2 * kMargin, kBelowTitle).set_rows(*whole, row);
   }
 }
 

@@ -33,7 +33,7 @@ std::vector<std::string> criterion_row(const CriterionResult& c) {
 }
 
 Table criteria_table(const LosReport& report, const LineFindings& found, const std::string& of) {
-  Table table{"Verdicts" + of, {"K", "wanted", "clearance", "clearance / F1", "verdict"}, {}, ""};
+  Table table{"Verdicts" + of, {"K", "wanted", "clearance", "in F1", "verdict"}, {}, ""};
   const double drop = report.query.earth.drop_coefficient();
   const std::string k = drop == 0 ? "flat" : fmt::format("{:.4g}", 1 / (2 * drop * report.query.earth.radius));
   table.rows.push_back({k, "line of sight", clearance_text(found.clearance_m),
@@ -41,7 +41,8 @@ Table criteria_table(const LosReport& report, const LineFindings& found, const s
   for (const CriterionResult& c : found.criteria) table.rows.push_back(criterion_row(c));
   table.note = gap_text(report);
   if (!table.note.empty()) table.note[0] = 'N', table.note += ".";
-  if (const std::string note = fade_note(found); !note.empty()) table.note += (table.note.empty() ? "" : " ") + note;
+  if (const std::string note = fade_note(found, report.profile.length_m); !note.empty())
+    table.note += (table.note.empty() ? "" : " ") + note;
   if (report.query.clearance_error_m > 0) {
     table.note += fmt::format(
         "{}Where the verdict is undecided, the surface's certified error, {:.2f} m, is greater than the margin.",

@@ -36,12 +36,14 @@ std::string gap_text(const LosReport& report) {
                          : "the surface's certified error leaves open whether known ground hides it");
 }
 
-std::string fade_note(const LineFindings& found) {
+std::string fade_note(const LineFindings& found, double length_m) {
   const bool asked = std::any_of(found.criteria.begin(), found.criteria.end(),
                                  [](const CriterionResult& c) { return c.criterion.fade; });
-  return asked ? "ke is 157 / (144 + 2670 / length in km), a formula that has not been confirmed from the text of "
-                 "ITU-R P.530."
-               : "";
+  if (!asked) return "";
+  return std::string("ke is 157 / (144 + 2670 / length in km), ") +
+         (length_m < kShortestFade ? "and that of 10 km below 10 km, where its curve begins; the formula"
+                                   : "a formula that") +
+         " has not been confirmed from the text of ITU-R P.530.";
 }
 
 std::string reason_of(const LosReport& report) {
@@ -62,13 +64,16 @@ std::string outcome_text(const CriterionResult& result) {
   const char* verdict = name_of(result.verdict);
   if (!result.margin_m) return verdict;
   const bool met = *result.margin_m >= -kGrazing;
-  const std::string by = result.margin_f1
-                             ? fmt::format("{:.2f} F1 ({})", std::abs(*result.margin_f1), amount(*result.margin_m))
-                             : amount(*result.margin_m);
+  const std::string by = fmt::format("{} at {}", amount(*result.margin_m), distance_text(*result.margin_at_m));
   if (result.verdict == CriterionVerdict::kUndecided)
     return fmt::format("undecided; {} by {} as far as is known", met ? "met" : "missed", by);
   if (result.verdict == CriterionVerdict::kFails && met) return "fails: ground without data counts as blocking";
   return fmt::format("{} by {}", verdict, by);
+}
+
+std::string least_fraction_text(const CriterionResult& result) {
+  if (!result.margin_f1) return "";
+  return fmt::format("; least clearance {:.2f} F1 at {}", *result.clearance_f1, distance_text(*result.margin_f1_at_m));
 }
 
 std::string screen_text(const LosReport& report) {

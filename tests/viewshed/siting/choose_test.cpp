@@ -9,6 +9,7 @@
 #include <viewshed/siting.hpp>
 
 #include "support/seed.hpp"
+#include "support/told_progress.hpp"
 #include "viewshed/siting/simulated_siting.hpp"
 
 namespace itin::viewshed {
@@ -143,6 +144,16 @@ TEST_F(Choosing, SwapsAreThoseOfExactCoverage) {
     swapped += goal.cover > 1 && choice.swaps > 0;
   }
   EXPECT_GT(swapped, 0);
+}
+
+TEST_F(Choosing, TheSearchesAfterTheFirstSelectionAreReported) {
+  const Instance instance(40, 150, 1, random_);
+  const ChoiceGoal goal{.count = 6};
+  Simulated coverage(instance.truth, 0, random_);
+  test::ToldProgress told;
+  choose(Demand(instance.weights), instance.options, coverage, goal, told);
+  for (const char* stage : {"choice", "search for exchange 1", "bound on all choices"})
+    EXPECT_FALSE(told.of(stage).empty()) << stage;
 }
 
 TEST_F(Choosing, NoChoiceIsBetterThanTheBound) {

@@ -20,6 +20,7 @@
 #include "support/subset.hpp"
 #include "support/temporary_directory.hpp"
 #include "support/terrain_tin.hpp"
+#include "support/told_progress.hpp"
 #include "viewshed/siting/survey_points.hpp"
 
 namespace itin::viewshed {
@@ -324,6 +325,19 @@ TEST_F(Sites, TheChoiceIsThatOfBruteForce) {
   std::size_t refined = 0;
   for (std::size_t i = 0; i < truth.size(); ++i) refined += coverage.stage(i) > 0;
   EXPECT_LT(refined, truth.size());
+}
+
+TEST_F(Sites, NothingIsSaidToBeDoneWhereAllIsPutBack) {
+  make_terrain(80, 200, false);
+  make_survey(3);
+  SiteCoverage coverage(*store_, survey_, progress_);
+  coverage.explore();
+  test::ToldProgress told;
+  SiteCoverage other(*store_, survey_, told);
+  for (std::size_t i = 0; i < 3; ++i) other.restore(i, coverage.stage(i), coverage.bounds(i));
+  const std::size_t before = told.all().size();
+  other.explore();
+  EXPECT_EQ(told.all().size(), before);
 }
 
 TEST_F(Sites, WhatWasFoundCanBePutBack) {

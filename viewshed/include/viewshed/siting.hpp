@@ -122,12 +122,18 @@ struct ChosenSite {
   Weight cumulative = 0;
 };
 
-/// Why it sufficed to know bounds of an option.
+/// Why an option was not taken at a step, for which bounds of it sufficed.
 struct Margin {
+  enum class Outcome {
+    kOutbid,   ///< another was better
+    kTooNear,  ///< it was better than the one taken, but not compatible with one that was chosen before
+    kNoRoom,   ///< it was better than the one taken, but would have left too few others to choose from
+    kTaken     ///< it was taken itself; then replaced if it is not among the chosen
+  };
   double upper = 0;   ///< the best gain within its bounds (the least for kLeast), per unit of cost under a budget
   double chosen = 0;  ///< the gain of the option taken instead
   std::size_t step = 0;
-  bool taken = false;  ///< whether it was taken itself; then replaced if it is not among the chosen
+  Outcome outcome = Outcome::kOutbid;
 };
 
 /// Returns 1 where the option could have been taken as well, and less the farther it was from that.

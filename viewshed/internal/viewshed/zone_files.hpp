@@ -43,6 +43,11 @@ struct LinkStudy {
 /// Returns the farms of a zone in the order of their first turbines.
 std::vector<std::string> farms_of(const Zone& zone);
 
+/// Counts the turbines whose hub height is known; others do not count among the hubs.
+std::size_t known_hubs(const Zone& zone);
+/// Returns whose hubs are counted where some are not known: " of 9 of 11 turbines"; empty where all are.
+std::string of_known_hubs(const Zone& zone);
+
 /// Writes the rasters of visibility, replacing existing files. Throws FileError.
 std::vector<ZoneFile> write_zone_rasters(const std::string& folder, const Zone& zone, const ZoneFileOptions& options);
 

@@ -134,8 +134,8 @@ class AreaTable {
 std::string area_table(const Zone& zone) {
   AreaTable table(zone);
   const auto add = [&](const char* surface, const Visibility& v) {
-    if (knows_hubs(zone)) table.add(surface, "hub", {zone, v.hub_count, v.hub_undecided});
-    table.add(surface, "tip", {zone, v.tip_count, v.tip_undecided});
+    if (known_hubs(zone) > 0) table.add(surface, "hub", {zone, v, TurbinePart::kHub});
+    table.add(surface, "tip", {zone, v, TurbinePart::kTip});
   };
   add("bare", zone.bare);
   if (zone.screened) add("screened", *zone.screened);

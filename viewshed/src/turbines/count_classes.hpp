@@ -1,6 +1,6 @@
 // The classes into which maps, polygons and tables sort cells by how many turbines are seen.
 //
-//   const CountClasses classes(zone, zone.bare.tip_count, zone.bare.tip_undecided);
+//   const CountClasses classes(zone, zone.bare, TurbinePart::kTip);
 //   if (const auto c = classes.of(cell)) ++cells[*c];
 #pragma once
 
@@ -14,10 +14,15 @@
 
 namespace itin::viewshed {
 
+enum class TurbinePart { kHub, kTip };
+
+/// The bands of the counts of this part that maps, rasters and tables show: up to all turbines, or all known hubs.
+std::vector<ValueBand> count_bands(const Zone& zone, TurbinePart part);
+
 class CountClasses {
  public:
-  /// Takes the counts of hubs or of tips. All arguments must outlive the classes.
-  CountClasses(const Zone& zone, const std::vector<std::uint16_t>& counts, const std::vector<std::uint16_t>& undecided);
+  /// Takes the counts of hubs or of tips. Zone and visibility must outlive the classes.
+  CountClasses(const Zone& zone, const Visibility& visibility, TurbinePart part);
 
   /// Returns the classes: none seen; the bands of counts; and last, where the zone leaves_open(), the cells from which
   /// it is undecided whether any turbine is seen.

@@ -1,13 +1,14 @@
 #include <algorithm>
 #include <map>
 
+#include <fmt/format.h>
+
 #include <viewshed/zone_files.hpp>
 #include <viewshed/zone_maps.hpp>
 
 #include "turbines/count_classes.hpp"
 #include "turbines/farm_combinations.hpp"
 #include "turbines/value_bands.hpp"
-#include "turbines/zone_request.hpp"
 
 namespace itin::viewshed {
 
@@ -16,15 +17,14 @@ namespace {
 constexpr const char* kNone = "None visible";
 constexpr const char* kUndecided = "Undecided, across ground without data";
 
-ZoneMap count_map(const Zone& zone, const std::vector<std::uint16_t>& counts,
-                  const std::vector<std::uint16_t>& undecided) {
+ZoneMap count_map(const Zone& zone, const Visibility& visibility, TurbinePart part) {
   ZoneMap map;
-  const CountClasses classes(zone, counts, undecided);
+  const CountClasses classes(zone, visibility, part);
   for (const ValueBand& b : classes.classes()) map.classes.push_back({b.label, b.colour});
   map.classes.front().label = kNone;
   if (zone.leaves_open()) map.classes.back().label = kUndecided, map.classes.back().undecided = true;
-  map.class_of_cell.assign(counts.size(), kNoMapClass);
-  for (std::size_t i = 0; i < counts.size(); ++i) {
+  map.class_of_cell.assign(visibility.tip_count.size(), kNoMapClass);
+  for (std::size_t i = 0; i < map.class_of_cell.size(); ++i) {
     const auto of_cell = classes.of(i);
     if (!of_cell) continue;
     map.class_of_cell[i] = static_cast<std::uint8_t>(*of_cell);
@@ -34,12 +34,32 @@ ZoneMap count_map(const Zone& zone, const std::vector<std::uint16_t>& counts,
   return map;
 }
 
+/// Returns the map of hubs, which says whose hubs are known where not all are.
+ZoneMap hub_map(const Zone& zone, const Visibility& visibility) {
+  ZoneMap map = count_map(zone, visibility, TurbinePart::kHub);
+  const std::string known = of_known_hubs(zone);
+  map.title = "Zone of theoretical visibility: hubs" + known;
+  map.heading = "Turbines with their hub visible";
+  if (known.empty()) return map;
+  map.heading += fmt::format(", of the {} whose hub height is known", known_hubs(zone));
+  map.classes.front().label = "None of these visible";
+  return map;
+}
+
+ZoneMap tip_map(const Zone& zone, const Visibility& visibility) {
+  ZoneMap map = count_map(zone, visibility, TurbinePart::kTip);
+  map.title = "Zone of theoretical visibility: blade tips", map.heading = "Turbines with their blade tip visible";
+  return map;
+}
+
 ZoneMap farm_map(const Zone& zone, const Visibility& visibility, std::size_t most) {
   const std::vector<std::uint32_t> farms = farm_combinations(zone, visibility);
   const CombinationCells cells = cells_by_combination(farms);
   std::vector<Combination> present = commonest_first(combinations_present(zone, {&farms}), cells);
   std::erase_if(present, [](const Combination& c) { return c.farms == 0; });
   ZoneMap map;
+  map.title = "Cumulative zone of theoretical visibility: blade tips by wind farm";
+  map.heading = "Wind farms with a blade tip visible";
   map.classes.push_back({kNone, kTransparent});
   std::map<std::uint32_t, std::uint8_t> class_of{{0, 0}, {kOutsideFarms, kNoMapClass}};
   for (std::size_t i = 0; i < present.size(); ++i) {
@@ -60,11 +80,8 @@ ZoneMap farm_map(const Zone& zone, const Visibility& visibility, std::size_t mos
   return map;
 }
 
-void add_map(std::vector<ZoneMap>& maps, ZoneMap map, const char* name, const char* title, const char* heading,
-             bool screened) {
-  map.name = std::string(name) + (screened ? "-screened" : ""), map.title = title, map.heading = heading;
-  map.screened = screened;
-  map.seen = map.name.starts_with("farms") ? "farms" : map.name.starts_with("hub") ? "hub" : "tip";
+void add_map(std::vector<ZoneMap>& maps, ZoneMap map, const char* name, const char* seen, bool screened) {
+  map.name = std::string(name) + (screened ? "-screened" : ""), map.seen = seen, map.screened = screened;
   maps.push_back(std::move(map));
 }
 
@@ -74,15 +91,9 @@ std::vector<ZoneMap> zone_maps(const Zone& zone, std::size_t most_combinations) 
   std::vector<ZoneMap> maps;
   const std::size_t farms = farms_of(zone).size();
   const auto add_all = [&](const Visibility& v, bool screened) {
-    add_map(maps, count_map(zone, v.tip_count, v.tip_undecided), "tip-count",
-            "Zone of theoretical visibility: blade tips", "Turbines with their blade tip visible", screened);
-    if (knows_hubs(zone))
-      add_map(maps, count_map(zone, v.hub_count, v.hub_undecided), "hub-count", "Zone of theoretical visibility: hubs",
-              "Turbines with their hub visible", screened);
-    if (farms > 1)
-      add_map(maps, farm_map(zone, v, most_combinations), "farms",
-              "Cumulative zone of theoretical visibility: blade tips by wind farm",
-              "Wind farms with a blade tip visible", screened);
+    add_map(maps, tip_map(zone, v), "tip-count", "tip", screened);
+    if (known_hubs(zone) > 0) add_map(maps, hub_map(zone, v), "hub-count", "hub", screened);
+    if (farms > 1) add_map(maps, farm_map(zone, v, most_combinations), "farms", "farms", screened);
   };
   add_all(zone.bare, false);
   if (zone.screened) add_all(*zone.screened, true);

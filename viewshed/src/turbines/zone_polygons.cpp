@@ -8,7 +8,6 @@
 #include "turbines/count_classes.hpp"
 #include "turbines/farm_combinations.hpp"
 #include "turbines/value_bands.hpp"
-#include "turbines/zone_request.hpp"
 
 namespace itin::viewshed {
 
@@ -46,18 +45,19 @@ void add_files(const Zone& zone, const Visibility& seen, const std::string& suff
                std::vector<PolygonFile>& files) {
   const std::string undecided =
       zone.leaves_open() ? "; the class undecided is where ground without data leaves open whether any is" : "";
+  const std::string hubs = known_hubs(zone) < zone.request.turbines.size() ? ", hubs" + of_known_hubs(zone) : "";
   files.push_back(
       {{"tip-count" + suffix + ".gpkg",
         "polygons of the areas from which tips are seen, by bands of their number, with the area in m²" + undecided},
        [&](const std::string& path) {
-         write_bands(path, "tip-count", zone, {zone, seen.tip_count, seen.tip_undecided}, options);
+         write_bands(path, "tip-count", zone, {zone, seen, TurbinePart::kTip}, options);
        }});
-  if (knows_hubs(zone))
-    files.push_back(
-        {{"hub-count" + suffix + ".gpkg", "where a band of turbines has its hubs seen: polygons, m²" + undecided},
-         [&](const std::string& path) {
-           write_bands(path, "hub-count", zone, {zone, seen.hub_count, seen.hub_undecided}, options);
-         }});
+  if (known_hubs(zone) > 0)
+    files.push_back({{"hub-count" + suffix + ".gpkg",
+                      "where a band of turbines has its hubs seen" + hubs + ": polygons, m²" + undecided},
+                     [&](const std::string& path) {
+                       write_bands(path, "hub-count", zone, {zone, seen, TurbinePart::kHub}, options);
+                     }});
   if (farms_of(zone).size() < 2) return;
   files.push_back(
       {{"farms" + suffix + ".gpkg", "where a combination of farms has tips seen: polygons, m²"},

@@ -9,10 +9,10 @@
 #include <viewshed/missing_ground.hpp>
 #include <viewshed/zone_files.hpp>
 
+#include "turbines/count_classes.hpp"
 #include "turbines/farm_combinations.hpp"
 #include "turbines/raster_folder.hpp"
 #include "turbines/value_bands.hpp"
-#include "turbines/zone_request.hpp"
 
 namespace itin::viewshed {
 
@@ -86,24 +86,31 @@ View view_over(const Zone& zone, const Visibility& seen, const std::string& suff
           fmt::format("; what is certainly seen: undecided{}.tif tells what ground without data leaves open", suffix)};
 }
 
+/// Returns "hub", and where some are not known, whose hubs count.
+std::string hub_in_words(const Zone& zone) {
+  const std::string known = of_known_hubs(zone);
+  return known.empty() ? "hub" : fmt::format("hub (hubs{}, the others are not known)", known);
+}
+
 void write_counts(const Zone& zone, const View& view, RasterFolder& folder) {
-  const auto bands = count_bands(zone.request.turbines.size(), zone.request.count_bands);
-  const auto write = [&](const std::string& name, const std::string& what, const std::vector<std::uint16_t>& counts) {
-    folder.write(name + view.suffix, what, counts, with_nodata(kCountOutside), banded_style(bands));
+  const auto write = [&](const std::string& name, TurbinePart part, const std::string& what,
+                         const std::vector<std::uint16_t>& counts) {
+    folder.write(name + view.suffix, what, counts, with_nodata(kCountOutside), banded_style(count_bands(zone, part)));
   };
-  const auto what = [&](const char* part) {
+  const auto what = [&](const std::string& part) {
     return fmt::format("how many turbines have their {} seen; 65535: {}{}", part, kNoValue, view.remark);
   };
-  if (knows_hubs(zone)) write("hub-count", what("hub"), view.seen.hub_count);
-  write("tip-count", what("tip"), view.seen.tip_count);
+  const std::string hub = hub_in_words(zone);
+  if (known_hubs(zone) > 0) write("hub-count", TurbinePart::kHub, what(hub), view.seen.hub_count);
+  write("tip-count", TurbinePart::kTip, what("tip"), view.seen.tip_count);
   if (!zone.leaves_open()) return;
-  const auto undecided = [](const char* part) {
+  const auto undecided = [](const std::string& part) {
     return fmt::format(
         "how many turbines more have their {} seen, or not: ground without data alone leaves it open; 65535: {}", part,
         kNoValue);
   };
-  if (knows_hubs(zone)) write("undecided-hubs", undecided("hub"), view.seen.hub_undecided);
-  write("undecided", undecided("tip"), view.seen.tip_undecided);
+  if (known_hubs(zone) > 0) write("undecided-hubs", TurbinePart::kHub, undecided(hub), view.seen.hub_undecided);
+  write("undecided", TurbinePart::kTip, undecided("tip"), view.seen.tip_undecided);
 }
 
 /// Returns a style that shows whether any of the first 32 turbines is seen. QGIS's identify tool tells which ones.
@@ -142,16 +149,16 @@ std::vector<float> difference(const std::vector<T>& bare, const std::vector<T>& 
 }
 
 void write_differences(const Zone& zone, RasterFolder& folder) {
-  const auto bands = count_bands(zone.request.turbines.size(), zone.request.count_bands);
   const auto what = [](const std::string& of) {
     return fmt::format("{}: bare ground less screened; NaN: {}", of, kNoValue);
   };
   const Visibility &bare = zone.bare, &screened = *zone.screened;
-  if (knows_hubs(zone))
-    folder.write("hub-count-difference", what("hubs seen"),
-                 difference(bare.hub_count, screened.hub_count, kCountOutside), with_nodata(kNaN), banded_style(bands));
+  if (known_hubs(zone) > 0)
+    folder.write("hub-count-difference", what(fmt::format("hubs{} seen", of_known_hubs(zone))),
+                 difference(bare.hub_count, screened.hub_count, kCountOutside), with_nodata(kNaN),
+                 banded_style(count_bands(zone, TurbinePart::kHub)));
   folder.write("tip-count-difference", what("tips seen"), difference(bare.tip_count, screened.tip_count, kCountOutside),
-               with_nodata(kNaN), banded_style(bands));
+               with_nodata(kNaN), banded_style(count_bands(zone, TurbinePart::kTip)));
   for (const Quantity& q : quantities()) {
     // The difference of azimuths means nothing, nor does that of distances of which one may be missing.
     if (q.values == &Visibility::horizontal_from_deg || q.values == &Visibility::nearest_m) continue;

@@ -122,11 +122,6 @@ void validate(const ZoneRequest& request) {
   request.earth.validate();
 }
 
-bool knows_hubs(const Zone& zone) {
-  return std::any_of(zone.request.turbines.begin(), zone.request.turbines.end(),
-                     [](const Turbine& turbine) { return turbine.hub_height.has_value(); });
-}
-
 Request view_of(const ZoneRequest& zone) {
   Request request;
   for (const Turbine& turbine : zone.turbines) {

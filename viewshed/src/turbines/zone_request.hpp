@@ -36,9 +36,6 @@ inline bool in_reach(const Turbine& turbine, const RasterGrid& grid, RasterGrid:
   return squared_distance(turbine, grid, cell) <= turbine.radius * turbine.radius;
 }
 
-/// Tells whether any turbine's hub is known; otherwise no results of hubs are given.
-bool knows_hubs(const Zone& zone);
-
 /// Returns a request whose observers' fields of view are the discs of the turbines' radii.
 Request view_of(const ZoneRequest& request);
 

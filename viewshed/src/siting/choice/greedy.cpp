@@ -165,20 +165,29 @@ class Greedy {
   }
 
   void remember(const std::vector<Bid>& order, const Bid& taken) {
+    using enum Margin::Outcome;
     for (const Bid& b : order) {
-      if (b.option == taken.option) continue;
-      const Margin now{.upper = std::abs(b.upper), .chosen = std::abs(taken.lower), .step = chosen_.size()};
-      std::optional<Margin>& margin = closest_[b.option];
-      if (margin && margin->taken) continue;
-      if (!margin || closeness(now, problem_.goal.objective) > closeness(*margin, problem_.goal.objective))
-        margin = now;
+      const bool near = !problem_.may_join(b.option, chosen_);
+      if (b.option == taken.option || (near && taken < b)) continue;
+      const Margin::Outcome outcome = taken < b ? kOutbid : near ? kTooNear : kNoRoom;
+      remember(b.option, {std::abs(b.upper), std::abs(taken.lower), chosen_.size(), outcome});
     }
+  }
+
+  /// Keeps the step at which the option came nearest: the first at which a rule alone kept it out, if there is one.
+  void remember(std::size_t option, const Margin& now) {
+    using enum Margin::Outcome;
+    std::optional<Margin>& margin = closest_[option];
+    if (margin && margin->outcome != kOutbid) return;
+    if (!margin || now.outcome != kOutbid ||
+        closeness(now, problem_.goal.objective) > closeness(*margin, problem_.goal.objective))
+      margin = now;
   }
 
   void take(const Bid& next) {
     const double gain = std::abs(next.lower);
     for (const std::size_t option : ways_.to(next.option)) {
-      closest_[option] = {.upper = gain, .chosen = gain, .step = chosen_.size(), .taken = true};
+      closest_[option] = {gain, gain, chosen_.size(), Margin::Outcome::kTaken};
       if (problem_.goal.exact_chosen || problem_.goal.wanted) problem_.refine_fully(option);
       chosen_.push_back(option);
       if (room_) room_->take(option);

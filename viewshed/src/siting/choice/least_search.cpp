@@ -80,6 +80,7 @@ class LeastSearch {
     add({{}, question_.open, std::vector<double>(question_.conflicts.size(), 1)}, 0);
     while (!open.empty() && open.top().bound < known_ && nodes_ < kMostLeastNodes && payments_.work() < most_work_) {
       progress_.throw_if_cancelled();
+      progress_.report("bound on all choices", payments_.work() / most_work_);
       const LeastNode node = open.top();
       open.pop();
       OpenChoice with = node.choice, without = node.choice;

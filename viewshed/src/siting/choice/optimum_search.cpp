@@ -49,6 +49,8 @@ class Search {
     open.push(evaluate({}, {}, count));
     for (std::size_t nodes = 0;; ++nodes) {
       problem_.progress.throw_if_cancelled();
+      problem_.progress.report("bound on all choices",
+                               static_cast<double>(nodes) / static_cast<double>(std::max<std::size_t>(1, most_nodes_)));
       const Node best = open.top();
       if (best.complete || best.bound <= known || nodes >= most_nodes_) return std::max(best.bound, known);
       open.pop();

@@ -1,4 +1,8 @@
 #include <algorithm>
+#include <atomic>
+#include <string>
+
+#include <fmt/format.h>
 
 #include <itin/parallel.hpp>
 
@@ -26,11 +30,13 @@ std::vector<std::size_t> after(const Exchange& exchange, std::vector<std::size_t
   return chosen;
 }
 
-/// Returns the exchanges that may gain, in order.
-std::vector<Exchange> exchanges(const ChoiceProblem& problem, const std::vector<std::size_t>& chosen) {
+/// Returns the exchanges that may gain, in order. `stage` names the search, which may take long, to the progress.
+std::vector<Exchange> exchanges(const ChoiceProblem& problem, const std::vector<std::size_t>& chosen,
+                                const std::string& stage) {
   const Served all = ServedBounds(problem, chosen).least;
   const bool least = problem.goal.objective == Objective::kLeast;
   std::vector<std::vector<Exchange>> of_site(chosen.size());
+  std::atomic<std::size_t> done = 0;
   parallel_for(chosen.size(), [&](std::size_t s) {
     Served others = all;
     others.remove(problem.coverage.bounds(chosen[s]).certain);
@@ -51,6 +57,7 @@ std::vector<Exchange> exchanges(const ChoiceProblem& problem, const std::vector<
                                         : others.completed_by(bounds.certain) - loss;
       of_site[s].push_back({s, option, upper, lower});
     }
+    problem.progress.report(stage, static_cast<double>(++done) / static_cast<double>(chosen.size()));
   });
   std::vector<Exchange> result;
   for (const auto& some : of_site) result.insert(result.end(), some.begin(), some.end());
@@ -59,12 +66,13 @@ std::vector<Exchange> exchanges(const ChoiceProblem& problem, const std::vector<
 }
 
 /// The best exchange, or nothing where none gains.
-std::optional<Exchange> best_exchange(const ChoiceProblem& problem, const std::vector<std::size_t>& chosen) {
+std::optional<Exchange> best_exchange(const ChoiceProblem& problem, const std::vector<std::size_t>& chosen,
+                                      const std::string& stage) {
   for (;;) {
     problem.progress.throw_if_cancelled();
     std::vector<std::size_t> batch;
     Weight known = 0;
-    for (const Exchange& exchange : exchanges(problem, chosen)) {
+    for (const Exchange& exchange : exchanges(problem, chosen, stage)) {
       if (batch.size() >= problem.goal.batch || (!batch.empty() && exchange.upper < known)) break;
       if (std::find(batch.begin(), batch.end(), exchange.in) != batch.end()) continue;
       if (!problem.holds_together(after(exchange, chosen))) continue;
@@ -84,11 +92,11 @@ std::optional<Exchange> best_exchange(const ChoiceProblem& problem, const std::v
 
 std::size_t swap(const ChoiceProblem& problem, std::vector<std::size_t>& chosen) {
   std::size_t count = 0;
-  while (const std::optional<Exchange> exchange = best_exchange(problem, chosen)) {
+  for (;; ++count) {
+    const auto exchange = best_exchange(problem, chosen, fmt::format("search for exchange {}", count + 1));
+    if (!exchange) return count;
     chosen = after(*exchange, chosen);
-    ++count;
   }
-  return count;
 }
 
 void drop_needless(const ChoiceProblem& problem, std::vector<std::size_t>& chosen) {

@@ -73,6 +73,7 @@ class SiteCoverage::Impl {
   /// Judges options over the surfaces of the groups of all options, so that the results do not depend on what was
   /// judged before.
   void explore() {
+    if (std::all_of(states_.begin(), states_.end(), [](const State& state) { return state.stage >= 0; })) return;
     CallProgress call(progress_);
     const auto together = stages_.groups(all_options(survey_), stages_.at(0));
     std::size_t left = together.size();
