@@ -99,6 +99,7 @@ class ThemeRaiser {
   }
 
   RaisedFeatureTheme run(Progress& progress) {
+    refuse_what_is_off_the_grid();
     const auto pieces = cut_into_pieces();
     std::size_t done = 0;
     for (const auto& [place, groups] : pieces) {
@@ -122,17 +123,27 @@ class ThemeRaiser {
   };
   using Groups = std::vector<Group>;
 
+  /// What lies wholly beyond the grid has swapped axes, say, or no place but 0, 0.
+  void refuse_what_is_off_the_grid() {
+    for (std::uint32_t i = 0; i < footprints_.size(); ++i) {
+      if (!box_on_grid(footprints_[i].feature, grid_).empty()) continue;
+      report(i, "left out: reaches beyond the ground");
+      ++theme_.refused;
+    }
+  }
+
   /// The groups by the piece of ground that they stand on.
   std::map<std::pair<std::int64_t, std::int64_t>, Groups> cut_into_pieces() const {
     std::vector<GridBox> boxes;
     for (const StoredFootprint& f : footprints_) {
       const GridBox box = box_on_grid(f.feature, grid_);
-      boxes.push_back(box.empty() ? GridBox{0, 0, 0, 0} : expanded(box, 2));
+      boxes.push_back(box.empty() ? box : expanded(box, 2));
     }
     const double side = kPiece / grid_.resolution;
     std::map<std::pair<std::int64_t, std::int64_t>, Groups> pieces;
     for (auto& numbers : groups_of(boxes)) {
       const GridBox& first = boxes[numbers.front()];
+      if (first.empty()) continue;
       Group group{std::move(numbers), {}};
       for (const std::uint32_t i : group.numbers) group.box.extend(boxes[i]);
       pieces[{static_cast<std::int64_t>(std::floor(first.xmin / side)),

@@ -231,7 +231,7 @@ ImportPlan plan_import(const ImportOptions& options, const StoreMetadata* existi
     std::move(warnings.begin(), warnings.end(), std::back_inserter(plan.warnings));
   }
   const Box box = options.sea_level ? box_about(opened, crs) : Box{};  // needed before the files are bound
-  for (const auto& file : points) plan.sources.push_back(file->bind({plan.grid, plan.crs_wkt}));
+  for (const auto& file : points) plan.sources.push_back(file->bind({plan.grid, plan.crs_wkt, &plan.scale->meter()}));
   if (options.sea_level || !options.sea_area.empty()) fill_sea(options, existing, box, crs, plan);
   return plan;
 }

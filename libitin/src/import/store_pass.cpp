@@ -191,7 +191,8 @@ void StorePass::add_lines(LineLayer& layer, Progress& progress) {
         collection_.require_room(layer.path());
       },
       [&](FeatureRecord record) { feature = collection_.add_feature(theme, arranged(std::move(record), places)); }};
-  const ReadCounts counts = layer.read({additions_.plan.grid, additions_.plan.crs_wkt}, sink, progress);
+  const ReadCounts counts =
+      layer.read({additions_.plan.grid, additions_.plan.crs_wkt, &additions_.plan.scale->meter()}, sink, progress);
   require_true_scale(additions_.plan, layer.path(), counts.bounds);
   collection_.count_features(theme, layer.features());
   report_.read += counts.read;

@@ -17,6 +17,8 @@
 #include <itin/position_columns.hpp>
 #include <itin/text_table.hpp>
 
+#include "import/source/middle_place.hpp"
+
 namespace itin {
 
 namespace {
@@ -84,8 +86,13 @@ DelimitedText::DelimitedText(std::string path, const std::string& z_field) : pat
   if (there) understand({table.cells().begin(), table.cells().end()}, z_field);
   if (there && has_header_) there = table.next();
   if (!there) throw FileError(path_, "holds no points");
-  const Point3 point = RowParser(table, path_, columns_).point();
-  first_ = {point.x, point.y};
+  RowParser parse(table, path_, columns_);
+  std::vector<Point2> places;
+  for (; there && places.size() < kFirstPlaces; there = table.next()) {
+    const Point3 point = parse.point();
+    places.push_back({point.x, point.y});
+  }
+  centre_ = middle_place(std::move(places));
 }
 
 void DelimitedText::understand(const std::vector<std::string>& first, const std::string& z_field) {

@@ -23,7 +23,7 @@ namespace itin {
 
 class DelimitedText final : public PointReader {
  public:
-  /// Reads up to the first point. `z_field` names the height column; if it is empty, the column is found by its usual
+  /// Reads the first rows. `z_field` names the height column; if it is empty, the column is found by its usual
   /// names, or is the third. Throws FileError (not readable, no such column, no points), InputError (a malformed row).
   DelimitedText(std::string path, const std::string& z_field);
 
@@ -31,8 +31,8 @@ class DelimitedText final : public PointReader {
   /// Returns EPSG:4326 where the columns are called longitude and latitude.
   std::string crs() const override { return geographic_ ? kGeographicColumnsCrs : ""; }
   std::vector<std::string> warnings() const override { return warnings_; }
-  /// The position of the first point.
-  Point2 centre() const override { return first_; }
+  /// A position amid the first points.
+  Point2 centre() const override { return centre_; }
   double size_hint() const override { return size_; }
   /// Reads the points. Throws InputError naming file, line and text of the first malformed row.
   std::uint64_t read(const Sink& sink) override;
@@ -47,7 +47,7 @@ class DelimitedText final : public PointReader {
   std::array<std::size_t, 3> columns_{0, 1, 2};
   bool has_header_ = false;
   bool geographic_ = false;
-  Point2 first_;
+  Point2 centre_;
   std::vector<std::string> warnings_;
 };
 

@@ -10,6 +10,7 @@
 
 #include <itin/error.hpp>
 
+#include "import/source/middle_place.hpp"
 #include "import/source/source_layer.hpp"
 
 namespace itin {
@@ -79,13 +80,18 @@ void PointLayer::refuse_heightless() const {
 Point2 PointLayer::find_centre() {
   layer_.rewind();
   PointBatch batch;
-  while (const auto feature = layer_.next()) {
+  while (batch.size() < kFirstPlaces) {
+    const auto feature = layer_.next();
+    if (!feature) break;
     add(*feature, batch);
-    if (batch.size() == 0) continue;
+  }
+  if (batch.size() > 0) {
     // Layers declared flat sometimes hold points with Z all the same, so the first feature decides.
     if (!layer_.has_height_field() && !wkbHasZ(layer_.geometry_type()) && std::isnan(batch.z.front()))
       refuse_heightless();
-    return {batch.x.front(), batch.y.front()};
+    std::vector<Point2> places;
+    for (std::size_t i = 0; i < batch.size(); ++i) places.push_back({batch.x[i], batch.y[i]});
+    return middle_place(std::move(places));
   }
   throw FileError(layer_.path(), fmt::format("layer '{}' holds no points{}", layer_.name(),
                                              layer_.filtered() > 0 ? " that match `where`" : ""));

@@ -95,7 +95,8 @@ class RasterTerrain final : public TerrainSource {
         band_(raster.band),
         lattice_(raster.lattice),
         memory_bytes_(raster.memory_bytes),
-        placement_(path_, raster.crs, raster.heights.axis, context, Placement::Missing::kDeclared) {
+        placement_(path_, raster.crs, raster.heights.axis, {context.grid, context.crs_wkt},
+                   Placement::Missing::kDeclared) {
     info_.path = path_;
     info_.kind = "terrain";
     info_.source_crs = raster.heights.crs;

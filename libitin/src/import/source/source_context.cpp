@@ -13,6 +13,7 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
+#include <itin/counted.hpp>
 #include <itin/error.hpp>
 #include <itin/height_limit.hpp>
 
@@ -95,7 +96,9 @@ Placement::Placement(std::string path, const Crs& crs, const HeightAxis& heights
       transform_(crs.wkt, context.crs_wkt, path_),
       height_factor_(heights.factor()),
       grid_(context.grid),
-      missing_(missing) {}
+      missing_(missing) {
+  if (context.scale != nullptr) true_cells_.emplace(*context.scale);
+}
 
 void Placement::require_heights(std::span<const double> x, std::span<const double> y, std::span<const double> z) const {
   for (std::size_t i = 0; i < z.size(); ++i) {
@@ -121,23 +124,49 @@ void Placement::place(std::span<double> x, std::span<double> y, std::span<const 
       ++out_of_range_;
     } else if (std::isnan(x[i]) || std::isnan(y[i])) {
       ++unmapped_;
-    } else if (grid_.covers({x[i], y[i]})) {
+    } else if (!grid_.covers({x[i], y[i]})) {
+      beyond_.add({x[i], y[i]});
+    } else if (true_cells_ && !true_cells_->hold({x[i], y[i]})) {
+      astray_.add({x[i], y[i]});
+    } else {
       points.push_back(grid_.quantise({x[i], y[i], height}));
       bounds_.extend(points.back().x, points.back().y);
-    } else {
-      throw InputError(
-          fmt::format("{}: position {:.12g}, {:.12g} lies beyond the {:.0f} km about {:.12g}, {:.12g} that the store's "
-                      "grid holds at "
-                      "{} m; import it into a store of its own, or give a coarser `resolution`",
-                      path_, x[i], y[i], kGridHalfSide * grid_.resolution / 1000, grid_.origin.x, grid_.origin.y,
-                      grid_.resolution));
     }
   }
   placed_ += points.size();
 }
 
+std::string Placement::beyond_the_grid() const {
+  return fmt::format(
+      "{:.12g}, {:.12g} lies beyond the {:.0f} km about {:.12g}, {:.12g} that the store's grid holds at {} m",
+      beyond_.first.x, beyond_.first.y, kGridHalfSide * grid_.resolution / 1000, grid_.origin.x, grid_.origin.y,
+      grid_.resolution);
+}
+
+GridBox Placement::bounds() const {
+  GridBox bounds = bounds_;
+  if (9 * astray_.count <= placed_) return bounds;
+  for (const Point2& p : {Point2{astray_.box.xmin, astray_.box.ymin}, Point2{astray_.box.xmax, astray_.box.ymax}}) {
+    const GridPoint corner = grid_.quantise({p.x, p.y, 0});
+    bounds.extend(corner.x, corner.y);
+  }
+  return bounds;
+}
+
 ReadCounts Placement::counts() const {
-  ReadCounts counts{placed_, voids_ + marks_ + out_of_range_ + unmapped_, 0, bounds_, {}};
+  if (placed_ == 0 && beyond_.count > 0)
+    throw InputError(fmt::format("{}: position {}; import it into a store of its own, or give a coarser `resolution`",
+                                 path_, beyond_the_grid()));
+  ReadCounts counts{placed_, voids_ + marks_ + out_of_range_ + unmapped_, 0, bounds(), {}};
+  const auto left_out = [&](const Far& points, const std::string& where) {
+    if (points.count > 0)
+      counts.warnings.push_back(fmt::format(
+          "{}: {} left out: position {}; check for swapped axes, and for 0, 0 in place of a position that is not known",
+          path_, counted(points.count, "point"), where));
+  };
+  left_out(beyond_, beyond_the_grid());
+  left_out(astray_, fmt::format("{:.12g}, {:.12g} lies where lengths in the store's CRS are not true", astray_.first.x,
+                                astray_.first.y));
   if (marks_ > 0) counts.warnings.push_back(warning_of_marks(path_, marks_, mark_));
   if (out_of_range_ > 0)
     counts.warnings.push_back(

@@ -20,6 +20,7 @@
 #include "gdal/crs.hpp"
 #include "import/source/source_heights.hpp"
 #include "import/source/terrain_source.hpp"
+#include "import/source/true_cells.hpp"
 
 namespace itin {
 
@@ -27,6 +28,7 @@ namespace itin {
 struct SourceContext {
   Grid grid;
   std::string crs_wkt;
+  const ScaleMeter* scale = nullptr;  ///< of that CRS, for sources that may lie anywhere
 };
 
 /// A file that was opened and understood. The constructor's work is bounded: headers, not points.
@@ -80,15 +82,30 @@ class Placement {
 
   /// Transforms x and y in place, and replaces `points` by those that have a position and a height. Points whose height
   /// is NaN, is_missing_mark(), missing, below -12,000 m or above 20,000 m, or whose position has no image are counted
-  /// as voids. Throws InputError for a position the grid cannot hold, and for a height beyond kFarthestHeight.
+  /// as voids. Positions that the grid cannot hold, or where lengths in the store's CRS are not true, are left out.
+  /// Throws InputError for a height beyond kFarthestHeight.
   void place(std::span<double> x, std::span<double> y, std::span<const double> z, std::vector<GridPoint>& points);
   /// Transforms positions only, such as the corners of a lattice step. A position without image becomes NaN.
   void transform(std::span<double> x, std::span<double> y) const { transform_.transform(x, y); }
 
-  /// Counts what has been placed so far, with warning lines for heights and positions that were refused.
+  /// Counts what has been placed so far, with warning lines for heights and positions that were refused. Where lengths
+  /// are not true at more than a tenth of the points, the bounds include all of them. Throws InputError where the grid
+  /// could hold none of the positions.
   ReadCounts counts() const;
 
  private:
+  /// Points that are left out for where they lie.
+  struct Far {
+    std::uint64_t count = 0;
+    Point2 first;
+    Box box;
+    void add(Point2 p) {
+      if (count++ == 0) first = p;
+      box.extend(p);
+    }
+  };
+  std::string beyond_the_grid() const;
+  GridBox bounds() const;
   void require_heights(std::span<const double> x, std::span<const double> y, std::span<const double> z) const;
 
   std::string path_;
@@ -98,7 +115,9 @@ class Placement {
   GridBox bounds_;
   Missing missing_;
   std::uint64_t placed_ = 0, voids_ = 0, marks_ = 0, out_of_range_ = 0, unmapped_ = 0;
-  double mark_ = 0;  ///< one of the heights counted in marks_
+  std::optional<TrueCells> true_cells_;
+  Far beyond_, astray_;  ///< beyond the grid, and where lengths are not true
+  double mark_ = 0;      ///< one of the heights counted in marks_
 };
 
 /// Returns the time now, or the one that SOURCE_DATE_EPOCH gives (reproducible-builds.org), like

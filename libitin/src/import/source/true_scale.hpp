@@ -23,6 +23,7 @@ class TrueScale {
   void require(const OpenedFile& file);
   /// Requires true lengths of points in this box in the CRS, from the file `path`.
   void require(const std::string& path, const Box& area) const;
+  const ScaleMeter& meter() const { return meter_; }
 
  private:
   std::vector<Point2> places_of(const OpenedFile& file);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -14,6 +15,7 @@
 #include "gdal/quiet_gdal.hpp"
 #include "import/points/scattered_source.hpp"
 #include "import/source/findings.hpp"
+#include "import/source/middle_place.hpp"
 
 namespace itin {
 
@@ -51,11 +53,16 @@ LineLayer::LineLayer(const std::string& path, const ImportOptions& options)
 }
 
 void LineLayer::find_centre() {
+  std::vector<Point2> places;
   layer_.rewind();
-  while (const auto feature = layer_.next()) {
+  while (places.size() < kFirstPlaces) {
+    const auto feature = layer_.next();
+    if (!feature) break;
     const std::vector<Line> lines = lines_of(*feature);
-    if (lines.empty()) continue;
-    centre_ = {lines.front().x.front(), lines.front().y.front()};
+    if (!lines.empty()) places.push_back({lines.front().x.front(), lines.front().y.front()});
+  }
+  if (!places.empty()) {
+    centre_ = middle_place(std::move(places));
     return;
   }
   throw FileError(path(), fmt::format("layer '{}' holds no lines or polygons of two or more vertices{}", layer_.name(),
