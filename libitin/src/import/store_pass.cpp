@@ -74,9 +74,9 @@ std::vector<ThemeInfo> counted_themes(const LineCollection& collection, const Th
 }
 
 /// The shares of an import's time that steps take, measured with rasters of millions of posts. Each is a share of what
-/// is left: collecting of all of it, raising (with features) of the rest, then replacing (where lines make room), and
-/// then sorting.
-constexpr double kCollecting = 0.05, kRaising = 0.6, kReplacing = 0.2, kSorting = 0.03;
+/// is left: collecting of all of it, raising (with features) of the rest, then replacing (where lines make room), then
+/// sorting, and then leading lines through points.
+constexpr double kCollecting = 0.05, kRaising = 0.6, kReplacing = 0.2, kSorting = 0.03, kLeading = 0.01;
 
 }  // namespace
 
@@ -105,15 +105,17 @@ bool StorePass::run(RaisedFeaturesReport& raised, Progress& progress) {
   if (ground_ != nullptr) collection_.raise(*ground_, raised, call.step(kRaising));
   const std::optional<ReplacingGround> replacing =
       points_.replacing_ground(sources_, additions_.plan.grid, call.step(replacing_.empty() ? 0 : kReplacing));
-  const ThemeLines lines = collection_.finish(sources_, ground_, replacing ? &*replacing : nullptr, progress);
-  add_line_vertices(lines);
+  SortedPoints points = sorted_points(call.step(kSorting));
+  const ThemeLines lines =
+      collection_.finish(sources_, ground_, replacing ? &*replacing : nullptr, points, call.step(kLeading));
+  add_line_vertices(lines, points);
   const bool done =
       target_.last || !collection_.is_raised() || (ground_ != nullptr && !collection_.changes_terrain(lines));
   std::optional<StoreWriter> interim;
   if (!done) interim.emplace(target_.interim, additions_.plan.crs_wkt, additions_.plan.grid, target_.tolerances);
   StoreWriter& writer = done ? target_.writer : *interim;
   const PyramidReport pyramid =
-      build(lines, done ? target_.tolerances : std::vector<double>{0.0}, writer, call.step(1));
+      build(lines, points, done ? target_.tolerances : std::vector<double>{0.0}, writer, call.step(1));
   set_aside(pyramid, lines, writer);
   count(pyramid, lines);
   commit(pyramid, lines, writer);
@@ -223,24 +225,32 @@ void StorePass::add_footprints(FootprintFile& file) {
   collection_.require_room(file.info.path);
 }
 
-/// Adds the vertices of the terrain's lines, which are points of the full surface.
-void StorePass::add_line_vertices(const ThemeLines& lines) {
-  for (const std::uint32_t v : lines.terrain_vertices()) {
-    const GridPoint& p = lines.lines.vertices[v];
-    points_.add({code_of(p), p.z, lines.sources[v], 0});
-  }
+SortedPoints StorePass::sorted_points(Progress& progress) {
+  std::uint64_t duplicates = 0;
+  SortedPoints points = points_.finish(sources_, progress, &duplicates);
+  report_.duplicates += duplicates;
+  return points;
 }
 
-PyramidReport StorePass::build(const ThemeLines& lines, const std::vector<double>& tolerances, StoreWriter& writer,
-                               Progress& progress) {
-  CallProgress call(progress);
-  std::uint64_t duplicates = 0;
-  SortedPoints points = points_.finish(sources_, call.step(kSorting), &duplicates);
-  report_.duplicates += duplicates;
+/// Adds the vertices of the terrain's lines, which are points of the full surface.
+void StorePass::add_line_vertices(const ThemeLines& lines, SortedPoints& points) const {
+  std::vector<RawPoint> vertices;
+  for (const std::uint32_t v : lines.terrain_vertices()) {
+    const GridPoint& p = lines.lines.vertices[v];
+    vertices.push_back({code_of(p), p.z, lines.sources[v], 0});
+  }
+  std::vector<bool> of_lines;
+  for (const SourceInfo& source : sources_) of_lines.push_back(!source.theme.empty());
+  const std::vector<RawPoint> without_point = points.cover(vertices, of_lines);
+  if (!without_point.empty()) points = points.with(without_point, kDropped);
+}
+
+PyramidReport StorePass::build(const ThemeLines& lines, SortedPoints& points, const std::vector<double>& tolerances,
+                               StoreWriter& writer, Progress& progress) {
   // The ground that features stand on stays as it is.
   const bool keep = ground_ != nullptr && collection_.is_raised();
   return build_pyramid({points, sources_, additions_.plan.grid, tolerances, lines, keep ? &stored_.inferred : nullptr},
-                       writer, call.step(1));
+                       writer, progress);
 }
 
 void StorePass::set_aside(const PyramidReport& pyramid, const ThemeLines& lines, StoreWriter& writer) const {

@@ -67,9 +67,10 @@ class StorePass {
   void add_lines(LineLayer& layer, Progress& progress);
   void add_footprints(FootprintFile& file);
   std::uint16_t next_number() const { return static_cast<std::uint16_t>(sources_.size()); }
-  void add_line_vertices(const ThemeLines& lines);
-  PyramidReport build(const ThemeLines& lines, const std::vector<double>& tolerances, StoreWriter& writer,
-                      Progress& progress);
+  SortedPoints sorted_points(Progress& progress);
+  void add_line_vertices(const ThemeLines& lines, SortedPoints& points) const;
+  PyramidReport build(const ThemeLines& lines, SortedPoints& points, const std::vector<double>& tolerances,
+                      StoreWriter& writer, Progress& progress);
   void set_aside(const PyramidReport& pyramid, const ThemeLines& lines, StoreWriter& writer) const;
   bool changes_made_room() const;
   void count_made_room();

@@ -175,6 +175,34 @@ void SortedPoints::write(std::uint64_t first, std::span<const RawPoint> points) 
   write_points(impl_->file, first, points);
 }
 
+std::vector<RawPoint> SortedPoints::cover(std::span<const RawPoint> vertices, const std::vector<bool>& of_lines) {
+  const auto before = [](const CoveredPoint& a, const CoveredPoint& b) { return a.point.code < b.point.code; };
+  std::vector<CoveredPoint> covered;
+  std::vector<RawPoint> without_point;
+  for (auto vertex = vertices.begin(); vertex != vertices.end();) {
+    const std::uint64_t first = lower_bound(vertex->code);
+    std::vector<RawPoint> points(std::min(kIndexStep, size() - first));
+    if (points.empty()) {
+      without_point.insert(without_point.end(), vertex, vertices.end());
+      break;
+    }
+    read(first, points);
+    for (RawPoint& p : points) {
+      while (vertex != vertices.end() && vertex->code < p.code) without_point.push_back(*vertex++);
+      if (vertex == vertices.end() || vertex->code != p.code) continue;
+      if (!of_lines[p.source]) covered.push_back({p, vertex->source});
+      p.z = vertex++->z;
+    }
+    write(first, points);
+  }
+  // What a vertex has covered before stays so.
+  std::vector<CoveredPoint> all;
+  std::set_union(impl_->covered.begin(), impl_->covered.end(), covered.begin(), covered.end(), std::back_inserter(all),
+                 before);
+  impl_->covered = std::move(all);
+  return without_point;
+}
+
 std::uint64_t SortedPoints::lower_bound(std::uint64_t code) const {
   const std::vector<std::uint64_t>& index = impl_->index;
   const auto above = static_cast<std::uint64_t>(std::lower_bound(index.begin(), index.end(), code) - index.begin());
@@ -190,6 +218,7 @@ std::uint64_t SortedPoints::lower_bound(std::uint64_t code) const {
 
 SortedPoints SortedPoints::with(std::span<const RawPoint> more, std::uint16_t dropped) const {
   auto result = std::make_unique<Impl>(impl_->directory);
+  result->covered = impl_->covered;
   RunWriter writer(result->file, 0, kLargestMergeBuffer);
   auto next = more.begin();
   const auto append_below = [&](std::uint64_t code) {

@@ -42,10 +42,13 @@ class SortedPoints {
   void read(std::uint64_t first, std::span<RawPoint> out) const;
   /// Overwrites points [first, first + points.size()); their codes must not change.
   void write(std::uint64_t first, std::span<const RawPoint> points);
+  /// Puts vertices of lines (ascending by code) in the place of points at their positions, which they cover. A point's
+  /// source remains, or there would be a hole in its ground. `of_lines` tells of each source whether its points are
+  /// vertices of lines themselves. Returns the vertices at positions without a point. Throws FileError.
+  std::vector<RawPoint> cover(std::span<const RawPoint> vertices, const std::vector<bool>& of_lines);
   /// The number of points whose code is below `code`. Costs one small read, thanks to a sparse index in memory.
   std::uint64_t lower_bound(std::uint64_t code) const;
-  /// The points that are not among these because a line has a vertex at their positions; ascending by code. They are
-  /// known after sorting, but not in the result of with().
+  /// The points that are not among these because a line has a vertex at their positions; ascending by code.
   const std::vector<CoveredPoint>& covered() const;
   /// Makes a new file of these points, without points whose level is `dropped`, and with the points of `more`
   /// (ascending by code) at positions that have no point yet. Throws FileError.

@@ -14,6 +14,7 @@
 #include "features/feature_mesh.hpp"
 #include "features/part_vertices.hpp"
 #include "import/source/source_order.hpp"
+#include "pyramid/points_on_lines.hpp"
 #include "store/store_file.hpp"
 #include "store/store_format.hpp"
 
@@ -403,7 +404,7 @@ void LineCollection::find_vertices(const std::vector<SourceInfo>& sources) {
 }
 
 ThemeLines LineCollection::finish(const std::vector<SourceInfo>& sources, const Store* ground,
-                                  const ReplacingGround* replacing, const Progress& progress) {
+                                  const ReplacingGround* replacing, const SortedPoints& points, Progress& progress) {
   sort_unique(imported_);
   add_lines(sources, replacing);
   ThemeLines result;
@@ -411,7 +412,9 @@ ThemeLines LineCollection::finish(const std::vector<SourceInfo>& sources, const 
   find_first_sources(sources);
   if (as_ == LinesAs::imported) find_vertices(sources);
   place_parts(result);
+  lead_through_points(points, result.terrain, segments_, progress);
   make_lines(result, ground, progress);
+  lead_through_points(points, result.terrain, result.lines, progress);
   std::vector<std::uint32_t> owner(result.lines.vertices.size(), std::numeric_limits<std::uint32_t>::max());
   std::vector<std::vector<Position>> ends(parts_.size());
   for (const PlanarEdge& e : result.lines.edges) {

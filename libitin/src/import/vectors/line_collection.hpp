@@ -19,6 +19,7 @@
 #include "features/raised_theme.hpp"
 #include "import/source/imported_lines.hpp"
 #include "pyramid/replacing_ground.hpp"
+#include "pyramid/sorted_points.hpp"
 #include "pyramid/theme_lines.hpp"
 #include "store/feature_table.hpp"
 #include "store/point_index.hpp"
@@ -92,9 +93,10 @@ class LineCollection {
   void raise(const Store& ground, RaisedFeaturesReport& report, Progress& progress);
 
   /// Puts the themes in order and makes the lines of all of them planar. `ground` is as in raise(), if that was called.
-  /// Lines as they were imported make room for `replacing`, which may be null, where their sources do.
+  /// Lines as they were imported make room for `replacing`, which may be null, where their sources do. Lines of the
+  /// terrain get vertices at those of the ground's points that they pass through.
   ThemeLines finish(const std::vector<SourceInfo>& sources, const Store* ground, const ReplacingGround* replacing,
-                    const Progress& progress);
+                    const SortedPoints& points, Progress& progress);
   /// Tells after finish(), for lines as they lie on the ground, whether raised features have given lines of the terrain
   /// vertices that they do not have on that ground.
   bool changes_terrain(const ThemeLines& lines) const;
