@@ -144,11 +144,17 @@ class Trial:
         else:
             itin("import", self.store, self.path("t.tif"), "--quiet")
 
-    def rectangle(self):
-        r, (x, y), a = self.random, self.place(), self.random.uniform(0, 3)
+    def rectangle(self, about=None):
+        r, (x, y), a = self.random, about or self.place(), self.random.uniform(0, 3)
         w, h = self.unit * r.uniform(0.3, 1.5), self.unit * r.uniform(0.3, 1)
         turned = lambda u, v: (x + u * math.cos(a) - v * math.sin(a), y + u * math.sin(a) + v * math.cos(a))
         return [[turned(-w, -h), turned(w, -h), turned(w, h), turned(-w, h), turned(-w, -h)]]
+
+    def parts(self):
+        """Rectangles that cross, or lie within each other; one may come twice."""
+        place = self.place(0.2)
+        parts = [self.rectangle(place) for _ in range(self.random.randint(1, 3))]
+        return parts + parts[: self.random.randint(0, 1)]
 
     def blob(self):
         (x, y), n, size = self.place(0.2), self.random.randint(3, 14), self.unit * self.random.uniform(1, 4)
@@ -158,6 +164,9 @@ class Trial:
 
     def line(self, with_heights=False):
         places = [self.place() for _ in range(self.random.randint(2, 6))]
+        if with_heights and self.random.random() < 0.5:  # through posts of the raster
+            post = lambda v, low: low + (math.floor((v - low) / self.step) + 0.5) * self.step
+            places = [(post(x, X0), post(y, Y0)) for x, y in places]
         return [(*p, self.random.uniform(-1, 1) * self.relief) for p in places] if with_heights else places
 
     def add(self, what):
@@ -166,7 +175,8 @@ class Trial:
         self.log("add", what)
         options = ["--quiet"]
         if what == "buildings":
-            write_features(path, "Polygon", [(self.rectangle(), r.uniform(2, 20)) for _ in many])
+            kind, shape = r.choice([("Polygon", self.rectangle), ("MultiPolygon", self.parts)])
+            write_features(path, kind, [(shape(), r.uniform(2, 20)) for _ in many])
             options += ["--height-field", "h", "--roof", r.choice(["flat", "gabled", "hipped", "skeleton"])]
         elif what == "vegetation":
             write_features(path, "Polygon", [(self.blob(), 0) for _ in many])
@@ -195,7 +205,8 @@ class Trial:
             return []
         with open(path, encoding="ascii") as file:
             shapes = [feature["geometry"]["coordinates"] for feature in json.load(file)["features"]]
-        lines = [shape[0] if isinstance(shape[0][0], list) else shape for shape in shapes]
+        rings = lambda shape: [shape] if not isinstance(shape[0][0], list) else [line for part in shape for line in rings(part)]
+        lines = [line for shape in shapes for line in rings(shape)]
         pairs = [(a, b) for line in lines for a, b in zip(line, line[1:])]
         return [(a[0], a[1]) for a, _ in pairs] + [((a[0] + b[0]) / 2, (a[1] + b[1]) / 2) for a, b in pairs]
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <geos_c.h>
-#include <iterator>
 #include <limits>
 #include <memory>
 #include <set>
@@ -160,6 +159,11 @@ GridPolygons from_geos(const Geometry& g) {
   return polygons;
 }
 
+/// Leaves out what has become lines on the grid beside polygons, which GEOS does not take again.
+Geometry polygonal(Geometry g) {
+  return GEOSGeomTypeId_r(geos(), g.get()) == GEOS_GEOMETRYCOLLECTION ? to_geos(from_geos(g)) : std::move(g);
+}
+
 Geometry on_grid(const Geometry& g) {
   return checked(GEOSGeom_setPrecision_r(geos(), g.get(), kGridSize, 0));
 }
@@ -261,11 +265,22 @@ EvenOdd even_odd(const std::vector<GridRing>& rings) {
   // many rings.
   for (std::size_t step = 1; step < shells.size(); step *= 2) {
     for (std::size_t i = 0; i + step < shells.size(); i += 2 * step)
-      shells[i] = checked(GEOSSymDifferencePrec_r(geos(), shells[i].get(), shells[i + step].get(), kGridSize));
+      shells[i] =
+          polygonal(checked(GEOSSymDifferencePrec_r(geos(), shells[i].get(), shells[i + step].get(), kGridSize)));
   }
   if (!shells.empty()) result.polygons = from_geos(on_grid(shells.front()));
   return result;
 }
+
+namespace {
+
+/// The union of two areas. What has become a line on the grid is left out, which GEOS would not take again.
+GridPolygons joined(const GridPolygons& a, const GridPolygons& b) {
+  if (a.empty() || b.empty()) return a.empty() ? b : a;
+  return from_geos(checked(GEOSUnionPrec_r(geos(), to_geos(a).get(), to_geos(b).get(), kGridSize)));
+}
+
+}  // namespace
 
 EvenOdd union_of(std::vector<std::vector<GridRing>> parts) {
   sort_unique(parts);
@@ -273,12 +288,16 @@ EvenOdd union_of(std::vector<std::vector<GridRing>> parts) {
   for (const std::vector<GridRing>& part : parts) all.insert(all.end(), part.begin(), part.end());
   require_few_crossings(edges_of_rings(bare_rings(all)));
   EvenOdd result;
+  std::vector<GridPolygons> areas;
   for (const std::vector<GridRing>& part : parts) {
     EvenOdd own = even_odd(part);
     result.repaired |= own.repaired;
-    std::move(own.polygons.begin(), own.polygons.end(), std::back_inserter(result.polygons));
+    areas.push_back(std::move(own.polygons));
   }
-  result.polygons = merged(result.polygons);
+  // In pairs, which suits many parts.
+  for (std::size_t step = 1; step < areas.size(); step *= 2)
+    for (std::size_t i = 0; i + step < areas.size(); i += 2 * step) areas[i] = joined(areas[i], areas[i + step]);
+  if (!areas.empty()) result.polygons = std::move(areas.front());
   return result;
 }
 
