@@ -66,8 +66,9 @@ class IndexWithRaises final : public PointIndex {
 /// Verifies leaves of one cell.
 class CellVerification {
  public:
-  CellVerification(const WorkingIndex& index, const std::vector<std::int32_t>& tolerances, const Task& task)
-      : index_(index), points_(index), tolerances_(tolerances), task_(task) {}
+  CellVerification(const WorkingIndex& index, const std::vector<std::int32_t>& tolerances, const Task& task,
+                   const WholeLevels* whole)
+      : index_(index), points_(index), tolerances_(tolerances), task_(task), whole_(whole) {}
 
   CellOutcome run(bool mend, LeafBounds& bounds) {
     if (auto posts = WholeLattice::about(points_, task_.box)) lattice_.emplace(std::move(*posts));
@@ -83,10 +84,8 @@ class CellVerification {
   void verify(int k, bool mend, LeafBounds& bounds) {
     const std::int32_t tolerance = tolerances_[static_cast<std::size_t>(k)];
     while (true) {
-      const IndexWithRaises raised(points_, raised_);
       const RegionMesh coarse =
-          triangulate_region(raised, levels_from(k, tolerances_),
-                             lattice_ ? lattice_->posts().bounds() : box_of(fine_.vertices, &SelectedVertex::point));
+          coarse_in(k, lattice_ ? lattice_->posts().bounds() : box_of(fine_.vertices, &SelectedVertex::point));
       if (lattice_ && lattice_->compare(coarse, tolerance)) {
         if (raise(k, mend, coarse, lattice_->failures())) continue;
         return record(k, *lattice_, bounds);
@@ -96,6 +95,14 @@ class CellVerification {
       if (raise(k, mend, coarse, d.failures)) continue;
       return record(k, d, bounds);
     }
+  }
+
+  /// The surface of level k, with what was raised so far.
+  RegionMesh coarse_in(int k, const GridBox& box) const {
+    if (whole_ != nullptr && raised_.empty())
+      if (auto known = whole_->in(k, box)) return std::move(*known);
+    const IndexWithRaises raised(points_, raised_);
+    return triangulate_region(raised, levels_from(k, tolerances_), box);
   }
 
   /// Returns whether there is any ground.
@@ -243,6 +250,7 @@ class CellVerification {
   const ReadOnce points_;  ///< the points of the index
   const std::vector<std::int32_t>& tolerances_;
   Task task_;
+  const WholeLevels* whole_;
   std::optional<LatticeDifference> lattice_;  ///< where the full surface is a lattice
   RegionMesh fine_;                           ///< where it is no lattice, and where a level fails
   std::unique_ptr<FineEdges> edges_;
@@ -261,8 +269,8 @@ Selection levels_from(int k, const std::vector<std::int32_t>& tolerances) {
 }
 
 CellOutcome verify_cell(const WorkingIndex& index, const std::vector<std::int32_t>& tolerances, const Task& task,
-                        bool mend, LeafBounds& bounds) {
-  return CellVerification(index, tolerances, task).run(mend, bounds);
+                        bool mend, const WholeLevels* whole, LeafBounds& bounds) {
+  return CellVerification(index, tolerances, task, whole).run(mend, bounds);
 }
 
 }  // namespace itin

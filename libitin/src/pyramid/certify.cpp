@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <atomic>
 #include <map>
+#include <numeric>
+#include <optional>
 #include <utility>
 
 #include <itin/box_of.hpp>
@@ -13,6 +15,7 @@
 
 #include "pyramid/cell_verification.hpp"
 #include "pyramid/changed_by_lines.hpp"
+#include "pyramid/whole_levels.hpp"
 
 namespace itin {
 
@@ -87,6 +90,10 @@ std::vector<Task> disturbed_cells(const WorkingIndex& index, const std::vector<T
     }
   }
   return tasks;
+}
+
+unsigned levels_of_tasks(const std::vector<Task>& tasks) {
+  return std::accumulate(tasks.begin(), tasks.end(), 0U, [](unsigned all, const Task& t) { return all | t.levels; });
 }
 
 struct Raise {
@@ -179,8 +186,8 @@ constexpr double kFirstRound = 0.6;
 
 }  // namespace
 
-LeafBounds certify(WorkingIndex& index, const std::vector<std::int32_t>& tolerances, const RestoreLines& restore,
-                   Progress& progress) {
+LeafBounds certify(WorkingIndex& index, const std::vector<std::int32_t>& tolerances, bool whole_levels,
+                   const RestoreLines& restore, Progress& progress) {
   index.keep_coarse_points();
   const int levels = static_cast<int>(tolerances.size());
   LeafBounds bounds(index.ranges().size(), levels);
@@ -205,11 +212,13 @@ LeafBounds certify(WorkingIndex& index, const std::vector<std::int32_t>& toleran
     disturbed.clear();
     call.step(mend ? 0.5 : kFirstRound);
 
+    std::optional<WholeLevels> whole;
+    if (whole_levels) whole.emplace(index, tolerances, levels_of_tasks(tasks));
     std::vector<CellOutcome> outcomes(tasks.size());
     std::atomic<std::size_t> done = 0;
     parallel_for(tasks.size(), [&](std::size_t i) {
       progress.throw_if_cancelled();
-      outcomes[i] = verify_cell(index, tolerances, tasks[i], mend, bounds);
+      outcomes[i] = verify_cell(index, tolerances, tasks[i], mend, whole ? &*whole : nullptr, bounds);
       const double share = static_cast<double>(++done) / static_cast<double>(tasks.size());
       call.report(mend ? "mending the levels" : "verifying the levels", share);
     });

@@ -25,7 +25,9 @@ using RestoreLines = std::function<std::vector<LineHierarchy::Restored>(const st
 /// point would help, shortcuts about the place are put back, too. Cells near which a neighbour raised something, or
 /// lines were put back, are verified again. So the outcome depends on the points alone, not on threads. Throws Error
 /// where a level fails and nothing is left to put back.
-LeafBounds certify(WorkingIndex& index, const std::vector<std::int32_t>& tolerances, const RestoreLines& restore,
-                   Progress& progress);
+///
+/// `whole_levels` holds coarse levels as a whole (whole_levels.hpp), for where their triangles are long.
+LeafBounds certify(WorkingIndex& index, const std::vector<std::int32_t>& tolerances, bool whole_levels,
+                   const RestoreLines& restore, Progress& progress);
 
 }  // namespace itin

@@ -285,8 +285,10 @@ class PyramidBuild {
 
   /// Step 6: certifies the levels.
   LeafBounds certify_levels() {
+    // Coarse triangles across the sea are long.
+    const bool sea = std::any_of(sources_.begin(), sources_.end(), is_sea);
     return certify(
-        *index_, whole_units_, [&](const auto& shortcuts) { return restore(shortcuts); }, progress_);
+        *index_, whole_units_, sea, [&](const auto& shortcuts) { return restore(shortcuts); }, progress_);
   }
 
   /// Step 7: writes points and bounds, level by level.

@@ -19,6 +19,7 @@
 #include "triangulate/growing_mesh.hpp"
 #include "triangulate/lattice_squares.hpp"
 #include "triangulate/region_reader.hpp"
+#include "triangulate/triangle_box.hpp"
 
 namespace itin {
 
@@ -284,9 +285,7 @@ class RegionTriangulation {
 
   /// Tells whether triangle t meets tile and window.
   bool in_region(std::uint32_t t) const {
-    const GridBox corners = box_of_triangle(t);
-    if (!corners.meets(tile_)) return false;
-    if (!tile_.contains(corners) && !reaches_tile(t)) return false;
+    if (!triangle_meets({corner(t, 0), corner(t, 1), corner(t, 2)}, tile_)) return false;
     if (window_ == nullptr) return true;
     const auto at = [&](int i) { return read_.vertices()[mesh().triangles[t][i]].point; };
     return window_->meets(at(0), at(1), at(2));
@@ -294,19 +293,6 @@ class RegionTriangulation {
 
   GridBox box_of_triangle(std::uint32_t t) const {
     return box_of(mesh().triangles[t], [&](std::uint32_t v) { return position(v); });
-  }
-
-  /// Tells whether triangle t meets the tile, by the separating axis theorem. Precondition: their boxes overlap.
-  bool reaches_tile(std::uint32_t t) const {
-    return tile_reaches_left_of(corner(t, 0), corner(t, 1)) && tile_reaches_left_of(corner(t, 1), corner(t, 2)) &&
-           tile_reaches_left_of(corner(t, 2), corner(t, 0));
-  }
-
-  /// Tells whether some corner of the tile is left of pq or in line with it.
-  bool tile_reaches_left_of(Position p, Position q) const {
-    // This is the corner farthest to the left of pq.
-    const Position c{q.y > p.y ? tile_.xmin : tile_.xmax, q.x > p.x ? tile_.ymax : tile_.ymin};
-    return orientation(p, q, c) >= 0;
   }
 
   /// Reads the unknown ground that thin triangles see past the lines beside them. Returns whether there was some.
@@ -408,7 +394,7 @@ class RegionTriangulation {
   /// is ground there, unless the edge is on the hull of the whole surface.
   void seek_left_of(std::uint32_t from, std::uint32_t to, std::vector<SelectedVertex>& intruders) {
     const Position p = position(from), q = position(to);
-    if (!tile_reaches_left_of(p, q) || hull_.contains({from, to})) return;
+    if (!reaches_left_of(tile_, p, q) || hull_.contains({from, to})) return;
     auto found = search_.apex(p, q);
     // An edge between ends of distant segments may not be an edge of the whole surface: then lines may hide everything
     // from it.
