@@ -99,7 +99,7 @@ class CellVerification {
 
   /// The surface of level k, with what was raised so far.
   RegionMesh coarse_in(int k, const GridBox& box) const {
-    if (whole_ != nullptr && raised_.empty())
+    if (whole_ != nullptr)
       if (auto known = whole_->in(k, box)) return std::move(*known);
     const IndexWithRaises raised(points_, raised_);
     return triangulate_region(raised, levels_from(k, tolerances_), box);

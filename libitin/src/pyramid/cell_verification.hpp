@@ -39,7 +39,7 @@ struct CellOutcome {
 /// Replaces the bounds of the task's leaves at its levels. If `mend`, points of the cell are raised until the levels
 /// hold in the box, as far as points can mend them. A shortcut fails if it is too far off, along itself or at a vertex
 /// that it leaves out. If `mend`, the shortcuts about another edge fail too, where the edge is too far off and no point
-/// would break it up. `whole`, which may be null, has levels of the index as it is.
+/// would break it up. `whole`, which may be null, has levels of the index as it is; it must be null if `mend`.
 CellOutcome verify_cell(const WorkingIndex& index, const std::vector<std::int32_t>& tolerances, const Task& task,
                         bool mend, const WholeLevels* whole, LeafBounds& bounds);
 

@@ -213,7 +213,7 @@ LeafBounds certify(WorkingIndex& index, const std::vector<std::int32_t>& toleran
     call.step(mend ? 0.5 : kFirstRound);
 
     std::optional<WholeLevels> whole;
-    if (whole_levels) whole.emplace(index, tolerances, levels_of_tasks(tasks));
+    if (whole_levels && !mend) whole.emplace(index, tolerances, levels_of_tasks(tasks));
     std::vector<CellOutcome> outcomes(tasks.size());
     std::atomic<std::size_t> done = 0;
     parallel_for(tasks.size(), [&](std::size_t i) {

@@ -14,7 +14,7 @@ namespace itin {
 namespace {
 
 /// The most points of all levels that are held as a whole.
-constexpr std::uint64_t kMostHeld = 1 << 21;
+constexpr std::uint64_t kMostHeld = 1 << 20;
 /// The squares of the grid along each side of the bounds.
 constexpr std::int64_t kSquares = 64;
 

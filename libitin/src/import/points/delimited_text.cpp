@@ -85,12 +85,13 @@ DelimitedText::DelimitedText(std::string path, const std::string& z_field) : pat
   bool there = table.next();
   if (there) understand({table.cells().begin(), table.cells().end()}, z_field);
   if (there && has_header_) there = table.next();
+  if (!there) throw FileError(path_, "holds no points");
+  RowParser parse(table, path_, columns_);
   std::vector<Point2> places;
   for (; there && places.size() < kFirstPlaces; there = table.next()) {
-    const Point3 point = RowParser(table, path_, columns_).point();
+    const Point3 point = parse.point();
     places.push_back({point.x, point.y});
   }
-  if (places.empty()) throw FileError(path_, "holds no points");
   centre_ = middle_place(std::move(places));
 }
 
