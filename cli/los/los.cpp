@@ -67,8 +67,7 @@ class LosVerb final : public Verb {
     } else {
       validate_line();
     }
-    query_.earth = earth_.earth();
-    query_.radio = radio_.radio(query_.earth);
+    set_earth();
     query_.criteria = radio_.criteria();
     query_.object = radio_.object();
     query_.day = people_.day();
@@ -150,8 +149,15 @@ class LosVerb final : public Verb {
     return one;
   }
 
+  void set_earth() {
+    query_.earth = earth_.earth();
+    query_.radio = radio_.radio(query_.earth);
+  }
+
   LosCase run_store() {
     const Store store(store_, cache_within(line_.memory_bytes()));
+    earth_.take_body_of(store.metadata());
+    set_earth();
     LosCase one = los_case(store, line_.run(store, query_), header());
     warn_of_grid(store.metadata(), one.result.warnings);
     warn_of_date(one.result);
@@ -161,6 +167,8 @@ class LosVerb final : public Verb {
   Result run_links(Progress& progress) {
     for (const std::string& output : links_.outputs()) policy_.require_writable(output);
     const Store store(store_, cache_within(line_.memory_bytes()));
+    earth_.take_body_of(store.metadata());
+    set_earth();
     const profile::LinkTable table = links_.table(store, line_);
     std::vector<LosReports::Job> jobs = reports_.jobs(table.links, policy_);
     const LosLinks::Page page{reports_.title(), facts_of_links(store)};

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <itin/celestial_body.hpp>
 #include <profile/documents.hpp>
 #include <profile/radio_text.hpp>
 #include <profile/report_text.hpp>
@@ -100,8 +101,8 @@ std::string text_of(const profile::LosReport& report) {
   text += "\n";
   if (const std::string why = reason_of(report); !why.empty()) text += why + "\n";
   if (report.geodesic_m)
-    text +=
-        fmt::format("{:.1f} m on the grid, {:.1f} m geodesic (WGS 84)\n", report.profile.length_m, *report.geodesic_m);
+    text += fmt::format("{:.1f} m on the grid, {:.1f} m geodesic{}\n", report.profile.length_m, *report.geodesic_m,
+                        body_of(report.crs_wkt).is_earth ? " (WGS 84)" : "");
   if (report.bare) text += "with clutter:\n";
   text += text_of_findings(report, report);
   if (report.bare) {

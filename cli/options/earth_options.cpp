@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <itin/celestial_body.hpp>
 #include <itin/error.hpp>
 
 #include "program/help.hpp"
@@ -17,7 +18,9 @@ void EarthOptions::declare(CLI::App& app) {
          "Coefficient k in drop = d^2 (1 - k) / (2 R); 0.075 in the form (1 - 2 k), as in guidance on wind farms, is "
          "0.15 here (default: 0.13)")
       ->type_name("K");
-  app.add_option("--earth-radius", radius_text_, "R (default: 6371000)")->type_name("METRES");
+  app.add_option("--earth-radius", radius_text_,
+                 "R (default: 6371000, or that of the Moon, Mars, ... where the store's CRS is of these)")
+      ->type_name("METRES");
   app.add_option("--effective-earth", effective_text_, "Radio's factor K instead: drop = d^2 / (2 K R)")
       ->type_name("RATIO");
 }
@@ -57,11 +60,21 @@ void EarthOptions::validate() {
   if (!refraction_text_.empty()) earth_.refraction = parse_number("--refraction", refraction_text_);
   if (!radius_text_.empty()) earth_.radius = parse_number("--earth-radius", radius_text_, Range::kPositive);
   if (!effective_text_.empty()) earth_.effective_factor = parse_ratio("--effective-earth", effective_text_);
-  if (!effective_km_text_.empty()) {
-    earth_.effective_factor =
-        parse_number("--effective-earth-km", effective_km_text_, Range::kPositive) * 1000 / earth_.radius;
-  }
+  set_effective_km();
   earth_.validate();
+}
+
+void EarthOptions::set_effective_km() {
+  if (effective_km_text_.empty()) return;
+  earth_.effective_factor =
+      parse_number("--effective-earth-km", effective_km_text_, Range::kPositive) * 1000 / earth_.radius;
+}
+
+void EarthOptions::take_body_of(const StoreMetadata& metadata) {
+  const CelestialBody body = body_of(metadata.crs_wkt);
+  if (body.is_earth || !radius_text_.empty()) return;
+  earth_.radius = body.mean_radius_m();
+  set_effective_km();
 }
 
 }  // namespace itin::cli

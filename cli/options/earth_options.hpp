@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 
 #include <itin/earth.hpp>
+#include <itin/store.hpp>
 
 #include "program/verb.hpp"
 
@@ -19,6 +20,8 @@ class EarthOptions {
   void declare_radius(CLI::App& app);
   /// Throws InputError.
   void validate();
+  /// Takes the radius of the body that a store's CRS is of, where it is not the Earth and no option gives a radius.
+  void take_body_of(const StoreMetadata& metadata);
   const Earth& earth() const { return earth_; }
   /// Whether nothing was said about refraction.
   bool is_default() const { return refraction_text_.empty() && effective_text_.empty() && effective_km_text_.empty(); }
@@ -27,6 +30,7 @@ class EarthOptions {
 
  private:
   void require_no_refraction() const;
+  void set_effective_km();
 
   std::string curvature_text_, refraction_text_, radius_text_, effective_text_, effective_km_text_;
   Earth earth_;

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <itin/celestial_body.hpp>
 #include <itin/coordinates.hpp>
 #include <itin/error.hpp>
 #include <itin/grid_units.hpp>
@@ -48,7 +49,7 @@ std::string likely_mistake(Point2 given, const InCrs& in_crs, const StoreMetadat
   const Point2 swapped{given.y, given.x};
   if (within(swapped, in_crs, metadata))
     return fmt::format("its coordinates are swapped: give {:.10g},{:.10g}", swapped.x, swapped.y);
-  if (in_crs.crs.empty() && may_be_degrees(given)) {
+  if (in_crs.crs.empty() && may_be_degrees(given) && body_of(metadata.crs_wkt).is_earth) {
     const InCrs lon_lat{kLonLat};
     if (within(given, lon_lat, metadata)) return fmt::format("it is in degrees: give --in-crs {}, too", kLonLat);
     if (within(swapped, lon_lat, metadata))

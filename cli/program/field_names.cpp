@@ -56,6 +56,7 @@ constexpr std::array kNames{
     Names{"table_spacing_m", "--table-spacing"},
     Names{"target_height", "--target-height"},
     Names{"theme", "--theme"},
+    Names{"storey", "--storey"},
     Names{"thickness", "--thickness"},
     Names{"to", "--to"},
     Names{"to_crs", "--to-crs"},

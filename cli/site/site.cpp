@@ -66,6 +66,7 @@ class SiteVerb final : public Verb {
     const NewFolder folder(options_.directory);
     outputs_ = site_outputs(options_, policy_);
     const Store store(options_.store, cache_within(options_.memory_bytes));
+    options_.earth.take_body_of(store.metadata());
     options_.themes.choice().check(store.metadata().themes);
     inputs_document_ = hash_inputs(progress);
     std::vector<std::string> warnings;

@@ -75,6 +75,7 @@ class ImportVerb final : public Verb {
     given("base", base_);
     given("foundation", foundation_);
     given("roof", roof_);
+    if (options_.storey) parameters["storey_m"] = *options_.storey;
     if (options_.thickness) parameters["thickness_m"] = *options_.thickness;
     if (options_.wall_offset) parameters["wall_offset_m"] = *options_.wall_offset;
     if (options_.height_step) parameters["height_step_m"] = *options_.height_step;
@@ -164,6 +165,9 @@ class ImportVerb final : public Verb {
                    "ground slopes to it from the terrain's next vertices, cut away where it is higher")
         ->type_name("KIND");
     app.add_option("--roof", roof_, "Buildings: flat (default), gabled, hipped or skeleton")->type_name("KIND");
+    app.add_option("--storey", storey_,
+                   "Fields of heights count storeys of this height, as OpenStreetMap's building:levels do")
+        ->type_name("METRES");
     app.add_option("--thickness", thickness_, "Thickness of walls and hedges that are given as lines (default: 0.3)")
         ->type_name("METRES");
     app.add_option(
@@ -259,6 +263,7 @@ class ImportVerb final : public Verb {
 
   void validate_raised() {
     if (!height_.empty()) options_.height = parse_height("--height", height_, Range::kPositive);
+    if (!storey_.empty()) options_.storey = parse_number("--storey", storey_, Range::kPositive);
     if (!thickness_.empty()) options_.thickness = parse_number("--thickness", thickness_, Range::kPositive);
     if (!wall_offset_.empty()) options_.wall_offset = parse_number("--wall-offset", wall_offset_, Range::kPositive);
     if (!height_step_.empty()) options_.height_step = parse_height("--height-step", height_step_, Range::kPositive);
@@ -374,7 +379,7 @@ class ImportVerb final : public Verb {
   bool no_repair_ = false;
   std::string classes_, band_, sea_level_, max_gap_, levels_, resolution_;
   MemoryOption memory_;
-  std::string height_, base_, foundation_, roof_, thickness_, wall_offset_, height_step_, height_threshold_,
+  std::string height_, base_, foundation_, roof_, storey_, thickness_, wall_offset_, height_step_, height_threshold_,
       height_rounding_;
   std::vector<std::string> attributes_;
   ImportOptions options_;

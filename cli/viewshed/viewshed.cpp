@@ -145,6 +145,8 @@ class ViewshedVerb final : public Verb {
     const Store store(store_, cache_within(compute_options_.memory_bytes));
     const StoreMetadata& metadata = store.metadata();
     Result result;
+    earth_.take_body_of(metadata);
+    request_.earth = earth_.earth();
     complete_request(metadata, result.warnings);
     request_.themes.check(metadata.themes);
     features_.require_themes(metadata, request_.themes);

@@ -128,6 +128,8 @@ class VisibilityVerb final : public Verb {
     if (!sheet_.file().empty()) policy_.require_writable(sheet_.file());
     const Store store(store_, cache_within(request_.memory_bytes));
     const StoreMetadata& metadata = store.metadata();
+    earth_.take_body_of(metadata);
+    request_.earth = earth_.earth();
     request_.area = window_.region(metadata).window;
     if (!request_.area.is_all() && !metadata.grid.box(metadata.bounds).meets(request_.area.bounds()))
       throw InputError(window_.no_ground(metadata));

@@ -149,6 +149,8 @@ class ZtvVerb final : public Verb {
     radius_.load();
     const Store store(store_, cache_within(request_.memory_bytes));
     const StoreMetadata& metadata = store.metadata();
+    earth_.take_body_of(metadata);
+    request_.earth = earth_.earth();
     complete_request(metadata);
     Zone zone = viewshed::survey_turbines(store, request_, progress);
     for (const viewshed::Misplaced& m : zone.misplaced)

@@ -56,6 +56,7 @@ struct ImportOptions {
   std::optional<RoofKind> roof;  ///< default: flat
   /// How buildings meet the terrain; default: walls down to it.
   std::optional<Foundation> foundation;
+  std::optional<double> storey;     ///< metres; height_field and eaves_field count storeys of this height
   std::optional<double> thickness;  ///< metres, of features that stand on lines; default: 0.3
   /// How far within its outline a feature's walls reach their full height: metres, from two grid steps to 10. There is
   /// one value for all features of a theme. Default: the theme's own; for a new theme 0.05 or two grid steps.

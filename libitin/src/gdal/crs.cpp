@@ -1,20 +1,21 @@
 #include "gdal/crs.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 #include <utility>
 #include <vector>
 
 #include <cpl_conv.h>
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 #include <ogr_spatialref.h>
 #include <ogr_srs_api.h>
 
+#include <itin/celestial_body.hpp>
 #include <itin/degrees.hpp>
 #include <itin/error.hpp>
+#include <itin/grid_axes.hpp>
 #include <itin/grid_reference.hpp>
 #include <itin/parallel.hpp>
 
@@ -25,12 +26,31 @@ namespace itin {
 
 namespace {
 
-OGRSpatialReference understood(const std::string& text, const std::string& place) {
+bool set_from(OGRSpatialReference& reference, const std::string& text) {
   constexpr const char* kOptions[] = {"ALLOW_NETWORK_ACCESS=NO", nullptr};
-  OGRSpatialReference reference;
-  if (text.empty() || reference.SetFromUserInput(text.c_str(), kOptions) != OGRERR_NONE)
-    throw InputError(fmt::format("{}: the CRS '{:.60}' is not understood; give it as EPSG:xxxx or WKT", place, text));
+  const bool set = !text.empty() && reference.SetFromUserInput(text.c_str(), kOptions) == OGRERR_NONE;
   reference.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+  return set;
+}
+
+/// Removes a code that nobody knows, such as EPSG:0, EPSG:32767 or LOCAL:1: such a CRS is what its text says.
+void forget_unknown_code(OGRSpatialReference& reference) {
+  const char* authority = reference.GetAuthorityName(nullptr);
+  const char* code = reference.GetAuthorityCode(nullptr);
+  OGRSpatialReference known;
+  if (!authority || !code || set_from(known, fmt::format("{}:{}", authority, code))) return;
+  char* text = nullptr;
+  reference.exportToPROJJSON(&text, nullptr);
+  const std::unique_ptr<char, void (*)(void*)> owner(text, VSIFree);
+  nlohmann::json json = nlohmann::json::parse(text != nullptr ? text : "", nullptr, false);
+  if (json.is_object() && json.erase("id") > 0) set_from(reference, json.dump());
+}
+
+OGRSpatialReference understood(const std::string& text, const std::string& place) {
+  OGRSpatialReference reference;
+  if (!set_from(reference, text))
+    throw InputError(fmt::format("{}: the CRS '{:.60}' is not understood; give it as EPSG:xxxx or WKT", place, text));
+  forget_unknown_code(reference);
   return reference;
 }
 
@@ -91,22 +111,13 @@ void replace_by_authority(OGRSpatialReference& reference) {
 void strip_heights(OGRSpatialReference& reference) {
   if (reference.IsCompound()) reference.StripVertical();
   if (reference.GetAxesCount() == 3) reference.DemoteTo2D(nullptr);
+  forget_unknown_code(reference);
   replace_by_authority(reference);
 }
 
 /// Returns authority:code, else WKT 2: a name alone would not be understood again.
 std::string text_of(const OGRSpatialReference& reference) {
   return reference.GetAuthorityCode(nullptr) ? name_of(reference) : wkt_of(reference);
-}
-
-/// Tells whether coordinates, in the order that they are in here, count to the east and to the north. About the poles
-/// both count towards the pole, or both away from it, along two meridians.
-bool axes_run_east_north(const OGRSpatialReference& projected) {
-  std::array<OGRAxisOrientation, 2> axes{};
-  const std::vector<int>& order = projected.GetDataAxisToSRSAxisMapping();
-  for (std::size_t i = 0; i < axes.size(); ++i) projected.GetAxis(nullptr, std::abs(order.at(i)) - 1, &axes[i]);
-  if (axes[0] == OAO_Other || axes[1] == OAO_Other) return true;
-  return (axes[0] == OAO_East && axes[1] == OAO_North) || (axes[0] == axes[1] && axes[0] != OAO_West);
 }
 
 /// Returns the EPSG code of the whole CRS or of its part called `key`; empty where it has none.
@@ -168,7 +179,8 @@ Crs parse_any_crs(const std::string& text, const std::string& place) {
   crs.heights = vertical_axis(reference);
   if (reference.IsVertical() && !reference.IsCompound()) return crs;
   const bool has_code = reference.GetAuthorityCode(nullptr) != nullptr;
-  const std::string vertical_code = reference.IsCompound() ? epsg_code(reference, "VERT_CS") : "";
+  std::string vertical_code = reference.IsCompound() ? epsg_code(reference, "VERT_CS") : "";
+  if (OGRSpatialReference known; !set_from(known, "EPSG:" + vertical_code)) vertical_code.clear();
   strip_heights(reference);
   if (!reference.IsProjected() && !reference.IsGeographic())
     throw InputError(fmt::format("{}: the CRS {} is neither projected nor geographic", place, name_of(reference)));
@@ -181,7 +193,7 @@ Crs parse_any_crs(const std::string& text, const std::string& place) {
     crs.whole = fmt::format("EPSG:{}+{}", horizontal_code, vertical_code);
   if (!reference.IsProjected()) return crs;
   crs.metres_per_axis = reference.GetLinearUnits();
-  crs.east_north = axes_run_east_north(reference);
+  crs.east_north = runs_east_north(crs.wkt);
   return crs;
 }
 
@@ -189,7 +201,8 @@ Crs utm_zone(const Crs& crs, Point2 position, const std::string& place) {
   const QuietGdal quiet;
   const OGRSpatialReference reference = understood(crs.wkt, place);
   std::unique_ptr<OGRSpatialReference> geographic(reference.CloneGeogCS());
-  if (!geographic) throw InputError(fmt::format("{}: no UTM zone for {}; give `to_crs`", place, crs.name));
+  if (!geographic || !is_of_earth({geographic->GetSemiMajor(), 0}))
+    throw InputError(fmt::format("{}: no UTM zone for {}; give `to_crs`", place, crs.name));
   geographic->SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
   PointTransform(crs.wkt, wkt_of(*geographic), place).transform(std::span(&position.x, 1), std::span(&position.y, 1));
   const double longitude = in_degrees(position.x * geographic->GetAngularUnits()) + geographic->GetPrimeMeridian();

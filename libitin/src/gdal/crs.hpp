@@ -21,6 +21,8 @@ struct Crs {
   std::string name;                       ///< "EPSG:27700" where an authority knows the CRS, otherwise its own name
   std::optional<double> metres_per_axis;  ///< metres per unit of a projected CRS; nothing where its axes are angles
   std::optional<HeightAxis> heights;      ///< the heights of the vertical part, where there is one
+  bool given = false;                     ///< the horizontal part comes from --crs
+  std::string overridden;                 ///< WKT of the CRS that the source states, where --crs gives another one
   bool heights_given = false;             ///< `heights` come from --crs, whatever the source itself says
   std::string whole;                      ///< authority:code or WKT 2, vertical part included
 

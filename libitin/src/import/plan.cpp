@@ -15,6 +15,7 @@
 #include "import/points/point_source.hpp"
 #include "import/rasters/raster_source.hpp"
 #include "import/rasters/sea_source.hpp"
+#include "import/source/crs_doubts.hpp"
 #include "import/source/source_context.hpp"
 #include "import/source/source_options.hpp"
 #include "import/source/terrain_source.hpp"
@@ -229,6 +230,8 @@ ImportPlan plan_import(const ImportOptions& options, const StoreMetadata* existi
   for (const OpenedFile* file : opened) {
     std::vector<std::string> warnings = file->warnings();
     std::move(warnings.begin(), warnings.end(), std::back_inserter(plan.warnings));
+    for (std::string& doubt : crs_doubts(file->path(), file->crs(), file->extent()))
+      plan.warnings.push_back(std::move(doubt));
   }
   const Box box = options.sea_level ? box_about(opened, crs) : Box{};  // needed before the files are bound
   for (const auto& file : points) plan.sources.push_back(file->bind({plan.grid, plan.crs_wkt, &plan.scale->meter()}));

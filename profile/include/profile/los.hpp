@@ -123,7 +123,7 @@ struct LosEnd {
   double elevation_angle_deg = 0;   ///< the angle at which the other antenna appears
   struct Site {
     Point2 position;                                    ///< in the store's CRS
-    Point2 lon_lat;                                     ///< degrees on WGS 84
+    Point2 lon_lat;                                     ///< degrees on WGS 84; on another body, on its own ellipsoid
     double azimuth_grid_deg = 0, azimuth_true_deg = 0;  ///< towards the other end
     /// The azimuth from magnetic north, which lies `declination_deg` east of true north (World Magnetic Model 2025).
     /// Nothing without a day, on a day outside 2025 to 2029, and close to the magnetic poles.
@@ -168,9 +168,9 @@ struct LosReport : LineFindings {
   std::vector<std::pair<std::string, std::string>> facts;  ///< the input and the settings: name, value
   std::vector<std::string> from_lines, to_lines;           ///< about the ends
   std::string crs_wkt;                                     ///< empty: the profile has no positions
-  std::optional<double> geodesic_m;                        ///< between the ends on WGS 84, where they have positions
-  std::vector<std::string> themes;                         ///< names by ProfilePoint::theme; 0 is the terrain
-  std::vector<ThemeKind> theme_kinds;                      ///< by ProfilePoint::theme - 1; only over a store
+  std::optional<double> geodesic_m;    ///< on WGS 84 or the body's own, where the ends have positions
+  std::vector<std::string> themes;     ///< names by ProfilePoint::theme; 0 is the terrain
+  std::vector<ThemeKind> theme_kinds;  ///< by ProfilePoint::theme - 1; only over a store
   std::map<std::pair<std::uint16_t, std::int64_t>, FeatureAt> features;  ///< by theme and feature
   /// The spacing, in metres, of the rows of the printed profile; nothing: about 30 rows; 0: no such table.
   std::optional<double> table_spacing_m;

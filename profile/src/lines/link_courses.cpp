@@ -1,3 +1,4 @@
+#include <itin/celestial_body.hpp>
 #include <itin/coordinates.hpp>
 #include <itin/error.hpp>
 #include <profile/link_courses.hpp>
@@ -6,10 +7,11 @@ namespace itin::profile {
 
 namespace {
 
-std::optional<LinkCourse> course_of(const Link& link, const CoordinateTransform& to_geographic) {
+std::optional<LinkCourse> course_of(const Link& link, const CoordinateTransform& to_geographic,
+                                    const Ellipsoid& ellipsoid) {
   try {
     const Point2 from = to_geographic(link.from), to = to_geographic(link.to);
-    return LinkCourse{from, to, geodesic(from, to)};
+    return LinkCourse{from, to, geodesic(from, to, ellipsoid)};
   } catch (const InputError&) {
     return std::nullopt;
   }
@@ -18,12 +20,13 @@ std::optional<LinkCourse> course_of(const Link& link, const CoordinateTransform&
 }  // namespace
 
 LinkCourses link_courses(const std::vector<Link>& links, const std::string& crs_wkt, const Progress& progress) {
-  const CoordinateTransform to_geographic(crs_wkt, "EPSG:4326");
+  const CelestialBody body = body_of(crs_wkt);
+  const CoordinateTransform to_geographic(crs_wkt, body.geographic_crs);
   LinkCourses courses;
   courses.reserve(links.size());
   for (const Link& link : links) {
     progress.throw_if_cancelled();
-    courses.push_back(course_of(link, to_geographic));
+    courses.push_back(course_of(link, to_geographic, body.ellipsoid));
   }
   return courses;
 }

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include <itin/celestial_body.hpp>
 #include <itin/coordinates.hpp>
 #include <itin/feature_at.hpp>
 #include <itin/geodesic.hpp>
@@ -24,9 +25,10 @@ namespace itin::profile {
 namespace {
 
 void add_sites(const StoreLine& line, LosReport& report) {
-  const CoordinateTransform to_geographic(report.crs_wkt, "EPSG:4326");
+  const CelestialBody body = body_of(report.crs_wkt);
+  const CoordinateTransform to_geographic(report.crs_wkt, body.geographic_crs);
   const Point2 a = to_geographic(line.from), b = to_geographic(line.to);
-  const Geodesic between = geodesic(a, b);
+  const Geodesic between = geodesic(a, b, body.ellipsoid);
   const auto site = [&](Point2 position, Point2 towards, Point2 lon_lat, double azimuth_deg, double elevation_m) {
     const std::optional<double> declination = declination_on(report.query.day, lon_lat, elevation_m);
     return LosEnd::Site{position,
@@ -126,15 +128,17 @@ std::string azimuths_text(const LosEnd::Site& site) {
 
 std::vector<std::string> lines_about(const LosEnd& end, const std::string& crs, const std::string& crs_wkt) {
   const LosEnd::Site& site = *end.site;
+  const bool on_earth = body_of(crs_wkt).is_earth;
   const std::string surface = end.on_surface ? fmt::format(", surface {:.2f} m", *end.surface_m) : "";
-  return {fmt::format("{:.2f}, {:.2f} ({})", site.position.x, site.position.y, crs),
-          fmt::format("{:.6f}\xC2\xB0 {}, {:.6f}\xC2\xB0 {} (WGS 84)", std::abs(site.lon_lat.y),
-                      site.lon_lat.y < 0 ? "S" : "N", std::abs(site.lon_lat.x), site.lon_lat.x < 0 ? "W" : "E"),
-          degrees_minutes_seconds(site.lon_lat.y, 'N', 'S') + " " + degrees_minutes_seconds(site.lon_lat.x, 'E', 'W') +
-              grid_reference(site, crs_wkt),
-          fmt::format("ground {:.2f} m{}, height {:.2f} m, elevation {:.2f} m", end.ground_m, surface, end.height_m,
-                      end.elevation_m),
-          fmt::format("azimuth {}; elevation angle {}", azimuths_text(site), angle_text(end.elevation_angle_deg))};
+  return {
+      fmt::format("{:.2f}, {:.2f} ({})", site.position.x, site.position.y, crs),
+      fmt::format("{:.6f}\xC2\xB0 {}, {:.6f}\xC2\xB0 {}{}", std::abs(site.lon_lat.y), site.lon_lat.y < 0 ? "S" : "N",
+                  std::abs(site.lon_lat.x), site.lon_lat.x < 0 ? "W" : "E", on_earth ? " (WGS 84)" : ""),
+      degrees_minutes_seconds(site.lon_lat.y, 'N', 'S') + " " + degrees_minutes_seconds(site.lon_lat.x, 'E', 'W') +
+          (on_earth ? grid_reference(site, crs_wkt) : ""),
+      fmt::format("ground {:.2f} m{}, height {:.2f} m, elevation {:.2f} m", end.ground_m, surface, end.height_m,
+                  end.elevation_m),
+      fmt::format("azimuth {}; elevation angle {}", azimuths_text(site), angle_text(end.elevation_angle_deg))};
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <itin/celestial_body.hpp>
 #include <itin/coordinates.hpp>
 
 #include "report/formats.hpp"
@@ -32,7 +33,7 @@ char seen_beyond(NoData rule) {
 
 std::string report_csv(const LosReport& report) {
   std::optional<CoordinateTransform> to_geographic;
-  if (!report.crs_wkt.empty()) to_geographic.emplace(report.crs_wkt, "EPSG:4326");
+  if (!report.crs_wkt.empty()) to_geographic.emplace(report.crs_wkt, body_of(report.crs_wkt).geographic_crs);
   const double length = report.profile.length_m, drop = report.query.earth.drop_coefficient();
   const double wavelength = report.query.radio ? wavelength_m(report.query.radio->frequency_ghz) : 0;
   std::string csv =

@@ -2,14 +2,19 @@
 #include "import/footprints/city_json.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <gmock/gmock.h>
 #include <set>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <itin/error.hpp>
 
 #include "gdal/crs.hpp"
+#include "import/footprints/city_json_values.hpp"
 #include "support/temporary_directory.hpp"
 
 namespace itin {
@@ -113,6 +118,84 @@ TEST_F(CityTops, MayBeAllThereIs) {
 
 TEST_F(CityTops, JoinPiecesOfOnePlaneThatAreWoundDifferently) {
   EXPECT_THAT(tops(read("[[0,1,4,5]],[[6,7,8]],[[6,9,8]],[[10,7,8,13]]")), ElementsAre(8));
+}
+
+TEST_F(CityTops, AreThoseOfTheGreatestLevelOfDetail) {
+  CityJsonQuery query;
+  query.crs = "EPSG:28992";
+  query.path =
+      directory_.write("lod.json", R"({"type":"CityJSON","version":"2.0","CityObjects":{"hut":{"type":"Building",
+      "geometry":[{"type":"MultiSurface","lod":"2.2","boundaries":[[[0,1,2,3]]]},
+                  {"type":"MultiSurface","lod":"3","boundaries":[[[4,5,6,7]]]}]}},
+      "vertices":[[0,0,5],[9,0,5],[9,9,5],[0,9,5],[0,0,6],[9,0,6],[9,9,6],[0,9,6]]})");
+  EXPECT_THAT(tops(read_city_json(query, parse_crs("EPSG:28992", "test").wkt)), ElementsAre(6));
+}
+
+TEST_F(CityTops, AreThoseOfTemplatesAtTheirPlaces) {
+  CityJsonQuery query;
+  query.crs = "EPSG:28992";
+  // A square of 1 m at 1 m, twice as large and turned by a quarter, from 5 m above vertex 1.
+  query.path = directory_.write("t.json", R"({"type":"CityJSON","version":"2.0",
+      "transform":{"scale":[0.5,0.5,0.5],"translate":[85000,447000,0]},
+      "geometry-templates":{"templates":[{"type":"MultiSurface","lod":"2","boundaries":[[[0,1,2,3]]]}],
+        "vertices-templates":[[0,0,1],[1,0,1],[1,1,1],[0,1,1]]},
+      "CityObjects":{"hut":{"type":"Building","geometry":[{"type":"GeometryInstance","template":0,"boundaries":[1],
+        "transformationMatrix":[0,-2,0,0,2,0,0,0,0,0,2,5,0,0,0,1]}]}},
+      "vertices":[[0,0,0],[20,40,6]]})");
+  const FootprintSource source = read_city_json(query, parse_crs("EPSG:28992", "test").wkt);
+  ASSERT_THAT(tops(source), ElementsAre(10));
+  double least = INFINITY, most = -INFINITY;
+  for (const Point3& p : source.features[0].surfaces[0].rings[0])
+    least = std::min(least, p.x), most = std::max(most, p.x);
+  EXPECT_DOUBLE_EQ(least, 85008);
+  EXPECT_DOUBLE_EQ(most, 85010);
+}
+
+TEST_F(CityTops, AreReadFromSequences) {
+  CityJsonQuery query;
+  query.kept.attributes = std::vector<std::string>{"storeys"};
+  const auto building = [](const std::string& key, int storeys, int z) {
+    const std::string top = std::to_string(z);
+    return R"({"type":"CityJSONFeature","id":")" + key + R"(","CityObjects":{")" + key +
+           R"(":{"type":"Building","attributes":{"storeys":)" + std::to_string(storeys) +
+           R"(},"geometry":[{"type":"MultiSurface","lod":"2","boundaries":[[[0,1,2,3]]]}]}},"vertices":[[0,0,)" + top +
+           "],[9,0," + top + "],[9,9," + top + "],[0,9," + top + "]]}\n";
+  };
+  const std::string head = R"({"type":"CityJSON","version":"2.0","CityObjects":{},"vertices":[],
+      "metadata":{"referenceSystem":"urn:ogc:def:crs,crs:EPSG::7415,crs:EPSG::5709"},
+      "transform":{"scale":[1,1,1],"translate":[85000,447000,0]}})";
+  std::string line = head;
+  std::erase(line, '\n');
+  query.path = directory_.write("a.city.jsonl", line + "\n" + building("b", 3, 8) + "\n" + building("a", 2, 5));
+  const FootprintSource source = read_city_json(query, parse_crs("EPSG:28992", "test").wkt);
+  EXPECT_THAT(tops(source), ElementsAre(5, 8));
+  EXPECT_EQ(source.crs, "EPSG:7415");
+  ASSERT_EQ(source.records.size(), 2U);
+  EXPECT_EQ(source.records[0].id, "b");
+  EXPECT_EQ(std::get<std::int64_t>(source.records[0].values.at(0)), 3);
+
+  query.path = directory_.write("b.jsonl", line + "\n" + building("b", 3, 8) + building("b", 3, 8));
+  EXPECT_THAT(read_city_json(query, parse_crs("EPSG:28992", "test").wkt).warnings,
+              ElementsAre(HasSubstr("b: passed over: is in the file already")));
+  query.path = directory_.write("c.jsonl", line + "\n{\"type\":\"CityJSONFeature\"");
+  EXPECT_THAT([&] { read_city_json(query, parse_crs("EPSG:28992", "test").wkt); },
+              testing::ThrowsMessage<FileError>(HasSubstr("line 2 is no JSON")));
+}
+
+TEST(CityJson, KnowsReferenceSystemsInEveryForm) {
+  const auto stated = [](const std::string& text) {
+    return reference_system({{"metadata", {{"referenceSystem", text}}}});
+  };
+  EXPECT_EQ(stated("urn:ogc:def:crs:EPSG::7415"), "EPSG:7415");
+  EXPECT_EQ(stated("https://www.opengis.net/def/crs/EPSG/0/7415"), "EPSG:7415");
+  EXPECT_EQ(stated("urn:ogc:def:crs,crs:EPSG::28992,crs:EPSG::5709"), "EPSG:28992+5709");
+  EXPECT_EQ(stated("urn:ogc:def:crs,crs:EPSG:6.12:28992,crs:EPSG:6.12:5709"), "EPSG:28992+5709");
+  EXPECT_EQ(stated("urn:ogc:def:crs,crs:EPSG::7415,crs:EPSG::5709"), "EPSG:7415");
+  EXPECT_EQ(stated("http://www.opengis.net/def/crs-compound?1=http://www.opengis.net/def/crs/EPSG/0/28992&2="
+                   "http://www.opengis.net/def/crs/EPSG/0/5709"),
+            "EPSG:28992+5709");
+  EXPECT_EQ(stated("EPSG:28992"), "EPSG:28992");
+  EXPECT_EQ(reference_system(nlohmann::json::object()), "");
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <gmock/gmock.h>
 #include <limits>
+#include <numbers>
 #include <random>
 #include <vector>
 
@@ -10,6 +11,8 @@
 #include <gtest/gtest.h>
 #include <ogr_spatialref.h>
 
+#include <itin/celestial_body.hpp>
+#include <itin/coordinates.hpp>
 #include <itin/error.hpp>
 #include <itin/parallel.hpp>
 
@@ -51,6 +54,38 @@ TEST(Crs, TellsWhatItsHeightsMean) {
       "COMPOUNDCRS[\"soundings\"," + parse_crs("EPSG:32630", "a").wkt +
       R"wkt(,VERTCRS["chart",VDATUM["Chart datum"],CS[vertical,1],AXIS["depth (D)",down],LENGTHUNIT["fathom",1.8288]]])wkt");
   EXPECT_EQ(fathoms, (HeightAxis{"Chart datum", "fathom", 1.8288, true}));
+}
+
+TEST(Crs, WithACodeThatNobodyKnowsIsWhatItsTextSays) {
+  const std::string text =
+      R"wkt(PROJCS["site grid",GEOGCS["WGS 84",DATUM["WGS_1984",SPHEROID["WGS 84",6378137,298.257223563]],PRIMEM["Greenwich",0],UNIT["degree",0.0174532925199433]],PROJECTION["Transverse_Mercator"],PARAMETER["latitude_of_origin",0],PARAMETER["central_meridian",3.3],PARAMETER["scale_factor",1],PARAMETER["false_easting",500],PARAMETER["false_northing",0],UNIT["metre",1])wkt";
+  const Crs plain = parse_crs(text + "]", "a");
+  for (const std::string code : {R"("EPSG","0")", R"("EPSG","32767")", R"("LOCAL","1")", R"("Esri","999999")"}) {
+    const Crs crs = parse_crs(text + ",AUTHORITY[" + code + "]]", "a");
+    EXPECT_EQ(crs.name, "site grid") << code;
+    EXPECT_TRUE(PointTransform(crs.wkt, plain.wkt, "a").identity()) << code;
+    EXPECT_EQ(crs_identifier(crs.wkt), crs.wkt) << code;
+    EXPECT_TRUE(PointTransform(parse_crs(crs.whole, "a").wkt, plain.wkt, "a").identity()) << code;
+    const Crs compound = parse_crs(
+        "COMPD_CS[\"x\"," + text + ",AUTHORITY[" + code +
+            R"wkt(]],VERT_CS["EGM96 height",VERT_DATUM["EGM96 geoid",2005],UNIT["metre",1],AUTHORITY["EPSG","99999"]]])wkt",
+        "a");
+    EXPECT_TRUE(PointTransform(compound.wkt, plain.wkt, "a").identity()) << code;
+    EXPECT_EQ(parse_crs(compound.whole, "a").heights, compound.heights) << code;
+  }
+}
+
+TEST(Crs, TellsTheBodyItIsOf) {
+  EXPECT_TRUE(body_of(parse_crs("EPSG:27700", "a").wkt).is_earth);
+  EXPECT_TRUE(body_of(parse_crs("+proj=laea +R=6370997 +units=m", "a").wkt).is_earth);
+  const Crs moon = parse_crs("+proj=tmerc +R=1737400 +units=m", "a");
+  const CelestialBody body = body_of(moon.wkt);
+  EXPECT_FALSE(body.is_earth);
+  EXPECT_EQ(body.mean_radius_m(), 1737400);
+  EXPECT_NEAR(CoordinateTransform(moon.wkt, body.geographic_crs)({0, 1737400 * std::numbers::pi / 180}).y, 1, 1e-9);
+  EXPECT_NEAR(body_of(parse_crs("+proj=tmerc +a=3396190 +b=3376200 +units=m", "a").wkt).mean_radius_m(), 3389526.7,
+              0.1);
+  EXPECT_THROW(utm_zone(moon, {0, 0}, "a"), InputError);
 }
 
 /// Every dialect that recognises a CRS must recognise what it made of it, and no other.

@@ -113,6 +113,28 @@ TEST_F(FootprintReader, UsesZAsAsked) {
   EXPECT_EQ(read(query).features[0].height, 13);
 }
 
+TEST_F(FootprintReader, ReadsHeightsAsPeopleWriteThem) {
+  const std::string square = "[[[300000,200000],[300010,200000],[300010,200010],[300000,200000]]]";
+  FootprintQuery query;
+  query.height_field = "h";
+  const auto height = [&](const std::string& json) {
+    query.path = layer(feature("\"h\":" + json, "Polygon", square));
+    return read(query).features.at(0).height.value_or(-1);
+  };
+  EXPECT_DOUBLE_EQ(height(R"("12 m")"), 12);
+  EXPECT_DOUBLE_EQ(height(R"("12,5m")"), 12.5);
+  EXPECT_DOUBLE_EQ(height(R"("12.5 metres")"), 12.5);
+  EXPECT_DOUBLE_EQ(height(R"("40 ft")"), 40 * 0.3048);
+  EXPECT_DOUBLE_EQ(height(R"("39'4\"")"), (39 + 4 / 12.0) * 0.3048);
+  EXPECT_DOUBLE_EQ(height(R"("39'")"), 39 * 0.3048);
+  EXPECT_DOUBLE_EQ(height(R"("12")"), 12);
+  EXPECT_EQ(height(R"("12 bananas")"), -1);
+  query.storey = 3.2;
+  EXPECT_DOUBLE_EQ(height(R"("4")"), 12.8);
+  EXPECT_DOUBLE_EQ(height("4"), 12.8);
+  EXPECT_DOUBLE_EQ(height(R"("12 m")"), 12);
+}
+
 TEST_F(FootprintReader, TakesFeetForFeet) {
   FootprintQuery query;
   query.path =

@@ -58,6 +58,7 @@ TEST(SourceOptions, MeanSomethingForTheirOwnSources) {
   expect((options = {}, options.repair = false, options), {contours});
   expect((options = {}, options.height = 3, options), {buildings, walls});
   expect((options = {}, options.thickness = 3, options), {buildings, walls});
+  expect((options = {}, options.storey = 3, options), {buildings, walls});
   expect((options = {}, options.roof = RoofKind::flat, options), {buildings});
   expect((options = {}, options.base = BaseRule::minimum, options), {buildings, city_model});
   expect((options = {}, options.to_crs = "EPSG:27700", options),

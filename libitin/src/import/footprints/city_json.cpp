@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <limits>
 #include <map>
-#include <set>
+#include <optional>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -18,8 +18,11 @@
 #include "gdal/crs.hpp"
 #include "gdal/quiet_gdal.hpp"
 #include "import/footprints/city_faces.hpp"
+#include "import/footprints/city_geometry.hpp"
 #include "import/footprints/city_json_attributes.hpp"
 #include "import/footprints/city_json_values.hpp"
+#include "import/footprints/city_vertices.hpp"
+#include "import/source/crs_doubts.hpp"
 #include "import/source/findings.hpp"
 #include "import/source/source_context.hpp"
 
@@ -35,21 +38,20 @@ constexpr std::uint64_t kMemoryPerByte = 16;
 class CityModel {
  public:
   CityModel(const CityJsonQuery& query, const std::string& to_crs)
-      : query_(query), findings_(query.path), model_(parse(query)), attributes_(query.path, query.kept) {
-    in_place({}, [&] { place_vertices(to_crs); });
+      : query_(query), findings_(query.path), documents_(parse(query)), attributes_(query.path, query.kept) {
+    in_place({}, [&] { find_crs(to_crs); });
   }
 
   FootprintSource read() {
-    std::map<std::string, int> others;
     in_place({}, [&] {
-      const CityJsonCounts counts(model_);
-      check_templates(model_, counts);
-      const Json& objects = member_or_empty(model_, "CityObjects", Json::value_t::object);
-      for (const auto& [name, value] : objects.items())
-        in_place(name, [&, &title = name, &city_object = value] { read(title, city_object, counts, others); });
-      keep_attributes(objects);
+      check_templates(head(), CityJsonCounts(head(), head()));
+      for (const Json& document : documents_) read(document);
+      attributes_.finish(objects_);
+      keep_attributes();
     });
-    for (const auto& [type, count] : others)
+    for (std::string& doubt : crs_doubts(query_.path, crs_, vertices_->extent()))
+      source_.warnings.push_back(std::move(doubt));
+    for (const auto& [type, count] : others_)
       source_.warnings.push_back(fmt::format("{}: {} objects of type {} passed over", query_.path, count, type));
     if (closures_ > 0)
       source_.warnings.push_back(
@@ -61,7 +63,7 @@ class CityModel {
   }
 
  private:
-  static Json parse(const CityJsonQuery& query) {
+  static std::vector<Json> parse(const CityJsonQuery& query) {
     std::error_code unknown;
     const std::uintmax_t bytes = std::filesystem::file_size(query.path, unknown);
     if (!unknown && bytes > query.memory_bytes / kMemoryPerByte)
@@ -82,25 +84,43 @@ class CityModel {
     }
   }
 
-  void read(const std::string& name, const Json& city_object, const CityJsonCounts& counts,
-            std::map<std::string, int>& others) {
+  /// The document that has what is the same for all: CRS, transform, templates.
+  const Json& head() const { return documents_.front(); }
+
+  void find_crs(const std::string& to_crs) {
+    crs_ = source_crs(query_.path, query_.crs, reference_system(head()), Elevations::in_coordinates);
+    if (query_.datums != nullptr) query_.datums->add(crs_, query_.path);
+    SourceHeights heights = source_heights(query_.path, std::nullopt, crs_);
+    vertices_.emplace(head(), crs_, heights.axis.factor(), to_crs, query_.path);
+    source_.crs = std::move(heights.crs);
+    if (!heights.warning.empty()) source_.warnings.push_back(std::move(heights.warning));
+  }
+
+  void read(const Json& document) {
+    const CityJsonCounts counts(document, head());
+    const std::size_t first = vertices_->add(document.at("vertices"));
+    for (const auto& [name, value] : member_or_empty(document, "CityObjects", Json::value_t::object).items())
+      in_place(name, [&, &key = name, &city_object = value] { read(key, city_object, counts, first); });
+  }
+
+  void read(const std::string& name, const Json& city_object, const CityJsonCounts& counts, std::size_t first) {
     const Json& geometries = member_or_empty(city_object, "geometry", Json::value_t::array);
     for (const Json& geometry : geometries) check_indices(geometry, counts);
     if (!is_building(city_object)) {
-      ++others[text_member(city_object, "type")];
+      ++others_[text_member(city_object, "type")];
       return;
     }
+    if (!objects_.try_emplace(name, &city_object).second) return pass_over(name, "is in the file already");
     attributes_.note(city_object);
     if (!geometries.empty()) {
-      add(name, geometries);
+      add(name, geometries, first);
     } else if (!city_object.contains("children")) {
       pass_over(name, "has no geometry");
     }
   }
 
   /// Gives features their names, ids and attributes; so far they have been called by their keys.
-  void keep_attributes(const Json& objects) {
-    attributes_.finish(objects);
+  void keep_attributes() {
     source_.fields = attributes_.fields();
     for (FootprintFeature& feature : source_.features) {
       FeatureRecord record = attributes_.record(feature.name);
@@ -109,118 +129,29 @@ class CityModel {
     }
   }
 
-  /// Returns "EPSG:7415" for "urn:ogc:def:crs:EPSG::7415" and for "https://www.opengis.net/def/crs/EPSG/0/7415".
-  std::string reference_system() const {
-    const Json& metadata = member_or_empty(model_, "metadata", Json::value_t::object);
-    if (!metadata.contains("referenceSystem") || metadata.at("referenceSystem").is_null()) return {};
-    const std::string text = text_member(metadata, "referenceSystem");
-    const std::size_t at = text.find_last_not_of("0123456789");
-    if (text.find("EPSG") == std::string::npos || at == std::string::npos || at + 1 == text.size()) return text;
-    return "EPSG:" + text.substr(at + 1);
-  }
-
-  void place_vertices(const std::string& to_crs) {
-    std::array<double, 3> scale{1, 1, 1}, shift{0, 0, 0};
-    if (model_.contains("transform")) {
-      scale = coordinates(member(model_.at("transform"), "scale"), "scale of the transform");
-      shift = coordinates(member(model_.at("transform"), "translate"), "translate of the transform");
-    }
-    const Crs crs = source_crs(query_.path, query_.crs, reference_system(), Elevations::in_coordinates);
-    if (query_.datums != nullptr) query_.datums->add(crs, query_.path);
-    SourceHeights heights = source_heights(query_.path, std::nullopt, crs);
-    source_.crs = std::move(heights.crs);
-    if (!heights.warning.empty()) source_.warnings.push_back(std::move(heights.warning));
-    const double metres = heights.axis.factor();
-    std::vector<double> x, y;
-    for (const Json& vertex : items_of(member(model_, "vertices"), "vertices")) {
-      const std::array<double, 3> v = coordinates(vertex, "vertices");
-      x.push_back(v[0] * scale[0] + shift[0]);
-      y.push_back(v[1] * scale[1] + shift[1]);
-      vertices_.push_back({0, 0, (v[2] * scale[2] + shift[2]) * metres});
-    }
-    PointTransform(crs.wkt, to_crs, query_.path).transform(x, y);
-    for (std::size_t i = 0; i < vertices_.size(); ++i) vertices_[i].x = x[i], vertices_[i].y = y[i];
-  }
-
   void pass_over(const std::string& name, const std::string& why) {
     findings_.add(fmt::format("{}: passed over: {}", name, why));
   }
 
-  void add(const std::string& name, const Json& geometries) {
-    const Json* best = nullptr;
-    double finest = -1;
-    for (const Json& geometry : geometries) {
-      const double detail = level_of_detail(geometry);
-      if (depth_of(text_member(geometry, "type")) == 0 || detail >= 3 || detail <= finest) continue;
-      best = &geometry;
-      finest = detail;
-    }
-    if (!best)
-      return pass_over(name, fmt::format("none of its geometries ({} ...) is a surface or solid of LoD 1 or 2",
+  /// Adds the building, whose document's vertex 0 has the number `first`.
+  void add(const std::string& name, const Json& geometries, std::size_t first) {
+    const CityGeometry finest = finest_geometry(geometries, head());
+    if (finest.shape == nullptr)
+      return pass_over(name, fmt::format("none of its geometries ({} ...) is a surface or solid",
                                          text_member(geometries.front(), "type")));
-    std::vector<CityFace> faces;
-    const Json& semantics = member_or_empty(*best, "semantics", Json::value_t::object);
-    collect(member(*best, "boundaries"), semantics.value("values", Json()), semantics,
-            depth_of(text_member(*best, "type")), faces);
-    if (!std::all_of(faces.begin(), faces.end(), [&](const CityFace& face) { return has_place(name, face); }))
+    if (!finest.is_instance()) return add(name, faces_of_shape(*finest.shape, first), vertices_->placed());
+    const std::size_t about = first + finest.own->at("boundaries").at(0).get<std::size_t>();
+    add(name, faces_of_shape(*finest.shape, 0),
+        vertices_->instance(member(head().at("geometry-templates"), "vertices-templates"),
+                            finest.own->at("transformationMatrix"), about));
+  }
+
+  void add(const std::string& name, const std::vector<CityFace>& faces, const std::vector<Point3>& vertices) {
+    if (!all_have_places(name, faces, vertices))
       return pass_over(name, "a vertex has no place in the CRS of the store");
-    add(name, faces);
-  }
-
-  void collect(const Json& boundaries, const Json& values, const Json& semantics, int depth,
-               std::vector<CityFace>& out) const {
-    const auto& items = items_of(boundaries, depth > 1 ? "shells or surfaces" : "surfaces");
-    for (std::size_t i = 0; i < items.size(); ++i) {
-      const Json value = values.is_array() && i < values.size() ? values[i] : Json();
-      if (depth > 1) {
-        collect(items[i], value, semantics, depth - 1, out);
-        continue;
-      }
-      CityFace face{rings_of(items[i])};
-      if (face.rings.empty() || face.rings.front().size() < 3) continue;
-      if (value.is_number()) face.name = face_name(semantic(semantics, value));
-      out.push_back(std::move(face));
-    }
-  }
-
-  std::vector<std::vector<std::uint32_t>> rings_of(const Json& surface) const {
-    std::vector<std::vector<std::uint32_t>> rings;
-    for (const Json& ring : items_of(surface, "rings")) {
-      auto& indices = rings.emplace_back();
-      for (const Json& number : items_of(ring, "vertex indices"))
-        indices.push_back(static_cast<std::uint32_t>(index_of(number, vertices_.size(), "vertices")));
-    }
-    return rings;
-  }
-
-  /// Whether all vertices of the face have a place. Throws InputError for a height beyond all heights.
-  bool has_place(const std::string& name, const CityFace& face) const {
-    bool all = true;
-    for (const auto& ring : face.rings) {
-      for (const std::uint32_t v : ring) {
-        if (!is_height(vertices_[v].z)) require_height(vertices_[v].z, query_.path + ": " + name);
-        all = all && std::isfinite(vertices_[v].x) && std::isfinite(vertices_[v].y);
-      }
-    }
-    return all;
-  }
-
-  static const Json& semantic(const Json& semantics, const Json& number) {
-    const auto& surfaces = items_of(member(semantics, "surfaces"), "semantic surfaces");
-    return surfaces[index_of(number, surfaces.size(), "semantic surfaces")];
-  }
-
-  static FaceName face_name(const Json& semantic) {
-    const std::string type = text_member(semantic, "type");
-    if (type == "RoofSurface") return FaceName::roof;
-    if (type == "GroundSurface") return FaceName::ground;
-    return type == "ClosureSurface" ? FaceName::closure : FaceName::other;
-  }
-
-  void add(const std::string& name, const std::vector<CityFace>& faces) {
     BuildingTop top;
     try {
-      top = top_of(faces, vertices_);
+      top = top_of(faces, vertices);
     } catch (const OverlayError& error) {
       return pass_over(name, error.what());
     }
@@ -233,13 +164,31 @@ class CityModel {
     if (query_.ground_as_base) feature.base = top.base;
   }
 
+  /// Throws InputError for a height beyond all heights.
+  bool all_have_places(const std::string& name, const std::vector<CityFace>& faces,
+                       const std::vector<Point3>& vertices) const {
+    bool all = true;
+    for (const CityFace& face : faces) {
+      for (const auto& ring : face.rings) {
+        for (const std::uint32_t v : ring) {
+          if (!is_height(vertices[v].z)) require_height(vertices[v].z, query_.path + ": " + name);
+          all = all && std::isfinite(vertices[v].x) && std::isfinite(vertices[v].y);
+        }
+      }
+    }
+    return all;
+  }
+
   const CityJsonQuery& query_;
   Findings findings_;
-  const Json model_;
+  const std::vector<Json> documents_;  ///< one, or the first one and the features of a sequence
   CityJsonAttributes attributes_;
-  std::vector<Point3> vertices_;
-  std::size_t closures_ = 0;  ///< number of closures that were left out
-  std::string closed_;        ///< the first building with one
+  CityObjects objects_;  ///< the buildings of all documents
+  Crs crs_;
+  std::optional<CityVertices> vertices_;
+  std::map<std::string, int> others_;  ///< numbers of objects that are no buildings, by type
+  std::size_t closures_ = 0;           ///< number of closures that were left out
+  std::string closed_;                 ///< the first building with one
   FootprintSource source_;
 };
 

@@ -1,4 +1,4 @@
-// Reads buildings from CityJSON 1.0 to 2.0 (OGC 20-072r5): solids and surfaces, LoD 1 and 2.
+// Reads buildings from CityJSON 1.0 to 2.0 (OGC 20-072r5) and CityJSONSeq: solids and surfaces, instances of templates.
 //
 // Each Building and BuildingPart gives its geometry of the greatest level of detail. Its top is made of the faces that
 // are open to the sky (city_faces.hpp).

@@ -59,7 +59,7 @@ AttributeType CityJsonAttributes::type_of(const std::string& name) const {
   return *found->second;
 }
 
-void CityJsonAttributes::finish(const Json& objects) {
+void CityJsonAttributes::finish(const CityObjects& objects) {
   objects_ = &objects;
   for (const std::string& name : {query_.id_field, query_.name_field})
     if (!name.empty()) type_of(name);
@@ -80,13 +80,13 @@ void CityJsonAttributes::finish(const Json& objects) {
 const Json* CityJsonAttributes::attribute(const std::string& key, const std::string& name) const {
   const auto own_of = [&](const std::string& object) -> const Json* {
     const auto found = objects_->find(object);
-    if (found == objects_->end() || !is_building(*found)) return nullptr;
-    const Json& attributes = member_or_empty(*found, "attributes", Json::value_t::object);
+    if (found == objects_->end()) return nullptr;
+    const Json& attributes = member_or_empty(*found->second, "attributes", Json::value_t::object);
     const auto value = attributes.find(name);
     return value == attributes.end() || value->is_null() ? nullptr : &*value;
   };
   if (const Json* own = own_of(key)) return own;
-  for (const Json& parent : member_or_empty(objects_->at(key), "parents", Json::value_t::array))
+  for (const Json& parent : member_or_empty(*objects_->at(key), "parents", Json::value_t::array))
     if (const Json* of_parent = parent.is_string() ? own_of(parent.get<std::string>()) : nullptr) return of_parent;
   return nullptr;
 }

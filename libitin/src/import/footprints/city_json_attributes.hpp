@@ -18,16 +18,19 @@
 
 namespace itin {
 
+/// Buildings and parts of buildings by their keys.
+using CityObjects = std::map<std::string, const nlohmann::json*>;
+
 class CityJsonAttributes {
  public:
   CityJsonAttributes(std::string path, FeatureQuery query);
 
   /// Learns what attributes a building or a part of one has. Throws BadCityJson.
   void note(const nlohmann::json& building);
-  /// Chooses the fields; by default, these are all that hold numbers, texts and truth values, by name. The city objects
-  /// must outlive this, and buildings among them must have been noted. Throws FileError for an attribute that no
+  /// Chooses the fields; by default, these are all that hold numbers, texts and truth values, by name. The objects must
+  /// outlive this, and must have been noted. Throws FileError for an attribute that no
   /// building has, InputError for one that holds lists or objects, and for too many.
-  void finish(const nlohmann::json& objects);
+  void finish(const CityObjects& objects);
   const std::vector<AttributeField>& fields() const { return fields_; }
 
   /// Returns what is kept of the object with this key, which is its id unless another was asked for. Truth values are 0
@@ -48,7 +51,7 @@ class CityJsonAttributes {
   FeatureQuery query_;
   KeptTexts texts_;
   std::map<std::string, std::optional<AttributeType>> types_;  ///< no type where any value is a list or an object
-  const nlohmann::json* objects_ = nullptr;
+  const CityObjects* objects_ = nullptr;
   std::vector<AttributeField> fields_;
   std::vector<std::string> left_out_;  ///< names
 };

@@ -3,10 +3,15 @@
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
+#include <istream>
+#include <regex>
 
 #include <fmt/format.h>
 
 #include <itin/error.hpp>
+#include <itin/file_ending.hpp>
+
+#include "gdal/crs.hpp"
 
 namespace itin {
 
@@ -52,6 +57,8 @@ void check_instance(const Json& geometry, const CityJsonCounts& counts) {
   const auto& matrix = items_of(member(geometry, "transformationMatrix"), "transformationMatrix");
   if (matrix.size() != 16)
     throw BadCityJson(fmt::format("transformationMatrix holds {} numbers, not 16", matrix.size()));
+  if (items_of(member(geometry, "boundaries"), "boundaries").size() != 1)
+    throw BadCityJson("'boundaries' of a GeometryInstance hold not one vertex");
   for (const Json& number : matrix)
     if (!number.is_number()) throw BadCityJson(shown(number) + " in transformationMatrix is no number");
 }
@@ -80,21 +87,46 @@ void check_geometry(const Json& geometry, std::size_t vertices, const CityJsonCo
 
 }  // namespace
 
-Json parse_city_json(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw FileError(path, "cannot be read");
-  Json model;
+namespace {
+
+/// Reads a document of this type. `line` says in messages where in the file it stands; it is empty for the whole file.
+template <class Text>
+Json parse_document(Text&& text, const std::string& type, const std::string& path, const std::string& line) {
+  Json document;
   try {
-    model = Json::parse(file);
+    document = Json::parse(text);
   } catch (const Json::parse_error& error) {
     throw FileError(
-        path,
-        fmt::format("is no JSON: what stands at byte {} does not belong there, or the file ends early", error.byte));
+        path, fmt::format("{}is no JSON: what stands at byte {} does not belong there, or the {} ends early", line,
+                          error.byte, line.empty() ? "file" : "line"));
   } catch (const Json::exception&) {
-    throw FileError(path, "holds a number beyond all bounds");
+    throw FileError(path, line + "holds a number beyond all bounds");
   }
-  if (!model.is_object() || model.value("type", Json()) != "CityJSON") throw FileError(path, "is not CityJSON");
-  return model;
+  if (!document.is_object() || document.value("type", Json()) != type) throw FileError(path, line + "is not " + type);
+  return document;
+}
+
+std::vector<Json> parse_sequence(std::istream& file, const std::string& path) {
+  std::vector<Json> documents;
+  std::string text;
+  for (int number = 1; std::getline(file, text); ++number) {
+    if (text.find_first_not_of(" \t\r") == std::string::npos) continue;
+    documents.push_back(parse_document(text, documents.empty() ? "CityJSON" : "CityJSONFeature", path,
+                                       fmt::format("line {} ", number)));
+  }
+  if (documents.empty()) throw FileError(path, "is not CityJSON");
+  return documents;
+}
+
+}  // namespace
+
+std::vector<Json> parse_city_json(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw FileError(path, "cannot be read");
+  if (ending_of(path) == ".jsonl") return parse_sequence(file, path);
+  std::vector<Json> documents;
+  documents.push_back(parse_document(file, "CityJSON", path, ""));
+  return documents;
 }
 
 const Json& member(const Json& object, const char* name) {
@@ -166,12 +198,28 @@ int depth_of(const std::string& type) {
   return 0;
 }
 
-CityJsonCounts::CityJsonCounts(const Json& model) : vertices(items_of(member(model, "vertices"), "vertices").size()) {
+std::string reference_system(const Json& document) {
+  const Json& metadata = member_or_empty(document, "metadata", Json::value_t::object);
+  if (!metadata.contains("referenceSystem") || metadata.at("referenceSystem").is_null()) return {};
+  const std::string text = text_member(metadata, "referenceSystem");
+  // The version between authority and code may be missing.
+  static const std::regex kCode("EPSG[:/][^:/,]*[:/]([0-9]+)|EPSG:([0-9]+)");
+  std::vector<std::string> codes;
+  for (std::sregex_iterator match(text.begin(), text.end(), kCode), end; match != end; ++match)
+    codes.push_back((*match)[1].matched ? (*match)[1] : (*match)[2]);
+  if (codes.empty() || codes.size() > 2) return text;
+  const std::string plan = "EPSG:" + codes.front();
+  // Some name a compound CRS and its own heights.
+  return codes.size() == 1 || parse_any_crs(plan, "referenceSystem").heights ? plan : plan + "+" + codes.back();
+}
+
+CityJsonCounts::CityJsonCounts(const Json& document, const Json& model)
+    : vertices(items_of(member(document, "vertices"), "vertices").size()) {
   using Kind = Json::value_t;
   const Json& shared = member_or_empty(model, "geometry-templates", Kind::object);
   templates = member_or_empty(shared, "templates", Kind::array).size();
   template_vertices = member_or_empty(shared, "vertices-templates", Kind::array).size();
-  const Json& appearance = member_or_empty(model, "appearance", Kind::object);
+  const Json& appearance = member_or_empty(document, "appearance", Kind::object);
   materials = member_or_empty(appearance, "materials", Kind::array).size();
   textures = member_or_empty(appearance, "textures", Kind::array).size();
   texture_vertices = member_or_empty(appearance, "vertices-texture", Kind::array).size();

@@ -17,8 +17,9 @@ class BadCityJson : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Reads a file. Throws FileError for one that cannot be read, or is no JSON object of type CityJSON.
-nlohmann::json parse_city_json(const std::string& path);
+/// Reads a file: a document, or a CityJSONSeq (.jsonl), whose first line is a document and whose further lines are
+/// features. Throws FileError for a file that cannot be read, or does not hold these.
+std::vector<nlohmann::json> parse_city_json(const std::string& path);
 
 // All of these functions throw BadCityJson.
 const nlohmann::json& member(const nlohmann::json& object, const char* name);
@@ -36,10 +37,15 @@ bool is_building(const nlohmann::json& city_object);
 double level_of_detail(const nlohmann::json& geometry);
 /// The number of arrays that enclose a surface; 0 for geometries without surfaces.
 int depth_of(const std::string& type);
+/// Returns the CRS that a document states, as GDAL understands it: "EPSG:7415" for "urn:ogc:def:crs:EPSG::7415" and
+/// "https://www.opengis.net/def/crs/EPSG/0/7415", and "EPSG:28992+5709" for a compound of two; empty where it states
+/// none.
+std::string reference_system(const nlohmann::json& document);
 
 /// The numbers of things that geometries refer to.
 struct CityJsonCounts {
-  explicit CityJsonCounts(const nlohmann::json& model);
+  /// Those of a document, or of a feature of one; `model` has the templates.
+  CityJsonCounts(const nlohmann::json& document, const nlohmann::json& model);
   std::size_t vertices, templates, template_vertices, materials, textures, texture_vertices;
 };
 

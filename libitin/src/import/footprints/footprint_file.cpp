@@ -1,6 +1,7 @@
 #include "import/footprints/footprint_file.hpp"
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -25,7 +26,8 @@ namespace {
 /// Tells CityJSON by the file's name, and by a word that the format asks for near the beginning: members come in any
 /// order.
 bool is_city_json(const std::string& path) {
-  if (const std::string ending = ending_of(path); ending != ".json" && ending != ".cityjson") return false;
+  constexpr std::array kEndings{".json", ".cityjson", ".jsonl"};
+  if (std::find(kEndings.begin(), kEndings.end(), ending_of(path)) == kEndings.end()) return false;
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(path, ignored)) return false;
   std::ifstream file(path, std::ios::binary);
@@ -97,6 +99,7 @@ FootprintSource read_layer(const std::string& path, const FootprintImport& impor
   query.kept = feature_query(options);
   query.crs = options.crs;
   query.height = options.height;
+  query.storey = options.storey;
   query.kind = feature_kind(*options.kind);
   query.roof = options.roof.value_or(query.roof);
   query.thickness = options.thickness.value_or(query.thickness);

@@ -18,6 +18,8 @@
 #include "features/united_parts.hpp"
 #include "gdal/crs.hpp"
 #include "gdal/quiet_gdal.hpp"
+#include "import/footprints/written_height.hpp"
+#include "import/source/crs_doubts.hpp"
 #include "import/source/findings.hpp"
 #include "import/source/source_context.hpp"
 #include "import/source/source_layer.hpp"
@@ -46,6 +48,9 @@ class FootprintLayer {
     const Crs crs = source_crs(query.path, query.crs, own ? wkt_of(*own) : std::string(), elevations());
     if (elevations() != Elevations::none && query.datums != nullptr) query.datums->add(crs, query.path);
     transform_.emplace(crs.wkt, to_crs, query.path);
+    OGREnvelope box;
+    if (layer_->GetExtent(&box) == OGRERR_NONE)
+      source_.warnings = crs_doubts(query.path, crs, {box.MinX, box.MinY, box.MaxX, box.MaxY});
     SourceHeights heights = source_heights(query.path, std::nullopt, crs);
     axis_ = std::move(heights.axis);
     source_.crs = std::move(heights.crs);
@@ -166,10 +171,12 @@ class FootprintLayer {
     return true;
   }
 
-  std::optional<double> number(const OGRFeature& feature, int index) {
+  /// Returns what stands in a field, in metres. A number counts units of this length; a text may have its own.
+  std::optional<double> metres_in(const OGRFeature& feature, int index, double unit) {
     if (index < 0 || !feature.IsFieldSetAndNotNull(index)) return std::nullopt;
     const OGRFieldDefn& definition = *feature.GetFieldDefnRef(index);
     const bool text = definition.GetType() == OFTString;
+    if (const auto written = text ? written_height(feature.GetFieldAsString(index)) : std::nullopt) return written;
     const double value = feature.GetFieldAsDouble(index);
     const bool number = !text || CPLGetValueType(feature.GetFieldAsString(index)) != CPL_VALUE_STRING;
     if (!number || std::isnan(value) || is_missing_mark(value)) {
@@ -178,20 +185,17 @@ class FootprintLayer {
       return std::nullopt;
     }
     if (is_mark(value)) return std::nullopt;
-    if (!is_height(value * axis_.metres))
-      require_height(value * axis_.metres,
-                     fmt::format("{}: feature {}: {}", query_.path, feature.GetFID(), definition.GetNameRef()));
-    return value;
+    const double metres = value * unit;
+    if (!is_height(metres))
+      require_height(metres, fmt::format("{}: feature {}: {}", query_.path, feature.GetFID(), definition.GetNameRef()));
+    return metres;
   }
 
   void add_heights(const OGRFeature& feature, FootprintFeature& footprint) {
-    const auto times = [](std::optional<double> value, double factor) {
-      if (value) *value *= factor;
-      return value;
-    };
-    footprint.height = times(number(feature, fields_.height), axis_.metres);
-    footprint.eaves = times(number(feature, fields_.eaves), axis_.metres);
-    footprint.base = times(number(feature, fields_.base), axis_.factor());
+    const double unit = query_.storey.value_or(axis_.metres);
+    footprint.height = metres_in(feature, fields_.height, unit);
+    footprint.eaves = metres_in(feature, fields_.eaves, unit);
+    footprint.base = metres_in(feature, fields_.base, axis_.factor());
     const bool has_z = lowest_ <= highest_ && (lowest_ != 0 || highest_ != 0);
     if (has_z && query_.z == FootprintZ::ignored) unused_z_ = true;
     if (has_z && query_.z == FootprintZ::base && !footprint.base) footprint.base = lowest_;

@@ -36,6 +36,7 @@ struct FootprintQuery {
   std::string base_field;        ///< elevation of the base; default: left to the terrain
   FeatureQuery kept;             ///< a feature without a name is called "feature" and its number in the file
   std::string crs;               ///< overrides the layer's own
+  std::optional<double> storey;  ///< metres; height_field and eaves_field count storeys of this height
   std::optional<double> height;  ///< metres; for features that have none in height_field
   FeatureKind kind = FeatureKind::building;
   RoofKind roof = RoofKind::flat;
@@ -54,9 +55,9 @@ struct FootprintSource {
 };
 
 /// Reads footprints, in the CRS `to_crs` (WKT). Heights are in the unit of the CRS's vertical part or axes, which may
-/// be feet. The base is a depth where the vertical part has depths; heights above it never are. A feature whose height
-/// is null has none. Throws FileError for a file, layer, field or filter that is missing or not readable, InputError
-/// for a CRS that is missing or unknown, Cancelled.
+/// be feet, unless a text states its own (written_height.hpp). The base is a depth where the vertical part has depths;
+/// heights above it never are. A feature whose height is null has none. Throws FileError for a file, layer, field or
+/// filter that is missing or not readable, InputError for a CRS that is missing or unknown, Cancelled.
 FootprintSource read_footprints(const FootprintQuery& query, const std::string& to_crs, const Grid& grid,
                                 Progress& progress);
 

@@ -21,6 +21,7 @@
 #include "import/rasters/raster_lattice.hpp"
 #include "import/rasters/raster_source.hpp"
 #include "import/rasters/raster_windows.hpp"
+#include "import/source/crs_doubts.hpp"
 #include "import/source/source_context.hpp"
 
 namespace itin {
@@ -77,6 +78,8 @@ class HeightRasterReading {
   void understand(const StoreMetadata& store) {
     const Crs crs = source_crs(query_.path, query_.crs, crs_text(*dataset_),
                                query_.absolute ? Elevations::in_coordinates : Elevations::none);
+    const RasterLattice lattice = lattice_of(*dataset_, query_.path);
+    result_.footprints.warnings = crs_doubts(query_.path, crs, lattice.box({0, 0, lattice.columns, lattice.rows}));
     if (!PointTransform(crs.wkt, store.crs_wkt, query_.path).identity())
       throw InputError(
           fmt::format("{}: is in {}, and the store in {}; bring it into the store's CRS first, with gdalwarp -t_srs",

@@ -32,6 +32,7 @@ class PointLayer final : public PointReader {
   Point2 centre() const override { return centre_; }
   double size_hint() const override { return static_cast<double>(layer_.matching()); }
   std::uint64_t without_geometry() const override { return without_geometry_; }
+  std::string warning() const override { return level_ ? layer_.zero_heights() : ""; }
   std::uint64_t read(const Sink& sink) override;
 
  private:
@@ -45,6 +46,7 @@ class PointLayer final : public PointReader {
   SourceLayer layer_;
   Point2 centre_;
   std::uint64_t without_geometry_ = 0;
+  bool level_ = false;  ///< Z was 0 throughout
 };
 
 PointLayer::PointLayer(const std::string& path, const ImportOptions& options)
@@ -102,6 +104,7 @@ std::uint64_t PointLayer::read(const Sink& sink) {
   std::uint64_t done = 0;
   bool any_height = false;
   const auto hand_on = [&] {
+    level_ = level_ && std::all_of(batch.z.begin(), batch.z.end(), [](double z) { return z == 0; });
     any_height = any_height || !std::all_of(batch.z.begin(), batch.z.end(), [](double z) { return std::isnan(z); });
     sink(batch,
          std::min(1.0, static_cast<double>(done) / static_cast<double>(std::max<std::uint64_t>(1, layer_.matching()))));
@@ -109,6 +112,7 @@ std::uint64_t PointLayer::read(const Sink& sink) {
   };
   layer_.rewind();
   without_geometry_ = 0;
+  level_ = !layer_.has_height_field();
   while (const auto feature = layer_.next()) {
     if (!has_geometry(*feature)) ++without_geometry_;
     add(*feature, batch);

@@ -61,6 +61,7 @@ class ScatteredTerrain final : public TerrainSource {
     if (const std::uint64_t none = reader_->without_geometry(); none > 0)
       counts.warnings.push_back(
           fmt::format("{}: {} without geometry left out", reader_->path(), counted(none, "feature")));
+    if (std::string warning = reader_->warning(); !warning.empty()) counts.warnings.push_back(std::move(warning));
     info_.spacing = mean_spacing(grid_.box(counts.bounds), counts.read);
     const double gap = max_gap_ > 0 ? max_gap_ : kGapSpacings * info_.spacing;
     info_.gap_basis = {gap, 0, 0, gap};

@@ -49,6 +49,8 @@ class PointReader {
   virtual Box extent() const { return {centre().x, centre().y, centre().x, centre().y}; }
   /// The number of features without geometry that read() has passed over.
   virtual std::uint64_t without_geometry() const { return 0; }
+  /// What read() has found to warn of; empty where it has found nothing.
+  virtual std::string warning() const { return {}; }
   /// How much there is to read, in bytes or points, whatever is at hand; progress is measured by it.
   virtual double size_hint() const = 0;
   /// Streams all points in bounded memory, and returns the number left out by class or attribute filter. Exceptions of

@@ -69,6 +69,8 @@ Crs source_crs(const std::string& path, const std::string& option_crs, const std
   if (crs.wkt.empty())
     throw InputError(fmt::format("{}: does not say its {}CRS; give it with `crs` EPSG:xxxx", path,
                                  given.heights || own.heights ? "horizontal " : ""));
+  crs.given = !given.wkt.empty();
+  if (crs.given && !own.wkt.empty() && !PointTransform(own.wkt, given.wkt, path).identity()) crs.overridden = own.wkt;
   crs.heights_given = given.heights.has_value();
   crs.heights = crs.heights_given ? given.heights : own.heights;
   // The ellipsoid is that of the file's own CRS, of which nothing is left where another one is given.

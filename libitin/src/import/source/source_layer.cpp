@@ -1,6 +1,7 @@
 #include "import/source/source_layer.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -18,6 +19,19 @@
 #include "gdal/source_path.hpp"
 
 namespace itin {
+
+namespace {
+
+/// Whether fields of heights are often called so.
+bool is_called_height(std::string name) {
+  std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return std::tolower(c); });
+  const auto is = [&](const char* other) { return name == other; };
+  const auto has = [&](const char* part) { return name.find(part) != std::string::npos; };
+  return is("z") || is("h") || is("alt") || has("elev") || has("height") || has("altitude") || has("contour") ||
+         has("hoehe") || has("hoogte");
+}
+
+}  // namespace
 
 GDALDatasetUniquePtr open_vector_file(const std::string& path, const char* const* options, const std::string& what) {
   require_plain_file(path);
@@ -136,6 +150,18 @@ double SourceLayer::height(const OGRFeature& feature) const {
     throw InputError(fmt::format("{}: {} '{}' is not a finite number", place(feature), field.GetNameRef(),
                                  feature.GetFieldAsString(height_field_)));
   return value;
+}
+
+std::string SourceLayer::zero_heights() const {
+  const OGRFeatureDefn& definition = *layer_->GetLayerDefn();
+  for (int i = 0; i < definition.GetFieldCount(); ++i) {
+    const OGRFieldDefn& field = *definition.GetFieldDefn(i);
+    const OGRFieldType type = field.GetType();
+    if ((type == OFTReal || type == OFTInteger || type == OFTInteger64) && is_called_height(field.GetNameRef()))
+      return fmt::format("{}: Z is 0 throughout; if heights are in the field '{}', give `z_field` {}", path_,
+                         field.GetNameRef(), field.GetNameRef());
+  }
+  return {};
 }
 
 std::string SourceLayer::place(const OGRFeature& feature) const {

@@ -68,6 +68,8 @@ class SourceLayer {
   OGRFeatureUniquePtr next() { return next_feature(*layer_, path_); }
   /// The value of the height field; NaN for null. Throws InputError.
   double height(const OGRFeature& feature) const;
+  /// Returns a warning about Z that is 0 throughout where the layer has a field of heights; empty where it has none.
+  std::string zero_heights() const;
   /// The place of a feature for messages: file, layer and feature.
   std::string place(const OGRFeature& feature) const;
 

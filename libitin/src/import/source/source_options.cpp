@@ -60,6 +60,7 @@ constexpr std::array kOptions{
            kLines | kFootprints | kCityModels},
     Option{"`attributes`", [](const ImportOptions& o) { return o.attributes.has_value(); },
            kLines | kFootprints | kCityModels},
+    Option{"`storey`", [](const ImportOptions& o) { return o.storey.has_value(); }, kFootprints},
     Option{"`thickness`", [](const ImportOptions& o) { return o.thickness.has_value(); }, kFootprints},
     Option{"`wall_offset`", [](const ImportOptions& o) { return o.wall_offset.has_value(); },
            kFootprints | kCityModels | kCells},

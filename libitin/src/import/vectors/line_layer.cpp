@@ -125,11 +125,14 @@ ReadCounts LineLayer::read(const SourceContext& context, const Sink& sink, Progr
   Findings findings(path());
   std::vector<GridPoint> points;
   std::uint64_t done = 0, vertices = 0;
+  bool level = is_terrain(kind_) && !layer_.has_height_field();  // as far as Z tells, at 0
   layer_.rewind();
   features_ = 0;
   while (const auto feature = layer_.next()) {
     progress.throw_if_cancelled();
     std::vector<Line> lines = lines_of(*feature);
+    for (const Line& line : lines)
+      level = level && std::all_of(line.z.begin(), line.z.end(), [](double z) { return z == 0; });
     std::size_t taken = 0;
     const char* why_not = has_geometry(*feature) ? kWithoutLength : "has no geometry";
     for (Line& line : lines) {
@@ -156,6 +159,8 @@ ReadCounts LineLayer::read(const SourceContext& context, const Sink& sink, Progr
   ReadCounts counts = placement.counts();
   counts.read = vertices;
   counts.filtered = layer_.filtered();
+  if (std::string warning = level ? layer_.zero_heights() : ""; !warning.empty())
+    counts.warnings.push_back(std::move(warning));
   for (std::string& line : findings.lines()) counts.warnings.push_back(std::move(line));
   for (std::string& line : fields_.warnings()) counts.warnings.push_back(std::move(line));
   describe(counts, context.grid, progress);
