@@ -59,6 +59,7 @@ constexpr std::array kNames{
     Names{"storey", "--storey"},
     Names{"thickness", "--thickness"},
     Names{"to", "--to"},
+    Names{"in_crs", "--in-crs"},
     Names{"to_crs", "--to-crs"},
     Names{"to_is_elevation", "--target-absolute"},
     Names{"tolerance", "--tolerance"},

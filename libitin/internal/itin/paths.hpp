@@ -31,13 +31,14 @@ struct BadPath {
 struct PathFile {
   std::vector<Path> paths;
   std::vector<BadPath> bad;           ///< in the file's order
-  std::vector<std::string> warnings;  ///< about names that were not plain text, a line each
+  std::vector<std::string> warnings;  ///< about names that were not plain text, and CRSs not used; a line each
 };
 
 /// Which lines of a file are read: by default all lines of all layers.
 struct PathChoice {
   std::string layer = {};  ///< the only layer to read; with `where` it may be empty if the file has but one
   std::string where = {};  ///< an attribute filter in OGR's SQL
+  std::string crs = {};    ///< the CRS of a file that states none, or one that is not defined or cannot be its own
 };
 
 /// Returns the chosen lines, in the file's order, in the CRS `to_crs` (WKT); a file that states no CRS is taken to be

@@ -28,8 +28,9 @@ struct SiteQuery {
   std::string height_field;  ///< metres; default: no heights
   std::string name_field;    ///< default: the feature's number
   std::vector<NumberField> numbers;
-  /// The CRS of a file that names none; it never overrides a file's own. Default: longitude and latitude where the
-  /// columns of a CSV file are called so (position_columns.hpp), else the CRS asked for.
+  /// The CRS of a file that names none, one that is not defined, or degrees that its coordinates cannot be; it
+  /// overrides no other. Default: longitude and latitude where the columns of a CSV file are called so
+  /// (position_columns.hpp), else the CRS asked for.
   std::string crs;
 };
 

@@ -79,7 +79,8 @@ struct LinkTable {
 /// longitudes in degrees and their letters. Semicolons or tabs may separate the columns, and a comma that cannot
 /// part thousands is decimal.
 ///
-/// The links are in the CRS `to_crs` (WKT). CSV tables are taken to be in `csv_crs`; if that is empty, in longitude and
+/// The links are in the CRS `to_crs` (WKT). CSV tables, and layers whose CRS is missing, not defined or
+/// cannot be theirs, are taken to be in `csv_crs`; if that is empty, in longitude and
 /// latitude where the header calls them so, else in `to_crs`. Throws FileError for a file that is missing or not
 /// understood, or has no such layer or field, InputError for an unknown CRS, for a header that has some of these names
 /// without the others, for a file without links, and for a choice that makes no sense, leaves nothing or is of the rows

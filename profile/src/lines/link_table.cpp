@@ -207,9 +207,9 @@ void warn_of_the_unused(const std::string& path, const std::vector<Path>& lines,
 }
 
 LinkTable read_lines(const std::string& path, const std::string& to_crs, const LinkHeights& heights,
-                     const LinkChoice& choice) {
+                     const std::string& crs, const LinkChoice& choice) {
   LinkTable table;
-  const PathFile file = read_path_file(path, to_crs, {choice.layer, choice.where});
+  const PathFile file = read_path_file(path, to_crs, {choice.layer, choice.where, crs});
   for (const Path& line : file.paths)
     table.links.push_back({line.id, line.corners.front(), heights.from_m, line.corners.back(), heights.to_m});
   table.warnings = file.warnings;
@@ -229,7 +229,7 @@ LinkTable read_link_table(const std::string& path, const std::string& to_crs, co
     require_no_choice(path, choice);
     LinkReader(path, to_crs, csv_crs, table).read();
   } else {
-    table = read_lines(path, to_crs, heights, choice);
+    table = read_lines(path, to_crs, heights, csv_crs, choice);
   }
   if (table.links.empty() && table.bad.empty())
     throw InputError(fmt::format("{}: holds no link; give rows id,x1,y1,h1,x2,y2,h2, or lines", path));

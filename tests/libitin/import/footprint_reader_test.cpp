@@ -113,6 +113,25 @@ TEST_F(FootprintReader, UsesZAsAsked) {
   EXPECT_EQ(read(query).features[0].height, 13);
 }
 
+TEST_F(FootprintReader, TakesThePlanOfModelsInThreeDimensions) {
+  const std::string faces =
+      "((300000 200000 0,300000 200010 0,300010 200010 0,300010 200000 0,300000 200000 0)),"
+      "((300000 200000 9,300010 200000 9,300010 200010 9,300000 200010 9,300000 200000 9)),"
+      "((300000 200000 0,300010 200000 0,300010 200000 9,300000 200000 9,300000 200000 0)),"
+      "((300000 200010 0,300000 200010 9,300010.001 200010 9,300010 200010 0,300000 200010 0))";
+  for (const std::string type : {"POLYHEDRALSURFACE Z", "MULTIPOLYGON Z"}) {
+    FootprintQuery query;
+    query.path = write("f.csv", "id,h,WKT\n1,9,\"" + type + "(" + faces + ")\"\n");
+    query.crs = "EPSG:27700";
+    query.height_field = "h";
+    const FootprintSource source = read(query);
+    ASSERT_EQ(source.features.size(), 1U) << type;
+    EXPECT_EQ(source.features[0].rings.size(), 1U) << type;
+    EXPECT_EQ(source.features[0].height, 9);
+    for (const std::string& line : source.warnings) EXPECT_EQ(line.find("crosses"), std::string::npos) << line;
+  }
+}
+
 TEST_F(FootprintReader, ReadsHeightsAsPeopleWriteThem) {
   const std::string square = "[[[300000,200000],[300010,200000],[300010,200010],[300000,200000]]]";
   FootprintQuery query;

@@ -131,10 +131,31 @@ class FootprintLayer {
       if (!band.empty()) parts.push_back(std::move(band));
       return true;
     }
+    if (type == wkbPolyhedralSurface || type == wkbTIN) return add_members(*geometry.toPolyhedralSurface(), parts);
     if (type != wkbMultiPolygon && type != wkbMultiLineString && type != wkbGeometryCollection) return false;
-    const OGRGeometryCollection& members = *geometry.toGeometryCollection();
-    return std::all_of(members.begin(), members.end(),
-                       [&](const OGRGeometry* member) { return add_parts(*member, parts); });
+    return add_members(*geometry.toGeometryCollection(), parts);
+  }
+
+  /// Adds all members but walls of models in three dimensions, which have no area in plan.
+  template <class Geometry>
+  bool add_members(const Geometry& geometry, std::vector<FeaturePart>& parts) {
+    for (const auto* member : geometry) {
+      if (!add_parts(*member, parts)) return false;
+      if (geometry.Is3D() && !parts.empty() && is_wall(parts.back())) parts.pop_back();
+    }
+    return true;
+  }
+
+  /// Whether a part is narrower in plan than a step of the grid.
+  bool is_wall(const FeaturePart& part) const {
+    double doubled_area = 0, length = 0;
+    const PlanRing& ring = part.front();
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const Point2 &a = ring[i], &b = ring[(i + 1) % ring.size()], &o = ring.front();
+      doubled_area += (a.x - o.x) * (b.y - o.y) - (b.x - o.x) * (a.y - o.y);
+      length += std::hypot(b.x - a.x, b.y - a.y);
+    }
+    return std::abs(doubled_area) < length * grid_.resolution;
   }
 
   void unite(const std::vector<FeaturePart>& parts, FootprintFeature& footprint) {

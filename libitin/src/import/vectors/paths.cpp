@@ -13,9 +13,9 @@
 #include <itin/plain_text.hpp>
 
 #include "gdal/archive.hpp"
-#include "gdal/crs.hpp"
 #include "gdal/quiet_gdal.hpp"
 #include "import/source/source_layer.hpp"
+#include "import/vectors/layer_crs.hpp"
 
 namespace itin {
 
@@ -67,10 +67,12 @@ std::vector<OGRLayer*> chosen_layers(GDALDataset& dataset, const std::string& pa
   return layers;
 }
 
-void add_lines_of(OGRLayer& layer, const std::string& path, const std::string& to_crs, PlainTexts& texts,
-                  PathFile& file) {
+void add_lines_of(OGRLayer& layer, const std::string& path, const std::string& crs, const std::string& to_crs,
+                  PlainTexts& texts, PathFile& file) {
   std::optional<CoordinateTransform> transform;
-  if (const OGRSpatialReference* own = layer.GetSpatialRef()) transform.emplace(wkt_of(*own), to_crs);
+  const LayerCrs own = crs_of_layer(layer, path, crs);
+  if (!own.wkt.empty()) transform.emplace(own.wkt, to_crs);
+  if (!own.warning.empty()) file.warnings.push_back(own.warning);
   while (const OGRFeatureUniquePtr feature = next_feature(layer, path)) {
     try {
       file.paths.push_back(path_of(*feature, transform ? &*transform : nullptr, texts));
@@ -90,9 +92,9 @@ PathFile read_path_file(const std::string& path, const std::string& to_crs, cons
   PlainTexts texts(path);
   for (OGRLayer* layer : chosen_layers(*dataset, path, choice)) {
     select_features(*layer, path, choice.where);
-    add_lines_of(*layer, path, to_crs, texts, file);
+    add_lines_of(*layer, path, choice.crs, to_crs, texts, file);
   }
-  file.warnings = texts.warnings();
+  for (std::string& line : texts.warnings()) file.warnings.push_back(std::move(line));
   return file;
 }
 

@@ -18,12 +18,12 @@
 #include <itin/written_position.hpp>
 
 #include "gdal/archive.hpp"
-#include "gdal/crs.hpp"
 #include "gdal/drivers.hpp"
 #include "gdal/network.hpp"
 #include "gdal/quiet_gdal.hpp"
 #include "gdal/source_path.hpp"
 #include "import/source/source_layer.hpp"
+#include "import/vectors/layer_crs.hpp"
 
 namespace itin {
 
@@ -185,8 +185,9 @@ Places::Places(PlaceFile& file, const SiteQuery& query, const std::string& to_cr
       wkt_ = file.field("WKT");
     }
   }
-  const OGRSpatialReference* own = file.layer().GetSpatialRef();
-  std::string from_crs = own != nullptr ? wkt_of(*own) : query.crs;
+  LayerCrs crs = crs_of_layer(file.layer(), query.path, query.crs);
+  if (!to_crs.empty()) crs_warning_ = std::move(crs.warning);
+  std::string from_crs = std::move(crs.wkt);
   if (from_crs.empty() && geographic_) from_crs = kGeographicColumnsCrs;
   if (!from_crs.empty() && !to_crs.empty()) transform_.emplace(from_crs, to_crs);
 }
@@ -267,9 +268,12 @@ Point2 Places::of_written(const std::string& text) {
 }
 
 std::vector<std::string> Places::warnings() const {
-  if (unused_height_.empty()) return {};
-  return {fmt::format("{}: the Z of its points is not used ({}); heights come from a field or an option", path_,
-                      unused_height_)};
+  std::vector<std::string> lines;
+  if (!crs_warning_.empty()) lines.push_back(crs_warning_);
+  if (unused_height_.empty()) return lines;
+  lines.push_back(fmt::format("{}: the Z of its points is not used ({}); heights come from a field or an option", path_,
+                              unused_height_));
+  return lines;
 }
 
 }  // namespace itin

@@ -60,9 +60,9 @@ class PlaceFile {
 /// Finds where the features of such a layer lie, in the CRS asked for.
 class Places {
  public:
-  /// `file` must outlive it. Places are read in the layer's own CRS or, where it states none, in query.crs. Failing
-  /// both, a table headed longitude and latitude is in kGeographicColumnsCrs, and anything else in the wanted CRS.
-  /// Throws InputError for a CRS that is unknown.
+  /// `file` must outlive it. Places are read in the CRS that crs_of_layer() tells, with query.crs as the one given.
+  /// Failing both, a table headed longitude and latitude is in kGeographicColumnsCrs, and anything else in the wanted
+  /// CRS. Throws InputError for a CRS that is unknown.
   Places(PlaceFile& file, const SiteQuery& query, const std::string& to_crs);
 
   struct Found {
@@ -70,7 +70,7 @@ class Places {
     std::string wrong;              ///< what is wrong with the place; then there are no positions
   };
   Found find(const OGRFeature& feature);
-  /// Tells of heights that points have and nobody uses; known after reading.
+  /// Tells of a CRS that is not used, and of heights that points have and nobody uses; known after reading.
   std::vector<std::string> warnings() const;
 
  private:
@@ -82,7 +82,7 @@ class Places {
   Point2 in_wanted_crs(Point2 place) const { return transform_ ? (*transform_)(place) : place; }
 
   PlaceFile& file_;
-  std::string path_, to_crs_;
+  std::string path_, to_crs_, crs_warning_;
   bool geographic_ = false;
   std::vector<int> columns_;  ///< the fields of x and y, or the one of written positions, of a table
   int wkt_ = -1;              ///< the field of well-known text, of a table without such columns
