@@ -46,9 +46,9 @@ struct DecidedCells {
   std::int64_t rows = 0;
 };
 
-/// Gets every rectangle of cells that an observer may see, as soon as all of it is decided: those nearest to an observer
-/// first where the surface fits into the memory at once, else all at the end. `result` has the final verdicts of the
-/// cells and the values of its mode there, but in mode kBlocker, which numbers blockers at the end. One call at
+/// Gets every rectangle of cells that an observer may see, as soon as all of it is decided: those nearest to an
+/// observer first where the surface fits into the memory at once, else all at the end. `result` has the final verdicts
+/// of the cells and the values of its mode there, but in mode kBlocker, which numbers blockers at the end. One call at
 /// a time, on any thread, which it keeps from deciding other cells meanwhile.
 using CellSink = std::function<void(const Result& result, const DecidedCells& cells)>;
 
