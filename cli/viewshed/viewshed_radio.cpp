@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <itin/error.hpp>
+#include <itin/precondition.hpp>
 #include <viewshed/area_text.hpp>
 #include <viewshed/documents.hpp>
 
@@ -69,6 +70,7 @@ void ViewshedRadio::validate() {
 }
 
 void ViewshedRadio::complete(viewshed::Request& request) const {
+  ITIN_PRECONDITION(is_given());
   request.mode = loss_ ? viewshed::Mode::kLoss : viewshed::Mode::kFresnel;
   request.radio = *wave_.path(request.earth);
   request.fresnel = {wavelength_m(request.radio.frequency_ghz), fraction_};

@@ -42,6 +42,11 @@ std::string without_progress(const std::string& text) {
 
 }  // namespace
 
+std::string tested_program() {
+  const char* const named = std::getenv("ITIN_PROGRAM");
+  return named != nullptr ? named : ITIN_PROGRAM;
+}
+
 Shell::Shell(const std::string& program) : directory_(fresh_directory()), beside_(fresh_directory()) {
   fs::create_directory(beside_ / "bin");
   fs::create_symlink(program, beside_ / "bin" / "itin");

@@ -13,10 +13,12 @@ struct Outcome {
   std::string err;  ///< without lines of progress
 };
 
+std::string tested_program();
+
 class Shell {
  public:
-  /// `program` is what `itin` runs.
-  explicit Shell(const std::string& program = ITIN_PROGRAM);
+  /// `program` is what `itin` runs: that of this build, unless the environment names another one in ITIN_PROGRAM.
+  explicit Shell(const std::string& program = tested_program());
   ~Shell();
   Shell(const Shell&) = delete;
   Shell& operator=(const Shell&) = delete;

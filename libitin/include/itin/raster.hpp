@@ -135,10 +135,9 @@ struct RasterDescription {
 };
 
 /// Writes a cloud-optimised GeoTIFF: tiled, compressed, with overviews (the most frequent value for classes, the
-/// nearest otherwise). Precondition: values.size() == grid.cell_count() * bands, with one band after the other. The
-/// file appears under its name only when it is complete; its bytes do not depend on the number of threads. Throws
-/// FileError if the place cannot be written or the file exists and may not be replaced; Cancelled, which leaves an
-/// existing file as it was.
+/// nearest otherwise). There are grid.cell_count() values a band, one band after the other. The file appears under its
+/// name only when it is complete; its bytes do not depend on the number of threads. Throws FileError if the place
+/// cannot be written or the file exists and may not be replaced; Cancelled, which leaves an existing file as it was.
 void write_raster(const std::string& path, const RasterGrid& grid, std::span<const std::uint8_t> values,
                   const RasterDescription& description, const Progress& progress = NoProgress());
 void write_raster(const std::string& path, const RasterGrid& grid, std::span<const std::uint16_t> values,

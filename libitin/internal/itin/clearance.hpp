@@ -11,6 +11,8 @@
 #include <algorithm>
 #include <optional>
 
+#include <itin/precondition.hpp>
+
 namespace itin {
 
 /// The Earth's surface against the chord between both ends of a line: the surface bulges above it, and straight ground
@@ -22,7 +24,10 @@ struct Bulge {
   double at(double distance) const { return drop * (distance * (length - distance)); }
   /// Returns where straight ground is highest against the line, if it gains `slope` on the line per unit of distance:
   /// the bulge is a parabola. Precondition: drop > 0.
-  double summit(double slope) const { return (length + slope / drop) / 2; }
+  double summit(double slope) const {
+    ITIN_PRECONDITION(drop > 0);
+    return (length + slope / drop) / 2;
+  }
 };
 
 /// A place of the ground under a line.
@@ -75,6 +80,7 @@ class LineOverGround {
 
   /// Returns the straight ground from a to b as a piece. Precondition: a is nearer to the start than b.
   ClearancePiece piece(const GroundPoint& a, const GroundPoint& b) const {
+    ITIN_PRECONDITION(a.distance < b.distance);
     const double slope = (b.z - a.z) / (b.distance - a.distance);
     return {a.distance, b.distance, start_z_ - (a.z - slope * a.distance),
             (end_z_ - start_z_) / length() - slope - bulge_.drop * length(), bulge_.drop};

@@ -19,6 +19,7 @@
 #include <vector>
 
 #include <itin/geometry.hpp>
+#include <itin/precondition.hpp>
 #include <itin/progress.hpp>
 #include <itin/theme.hpp>
 #include <itin/tin.hpp>
@@ -99,6 +100,7 @@ struct LatticeTin {
   /// Returns the cell's north-western post, followed by its north-eastern one; the southern ones come kPosts later.
   /// Precondition: read(cell).
   const std::int32_t* posts(std::uint32_t cell) const {
+    ITIN_PRECONDITION(read(cell));
     const std::uint32_t in_tile = cell % kCells;
     return tiles[cell >> 2 * kBits].heights->data() + in_tile + (in_tile >> kBits);
   }

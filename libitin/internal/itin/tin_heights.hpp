@@ -8,6 +8,7 @@
 #include <span>
 #include <utility>
 
+#include <itin/precondition.hpp>
 #include <itin/tin.hpp>
 
 namespace itin {
@@ -32,6 +33,7 @@ class RowSections {
 
   /// Returns the crossings from west to east. Precondition: lowest() <= y <= highest().
   std::pair<RowCrossing, RowCrossing> at(double y) const {
+    ITIN_PRECONDITION(lowest() <= y && y <= highest());
     const auto& [a, b, c] = corners_;
     RowCrossing p = cross(a, c, y);
     RowCrossing q = y < b.y ? cross(a, b, y) : cross(b, c, y);

@@ -5,6 +5,8 @@
 #include <map>
 #include <span>
 
+#include <itin/precondition.hpp>
+
 #include "geometry/whole_division.hpp"
 #include "lattice/lattice_frame.hpp"
 
@@ -49,7 +51,9 @@ LatticeSheet::LatticeSheet(const LatticeCell& first, std::int64_t columns, std::
       rows_(rows),
       box_(box_about(first.x, first.y, columns * first.side, rows * first.side, circle_margin(first.side))),
       heights_(static_cast<std::size_t>((columns + 1) * (rows + 1)), kNoPost),
-      disturbed_(heights_.size()) {}
+      disturbed_(heights_.size()) {
+  ITIN_PRECONDITION(std::max(columns, rows) * first.side < std::int64_t{1} << 31);
+}
 
 bool LatticeSheet::has(const LatticeCell& cell) const {
   if (cell.side != first_.side) return false;
@@ -99,6 +103,7 @@ void LatticeSheet::disturb(const GridBox& box) {
 }
 
 bool LatticeSheet::stands_alone(const LatticeCell& cell) const {
+  ITIN_PRECONDITION(has(cell));
   const std::size_t lower = place(cell.x, cell.y), upper = lower + static_cast<std::size_t>(columns_ + 1);
   return !disturbed_[lower] && heights_[lower] != kNoPost && heights_[lower + 1] != kNoPost &&
          heights_[upper] != kNoPost && heights_[upper + 1] != kNoPost;

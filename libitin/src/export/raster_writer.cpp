@@ -160,6 +160,8 @@ int go_on_unless_cancelled(double, const char*, void* progress) {
 template <class T>
 void write_cog(const std::string& path, const RasterGrid& grid, std::span<const T> values, GDALDataType type,
                const RasterDescription& description, const Progress& progress) {
+  if (values.empty() || values.size() % grid.cell_count() != 0)
+    throw InputError(fmt::format("{}: {} values are given for {} cells", path, values.size(), grid.cell_count()));
   PendingFile file(path, description.overwrite);
   const QuietGdal quiet;
   const CPLConfigOptionSetter no_side_files("GDAL_PAM_ENABLED", "NO", false);

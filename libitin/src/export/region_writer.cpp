@@ -6,6 +6,7 @@
 #include <gdal_priv.h>
 
 #include <itin/error.hpp>
+#include <itin/precondition.hpp>
 #include <itin/raster_regions.hpp>
 
 #include "export/geopackage.hpp"
@@ -89,6 +90,7 @@ void write_layer(const PendingFile& output, const RasterGrid& grid, Regions& reg
 template <class T>
 void write_polygons(const std::string& path, const RasterGrid& grid, std::span<const T> values, GDALDataType type,
                     const RegionDescription& description) {
+  ITIN_PRECONDITION(values.size() == grid.cell_count());
   const QuietGdal quiet;
   PendingFile output(path, description.overwrite);
   Regions regions;

@@ -8,6 +8,8 @@
 #include <optional>
 #include <set>
 
+#include <itin/precondition.hpp>
+
 #include "base/disjoint_sets.hpp"
 #include "base/stoppable.hpp"
 #include "features/mask_index.hpp"
@@ -216,6 +218,7 @@ class Arranging {
 }  // namespace
 
 Arrangement arrange(const std::vector<Patch>& patches, double offset, const Progress* progress) {
+  ITIN_PRECONDITION(offset >= 2);
   return Arranging(patches, offset, progress).run();
 }
 

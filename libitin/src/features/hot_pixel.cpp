@@ -1,5 +1,7 @@
 #include "features/hot_pixel.hpp"
 
+#include <itin/precondition.hpp>
+
 namespace itin {
 
 namespace {
@@ -62,6 +64,7 @@ class Interval {
 Position crossing_pixel(Position a, Position b, Position c, Position d) {
   // a + t (b - a) with t = area(a, c, d) / (area(a, c, d) - area(b, c, d)); areas are below 2^62, steps below 2^31.
   const Int128 from = doubled_area(c, d, a), to = doubled_area(c, d, b), whole = from - to;
+  ITIN_PRECONDITION(from != 0 && to != 0 && (from < 0) != (to < 0));
   const auto along = [&](std::int32_t start, std::int32_t end) {
     return static_cast<std::int32_t>(start + rounded_quotient(from * (std::int64_t{end} - start), whole));
   };

@@ -18,6 +18,7 @@
 
 #include <itin/error.hpp>
 #include <itin/network.hpp>
+#include <itin/precondition.hpp>
 
 namespace itin {
 
@@ -96,6 +97,7 @@ void settle_network() {
 }
 
 bool is_network_allowed() {
+  ITIN_PRECONDITION(network_state != Network::kOpen);
   return network_state == Network::kAllowed;
 }
 

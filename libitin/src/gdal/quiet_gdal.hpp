@@ -8,6 +8,8 @@
 #include <cpl_error.h>
 #include <cpl_port.h>
 
+#include <itin/precondition.hpp>
+
 #include "gdal/network.hpp"
 
 namespace itin {
@@ -36,7 +38,10 @@ class QuietGdal {
   }
 
  private:
-  static QuietGdal& innermost() { return *static_cast<QuietGdal*>(CPLGetErrorHandlerUserData()); }
+  static QuietGdal& innermost() {
+    ITIN_PRECONDITION(CPLGetErrorHandlerUserData() != nullptr);
+    return *static_cast<QuietGdal*>(CPLGetErrorHandlerUserData());
+  }
   static void CPL_STDCALL remember(CPLErr error_class, CPLErrorNum, const char* message) {
     QuietGdal& self = innermost();
     if (error_class < CE_Failure) {

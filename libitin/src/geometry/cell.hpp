@@ -9,6 +9,7 @@
 #include <cstdint>
 
 #include <itin/geometry.hpp>
+#include <itin/precondition.hpp>
 
 #include "geometry/predicates.hpp"
 
@@ -44,6 +45,7 @@ constexpr std::uint32_t gather(std::uint64_t v) {
 
 /// Returns the Morton code, 60 bits: x in the even bits, y in the odd ones. Precondition: both in [-2^29, 2^29).
 constexpr std::uint64_t morton(std::int32_t x, std::int32_t y) {
+  ITIN_PRECONDITION(x >= -kGridHalfSide && x < kGridHalfSide && y >= -kGridHalfSide && y < kGridHalfSide);
   return detail_morton::spread(static_cast<std::uint32_t>(x + kGridHalfSide)) |
          (detail_morton::spread(static_cast<std::uint32_t>(y + kGridHalfSide)) << 1);
 }

@@ -5,6 +5,7 @@
 #include <unordered_map>
 
 #include <itin/contour_lines.hpp>
+#include <itin/precondition.hpp>
 
 namespace itin {
 
@@ -133,6 +134,7 @@ class Contour {
 }  // namespace
 
 std::vector<std::vector<Point2>> contour_lines(const RasterGrid& grid, std::span<const float> values, double level) {
+  ITIN_PRECONDITION(values.size() == grid.cell_count());
   return Contour(grid, values, level).lines();
 }
 

@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include <itin/lattice_tin.hpp>
+#include <itin/precondition.hpp>
 
 namespace itin {
 
@@ -60,6 +61,7 @@ inline constexpr std::uint32_t kAlike = 8;
 /// Tells whether the kAlike cells of a row from this one on are all whole, and their neighbours in the tile have equal
 /// halves. Precondition: the row is neither the first nor the last of the tile.
 inline bool whole_and_alike(const std::array<std::uint8_t, LatticeTin::kCells>& halves, std::uint32_t first) {
+  ITIN_PRECONDITION(first >= LatticeTin::kSide && first + kAlike + LatticeTin::kSide <= LatticeTin::kCells);
   const auto eight = [&](std::uint32_t from) {
     std::uint64_t word;
     std::memcpy(&word, halves.data() + from, kAlike);

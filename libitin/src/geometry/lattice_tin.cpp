@@ -4,6 +4,7 @@
 #include <itin/box_of.hpp>
 #include <itin/lattice_tin.hpp>
 #include <itin/parallel.hpp>
+#include <itin/precondition.hpp>
 
 #include "geometry/cell.hpp"
 #include "geometry/lattice_edges.hpp"
@@ -103,6 +104,8 @@ Box LatticeTin::bounds() const {
 }
 
 Tin LatticeTin::tin() const {
+  ITIN_PRECONDITION(std::all_of(tiles.begin(), tiles.end(),
+                                [](const auto& tile) { return tile.ground == Ground::kNone || tile.heights; }));
   struct Used {
     std::uint64_t code;
     std::size_t post;

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <optional>
 
+#include <itin/precondition.hpp>
+
 #include "geometry/cell.hpp"
 
 namespace itin {
@@ -13,7 +15,9 @@ class MortonRange {
  public:
   /// Takes the part of `box` on the grid. Precondition: that part is not empty.
   explicit MortonRange(const GridBox& box)
-      : low_(morton(clamp(box.xmin), clamp(box.ymin))), high_(morton(clamp(box.xmax), clamp(box.ymax))) {}
+      : low_(morton(clamp(box.xmin), clamp(box.ymin))), high_(morton(clamp(box.xmax), clamp(box.ymax))) {
+    ITIN_PRECONDITION(exists(box));
+  }
 
   /// Tells whether the box has positions on the grid at all.
   static bool exists(const GridBox& box) {

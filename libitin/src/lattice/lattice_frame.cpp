@@ -1,8 +1,11 @@
 #include "lattice/lattice_frame.hpp"
 
+#include <itin/precondition.hpp>
+
 namespace itin {
 
 bool lay(const PostSpacing& of, const GridBox& box, LatticeTin& lattice) {
+  ITIN_PRECONDITION(of.found() && !box.empty());
   const std::int64_t spacing = of.spacing();
   const GridPoint& origin = of.origin();
   const auto floor_of = [&](std::int64_t v) { return v - ((v % spacing) + spacing) % spacing; };

@@ -12,6 +12,7 @@
 #include <itin/bucket_lists.hpp>
 #include <itin/lattice_reader.hpp>
 #include <itin/parallel.hpp>
+#include <itin/precondition.hpp>
 #include <itin/sort_unique.hpp>
 
 #include "lattice/lattice_cover.hpp"
@@ -353,6 +354,7 @@ LatticeTin LatticeReader::take() {
   return std::move(work_->lattice_);
 }
 std::int32_t LatticeReader::highest(std::uint32_t tile) const {
+  ITIN_PRECONDITION(tile < work_->highest_.size());
   return work_->highest_[tile];
 }
 void LatticeReader::read(std::span<const std::uint32_t> tiles, Progress& progress) {

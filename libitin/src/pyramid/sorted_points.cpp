@@ -8,6 +8,7 @@
 
 #include <itin/error.hpp>
 #include <itin/parallel.hpp>
+#include <itin/precondition.hpp>
 
 #include "base/temporary_file.hpp"
 
@@ -41,6 +42,7 @@ struct Run {
 class RunReader {
  public:
   RunReader(const TemporaryFile& file, Run run, std::uint64_t buffer_points) : file_(&file), rest_(run) {
+    ITIN_PRECONDITION(run.first < run.last);
     buffer_.resize(std::min(buffer_points, run.last - run.first));
     refill();
   }

@@ -2,6 +2,7 @@
 #include <numbers>
 
 #include <itin/diffraction.hpp>
+#include <itin/precondition.hpp>
 
 namespace itin {
 
@@ -77,6 +78,7 @@ double bullington_db(const PathSpan& span, std::span<const PathEdge> edges) {
 }
 
 SmoothEnds smooth_ends(std::span<const PathPoint> ground, const PathEnds& ends) {
+  ITIN_PRECONDITION(ground.size() >= 2);
   const double d = ends.length_m / 1000, from = ground.front().height_m, to = ground.back().height_m;
   double v1 = 0, v2 = 0;  // equations (161), (162)
   for (std::size_t i = 1; i < ground.size(); ++i) {
@@ -101,6 +103,7 @@ SmoothEnds smooth_ends(std::span<const PathPoint> ground, const PathEnds& ends) 
 
 DeltaBullington delta_bullington(std::span<const PathPoint> tops, std::span<const PathPoint> ground,
                                  const PathEnds& ends, const RadioPath& path) {
+  ITIN_PRECONDITION(!tops.empty() && ends.length_m > 0 && path.frequency_ghz > 0 && path.effective_earth_km > 0);
   const PathSpan span(ends, path);
   DeltaBullington loss;
   loss.smooth = smooth_ends(ground, ends);

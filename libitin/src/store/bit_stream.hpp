@@ -11,6 +11,8 @@
 #include <span>
 #include <vector>
 
+#include <itin/precondition.hpp>
+
 namespace itin {
 
 inline constexpr int kRiceEscape = 24;
@@ -23,12 +25,14 @@ class BitWriter {
 
   /// Writes the low `width` bits of v. Precondition: width <= 56.
   void bits(std::uint64_t v, int width) {
+    ITIN_PRECONDITION(width <= 56);
     pending_ |= (v & ((std::uint64_t{1} << width) - 1)) << count_;
     count_ += width;
     for (; count_ >= 8; count_ -= 8, pending_ >>= 8) out_.push_back(static_cast<std::uint8_t>(pending_));
   }
   /// Writes a Rice code. Precondition: v < 2^63.
   void rice(std::uint64_t v, int k) {
+    ITIN_PRECONDITION(v < std::uint64_t{1} << 63);
     if ((v >> k) < kRiceEscape) {
       const int zeros = static_cast<int>(v >> k);
       bits(std::uint64_t{1} << zeros, zeros + 1);
@@ -65,6 +69,7 @@ class BitReader {
 
   /// Reads `width` bits. Precondition: width <= 56.
   std::uint64_t bits(int width) {
+    ITIN_PRECONDITION(width <= 56);
     refill();
     const std::uint64_t v = pending_ & ((std::uint64_t{1} << width) - 1);
     drop(width);

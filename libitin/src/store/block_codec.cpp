@@ -7,6 +7,8 @@
 #include <optional>
 #include <utility>
 
+#include <itin/precondition.hpp>
+
 #include "store/bit_stream.hpp"
 #include "store/byte_stream.hpp"
 #include "store/height_predictor.hpp"
@@ -249,6 +251,11 @@ std::vector<GridPoint> plan_points(const Cell& cell, const Lattice& lattice, std
 
 std::vector<std::uint8_t> encode_block(const Cell& cell, std::span<const GridPoint> points,
                                        std::span<const std::uint16_t> sources) {
+  ITIN_PRECONDITION(!points.empty() && points.size() <= kMaxBlockPoints && sources.size() == points.size());
+  ITIN_PRECONDITION(std::adjacent_find(points.begin(), points.end(), [](const GridPoint& a, const GridPoint& b) {
+                      return code_of(a) >= code_of(b);
+                    }) == points.end());
+  ITIN_PRECONDITION(cell.contains(code_of(points.front())) && cell.contains(code_of(points.back())));
   const Lattice lattice = find_lattice(cell, points);
   std::vector<GridPoint> ordered(points.begin(), points.end());
   if (!lattice.scattered()) sort_by_rows(cell, lattice, ordered);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include <itin/precondition.hpp>
 #include <itin/sort_unique.hpp>
 
 #include "store/byte_stream.hpp"
@@ -62,6 +63,7 @@ void visit_edge_leaves(std::vector<Segment> segments, const Visit& visit) {
 }
 
 std::vector<std::uint8_t> encode_outline(const Cell& cell, const std::vector<Segment>& segments) {
+  ITIN_PRECONDITION(std::is_sorted(segments.begin(), segments.end()));
   std::vector<std::uint8_t> out;
   std::int64_t x = morton_x(cell.code), y = morton_y(cell.code);
   for (const Segment& s : segments) {

@@ -7,6 +7,8 @@
 #include <utility>
 #include <variant>
 
+#include <itin/precondition.hpp>
+
 namespace itin {
 
 namespace {
@@ -37,6 +39,7 @@ void HeightPredictor::begin_batch() {
 }
 
 std::int64_t HeightPredictor::predict() const {
+  ITIN_PRECONDITION(next_ > 0);
   const std::size_t j = next_ % kPointsOfBatch;
   if (!moderate_ || shares_[j] == nullptr) [[unlikely]]
     return predict_slowly();
@@ -79,6 +82,7 @@ std::int64_t HeightPredictor::predict_slowly() const {
 }
 
 void HeightPredictor::add(std::int64_t z) {
+  ITIN_PRECONDITION(std::abs(z) <= std::int64_t{1} << 33);
   last_ = z;
   moderate_ = moderate_ && std::abs(z) <= kModerateHeight;
   heights_[batch_.buckets[next_ % kPointsOfBatch]] = static_cast<double>(z);

@@ -7,6 +7,8 @@
 #include <deque>
 #include <utility>
 
+#include <itin/precondition.hpp>
+
 #include "geometry/cell.hpp"
 
 namespace itin {
@@ -19,6 +21,7 @@ class LeafCutter {
   LeafCutter(std::uint32_t capacity, Emit emit) : capacity_(capacity), emit_(std::move(emit)) {}
 
   void add(std::uint64_t code) {
+    ITIN_PRECONDITION(capacity_ >= 1 && (pending_.empty() || pending_.back() < code));
     pending_.push_back(code);
     while (pending_.size() > capacity_) cut();
   }

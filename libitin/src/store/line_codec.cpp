@@ -5,6 +5,7 @@
 #include <bit>
 #include <numeric>
 
+#include <itin/precondition.hpp>
 #include <itin/sort_unique.hpp>
 
 #include "store/bit_stream.hpp"
@@ -188,6 +189,9 @@ class LineReader {
 }  // namespace
 
 std::vector<std::uint8_t> encode_lines(const Cell& cell, const std::vector<Segment>& segments) {
+  ITIN_PRECONDITION(!segments.empty() && std::is_sorted(segments.begin(), segments.end()));
+  ITIN_PRECONDITION(std::all_of(segments.begin(), segments.end(),
+                                [&](const Segment& s) { return s.theme == segments.front().theme; }));
   const std::vector<Vertex> ends = ends_of(segments);
   const LineLattice lattice = lattice_of(ends);
   const bool forwards = are_ascending(segments);

@@ -9,6 +9,8 @@
 #include <CGAL/Triangulation_face_base_with_info_2.h>
 #include <CGAL/Triangulation_vertex_base_2.h>
 
+#include <itin/precondition.hpp>
+
 #include "triangulate/cgal_traits.hpp"
 
 namespace itin {
@@ -138,6 +140,8 @@ void Delaunay::insert(std::span<const Position> positions, std::span<const std::
   impl_->insert(points);
 }
 void Delaunay::constrain(std::span<const Constraint> constraints) {
+  ITIN_PRECONDITION(
+      std::none_of(constraints.begin(), constraints.end(), [](const Constraint& c) { return c.first == c.second; }));
   impl_->constrain(constraints);
 }
 PlaneMesh Delaunay::mesh() const {

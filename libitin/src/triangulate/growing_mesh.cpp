@@ -5,6 +5,7 @@
 #include <utility>
 
 #include <itin/error.hpp>
+#include <itin/precondition.hpp>
 #include <itin/sort_unique.hpp>
 
 namespace itin {
@@ -55,6 +56,7 @@ bool GrowingMesh::disturbs(Position p, std::uint32_t t) const {
 }
 
 void GrowingMesh::insert(std::uint32_t vertex) {
+  ITIN_PRECONDITION(!mesh_.triangles.empty());
   some_triangle_.resize(std::max<std::size_t>(some_triangle_.size(), vertex + std::size_t{1}), kNoTriangle);
   clear();
   const Place place = locate(position(vertex));
@@ -227,6 +229,7 @@ SegmentEdge GrowingMesh::edge_towards(std::uint32_t at, std::uint32_t to) const 
 }
 
 void GrowingMesh::lay(std::uint32_t from, std::uint32_t to, std::uint16_t theme) {
+  ITIN_PRECONDITION(some_triangle_.at(from) != kNoTriangle && some_triangle_.at(to) != kNoTriangle);
   const auto mark = [&](std::uint32_t t, const SegmentEdge& edge) {
     if (t == kNoTriangle) return;
     const int line = theme == kCoverage ? kLine | kOutline : kLine;

@@ -64,7 +64,7 @@ struct EndGrounds {
   double from_m = 0;
   double to_m = 0;
 };
-/// The elevations of the profile's own ends. Precondition: it has points.
+/// The elevations of the profile's own ends. Throws InputError where it has no points.
 EndGrounds ends_of(const Profile& profile);
 /// The profile's height at a distance, the greater one at a vertical face; nothing in a gap or beyond the points.
 /// O(log n).
@@ -95,7 +95,7 @@ struct SurfaceProfile {
   Profile profile;
 };
 /// The JSON document that `itin profile --json` prints, without the call and its outputs. `surface` in it is the
-/// surface of the first profile, with these themes. Precondition: at least one profile.
+/// surface of the first profile, with these themes. Throws InputError where there is no profile.
 std::string json_of(const StoreMetadata& metadata, const ThemeChoice& themes,
                     const std::vector<SurfaceProfile>& profiles);
 

@@ -41,15 +41,15 @@ struct PlannedHeights {
   double from_m = 0;
   double to_m = 0;
 };
-/// Finds the required heights. Precondition: the profile has ground at both ends and length_m > 0. Every height is good
-/// to 1e-9 relative to the profile's range of elevations; nothing is sampled. O(n) for each height.
+/// Finds the required heights. Throws InputError for a profile without ground at both ends, or without length. Every
+/// height is good to 1e-9 relative to the profile's range of elevations; nothing is sampled. O(n) for each height.
 RequiredHeights required_heights(const Profile& profile, const PlannedHeights& planned, const Requirement& requirement,
                                  const std::optional<EndGrounds>& grounds = {});
 
 inline constexpr int kCurvePoints = 25;
 /// Returns the second end's height against the first's, at kCurvePoints heights ascending in from_m; descending in
-/// to_m. Empty where `both_equal_m`, which required_heights() found, is nothing. Precondition and cost are those of
-/// required_heights().
+/// to_m. Empty where `both_equal_m`, which required_heights() found, is nothing. Throws, and costs, what
+/// required_heights() does.
 std::vector<HeightPair> height_curve(const Profile& profile, const PlannedHeights& planned,
                                      const Requirement& requirement, const std::optional<double>& both_equal_m,
                                      const std::optional<EndGrounds>& grounds = {});
@@ -73,7 +73,8 @@ struct VisibleHeight {
   std::optional<VisiblePart> hub;  ///< up to the hub, where there is one
 };
 
-/// Finds the visible part. `eye_m` is above what the first end stands on. Precondition: there is ground at both ends.
+/// Finds the visible part. `eye_m` is above what the first end stands on. Throws InputError without ground at both
+/// ends.
 VisibleHeight visible_height(const Profile& profile, double eye_m, const TallObject& object, const Earth& earth,
                              const std::optional<EndGrounds>& grounds = {});
 

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include <itin/error.hpp>
 #include <itin/store.hpp>
 #include <profile/profile.hpp>
 
@@ -41,6 +42,7 @@ std::vector<FeatureRun> feature_runs(const Profile& profile) {
 }
 
 EndGrounds ends_of(const Profile& profile) {
+  if (profile.points.empty()) throw InputError("the profile has no points, and so no ends");
   return {profile.points.front().ground_m, profile.points.back().ground_m};
 }
 

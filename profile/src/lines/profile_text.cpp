@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <itin/error.hpp>
+#include <itin/precondition.hpp>
 #include <profile/profile_text.hpp>
 
 namespace itin::profile {
@@ -41,6 +42,7 @@ char kind_letter(std::uint16_t theme, const std::vector<ThemeKind>& kinds) {
 }  // namespace
 
 std::string profile_text(const Profile& surface, const Profile& ground, const std::vector<ThemeKind>& kinds) {
+  ITIN_PRECONDITION(surface.gaps.empty());
   std::string text, before;
   for (const double d : distances_of(surface, ground)) {
     const std::string distance = fmt::format("{:.6f}", d / 1000);

@@ -3,6 +3,7 @@
 #include <limits>
 #include <vector>
 
+#include <itin/error.hpp>
 #include <profile/fresnel.hpp>
 #include <profile/required_heights.hpp>
 
@@ -203,10 +204,16 @@ double curve_end(const HeightDemand& demand, const PlannedHeights& planned, doub
   return std::max({std::min(alone, 3 * both), 1.5 * both, planned.from_m, 1.0});
 }
 
+void require_grounded_ends(const Profile& profile) {
+  if (!has_ground_at_ends(profile)) throw InputError("heights at the ends of a profile need ground at both ends");
+}
+
 }  // namespace
 
 RequiredHeights required_heights(const Profile& profile, const PlannedHeights& planned, const Requirement& requirement,
                                  const std::optional<EndGrounds>& grounds) {
+  require_grounded_ends(profile);
+  if (!profile.has_length()) throw InputError("required heights need a profile with a length");
   const HeightDemand demand(profile, requirement, grounds.value_or(ends_of(profile)));
   return {demand.from_alone(planned.to_m), demand.to_alone(planned.from_m), demand.both()};
 }
@@ -216,6 +223,7 @@ std::vector<HeightPair> height_curve(const Profile& profile, const PlannedHeight
                                      const std::optional<EndGrounds>& grounds) {
   std::vector<HeightPair> curve;
   if (!both_equal_m) return curve;
+  require_grounded_ends(profile);
   const HeightDemand demand(profile, requirement, grounds.value_or(ends_of(profile)));
   const double end = curve_end(demand, planned, *both_equal_m);
   for (int i = 0; i < kCurvePoints; ++i) {
@@ -227,6 +235,7 @@ std::vector<HeightPair> height_curve(const Profile& profile, const PlannedHeight
 
 VisibleHeight visible_height(const Profile& profile, double eye_m, const TallObject& object, const Earth& earth,
                              const std::optional<EndGrounds>& grounds) {
+  require_grounded_ends(profile);
   VisibleHeight seen;
   if (profile.has_length()) {
     const auto least = HeightDemand(profile, Requirement{earth}, grounds.value_or(ends_of(profile))).to_alone(eye_m);

@@ -1,4 +1,5 @@
 #include <itin/coordinates.hpp>
+#include <itin/error.hpp>
 #include <profile/documents.hpp>
 
 namespace itin::profile {
@@ -68,6 +69,7 @@ Document links_document(const StoreMetadata& metadata, const LinkTable& table, c
 
 std::string json_of(const StoreMetadata& metadata, const ThemeChoice& themes,
                     const std::vector<SurfaceProfile>& profiles) {
+  if (profiles.empty()) throw InputError("there is no profile to write");
   return result_text(profile_document(metadata, themes, profiles));
 }
 

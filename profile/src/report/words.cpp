@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <itin/grazing.hpp>
+#include <itin/precondition.hpp>
 #include <profile/report_text.hpp>
 
 #include "report/tables.hpp"
@@ -77,6 +78,7 @@ std::string least_fraction_text(const CriterionResult& result) {
 }
 
 std::string screen_text(const LosReport& report) {
+  ITIN_PRECONDITION(report.reflection.has_value());
   const Reflection& r = *report.reflection;
   if (!r.ground_m) return "unknown: there is no data at the point";
   if (!r.screen) return report.profile.gaps.empty() ? "clear" : "clear over known ground";

@@ -7,6 +7,7 @@
 #include <span>
 
 #include <itin/parallel.hpp>
+#include <itin/precondition.hpp>
 #include <itin/segment_distance.hpp>
 
 #include "line/hulls.hpp"
@@ -60,6 +61,7 @@ Point2 in_units(const Grid& units, Point2 p) {
 
 /// Tells whether the hull reaches the segment. Precondition: a place of the hull lies to the right of a -> b.
 bool meets_segment(const std::vector<Point2>& hull, Point2 a, Point2 b) {
+  ITIN_PRECONDITION(std::any_of(hull.begin(), hull.end(), [&](Point2 p) { return left_of(a, b, p) < 0; }));
   const bool crosses_straight = std::any_of(hull.begin(), hull.end(), [&](Point2 p) { return left_of(a, b, p) >= 0; });
   return crosses_straight && !beyond_a_side(hull, std::array{a, b});
 }

@@ -11,6 +11,8 @@
 #include <cstddef>
 #include <utility>
 
+#include <itin/precondition.hpp>
+
 #include "bounds/bin_bounds.hpp"
 #include "line/cell_tiles.hpp"
 
@@ -29,6 +31,7 @@ inline CellBlock all_of(const Tile& tile) {
 /// Calls visit(block) for the quarters that have cells. Precondition: there is more than one cell.
 template <class Visit>
 void for_each_quarter(const CellBlock& block, const Visit& visit) {
+  ITIN_PRECONDITION((block.row_end - block.row) * (block.column_end - block.column) > 1);
   const std::size_t row = block.row + (block.row_end - block.row + 1) / 2,
                     column = block.column + (block.column_end - block.column + 1) / 2;
   for (const auto& [first_row, row_end] : {std::pair(block.row, row), std::pair(row, block.row_end)})

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include <itin/grid_units.hpp>
+#include <itin/precondition.hpp>
 
 namespace itin::viewshed {
 
@@ -66,6 +67,7 @@ std::optional<double> surface_height(const Tin& tin, std::span<const std::uint32
 
 double height_over(const FallingSquare& square, Point2 units) {
   const double west = square.west, east = west + square.side, south = square.south;
+  ITIN_PRECONDITION(west < units.x && units.x < east && south < units.y && units.y < south + square.side);
   const double w = (units.y - south) / square.side;
   const auto at = [&](double x, std::int32_t lower, std::int32_t upper) {
     return RowCrossing{x, lower + w * (static_cast<double>(upper) - lower)};

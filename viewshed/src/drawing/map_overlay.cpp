@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include <itin/precondition.hpp>
 #include <itin/sort_unique.hpp>
 #include <viewshed/area_text.hpp>
 #include <viewshed/documents.hpp>
@@ -97,6 +98,7 @@ std::optional<Tint> MapOverlay::at(std::size_t cell) const {
 
 /// Returns the step of the scale that a cell shows, if any. Precondition: there is a scale.
 std::optional<std::size_t> MapOverlay::step_of(std::size_t cell) const {
+  ITIN_PRECONDITION(!steps_.empty());
   if (is_buried(cell)) return steps_.size() - 1;
   const double v = value(cell);
   if (std::isnan(v)) return std::nullopt;

@@ -13,12 +13,14 @@
 #include <itin/error.hpp>
 #include <itin/lattice_reader.hpp>
 #include <itin/level_choice.hpp>
+#include <itin/precondition.hpp>
 #include <itin/silent_progress.hpp>
 #include <itin/triangulate.hpp>
 #include <viewshed/surface.hpp>
 
 #include "bounds/boundary.hpp"
 #include "line/hulls.hpp"
+#include "plan/memory.hpp"
 #include "plan/sight_sectors.hpp"
 #include "progress/stopwatch.hpp"
 #include "request/request.hpp"
@@ -175,6 +177,7 @@ class LatticeSectors final : public SurfaceSource {
 std::optional<ViewshedWithSurface> compute_by_lattice_sectors(const Store& store, const Request& request,
                                                               std::uint64_t memory, const CellSink& sink,
                                                               Progress& progress) {
+  ITIN_PRECONDITION(takes_a_lattice(store, request));
   if (has_raised_features(store, request)) return std::nullopt;
   LatticeSectors source(store, request, memory, progress);
   std::optional<Result> result = run(source, request, sink, progress);

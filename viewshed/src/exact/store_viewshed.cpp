@@ -1,12 +1,14 @@
 #include "exact/store_viewshed.hpp"
 
 #include <itin/call_progress.hpp>
+#include <itin/precondition.hpp>
 #include <itin/triangulate.hpp>
 #include <viewshed/surface.hpp>
 #include <viewshed/viewshed.hpp>
 
 #include "modes/feature_names.hpp"
 #include "modes/triangle_studies.hpp"
+#include "plan/memory.hpp"
 #include "progress/stopwatch.hpp"
 #include "request/request.hpp"
 #include "request/request_window.hpp"
@@ -35,6 +37,7 @@ ViewshedWithSurface survey(const Request& request, ViewshedWithSurface computed,
 std::optional<ViewshedWithSurface> compute_over_lattice(const Store& store, const Request& request,
                                                         std::uint64_t most_posts, const CellSink& sink,
                                                         Progress& progress) {
+  ITIN_PRECONDITION(takes_a_lattice(store, request));
   Stopwatch watch;
   CallProgress call(progress);
   auto surface = retrieve_lattice(store, window_of(request), request.detail, request.themes,

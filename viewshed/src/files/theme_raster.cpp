@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 
+#include <itin/precondition.hpp>
 #include <itin/triangulate.hpp>
 #include <viewshed/theme_raster.hpp>
 
@@ -45,6 +46,7 @@ void mark_themes(const Tin& tin, const Box& within, const RasterGrid& grid, std:
 
 std::vector<std::uint8_t> theme_raster(const Store& store, const RasterGrid& grid, const Detail& detail,
                                        const ThemeChoice& themes, Progress& progress) {
+  ITIN_PRECONDITION(store.metadata().themes.size() <= 255);
   std::vector<std::uint8_t> values(grid.cell_count(), 0);
   NoProgress silent;
   for (std::int64_t row = 0; row < grid.rows(); row += kCellsAtOnce) {

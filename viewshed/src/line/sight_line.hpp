@@ -15,6 +15,7 @@
 #include <itin/clearance.hpp>
 #include <itin/geometry.hpp>
 #include <itin/grazing.hpp>
+#include <itin/precondition.hpp>
 
 #include "line/infinity.hpp"
 
@@ -39,6 +40,7 @@ class SightLine {
 
   /// Whether the triangle hides the one end from the other. Precondition: the ends differ horizontally.
   bool hidden_by(const GridPoint& a, const GridPoint& b, const GridPoint& c) const {
+    ITIN_PRECONDITION(dx_ != 0 || dy_ != 0);
     const Section under = section(a, b, c);
     return under.meets_line() && highest(under) > grazing_;
   }
@@ -102,6 +104,7 @@ class SightLine {
   /// Precondition: the line passes over the triangle.
   double highest_at(const GridPoint& a, const GridPoint& b, const GridPoint& c) const {
     const Section under = section(a, b, c);
+    ITIN_PRECONDITION(under.meets_line());
     const double first = std::max(under.low, 0.0), last = std::min(under.high, 1.0);
     double best = first;
     const auto consider = [&](double s) {

@@ -20,6 +20,8 @@
 #include <utility>
 #include <vector>
 
+#include <itin/precondition.hpp>
+
 namespace itin::viewshed {
 
 /// Returns the parts of `work` for which fits(part) holds. fits() is called once for each part, and may note in it what
@@ -73,6 +75,7 @@ std::pair<std::span<Piece>, std::span<Piece>> halves(std::span<Piece> pieces) {
 /// are at least two cells.
 template <class Cells, class Half>
 std::pair<Cells, Cells> halves(const Cells& cells, const Half& half) {
+  ITIN_PRECONDITION(cells.columns * cells.rows >= 2);
   Cells first = cells, rest = cells;
   if (cells.columns >= cells.rows) {
     first.columns = half(cells.columns);

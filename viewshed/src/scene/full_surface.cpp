@@ -9,6 +9,7 @@
 #include <itin/grazing.hpp>
 #include <itin/grid_units.hpp>
 #include <itin/lattice_tin.hpp>
+#include <itin/precondition.hpp>
 
 #include "line/infinity.hpp"
 #include "line/set_bits.hpp"
@@ -137,6 +138,7 @@ void FullSurface::cast_rays_to_targets(const Eye& eye, TileCells& work) const {
 }
 
 void FullSurface::cast_rays(const Earth& earth, const std::vector<Point2>& eyes) {
+  ITIN_PRECONDITION(surface_ != nullptr);
   rays_ = std::make_unique<const ExactRays>(*surface_, earth, eyes);
 }
 

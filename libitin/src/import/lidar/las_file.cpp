@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 
 #include <itin/error.hpp>
+#include <itin/precondition.hpp>
 
 namespace itin {
 
@@ -258,6 +259,7 @@ std::uint64_t LasFile::records_not_promised() const {
 }
 
 LasPoint LasFile::first_point() const {
+  ITIN_PRECONDITION(!header_.compressed && header_.point_count > 0);
   Bytes bytes(path_);
   std::array<char, 20> record{};
   bytes.read(header_.point_offset, record, "the first point");
@@ -265,6 +267,7 @@ LasPoint LasFile::first_point() const {
 }
 
 void LasFile::read(const Sink& sink) const {
+  ITIN_PRECONDITION(!header_.compressed);
   Bytes bytes(path_);
   const Decoder decode(header_);
   const std::uint64_t length = header_.record_length;

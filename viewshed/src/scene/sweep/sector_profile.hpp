@@ -12,6 +12,8 @@
 #include <optional>
 #include <vector>
 
+#include <itin/precondition.hpp>
+
 #include "bounds/bin_bounds.hpp"
 #include "line/infinity.hpp"
 
@@ -42,6 +44,7 @@ class Quadrant {
   /// The slab at a distance; the last one for distances beyond the bins, or the reach. Preconditions: along >= 0, and
   /// there are slabs.
   std::size_t slab_at(double along) const {
+    ITIN_PRECONDITION(along >= 0 && slabs() > 0);
     if (along <= first_end_) return 0;
     return std::min(slabs() - 1, static_cast<std::size_t>((along - first_end_) / static_cast<double>(kRun)) + 1);
   }

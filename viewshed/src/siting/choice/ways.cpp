@@ -3,6 +3,8 @@
 #include <set>
 #include <utility>
 
+#include <itin/precondition.hpp>
+
 namespace itin::viewshed {
 
 namespace {
@@ -135,6 +137,7 @@ bool ChoiceRules::holds_together(std::span<const std::size_t> chosen) const {
 }
 
 std::vector<std::size_t> Ways::to(std::size_t option) const {
+  ITIN_PRECONDITION(ways_.at(option).has_value());
   std::vector<std::size_t> result{option};
   while (const std::optional<std::size_t> before = ways_[result.back()]->before) result.push_back(*before);
   std::reverse(result.begin(), result.end());
