@@ -13,7 +13,7 @@ namespace itin {
 
 struct CelestialBody {
   Ellipsoid ellipsoid = kWgs84;
-  std::string geographic_crs = "EPSG:4326";  ///< of longitudes and latitudes in degrees
+  std::string geographic_crs = "EPSG:4326";  ///< CRS of longitudes and latitudes in degrees
   bool is_earth = true;
 
   /// The mean of the three half axes, metres.

@@ -44,7 +44,7 @@ std::string reference_system(const nlohmann::json& document);
 
 /// The numbers of things that geometries refer to.
 struct CityJsonCounts {
-  /// Those of a document, or of a feature of one; `model` has the templates.
+  /// Counts the things of a document, or of a feature of one; `model` has the templates.
   CityJsonCounts(const nlohmann::json& document, const nlohmann::json& model);
   std::size_t vertices, templates, template_vertices, materials, textures, texture_vertices;
 };
