@@ -28,7 +28,8 @@ namespace itin {
 struct SourceContext {
   Grid grid;
   std::string crs_wkt;
-  const ScaleMeter* scale = nullptr;  ///< of that CRS, for sources that may lie anywhere
+  /// The scale of that CRS; null for sources that are known to lie where it is true.
+  const ScaleMeter* scale = nullptr;
 };
 
 /// A file that was opened and understood. The constructor's work is bounded: headers, not points.
