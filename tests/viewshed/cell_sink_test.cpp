@@ -30,8 +30,9 @@ class Received {
     for (std::size_t cell = 0; cell < times_.size(); ++cell) {
       ASSERT_LE(times_[cell], 1) << cell;
       ASSERT_EQ(times_[cell] == 1 ? verdicts_[cell] : Verdict::kOutside, result.visible[cell]) << cell;
-      if (heights != nullptr && times_[cell] == 1)
+      if (heights != nullptr && times_[cell] == 1) {
         ASSERT_TRUE(test::same_bits(heights_[cell], heights->height_m[cell])) << cell;
+      }
     }
   }
 
