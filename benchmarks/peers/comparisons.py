@@ -58,6 +58,11 @@ def gdal_viewshed(dem, x, y, eye, target, radius, out):
             1 - REFRACTION, dem, out]
 
 
+def gdal_rasters(dem):
+    """Returns the names under which gdal_viewshed takes part, each with its raster."""
+    return ((GDAL, uncompressed(dem) if shutil.which(GDAL) else dem), (GDAL_DEFLATED, dem))
+
+
 def grass_viewshed(dem, eye, target, radius, out, *places):
     return [PEERS / "grass_viewshed.sh", dem, eye, target, radius, REFRACTION, out, *(f"{x},{y}" for x, y in places)]
 
@@ -71,7 +76,7 @@ def viewsheds(program, place, grass):
     dem = cut(place)
     contestants = [exact, seen("certified at 32 m", "--mode", "certified", "--tolerance", "32"),
                    *(seen(f"tolerance {t} m", "--tolerance", str(t)) for t in TOLERANCES)]
-    for who, heights in ((GDAL, uncompressed(dem)), (GDAL_DEFLATED, dem)):
+    for who, heights in gdal_rasters(dem):
         out = own(who) / "result.tif"
         contestants.append(Contestant(
             who, [gdal_viewshed(heights, place.x, place.y, 30, 2, place.radius, out)], out, tool=GDAL))
@@ -107,7 +112,7 @@ def section(program):
 def zone(program, grass):
     dem = raster("wales")
     contestants = [itin(program, "ztv", questions.Row("zone", "wales", questions.ZONE))]
-    for who, heights in ((GDAL, uncompressed(dem)), (GDAL_DEFLATED, dem)):
+    for who, heights in gdal_rasters(dem):
         contestants.append(Contestant(
             who, [gdal_viewshed(heights, x, y, TIP, 2, 40000, own(who) / f"{x}-{y}.tif") for x, y in TURBINES], tool=GDAL))
     if grass:

@@ -161,7 +161,7 @@ double bearing_of_nearest(const Zone& zone, const std::vector<Sight>& sights) {
 
 /// A part of the horizon, degrees.
 struct PartOfHorizon {
-  double bearing = 0;  ///< of its middle
+  double bearing = 0;  ///< the bearing of its middle
   double width = 0;
 };
 

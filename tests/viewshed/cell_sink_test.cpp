@@ -87,8 +87,9 @@ TEST_F(CellSinks, GetEveryCellOfEveryModeOnce) {
   const Store hills(stores_->hills()), town(stores_->town());
   for (const Mode mode : test::kEveryMode) {
     SCOPED_TRACE(static_cast<int>(mode));
-    Request over_hills = test::HillsAndTown::over_hills(), over_town = test::HillsAndTown::over_town();
-    over_hills.mode = over_town.mode = mode;
+    Request over_hills = test::HillsAndTown::in_mode(mode, test::HillsAndTown::over_hills()),
+            over_town = test::HillsAndTown::in_mode(mode, test::HillsAndTown::over_town());
+    over_hills.cell_size = 39, over_town.cell_size = 9;
     expect_same(hills, over_hills, {});
     expect_same(town, over_town, {});
   }
