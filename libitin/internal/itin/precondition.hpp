@@ -1,5 +1,5 @@
-// Preconditions that are checked where ITIN_CHECK_PRECONDITIONS is defined: in all presets but `release`. What a caller of
-// the installed headers may get wrong is an InputError instead, in every build.
+// Preconditions that are checked where ITIN_CHECK_PRECONDITIONS is defined: in all presets but `release`. What a caller
+// of the installed headers may get wrong is an InputError instead, in every build.
 #pragma once
 
 #include <cstdio>
