@@ -104,6 +104,7 @@ def section(program):
     one = one._replace(section=[*told, "--json", "--quiet", "--overwrite"])
     whole = WORK / "section/wales.ply"
     if not whole.exists():
+        whole.parent.mkdir(parents=True, exist_ok=True)
         quietly(program, "tin", store("wales", program), "--all", "--quiet", "-o", whole)
     tin = Contestant("explicit TIN in NumPy", [[PEERS / "section.py", "tin", whole, table("one_link")]], runs=1, tool="numpy")
     return Question([one, sampled("one_link"), tin], (NUMPY,))
