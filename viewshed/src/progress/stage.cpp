@@ -25,19 +25,25 @@ void Stage::advance_to(std::size_t step) {
 }
 
 void Stage::for_each(std::size_t count, const std::function<std::size_t(std::size_t)>& body) {
+  parallel_for(count, [&](std::size_t i) { take(i, body); });
+}
+
+void Stage::for_each_in_order(std::size_t count, const std::function<std::size_t(std::size_t)>& body) {
   std::atomic<std::size_t> next = 0;
   const auto take_steps = [&](std::size_t) {
     try {
-      for (std::size_t i = next++; i < count; i = next++) {
-        progress_.throw_if_cancelled();
-        advance(body(i));
-      }
+      for (std::size_t i = next++; i < count; i = next++) take(i, body);
     } catch (...) {
       next = count;  // the other threads end, too
       throw;
     }
   };
   parallel_for(std::min(count, static_cast<std::size_t>(thread_count())), take_steps);
+}
+
+void Stage::take(std::size_t i, const std::function<std::size_t(std::size_t)>& body) {
+  progress_.throw_if_cancelled();
+  advance(body(i));
 }
 
 /// Must run within the lock: else a thread could report what another has long passed.

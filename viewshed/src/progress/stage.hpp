@@ -28,11 +28,14 @@ class Stage {
   void advance(std::size_t steps);
   void advance_to(std::size_t step);
 
-  /// Runs body(i) for i in [0, count) on all threads, beginning them in this order; body returns how many steps it has
-  /// made. Throws Cancelled.
+  /// Runs body(i) for i in [0, count) on all threads; body returns how many steps it has made. Throws Cancelled.
   void for_each(std::size_t count, const std::function<std::size_t(std::size_t)>& body);
+  /// Does so, but begins them in their order. A thread then meets fewer neighbours one after the other, which costs up
+  /// to a tenth of the time where these share what they read.
+  void for_each_in_order(std::size_t count, const std::function<std::size_t(std::size_t)>& body);
 
  private:
+  void take(std::size_t i, const std::function<std::size_t(std::size_t)>& body);
   void report();
 
   const std::string name_;

@@ -54,10 +54,11 @@ class ViewshedCells {
   /// Advances the progress to all cells of the first `eyes` observers, even where these do not look at all of them.
   void advance_past(std::size_t eyes);
 
-  /// Runs body(i), which returns how many cells it has decided, for i in [0, count) on all threads. Throws Cancelled.
+  /// Runs body(i), which returns how many cells it has decided, for i in [0, count) on all threads, in their order
+  /// where a sink waits. Throws Cancelled.
   template <class Body>
   void for_each(std::size_t count, const Body& body) {
-    stage_.for_each(count, body);
+    sink_ ? stage_.for_each_in_order(count, body) : stage_.for_each(count, body);
   }
 
   /// Writes what has not been written of the cells and their counts to the result.
