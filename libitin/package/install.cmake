@@ -2,7 +2,7 @@
 include(CMakePackageConfigHelpers)
 
 set(ITIN_PACKAGE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/itin)
-foreach(library IN ITEMS itin viewshed profile)
+foreach(library IN ITEMS itin profile viewshed)
   set(target itin_${library})
   if(library STREQUAL itin)
     set(target itin)
@@ -46,7 +46,7 @@ if(have_pdal)
 endif()
 itin_pkgconfig(itin itin "Multiscale implicit TINs" "" "${libraries}")
 # Programs look in lib/itin for the module that draws maps.
-itin_pkgconfig(itin-viewshed itin-viewshed "Viewsheds on a multiscale implicit TIN" itin
+itin_pkgconfig(itin-viewshed itin-viewshed "Viewsheds on a multiscale implicit TIN" itin-profile
   "-lembree${ITIN_EMBREE_MAJOR} -lfmt -ldl -Wl,-rpath,\${libdir}/itin")
 itin_pkgconfig(itin-profile itin-profile "Lines of sight and radio links on a multiscale implicit TIN" itin
   "-lcairo -lfmt")
