@@ -13,6 +13,7 @@
 #include "judge/block_judge.hpp"
 #include "line/hulls.hpp"
 #include "line/infinity.hpp"
+#include "plan/effort.hpp"
 #include "plan/sight_sectors.hpp"
 #include "progress/stopwatch.hpp"
 #include "request/request.hpp"
@@ -23,9 +24,6 @@
 namespace itin::viewshed {
 
 namespace {
-
-/// About the share of the time that reading a whole level takes.
-constexpr double kReadingLevel = 0.4;
 
 class LevelSource : public SurfaceSource {
  public:
@@ -92,7 +90,9 @@ class WholeLevel final : public LevelSource {
   void read(Result& result, CallProgress& call) override {
     EnvelopeRequest wanted = certified_request(store_, request_);
     wanted.observers.clear();  // rays would begin there, and none is cast
-    level_.emplace(bounded(wanted, result.statistics, call.step(kReadingLevel)));
+    const std::uint64_t points = store_.points_about(wanted.level, box_of_window(store_, request_));
+    const Effort effort = effort_of_viewshed(request_, points, result.grid.cell_count(), SurfaceForm::kTriangles);
+    level_.emplace(bounded(wanted, result.statistics, call.step(effort.share_of_reading())));
   }
 
   void judge_from(const Eye& eye, ViewshedCells& cells) override {

@@ -8,6 +8,7 @@
 
 #include "modes/feature_names.hpp"
 #include "modes/triangle_studies.hpp"
+#include "plan/effort.hpp"
 #include "plan/memory.hpp"
 #include "progress/stopwatch.hpp"
 #include "request/request.hpp"
@@ -19,10 +20,11 @@ namespace itin::viewshed {
 
 namespace {
 
-/// About the shares of the time left that reading takes, for one observer.
-constexpr double kReadingPosts = 0.3;
-double share_of_triangulating(const Request& request) {
-  return request.mode == Mode::kLoss ? 0.05 : 0.6;
+/// About the share of the time that reading takes.
+double share_of_reading(const Store& store, const Request& request, SurfaceForm form) {
+  const std::uint64_t points = points_about(store, request.detail, box_of_window(store, request));
+  const std::uint64_t cells = cells_of(request, extent_of(store)).cell_count();
+  return effort_of_viewshed(request, points, cells, form).share_of_reading();
 }
 
 ViewshedWithSurface survey(const Request& request, ViewshedWithSurface computed, double seconds, const CellSink& sink,
@@ -42,7 +44,7 @@ std::optional<ViewshedWithSurface> compute_over_lattice(const Store& store, cons
   CallProgress call(progress);
   auto surface = retrieve_lattice(store, window_of(request), request.detail, request.themes,
                                   heights_for(request, store.points_about(0, box_of_window(store, request))),
-                                  most_posts, call.step(kReadingPosts));
+                                  most_posts, call.step(share_of_reading(store, request, SurfaceForm::kPosts)));
   if (!surface) return std::nullopt;
   return survey(request, {std::make_shared<Surface>(std::move(*surface)), std::nullopt, true, {}}, watch.lap(), sink,
                 call.step(1));
@@ -55,16 +57,15 @@ ViewshedWithSurface compute_over_tin(const Store& store, const Request& request,
   ViewshedWithSurface computed;
   computed.surface = std::make_shared<Surface>();
   Tin& tin = computed.surface->tin;
-  tin = triangulate(store, window_of(request), request.detail, call.step(share_of_triangulating(request)),
-                    request.themes);
+  const double share = share_of_reading(store, request, SurfaceForm::kTriangles);
+  tin = triangulate(store, window_of(request), request.detail, call.step(share), request.themes);
   computed.surface->extent = extent_of(store);
   const double seconds = watch.lap();
   // Beside a feature the surface differs from the ground in the last digits, even where the window holds no part of the
   // feature.
   const bool on_ground = !(request.observers_on_surface && request.targets_on_surface);
   if (has_raised_features(store, request) && (on_ground || needs_bare_lines(request)))
-    computed.ground = triangulate(store, window_of(request), request.detail, call.step(share_of_triangulating(request)),
-                                  ThemeChoice::none());
+    computed.ground = triangulate(store, window_of(request), request.detail, call.step(share), ThemeChoice::none());
   return survey(request, std::move(computed), seconds, sink, call.step(1));
 }
 

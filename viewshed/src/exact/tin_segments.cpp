@@ -18,9 +18,9 @@
 #include "judge/exact_judge.hpp"
 #include "line/tile_parts.hpp"
 #include "plan/azimuth_order.hpp"
+#include "plan/ground_runs.hpp"
 #include "plan/ground_tiles.hpp"
 #include "plan/memory.hpp"
-#include "plan/partition.hpp"
 #include "progress/stopwatch.hpp"
 #include "request/request.hpp"
 #include "request/request_window.hpp"
@@ -149,13 +149,8 @@ class TinSegments final : public SurfaceSource {
     cells.observe(portion);
   }
 
-  struct GroundSegment {
-    std::vector<std::size_t> cells;  ///< the numbers of their tiles
-    TileSet ground;                  ///< all ground that they need
-  };
-
-  /// Returns segments of tiles of cells next to each other in azimuth, as many tiles together as the memory holds.
-  std::vector<GroundSegment> segments(const Eye& eye, const std::vector<TileSet>& needed) const {
+  /// Returns runs of tiles of cells next to each other in azimuth, as many tiles together as the memory holds.
+  std::vector<GroundRun> segments(const Eye& eye, const std::vector<TileSet>& needed) const {
     std::vector<std::size_t> order;
     for (std::size_t tile = 0; tile < needed.size(); ++tile)
       if (!needed[tile].empty()) order.push_back(tile);
@@ -164,14 +159,9 @@ class TinSegments final : public SurfaceSource {
       return tiles_.centre(cell.column, cell.row);
     };
     sort_by_azimuth(eye.position, centre, order);
-    const auto fits = [&](const TileSet& ground) { return ground_->points(ground) <= budget(); };
-    std::vector<GroundSegment> result;
-    for (std::span<const std::size_t> left = order; !left.empty(); left = left.subspan(result.back().cells.size())) {
-      const auto with = [&](TileSet ground, std::size_t i) { return ground |= needed[left[i]]; };
-      auto run = longest_run(left.size(), TileSet(ground_->count()), with, fits);
-      result.push_back({{left.begin(), left.begin() + static_cast<std::ptrdiff_t>(run.count)}, std::move(run.sum)});
-    }
-    return result;
+    return ground_runs(
+        order, ground_->count(), [&](std::size_t tile) -> const TileSet& { return needed[tile]; },
+        [&](const TileSet& ground) { return ground_->points(ground) <= budget(); });
   }
 
   Window window_over(const std::vector<std::size_t>& cells) const {

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <optional>
 #include <span>
 
@@ -21,13 +22,14 @@
 
 #include "horizon/panorama.hpp"
 #include "modes/first_blocker.hpp"
+#include "plan/ground_runs.hpp"
 #include "plan/ground_tiles.hpp"
 #include "plan/memory.hpp"
-#include "plan/partition.hpp"
 #include "progress/stage.hpp"
 #include "request/eye.hpp"
 #include "request/request.hpp"
 #include "request/request_window.hpp"
+#include "run/segments.hpp"
 #include "window/retrieval.hpp"
 
 namespace itin::viewshed {
@@ -35,6 +37,9 @@ namespace itin::viewshed {
 namespace {
 
 using Heights = std::vector<std::optional<double>>;
+
+/// Finding the highest point in a direction takes about as long as this many lines.
+constexpr double kSkyOfLines = 20;
 
 /// Sections over missing ground may keep this part of the memory.
 constexpr std::uint64_t kPartForSections = 8;
@@ -81,12 +86,12 @@ class Survey {
   }
 
   /// Casts the lines in these directions over the surface under all of them.
-  void cast(const Tin& surface, Directions directions, Stage& stage) {
+  void cast(const Tin& surface, Directions directions, Progress& progress) {
     const Panorama panorama(surface, request_.earth, eye_, reach_);
     std::optional<FirstBlocker> blockers;
     if (std::any_of(directions.begin(), directions.end(), [](const Direction& d) { return d.target; }))
       blockers.emplace(surface, request_.earth);
-    stage.for_each(directions.size(), [&](std::size_t i) -> std::size_t {
+    for_each_step(directions.size(), "horizon", progress, [&](std::size_t i) {
       const Direction& d = directions[i];
       if (d.target) {
         const Point3 to = units_of(result_.targets[d.index]);
@@ -95,7 +100,6 @@ class Survey {
       } else {
         result_.points[d.index].sky = panorama.sky(result_.points[d.index].azimuth_deg);
       }
-      return 1;
     });
   }
 
@@ -205,8 +209,7 @@ Horizon horizon(const Tin& surface, const Tin& ground, const Request& request, c
   for (const Point2& target : positions_of(options.targets))
     below.push_back(height_on(request.targets_on_surface ? surface : ground, target));
   Survey survey(request, options, surface.grid, eye, greatest_reach(request, surface.bounds()), below);
-  Stage stage("horizon", survey.directions().size(), progress);
-  survey.cast(surface, survey.directions(), stage);
+  survey.cast(surface, survey.directions(), progress);
   return std::move(survey).result();
 }
 
@@ -222,19 +225,23 @@ Horizon horizon(const Store& store, const Request& request, const HorizonOptions
   const std::uint64_t most = points_within(compute_options.memory_bytes, store, request);
   const GroundTiles ground(store, level_within(store.metadata(), request.detail.finest()),
                            box_of_window(store, request));
-  Stage stage("horizon", survey.directions().size(), progress);
-  for (Directions left = survey.directions(); !left.empty();) {
-    const auto run = longest_run(
-        left.size(), TileSet(ground.count()),
-        [&](TileSet tiles, std::size_t i) {
-          ground.add_line(eye.position, survey.end_of(left[i]), tiles);
-          return tiles;
-        },
-        [&](const TileSet& tiles) { return ground.points(tiles) <= most; });
-    const Tin surface = triangulate(store, ground.window(run.sum), request.detail, quiet, request.themes);
-    survey.cast(surface, left.first(run.count), stage);
-    left = left.subspan(run.count);
-  }
+  std::vector<std::size_t> all(survey.directions().size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  const auto needed = [&](std::size_t direction) {
+    TileSet tiles(ground.count());
+    ground.add_line(eye.position, survey.end_of(survey.directions()[direction]), tiles);
+    return tiles;
+  };
+  const auto runs =
+      ground_runs(all, ground.count(), needed, [&](const TileSet& tiles) { return ground.points(tiles) <= most; });
+  const auto effort = [&](const GroundRun& run) {
+    return Effort{effort_of_triangles(ground.points(run.ground)),
+                  kSkyOfLines * effort_of_lines(static_cast<double>(run.pieces.size()))};
+  };
+  for_each_segment(runs, effort, progress, [&](const GroundRun& run, SegmentProgress& of_run) {
+    const Tin surface = triangulate(store, ground.window(run.ground), request.detail, of_run.reading(), request.themes);
+    survey.cast(surface, survey.directions().subspan(run.pieces.front(), run.pieces.size()), of_run.judging());
+  });
   Horizon result = std::move(survey).result();
   heed_missing_ground(store, request, compute_options, result);
   return result;

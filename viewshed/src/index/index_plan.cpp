@@ -27,7 +27,7 @@ class IndexPlan {
     std::vector<IndexSegment> segments;
     for (const Block& block : parts_that_fit(
              Block{cells, {}, 0}, [&](Block& b) { return fits(b); }, [&](const Block& b) { return cut(b); }))
-      if (!block.ground.empty()) segments.push_back({block.cells, Window::box(block.ground)});
+      if (!block.ground.empty()) segments.push_back({block.cells, Window::box(block.ground), block.points});
     return segments;
   }
 

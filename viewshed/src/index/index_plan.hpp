@@ -18,7 +18,8 @@ namespace itin::viewshed {
 
 struct IndexSegment {
   CellRectangle cells;
-  Window window;  ///< holds every sight line of their observers
+  Window window;         ///< holds every sight line of their observers
+  std::uint64_t points;  ///< about how many points of the surface it holds
 };
 
 /// Whether a surface of about `points` points fits into the memory, where `lines` sight lines are tested over it.

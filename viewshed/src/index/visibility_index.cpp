@@ -6,10 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include <itin/call_progress.hpp>
 #include <itin/error.hpp>
-#include <itin/silent_progress.hpp>
-#include <itin/triangulate.hpp>
 #include <viewshed/surface.hpp>
 #include <viewshed/visibility_index.hpp>
 
@@ -18,6 +15,8 @@
 #include "index/visibility_sampler.hpp"
 #include "plan/memory.hpp"
 #include "progress/stage.hpp"
+#include "run/segments.hpp"
+#include "run/surface_reader.hpp"
 
 namespace itin::viewshed {
 
@@ -45,12 +44,11 @@ double standard_error(const VisibilitySampler::Tally& tally) {
 /// Samples an index segment by segment.
 class IndexWork {
  public:
-  IndexWork(const Store& store, const IndexRequest& request, Progress& progress)
+  IndexWork(const Store& store, const IndexRequest& request)
       : store_(store),
         request_(request),
         has_raised_(request.themes.includes_raised(store.metadata().themes)),
-        progress_(progress),
-        quiet_(progress) {
+        reader_(store, request.detail, read_) {
     index_.grid =
         RasterGrid::aligned(request.area.is_all() ? extent_of(store) : request.area.bounds(), request.cell_size);
     const std::uint64_t bytes = kBytesPerCell * index_.grid.cell_count();
@@ -62,20 +60,20 @@ class IndexWork {
   }
 
   /// Plans for posts first: where all ground under a segment is posts of a lattice, there is room for far more of them.
-  VisibilityIndex run() {
+  VisibilityIndex run(Progress& progress) {
     const auto posts_fit = [&](std::uint64_t points, std::uint64_t) { return points <= memory_ / kBytesPerPost; };
-    const auto segments = plan(all_cells(index_.grid), posts_fit);
-    for (const IndexSegment& segment : segments) {
-      auto lattice = retrieve_lattice(store_, segment.window, request_.detail, request_.themes,
-                                      LatticeReader::Heights::kAll, kAnyLattice, quiet_);
-      if (lattice) {
-        sample(segment, *lattice, std::nullopt);
-      } else {
-        sample_triangles(segment.cells, segments.size() == 1);
-      }
-    }
+    const auto effort = [&](const IndexSegment& s) {
+      return Effort{effort_of_posts(s.points), effort_of_lines(static_cast<double>(lines_of(s)))};
+    };
+    for_each_segment(
+        plan(all_cells(index_.grid), posts_fit), effort, progress,
+        [&](const IndexSegment& segment, SegmentProgress& of_segment) {
+          if (const auto lattice = reader_.lattice(segment.window, request_.themes, kAnyLattice, of_segment.reading()))
+            sample(segment, *lattice, std::nullopt, of_segment);
+          else
+            sample_triangles(segment.cells, of_segment.judging());
+        });
     summarise();
-    progress_.finish();
     return std::move(index_);
   }
 
@@ -84,38 +82,39 @@ class IndexWork {
     return index_segments(store_, request_, index_.grid, cells, fits);
   }
 
-  /// `all`: the cells are those of the whole index.
-  void sample_triangles(const CellRectangle& cells, bool all) {
-    const auto parts = plan(cells, [&](std::uint64_t points, std::uint64_t lines) {
+  std::uint64_t lines_of(const IndexSegment& segment) const { return segment.cells.count() * request_.targets; }
+
+  void sample_triangles(const CellRectangle& cells, Progress& progress) {
+    const auto fit = [&](std::uint64_t points, std::uint64_t lines) {
       const std::uint64_t ground = has_raised_ ? SampledSurface::bytes(points, 0) : 0;
       return SampledSurface::bytes(points, lines) + ground <= memory_;
-    });
-    const bool at_once = all && parts.size() == 1;
-    Progress& reading = at_once ? static_cast<Progress&>(progress_) : quiet_;
-    const auto triangulated = [&](const IndexSegment& part, const ThemeChoice& themes) {
-      if (at_once) progress_.step(kTriangulating);
-      return Surface{triangulate(store_, part.window, request_.detail, reading, themes), nullptr, {}};
     };
-    for (const IndexSegment& part : parts)
-      sample(part, triangulated(part, request_.themes),
-             has_raised_ ? std::optional(triangulated(part, ThemeChoice::none())) : std::nullopt);
+    const auto effort = [&](const IndexSegment& s) {
+      return Effort{(has_raised_ ? 2 : 1) * effort_of_triangles(s.points),
+                    effort_of_lines(static_cast<double>(lines_of(s)))};
+    };
+    for_each_segment(plan(cells, fit), effort, progress, [&](const IndexSegment& part, SegmentProgress& of_part) {
+      const auto triangulated = [&](const ThemeChoice& themes, double share) {
+        return Surface{reader_.triangles(part.window, themes, of_part.reading(share)), nullptr, {}};
+      };
+      const Surface surface = triangulated(request_.themes, has_raised_ ? 0.5 : 1);
+      std::optional<Surface> bare;
+      if (has_raised_) bare = triangulated(ThemeChoice::none(), 1);
+      sample(part, surface, bare, of_part);
+    });
   }
 
   /// Targets and eyes stand on the bare ground where that is another surface.
-  void sample(const IndexSegment& segment, const Surface& retrieved, const std::optional<Surface>& bare) {
-    index_.retrieval += retrieved.statistics();
-    index_.triangles += retrieved.triangle_count();
+  void sample(const IndexSegment& segment, const Surface& retrieved, const std::optional<Surface>& bare,
+              SegmentProgress& progress) {
     if (retrieved.triangle_count() == 0) return;
-    const SampledSurface surface(retrieved, request_.earth, segment.cells.count() * request_.targets);
+    const SampledSurface surface(retrieved, request_.earth, lines_of(segment));
     std::optional<SampledSurface> ground;
     if (bare) ground.emplace(*bare, request_.earth, 0);
     const VisibilitySampler sampler(surface, ground ? *ground : surface,
                                     {request_.radius, request_.target_height, request_.targets}, request_.nodata);
-    if (!stage_) stage_.emplace("observers", index_.grid.cell_count(), progress_.step(1));
-    stage_->for_each(segment.cells.count(), [&](std::size_t i) {
-      sample(sampler, segment.cells.cell(i));
-      return std::size_t{1};
-    });
+    for_each_step(segment.cells.count(), "observers", progress.judging(),
+                  [&](std::size_t i) { sample(sampler, segment.cells.cell(i)); });
   }
 
   void sample(const VisibilitySampler& sampler, RasterGrid::Cell cell) {
@@ -138,6 +137,8 @@ class IndexWork {
   }
 
   void summarise() {
+    index_.retrieval = read_.retrieval;
+    index_.triangles = read_.triangles;
     if (index_.triangles == 0) throw InputError("the area holds no ground");
     if (!any_eye_) throw InputError("no cell's centre lies on ground in the area; give smaller cells");
     double variance = 0;
@@ -159,16 +160,14 @@ class IndexWork {
   }
 
   static constexpr std::uint64_t kBytesPerCell = 24;
-  static constexpr double kTriangulating = 0.3;  ///< its share of the time, about
 
   const Store& store_;
   const IndexRequest& request_;
   bool has_raised_;  ///< whether the request names raised themes
-  CallProgress progress_;
-  SilentProgress quiet_;
+  Statistics read_;
+  SurfaceReader reader_;
   std::uint64_t memory_ = 0;  ///< bytes, without the rasters
   VisibilityIndex index_;
-  std::optional<Stage> stage_;
   std::atomic<bool> any_eye_ = false;
   std::atomic<std::uint64_t> targets_ = 0, lines_ = 0;
 };
@@ -177,7 +176,7 @@ class IndexWork {
 
 VisibilityIndex visibility_index(const Store& store, const IndexRequest& request, Progress& progress) {
   require_valid_index(request);
-  return IndexWork(store, request, progress).run();
+  return IndexWork(store, request).run(progress);
 }
 
 }  // namespace itin::viewshed

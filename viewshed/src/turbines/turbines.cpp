@@ -5,12 +5,14 @@
 #include <vector>
 
 #include <itin/call_progress.hpp>
-#include <itin/silent_progress.hpp>
 #include <viewshed/surface.hpp>
 #include <viewshed/turbines.hpp>
 
+#include "plan/effort.hpp"
 #include "progress/stage.hpp"
 #include "progress/stopwatch.hpp"
+#include "run/segments.hpp"
+#include "run/surface_reader.hpp"
 #include "scene/full_surface.hpp"
 #include "scene/sweep/radial_sweep.hpp"
 #include "turbines/open_lines.hpp"
@@ -24,13 +26,6 @@
 namespace itin::viewshed {
 
 namespace {
-
-/// Counts the tiles surveyed: each over the ground and, for turbines, also over the surface that screens.
-std::size_t steps_of(const std::vector<ZonePart>& parts, bool screened) {
-  std::size_t steps = 0;
-  for (const ZonePart& part : parts) steps += (screened ? 2 : 1) * part.tiles.size() + part.radar_tiles.size();
-  return steps;
-}
 
 /// Surveys the parts of a zone, one after another.
 class ZoneWork {
@@ -49,8 +44,10 @@ class ZoneWork {
   };
 
   /// Surveys a part. There is no screen where the part has no turbines to look for, or nothing screens them.
-  void survey(const FullSurface& ground, const std::optional<Screen>& screen, const ZonePart& part, Stage& stage) {
+  void survey(const FullSurface& ground, const std::optional<Screen>& screen, const ZonePart& part,
+              Progress& progress) {
     Stopwatch watch;
+    Stage stage("sight lines", (screen ? 2 : 1) * part.tiles.size() + part.radar_tiles.size(), progress);
     if (!part.tiles.empty()) {
       const ZoneSurvey survey(ground, zone_);
       // Features never reach beyond the ground, and the edges of a window of open lines are no voids.
@@ -70,25 +67,26 @@ class ZoneWork {
   std::optional<RadarSurvey> radar_;
 };
 
-/// The share of the time that reading takes, about.
-constexpr double kReadingZone = 0.3;
-
 /// Reads the surfaces under the parts of a zone, one after another.
 class PartReader {
  public:
-  /// Prepares to read. `whole` shows the progress of reading where there is only one part; else it is null.
-  PartReader(const Store& store, Zone& zone, CallProgress* whole, Progress& progress)
-      : store_(store), zone_(zone), tiles_(grid_of_tiles(zone.grid)), whole_(whole), quiet_(progress) {}
+  PartReader(const Store& store, Zone& zone)
+      : store_(store),
+        zone_(zone),
+        tiles_(grid_of_tiles(zone.grid)),
+        reader_(store, zone.request.detail, zone.statistics) {}
 
-  std::unique_ptr<OwnedSurface> ground(const ZonePart& part) { return read(part.window, ThemeChoice::none()); }
+  /// Reads the ground of the whole zone, where it is a lattice and the memory holds it.
+  std::unique_ptr<OwnedSurface> lattice(Progress& progress) {
+    std::uint64_t most_posts = kAnyLattice;
+    if (const auto memory = zone_.request.memory_bytes)
+      most_posts = (*memory - std::min(*memory, bytes_beside_surfaces(zone_))) / kBytesPerPost;
+    auto lattice = reader_.lattice(window_of(zone_.request), ThemeChoice::none(), most_posts, progress);
+    return lattice ? owned(std::move(*lattice)) : nullptr;
+  }
 
-  std::unique_ptr<OwnedSurface> take(Surface surface) {
-    Statistics& statistics = zone_.statistics;
-    statistics.add_retrieval(surface.statistics(), surface.triangle_count(), watch_.lap());
-    auto owned =
-        std::make_unique<OwnedSurface>(std::move(surface), std::nullopt, zone_.request.earth, zone_.grid, tiles_);
-    statistics.scene_seconds += watch_.lap();
-    return owned;
+  std::unique_ptr<OwnedSurface> ground(const ZonePart& part, Progress& progress) {
+    return read(part.window, ThemeChoice::none(), progress);
   }
 
   /// What was read to screen a part.
@@ -104,44 +102,55 @@ class PartReader {
   };
   /// Reads the surface with features: all of the part, or only where features may rise into lines that are left open.
   /// In the latter case, marks these lines.
-  OwnedScreen screen(const ZonePart& part, const FullSurface& ground) {
+  OwnedScreen screen(const ZonePart& part, const FullSurface& ground, Progress& progress) {
     const ThemeChoice& themes = *zone_.request.themes;
-    if (!may_tell_open_lines(store_, zone_.request)) return {read(part.window, themes), false};
-    const std::optional<Window> window = open_lines(part, ground);
-    return {window ? read(*window, themes) : nullptr, true};
+    if (!may_tell_open_lines(store_, zone_.request)) return {read(part.window, themes, progress), false};
+    CallProgress call(progress);
+    const std::optional<Window> window = open_lines(part, ground, call);
+    return {window ? read(*window, themes, call.step(1)) : nullptr, true};
   }
-
-  void forget_time() { watch_.lap(); }
 
  private:
   /// Marks the open lines. Returns the ground that they need.
-  std::optional<Window> open_lines(const ZonePart& part, const FullSurface& ground) {
-    const OpenLines open(store_, zone_, part.window, quiet_);
+  std::optional<Window> open_lines(const ZonePart& part, const FullSurface& ground, CallProgress& call) {
+    const OpenLines open(store_, zone_, part.window, call.step(kEnclosing));
     zone_.statistics.retrieval += open.retrieval();
-    return open.mark(ground, part.tiles, *zone_.screened, quiet_);
+    return open.mark(ground, part.tiles, *zone_.screened, call.step(kMarking));
   }
 
-  std::unique_ptr<OwnedSurface> read(const Window& window, const ThemeChoice& themes) {
-    Progress& reading = whole_ != nullptr ? whole_->step(kReadingZone) : quiet_;
-    return take(retrieve_surface(store_, window, zone_.request.detail, themes, kAnyLattice, reading));
+  std::unique_ptr<OwnedSurface> read(const Window& window, const ThemeChoice& themes, Progress& progress) {
+    return owned(reader_.surface(window, themes, kAnyLattice, progress));
   }
+
+  std::unique_ptr<OwnedSurface> owned(Surface surface) {
+    Stopwatch watch;
+    auto owned =
+        std::make_unique<OwnedSurface>(std::move(surface), std::nullopt, zone_.request.earth, zone_.grid, tiles_);
+    zone_.statistics.scene_seconds += watch.lap();
+    return owned;
+  }
+
+  /// About the shares of the time left, of reading what screens.
+  static constexpr double kEnclosing = 0.4, kMarking = 0.3;
 
   const Store& store_;
   Zone& zone_;
   RasterGrid tiles_;
-  CallProgress* whole_;
-  SilentProgress quiet_;
-  Stopwatch watch_;
+  SurfaceReader reader_;
 };
 
-/// Reads the ground of the whole zone, where it is a lattice and the memory holds it.
-std::optional<Surface> lattice_under(const Store& store, const Zone& zone, Progress& progress) {
-  std::uint64_t most_posts = kAnyLattice;
-  if (const auto memory = zone.request.memory_bytes)
-    most_posts = (*memory - std::min(*memory, bytes_beside_surfaces(zone))) / kBytesPerPost;
-  return retrieve_lattice(store, window_of(zone.request), zone.request.detail, ThemeChoice::none(),
-                          LatticeReader::Heights::kAll, most_posts, progress);
+/// About how long a part takes. Half of the lines are open to turbines, on average.
+Effort effort_of(const Zone& zone, const ZonePart& part, bool screens) {
+  const double cells =
+      static_cast<double>(zone.grid.cell_count()) / static_cast<double>(grid_of_tiles(zone.grid).cell_count());
+  const double lines = cells * (static_cast<double>(part.tiles.size() * zone.request.turbines.size()) / 2 +
+                                static_cast<double>(part.radar_tiles.size()));
+  return {(screens && !part.tiles.empty() ? 2 : 1) * effort_of_triangles(part.points),
+          (screens ? 2 : 1) * effort_of_swept_lines(lines)};
 }
+
+/// About the share of the time that it takes to read a lattice.
+constexpr double kReadingLattice = 0.05;
 
 }  // namespace
 
@@ -155,8 +164,7 @@ Zone survey_turbines(const Tin& ground, const Tin* screened, const ZoneRequest& 
   std::optional<FullSurface> screen;
   if (screened != nullptr) screen.emplace(*screened, nullptr, request.earth, zone.grid, tiles);
   const ZonePart whole = whole_zone(zone);
-  Stage stage("sight lines", steps_of({whole}, screen.has_value()), progress);
-  work.survey(bare, screen ? std::optional(ZoneWork::Screen{*screen}) : std::nullopt, whole, stage);
+  work.survey(bare, screen ? std::optional(ZoneWork::Screen{*screen}) : std::nullopt, whole, progress);
   return zone;
 }
 
@@ -168,18 +176,21 @@ Zone survey_turbines(const Store& store, const ZoneRequest& request, Progress& p
   Zone zone = lay_out(request, outline, height, screens);
   ZoneWork work(store.metadata().grid, height, zone);
 
+  PartReader reader(store, zone);
+  const auto effort = [&](const ZonePart& part) { return effort_of(zone, part, screens); };
+  const auto survey = [&](const ZonePart& part, SegmentProgress& of_part) {
+    const double ground_alone = screens && !part.tiles.empty() ? 0.5 : 1;
+    const auto ground = reader.ground(part, of_part.reading(ground_alone));
+    const auto screen =
+        ground_alone < 1 ? reader.screen(part, ground->full, of_part.reading()) : PartReader::OwnedScreen{};
+    work.survey(ground->full, screen.over(ground->full), part, of_part.judging());
+  };
   CallProgress call(progress);
-  auto lattice = screens ? std::nullopt : lattice_under(store, zone, call.step(kReadingZone));
-  const std::vector<ZonePart> parts = lattice ? std::vector{whole_zone(zone)} : zone_parts(store, zone, screens);
-  PartReader reader(store, zone, parts.size() == 1 ? &call : nullptr, progress);
-  std::optional<Stage> stage;
-  for (const ZonePart& part : parts) {
-    const auto ground = lattice ? reader.take(std::move(*lattice)) : reader.ground(part);
-    const auto screen = screens && !part.tiles.empty() ? reader.screen(part, ground->full) : PartReader::OwnedScreen{};
-    if (!stage) stage.emplace("sight lines", steps_of(parts, screens), call.step(1));
-    work.survey(ground->full, screen.over(ground->full), part, *stage);
-    reader.forget_time();
-  }
+  const auto lattice = screens ? nullptr : reader.lattice(call.step(kReadingLattice));
+  if (lattice)
+    work.survey(lattice->full, std::nullopt, whole_zone(zone), call.step(1));
+  else
+    for_each_segment(zone_parts(store, zone, screens), effort, call.step(1), survey);
   if (request.themes && !screens) {
     zone.screened = zone.bare;
     zone.warnings.emplace_back("none of the themes has features that stand on the ground: nothing screens");

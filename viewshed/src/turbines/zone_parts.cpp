@@ -2,10 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <numeric>
-#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,12 +12,12 @@
 
 #include <itin/error.hpp>
 #include <itin/level_choice.hpp>
+#include <itin/parallel.hpp>
 
 #include "line/cell_tiles.hpp"
-#include "line/hulls.hpp"
 #include "plan/azimuth_order.hpp"
-#include "plan/partition.hpp"
-#include "plan/point_counts.hpp"
+#include "plan/ground_runs.hpp"
+#include "plan/ground_tiles.hpp"
 #include "turbines/zone_request.hpp"
 
 namespace itin::viewshed {
@@ -67,85 +65,88 @@ std::vector<std::size_t> numbers_to(std::size_t count) {
 
 /// Bytes per triangle of one surface, and of two, as measured on OS Terrain 50.
 constexpr double kBareGround = 160, kScreened = 270;
+/// About the number of points of a tile of the ground.
+constexpr double kPointsPerGroundTile = 8;
+
+double bytes_per_triangle(bool screened) {
+  return screened ? kScreened : kBareGround;
+}
+
+/// The memory that a part with so many points of ground takes.
+double memory_of(const Zone& zone, std::uint64_t points, double bytes_per_triangle) {
+  return bytes_per_triangle * 2 * static_cast<double>(points) + static_cast<double>(bytes_beside_surfaces(zone));
+}
 
 class Partition {
  public:
   Partition(const Store& store, const Zone& zone, const Box& box)
       : zone_(zone),
-        margin_(2 * store.metadata().grid.resolution),
         tiles_(grid_of_tiles(zone.grid)),
-        points_(store, level_within(store.metadata(), zone.request.detail.coarsest()), box) {}
-
-  bool fits(const std::vector<Point2>& window, double bytes_per_triangle) const {
-    return memory(window, bytes_per_triangle) <= static_cast<double>(*zone_.request.memory_bytes);
-  }
+        ground_(store, level_within(store.metadata(), zone.request.detail.coarsest()), box, kPointsPerGroundTile) {}
 
   /// Divides the survey of the turbines from the cells in their reach.
-  void divide_turbines(double bytes_per_triangle, std::vector<ZonePart>& parts) const {
+  void divide_turbines(bool screened, std::vector<ZonePart>& parts) const {
     Box farm;
     for (const Turbine& t : zone_.request.turbines) farm.extend(t.position);
-    std::vector<Box> boxes;
-    std::vector<std::size_t> in_some_reach;
-    for (std::size_t i = 0; i < tiles_.cell_count(); ++i) {
-      const Box& box = boxes.emplace_back(box_about(i));
-      if (std::any_of(zone_.request.turbines.begin(), zone_.request.turbines.end(),
-                      [&](const Turbine& t) { return in_reach(t, box); }))
-        in_some_reach.push_back(i);
-    }
-    if (in_some_reach.empty()) return;
-    sort_by_azimuth(
-        middle_of(farm), [&](std::size_t i) { return middle_of(boxes[i]); }, in_some_reach);
-    const auto window_over = [&](Numbers of) { return about_turbines_in_reach(boxes, of); };
-    for (const Ground& ground : divide(in_some_reach, bytes_per_triangle, window_over))
-      parts.push_back({window_of(ground), {ground.of.begin(), ground.of.end()}, {}, {}});
+    const auto needed = ground_of(tiles_.cell_count(), [&](std::size_t tile, TileSet& ground) {
+      const Box box = box_of_centres(zone_.grid, tile_at(zone_.grid, tiles_, tile));
+      for (const Turbine& t : zone_.request.turbines)
+        if (squared_distance(t.position, box) <= t.radius * t.radius) ground_.add_lines(t.position, box, ground);
+    });
+    for (GroundRun& run : divide(needed, middle_of(farm), bytes_per_triangle(screened)))
+      parts.push_back({ground_.window(run.ground), std::move(run.pieces), {}, {}, ground_.points(run.ground)});
   }
 
   /// Divides the survey of the radar, over all cells and of all turbines.
   void divide_radar(std::vector<ZonePart>& parts) const {
     const Point2 radar = zone_.request.radar->position;
-    std::vector<Box> boxes;
-    for (std::size_t i = 0; i < tiles_.cell_count(); ++i) boxes.push_back(box_about(i));
-    for (const Turbine& t : zone_.request.turbines) boxes.push_back(square_about(t.position, margin_));
-    std::vector<std::size_t> all = numbers_to(boxes.size());
-    sort_by_azimuth(
-        radar, [&](std::size_t i) { return middle_of(boxes[i]); }, all);
-    for (const Ground& ground : divide(all, kBareGround, [&](Numbers of) { return about_radar(boxes, of); })) {
-      ZonePart& part = parts.emplace_back(ZonePart{window_of(ground), {}, {}, {}});
-      for (const std::size_t i : ground.of) {
-        if (i < tiles_.cell_count()) part.radar_tiles.push_back(i);
-        if (i >= tiles_.cell_count()) part.radar_turbines.push_back(i - tiles_.cell_count());
+    const auto& turbines = zone_.request.turbines;
+    const auto needed = ground_of(tiles_.cell_count() + turbines.size(), [&](std::size_t piece, TileSet& ground) {
+      if (piece < tiles_.cell_count())
+        ground_.add_lines(radar, box_of_centres(zone_.grid, tile_at(zone_.grid, tiles_, piece)), ground);
+      else
+        ground_.add_line(radar, turbines[piece - tiles_.cell_count()].position, ground);
+    });
+    for (const GroundRun& run : divide(needed, radar, bytes_per_triangle(false))) {
+      ZonePart& part = parts.emplace_back(ZonePart{ground_.window(run.ground), {}, {}, {}, ground_.points(run.ground)});
+      for (const std::size_t piece : run.pieces) {
+        if (piece < tiles_.cell_count()) part.radar_tiles.push_back(piece);
+        if (piece >= tiles_.cell_count()) part.radar_turbines.push_back(piece - tiles_.cell_count());
       }
     }
   }
 
  private:
-  using Numbers = std::span<const std::size_t>;
-  struct Ground {
-    Numbers of;
-    std::vector<Point2> hull;  ///< holds all sight lines of the tiles and turbines in `of`
-  };
-  static Window window_of(const Ground& ground) { return Window::polygons({{ground.hull, {}}}); }
-
-  double memory(const std::vector<Point2>& window, double bytes_per_triangle) const {
-    const double triangles = 2 * static_cast<double>(points_.within(Window::polygons({{window, {}}})));
-    return bytes_per_triangle * triangles + static_cast<double>(bytes_beside_surfaces(zone_));
+  /// Returns the ground that each piece of work needs: add(piece, ground) adds it.
+  template <class Add>
+  std::vector<TileSet> ground_of(std::size_t pieces, const Add& add) const {
+    std::vector<TileSet> needed(pieces, TileSet(ground_.count()));
+    parallel_for(pieces, [&](std::size_t piece) { add(piece, needed[piece]); });
+    return needed;
   }
 
-  /// Halves the numbers until the ground under each part fits.
-  template <class HullOver>
-  std::vector<Ground> divide(Numbers of, double bytes_per_triangle, const HullOver& hull_over) const {
-    const auto ground = [](Numbers some) { return Ground{some, {}}; };
-    return parts_that_fit(
-        ground(of),
-        [&](Ground& part) {
-          part.hull = hull_over(part.of);
-          return fits(part.hull, bytes_per_triangle);
-        },
-        [&](const Ground& part) {
-          if (part.of.size() == 1) refuse(memory(part.hull, bytes_per_triangle));
-          const auto [first, rest] = halves(part.of);
-          return std::pair(ground(first), ground(rest));
-        });
+  /// Returns runs of pieces that need ground, each next to the others as seen from a place.
+  std::vector<GroundRun> divide(const std::vector<TileSet>& needed, Point2 about, double bytes_per_triangle) const {
+    std::vector<std::size_t> order;
+    for (std::size_t piece = 0; piece < needed.size(); ++piece)
+      if (!needed[piece].empty()) order.push_back(piece);
+    sort_by_azimuth(
+        about, [&](std::size_t piece) { return middle_of_piece(piece); }, order);
+    const auto memory = [&](const TileSet& ground) {
+      return memory_of(zone_, ground_.points(ground), bytes_per_triangle);
+    };
+    const auto most = static_cast<double>(*zone_.request.memory_bytes);
+    auto runs = ground_runs(
+        order, ground_.count(), [&](std::size_t piece) -> const TileSet& { return needed[piece]; },
+        [&](const TileSet& ground) { return memory(ground) <= most; });
+    for (const GroundRun& run : runs)
+      if (memory(run.ground) > most) refuse(memory(run.ground));
+    return runs;
+  }
+
+  Point2 middle_of_piece(std::size_t piece) const {
+    return piece < tiles_.cell_count() ? middle_of(box_of_centres(zone_.grid, tile_at(zone_.grid, tiles_, piece)))
+                                       : zone_.request.turbines[piece - tiles_.cell_count()].position;
   }
 
   [[noreturn]] void refuse(double needed) const {
@@ -155,35 +156,9 @@ class Partition {
                     needed / 1e9, static_cast<double>(*zone_.request.memory_bytes) / 1e9));
   }
 
-  Box box_about(std::size_t tile) const {
-    const Box centres = box_of_centres(zone_.grid, tile_at(zone_.grid, tiles_, tile));
-    return {centres.xmin - margin_, centres.ymin - margin_, centres.xmax + margin_, centres.ymax + margin_};
-  }
-
-  static bool in_reach(const Turbine& t, const Box& box) {
-    return squared_distance(t.position, box) <= t.radius * t.radius;
-  }
-
-  std::vector<Point2> about_turbines_in_reach(const std::vector<Box>& boxes, Numbers of) const {
-    std::vector<Point2> points;
-    for (const std::size_t i : of) add_corners(boxes[i], points);
-    for (const Turbine& t : zone_.request.turbines)
-      if (std::any_of(of.begin(), of.end(), [&](std::size_t i) { return in_reach(t, boxes[i]); }))
-        add_corners(square_about(t.position, margin_), points);
-    return hull_of(std::move(points));
-  }
-
-  std::vector<Point2> about_radar(const std::vector<Box>& boxes, Numbers of) const {
-    std::vector<Point2> points;
-    for (const std::size_t i : of) add_corners(boxes[i], points);
-    add_corners(square_about(zone_.request.radar->position, margin_), points);
-    return hull_of(std::move(points));
-  }
-
   const Zone& zone_;
-  double margin_;  ///< metres, against rounding
   RasterGrid tiles_;
-  PointCounts points_;
+  GroundTiles ground_;
 };
 
 }  // namespace
@@ -195,7 +170,7 @@ Window window_of(const ZoneRequest& request) {
 }
 
 ZonePart whole_zone(const Zone& zone) {
-  ZonePart whole{window_of(zone.request), numbers_to(grid_of_tiles(zone.grid).cell_count()), {}, {}};
+  ZonePart whole{window_of(zone.request), numbers_to(grid_of_tiles(zone.grid).cell_count()), {}, {}, 0};
   if (!zone.request.radar) return whole;
   whole.radar_tiles = whole.tiles;
   whole.radar_turbines = numbers_to(zone.request.turbines.size());
@@ -203,16 +178,15 @@ ZonePart whole_zone(const Zone& zone) {
 }
 
 std::vector<ZonePart> zone_parts(const Store& store, const Zone& zone, bool screened) {
-  const ZonePart whole = whole_zone(zone);
-  if (!zone.request.memory_bytes) return {whole};
+  ZonePart whole = whole_zone(zone);
   const Box box = whole.window.bounds();
+  whole.points = store.points_about(level_within(store.metadata(), zone.request.detail.coarsest()), box);
+  const auto& memory = zone.request.memory_bytes;
+  if (!memory || memory_of(zone, whole.points, bytes_per_triangle(screened)) <= static_cast<double>(*memory))
+    return {whole};
   const Partition partition(store, zone, box);
-  const double bytes_per_triangle = screened ? kScreened : kBareGround;
-  std::vector<Point2> corners;
-  add_corners(box, corners);
-  if (partition.fits(hull_of(corners), bytes_per_triangle)) return {whole};
   std::vector<ZonePart> parts;
-  partition.divide_turbines(bytes_per_triangle, parts);
+  partition.divide_turbines(screened, parts);
   if (zone.request.radar) partition.divide_radar(parts);
   return parts;
 }

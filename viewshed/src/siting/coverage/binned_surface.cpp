@@ -4,13 +4,13 @@
 #include <cmath>
 #include <optional>
 
-#include <itin/call_progress.hpp>
 #include <itin/triangulate.hpp>
 #include <viewshed/surface.hpp>
 
 #include "bounds/surface_heights.hpp"
 #include "plan/memory.hpp"
 #include "plan/partition.hpp"
+#include "run/segments.hpp"
 #include "siting/coverage/site_window.hpp"
 #include "siting/coverage/target_ground.hpp"
 
@@ -40,10 +40,11 @@ class SurfaceBinner {
     };
     auto pieces = parts_that_fit(all_cells(tiles_), fits, [](const CellRectangle& piece) { return halves(piece); });
     std::erase_if(pieces, [&](const CellRectangle& piece) { return !is_in_reach(box_of(piece)); });
-    CallProgress call(progress);
-    for (std::size_t i = 0; i < pieces.size(); ++i)
-      add(pieces[i], call.step(1 / static_cast<double>(pieces.size() - i)));
-    call.finish();
+    const auto effort = [&](const CellRectangle& piece) {
+      return Effort{effort_of_triangles(store_.points_about(0, box_of(piece))), 0};
+    };
+    for_each_segment(pieces, effort, progress,
+                     [&](const CellRectangle& piece, SegmentProgress& of_piece) { add(piece, of_piece); });
     return std::move(binned_);
   }
 
@@ -64,15 +65,13 @@ class SurfaceBinner {
     });
   }
 
-  void add(const CellRectangle& piece, Progress& progress) {
-    CallProgress call(progress);
+  void add(const CellRectangle& piece, SegmentProgress& progress) {
     // Reads a little more than the piece, so that nothing at its edge is missing.
     const Box box = box_of(piece);
     const Window window = Window::box({box.xmin - 1, box.ymin - 1, box.xmax + 1, box.ymax + 1});
-    const Tin surface = read(window, survey_.themes, call.step(0.5));
+    const Tin surface = read(window, survey_.themes, progress.reading(0.5));
     binned_.bins.add(surface, piece);
-    add_ground(survey_.targets.on_surface ? surface : read(window, ThemeChoice::none(), call.step(1)));
-    call.finish();
+    add_ground(survey_.targets.on_surface ? surface : read(window, ThemeChoice::none(), progress.reading()));
   }
   Tin read(const Window& window, const ThemeChoice& themes, Progress& progress) {
     Tin tin = triangulate(store_, window, Detail::tolerance(0), progress, themes);

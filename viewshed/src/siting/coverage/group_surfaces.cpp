@@ -5,10 +5,10 @@
 #include <utility>
 
 #include <itin/call_progress.hpp>
-#include <itin/triangulate.hpp>
 
 #include "progress/stopwatch.hpp"
 #include "request/request.hpp"
+#include "run/surface_reader.hpp"
 #include "siting/coverage/site_window.hpp"
 
 namespace itin::viewshed {
@@ -17,8 +17,6 @@ namespace {
 
 /// The number of points of the full surface that are read about each site.
 constexpr double kSiteNearPoints = 128;
-/// The share of the time that reading one surface takes, about, if two are read and judged.
-constexpr double kReadingGroup = 0.2;
 
 }  // namespace
 
@@ -31,12 +29,10 @@ GroupSurfaces::GroupSurfaces(const Store& store, const SiteSurvey& survey, const
 
 bool GroupSurfaces::read_whole_lattice(Progress& progress) {
   if (stages_.themed() || survey_.fresnel || !survey_.targets.grid || stages_.casts_rays()) return false;
-  Stopwatch watch;
   const std::uint64_t memory = stages_.memory();
-  whole_lattice_ = retrieve_lattice(store_, window_about(survey_, all_options(survey_)), Detail::tolerance(0),
-                                    ThemeChoice::none(), LatticeReader::Heights::kAll,
-                                    (memory - std::min(memory, stages_.sets() / 2)) / kBytesPerPost, progress);
-  statistics_.retrieval_seconds += watch.lap();
+  whole_lattice_ = SurfaceReader(store_, Detail::tolerance(0), statistics_)
+                       .lattice(window_about(survey_, all_options(survey_)), ThemeChoice::none(),
+                                (memory - std::min(memory, stages_.sets() / 2)) / kBytesPerPost, progress);
   return whole_lattice_.has_value();
 }
 
@@ -74,23 +70,18 @@ std::unique_ptr<GroupSurvey> GroupSurfaces::binned(Progress& progress) {
 
 std::unique_ptr<GroupSurvey> GroupSurfaces::exact_cells(const std::vector<std::size_t>& group, bool themed,
                                                         Progress& progress) {
-  Stopwatch watch;
   CallProgress call(progress);
   const Window window = window_about(survey_, group);
-  const Detail full = Detail::tolerance(0);
+  SurfaceReader reader(store_, Detail::tolerance(0), statistics_);
+  const bool reads_two = themed && !survey_.targets.on_surface;
   // Fresnel zones are tested against single triangles, so that no lattice is read.
   const std::uint64_t most_posts = survey_.fresnel || stages_.casts_rays() ? 0 : kAnyLattice;
-  Surface surface = whole_lattice_
-                        ? std::move(*std::exchange(whole_lattice_, std::nullopt))
-                        : retrieve_surface(store_, window, full, themed ? survey_.themes : ThemeChoice::none(),
-                                           most_posts, call.step(kReadingGroup));
-  count(surface.statistics(), surface.triangle_count());
+  Surface surface = whole_lattice_ ? std::move(*std::exchange(whole_lattice_, std::nullopt))
+                                   : reader.surface(window, themed ? survey_.themes : ThemeChoice::none(), most_posts,
+                                                    call.step(reads_two ? 0.5 : 1));
   std::optional<Tin> bare_ground;
-  if (themed && !survey_.targets.on_surface) {
-    bare_ground = triangulate(store_, window, full, call.step(kReadingGroup), ThemeChoice::none());
-    count(bare_ground->statistics, bare_ground->triangles.size());
-  }
-  statistics_.retrieval_seconds += watch.lap();
+  if (reads_two) bare_ground = reader.triangles(window, ThemeChoice::none(), call.step(1));
+  Stopwatch watch;
   std::vector<Point2> eyes_of_rays;
   if (stages_.casts_rays())
     for (const std::size_t option : group) eyes_of_rays.push_back(survey_.positions[option].position);
@@ -109,8 +100,7 @@ std::unique_ptr<GroupSurvey> GroupSurfaces::enveloped(const std::vector<std::siz
     if (!survey_.targets.on_surface) read.bare_ground = read.window;
   }
   Envelope envelope = envelop(store_, read, progress);
-  count(envelope.lower.statistics, envelope.lower.triangles.size());
-  statistics_.retrieval_seconds += watch.lap();
+  statistics_.add_retrieval(envelope.lower.statistics, envelope.lower.triangles.size(), watch.lap());
   const auto survey = survey_.targets.grid ? survey_cells : survey_points;
   auto result = survey(survey_, request, std::move(envelope), stages_.judges_zones(surface.level));
   statistics_.scene_seconds += watch.lap();
@@ -132,11 +122,6 @@ EnvelopeRequest GroupSurfaces::what_to_read(const std::vector<std::size_t>& grou
     if (level > 1) read.discs.push_back({position, 2 * survey_.radius * share, 1});
   }
   return read;
-}
-
-void GroupSurfaces::count(const RetrievalStatistics& retrieval, std::size_t triangles) {
-  statistics_.retrieval += retrieval;
-  statistics_.triangles += triangles;
 }
 
 }  // namespace itin::viewshed

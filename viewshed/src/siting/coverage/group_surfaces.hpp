@@ -45,7 +45,6 @@ class GroupSurfaces {
   std::unique_ptr<GroupSurvey> enveloped(const std::vector<std::size_t>& group, const StageSurface& surface,
                                          Progress& progress);
   EnvelopeRequest what_to_read(const std::vector<std::size_t>& group, int level) const;
-  void count(const RetrievalStatistics& retrieval, std::size_t triangles);
 
   const Store& store_;
   const SiteSurvey& survey_;

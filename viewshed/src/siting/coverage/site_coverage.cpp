@@ -11,6 +11,7 @@
 
 #include "progress/stopwatch.hpp"
 #include "request/request.hpp"
+#include "run/segments.hpp"
 #include "siting/coverage/crossed_voids.hpp"
 #include "siting/coverage/demand_blocks.hpp"
 #include "siting/coverage/group_surfaces.hpp"
@@ -23,8 +24,6 @@ namespace {
 
 /// The number of options that are judged together; fewer would share less work.
 constexpr std::size_t kJudgedTogether = 32;
-/// The share of the time that reading a surface takes, about, before it is judged from all sites.
-constexpr double kReadingFirst = 0.2;
 
 }  // namespace
 
@@ -73,18 +72,10 @@ class SiteCoverage::Impl {
   /// Judges options over the surfaces of the groups of all options, so that the results do not depend on what was
   /// judged before.
   void explore() {
-    if (std::all_of(states_.begin(), states_.end(), [](const State& state) { return state.stage >= 0; })) return;
-    CallProgress call(progress_);
-    const auto together = stages_.groups(all_options(survey_), stages_.at(0));
-    std::size_t left = together.size();
-    for (const std::vector<std::size_t>& group : together) {
-      call.step(1 / static_cast<double>(left--));
-      std::vector<std::size_t> fresh;
-      std::copy_if(group.begin(), group.end(), std::back_inserter(fresh),
-                   [&](std::size_t option) { return states_[option].stage < 0; });
-      if (!fresh.empty()) judge_group(fresh, group, 0, call);
-    }
-    call.finish();
+    std::vector<std::size_t> fresh;
+    for (std::size_t option = 0; option < states_.size(); ++option)
+      if (states_[option].stage < 0) fresh.push_back(option);
+    if (!fresh.empty()) judge(fresh, all_options(survey_), 0, progress_);
   }
 
   /// Takes each option to its next stage.
@@ -95,10 +86,12 @@ class SiteCoverage::Impl {
         at_stage[static_cast<std::size_t>(states_[option].stage + 1)].push_back(option);
     }
     std::erase_if(at_stage, [](const auto& some) { return some.empty(); });
-    CallProgress call(progress_);
-    std::size_t left = at_stage.size();
-    for (const auto& some : at_stage) judge(some, call.step(1 / static_cast<double>(left--)));
-    call.finish();
+    const auto effort = [](const std::vector<std::size_t>& some) {
+      return Effort{0, static_cast<double>(some.size())};
+    };
+    for_each_segment(at_stage, effort, progress_, [&](const auto& some, SegmentProgress& of_stage) {
+      judge(some, some, states_[some.front()].stage + 1, of_stage.judging());
+    });
   }
 
   struct State {
@@ -133,26 +126,35 @@ class SiteCoverage::Impl {
     return survey;
   }
 
-  /// Takes the options, which are all at one stage, to the next.
-  void judge(const std::vector<std::size_t>& options, Progress& progress) {
-    const int stage = states_[options.front()].stage + 1;
-    CallProgress call(progress);
-    const auto together = stages_.groups(options, stages_.at(stage));
-    std::size_t left = together.size();
-    for (const std::vector<std::size_t>& group : together)
-      judge_group(group, group, stage, call.step(1 / static_cast<double>(left--)));
+  /// Takes the options, which are all at the stage before, to this stage, group by group of `all`.
+  void judge(const std::vector<std::size_t>& options, const std::vector<std::size_t>& all, int stage,
+             Progress& progress) {
+    std::vector<bool> asked(states_.size());
+    for (const std::size_t option : options) asked[option] = true;
+    const auto asked_of = [&](const SiteGroup& group) {
+      std::vector<std::size_t> some;
+      std::copy_if(group.options.begin(), group.options.end(), std::back_inserter(some),
+                   [&](std::size_t option) { return asked[option]; });
+      return some;
+    };
+    auto groups = stages_.groups(all, stages_.at(stage));
+    std::erase_if(groups, [&](const SiteGroup& group) { return asked_of(group).empty(); });
+    const auto effort = [&](const SiteGroup& group) { return stages_.effort_of(group, stages_.at(stage)); };
+    for_each_segment(groups, effort, progress, [&](const SiteGroup& group, SegmentProgress& of_group) {
+      judge_group(asked_of(group), group.options, stage, of_group);
+    });
   }
 
   /// Judges `options`, some of the group, over the surface of the group, or over that of all sites where the memory
   /// holds it.
   void judge_group(const std::vector<std::size_t>& options, const std::vector<std::size_t>& group, int stage,
-                   Progress& progress) {
-    CallProgress call(progress);
+                   SegmentProgress& progress) {
     const StageSurface& surface = stages_.at(stage);
     std::unique_ptr<GroupSurvey> own;
     if (surface.binned() || surface.level > 0 || !stages_.whole_fits())
-      own = surfaces_.survey_of(group, surface, call.step(kReadingFirst));
-    const GroupSurvey& survey = own ? *own : surfaces_.whole(surface, call.step(kReadingFirst));
+      own = surfaces_.survey_of(group, surface, progress.reading());
+    const GroupSurvey& survey = own ? *own : surfaces_.whole(surface, progress.reading());
+    CallProgress call(progress.judging());
     // Only few are judged at a time, so that a run that is killed can resume from the bounds recorded.
     for (std::size_t first = 0; first < options.size(); first += kJudgedTogether) {
       const auto begin = options.begin() + static_cast<std::ptrdiff_t>(first);

@@ -89,18 +89,27 @@ std::uint64_t SurveyStages::points_of(Options options, int level) const {
   return store_.points_about(level, reach_of(survey_, options));
 }
 
-std::vector<std::vector<std::size_t>> SurveyStages::groups(std::vector<std::size_t> options,
-                                                           const StageSurface& surface) const {
-  if (surface.binned()) return {std::move(options)};
+std::vector<SiteGroup> SurveyStages::groups(std::vector<std::size_t> options, const StageSurface& surface) const {
+  if (surface.binned()) return {{std::move(options), points_}};
   const int level = surface.level;
   const auto fit_or_is_one = [&](Options some) {
     return some.size() < 2 || fits(points_of(some, level), some.size(), level);
   };
-  std::vector<std::vector<std::size_t>> result;
+  std::vector<SiteGroup> groups;
   for (const Options some :
        parts_that_fit(Options(options), fit_or_is_one, [&](Options group) { return halves_across(group); }))
-    result.emplace_back(some.begin(), some.end());
-  return result;
+    groups.push_back({{some.begin(), some.end()}, points_of(some, level)});
+  return groups;
+}
+
+Effort SurveyStages::effort_of(const SiteGroup& group, const StageSurface& surface) const {
+  const double targets =
+      static_cast<double>(survey_.targets.grid ? survey_.targets.grid->cell_count() : survey_.targets.points.size());
+  const double lines = targets * static_cast<double>(group.options.size());
+  const std::uint64_t points = group.points * (surface.themed() ? kPointsWithFeatures : 1);
+  if (judges_cells_exactly(surface.level) && !surface.binned())
+    return {effort_of_triangles(points), effort_of_swept_lines(lines)};
+  return {effort_of_envelope(points), survey_.targets.grid ? effort_of_swept_lines(lines) : effort_of_lines(lines)};
 }
 
 /// Returns the options in the west and in the east, or in the south and in the north.

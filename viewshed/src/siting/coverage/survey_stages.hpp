@@ -11,6 +11,8 @@
 #include <itin/store.hpp>
 #include <viewshed/site_coverage.hpp>
 
+#include "plan/effort.hpp"
+
 namespace itin::viewshed {
 
 /// The surface over which a stage judges.
@@ -25,6 +27,12 @@ struct StageSurface {
 
   bool themed() const { return kind != Kind::kBareLevel; }
   bool binned() const { return kind == Kind::kBins; }
+};
+
+/// Sites that are judged over one surface.
+struct SiteGroup {
+  std::vector<std::size_t> options;
+  std::uint64_t points = 0;  ///< of that surface, about
 };
 
 class SurveyStages {
@@ -59,7 +67,9 @@ class SurveyStages {
   std::string name(int stage) const;
 
   /// Divides the options into groups of neighbours, each as large as the memory holds.
-  std::vector<std::vector<std::size_t>> groups(std::vector<std::size_t> options, const StageSurface& surface) const;
+  std::vector<SiteGroup> groups(std::vector<std::size_t> options, const StageSurface& surface) const;
+  /// About how long it takes to judge a group over this surface.
+  Effort effort_of(const SiteGroup& group, const StageSurface& surface) const;
 
  private:
   using Options = std::span<std::size_t>;
