@@ -20,7 +20,7 @@ struct ZonePart {
   std::vector<std::size_t> tiles;           ///< places in grid_of_tiles(zone.grid) from which turbines are looked for
   std::vector<std::size_t> radar_tiles;     ///< tiles over whose cells the radar's least visible heights are found
   std::vector<std::size_t> radar_turbines;  ///< indices in zone.request.turbines of those that the radar looks for
-  std::uint64_t points = 0;                 ///< of the ground within the window, about
+  std::uint64_t points = 0;                 ///< about as many as the ground within the window has
 };
 
 /// Returns a window that holds all lines to every turbine, and from the radar to the turbines and to every cell.

@@ -32,7 +32,7 @@ struct StageSurface {
 /// Sites that are judged over one surface.
 struct SiteGroup {
   std::vector<std::size_t> options;
-  std::uint64_t points = 0;  ///< of that surface, about
+  std::uint64_t points = 0;  ///< about as many as that surface has
 };
 
 class SurveyStages {
