@@ -6,12 +6,12 @@
 #include <vector>
 
 #include <itin/grid_units.hpp>
+#include <itin/tin_heights.hpp>
 #include <viewshed/result.hpp>
 
 #include "line/sight_line.hpp"
 #include "request/eye.hpp"
 #include "request/field_of_view.hpp"
-#include "scene/rays/scene.hpp"
 
 namespace itin::test {
 
@@ -30,17 +30,17 @@ inline viewshed::Request look(Point2 position, double height, double target_heig
 inline std::vector<viewshed::Verdict> brute_force(const Tin& surface, const Tin& ground,
                                                   const viewshed::Request& request, const RasterGrid& cells) {
   using namespace viewshed;
-  const Scene above(surface, request.earth), below(ground, request.earth);
+  const Tin &of_observers = request.observers_on_surface ? surface : ground,
+            &of_targets = request.targets_on_surface ? surface : ground;
   const Observer& observer = request.observers.front();
-  const Eye eye =
-      eye_of(surface.grid, request, observer, (request.observers_on_surface ? above : below).ground(observer.position));
+  const Eye eye = eye_of(surface.grid, request, observer, height_on(of_observers, observer.position));
   const double resolution = surface.grid.resolution;
   const FieldOfView view(request, observer);
   std::vector<viewshed::Verdict> values(cells.cell_count(), Verdict::kOutside);
   for (std::int64_t row = 0; row < cells.rows(); ++row) {
     for (std::int64_t column = 0; column < cells.columns(); ++column) {
       const Point2 centre = cells.centre(column, row);
-      const auto base = (request.targets_on_surface ? above : below).ground(centre);
+      const auto base = height_on(of_targets, centre);
       if (!base) continue;
       const double target = *base + request.target_height;
       const Point3 to{easting_in_units(surface.grid, centre.x), northing_in_units(surface.grid, centre.y),

@@ -14,8 +14,8 @@
 #include <viewshed/viewshed.hpp>
 
 #include "certify/level_source.hpp"
+#include "index/sampled_surface.hpp"
 #include "request/eye.hpp"
-#include "scene/rays/scene.hpp"
 #include "support/brute_force_viewshed.hpp"
 #include "support/exact_line_of_sight.hpp"
 #include "support/full_detail.hpp"
@@ -338,7 +338,8 @@ TEST(Precise, TheMemoryChangesNothingOnTheWholeSample) {
   for (const double target : {0.0, 2.0}) {
     const Request request = look(terrain.at(381.3, 7002.4), 2, target, 60);
     const Result result = test::compute_at_full_detail(terrain.store(), request, {}, progress).result;
-    const Scene whole(terrain.full(), request.earth);
+    const Surface full{terrain.full(), nullptr, {}};
+    const SampledSurface whole(full, request.earth, 0);  // without rays
     for (const std::uint64_t memory : {std::uint64_t{16000000}, std::uint64_t{1300000}}) {
       const Result other =
           test::compute_at_full_detail(terrain.store(), request, {.memory_bytes = memory, .lattices = false}, progress)
@@ -347,9 +348,9 @@ TEST(Precise, TheMemoryChangesNothingOnTheWholeSample) {
     }
     expect_heights_at_any_memory(terrain, request, result);
     expect_studies_at_any_memory(terrain, request);
-    // And the walk over all triangles beneath the line.
-    const Eye eye =
-        eye_of(terrain.full().grid, request, request.observers[0], whole.ground(request.observers[0].position));
+    // And every triangle that may rise above the line.
+    const Eye eye = eye_of(terrain.full().grid, request, request.observers[0],
+                           height_on(terrain.full(), request.observers[0].position));
     const double resolution = terrain.full().grid.resolution;
     std::uint64_t different = 0;
     for (std::size_t i = 0; i < result.visible.size(); i += 61) {
@@ -358,11 +359,12 @@ TEST(Precise, TheMemoryChangesNothingOnTheWholeSample) {
       const Point2 c =
           result.grid.centre(static_cast<std::int64_t>(i) % columns, static_cast<std::int64_t>(i) / columns);
       SightLines lines;
+      lines.active = 1;
       lines.from_x[0] = eye.units.x, lines.from_y[0] = eye.units.y, lines.from_z[0] = eye.units.z;
       lines.to_x[0] = easting_in_units(terrain.full().grid, c.x);
       lines.to_y[0] = northing_in_units(terrain.full().grid, c.y);
-      lines.to_z[0] = (*whole.ground(c) + target) / resolution;
-      different += (result.visible[i] == Verdict::kHidden) != whole.hidden_between(lines, 0, 0, 1);
+      lines.to_z[0] = (*height_on(terrain.full(), c) + target) / resolution;
+      different += (result.visible[i] == Verdict::kHidden) != (whole.hidden(lines) == 1);
     }
     EXPECT_EQ(different, 0U);
   }

@@ -88,8 +88,7 @@ class WholeLevel final : public LevelSource {
 
  private:
   void read(Result& result, CallProgress& call) override {
-    EnvelopeRequest wanted = certified_request(store_, request_);
-    wanted.observers.clear();  // rays would begin there, and none is cast
+    const EnvelopeRequest wanted = certified_request(store_, request_);
     const std::uint64_t points = store_.points_about(wanted.level, box_of_window(store_, request_));
     const Effort effort = effort_of_viewshed(request_, points, result.grid.cell_count(), SurfaceForm::kTriangles);
     level_.emplace(bounded(wanted, result.statistics, call.step(effort.share_of_reading())));

@@ -86,24 +86,20 @@ class TinSegments final : public SurfaceSource {
     return tin;
   }
 
-  /// Retrieves the surface over `window`, and the ground over `targets`, where targets stand on it.
-  OwnedSurface retrieve(const Window& window, const Window& targets, Result& result) {
+  /// Retrieves the surface over `window`, and the ground over the tiles of the targets, where these stand on it.
+  OwnedSurface retrieve(const Window& window, const std::vector<std::size_t>& tiles, Result& result) {
     Statistics& statistics = result.statistics;
     Tin tin = triangulated(window, features_ ? request_.themes : ThemeChoice::none(), statistics);
     std::optional<Tin> ground;
-    if (features_ && !request_.targets_on_surface) ground = triangulated(targets, ThemeChoice::none(), statistics);
+    if (features_ && !request_.targets_on_surface)
+      ground = triangulated(window_over(tiles), ThemeChoice::none(), statistics);
     statistics.triangles += tin.triangles.size();
-    return {{std::move(tin), nullptr, {}},
-            std::move(ground),
-            request_.earth,
-            result.grid,
-            tiles_,
-            casts_rays(request_) ? positions_of(request_) : std::vector<Point2>()};
+    return {{std::move(tin), nullptr, {}}, std::move(ground), request_.earth, result.grid, tiles_,
+            casts_rays(request_)};
   }
 
   void retrieve_coarse(Result& result, Progress& progress) {
     EnvelopeRequest wanted = certified_request(store_, request_, coarse_level(), enclosed_level());
-    if (way_ != CoarseWay::kRays) wanted.observers.clear();
     if (features_ && way_ == CoarseWay::kRays) wanted.enclosed = request_.themes;
     Envelope envelope = envelop(store_, wanted, progress);
     result.statistics.add_retrieval(envelope.lower.statistics, envelope.lower.triangles.size(), watch_.lap());
@@ -125,7 +121,7 @@ class TinSegments final : public SurfaceSource {
     if (group.last) pass_.reset();
     for (const auto& [tiles, ground] : segments(eye, left.needed)) {
       result.statistics.lines_seconds += watch_.lap();
-      const OwnedSurface segment = retrieve(ground_->window(ground), window_over(tiles), result);
+      const OwnedSurface segment = retrieve(ground_->window(ground), tiles, result);
       // The edges of a segment's window are no voids, and features never reach beyond the ground.
       const ExactJudge judge(segment.full, {eye, segment.full.view_from(eye), left.shadow});
       if (way_ == CoarseWay::kNothing) {

@@ -2,8 +2,7 @@
 // of it.
 //
 //   const SampledSurface surface(retrieved, earth, lines_expected);
-//   SampledSurface::Scratch scratch;                             // one per thread
-//   const unsigned hidden = surface.hidden(lines, scratch);   // one bit per line, as SightLine has it
+//   const unsigned hidden = surface.hidden(lines);   // one bit per line, as SightLine has it
 #pragma once
 
 #include <cstdint>
@@ -19,8 +18,8 @@
 
 namespace itin::viewshed {
 
-/// Double precision asks every triangle that may rise above a line (HeightPyramid). Where a Tin is asked about very
-/// many lines, rays find most of the hidden lines (Scene) in less time.
+/// Every triangle that may rise above a line is asked (HeightPyramid). Where a Tin is asked about very many lines, rays
+/// find these triangles in less time (Scene).
 class SampledSurface {
  public:
   /// The surface must outlive it and have all its heights; about `lines` lines will be tested. Throws std::bad_alloc.
@@ -34,11 +33,8 @@ class SampledSurface {
   /// The edges where the surface ends.
   std::vector<RimEdge> rim() const;
 
-  struct Scratch {
-    Occluder occluder;
-  };
   /// Returns one bit per line: 1 if it is hidden. Ends of active lines differ horizontally. Safe for concurrent use.
-  unsigned hidden(const SightLines& lines, Scratch& scratch) const;
+  unsigned hidden(const SightLines& lines) const;
 
  private:
   bool hidden(const Point3& from, const Point3& to) const;

@@ -1,8 +1,6 @@
 #include "index/visibility_sampler.hpp"
 
 #include <algorithm>
-#include <array>
-#include <bit>
 #include <cmath>
 #include <iterator>
 #include <numbers>
@@ -12,7 +10,6 @@
 
 #include "bounds/boundary.hpp"
 #include "line/set_bits.hpp"
-#include "request/void_shadow.hpp"
 
 namespace itin::viewshed {
 
@@ -40,11 +37,12 @@ std::int32_t southern_end(const RimEdge& edge) {
 
 }  // namespace
 
-/// Lines to targets on ground; targets at the eye's own place are seen without a line.
-struct VisibilitySampler::Packet {
-  SightLines lines;
-  std::array<Point2, SightLines::kSize> targets;  ///< metres
-  unsigned on_ground = 0;                         ///< one bit per target
+/// A target on ground.
+struct VisibilitySampler::Target {
+  Point2 place;        ///< metres
+  Point3 units;        ///< grid units
+  double azimuth = 0;  ///< radians
+  Verdict verdict = Verdict::kVisible;
 };
 
 VisibilitySampler::VisibilitySampler(const SampledSurface& surface, const SampledSurface& ground,
@@ -76,49 +74,64 @@ std::vector<RimEdge> VisibilitySampler::rim_near(const Point3& eye) const {
   return near;
 }
 
+/// Draws the targets about an eye that have ground.
+std::vector<VisibilitySampler::Target> VisibilitySampler::draw(Point2 eye, std::uint64_t seed) const {
+  const Grid& units = surface_.units();
+  Random random(seed);
+  std::vector<Target> targets;
+  for (unsigned i = 0; i < targets_.count; ++i) {
+    const double distance = targets_.radius * std::sqrt(random.next());
+    const double azimuth = 2 * std::numbers::pi * random.next();
+    const Point2 place{eye.x + distance * std::sin(azimuth), eye.y + distance * std::cos(azimuth)};
+    if (const auto height = ground(place))
+      targets.push_back({place,
+                         {easting_in_units(units, place.x), northing_in_units(units, place.y),
+                          (*height + targets_.height) / units.resolution},
+                         azimuth});
+  }
+  return targets;
+}
+
+/// Decides lines to targets in similar directions, which meet the same ground.
+void VisibilitySampler::judge(const Point3& eye, const VoidShadow& behind_voids, std::span<Target*> targets) const {
+  SightLines lines;
+  lines.start_at(eye);
+  for (unsigned i = 0; i < targets.size(); ++i) {
+    const Point3& to = targets[i]->units;
+    lines.to_x[i] = to.x, lines.to_y[i] = to.y, lines.to_z[i] = to.z;
+    // A target at the eye's own place is seen without a line.
+    if (!same_place(to.x - eye.x, to.y - eye.y)) lines.active |= 1U << i;
+  }
+  const unsigned hidden = surface_.hidden(lines);
+  for_each_bit(lines.active, [&](unsigned i) {
+    Target& target = *targets[i];
+    if ((hidden >> i & 1) != 0) {
+      target.verdict = Verdict::kHidden;
+    } else if (behind_voids.holds(target.units.x, target.units.y)) {
+      target.verdict = rule_ == NoData::kBlock ? Verdict::kHidden : Verdict::kUndecided;
+    }
+  });
+}
+
 VisibilitySampler::Tally VisibilitySampler::observe(Point2 eye, double elevation, std::uint64_t seed,
                                                     const TargetJudged& on_target) const {
   const Grid& units = surface_.units();
   const Point3 from{easting_in_units(units, eye.x), northing_in_units(units, eye.y), elevation / units.resolution};
-  Random random(seed);
   const VoidShadow behind_voids(rim_near(from), from);
-  SampledSurface::Scratch scratch;
-  Tally tally;
-  while (tally.asked < targets_.count) {
-    Packet packet;
-    packet.lines.start_at(from);
-    const unsigned size = std::min<unsigned>(SightLines::kSize, targets_.count - tally.asked);
-    for (unsigned i = 0; i < size; ++i) {
-      const double distance = targets_.radius * std::sqrt(random.next());
-      const double azimuth = 2 * std::numbers::pi * random.next();
-      const Point2 target{eye.x + distance * std::sin(azimuth), eye.y + distance * std::cos(azimuth)};
-      const auto height = ground(target);
-      if (!height) continue;
-      SightLines& lines = packet.lines;
-      packet.targets[i] = target;
-      packet.on_ground |= 1U << i;
-      lines.to_x[i] = easting_in_units(units, target.x);
-      lines.to_y[i] = northing_in_units(units, target.y);
-      lines.to_z[i] = (*height + targets_.height) / units.resolution;
-      if (!same_place(lines.to_x[i] - from.x, lines.to_y[i] - from.y)) lines.active |= 1U << i;
-    }
-    unsigned hidden = surface_.hidden(packet.lines, scratch), undecided = 0;
-    for_each_bit(packet.lines.active & ~hidden, [&](unsigned i) {
-      if (!behind_voids.holds(packet.lines.to_x[i], packet.lines.to_y[i])) return;
-      (rule_ == NoData::kBlock ? hidden : undecided) |= 1U << i;
-    });
-    const unsigned seen = packet.on_ground & ~hidden & ~undecided;
-    tally.asked += size;
-    tally.on_ground += static_cast<unsigned>(std::popcount(packet.on_ground));
-    tally.seen += static_cast<unsigned>(std::popcount(seen));
-    tally.undecided += static_cast<unsigned>(std::popcount(undecided));
-    if (!on_target) continue;
-    for_each_bit(packet.on_ground, [&](unsigned i) {
-      const unsigned bit = 1U << i;
-      on_target(packet.targets[i], (seen & bit) != 0        ? Verdict::kVisible
-                                   : (undecided & bit) != 0 ? Verdict::kUndecided
-                                                            : Verdict::kHidden);
-    });
+  std::vector<Target> targets = draw(eye, seed);
+  std::vector<Target*> around;
+  for (Target& target : targets) around.push_back(&target);
+  std::sort(around.begin(), around.end(), [](const Target* a, const Target* b) { return a->azimuth < b->azimuth; });
+  for (std::span<Target*> left = around; !left.empty();) {
+    const std::span<Target*> together = left.first(std::min<std::size_t>(SightLines::kSize, left.size()));
+    judge(from, behind_voids, together);
+    left = left.subspan(together.size());
+  }
+  Tally tally{targets_.count, static_cast<unsigned>(targets.size())};
+  for (const Target& target : targets) {
+    tally.seen += target.verdict == Verdict::kVisible ? 1 : 0;
+    tally.undecided += target.verdict == Verdict::kUndecided ? 1 : 0;
+    if (on_target) on_target(target.place, target.verdict);
   }
   return tally;
 }

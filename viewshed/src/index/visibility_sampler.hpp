@@ -3,12 +3,14 @@
 
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <vector>
 
 #include <itin/geometry.hpp>
 #include <viewshed/result.hpp>
 
 #include "index/sampled_surface.hpp"
+#include "request/void_shadow.hpp"
 
 namespace itin::viewshed {
 
@@ -40,8 +42,10 @@ class VisibilitySampler {
   Tally observe(Point2 eye, double elevation, std::uint64_t seed, const TargetJudged& on_target = nullptr) const;
 
  private:
-  struct Packet;
+  struct Target;
   std::vector<RimEdge> rim_near(const Point3& eye) const;
+  std::vector<Target> draw(Point2 eye, std::uint64_t seed) const;
+  void judge(const Point3& eye, const VoidShadow& behind_voids, std::span<Target*> targets) const;
 
   const SampledSurface& surface_;
   const SampledSurface& ground_;

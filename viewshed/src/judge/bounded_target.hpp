@@ -18,7 +18,6 @@ namespace itin::viewshed {
 struct BoundedTarget {
   Verdict verdict = Verdict::kUndecided;
   double low = 0, high = 0;                    ///< where the target may be, metres
-  double squared_distance = 0;                 ///< from the eye, square metres
   std::optional<bool> in_view = std::nullopt;  ///< nothing where the elevations in view may leave the target out
 };
 
@@ -28,8 +27,7 @@ inline BoundedTarget bounded_target(const Eye& eye, Point2 centre, Point2 place,
                                     double high_ground) {
   if (std::isnan(low_ground)) return {.verdict = Verdict::kOutside};
   const auto [dx, dy] = eye.offset_to(centre, place);
-  BoundedTarget target{
-      .low = eye.target(low_ground), .high = eye.target(high_ground), .squared_distance = dx * dx + dy * dy};
+  BoundedTarget target{.low = eye.target(low_ground), .high = eye.target(high_ground)};
   target.in_view = eye.view.contains(dx, dy, target.low - eye.elevation, target.high - eye.elevation);
   if (target.in_view == false) {
     target.verdict = Verdict::kOutside;

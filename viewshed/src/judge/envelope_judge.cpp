@@ -155,7 +155,7 @@ class EnvelopeJudge::EnvelopeWork final : public TileJudge::Work {
       if (value == Verdict::kUndecided) value = aim(cell_of(i), i, packet);
     }
     if (packet.low.active == 0) return;
-    const EnvelopeScene::Decided decided = scene_.decide(packet, occluder_);
+    const EnvelopeScene::Decided decided = scene_.decide(packet);
     lines_ += decided.lines;
     for_each_bit(decided.visible, [&](unsigned i) { values[cell_of(i)] = Verdict::kVisible; });
     for_each_bit(decided.hidden, [&](unsigned i) { values[cell_of(i)] = Verdict::kHidden; });
@@ -173,8 +173,7 @@ class EnvelopeJudge::EnvelopeWork final : public TileJudge::Work {
       packet.behind_void |= 1U << i;
     }
     if (!target.in_view) packet.perhaps_outside |= 1U << i;
-    scene_.aim(*view_, {place, target.low * metre_, target.high * metre_, high_[cell], target.squared_distance}, i,
-               packet);
+    packet.aim(i, {place, target.low * metre_, target.high * metre_});
     return Verdict::kUndecided;
   }
 

@@ -3,8 +3,8 @@
 //   const EnvelopeScene scene(envelop(...), request, tiles, NoData::kUnknown);
 //   const EnvelopeScene::View view = scene.view_from(eye);
 //   EnvelopePacket packet(eye);
-//   scene.aim(view, target, 0, packet);
-//   const EnvelopeScene::Decided decided = scene.decide(packet, occluder);   // packet.low.active is left open
+//   packet.aim(0, target);
+//   const EnvelopeScene::Decided decided = scene.decide(packet);   // packet.low.active is left open
 //
 // A target is between a lowest and a highest place. If the line to the lowest clears the upper surface, the target is
 // seen whatever the full surface is; if the lower surface hides the line to the highest, it is not.
@@ -13,7 +13,6 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <span>
 
 #include <viewshed/request.hpp>
 
@@ -22,48 +21,46 @@
 #include "request/eye.hpp"
 #include "request/void_shadow.hpp"
 #include "scene/rays/scene.hpp"
-#include "scene/rays/upper_scene.hpp"
 #include "window/envelope.hpp"
 
 namespace itin::viewshed {
+
+/// A target at another place than the eye's, grid units.
+struct EnvelopeTarget {
+  Point2 place;
+  double low = 0, high = 0;
+};
 
 /// Sixteen targets that one eye looks for.
 struct EnvelopePacket {
   explicit EnvelopePacket(const Eye& eye) {
     for (SightLines* const lines : {&low, &high}) lines->start_at(eye.units);
   }
+  /// Makes line `i` lead to the target.
+  void aim(unsigned i, const EnvelopeTarget& target) {
+    low.to_x[i] = high.to_x[i] = target.place.x;
+    low.to_y[i] = high.to_y[i] = target.place.y;
+    low.to_z[i] = target.low;
+    high.to_z[i] = target.high;
+    low.active |= 1U << i;
+  }
 
-  SightLines low, high;       ///< to the lowest and to the highest target; active in `low`: those that are asked about
-  unsigned starts_under = 0;  ///< one bit per line: where the eye is not above the upper surface
-  unsigned ends_under = 0;    ///< one bit per line: where the lowest target is not above it
-  unsigned behind_void = 0;   ///< one bit per line: left open unless it is hidden
+  SightLines low, high;      ///< to the lowest and to the highest target; active in `low`: those that are asked about
+  unsigned behind_void = 0;  ///< one bit per line: left open unless it is hidden
   unsigned perhaps_outside = 0;  ///< one bit per line: perhaps not in the field of view, and left open
-};
-
-/// A target at another place than the eye's, in grid units, except for its horizontal distance, squared metres.
-struct EnvelopeTarget {
-  Point2 place;
-  double low = 0, high = 0;
-  double surface = 0;  ///< the upper surface under it
-  double squared_m = 0;
 };
 
 class EnvelopeScene {
  public:
-  /// `tiles` must outlive it.
   EnvelopeScene(Envelope envelope, const Request& request, const RasterGrid& tiles, NoData rule);
   EnvelopeScene(const EnvelopeScene&) = delete;
   EnvelopeScene& operator=(const EnvelopeScene&) = delete;
 
   struct View {
     Eye eye;
-    double upper = 0;  ///< grid units: the upper surface there, or -infinity where there is none
     std::shared_ptr<const VoidShadow> shadow = nullptr;  ///< null where voids are passed
   };
   View view_from(const Eye& eye) const;
-
-  /// Makes line `i` of the packet lead to the target.
-  void aim(const View& view, const EnvelopeTarget& target, unsigned i, EnvelopePacket& packet) const;
 
   /// The lines that were decided, one bit per line.
   struct Decided {
@@ -71,11 +68,11 @@ class EnvelopeScene {
     unsigned lines = 0;  ///< the number of lines that were cast
   };
   /// Decides the packet's lines; lines that are not decided stay active in packet.low.
-  Decided decide(EnvelopePacket& packet, Occluder& occluder) const;
+  Decided decide(EnvelopePacket& packet) const;
 
   Envelope envelope;
   Scene lower;
-  UpperScene upper;
+  Scene upper;  ///< hides what grazes it by half as much, so that what clears it is seen whatever lies below it
   TriangleBins bins;
   std::optional<TriangleBins> ground_bins;  ///< the bare ground's, where the envelope has it
   NoData rule;                              ///< what missing ground does
@@ -83,10 +80,6 @@ class EnvelopeScene {
   double drop;                              ///< how far curvature lowers the ground, grid units per squared grid unit
 
  private:
-  /// The upper surface's height at the eye, grid units; -infinity where there is none.
-  double upper_height(const Eye& eye, std::span<const std::uint32_t> triangles) const;
-
-  const RasterGrid& tiles_;
   std::vector<RimEdge> rim_;  ///< where the surface ends; empty where missing ground hides nothing
 };
 

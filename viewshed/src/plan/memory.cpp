@@ -58,7 +58,7 @@ bool takes_a_lattice(const Store& store, const Request& request) {
 }
 
 std::uint64_t bytes_per_point(const Request& request) {
-  constexpr std::uint64_t kStudies = 150, kRays = 1500;
+  constexpr std::uint64_t kStudies = 150, kRays = 300;
   const std::uint64_t studies = needs_bare_lines(request) ? 2 : needs_triangles(request) ? 1 : 0;
   return kBytesPerSurfacePoint + studies * kStudies + (casts_rays(request) ? kRays : 0);
 }

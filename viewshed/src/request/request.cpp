@@ -156,12 +156,6 @@ bool needs_bare_lines(const Request& request) {
   return request.mode == Mode::kLoss;
 }
 
-std::vector<Point2> positions_of(const Request& request) {
-  std::vector<Point2> positions;
-  for (const Observer& observer : request.observers) positions.push_back(observer.position);
-  return positions;
-}
-
 std::optional<double> radius_of(const Request& request, const Observer& observer) {
   return observer.radius ? observer.radius : request.radius;
 }

@@ -27,8 +27,6 @@ bool casts_rays(const Request& request);
 bool needs_triangles(const Request& request);
 /// Whether the request's mode asks about the ground under raised features, too, all along its lines.
 bool needs_bare_lines(const Request& request);
-/// The observers' positions, metres.
-std::vector<Point2> positions_of(const Request& request);
 
 /// How far the observer looks; nothing where it looks as far as there is ground.
 std::optional<double> radius_of(const Request& request, const Observer& observer);

@@ -130,16 +130,16 @@ void FullSurface::cast_rays_to_targets(const Eye& eye, TileCells& work) const {
         cells[i] = cell;
       }
       if (lines.active == 0) continue;
-      const unsigned hidden = rays_->hidden(lines, work.rays);
+      const unsigned hidden = rays_->hidden(lines);
       for_each_bit(lines.active,
                    [&](unsigned i) { work.seen[cells[i]] = (hidden >> i & 1) != 0 ? kNoSurface : eye.units.z; });
     }
   }
 }
 
-void FullSurface::cast_rays(const Earth& earth, const std::vector<Point2>& eyes) {
+void FullSurface::cast_rays(const Earth& earth) {
   ITIN_PRECONDITION(surface_ != nullptr);
-  rays_ = std::make_unique<const ExactRays>(*surface_, earth, eyes);
+  rays_ = std::make_unique<const Scene>(*surface_, earth);
 }
 
 double FullSurface::raise_from(const RadialSweep::View& view, Point2 position, double lowest, double highest) const {

@@ -1,9 +1,9 @@
 // A whole surface in memory, and what an eye sees of what stands on it: exact, cell for cell. One of two engines
 // decides the sight lines to cells, with the same answer: the sweep about the eye (sweep/radial_sweep.hpp), or rays
-// (rays/exact_rays.hpp).
+// (rays/scene.hpp).
 //
 //   FullSurface surface(tin, nullptr, request.earth, grid, tiles);
-//   surface.cast_rays(request.earth, {position});   // or not
+//   surface.cast_rays(request.earth);   // or not
 //   const auto work = surface.begin(tile);
 //   const auto view = surface.view_from(eye);
 //   surface.judge(eye, view, values, *work);   // every Verdict::kUndecided cell becomes visible, hidden or outside
@@ -28,7 +28,7 @@
 #include "bounds/triangle_bins.hpp"
 #include "line/cell_tiles.hpp"
 #include "request/eye.hpp"
-#include "scene/rays/exact_rays.hpp"
+#include "scene/rays/scene.hpp"
 #include "scene/sweep/radial_sweep.hpp"
 
 namespace itin::viewshed {
@@ -46,9 +46,8 @@ class FullSurface {
   FullSurface(const FullSurface&) = delete;
   FullSurface& operator=(const FullSurface&) = delete;
 
-  /// Lets rays decide the lines to cells from now on; eyes stand at these positions, metres. Precondition: the surface
-  /// is a Tin. Throws std::bad_alloc.
-  void cast_rays(const Earth& earth, const std::vector<Point2>& eyes);
+  /// Lets rays decide the lines to cells from now on. Precondition: the surface is a Tin. Throws std::bad_alloc.
+  void cast_rays(const Earth& earth);
   bool casts_rays() const { return rays_ != nullptr; }
 
   const Grid& units() const { return heights_->units(); }
@@ -70,7 +69,6 @@ class FullSurface {
     TileValues<double> targets;  ///< where the last eye's lines end; kNoSurface where none was needed
     RadialSweep::Heights seen;
     RadialSweep::Scratch scratch;
-    ExactRays::Scratch rays;
     Point3 target(std::size_t cell) const {
       const Point2 p = centres.at(cell);
       return {p.x, p.y, targets[cell]};
@@ -124,19 +122,19 @@ class FullSurface {
   std::optional<TriangleBins> of_tiles_;  ///< that Tin's triangles, where `heights_` does not tell its heights well
   RadialSweep sweep_;
   const std::vector<BinBox> cells_;  ///< one for each tile, about its cells' centres
-  std::unique_ptr<const ExactRays> rays_;
+  std::unique_ptr<const Scene> rays_;
 };
 
 /// A FullSurface together with the surface that it is made of.
 struct OwnedSurface {
-  /// Rays decide the lines to cells where their eyes are given, metres: then the surface must be a Tin.
+  /// Rays decide the lines to cells if wanted: then the surface must be a Tin.
   OwnedSurface(Surface of, std::optional<Tin> bare_ground, const Earth& earth, const RasterGrid& grid,
-               const RasterGrid& tiles, const std::vector<Point2>& eyes_of_rays = {})
+               const RasterGrid& tiles, bool rays = false)
       : surface(std::move(of)),
         ground(std::move(bare_ground)),
         full(surface.lattice ? FullSurface(surface.lattice->lattice(), earth, grid, tiles)
                              : FullSurface(surface.tin, ground ? &*ground : nullptr, earth, grid, tiles)) {
-    if (!eyes_of_rays.empty()) full.cast_rays(earth, eyes_of_rays);
+    if (rays) full.cast_rays(earth);
   }
 
   const Surface surface;

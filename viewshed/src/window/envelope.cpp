@@ -16,7 +16,6 @@
 #include <itin/triangulate.hpp>
 
 #include "progress/stage.hpp"
-#include "scene/rays/drift.hpp"
 #include "window/feature_bounds.hpp"
 
 namespace itin::viewshed {
@@ -163,7 +162,7 @@ class Builder {
     const std::vector<HeightBounds>& bounds = of.bounds;
     const auto first = static_cast<std::uint32_t>(lower_.vertices.size());
     lower_.grid = piece.grid;
-    firsts_.push_back(static_cast<std::uint32_t>(lower_.triangles.size()));
+    const std::size_t first_triangle = lower_.triangles.size();
     lower_.statistics += piece.statistics;
     lower_.vertices.resize(first + piece.vertices.size()), upper_.resize(lower_.vertices.size());
     for_each_chunk(piece.vertices.size(), [&](std::size_t v) {
@@ -171,10 +170,10 @@ class Builder {
       lower_.vertices[first + v] = {p.x, p.y, p.z + bounds[v].lo};
       upper_[first + v] = p.z + bounds[v].hi;
     });
-    lower_.triangles.resize(firsts_.back() + piece.triangles.size());
+    lower_.triangles.resize(first_triangle + piece.triangles.size());
     for_each_chunk(piece.triangles.size(), [&](std::size_t i) {
       const Triangle& t = piece.triangles[i];
-      lower_.triangles[firsts_.back() + i] = {t[0] + first, t[1] + first, t[2] + first};
+      lower_.triangles[first_triangle + i] = {t[0] + first, t[1] + first, t[2] + first};
     });
   }
 
@@ -192,21 +191,17 @@ class Builder {
       number[t] = kept;
       if (!drop[t]) lower_.triangles[kept++] = lower_.triangles[t];
     }
-    for (std::uint32_t& first : firsts_) first = first < number.size() ? number[first] : kept;
     lower_.triangles.resize(kept);
     for (BoundaryEdge& edge : outline_) edge.triangle = number[edge.triangle];
   }
 
-  Envelope finish(const std::vector<Point2>& observers) && {
+  Envelope finish() && {
     Envelope envelope;
     lower_.sources.assign(lower_.vertices.size(), 0);
     envelope.upper = lower_;
     for (std::size_t v = 0; v < upper_.size(); ++v) envelope.upper.vertices[v].z = upper_[v];
-    raise_against_drift(observers, envelope.upper);
-    envelope.drift = greatest_drift(observers, envelope.upper);
     envelope.lower = std::move(lower_);
     envelope.outline = std::move(outline_);
-    envelope.pieces.assign(firsts_.begin() + 1, firsts_.end());
     return envelope;
   }
 
@@ -214,7 +209,6 @@ class Builder {
   Tin lower_;
   std::vector<std::int32_t> upper_;  ///< heights
   std::vector<BoundaryEdge> outline_;
-  std::vector<std::uint32_t> firsts_;  ///< the first triangle of each piece
 };
 
 }  // namespace
@@ -229,7 +223,7 @@ Envelope envelop(const Store& store, const EnvelopeRequest& request, Progress& p
     builder.add(std::exchange(pieces[i], {}));
     if (i == 0) builder.mark_outline();
   }
-  Envelope envelope = std::move(builder).finish(request.observers);
+  Envelope envelope = std::move(builder).finish();
   envelope.exact =
       request.level == request.surface && feature_cuts(store, request.cut_by, envelope.lower.bounds()).empty();
   if (request.bare_ground) {

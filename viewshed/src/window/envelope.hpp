@@ -1,7 +1,7 @@
 // Two surfaces that hold the full surface, or a level's, between them, made of pieces of coarser levels and their
 // certificates.
 //
-//   Envelope envelope = envelop(store, {.window = window, .level = 3, .observers = positions}, progress);
+//   Envelope envelope = envelop(store, {.window = window, .level = 3}, progress);
 //
 // Every vertex of a level's triangulation is raised by the greatest upper bound, and lowered by the least lower bound,
 // of all index cells that its triangles meet: between its vertices a bound then holds too (law 2). Pieces of finer
@@ -33,12 +33,11 @@ struct FineDisc {
 struct EnvelopeRequest {
   Window window = Window::all();
   int level = 0;
-  int surface = 0;                ///< the level whose surface lies between the two; no piece is finer
-  std::vector<FineDisc> discs;    ///< in any order
-  std::vector<Point2> observers;  ///< rays start here: `upper` is raised for what single precision does sideways
-  ThemeChoice themes = ThemeChoice::none();          ///< what stands on the ground; at level 0 alone, without discs
-  ThemeChoice cut_by = ThemeChoice::none();          ///< not read, but `lower` is as low as their foundations cut
-  ThemeChoice enclosed = ThemeChoice::none();        ///< features that both surfaces hold between them, at any level
+  int surface = 0;                             ///< the level whose surface lies between the two; no piece is finer
+  std::vector<FineDisc> discs;                 ///< in any order
+  ThemeChoice themes = ThemeChoice::none();    ///< what stands on the ground; at level 0 alone, without discs
+  ThemeChoice cut_by = ThemeChoice::none();    ///< not read, but `lower` is as low as their foundations cut
+  ThemeChoice enclosed = ThemeChoice::none();  ///< features that both surfaces hold between them, at any level
   std::optional<Window> bare_ground = std::nullopt;  ///< where the ground without features is wanted too
 };
 
@@ -47,8 +46,6 @@ struct Envelope {
   Tin lower;
   Tin upper;
   std::vector<BoundaryEdge> outline;  ///< the edges of the coverage, of vertices and triangles of either
-  std::vector<std::uint32_t> pieces;  ///< the first triangle of each piece but the first
-  double drift = 0;                   ///< how far rays from the observers may drift, grid units: greatest_drift()
   bool exact = false;                 ///< one level throughout: `lower` is the surface
   std::optional<Tin> bare_ground;     ///< the full surface without what stands on it
 };

@@ -7,7 +7,6 @@
 #include <itin/parallel.hpp>
 
 #include "bounds/feature_margin.hpp"
-#include "scene/rays/drift.hpp"
 
 namespace itin::viewshed {
 
@@ -26,6 +25,14 @@ Box box_near(const Tin& tin, const Triangle& t) {
   }
   const double margin = kStepsBeside * tin.grid.resolution;
   return {box.xmin - margin, box.ymin - margin, box.xmax + margin, box.ymax + margin};
+}
+
+/// The steepest slope of a triangle: grid units up per grid unit along.
+double slope_of(const GridPoint& a, const GridPoint& b, const GridPoint& c) {
+  const double ux = double{1} * b.x - a.x, uy = double{1} * b.y - a.y, uz = double{1} * b.z - a.z;
+  const double vx = double{1} * c.x - a.x, vy = double{1} * c.y - a.y, vz = double{1} * c.z - a.z;
+  const double area = ux * vy - uy * vx;
+  return std::hypot(uy * vz - uz * vy, uz * vx - ux * vz) / area;
 }
 
 /// The steepest slope of both surfaces that the bounds make of the triangle; heights and distances are grid units.

@@ -73,7 +73,6 @@ EnvelopeRequest certified_request(const Store& store, const Request& request, in
   const double points = std::min({kNearPoints, kAllNearPoints / static_cast<double>(request.observers.size()),
                                   kNearShare * static_cast<double>(store.points_about(0, box))});
   for (const Observer& observer : request.observers) {
-    result.observers.push_back(observer.position);
     for (int finer = surface; finer < level; ++finer) {
       double radius = radius_with(store, finer, observer.position, points);
       if (const auto reach = radius_of(request, observer)) radius = std::min(radius, *reach);

@@ -3,164 +3,251 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstring>
+#include <limits>
 
-#include "bounds/boundary.hpp"
-#include "bounds/surface_heights.hpp"
-#include "bounds/triangle_bins.hpp"
 #include "line/set_bits.hpp"
+#include "line/sight_line.hpp"
 #include "scene/rays/embree.hpp"
-#include "scene/rays/tessellation.hpp"
-#include "scene/rays/walls.hpp"
 
 namespace itin::viewshed {
 
 namespace {
 
-/// The data of a packet that the filters below see; Embree hands back the pointer to the first member.
-struct HiddenPacket {
+constexpr double kRounding = 0x1p-24;
+/// How many roundings the boxes allow for, and the test in single precision within them.
+constexpr double kRoundingsOfBoxes = 16, kRoundingsOfFilter = 64;
+/// All lines are above this, grid units.
+constexpr float kFloor = -1e9F;
+
+/// What the callbacks see of a packet; Embree hands back the pointer to the first member.
+class Packet {
+ public:
+  Packet(const SightLines& of_lines, double drop, double grazing) : lines(of_lines), drop_(drop), grazing_(grazing) {}
+
+  /// Line `i` in double precision.
+  const SightLine& exact(unsigned i) {
+    std::optional<SightLine>& line = exact_[i];
+    if (!line)
+      line.emplace(Point3{lines.from_x[i], lines.from_y[i], lines.from_z[i]},
+                   Point3{lines.to_x[i], lines.to_y[i], lines.to_z[i]}, drop_, grazing_);
+    return *line;
+  }
+
   RayContext context;
-  const SightLines* lines;
-  const SightLine* exact;
+  const SightLines& lines;
   std::array<std::uint32_t, SightLines::kSize> by{};  ///< triangles that hide a line
-  unsigned by_triangle = 0;                           ///< one bit per line: a triangle in `by` hides it
-  unsigned doubtful = 0;  ///< one bit per line: Embree took a triangle for hiding that does not hide
+  unsigned hidden = 0;                                ///< one bit per line
+  Scene::Stretches* stretches = nullptr;              ///< gets all parts that are hidden, where they are asked for
+
+ private:
+  double drop_, grazing_;
+  std::array<std::optional<SightLine>, SightLines::kSize> exact_;
 };
 
-/// Keeps Embree's hits that hide, for which hides(packet, line, primitive) is true.
-template <class Hides>
-void keep_hits_that_hide(const RTCFilterFunctionNArguments* arguments, const Hides& hides) {
-  auto& packet = *reinterpret_cast<HiddenPacket*>(arguments->context);
-  const unsigned size = arguments->N;
-  for (unsigned i = 0; i < size; ++i) {
-    if (arguments->valid[i] == 0) continue;
-    const unsigned line = RTCRayN_id(arguments->ray, size, i);
-    if (hides(packet, line, RTCHitN_primID(arguments->hit, size, i))) continue;
-    packet.doubtful |= 1U << line;
-    arguments->valid[i] = 0;
+/// A triangle in single precision, about the scene's centre.
+struct Corners {
+  std::array<float, 3> x, y, z;
+  float bulge = 0;  ///< how far it rises at most above its corners' plane
+};
+
+/// Four values at a time, by the extension of GCC and Clang.
+using Four = float __attribute__((vector_size(16)));
+using FourBits = std::int32_t __attribute__((vector_size(16)));
+constexpr unsigned kLanes = 4;
+
+Four greatest(Four a, Four b) {
+  return a > b ? a : b;
+}
+Four least(Four a, Four b) {
+  return a < b ? a : b;
+}
+Four magnitude(Four a) {
+  return greatest(a, -a);
+}
+
+/// Some of a packet's rays, from the first to the first + kLanes: all but the last may be missing.
+struct FourRays {
+  FourRays(RTCRayN* ray, unsigned n, unsigned first)
+      : from_x(load(&RTCRayN_org_x(ray, n, first), n)),
+        from_y(load(&RTCRayN_org_y(ray, n, first), n)),
+        from_z(load(&RTCRayN_org_z(ray, n, first), n)),
+        x(load(&RTCRayN_dir_x(ray, n, first), n)),
+        y(load(&RTCRayN_dir_y(ray, n, first), n)),
+        z(load(&RTCRayN_dir_z(ray, n, first), n)) {}
+
+  Four from_x, from_y, from_z, x, y, z;
+
+ private:
+  /// Embree's packets have one ray, or whole fours.
+  static Four load(const float* values, unsigned n) {
+    Four four;
+    if (n < kLanes) return Four{*values, *values, *values, *values};
+    std::memcpy(&four, values, sizeof(four));
+    return four;
   }
+};
+
+/// How far places and heights are off at most, grid units.
+struct Errors {
+  float place = 0, height = 0;
+};
+
+/// Tells for each ray whether it may meet what lies under a triangle: 0 where the triangle certainly lies beside the
+/// ray, or below it.
+FourBits may_meet(const FourRays& ray, const Corners& at, const Errors& errors) {
+  const Four squared = ray.x * ray.x + ray.y * ray.y, about_length = magnitude(ray.x) + magnitude(ray.y);
+  std::array<Four, 3> side, rise;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Four x = at.x[k] - ray.from_x, y = at.y[k] - ray.from_y;
+    side[k] = ray.x * y - ray.y * x;
+    // How high the corner is above the plane that holds the ray and is level across it, times the squared length.
+    rise[k] = (at.z[k] - ray.from_z) * squared - (ray.x * x + ray.y * y) * ray.z;
+  }
+  const Four aside = errors.place * about_length;
+  const FourBits to_the_right =
+      greatest(greatest(side[0], side[1]), side[2])<-aside, to_the_left = least(least(side[0], side[1]), side[2])>
+          aside;
+  const Four heights = errors.height + at.bulge +
+                       static_cast<float>(kRoundingsOfFilter * kRounding) * (magnitude(ray.from_z) + magnitude(ray.z));
+  const FourBits below = greatest(greatest(rise[0], rise[1]), rise[2]) <
+                         -(heights * squared + errors.place * about_length * magnitude(ray.z));
+  return ~(to_the_right | to_the_left | below);
 }
 
 }  // namespace
 
 class Scene::Impl {
  public:
-  Impl(const Tin& tin, const Earth& earth)
+  Impl(const Tin& tin, const Earth& earth, double grazing)
       : tin_(tin),
         drop_(earth.drop_coefficient() * tin.grid.resolution),
-        sag_(drop_ == 0 ? 0 : kSag),
-        tessellation_(tessellate(tin, drop_)),
-        location_(location_grid(tin)),
-        bins_(tin, location_),
-        boundary_(boundary_edges(tin)) {
-    attach_surface();
-    attach_walls();
-    embree_.commit();
-    // Frees memory for the ray casting that follows; Embree has its own copy of what it needs.
-    tessellation_.indices = {};
+        grazing_(grazing / tin.grid.resolution),
+        centre_(centre_of(tin)) {
+    measure();
+    tree_.emplace(static_cast<std::uint32_t>(tin.triangles.size()), this, BoxTree::Functions{bounds, meet});
   }
 
-  unsigned hidden(const SightLines& lines, Occluder& occluder) const {
-    const ExactLines exact = exact_lines(lines, std::make_index_sequence<SightLines::kSize>());
-    const unsigned known = hidden_by_one(occluder, exact, lines.active);
-    if (known == lines.active) return known;
-    HiddenPacket packet;
-    unsigned result = known | cast(lines, lines.active & ~known, exact, packet);
-    if (packet.by_triangle != 0)
-      occluder.triangle = packet.by[static_cast<unsigned>(std::bit_width(packet.by_triangle)) - 1];
-    for_each_bit(packet.doubtful & ~result, [&](unsigned i) {
-      if (hidden_by_any(lines, i, exact[i], 0, 1)) result |= 1U << i;
-    });
-    return result;
+  unsigned hidden(const SightLines& lines) const {
+    Packet packet(lines, drop_, grazing_);
+    cast(lines.active, packet);
+    return packet.hidden;
   }
 
   unsigned hidden_together(const SightLines& lines, Occluder& occluder) const {
     if (drop_ < 0) return 0;
-    const ExactLines exact = exact_lines(lines, std::make_index_sequence<SightLines::kSize>());
+    Packet packet(lines, drop_, grazing_);
     unsigned result = 0, open = lines.active;
-    const auto hide_group = [&](unsigned group, const Occluder& by) {
+    const auto hide_group = [&](unsigned group, std::uint32_t triangle) {
       const unsigned four = 0xfU << 4 * group;
-      if ((open & four) == 0 || hidden_by_one(by, exact, four) != four) return;
+      if ((open & four) == 0) return;
+      for (unsigned i = 4 * group; i < 4 * group + 4; ++i)
+        if (!hides(packet.exact(i), triangle)) return;
       result |= 1U << group;
       open &= ~four;
-      occluder = by;
+      occluder.triangle = triangle;
     };
-    for (unsigned group = 0; group < SightLines::kSize / 4; ++group) hide_group(group, occluder);
+    if (const auto last = occluder.triangle)
+      for (unsigned group = 0; group < SightLines::kSize / 4; ++group) hide_group(group, *last);
     if (open == 0) return result;
-    HiddenPacket packet;
-    cast(lines, open, exact, packet);
-    for (unsigned i = 0; i < SightLines::kSize; ++i) {
-      const unsigned group = i / 4;
-      if ((packet.by_triangle >> 4 * group & 0xfU) == 0xfU) hide_group(group, {packet.by[i]});
-    }
+    cast(open, packet);
+    for (unsigned i = 0; i < SightLines::kSize; ++i)
+      if ((packet.hidden >> i / 4 * 4 & 0xfU) == 0xfU) hide_group(i / 4, packet.by[i]);
     return result;
   }
 
-  bool hidden_between(const SightLines& lines, unsigned i, double from, double to) const {
-    const SightLine exact({lines.from_x[i], lines.from_y[i], lines.from_z[i]},
-                          {lines.to_x[i], lines.to_y[i], lines.to_z[i]}, drop_, kGrazing / tin_.grid.resolution);
-    return hidden_by_any(lines, i, exact, from, to);
-  }
-
-  std::optional<double> ground(Point2 position) const {
-    const auto bin = location_.cell_at(position);
-    if (!bin) return std::nullopt;
-    const auto height = surface_height(tin_, bins_.triangles(location_.index(*bin)), position);
-    return height ? std::optional(*height * tin_.grid.resolution) : std::nullopt;
+  void find_hidden(const SightLines& lines, Stretches& result) const {
+    for (std::vector<Stretch>& stretches : result) stretches.clear();
+    Packet packet(lines, drop_, grazing_);
+    packet.stretches = &result;
+    cast(lines.active, packet);
   }
 
  private:
-  using ExactLines = std::array<SightLine, SightLines::kSize>;
-
-  /// e(l) in metres for a line of `length` metres.
-  double error_bound(double length) const {
-    return sag_ + rounding_error(tessellation_.half_height * tin_.grid.resolution, length);
+  static Point3 centre_of(const Tin& tin) {
+    const Box box = tin.bounds();
+    if (tin.vertices.empty()) return {};
+    const auto [low, high] = std::minmax_element(tin.vertices.begin(), tin.vertices.end(),
+                                                 [](const GridPoint& a, const GridPoint& b) { return a.z < b.z; });
+    const Point2 middle{(box.xmin + box.xmax) / 2, (box.ymin + box.ymax) / 2};
+    return {std::round((middle.x - tin.grid.origin.x) / tin.grid.resolution),
+            std::round((middle.y - tin.grid.origin.y) / tin.grid.resolution),
+            std::round((double{1} * low->z + high->z) / 2)};
   }
 
-  /// The lines of `active` that Embree finds hidden.
-  unsigned cast(const SightLines& lines, unsigned active, const ExactLines& exact, HiddenPacket& packet) const {
-    alignas(64) RTCRay16 rays;
-    alignas(64) std::array<int, SightLines::kSize> valid;
-    const RayFrame frame{tessellation_.centre, drop_, error_bound(0) / tin_.grid.resolution, kRounding * kRoundings};
-    frame.cast(lines, active, rays, valid);
-    packet.lines = &lines;
-    packet.exact = exact.data();
-    occluded(embree_.scene(), valid, packet.context, rays);
-    unsigned result = 0;
-    for (unsigned i = 0; i < SightLines::kSize; ++i)
-      result |= static_cast<unsigned>(valid[i] != 0 && rays.tfar[i] < 0) << i;
+  /// A place about the centre, lowered by the Earth's curvature.
+  Point3 about_centre(double x, double y, double z) const {
+    x -= centre_.x, y -= centre_.y;
+    return {x, y, z - centre_.z - drop_ * (x * x + y * y)};
+  }
+  Point3 about_centre(const GridPoint& p) const { return about_centre(p.x, p.y, p.z); }
+
+  void measure() {
+    double height = 0;
+    for (const GridPoint& v : tin_.vertices) {
+      const Point3 p = about_centre(v);
+      half_width_ = std::max({half_width_, std::abs(p.x), std::abs(p.y)});
+      height = std::max(height, std::abs(p.z));
+    }
+    corners_.reserve(tin_.triangles.size());
+    for (const Triangle& t : tin_.triangles)
+      height = std::max(height, double{1} * corners_.emplace_back(corners_of(t)).bulge);
+    top_ = 2 * height + 1;
+    half_width_ += 1;
+    margin_ = static_cast<float>(kRoundingsOfBoxes * kRounding * half_width_);
+    errors_ = {static_cast<float>(kRoundingsOfFilter * kRounding * half_width_),
+               static_cast<float>(kRoundingsOfFilter * kRounding * top_)};
+  }
+
+  Corners corners_of(const Triangle& triangle) const {
+    Corners result;
+    double longest = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const GridPoint &a = tin_.vertices[triangle[k]], &b = tin_.vertices[triangle[k == 2 ? 0 : k + 1]];
+      const Point3 p = about_centre(a);
+      result.x[k] = static_cast<float>(p.x), result.y[k] = static_cast<float>(p.y);
+      result.z[k] = static_cast<float>(p.z);
+      const double dx = double{1} * b.x - a.x, dy = double{1} * b.y - a.y;
+      longest = std::max(longest, dx * dx + dy * dy);
+    }
+    result.bulge = static_cast<float>(std::max(drop_, 0.0) * longest * (1.0 / 3 + 1e-6));
     return result;
   }
 
-  template <std::size_t... i>
-  ExactLines exact_lines(const SightLines& l, std::index_sequence<i...>) const {
-    return {SightLine({l.from_x[i], l.from_y[i], l.from_z[i]}, {l.to_x[i], l.to_y[i], l.to_z[i]}, drop_,
-                      kGrazing / tin_.grid.resolution)...};
+  static void bounds(const RTCBoundsFunctionArguments* arguments) {
+    const auto& self = *static_cast<const Impl*>(arguments->geometryUserPtr);
+    const Corners& at = self.corners_[arguments->primID];
+    RTCBounds& box = *arguments->bounds_o;
+    box.lower_x = std::min({at.x[0], at.x[1], at.x[2]}) - self.margin_;
+    box.upper_x = std::max({at.x[0], at.x[1], at.x[2]}) + self.margin_;
+    box.lower_y = std::min({at.y[0], at.y[1], at.y[2]}) - self.margin_;
+    box.upper_y = std::max({at.y[0], at.y[1], at.y[2]}) + self.margin_;
+    box.lower_z = kFloor;
+    box.upper_z = std::max({at.z[0], at.z[1], at.z[2]}) + at.bulge;
   }
 
-  void attach_surface() {
-    const Geometry geometry = embree_.triangles(tessellation_.vertices, tessellation_.indices, this);
-    rtcSetGeometryOccludedFilterFunction(geometry.get(), [](const RTCFilterFunctionNArguments* arguments) {
-      const auto& self = *static_cast<const Impl*>(arguments->geometryUserPtr);
-      keep_hits_that_hide(arguments, [&](HiddenPacket& packet, unsigned line, std::uint32_t piece) {
-        const auto& parents = self.tessellation_.parents;
-        const std::uint32_t triangle = parents.empty() ? piece : parents[piece];
-        if (!self.hides(packet.exact[line], triangle)) return false;
-        packet.by[line] = triangle;
-        packet.by_triangle |= 1U << line;
-        return true;
-      });
-    });
-    embree_.attach(geometry);
+  static void meet(const RTCOccludedFunctionNArguments* arguments) {
+    const auto& self = *static_cast<const Impl*>(arguments->geometryUserPtr);
+    self.ask(arguments->primID, *reinterpret_cast<Packet*>(arguments->context), *arguments);
   }
 
-  /// Which of the lines the occluder hides.
-  unsigned hidden_by_one(const Occluder& occluder, const ExactLines& lines, unsigned active) const {
-    if (!occluder.triangle) return 0;
-    unsigned result = 0;
-    for_each_bit(active, [&](unsigned i) {
-      if (hides(lines[i], *occluder.triangle)) result |= 1U << i;
-    });
-    return result;
+  /// Asks of each ray near a triangle whether that hides its line; it then has ended.
+  void ask(std::uint32_t triangle, Packet& packet, const RTCOccludedFunctionNArguments& arguments) const {
+    for (unsigned first = 0; first < arguments.N; first += kLanes) {
+      const FourBits near = may_meet(FourRays(arguments.ray, arguments.N, first), corners_[triangle], errors_);
+      for (unsigned i = first; i < std::min(first + kLanes, arguments.N); ++i)
+        if (near[i - first] != 0 && arguments.valid[i] != 0) ask_one(triangle, packet, arguments, i);
+    }
+  }
+
+  void ask_one(std::uint32_t triangle, Packet& packet, const RTCOccludedFunctionNArguments& arguments,
+               unsigned i) const {
+    const unsigned line = RTCRayN_id(arguments.ray, arguments.N, i);
+    if (!hides(packet.exact(line), triangle)) return;
+    if (packet.stretches != nullptr) return add_stretch(packet.exact(line), triangle, (*packet.stretches)[line]);
+    packet.hidden |= 1U << line;
+    packet.by[line] = triangle;
+    RTCRayN_tfar(arguments.ray, arguments.N, i) = -std::numeric_limits<float>::infinity();
   }
 
   bool hides(const SightLine& line, std::uint32_t triangle) const {
@@ -168,80 +255,88 @@ class Scene::Impl {
     return line.hidden_by(tin_.vertices[t[0]], tin_.vertices[t[1]], tin_.vertices[t[2]]);
   }
 
-  /// Asks every triangle in the bins under a part of the line: the slow way, for the few lines that run along an edge.
-  bool hidden_by_any(const SightLines& lines, unsigned i, const SightLine& line, double start, double end) const {
-    const auto bin_at = [&](double s) {
-      const double x = lines.from_x[i] + s * (lines.to_x[i] - lines.from_x[i]);
-      const double y = lines.from_y[i] + s * (lines.to_y[i] - lines.from_y[i]);
-      return Point2{location_.column_at(tin_.grid.origin.x + x * tin_.grid.resolution),
-                    location_.row_at(tin_.grid.origin.y + y * tin_.grid.resolution)};
-    };
-    const Point2 from = bin_at(start), to = bin_at(end);
-    // Steps of half a bin, with the bins about each, take more bins than needed and leave none out.
-    const double steps = std::ceil(2 * std::max(std::abs(to.x - from.x), std::abs(to.y - from.y))) + 1;
-    std::array<std::size_t, 4> before{kNoBin, kNoBin, kNoBin, kNoBin};
-    for (double step = 0; step <= steps; ++step) {
-      const Point2 at = bin_at(start + (end - start) * (step / steps));
-      std::array<std::size_t, 4> bins = before;
-      for (std::size_t corner = 0; corner < 4; ++corner)
-        bins[corner] = bin_about(at.x + (corner % 2 == 0 ? -0.5 : 0.5), at.y + (corner < 2 ? -0.5 : 0.5));
-      for (const std::size_t bin : bins) {
-        if (bin == kNoBin || std::find(before.begin(), before.end(), bin) != before.end()) continue;
-        for (const std::uint32_t triangle : bins_.triangles(bin))
-          if (hides(line, triangle)) return true;
-      }
-      before = bins;
+  void add_stretch(const SightLine& line, std::uint32_t triangle, std::vector<Stretch>& stretches) const {
+    const Triangle& t = tin_.triangles[triangle];
+    const auto over = line.ground_over(tin_.vertices[t[0]], tin_.vertices[t[1]], tin_.vertices[t[2]]);
+    if (over) stretches.push_back({over->from, over->to});
+  }
+
+  void cast(unsigned active, Packet& packet) const {
+    alignas(64) RTCRay16 rays;
+    alignas(64) std::array<int, SightLines::kSize> valid;
+    unsigned any = 0;
+    for (unsigned i = 0; i < SightLines::kSize; ++i) {
+      valid[i] = (active >> i & 1) != 0 && aim(packet.lines, i, rays) ? -1 : 0;
+      any |= static_cast<unsigned>(valid[i]);
     }
-    return false;
+    if (any != 0) tree_->cast(valid, packet.context, rays);
   }
 
-  static constexpr std::size_t kNoBin = ~std::size_t{0};
-  std::size_t bin_about(double x, double y) const {
-    const double column = std::floor(x), row = std::floor(y);
-    const bool outside = column < 0 || row < 0 || column >= static_cast<double>(location_.columns()) ||
-                         row >= static_cast<double>(location_.rows());
-    return outside ? kNoBin : location_.index({static_cast<std::int64_t>(column), static_cast<std::int64_t>(row)});
-  }
-
-  void attach_walls() {
-    if (boundary_.empty()) return;
-    const Barrier walls = walls_under(tin_, boundary_, tessellation_, drop_);
-    const Geometry geometry = embree_.triangles(walls.vertices, walls.indices, this);
-    rtcSetGeometryOccludedFilterFunction(geometry.get(), [](const RTCFilterFunctionNArguments* arguments) {
-      const auto& self = *static_cast<const Impl*>(arguments->geometryUserPtr);
-      keep_hits_that_hide(arguments, [&](const HiddenPacket& packet, unsigned line, std::uint32_t side) {
-        return self.hides(packet.exact[line], self.boundary_[side / kTrianglesPerWall].triangle);
-      });
-    });
-    embree_.attach(geometry);
+  /// Makes ray `i` of the part of line `i` that lies about the surface. Returns whether there is any.
+  bool aim(const SightLines& lines, unsigned i, RTCRay16& rays) const {
+    const Point3 from = about_centre(lines.from_x[i], lines.from_y[i], lines.from_z[i]);
+    const Point3 to = about_centre(lines.to_x[i], lines.to_y[i], lines.to_z[i]);
+    const Point3 along{to.x - from.x, to.y - from.y, to.z - from.z};
+    double first = 0, last = 1;
+    // Keeps the part where a coordinate is below `most`; half a grid unit is far more than doubles are off.
+    const auto keep = [&](double start, double step, double most) {
+      const double beyond = start - most;
+      if (step == 0) {
+        if (beyond > 0) last = -1;
+      } else if (step > 0) {
+        last = std::min(last, -beyond / step);
+      } else {
+        first = std::max(first, beyond / -step);
+      }
+    };
+    keep(from.x, along.x, half_width_), keep(-from.x, -along.x, half_width_);
+    keep(from.y, along.y, half_width_), keep(-from.y, -along.y, half_width_);
+    keep(from.z, along.z, top_);
+    if (first > last) return false;
+    const auto at = [&](double start, double step, double s) { return start + s * step; };
+    const double low = at(from.z, along.z, first), high = at(from.z, along.z, last);
+    const double lower = kRoundingsOfBoxes * kRounding * (top_ + std::abs(low) + std::abs(high));
+    rays.org_x[i] = static_cast<float>(at(from.x, along.x, first));
+    rays.org_y[i] = static_cast<float>(at(from.y, along.y, first));
+    rays.org_z[i] = static_cast<float>(low - lower);
+    // The direction is taken from the rounded origin, so that the other end is where it should be.
+    rays.dir_x[i] = static_cast<float>(at(from.x, along.x, last) - double{1} * rays.org_x[i]);
+    rays.dir_y[i] = static_cast<float>(at(from.y, along.y, last) - double{1} * rays.org_y[i]);
+    rays.dir_z[i] = static_cast<float>(high - lower - double{1} * rays.org_z[i]);
+    rays.tnear[i] = 0;
+    rays.tfar[i] = 1;
+    rays.time[i] = 0;
+    rays.mask[i] = 0xffffffff;
+    rays.id[i] = i;
+    rays.flags[i] = 0;
+    return true;
   }
 
   const Tin& tin_;
-  double drop_;  ///< grid units of drop per squared grid unit
-  double sag_;
-  Tessellation tessellation_;
-  RasterGrid location_;
-  TriangleBins bins_;
-  std::vector<BoundaryEdge> boundary_;
-  EmbreeScene embree_;
+  double drop_;     ///< grid units of drop per squared grid unit
+  double grazing_;  ///< grid units
+  Point3 centre_;
+  // In grid units about the centre: what all the surface is within, and by how much boxes are wider than triangles.
+  double half_width_ = 0, top_ = 0;
+  float margin_ = 0;
+  Errors errors_;
+  std::vector<Corners> corners_;  ///< each triangle's
+  std::optional<BoxTree> tree_;
 };
 
-Scene::Scene(const Tin& tin, const Earth& earth) : impl_(std::make_unique<Impl>(tin, earth)) {}
+Scene::Scene(const Tin& tin, const Earth& earth, double grazing) : impl_(std::make_unique<Impl>(tin, earth, grazing)) {}
 Scene::Scene(Scene&&) noexcept = default;
 Scene& Scene::operator=(Scene&&) noexcept = default;
 Scene::~Scene() = default;
 
-unsigned Scene::hidden(const SightLines& lines, Occluder& occluder) const {
-  return impl_->hidden(lines, occluder);
+unsigned Scene::hidden(const SightLines& lines) const {
+  return impl_->hidden(lines);
 }
 unsigned Scene::hidden_together(const SightLines& lines, Occluder& occluder) const {
   return impl_->hidden_together(lines, occluder);
 }
-bool Scene::hidden_between(const SightLines& lines, unsigned line, double from, double to) const {
-  return impl_->hidden_between(lines, line, from, to);
-}
-std::optional<double> Scene::ground(Point2 position) const {
-  return impl_->ground(position);
+void Scene::find_hidden(const SightLines& lines, Stretches& result) const {
+  impl_->find_hidden(lines, result);
 }
 
 }  // namespace itin::viewshed

@@ -32,11 +32,10 @@ class EnvelopeCells final : public GroupSurvey {
 
 class ExactCells final : public GroupSurvey {
  public:
-  ExactCells(const SiteSurvey& survey, Surface surface, std::optional<Tin> bare_ground,
-             const std::vector<Point2>& eyes_of_rays)
+  ExactCells(const SiteSurvey& survey, Surface surface, std::optional<Tin> bare_ground, bool rays)
       : survey_(survey),
         tiles_(grid_of_tiles(*survey.targets.grid)),
-        surface_(std::move(surface), std::move(bare_ground), survey.earth, *survey.targets.grid, tiles_, eyes_of_rays) {
+        surface_(std::move(surface), std::move(bare_ground), survey.earth, *survey.targets.grid, tiles_, rays) {
     if (survey.fresnel) zone_.emplace(surface_.surface.tin, nullptr, survey.earth, *survey.fresnel);
   }
 
@@ -70,9 +69,8 @@ std::unique_ptr<GroupSurvey> survey_cells(const SiteSurvey& survey, const Reques
 }
 
 std::unique_ptr<GroupSurvey> survey_cells_exactly(const SiteSurvey& survey, Surface surface,
-                                                  std::optional<Tin> bare_ground,
-                                                  const std::vector<Point2>& eyes_of_rays) {
-  return std::make_unique<ExactCells>(survey, std::move(surface), std::move(bare_ground), eyes_of_rays);
+                                                  std::optional<Tin> bare_ground, bool rays) {
+  return std::make_unique<ExactCells>(survey, std::move(surface), std::move(bare_ground), rays);
 }
 
 }  // namespace itin::viewshed

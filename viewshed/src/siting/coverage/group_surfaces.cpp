@@ -82,10 +82,7 @@ std::unique_ptr<GroupSurvey> GroupSurfaces::exact_cells(const std::vector<std::s
   std::optional<Tin> bare_ground;
   if (reads_two) bare_ground = reader.triangles(window, ThemeChoice::none(), call.step(1));
   Stopwatch watch;
-  std::vector<Point2> eyes_of_rays;
-  if (stages_.casts_rays())
-    for (const std::size_t option : group) eyes_of_rays.push_back(survey_.positions[option].position);
-  auto survey = survey_cells_exactly(survey_, std::move(surface), std::move(bare_ground), eyes_of_rays);
+  auto survey = survey_cells_exactly(survey_, std::move(surface), std::move(bare_ground), stages_.casts_rays());
   statistics_.scene_seconds += watch.lap();
   return survey;
 }
@@ -114,7 +111,6 @@ EnvelopeRequest GroupSurfaces::what_to_read(const std::vector<std::size_t>& grou
   read.window = window_about(survey_, group);
   for (const std::size_t option : group) {
     const Point2 position = survey_.positions[option].position;
-    read.observers.push_back(position);
     if (level == 0) continue;
     const double points = static_cast<double>(store_.points_about(0, square_about(position, survey_.radius)));
     const double share = std::sqrt(kSiteNearPoints / std::max(points, kSiteNearPoints));

@@ -39,11 +39,9 @@ class GroupSurvey {
 std::unique_ptr<GroupSurvey> survey_cells(const SiteSurvey& survey, const Request& request, Envelope envelope,
                                           bool zones);
 /// Returns an exact survey of cells over `surface`, which hides, and over the bare ground on which the cells stand
-/// where that is another surface. Where the positions of the sites, metres, are given, rays decide; then the surface is
-/// a Tin.
+/// where that is another surface. Rays decide if wanted; then the surface is a Tin.
 std::unique_ptr<GroupSurvey> survey_cells_exactly(const SiteSurvey& survey, Surface surface,
-                                                  std::optional<Tin> bare_ground,
-                                                  const std::vector<Point2>& eyes_of_rays);
+                                                  std::optional<Tin> bare_ground, bool rays);
 /// Returns a survey of points, which is exact over an envelope of level 0.
 std::unique_ptr<GroupSurvey> survey_points(const SiteSurvey& survey, const Request& request, Envelope envelope,
                                            bool zones);

@@ -12,7 +12,6 @@
 #include "line/set_bits.hpp"
 #include "line/sight_line.hpp"
 #include "progress/stage.hpp"
-#include "scene/rays/exact_rays.hpp"
 #include "siting/coverage/group_survey.hpp"
 #include "siting/coverage/point_bins.hpp"
 #include "siting/coverage/point_blocks.hpp"
@@ -53,10 +52,10 @@ class PointPass {
       : scene_(scene), zone_(zone), survey_(survey), grounds_(grounds) {}
 
   /// Judges the `open` points among points `first` and on.
-  ServedPoints judge(const EnvelopeScene::View& view, std::size_t first, std::uint64_t open, Occluder& occluder) const {
+  ServedPoints judge(const EnvelopeScene::View& view, std::size_t first, std::uint64_t open) const {
     ServedPoints served;
     for (unsigned at = 0; at < 64; at += SightLines::kSize) {
-      const Decided decided = judge_packet(view, first + at, static_cast<unsigned>(open >> at & 0xffff), occluder);
+      const Decided decided = judge_packet(view, first + at, static_cast<unsigned>(open >> at & 0xffff));
       served.certain |= std::uint64_t{decided.visible} << at;
       served.never |= std::uint64_t{decided.hidden} << at;
     }
@@ -66,7 +65,7 @@ class PointPass {
  private:
   using Decided = EnvelopeScene::Decided;
 
-  Decided judge_packet(const EnvelopeScene::View& view, std::size_t first, unsigned open, Occluder& occluder) const {
+  Decided judge_packet(const EnvelopeScene::View& view, std::size_t first, unsigned open) const {
     Decided decided;
     if (open == 0) return decided;
     EnvelopePacket packet(view.eye);
@@ -77,13 +76,9 @@ class PointPass {
     });
     const unsigned lines = packet.low.active;
     if (lines == 0) return decided;
-    Decided of_lines = scene_.decide(packet, occluder);
-    if (scene_.exact && packet.low.active != 0) {
-      const unsigned hidden =
-          hidden_exactly(scene_.lower, scene_.upper, packet.low, packet.starts_under, packet.ends_under);
-      of_lines.visible |= packet.low.active & ~hidden;
-      of_lines.hidden |= hidden;
-    }
+    Decided of_lines = scene_.decide(packet);
+    // What the surface itself does not hide is seen, though it may graze.
+    if (scene_.exact) of_lines.visible |= packet.low.active;
     if (zone_) judge_zones(packet, lines, of_lines);
     decided.visible |= of_lines.visible;
     decided.hidden |= of_lines.hidden;
@@ -121,7 +116,7 @@ class PointPass {
       return (view.eye.target(units * grid.resolution) + higher) * (1 / grid.resolution);
     };
     const double low = target(ground.low), high = target(scene_.exact ? ground.low : ground.high);
-    scene_.aim(view, {place, low, high, ground.high, squared}, i, packet);
+    packet.aim(i, {place, low, high});
     return Verdict::kUndecided;
   }
 
@@ -157,10 +152,8 @@ class PointSurvey final : public GroupSurvey {
     for_each_step(result.size(), "sight lines of candidates", progress, [&](std::size_t i) {
       const EnvelopeScene::View view =
           scene_.view_from(eye_at(scene_.envelope.lower.grid, sites.request, survey_.positions[sites.options[i]]));
-      Occluder occluder;
-      rays += judge_points(*sites.bounds[i], result[i], [&](std::size_t first, std::uint64_t open) {
-        return pass.judge(view, first, open, occluder);
-      });
+      rays += judge_points(*sites.bounds[i], result[i],
+                           [&](std::size_t first, std::uint64_t open) { return pass.judge(view, first, open); });
       result[i].exact = scene_.exact;
     });
     statistics.lines += rays;
