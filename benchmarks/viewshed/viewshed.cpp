@@ -73,13 +73,15 @@ void BM_Boundary(benchmark::State& state) {
 }
 BENCHMARK(BM_Boundary)->Unit(benchmark::kMillisecond)->UseRealTime();
 
-/// Does what `--precise` does once the surface is in memory: cells as large as those of the terrain, and finer ones.
-void BM_Sweep(benchmark::State& state) {
+/// Does what an exact viewshed does once the surface is in memory: cells as large as those of the terrain, and finer
+/// ones.
+void decide_cells(benchmark::State& state, const Tin& tin, bool rays) {
   const Request request = whole(state.range(0));
   const RasterGrid tiles = grid_of_tiles(*request.grid);
-  const FullSurface surface(terrain(), nullptr, request.earth, *request.grid, tiles);
+  FullSurface surface(tin, nullptr, request.earth, *request.grid, tiles);
+  if (rays) surface.cast_rays(request.earth);
   const Observer& observer = request.observers.front();
-  const Eye eye = eye_of(terrain().grid, request, observer, height_on(terrain(), observer.position));
+  const Eye eye = eye_of(tin.grid, request, observer, height_on(tin, observer.position));
   std::uint64_t lines = 0;
   for (auto _ : state) {
     const RadialSweep::View view = surface.view_from(eye);
@@ -91,7 +93,16 @@ void BM_Sweep(benchmark::State& state) {
   }
   state.SetItemsProcessed(static_cast<std::int64_t>(lines));
 }
+
+void BM_Sweep(benchmark::State& state) {
+  decide_cells(state, terrain(), false);
+}
 BENCHMARK(BM_Sweep)->Arg(512)->Arg(2048)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+void BM_Rays(benchmark::State& state) {
+  decide_cells(state, irregular(), true);
+}
+BENCHMARK(BM_Rays)->Arg(512)->Arg(2048)->Unit(benchmark::kMillisecond)->UseRealTime();
 
 void BM_Heights(benchmark::State& state) {
   const Request request = whole(4096);

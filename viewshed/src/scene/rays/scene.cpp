@@ -95,7 +95,7 @@ struct Errors {
 
 /// Tells for each ray whether it may meet what lies under a triangle: 0 where the triangle certainly lies beside the
 /// ray, or below it.
-FourBits may_meet(const FourRays& ray, const Corners& at, const Errors& errors) {
+FourBits may_touch(const FourRays& ray, const Corners& at, const Errors& errors) {
   const Four squared = ray.x * ray.x + ray.y * ray.y, about_length = magnitude(ray.x) + magnitude(ray.y);
   std::array<Four, 3> side, rise;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -234,7 +234,7 @@ class Scene::Impl {
   /// Asks of each ray near a triangle whether that hides its line; it then has ended.
   void ask(std::uint32_t triangle, Packet& packet, const RTCOccludedFunctionNArguments& arguments) const {
     for (unsigned first = 0; first < arguments.N; first += kLanes) {
-      const FourBits near = may_meet(FourRays(arguments.ray, arguments.N, first), corners_[triangle], errors_);
+      const FourBits near = may_touch(FourRays(arguments.ray, arguments.N, first), corners_[triangle], errors_);
       for (unsigned i = first; i < std::min(first + kLanes, arguments.N); ++i)
         if (near[i - first] != 0 && arguments.valid[i] != 0) ask_one(triangle, packet, arguments, i);
     }
