@@ -4,7 +4,8 @@
 
 #include <fmt/format.h>
 
-#include "output/hidden_eyes.hpp"
+#include <viewshed/hidden_eyes.hpp>
+
 #include "output/store_document.hpp"
 
 namespace itin::cli {
@@ -66,10 +67,10 @@ void warn_of_too_few(const SiteResult& site, std::vector<std::string>& warnings)
 
 void warn_of_hidden_sites(const Store& store, const SiteResult& site, std::vector<std::string>& warnings) {
   if (site.options.on_surface) return;
-  Eyes eyes{"site", {}, Detail::tolerance(0), site.options.themes.choice()};
+  viewshed::Eyes eyes{"site", {}, Detail::tolerance(0), site.options.themes.choice()};
   for (const viewshed::SitePosition& p : site.inputs.positions)
     eyes.places.push_back({p.position.x, p.position.y, p.elevation()});
-  warn_of_hidden_eyes(store, eyes, warnings);
+  viewshed::warn_of_hidden_eyes(store, eyes, warnings);
 }
 
 }  // namespace

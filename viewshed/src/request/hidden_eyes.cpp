@@ -1,11 +1,11 @@
-#include "output/hidden_eyes.hpp"
+#include <viewshed/hidden_eyes.hpp>
 
 #include <fmt/format.h>
 
 #include <itin/counted.hpp>
 #include <itin/cross_section.hpp>
 
-namespace itin::cli {
+namespace itin::viewshed {
 
 void warn_of_hidden_eyes(const Store& store, const Eyes& eyes, std::vector<std::string>& warnings) {
   const StoreMetadata& metadata = store.metadata();
@@ -25,8 +25,8 @@ void warn_of_hidden_eyes(const Store& store, const Eyes& eyes, std::vector<std::
   if (count == 0) return;
   warnings.push_back(fmt::format(
       "{} within a feature and lower than its top, and can see no place but its own: the eye at {}; to stand on top "
-      "give --observer-on surface, to leave features out --themes",
+      "give `on_surface`, to leave features out `themes`",
       count == 1 ? fmt::format("1 {} is", eyes.what) : counted(count, eyes.what) + " are each", first));
 }
 
-}  // namespace itin::cli
+}  // namespace itin::viewshed

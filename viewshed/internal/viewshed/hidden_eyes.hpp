@@ -9,7 +9,7 @@
 #include <itin/store.hpp>
 #include <itin/theme.hpp>
 
-namespace itin::cli {
+namespace itin::viewshed {
 
 /// Places of eyes over one surface; z is their elevation.
 struct Eyes {
@@ -22,4 +22,4 @@ struct Eyes {
 /// Warns of eyes that are within a feature of the surface and lower than its top: they see nothing but their own place.
 void warn_of_hidden_eyes(const Store& store, const Eyes& eyes, std::vector<std::string>& warnings);
 
-}  // namespace itin::cli
+}  // namespace itin::viewshed
