@@ -185,7 +185,7 @@ class ViewshedVerb final : public Verb {
                         progress);
     if (!answered.observers_on_surface)
       viewshed::warn_of_hidden_eyes(store, {"observer", eyes_of(computed.result), answered.detail, answered.themes},
-                          result.warnings);
+                                    result.warnings);
     const Document features = features_.write(store, computed.result.grid, {answered.detail, request_.themes},
                                               outputs_.overwrite(), progress);
     result.document = viewshed::viewshed_document(metadata, computed.result);

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <itin/azimuth.hpp>
 #include <itin/degrees.hpp>
 
 namespace itin::cli {

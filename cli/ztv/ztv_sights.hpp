@@ -13,7 +13,7 @@
 
 namespace itin::cli {
 
-using viewshed::Sight;
+using Sight = viewshed::TurbineSight;
 using viewshed::Viewpoint;
 
 /// Tells whether the tip is seen, or may be: whether a wireline shows the turbine.

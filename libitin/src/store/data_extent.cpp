@@ -1,8 +1,7 @@
-#include <itin/data_extent.hpp>
-
 #include <fmt/format.h>
 
 #include <itin/coordinates.hpp>
+#include <itin/data_extent.hpp>
 #include <itin/grid_units.hpp>
 
 namespace itin {

@@ -20,7 +20,7 @@ struct Viewpoint {
 };
 
 /// The part of one turbine that is seen from one viewpoint.
-struct Sight {
+struct TurbineSight {
   using Verdict = viewshed::Verdict;  ///< kUndecided: ground without data alone leaves it open
   double distance = 0, azimuth = 0;
   Verdict tip = Verdict::kHidden;
@@ -31,6 +31,6 @@ struct Sight {
 };
 
 /// Returns the sight of each turbine. Both ends of a line keep their bare ground whatever the surface.
-std::vector<Sight> sights_to_all(const SectionSurface& surface, const Viewpoint& from, const Zone& zone);
+std::vector<TurbineSight> sights_to_all(const SectionSurface& surface, const Viewpoint& from, const Zone& zone);
 
 }  // namespace itin::viewshed

@@ -1,9 +1,8 @@
-#include <viewshed/hidden_eyes.hpp>
-
 #include <fmt/format.h>
 
 #include <itin/counted.hpp>
 #include <itin/cross_section.hpp>
+#include <viewshed/hidden_eyes.hpp>
 
 namespace itin::viewshed {
 

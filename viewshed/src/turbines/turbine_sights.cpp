@@ -1,5 +1,3 @@
-#include <viewshed/turbine_sights.hpp>
-
 #include <algorithm>
 #include <cmath>
 
@@ -8,6 +6,7 @@
 #include <profile/profile.hpp>
 #include <profile/required_heights.hpp>
 #include <profile/wireline.hpp>
+#include <viewshed/turbine_sights.hpp>
 
 namespace itin::viewshed {
 
@@ -15,9 +14,9 @@ namespace {
 
 /// Returns the sight of one turbine. `ground` is the elevation on which the turbine stands; both ends keep their bare
 /// ground whatever the surface.
-Sight sight_to(const SectionSurface& surface, const Viewpoint& from, const Turbine& turbine, double ground,
-               const ZoneRequest& request) {
-  Sight sight;
+TurbineSight sight_to(const SectionSurface& surface, const Viewpoint& from, const Turbine& turbine, double ground,
+                      const ZoneRequest& request) {
+  TurbineSight sight;
   const CrossSection section = surface.between(from.position, turbine.position);
   const Point2 foot = section.one_place ? from.position : turbine.position;
   sight.distance = std::hypot(foot.x - from.position.x, foot.y - from.position.y);
@@ -28,8 +27,10 @@ Sight sight_to(const SectionSurface& surface, const Viewpoint& from, const Turbi
                                             request.earth, profile::EndGrounds{from.ground, ground});
   const double least = std::max(0.0, seen.from_m);
   const auto judged = [&](bool clear_of_known_ground) {
-    if (!clear_of_known_ground || (sight.gaps && request.nodata == NoData::kBlock)) return Sight::Verdict::kHidden;
-    return sight.gaps && request.nodata == NoData::kUnknown ? Sight::Verdict::kUndecided : Sight::Verdict::kVisible;
+    if (!clear_of_known_ground || (sight.gaps && request.nodata == NoData::kBlock))
+      return TurbineSight::Verdict::kHidden;
+    return sight.gaps && request.nodata == NoData::kUnknown ? TurbineSight::Verdict::kUndecided
+                                                            : TurbineSight::Verdict::kVisible;
   };
   const bool tip_clear = seen.tip.visible_m > 0;
   sight.tip = judged(tip_clear);
@@ -39,7 +40,7 @@ Sight sight_to(const SectionSurface& surface, const Viewpoint& from, const Turbi
     return profile::apparent_angle_deg(request.earth, sight.distance, ground + height - eye);
   };
   sight.tip_deg = angle(turbine.tip_height);
-  if (sight.tip != Sight::Verdict::kVisible) return sight;
+  if (sight.tip != TurbineSight::Verdict::kVisible) return sight;
   sight.visible = turbine.tip_height - least;
   sight.vertical_deg = sight.tip_deg - angle(least);
   return sight;
@@ -47,8 +48,8 @@ Sight sight_to(const SectionSurface& surface, const Viewpoint& from, const Turbi
 
 }  // namespace
 
-std::vector<Sight> sights_to_all(const SectionSurface& surface, const Viewpoint& from, const Zone& zone) {
-  std::vector<Sight> sights(zone.request.turbines.size());
+std::vector<TurbineSight> sights_to_all(const SectionSurface& surface, const Viewpoint& from, const Zone& zone) {
+  std::vector<TurbineSight> sights(zone.request.turbines.size());
   parallel_for(sights.size(), [&](std::size_t k) {
     sights[k] = sight_to(surface, from, zone.request.turbines[k], zone.ground_m[k], zone.request);
   });
