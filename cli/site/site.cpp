@@ -11,6 +11,7 @@
 #include <itin/document.hpp>
 #include <itin/error.hpp>
 #include <itin/file_digest.hpp>
+#include <itin/new_folder.hpp>
 #include <itin/output_file.hpp>
 #include <itin/sources_in.hpp>
 #include <itin/store.hpp>
@@ -21,7 +22,7 @@
 #include "options/memory_option.hpp"
 #include "options/off_the_data.hpp"
 #include "options/store_scale.hpp"
-#include "output/new_folder.hpp"
+
 #include "output/output_path.hpp"
 #include "output/store_document.hpp"
 #include "program/verb.hpp"

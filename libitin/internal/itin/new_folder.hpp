@@ -9,7 +9,7 @@
 #include <itin/error.hpp>
 #include <itin/unfinished.hpp>
 
-namespace itin::cli {
+namespace itin {
 
 class NewFolder {
  public:
@@ -27,4 +27,4 @@ class NewFolder {
   std::optional<Unfinished> made_;
 };
 
-}  // namespace itin::cli
+}  // namespace itin
