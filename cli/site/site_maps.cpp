@@ -9,6 +9,8 @@
 #include <viewshed/map_image.hpp>
 #include <viewshed/missing_ground.hpp>
 #include <viewshed/result_map.hpp>
+#include <viewshed/site_maps.hpp>
+#include <viewshed/site_wording.hpp>
 
 #include "output/result_sheet.hpp"
 #include "output/store_document.hpp"
@@ -20,27 +22,22 @@ namespace itin::cli {
 
 namespace {
 
-constexpr std::uint64_t kHillshadePoints = 400000;
 constexpr int kMapPixels = 1100;
 constexpr const char* kWithinRadius = "the area within the radius";
 
-int hillshade_level(const Store& store, const RasterGrid& grid) {
-  return finest_level_of(store, grid.bounds(), kHillshadePoints);
-}
-
 Tin hillshade_surface(const Store& store, const RasterGrid& grid, Progress& progress) {
-  return triangulate(store, Window::box(grid.bounds()), detail_of(store.metadata(), hillshade_level(store, grid)),
-                     progress);
+  return triangulate(store, Window::box(grid.bounds()),
+                     detail_of(store.metadata(), viewshed::hillshade_level(store, grid)), progress);
 }
 
-viewshed::Result as_viewshed(const SiteResult& r) {
+viewshed::Result as_viewshed(const viewshed::SitePlan& r) {
   viewshed::Result result;
   result.grid = r.rasters.grid;
-  result.request.earth = r.options.earth.earth();
-  result.request.radius = r.options.radius;
-  result.request.target_height = r.options.target_height;
+  result.request.earth = r.request.earth;
+  result.request.radius = r.request.radius;
+  result.request.target_height = r.request.demand.height;
   // Where demand is a raster, only its cells count, whatever lies beyond within the radius.
-  if (r.inputs.targets.grid && r.options.demand != "cells") result.request.grid = r.rasters.grid;
+  if (r.request.demand.grid) result.request.grid = r.rasters.grid;
   for (const viewshed::ChosenSite& site : r.choice.chosen) {
     const viewshed::SitePosition& place = r.place_of(site);
     result.request.observers.push_back({place.name, place.position, place.height});
@@ -60,42 +57,42 @@ struct SiteMap {
 };
 
 /// Tells what the maps are for, in one line.
-std::string subtitle_of(const SiteOptions& options) {
-  const double kilometres = options.radius / 1000;
-  if (options.placement.given())
+std::string subtitle_of(const viewshed::SitePlanRequest& request) {
+  const double kilometres = request.radius / 1000;
+  if (request.turbines)
     return fmt::format("{} {:g} m above the ground, eyes {:g} m, within {:g} km",
-                       options.placement.minimised() == Minimised::kHubs ? "hubs" : "blade tips",
-                       options.placement.minimised_height(), options.target_height, kilometres);
+                       request.turbines->minimised == viewshed::Minimised::kHubs ? "hubs" : "blade tips",
+                       request.turbines->minimised_height(), request.demand.height, kilometres);
   return fmt::format(
-      "radius {:g} km, targets {:g} m up{}{}", kilometres, options.target_height,
-      options.frequency_ghz ? fmt::format(", {:g} F1 clear at {:g} GHz", options.fresnel, *options.frequency_ghz) : "",
-      options.cover > 1 ? fmt::format(", by at least {} sites", options.cover) : "");
+      "radius {:g} km, targets {:g} m up{}{}", kilometres, request.demand.height,
+      request.frequency_ghz ? fmt::format(", {:g} F1 clear at {:g} GHz", request.fresnel, *request.frequency_ghz) : "",
+      request.cover > 1 ? fmt::format(", by at least {} sites", request.cover) : "");
 }
 
-std::vector<SiteMap> site_maps(const Store& store, const SiteResult& r, Progress& progress) {
+std::vector<SiteMap> site_maps(const Store& store, const viewshed::SitePlan& r, Progress& progress) {
   viewshed::Result result = as_viewshed(r);
   const viewshed::MissingGround missing = viewshed::missing_ground(store, result, progress);
   viewshed::MapOptions options;
   options.no_data = viewshed::cells_without_ground(store, result, progress);
   if (missing.without_ground > 0) options.no_data_text = missing.key_text(kWithinRadius);
   options.map_pixels = kMapPixels;
-  const SiteWording wording = wording_of(r.options);
+  const viewshed::SiteWording wording = viewshed::wording_of(r.request);
   options.seen = wording.served, options.unseen = wording.unserved, options.shares = r.shares;
   options.observers = wording.mark + (result.request.observers.size() == 1 ? "" : "s");
   options.outside = "Beyond the radius, or no data";
   options.title = fmt::format("{} {}", wording.by, counted(r.choice.chosen.size(), wording.one));
   if (r.inputs.existing() > 0) options.title += fmt::format(" and {} existing", r.inputs.existing());
-  options.subtitle = subtitle_of(r.options);
+  options.subtitle = subtitle_of(r.request);
   std::vector<SiteMap> maps{{"coverage", result, options, missing}};
   result.request.mode = viewshed::Mode::kCount;
   result.values = viewshed::Counts{r.rasters.redundancy};
   options.title = wording.how_many;
-  options.counts = r.options.placement.given() ? "Turbines" : "Served by sites";
+  options.counts = r.request.turbines ? "Turbines" : "Served by sites";
   maps.push_back({"redundancy", std::move(result), std::move(options), missing});
   return maps;
 }
 
-ResultSheet sheet_of(const Store& store, const SiteResult& r, const SiteMap& map,
+ResultSheet sheet_of(const Store& store, const viewshed::SitePlan& r, const SiteMap& map,
                      const std::vector<MapObjects>& objects, const std::vector<std::string>& sources,
                      Progress& progress) {
   const StoreMetadata& metadata = store.metadata();
@@ -111,21 +108,21 @@ ResultSheet sheet_of(const Store& store, const SiteResult& r, const SiteMap& map
       missing_on_sheet(viewshed::places_without_ground(store, map.result, progress), map.missing, kWithinRadius);
   sheet.outside = map.options.outside;
   sheet.title.title = map.options.title;
-  sheet.title.statement = statement_of(metadata, r.options.themes.choice(), Detail::tolerance(0));
-  const bool turbines = r.options.placement.given();
-  const std::string one = wording_of(r.options).one;
+  sheet.title.statement = statement_of(metadata, r.request.themes, Detail::tolerance(0));
+  const bool turbines = r.request.turbines.has_value();
+  const std::string one = viewshed::wording_of(r.request).one;
   sheet.title.facts = {{turbines ? "Objective" : "Served", r.meaning()},
                        {turbines ? "Turbines" : "Targets", map.options.subtitle},
                        {"Choice", fmt::format("{}, {}", counted(r.choice.chosen.size(), one),
                                               turbines ? least_in_words(r) : served_in_words(r))},
-                       {"Earth", r.options.earth.earth().convention()}};
+                       {"Earth", r.request.earth.convention()}};
   if (r.undecided > 0) sheet.title.facts.insert(sheet.title.facts.end() - 1, {"Undecided", undecided_in_words(r)});
   sheet.title.sources = sources;
   return sheet;
 }
 
 /// Returns a sheet for each map. The sheets refer to the maps.
-std::vector<ResultSheet> sheets_of(const Store& store, const SiteResult& r, const std::vector<SiteMap>& maps,
+std::vector<ResultSheet> sheets_of(const Store& store, const viewshed::SitePlan& r, const std::vector<SiteMap>& maps,
                                    const std::vector<std::string>& sources, Progress& progress) {
   const std::vector<MapObjects> objects = site_map_objects(store, r);
   std::vector<ResultSheet> sheets;
@@ -135,27 +132,20 @@ std::vector<ResultSheet> sheets_of(const Store& store, const SiteResult& r, cons
 
 }  // namespace
 
-std::uint64_t bytes_of_site_maps(const Store& store, const RasterGrid& grid) {
-  // Bytes per cell: its nearest server, the distance to it, how many serve the cell, and copies of these to draw and to
-  // write.
-  constexpr std::uint64_t kCell = 24, kPoint = 150;
-  return kCell * grid.cell_count() + kPoint * store.points_about(hillshade_level(store, grid), grid.bounds());
-}
-
-void write_site_maps(const Store& store, const SiteResult& r, bool overwrite, Progress& progress,
-                     std::vector<std::string>& warnings) {
+void write_site_maps(const Store& store, const SiteOptions& options, const viewshed::SitePlan& r, bool overwrite,
+                     Progress& progress, std::vector<std::string>& warnings) {
   progress.report("maps", 0);
   const Tin tin = hillshade_surface(store, r.rasters.grid, progress);
   const std::vector<SiteMap> maps = site_maps(store, r, progress);
   parallel_for(maps.size(), [&](std::size_t i) {
     const viewshed::MapImage image = draw_map(tin, maps[i].result, maps[i].options);
-    write_image(r.options.path(maps[i].name) + ".png", image, overwrite);
+    write_image(options.path(maps[i].name) + ".png", image, overwrite);
     // All maps are drawn with the same font, or without one, so that the warnings of the first one suffice.
     if (i == 0) warnings.insert(warnings.end(), image.warnings.begin(), image.warnings.end());
   });
 }
 
-std::vector<std::string> site_figures(const Store& store, const SiteResult& r, Progress& progress) {
+std::vector<std::string> site_figures(const Store& store, const viewshed::SitePlan& r, Progress& progress) {
   WebMaps web(store, shown_area(r), progress);
   const std::vector<SiteMap> maps = site_maps(store, r, progress);
   const std::vector<ResultSheet> sheets = sheets_of(store, r, maps, {}, progress);
@@ -164,18 +154,17 @@ std::vector<std::string> site_figures(const Store& store, const SiteResult& r, P
   return figures;
 }
 
-void write_site_sheets(const Store& store, const SiteResult& r, const std::vector<std::string>& sources, bool overwrite,
-                       Progress& progress) {
-  if (!r.options.sheets.given()) return;
-  const SheetOptions& options = r.options.sheets;
+void write_site_sheets(const Store& store, const SiteOptions& options, const viewshed::SitePlan& r,
+                       const std::vector<std::string>& sources, bool overwrite, Progress& progress) {
+  if (!options.sheets.given()) return;
   const std::vector<SiteMap> maps = site_maps(store, r, progress);
   const std::vector<ResultSheet> sheets = sheets_of(store, r, maps, sources, progress);
-  for (const profile::PaperSize paper : options.papers()) {
-    const MapBase base = base_of(store, sheets.front(), paper, options, progress);
+  for (const profile::PaperSize paper : options.sheets.papers()) {
+    const MapBase base = base_of(store, sheets.front(), paper, options.sheets, progress);
     for (std::size_t i = 0; i < maps.size(); ++i) {
-      const profile::MapSheet sheet = map_sheet(store, sheets[i], base, paper, options);
+      const profile::MapSheet sheet = map_sheet(store, sheets[i], base, paper, options.sheets);
       for (const std::string& name : sheet_names(maps[i].name, paper))
-        write_file(r.options.path(name), profile::draw_map_sheet(sheet, name), overwrite);
+        write_file(options.path(name), profile::draw_map_sheet(sheet, name), overwrite);
     }
   }
 }

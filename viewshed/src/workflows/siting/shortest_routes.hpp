@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-namespace itin::cli {
+namespace itin::viewshed {
 
 /// A link between two places, by their numbers; it has no direction.
 struct RouteLink {
@@ -24,4 +24,4 @@ struct RouteLink {
 std::vector<std::optional<std::size_t>> shortest_routes(std::size_t root, std::size_t places,
                                                         std::span<const RouteLink> links);
 
-}  // namespace itin::cli
+}  // namespace itin::viewshed

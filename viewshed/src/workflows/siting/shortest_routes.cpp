@@ -1,8 +1,8 @@
-#include "site/shortest_routes.hpp"
+#include "workflows/siting/shortest_routes.hpp"
 
 #include <limits>
 
-namespace itin::cli {
+namespace itin::viewshed {
 
 std::vector<std::optional<std::size_t>> shortest_routes(std::size_t root, std::size_t places,
                                                         std::span<const RouteLink> links) {
@@ -26,4 +26,4 @@ std::vector<std::optional<std::size_t>> shortest_routes(std::size_t root, std::s
   return leaves_by;
 }
 
-}  // namespace itin::cli
+}  // namespace itin::viewshed

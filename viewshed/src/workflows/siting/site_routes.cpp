@@ -1,14 +1,16 @@
-#include "site/site_routes.hpp"
+#include "workflows/siting/site_routes.hpp"
 
 #include <limits>
 
-#include "site/shortest_routes.hpp"
+#include <viewshed/site_links.hpp>
 
-namespace itin::cli {
+#include "workflows/siting/shortest_routes.hpp"
 
-std::vector<SiteRoute> site_routes(const SiteOptions& options, const SiteNetwork& network) {
-  if (!options.hub) return {};
-  const LinkRules rules = link_rules(options);
+namespace itin::viewshed {
+
+std::vector<SiteRoute> site_routes(const SitePlanRequest& request, const SiteNetwork& network) {
+  if (!request.hub) return {};
+  const LinkRules rules = link_rules(request);
   std::vector<RouteLink> usable;
   std::vector<std::size_t> numbers;
   for (std::size_t i = 0; i < network.links.size(); ++i) {
@@ -72,4 +74,4 @@ std::vector<std::size_t> routes_through_ends(const SiteNetwork& network, const s
   return count;
 }
 
-}  // namespace itin::cli
+}  // namespace itin::viewshed

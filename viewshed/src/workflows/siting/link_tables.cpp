@@ -1,24 +1,25 @@
-#include "site/site_link_outputs.hpp"
+#include "workflows/siting/link_tables.hpp"
 
 #include <iterator>
 
 #include <fmt/format.h>
 
 #include <itin/csv_cell.hpp>
+#include <viewshed/site_links.hpp>
 
-namespace itin::cli {
+namespace itin::viewshed {
 
 namespace {
 
-bool is_clear(const SiteResult& r, const SiteLink& link) {
-  return link_rules(r.options).met_by(link.found());
+bool is_clear(const SitePlan& r, const SiteLink& link) {
+  return link_rules(r.request).met_by(link.found());
 }
 
 std::optional<double> fraction_of(const SiteLink& link) {
   return link.found().fresnel ? std::optional(link.found().fresnel->fraction) : std::nullopt;
 }
 
-void add_clearance(const SiteLink& link, Document& entry) {
+void add_clearance_of(const SiteLink& link, Document& entry) {
   if (link.found().clearance_m) entry["clearance_m"] = *link.found().clearance_m;
   if (const auto fraction = fraction_of(link)) entry["fresnel_fraction"] = *fraction;
 }
@@ -30,15 +31,15 @@ Document hop_document(const SiteNetwork& network, const RouteHop& hop) {
                  {"to", network.ends[hop.to].place.name},
                  {"distance_m", link.line.distance_m},
                  {"gap_m", link.line.gap_m}};
-  add_clearance(link, entry);
+  add_clearance_of(link, entry);
   return entry;
 }
 
 }  // namespace
 
-std::string links_csv(const SiteResult& r) {
+std::string links_csv(const SitePlan& r) {
   std::string text = "from,to,distance_m,verdict,clearance_m,critical_x,critical_y,critical_z";
-  text += r.options.frequency_ghz ? ",fresnel_fraction,clear,gap_m\n" : ",gap_m\n";
+  text += r.request.frequency_ghz ? ",fresnel_fraction,clear,gap_m\n" : ",gap_m\n";
   const auto out = std::back_inserter(text);
   for (const SiteLink& link : r.network.links) {
     const profile::LineFindings& found = link.found();
@@ -50,14 +51,14 @@ std::string links_csv(const SiteResult& r) {
     } else {
       text += ",,,,";
     }
-    if (r.options.frequency_ghz)
+    if (r.request.frequency_ghz)
       fmt::format_to(out, ",{},{}", csv_cell(fraction_of(link), 4), is_clear(r, link) ? "yes" : "no");
     fmt::format_to(out, ",{:.3f}\n", link.line.gap_m);
   }
   return text;
 }
 
-std::string routes_csv(const SiteResult& r) {
+std::string routes_csv(const SitePlan& r) {
   const SiteNetwork& network = r.network;
   std::string text = "site,route,route_m,hop,from,to,distance_m,clearance_m,fresnel_fraction,gap_m,worst\n";
   const auto out = std::back_inserter(text);
@@ -77,7 +78,7 @@ std::string routes_csv(const SiteResult& r) {
   return text;
 }
 
-Document links_document(const SiteResult& r) {
+Document links_document(const SitePlan& r) {
   Document links = Document::array();
   for (const SiteLink& link : r.network.links) {
     Document entry{{"from", r.network.from(link).name},
@@ -85,14 +86,14 @@ Document links_document(const SiteResult& r) {
                    {"distance_m", link.line.distance_m},
                    {"verdict", name_of(link.found().verdict)},
                    {"gap_m", link.line.gap_m}};
-    add_clearance(link, entry);
-    if (r.options.frequency_ghz) entry["clear"] = is_clear(r, link);
+    add_clearance_of(link, entry);
+    if (r.request.frequency_ghz) entry["clear"] = is_clear(r, link);
     links.push_back(std::move(entry));
   }
   return links;
 }
 
-Document routes_document(const SiteResult& r) {
+Document routes_document(const SitePlan& r) {
   const SiteNetwork& network = r.network;
   Document routes = Document::array();
   for (const SiteRoute& route : r.routes) {
@@ -107,7 +108,7 @@ Document routes_document(const SiteResult& r) {
   return routes;
 }
 
-VectorLayer links_layer(const SiteResult& r) {
+VectorLayer links_layer(const SitePlan& r) {
   using Type = VectorLayer::Type;
   VectorLayer layer{"links",
                     VectorLayer::Shape::kLines,
@@ -123,11 +124,11 @@ VectorLayer links_layer(const SiteResult& r) {
   const std::vector<std::size_t> routes = routes_over_links(r.network, r.routes);
   for (std::size_t i = 0; i < r.network.links.size(); ++i) {
     const SiteLink& link = r.network.links[i];
-    const viewshed::SitePosition &a = r.network.from(link), &b = r.network.to(link);
+    const SitePosition &a = r.network.from(link), &b = r.network.to(link);
     VectorLayer::Value clearance, fraction, over;
     if (link.found().clearance_m) clearance = *link.found().clearance_m;
     if (const auto known = fraction_of(link)) fraction = *known;
-    if (r.options.hub) over = static_cast<std::int64_t>(routes[i]);
+    if (r.request.hub) over = static_cast<std::int64_t>(routes[i]);
     layer.features.push_back(
         {{{a.position.x, a.position.y, a.elevation()}, {b.position.x, b.position.y, b.elevation()}},
          {a.name, b.name, link.line.distance_m, std::string(name_of(link.found().verdict)), clearance, fraction,
@@ -136,4 +137,4 @@ VectorLayer links_layer(const SiteResult& r) {
   return layer;
 }
 
-}  // namespace itin::cli
+}  // namespace itin::viewshed

@@ -1,5 +1,5 @@
 // Routes against those that relaxing every link again and again finds.
-#include "site/shortest_routes.hpp"
+#include "workflows/siting/shortest_routes.hpp"
 
 #include <cmath>
 #include <limits>
@@ -9,7 +9,7 @@
 
 #include "support/seed.hpp"
 
-namespace itin::cli {
+namespace itin::viewshed {
 
 namespace {
 
@@ -73,4 +73,4 @@ TEST(ShortestRoutes, TakesTheLinkThatComesFirstAmongEquals) {
 
 }  // namespace
 
-}  // namespace itin::cli
+}  // namespace itin::viewshed

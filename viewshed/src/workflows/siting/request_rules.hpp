@@ -1,0 +1,33 @@
+// What a request says in more than one field: its masts, what is open, which sites may stand beside each other.
+#pragma once
+
+#include <cmath>
+#include <vector>
+
+#include <viewshed/site_plan.hpp>
+
+namespace itin::viewshed {
+
+/// Returns the masts that a candidate without a height may have; for turbines one, as high as what is looked for.
+inline std::vector<Mast> masts_of(const SitePlanRequest& request) {
+  if (request.turbines) return {{request.turbines->minimised_height(), 1}};
+  return request.masts;
+}
+
+/// Returns what targets count as that only ground without data could hide: turbines are hidden in the worst case.
+inline OpenTargets open_targets(const SitePlanRequest& request) {
+  return request.turbines ? OpenTargets::kServed : OpenTargets::kUnserved;
+}
+
+/// Tells whether distances between chosen sites matter.
+inline bool has_spacing(const SitePlanRequest& request) {
+  return request.min_spacing || (request.turbines && request.turbines->spacing);
+}
+
+/// Tells whether sites at both places may be chosen, as far as distances go.
+inline bool may_both_stand(const SitePlanRequest& request, Point2 a, Point2 b) {
+  if (request.min_spacing && std::hypot(a.x - b.x, a.y - b.y) < *request.min_spacing) return false;
+  return !request.turbines || !request.turbines->spacing || request.turbines->spacing->keeps_apart(a, b);
+}
+
+}  // namespace itin::viewshed
