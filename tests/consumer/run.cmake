@@ -40,14 +40,14 @@ function(run_examples examples)
       "make_store|town.itin|${data}/alexandria-dtm.tif|${data}/alexandria-buildings.geojson"
       "viewshed|town.itin|321800|4297750"
       "line_of_sight|town.itin|321590|4297655|10|321790|4297662|12"
-      "siting|town.itin"
+      "siting|town.itin|cameras"
       "segments|town.itin|321800|4297750|work|2"
       "segments|town.itin|321800|4297750|work"
       "cancel|town.itin|0")
     string(REPLACE "|" ";" command ${command})
     run(${CMAKE_COMMAND} -E chdir ${WORK_DIR} ${examples}/${command})
   endforeach()
-  foreach(file IN ITEMS viewshed.tif viewshed.png segments.tif profile.svg)
+  foreach(file IN ITEMS viewshed.tif viewshed.png segments.tif profile.svg cameras/sites.csv cameras/best-server.tif)
     if(NOT EXISTS ${WORK_DIR}/${file})
       message(FATAL_ERROR "the examples did not write ${file}")
     endif()

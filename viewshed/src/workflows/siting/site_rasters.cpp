@@ -55,7 +55,7 @@ class BestServers {
 
 /// Returns the cells of the rasters that are not outside.
 DemandSet cells_of_rasters(const Store& store, const SitePlanRequest& request, const SiteInputs& inputs,
-                         const std::vector<std::size_t>& serving, const SiteTargets& cells, Progress& progress) {
+                           const std::vector<std::size_t>& serving, const SiteTargets& cells, Progress& progress) {
   if (!inputs.cells.empty()) return inputs.cells;
   std::vector<SitePosition> sites;
   for (const std::size_t site : serving) sites.push_back(inputs.positions[site]);
