@@ -1,5 +1,5 @@
 // Where to put three cameras so that they see the most: sites are proposed from the terrain, looked from, and chosen;
-// and tables, layers and rasters of what they see.
+// and tables, layers, rasters and maps of what they see.
 //
 //   siting town.itin cameras
 #include <iomanip>
@@ -47,7 +47,8 @@ int main(int argc, char** argv) {
     NoProgress progress;
     const viewshed::SitePlan plan = viewshed::plan_sites(store, three_cameras(store.metadata()), progress);
     print(plan);
-    for (const viewshed::PlanFile& file : viewshed::write_site_plan(argv[2], plan, {.overwrite = true}))
+    for (const viewshed::PlanFile& file :
+         viewshed::write_site_plan(argv[2], plan, store, progress, {.overwrite = true}).files)
       std::cout << file.path << ": " << file.what << '\n';
   } catch (const Error& error) {
     std::cerr << error.what() << '\n';

@@ -1,4 +1,4 @@
-// Maps of a siting run: pictures, figures of its report, sheets of paper.
+// Maps of a siting run: figures of its report, sheets of paper.
 #pragma once
 
 #include <string>
@@ -12,15 +12,11 @@
 
 namespace itin::cli {
 
-/// Writes maps of what the choice serves and of how many sites serve a place, as PNG files. Adds the warnings of
-/// drawing them to `warnings`. Throws FileError.
-void write_site_maps(const Store& store, const SiteOptions& options, const viewshed::SitePlan& r, bool overwrite,
-                     Progress& progress, std::vector<std::string>& warnings);
-
-/// Returns these maps as figures of the report, with buildings, links and the kinds of sites. Throws FileError.
+/// Returns the maps of the plan as figures of the report, with buildings, links and the kinds of sites. Throws
+/// FileError.
 std::vector<std::string> site_figures(const Store& store, const viewshed::SitePlan& r, Progress& progress);
 
-/// Writes these maps for paper, sheet-NAME-A3.pdf and .png, where sheets are asked for. `sources` are those of the
+/// Writes the maps for paper, sheet-NAME-A3.pdf and .png, where sheets are asked for. `sources` are those of the
 /// ground, kind by kind. Throws FileError, InputError (a scale that is too large).
 void write_site_sheets(const Store& store, const SiteOptions& options, const viewshed::SitePlan& r,
                        const std::vector<std::string>& sources, bool overwrite, Progress& progress);

@@ -17,8 +17,6 @@ std::vector<viewshed::PlanFile> site_outputs(const SiteOptions& options, OutputP
     return files.insert(place, {options.path(name), what}) + 1;
   };
   auto place = files.end() - (options.request.hub ? 1 : 0);  // routes come behind these
-  place = add(place, "coverage.png", "map of coverage.tif");
-  place = add(place, "redundancy.png", "map of redundancy.tif");
   place = add(place, "report.html", "everything on one page");
   place = add(place, "site.json", "the result as a document");
   add(place, "parameters.json", "for --params: runs this again");

@@ -40,15 +40,14 @@ void expect_agreement(const Shell& shell, viewshed::SitePlanRequest request) {
   const viewshed::SitePlan plan = viewshed::plan_sites(store, request, progress);
   const Document called = Document::parse(shell.read("called/site.json"));
   const Document planned = Document::parse(viewshed::json_of(plan, store.metadata()));
-  for (const auto& [name, value] : planned.items())
-    EXPECT_EQ(called.at(name), value) << name;
+  for (const auto& [name, value] : planned.items()) EXPECT_EQ(called.at(name), value) << name;
   Document parameters = called.at("command");
   parameters.erase("verb");
   const auto written = viewshed::write_site_plan(
-      (shell.directory() / "planned").string(), plan,
+      (shell.directory() / "planned").string(), plan, store, progress,
       {.metadata = {{"itin", called.at("itin").get<std::string>()}, {"parameters", json_text(parameters)}}});
-  EXPECT_GE(written.size(), 7U);
-  for (const viewshed::PlanFile& file : written)
+  EXPECT_GE(written.files.size(), 9U);
+  for (const viewshed::PlanFile& file : written.files)
     EXPECT_TRUE(bytes_of(file.path) == bytes_of(shell.directory() / "called" / fs::path(file.path).filename()))
         << file.path;
 }

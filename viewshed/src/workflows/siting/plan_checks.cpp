@@ -16,14 +16,6 @@ void require_that(bool holds, const char* what) {
   if (!holds) throw InputError(what);
 }
 
-/// Returns about how many bytes the rasters of a choice on these cells, and maps of them, take.
-std::uint64_t bytes_of_maps(const Store& store, const RasterGrid& grid) {
-  // Bytes per cell: its nearest server, the distance to it, how many serve the cell, and copies of these to draw and to
-  // write.
-  constexpr std::uint64_t kCell = 24, kPoint = 150;
-  return kCell * grid.cell_count() + kPoint * store.points_about(hillshade_level(store, grid), grid.bounds());
-}
-
 }  // namespace
 
 void check(const SitePlanRequest& r) {
@@ -49,7 +41,7 @@ void require_memory(const Store& store, const SitePlanRequest& request, const Si
   const RasterGrid grid = inputs.targets.grid
                               ? *inputs.targets.grid
                               : grid_of_reach(store, inputs.positions, request.radius, request.cell_size);
-  const std::uint64_t needed = bytes_of_maps(store, grid) + bytes_of_coverage(survey_of_all(request, inputs));
+  const std::uint64_t needed = bytes_of_site_maps(store, grid) + bytes_of_coverage(survey_of_all(request, inputs));
   if (needed <= request.memory_bytes) return;
   throw InputError(
       fmt::format("maps of {} cells, and what {} may serve of them, take some {:.2g} GB, more than the {:.2g} GB of "

@@ -1,4 +1,4 @@
-#include "workflows/siting/site_tables.hpp"
+#include "workflows/siting/output/site_tables.hpp"
 
 #include <iterator>
 

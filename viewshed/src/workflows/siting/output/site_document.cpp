@@ -1,7 +1,7 @@
 #include <itin/coordinates.hpp>
 #include <viewshed/site_document.hpp>
 
-#include "workflows/siting/link_tables.hpp"
+#include "workflows/siting/output/link_tables.hpp"
 
 namespace itin::viewshed {
 

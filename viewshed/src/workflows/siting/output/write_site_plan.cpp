@@ -1,4 +1,4 @@
-// The files of a plan: tables, layers and rasters in one folder.
+// The files of a plan: tables, layers, rasters and maps in one folder.
 
 #include <filesystem>
 
@@ -8,10 +8,11 @@
 #include <itin/new_folder.hpp>
 #include <itin/output_file.hpp>
 #include <itin/raster.hpp>
+#include <viewshed/site_maps.hpp>
 #include <viewshed/site_wording.hpp>
 
-#include "workflows/siting/link_tables.hpp"
-#include "workflows/siting/site_tables.hpp"
+#include "workflows/siting/output/link_tables.hpp"
+#include "workflows/siting/output/site_tables.hpp"
 
 namespace itin::viewshed {
 
@@ -74,6 +75,16 @@ void write_layers(const std::string& folder, const SitePlan& plan, bool overwrit
   write_geopackage(within(folder, "sites.gpkg"), plan.crs_wkt, layers, overwrite);
 }
 
+void write_maps(const std::string& folder, const SitePlan& plan, const Store& store, Progress& progress, bool overwrite,
+                std::vector<std::string>& warnings) {
+  const std::vector<SiteMap> maps = site_maps(store, plan, progress);
+  const std::vector<MapImage> images = drawn(store, plan, maps, progress);
+  for (std::size_t i = 0; i < maps.size(); ++i)
+    write_image(within(folder, maps[i].name + ".png"), images[i], overwrite);
+  // All maps are drawn with the same font, or without one, so that the warnings of the first one suffice.
+  warnings.insert(warnings.end(), images.front().warnings.begin(), images.front().warnings.end());
+}
+
 }  // namespace
 
 std::vector<PlanFile> site_plan_files(const std::string& folder, const SitePlanRequest& request) {
@@ -96,18 +107,22 @@ std::vector<PlanFile> site_plan_files(const std::string& folder, const SitePlanR
              {"redundancy.tif", "how many of them serve a cell"},
              {"best-server.tif", "the nearest site that serves a cell"}};
   }
+  files.push_back({"coverage.png", "map of coverage.tif"});
+  files.push_back({"redundancy.png", "map of redundancy.tif"});
   if (request.hub) files.push_back({"routes.csv", "the route of every site to the hub, hop by hop"});
   for (PlanFile& file : files) file.path = within(folder, file.path);
   return files;
 }
 
-std::vector<PlanFile> write_site_plan(const std::string& folder, const SitePlan& plan,
-                                      const SitePlanFileOptions& options) {
+WrittenPlan write_site_plan(const std::string& folder, const SitePlan& plan, const Store& store, Progress& progress,
+                            const SitePlanFileOptions& options) {
   const NewFolder made(folder);
+  WrittenPlan written{site_plan_files(folder, plan.request), {}};
+  write_maps(folder, plan, store, progress, options.overwrite, written.warnings);
   write_rasters(folder, plan, options);
   write_tables(folder, plan, options.overwrite);
   write_layers(folder, plan, options.overwrite);
-  return site_plan_files(folder, plan.request);
+  return written;
 }
 
 }  // namespace itin::viewshed

@@ -1,4 +1,4 @@
-#include "workflows/siting/link_tables.hpp"
+#include "workflows/siting/output/link_tables.hpp"
 
 #include <iterator>
 
