@@ -185,6 +185,8 @@ TEST_F(SitePlans, KeepTheReasonForEachPlaceThatIsLeftOut) {
   EXPECT_EQ(made.inputs.left_out[1], "candidate 2: lies in a forbidden area");
   EXPECT_EQ(made.inputs.left_out[2], "candidate 1 at 0,0: it lies off the data");
   EXPECT_EQ(made.inputs.barred.size(), 1U);
+  asked.candidates.source.clear(), asked.candidates.places[0].origin.clear();
+  EXPECT_EQ(plan(asked).inputs.left_out[0], "candidate 0: its cost is missing or negative");
   EXPECT_EQ(made.inputs.candidates.size(), 3U);
 }
 

@@ -1,4 +1,4 @@
-// Whether a request for sites makes sense, and fits into its memory.
+// Whether a request for sites makes sense and fits into its memory, and what to beware of in its result.
 #pragma once
 
 #include <itin/store.hpp>
@@ -16,5 +16,8 @@ void require_memory(const Store& store, const SitePlanRequest& request, const Si
 /// Checks that there are as many candidates as turbines; distances between candidates are not considered yet. Throws
 /// Error.
 void require_enough(const SitePlanRequest& request, const SiteInputs& inputs);
+
+/// Adds a line to the plan's warnings for each thing to beware of in its result.
+void add_warnings(const Store& store, SitePlan& plan);
 
 }  // namespace itin::viewshed

@@ -8,12 +8,10 @@
 
 #include "workflows/siting/joint_coverage.hpp"
 #include "workflows/siting/plan_checks.hpp"
-#include "workflows/siting/plan_warnings.hpp"
 #include "workflows/siting/request_rules.hpp"
 #include "workflows/siting/site_inputs.hpp"
 #include "workflows/siting/site_network.hpp"
 #include "workflows/siting/site_rasters.hpp"
-#include "workflows/siting/site_routes.hpp"
 #include "workflows/siting/visible_heights.hpp"
 
 namespace itin::viewshed {

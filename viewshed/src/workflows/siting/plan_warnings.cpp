@@ -1,11 +1,11 @@
-#include "workflows/siting/plan_warnings.hpp"
-
 #include <algorithm>
 
 #include <fmt/format.h>
 
 #include <itin/counted.hpp>
 #include <viewshed/hidden_eyes.hpp>
+
+#include "workflows/siting/plan_checks.hpp"
 
 namespace itin::viewshed {
 

@@ -1,7 +1,9 @@
-// What a request says in more than one field: its masts, what is open, which sites may stand beside each other.
+// What a request says in more than one field: its masts, what is open, which sites may stand beside each other, what
+// places are called.
 #pragma once
 
 #include <cmath>
+#include <string>
 #include <vector>
 
 #include <viewshed/site_plan.hpp>
@@ -28,6 +30,16 @@ inline bool has_spacing(const SitePlanRequest& request) {
 inline bool may_both_stand(const SitePlanRequest& request, Point2 a, Point2 b) {
   if (request.min_spacing && std::hypot(a.x - b.x, a.y - b.y) < *request.min_spacing) return false;
   return !request.turbines || !request.turbines->spacing || request.turbines->spacing->keeps_apart(a, b);
+}
+
+/// Returns what messages call a list of places: its source, or else `what` the places are.
+inline std::string name_of(const SitePlaces& places, const char* what) {
+  return places.source.empty() ? what : places.source;
+}
+
+/// Returns what messages call a place of the list: where it stands in the source, or else its name.
+inline std::string name_of(const SitePlaces& places, const char* what, const SitePlace& place) {
+  return place.origin.empty() ? name_of(places, what) + " " + place.name : name_of(places, what) + ": " + place.origin;
 }
 
 }  // namespace itin::viewshed

@@ -1,5 +1,3 @@
-#include "workflows/siting/site_demand.hpp"
-
 #include <algorithm>
 #include <cmath>
 
@@ -8,6 +6,9 @@
 #include <itin/counted.hpp>
 #include <itin/data_extent.hpp>
 #include <itin/error.hpp>
+
+#include "workflows/siting/request_rules.hpp"
+#include "workflows/siting/site_inputs.hpp"
 
 namespace itin::viewshed {
 
@@ -82,14 +83,14 @@ class DemandOfPlan {
     try {
       inputs_.demand = Demand(of_element);
     } catch (const InputError& error) {
-      throw InputError(fmt::format("{}: {}", given_.source, error.what()));
+      throw InputError(fmt::format("{}: {}", given_.source.empty() ? "`weights`" : given_.source, error.what()));
     }
     inputs_.total = inputs_.demand.total();
   }
 
   void add_points() {
     std::vector<PointToServe> points = points_to_serve();
-    const std::string& source = given_.points->source;
+    const std::string source = name_of(*given_.points, "demand");
     if (points.empty()) throw InputError(source + ": holds no point to serve");
     sort_by_place(points);
     const std::vector<SitePlace>& places = given_.points->places;
@@ -116,7 +117,7 @@ class DemandOfPlan {
     for (const SitePlace& place : given_.points->places) {
       points.push_back({place.position, place.weight, place.height.value_or(given_.height)});
       if (const char* const wrong = wrong_with(points.back(), request_.frequency_ghz.has_value())) {
-        inputs_.left_out.push_back(fmt::format("{}: {}: {}", given_.points->source, place.origin, wrong));
+        inputs_.left_out.push_back(name_of(*given_.points, "demand", place) + ": " + wrong);
         points.pop_back();
       }
     }

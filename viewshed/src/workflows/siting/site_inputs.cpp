@@ -10,7 +10,6 @@
 #include <viewshed/turbine_layout.hpp>
 
 #include "workflows/siting/request_rules.hpp"
-#include "workflows/siting/site_demand.hpp"
 
 namespace itin::viewshed {
 
@@ -19,11 +18,6 @@ namespace {
 std::string proposed_as(const Proposal& proposal) {
   if (proposal.roof) return proposal.summit ? "highest roof" : "roof by visibility index";
   return proposal.summit ? "summit" : "visibility index";
-}
-
-/// Returns what a message about a place begins with.
-std::string at(const SitePlaces& places, const SitePlace& place) {
-  return fmt::format("{}: {}: ", places.source, place.origin);
 }
 
 class InputReader {
@@ -90,9 +84,9 @@ class InputReader {
     take_remarks(request_.candidates);
     for (const SitePlace& place : request_.candidates.places) {
       if (!(place.cost >= 0)) {
-        reject(at(request_.candidates, place) + "its cost is missing or negative");
+        reject(name_of(request_.candidates, "candidate", place) + ": its cost is missing or negative");
       } else if (place.height && *place.height < 0) {
-        reject(at(request_.candidates, place) + "its height is negative");
+        reject(name_of(request_.candidates, "candidate", place) + ": its height is negative");
       } else {
         inputs_.candidates.push_back({place, {}});
       }
@@ -129,7 +123,7 @@ class InputReader {
       warnings_.push_back(
           fmt::format("{}: the dwellings keep no candidate away: all stand at least {:g} m from each; check where the "
                       "dwellings are, or leave out `dwellings`",
-                      given.source, given.setback));
+                      given.source.empty() ? "`dwellings`" : given.source, given.setback));
   }
 
   /// Leaves out candidates too near existing turbines.
@@ -185,7 +179,8 @@ class InputReader {
       const SitePlace& site = request_.existing.places[i];
       const double height = site.height.value_or(masts_of(request_).front().height);
       if (!ground[i] || height < 0) {
-        reject(at(request_.existing, site) + (ground[i] ? "its height is negative" : "there is no data there"));
+        reject(name_of(request_.existing, "existing site", site) +
+               (ground[i] ? ": its height is negative" : ": there is no data there"));
       } else {
         inputs_.positions.push_back({site.name, site.position, height, *ground[i]});
       }

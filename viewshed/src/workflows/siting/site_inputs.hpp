@@ -15,4 +15,9 @@ namespace itin::viewshed {
 SiteInputs understood(const Store& store, const SitePlanRequest& request, std::vector<std::string>& warnings,
                       Progress& progress);
 
+/// Adds the demand to inputs that have their options and positions: cells in reach of these, a grid of weights, or
+/// points. Throws InputError where there is no demand.
+void add_demand(const Store& store, const SitePlanRequest& request, SiteInputs& inputs,
+                std::vector<std::string>& warnings, Progress& progress);
+
 }  // namespace itin::viewshed

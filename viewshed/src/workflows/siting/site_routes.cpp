@@ -1,10 +1,11 @@
-#include "workflows/siting/site_routes.hpp"
+// The backhaul: by which links each site reaches the hub.
 
 #include <limits>
 
 #include <viewshed/site_links.hpp>
 
 #include "workflows/siting/shortest_routes.hpp"
+#include "workflows/siting/site_network.hpp"
 
 namespace itin::viewshed {
 
