@@ -202,6 +202,7 @@ TEST_F(SitePlans, TakeDemandOfPointsWithTheirOwnHeightsAndWeights) {
   double total = 0;
   for (const SitePlace& point : points) total += point.weight;
   EXPECT_EQ(made.in_metric(made.inputs.total), total);
+  EXPECT_EQ(made.request.demand.points->places.capacity(), 0U);  // the memory is free again
   EXPECT_GT(made.served(), 0);
   // Four points in place of each, with a quarter of its weight.
   asked.demand.points->places.clear();

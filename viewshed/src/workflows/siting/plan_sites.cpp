@@ -32,8 +32,7 @@ class SitePlanner {
 
   SitePlan plan() && {
     plan_.inputs = understood(store_, plan_.request, plan_.warnings, progress_);
-    plan_.request.demand.weights = {};
-    if (plan_.request.demand.points) plan_.request.demand.points->places = {};
+    free_demand();
     require_memory(store_, plan_.request, plan_.inputs);
     hub_ = hub();
     goal_ = goal();
@@ -54,6 +53,13 @@ class SitePlanner {
   }
 
  private:
+  /// Frees the memory of what the inputs hold by now.
+  void free_demand() {
+    SiteDemand& demand = plan_.request.demand;
+    demand.weights = std::vector<double>();
+    if (demand.points) demand.points->places = std::vector<SitePlace>();
+  }
+
   std::optional<SitePosition> hub() const {
     if (!plan_.request.hub) return std::nullopt;
     const SitePlace& place = *plan_.request.hub;
