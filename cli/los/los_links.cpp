@@ -57,13 +57,7 @@ void LosLinks::declare(CLI::App& app) {
 
 void LosLinks::validate(const std::optional<profile::TallObject>& object) {
   if (outputs_.empty()) throw InputError("--links needs -o FILE.csv, the table to write");
-  for (const std::string& output : outputs_) {
-    try {
-      profile::require_link_format(output);
-    } catch (const InputError& error) {
-      throw InputError(fmt::format("-o {}", error.what()));
-    }
-  }
+  for (const std::string& output : outputs_) profile::require_link_format(output);
   if (object) heights_.to_m = object->tip_m;
   if (height_text_.empty()) return;
   heights_.from_m = heights_.to_m = parse_height("--link-height", height_text_, Range::kNotNegative);

@@ -46,6 +46,7 @@ constexpr std::array kNames{
     Names{"name_field", "--name-field"},
     Names{"nodata", "--nodata"},
     Names{"on_surface", "--observer-on surface"},
+    Names{"output", "-o"},
     Names{"overwrite", "--overwrite"},
     Names{"radius", "--radius"},
     Names{"repair = false", "--no-repair"},

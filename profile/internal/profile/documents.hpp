@@ -6,6 +6,7 @@
 #include <itin/document.hpp>
 #include <profile/links.hpp>
 #include <profile/los.hpp>
+#include <profile/path_profiles.hpp>
 #include <profile/profile.hpp>
 
 namespace itin::profile {
