@@ -6,9 +6,9 @@
 
 #include <itin/error.hpp>
 #include <itin/raster_values.hpp>
+#include <itin/site_list.hpp>
 
 #include "options/radius_preset.hpp"
-#include "options/site_list.hpp"
 #include "options/wave_options.hpp"
 #include "output/store_document.hpp"
 #include "program/call_files.hpp"

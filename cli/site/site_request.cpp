@@ -6,11 +6,11 @@
 
 #include <itin/error.hpp>
 #include <itin/raster_values.hpp>
+#include <itin/site_list.hpp>
 #include <itin/sites.hpp>
 #include <itin/window_source.hpp>
 
 #include "options/off_the_data.hpp"
-#include "options/site_list.hpp"
 
 namespace itin::cli {
 

@@ -124,7 +124,7 @@ class VisibilityVerb final : public Verb {
   Result execute(Progress& progress) override {
     const std::future<void> rasters = beside(make_gdal_ready);
     policy_.require_writable(output_);
-    policy_.claim(style_beside(output_));
+    policy_.claim(viewshed::style_beside(output_));
     if (!sheet_.file().empty()) policy_.require_writable(sheet_.file());
     const Store store(store_, cache_within(request_.memory_bytes));
     const StoreMetadata& metadata = store.metadata();
@@ -140,7 +140,7 @@ class VisibilityVerb final : public Verb {
     viewshed::write_geotiff(
         output_, index, request_,
         {metadata.crs_wkt, {{"itin", ITIN_VERSION}, {"surface", json_text(surface)}}, policy_.overwrite}, progress);
-    write_file(style_beside(output_), viewshed::qgis_style_of_shares(), policy_.overwrite);
+    write_file(viewshed::style_beside(output_), viewshed::qgis_style_of_shares(), policy_.overwrite);
     const std::vector<SourceInfo> sources = sources_in(store, looked_at(index), request_.themes);
     if (!sheet_.file().empty()) write_sheet(store, index, described(sources, metadata), progress);
     Result result;
@@ -160,7 +160,7 @@ class VisibilityVerb final : public Verb {
     document["mean_share_undecided"] = index.mean_undecided;
     if (index.mean_undecided > 0) document["undecided_decided_by"] = kDecidesMissingGround;
     document["sources"] = sources_document(sources);
-    document["outputs"] = {output_, style_beside(output_)};
+    document["outputs"] = {output_, viewshed::style_beside(output_)};
     if (!sheet_.file().empty()) document["outputs"].push_back(sheet_.file());
     document["statistics"] = viewshed::statistics_document({index.retrieval, index.triangles, index.lines});
     result.text = fmt::format(

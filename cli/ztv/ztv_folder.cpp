@@ -35,7 +35,7 @@ std::set<std::string> listed_outputs(const fs::path& manifest) {
     if (!output.is_object() || !output.contains("path") || !output["path"].is_string()) continue;
     const fs::path name = fs::path(output["path"].get<std::string>()).filename();
     names.insert(name.string());
-    names.insert(style_beside(name.string()));
+    names.insert(viewshed::style_beside(name.string()));
   }
   return names;
 }

@@ -10,6 +10,7 @@
 #include <itin/cross_section.hpp>
 #include <itin/csv_cell.hpp>
 #include <itin/error.hpp>
+#include <itin/file_name.hpp>
 #include <itin/grid_reference.hpp>
 #include <itin/output_file.hpp>
 #include <itin/paths.hpp>

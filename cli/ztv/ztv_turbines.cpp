@@ -12,8 +12,8 @@
 #include <itin/file_digest.hpp>
 #include <itin/position_columns.hpp>
 #include <itin/progress.hpp>
+#include <itin/site_list.hpp>
 
-#include "options/site_list.hpp"
 #include "program/call_files.hpp"
 #include "program/field_names.hpp"
 #include "program/help.hpp"

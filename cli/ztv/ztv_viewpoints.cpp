@@ -13,10 +13,10 @@
 #include <itin/error.hpp>
 #include <itin/grid_reference.hpp>
 #include <itin/output_file.hpp>
+#include <itin/site_list.hpp>
 #include <itin/site_table.hpp>
 
 #include "options/memory_option.hpp"
-#include "options/site_list.hpp"
 #include "program/call_files.hpp"
 #include "program/field_names.hpp"
 #include "program/help.hpp"

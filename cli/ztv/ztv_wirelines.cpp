@@ -8,6 +8,7 @@
 
 #include <itin/azimuth.hpp>
 #include <itin/coordinates.hpp>
+#include <itin/file_name.hpp>
 #include <itin/grid_reference.hpp>
 #include <itin/output_file.hpp>
 #include <profile/wireline.hpp>

@@ -10,7 +10,7 @@
 
 #include <itin/sites.hpp>
 
-namespace itin::cli {
+namespace itin {
 
 /// The fields with heights and names where the call names no others.
 inline constexpr const char *kHeightField = "height", *kNameField = "name";
@@ -42,4 +42,4 @@ void warn_of_unused(const SiteQuery& query, const LayerFields& fields, const std
 /// one.
 std::string none_in(const SiteQuery& query, const char* what);
 
-}  // namespace itin::cli
+}  // namespace itin

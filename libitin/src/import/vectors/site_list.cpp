@@ -1,13 +1,12 @@
-#include "options/site_list.hpp"
-
 #include <algorithm>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <itin/position_columns.hpp>
+#include <itin/site_list.hpp>
 
-namespace itin::cli {
+namespace itin {
 
 namespace {
 
@@ -65,7 +64,7 @@ void warn_of_unused(const SiteQuery& query, const LayerFields& fields, const std
 
 std::string none_in(const SiteQuery& query, const char* what) {
   return fmt::format("{}: holds no {}{}", query.path, what,
-                     query.where.empty() ? "" : fmt::format(" for which --where '{}' holds", query.where));
+                     query.where.empty() ? "" : fmt::format(" for which `where` '{}' holds", query.where));
 }
 
-}  // namespace itin::cli
+}  // namespace itin
