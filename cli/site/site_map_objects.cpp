@@ -19,7 +19,7 @@ constexpr Rgba kBuilding{70, 60, 55, 255}, kBackhaul{160, 55, 0, 255}, kExisting
 
 /// Returns building outlines, exact to a tenth of a pixel in a picture 1000 pixels long. Buildings smaller than two
 /// pixels, which would be blots, are left out.
-MapObjects building_objects(const Store& store, const viewshed::SitePlan& r) {
+viewshed::MapObjects building_objects(const Store& store, const viewshed::SitePlan& r) {
   const Box frame = shown_area(r);
   const double pixel = std::max(frame.width(), frame.height()) / 1000;
   profile::SheetLines lines{{}, kBuilding, 0.2, false};
@@ -28,7 +28,7 @@ MapObjects building_objects(const Store& store, const viewshed::SitePlan& r) {
   return {{std::move(lines)}, {{Sample::kLine, {kBuilding}, "Building outline"}}};
 }
 
-MapObjects link_objects(const viewshed::SitePlan& r) {
+viewshed::MapObjects link_objects(const viewshed::SitePlan& r) {
   const viewshed::SiteNetwork& network = r.network;
   const viewshed::LinkRules rules = viewshed::link_rules(r.request);
   const std::vector<std::size_t> routes = routes_over_links(network, r.routes);
@@ -44,15 +44,15 @@ MapObjects link_objects(const viewshed::SitePlan& r) {
 
 /// Returns marks for the ends of a network that `is_one` accepts.
 template <class IsOne>
-MapObjects marks(const viewshed::SiteNetwork& network, SheetSymbol symbol, const Rgba& colour, const std::string& what,
-                 const IsOne& is_one) {
+viewshed::MapObjects marks(const viewshed::SiteNetwork& network, SheetSymbol symbol, const Rgba& colour,
+                           const std::string& what, const IsOne& is_one) {
   profile::SheetMarks marks{symbol, colour, {}};
   for (std::size_t i = 0; i < network.ends.size(); ++i)
     if (is_one(i)) marks.marks.push_back({network.ends[i].place.position, network.ends[i].place.name});
   return {{std::move(marks)}, {{Sample::kMark, {colour}, what, symbol}}};
 }
 
-bool is_empty(const MapObjects& objects) {
+bool is_empty(const viewshed::MapObjects& objects) {
   const profile::SheetLayer& layer = objects.layers.front();
   if (const auto* lines = std::get_if<profile::SheetLines>(&layer)) return lines->lines.empty();
   return std::get<profile::SheetMarks>(layer).marks.empty();
@@ -71,20 +71,20 @@ Box shown_area(const viewshed::SitePlan& r) {
   return area;
 }
 
-std::vector<MapObjects> site_map_objects(const Store& store, const viewshed::SitePlan& r) {
+std::vector<viewshed::MapObjects> site_map_objects(const Store& store, const viewshed::SitePlan& r) {
   using enum viewshed::LinkEnd::Kind;
   const viewshed::SiteNetwork& network = r.network;
   const viewshed::SiteWording wording = viewshed::wording_of(r.request);
   const std::vector<std::size_t> through = routes_through_ends(network, r.routes);
   const auto is = [&](std::size_t i, viewshed::LinkEnd::Kind kind) { return network.ends[i].kind == kind; };
-  std::vector<MapObjects> objects{
+  std::vector<viewshed::MapObjects> objects{
       building_objects(store, r),
       link_objects(r),
       marks(network, SheetSymbol::kExistingMast, kExistingSite, "Existing " + wording.one,
             [&](std::size_t i) { return is(i, kExisting); }),
-      marks(network, SheetSymbol::kMast, kMastColour, "Chosen " + wording.one,
+      marks(network, SheetSymbol::kMast, viewshed::kMastColour, "Chosen " + wording.one,
             [&](std::size_t i) { return is(i, kChosen) && through[i] == 0; }),
-      marks(network, SheetSymbol::kRelay, kMastColour, "Chosen site that relays others",
+      marks(network, SheetSymbol::kRelay, viewshed::kMastColour, "Chosen site that relays others",
             [&](std::size_t i) { return is(i, kChosen) && through[i] > 0; }),
       marks(network, SheetSymbol::kHub, kHubMark, "Hub", [&](std::size_t i) { return is(i, kHub); })};
   std::erase_if(objects, is_empty);

@@ -22,7 +22,7 @@ std::vector<viewshed::PlanFile> site_outputs(const SiteOptions& options, OutputP
   add(place, "parameters.json", "for --params: runs this again");
   for (const profile::PaperSize paper : options.sheets.papers())
     for (const char* map : {"coverage", "redundancy"})
-      for (const std::string& name : sheet_names(map, paper))
+      for (const std::string& name : viewshed::sheet_names(map, paper))
         add(files.end(), name, fmt::format("{}.tif as a map on paper", map));
   for (viewshed::PlanFile& file : files) {
     file.what = in_options(std::move(file.what));

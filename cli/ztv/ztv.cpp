@@ -234,7 +234,7 @@ class ZtvVerb final : public Verb {
       route_warnings_ = std::move(written.warnings);
     }
     if (sheets_.given())
-      add(write_ztv_sheets(folder, store, zone, sheets_,
+      add(write_ztv_sheets(folder, store, zone, sheets_.choice(),
                            {seen_.places, routes, radio_.links(), radio_.radar(), sources_, missing_}, progress));
     add_text("areas.csv", "km² by band of turbines visible and by ring of distance to the nearest turbine",
              viewshed::area_table(zone));

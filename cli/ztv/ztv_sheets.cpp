@@ -13,9 +13,9 @@
 #include <itin/sources_in.hpp>
 #include <viewshed/area_text.hpp>
 #include <viewshed/result_map.hpp>
+#include <viewshed/result_sheet.hpp>
 #include <viewshed/zone_maps.hpp>
 
-#include "output/result_sheet.hpp"
 #include "output/store_document.hpp"
 #include "ztv/ztv_methods.hpp"
 #include "ztv/ztv_route.hpp"
@@ -92,7 +92,7 @@ double ring_step(double farthest) {
 }
 
 /// Returns the study area's edge, and rings of distance within it.
-MapObjects distance_objects(const Zone& zone) {
+viewshed::MapObjects distance_objects(const Zone& zone) {
   const Box box = study_area(zone);
   double farthest = 0;
   for (const Turbine& t : zone.request.turbines) farthest = std::max(farthest, t.radius);
@@ -101,7 +101,7 @@ MapObjects distance_objects(const Zone& zone) {
   const PlaneField distance(box, [&](Point2 p) { return nearest_turbine(zone, p); });
   for (double at = step; at < farthest; at += step) distance.add_lines(at, fmt::format("{:g} km", at / 1000), rings);
   PlaneField(box, [&](Point2 p) { return beyond_study_area(zone, p); }).add_lines(0, "", edge);
-  MapObjects objects{{}, {{SheetKey::Sample::kDashes, {kStudyArea}, "Study area"}}};
+  viewshed::MapObjects objects{{}, {{SheetKey::Sample::kDashes, {kStudyArea}, "Study area"}}};
   // There are no rings where all radii are shorter than the first ring.
   if (!rings.lines.empty())
     objects.keys.push_back(
@@ -122,11 +122,11 @@ std::string unknown_hubs(std::size_t unknown, std::size_t all) {
   return unknown == all ? ", of unknown hub height" : fmt::format(", {} of unknown hub height", unknown);
 }
 
-MapObjects turbine_objects(const Zone& zone, bool of_hubs) {
+viewshed::MapObjects turbine_objects(const Zone& zone, bool of_hubs) {
   std::vector<std::string> farms = viewshed::farms_of(zone);
   if (farms.size() > kMostFarmColours) farms = {""};
   const bool single = farms.size() == 1;
-  MapObjects objects;
+  viewshed::MapObjects objects;
   for (std::size_t f = 0; f < farms.size(); ++f) {
     profile::SheetMarks marks{profile::SheetSymbol::kTurbine, farm_colour(f), {}};
     std::size_t unknown = 0;
@@ -146,34 +146,34 @@ MapObjects turbine_objects(const Zone& zone, bool of_hubs) {
   return objects;
 }
 
-MapObjects viewpoint_objects(const std::vector<NamedPlace>& viewpoints) {
+viewshed::MapObjects viewpoint_objects(const std::vector<NamedPlace>& viewpoints) {
   profile::SheetMarks marks{profile::SheetSymbol::kViewpoint, kViewpoint, {}};
   for (const NamedPlace& v : viewpoints) marks.marks.push_back({v.position, fmt::format("{} {}", v.number, v.name)});
   return {{std::move(marks)}, {{SheetKey::Sample::kMark, {kViewpoint}, "Viewpoint", profile::SheetSymbol::kViewpoint}}};
 }
 
-MapObjects route_objects(const std::vector<Path>& routes) {
+viewshed::MapObjects route_objects(const std::vector<Path>& routes) {
   profile::SheetLines lines{{}, kRoute, 0.6, false};
   for (std::size_t i = 0; i < routes.size(); ++i)
     lines.lines.push_back({routes[i].corners, route_name(routes[i], i + 1)});
   return {{std::move(lines)}, {{SheetKey::Sample::kLine, {kRoute}, "Route"}}};
 }
 
-MapObjects radio_link_objects(const std::vector<viewshed::RadioLink>& links) {
+viewshed::MapObjects radio_link_objects(const std::vector<viewshed::RadioLink>& links) {
   profile::SheetLines lines{{}, kLink, 0.3, true};
   for (const viewshed::RadioLink& link : links) lines.lines.push_back({{link.from, link.to}, link.id});
   return {{std::move(lines)}, {{SheetKey::Sample::kDashes, {kLink}, "Radio link"}}};
 }
 
-MapObjects radar_objects(const viewshed::Observer& radar) {
+viewshed::MapObjects radar_objects(const viewshed::Observer& radar) {
   const profile::SheetMarks mark{profile::SheetSymbol::kExistingMast, kRadar, {{radar.position, "Radar"}}};
   return {{mark}, {{SheetKey::Sample::kMark, {kRadar}, "Radar", mark.symbol}}};
 }
 
 /// Returns the objects that a map of hubs, or of what else is seen of the zone, has above its classes.
-std::vector<MapObjects> objects_of(const Zone& zone, const MapObjects& distances, const ZtvSheetFacts& facts,
-                                   bool of_hubs) {
-  std::vector<MapObjects> objects{distances};
+std::vector<viewshed::MapObjects> objects_of(const Zone& zone, const viewshed::MapObjects& distances,
+                                             const ZtvSheetFacts& facts, bool of_hubs) {
+  std::vector<viewshed::MapObjects> objects{distances};
   if (!facts.routes.empty()) objects.push_back(route_objects(facts.routes));
   if (!facts.links.empty()) objects.push_back(radio_link_objects(facts.links));
   objects.push_back(turbine_objects(zone, of_hubs));
@@ -243,7 +243,7 @@ profile::TitleBlock title_block(const StoreMetadata& metadata, const Zone& zone,
   profile::TitleBlock block;
   block.title = map.title + (map.screened ? ", screened" : "");
   block.statement =
-      statement_of(metadata, map.screened ? *zone.request.themes : ThemeChoice::none(), zone.request.detail);
+      viewshed::statement_of(metadata, map.screened ? *zone.request.themes : ThemeChoice::none(), zone.request.detail);
   if (!map.screened) block.statement += " What is shown as visible may be hidden by them.";
   block.facts = {{"Turbines", heights_in_words(zone) + (shows_hubs(map) ? hub_heights_in_words(zone) : "")},
                  {"Study area", radii_in_words(zone) + without_terrain_in_words(facts.missing)},
@@ -252,7 +252,7 @@ profile::TitleBlock title_block(const StoreMetadata& metadata, const Zone& zone,
                  {"Earth", zone.request.earth.curvature
                                ? "curvature and refraction are taken into account, " + zone.request.earth.convention()
                                : "flat; curvature and refraction are not taken into account"},
-                 terrain_fact(metadata, zone.request.detail)};
+                 viewshed::terrain_fact(metadata, zone.request.detail)};
   if (const std::string undecided = more_in_words(zone, map); !undecided.empty())
     block.facts.emplace_back("Undecided", undecided);
   block.sources = described(facts.sources, metadata);
@@ -262,35 +262,34 @@ profile::TitleBlock title_block(const StoreMetadata& metadata, const Zone& zone,
 }  // namespace
 
 std::vector<viewshed::ZoneFile> write_ztv_sheets(const std::string& folder, const Store& store, const Zone& zone,
-                                                 const SheetOptions& options, const ZtvSheetFacts& facts,
+                                                 const viewshed::SheetChoice& choice, const ZtvSheetFacts& facts,
                                                  Progress& progress) {
   std::vector<viewshed::ZoneFile> files;
   const std::vector<ZoneMap> maps = viewshed::zone_maps(zone);
-  const MapObjects distances = distance_objects(zone);
-  const MissingOnSheet missing =
-      missing_on_sheet(viewshed::places_without_ground(zone), facts.missing, "the study area");
+  const viewshed::MapObjects distances = distance_objects(zone);
+  const viewshed::MissingOnSheet missing =
+      viewshed::missing_on_sheet(viewshed::places_without_ground(zone), facts.missing, "the study area");
   const auto content_of = [&](const ZoneMap& map) {
-    return ResultSheet{zone.grid,
-                       study_area(zone),
-                       classes_of(zone, map),
-                       map.heading + ", and share of the area that has terrain data",
-                       [&](Point2 p) { return beyond_study_area(zone, p) <= 0; },
-                       objects_of(zone, distances, facts, shows_hubs(map)),
-                       title_block(store.metadata(), zone, map, facts),
-                       missing};
+    return viewshed::ResultSheet{zone.grid,
+                                 study_area(zone),
+                                 classes_of(zone, map),
+                                 map.heading + ", and share of the area that has terrain data",
+                                 [&](Point2 p) { return beyond_study_area(zone, p) <= 0; },
+                                 objects_of(zone, distances, facts, shows_hubs(map)),
+                                 title_block(store.metadata(), zone, map, facts),
+                                 missing};
   };
   std::size_t done = 0;
-  for (const profile::PaperSize paper : options.papers()) {
-    const MapBase base = base_of(store, content_of(maps.front()), paper, options, progress);
+  for (const profile::PaperSize paper : choice.papers) {
+    const viewshed::MapBase base = base_of(store, content_of(maps.front()), paper, choice, progress);
     for (const ZoneMap& map : maps) {
-      const profile::MapSheet sheet = map_sheet(store, content_of(map), base, paper, options);
-      for (const std::string& name : sheet_names(map.name, paper)) {
+      const profile::MapSheet sheet = map_sheet(store, content_of(map), base, paper, choice);
+      for (const std::string& name : viewshed::sheet_names(map.name, paper)) {
         write_file(fmt::format("{}/{}", folder, name), profile::draw_map_sheet(sheet, name), true);
         files.push_back({name, fmt::format("map sheet: {}, {} at 1:{:.0f}", sheet.title.title, profile::name_of(paper),
                                            profile::scale_of(sheet))});
       }
-      progress.report("sheets",
-                      static_cast<double>(++done) / static_cast<double>(maps.size() * options.papers().size()));
+      progress.report("sheets", static_cast<double>(++done) / static_cast<double>(maps.size() * choice.papers.size()));
     }
   }
   return files;

@@ -34,7 +34,7 @@ struct ZtvSheetFacts {
 
 /// Writes sheet-NAME-A3.pdf and .png of each map. Throws FileError, InputError (a scale that is too large), Cancelled.
 std::vector<viewshed::ZoneFile> write_ztv_sheets(const std::string& folder, const Store& store,
-                                                 const viewshed::Zone& zone, const SheetOptions& options,
+                                                 const viewshed::Zone& zone, const viewshed::SheetChoice& choice,
                                                  const ZtvSheetFacts& facts, Progress& progress);
 
 }  // namespace itin::cli

@@ -229,7 +229,7 @@ ViewpointOptions::Written ViewpointOptions::write(const std::string& folder, con
   const bool national = is_national_grid(metadata.crs_wkt);
   std::string table = fmt::format("{}{}\n", kHeader, features ? kScreenedHeader : "");
   std::string summary = summary_header(features.has_value());
-  WirelineWriter wirelines(folder, store, zone, choice_, sheets);
+  WirelineWriter wirelines(folder, store, zone, choice_, sheets.choice());
   SiteQuery query = query_;
   const LayerFields fields(query);
   take_names(query, fields);

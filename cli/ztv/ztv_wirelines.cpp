@@ -13,8 +13,8 @@
 #include <itin/output_file.hpp>
 #include <profile/wireline.hpp>
 #include <profile/wireline_sheet.hpp>
+#include <viewshed/map_base.hpp>
 
-#include "output/map_base.hpp"
 #include "output/output_path.hpp"
 #include "output/store_document.hpp"
 #include "ztv/ztv_turbines.hpp"
@@ -207,7 +207,8 @@ profile::MapSheet location_map(const Store& store, const Zone& zone, const Viewp
   const double room = std::max(1000.0, 0.35 * sights[seen.nearest].distance);
   sheet.area = {sheet.area.xmin - room, sheet.area.ymin - room, sheet.area.xmax + room, sheet.area.ymax + room};
   sheet.scale = 2 * profile::scale_of(sheet);
-  const MapBase base = map_base(store, profile::ground_in_location_map(sheet), sheet.scale, basemap, progress);
+  const viewshed::MapBase base =
+      viewshed::map_base(store, profile::ground_in_location_map(sheet), sheet.scale, basemap, progress);
   sheet.layers = {base.picture};
   sheet.layers.insert(sheet.layers.end(), base.contours.begin(), base.contours.end());
   profile::SheetMarks turbines{profile::SheetSymbol::kTurbine, {170, 20, 20, 255}, {}};
@@ -240,14 +241,14 @@ void WirelineWriter::write(const Viewpoint& v, const ViewedSurface& view, const 
     const std::string name = name_of_file("wireline", v, view.suffix + ending);
     add(name, "wireline from " + of + ", to scale", profile::draw_wireline(drawn, name));
   }
-  if (!sheets_.given()) return;
+  if (sheets_.papers.empty()) return;
   const int fields = std::clamp(static_cast<int>(std::ceil((arc.width + kRoomBeside) / kCylinder)), 1, 4);
   query.width_deg = fields * kCylinder, query.step_deg = 0.025;
   query.from_deg = within_turn(centre - query.width_deg / 2);
   const profile::Wireline wide = profile::survey_wireline(view.surface, query, progress);
   profile::WirelineSheet sheet{query.title, facts, centre};
-  if (!sheets_.project().empty()) sheet.facts.insert(sheet.facts.begin(), {"Project", sheets_.project()});
-  sheet.facts.emplace_back("Date", sheets_.date());
+  if (!sheets_.project.empty()) sheet.facts.insert(sheet.facts.begin(), {"Project", sheets_.project});
+  sheet.facts.emplace_back("Date", sheets_.date);
   const bool fits = choice_.bearing_deg || arc.width + kRoomBeside <= profile::kPlanarField;
   const double bearing = fits ? centre : bearing_of_nearest(zone_, sights);
   query.width_deg = kCylinder, query.from_deg = within_turn(bearing - kCylinder / 2);
@@ -277,7 +278,7 @@ void WirelineWriter::write(const Viewpoint& v, const ViewedSurface& view, const 
       profile::draw_viewpoint_sheet(
           narrow,
           {sheet_towards({bearing, kCylinder}, cylinders, sights, sheet), farm_table(zone_, sights),
-           location_map(store_, zone_, v, sights, sheets_.basemap(), progress)},
+           location_map(store_, zone_, v, sights, sheets_.basemap, progress)},
           name));
 }
 

@@ -33,7 +33,7 @@ struct ViewedSurface {
 class WirelineWriter {
  public:
   WirelineWriter(std::string folder, const Store& store, const viewshed::Zone& zone, const WirelineChoice& choice,
-                 const SheetOptions& sheets)
+                 const viewshed::SheetChoice& sheets)
       : folder_(std::move(folder)), store_(store), zone_(zone), choice_(choice), sheets_(sheets) {}
 
   /// Writes wireline-N-NAME.svg, .pdf and .png; with sheets also -planar.pdf, -cylindrical.pdf and
@@ -48,7 +48,7 @@ class WirelineWriter {
   const Store& store_;
   const viewshed::Zone& zone_;
   WirelineChoice choice_;
-  const SheetOptions& sheets_;
+  const viewshed::SheetChoice& sheets_;
   std::vector<viewshed::ZoneFile> files_;
 };
 

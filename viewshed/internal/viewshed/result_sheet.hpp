@@ -9,13 +9,23 @@
 #include <itin/raster.hpp>
 #include <itin/store.hpp>
 #include <profile/map_sheet.hpp>
+#include <viewshed/map_base.hpp>
 #include <viewshed/missing_ground.hpp>
 #include <viewshed/result_map.hpp>
 
-#include "options/sheet_options.hpp"
-#include "output/map_base.hpp"
+namespace itin::viewshed {
 
-namespace itin::cli {
+/// How maps on paper are wanted.
+struct SheetChoice {
+  std::vector<profile::PaperSize> papers = {};  ///< the papers of every map; empty: no sheets
+  double scale = 0;                             ///< 100000 for 1:100,000; 0: the largest usual one that shows all
+  std::string project = {};                     ///< for title blocks, as the date is
+  std::string date = {};
+  std::string basemap = {};  ///< a georeferenced picture in place of the shaded relief; empty: none
+};
+
+/// The files of a map on one paper: "sheet-coverage-A3.pdf" and its picture.
+std::vector<std::string> sheet_names(const std::string& map, profile::PaperSize paper);
 
 /// Lines or marks, the lowest first, and their keys in the legend.
 struct MapObjects {
@@ -33,13 +43,12 @@ struct MissingOnSheet {
   std::function<bool(Point2)> there;
   std::string text;
 };
-MissingOnSheet missing_on_sheet(viewshed::PlacesWithoutGround places, const viewshed::MissingGround& missing,
-                                const std::string& area);
+MissingOnSheet missing_on_sheet(PlacesWithoutGround places, const MissingGround& missing, const std::string& area);
 
 struct ResultSheet {
   RasterGrid grid;
   Box area;                             ///< the least area that the map shows, metres
-  viewshed::ResultMap map;              ///< colours and keys of the cells
+  ResultMap map;                        ///< colours and keys of the cells
   std::string heading;                  ///< the heading over the map's keys
   std::function<bool(Point2)> studied;  ///< whether a place is part of the study; elsewhere the relief is faded
   std::vector<MapObjects> objects;      ///< over the cells, the lowest first
@@ -62,7 +71,7 @@ MapBase fitted(MapBase base, const ResultSheet& content);
 
 /// Makes the base of a result's map on this paper. Results of one area and study may share it. Throws FileError (a
 /// basemap), InputError (a scale that is too large), Cancelled.
-MapBase base_of(const Store& store, const ResultSheet& content, profile::PaperSize paper, const SheetOptions& options,
+MapBase base_of(const Store& store, const ResultSheet& content, profile::PaperSize paper, const SheetChoice& choice,
                 Progress& progress);
 
 /// All layers of the result's map, the base lowest.
@@ -72,10 +81,10 @@ std::vector<profile::SheetKey> keys_of(const MapBase& base, const ResultSheet& c
 
 /// Makes the sheet, for profile::draw_map_sheet().
 profile::MapSheet map_sheet(const Store& store, const ResultSheet& content, const MapBase& base,
-                            profile::PaperSize paper, const SheetOptions& options);
+                            profile::PaperSize paper, const SheetChoice& choice);
 
 /// Returns the bytes of a .pdf or .png, by the ending of `name`. Throws what base_of() throws.
 std::string draw_result_sheet(const Store& store, const ResultSheet& content, profile::PaperSize paper,
-                              const SheetOptions& options, const std::string& name, Progress& progress);
+                              const SheetChoice& choice, const std::string& name, Progress& progress);
 
-}  // namespace itin::cli
+}  // namespace itin::viewshed

@@ -1,5 +1,3 @@
-#include "output/result_sheet.hpp"
-
 #include <algorithm>
 #include <utility>
 
@@ -9,8 +7,9 @@
 #include <itin/coordinates.hpp>
 #include <itin/surface_text.hpp>
 #include <itin/void_stripes.hpp>
+#include <viewshed/result_sheet.hpp>
 
-namespace itin::cli {
+namespace itin::viewshed {
 
 namespace {
 
@@ -20,9 +19,9 @@ constexpr Rgba kNoGroundColour{237, 237, 242, 255}, kFadedColour{255, 255, 255, 
 
 /// A sheet that has no layers, legend and title yet.
 profile::MapSheet empty_sheet(const Store& store, const ResultSheet& content, profile::PaperSize paper,
-                              const SheetOptions& options) {
+                              const SheetChoice& choice) {
   profile::MapSheet sheet;
-  sheet.paper = paper, sheet.scale = options.scale(), sheet.area = content.area;
+  sheet.paper = paper, sheet.scale = choice.scale, sheet.area = content.area;
   sheet.crs_wkt = store.metadata().crs_wkt;
   return sheet;
 }
@@ -100,13 +99,17 @@ bool shows_outside(const profile::SheetCells& picture, const ResultSheet& conten
 
 }  // namespace
 
+std::vector<std::string> sheet_names(const std::string& map, profile::PaperSize paper) {
+  const std::string name = fmt::format("sheet-{}-{}", map, profile::name_of(paper));
+  return {name + ".pdf", name + ".png"};
+}
+
 MapObjects mast_objects(std::vector<profile::SheetMark> masts, std::string key) {
   return {{profile::SheetMarks{profile::SheetSymbol::kMast, kMastColour, std::move(masts)}},
           {{SheetKey::Sample::kMark, {kMastColour}, std::move(key)}}};
 }
 
-MissingOnSheet missing_on_sheet(viewshed::PlacesWithoutGround places, const viewshed::MissingGround& missing,
-                                const std::string& area) {
+MissingOnSheet missing_on_sheet(PlacesWithoutGround places, const MissingGround& missing, const std::string& area) {
   if (missing.share() == 0) return {};
   return {[places = std::move(places)](Point2 p) { return places.contain(p); }, missing.key_text(area)};
 }
@@ -148,10 +151,10 @@ MapBase fitted(MapBase base, const ResultSheet& content) {
   return base;
 }
 
-MapBase base_of(const Store& store, const ResultSheet& content, profile::PaperSize paper, const SheetOptions& options,
+MapBase base_of(const Store& store, const ResultSheet& content, profile::PaperSize paper, const SheetChoice& choice,
                 Progress& progress) {
-  const profile::MapSheet sheet = empty_sheet(store, content, paper, options);
-  return fitted(map_base(store, profile::ground_in_frame(sheet), profile::scale_of(sheet), options.basemap(), progress),
+  const profile::MapSheet sheet = empty_sheet(store, content, paper, choice);
+  return fitted(map_base(store, profile::ground_in_frame(sheet), profile::scale_of(sheet), choice.basemap, progress),
                 content);
 }
 
@@ -164,7 +167,7 @@ std::vector<profile::SheetLayer> layers_of(const MapBase& base, const ResultShee
 
 std::vector<SheetKey> keys_of(const MapBase& base, const ResultSheet& content, const Box& frame) {
   std::vector<SheetKey> keys;
-  const auto add = [&](const std::string& heading, const std::vector<viewshed::ResultMap::Key>& more) {
+  const auto add = [&](const std::string& heading, const std::vector<ResultMap::Key>& more) {
     if (more.empty()) return;
     keys.push_back({SheetKey::Sample::kHeading, {}, heading});
     for (const auto& key : more) keys.push_back({SheetKey::Sample::kPatch, key.colours, key.text});
@@ -187,22 +190,22 @@ std::vector<SheetKey> keys_of(const MapBase& base, const ResultSheet& content, c
 }
 
 profile::MapSheet map_sheet(const Store& store, const ResultSheet& content, const MapBase& base,
-                            profile::PaperSize paper, const SheetOptions& options) {
-  profile::MapSheet sheet = empty_sheet(store, content, paper, options);
+                            profile::PaperSize paper, const SheetChoice& choice) {
+  profile::MapSheet sheet = empty_sheet(store, content, paper, choice);
   sheet.layers = layers_of(base, content);
   sheet.legend = keys_of(base, content, profile::ground_in_frame(sheet));
   sheet.title = content.title;
   sheet.title.facts.emplace_back("Coordinates", crs_title(store.metadata().crs_wkt));
-  if (!options.basemap().empty()) sheet.title.facts.push_back(basemap_fact(options.basemap()));
-  sheet.title.project = options.project(), sheet.title.date = options.date();
+  if (!choice.basemap.empty()) sheet.title.facts.push_back(basemap_fact(choice.basemap));
+  sheet.title.project = choice.project, sheet.title.date = choice.date;
   sheet.title.made_by = "Drawn by itin " ITIN_VERSION;
   return sheet;
 }
 
 std::string draw_result_sheet(const Store& store, const ResultSheet& content, profile::PaperSize paper,
-                              const SheetOptions& options, const std::string& name, Progress& progress) {
-  const MapBase base = base_of(store, content, paper, options, progress);
-  return profile::draw_map_sheet(map_sheet(store, content, base, paper, options), name);
+                              const SheetChoice& choice, const std::string& name, Progress& progress) {
+  const MapBase base = base_of(store, content, paper, choice, progress);
+  return profile::draw_map_sheet(map_sheet(store, content, base, paper, choice), name);
 }
 
-}  // namespace itin::cli
+}  // namespace itin::viewshed

@@ -12,7 +12,7 @@
 #include <itin/store.hpp>
 #include <profile/map_sheet.hpp>
 
-namespace itin::cli {
+namespace itin::viewshed {
 
 struct MapBase {
   profile::SheetCells picture;
@@ -38,4 +38,4 @@ MapBase faded(MapBase base, const std::function<bool(Point2)>& studied);
 /// Returns the layers: the picture, the cells shown over it, and contours.
 std::vector<profile::SheetLayer> layers_of(const MapBase& base, profile::SheetCells shown);
 
-}  // namespace itin::cli
+}  // namespace itin::viewshed

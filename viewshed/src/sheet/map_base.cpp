@@ -1,5 +1,3 @@
-#include "output/map_base.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -10,11 +8,10 @@
 #include <itin/contour_lines.hpp>
 #include <itin/map_picture.hpp>
 #include <itin/parallel.hpp>
+#include <viewshed/map_base.hpp>
 #include <viewshed/relief.hpp>
 
-#include "output/store_document.hpp"
-
-namespace itin::cli {
+namespace itin::viewshed {
 
 namespace {
 
@@ -28,7 +25,7 @@ struct Heights {
 };
 
 /// Returns the means of squares of pixels; none for a square where a pixel has no height.
-Heights smoothed(const viewshed::Relief& ground) {
+Heights smoothed(const Relief& ground) {
   const RasterGrid& fine = ground.pixels;
   const std::int64_t columns = std::max<std::int64_t>(1, fine.columns() / kCoarser),
                      rows = std::max<std::int64_t>(1, fine.rows() / kCoarser);
@@ -73,24 +70,24 @@ void add_contours(const Heights& heights, MapBase& base) {
 }
 
 /// Shades the ground. Cells without ground are clear.
-profile::SheetCells shaded(const viewshed::Relief& ground) {
+profile::SheetCells shaded(const Relief& ground) {
   constexpr double kLevelGrey = 226, kContrast = 90;
   profile::SheetCells cells{ground.pixels, std::vector<Rgba>(ground.pixels.cell_count(), kTransparent)};
   for (std::size_t i = 0; i < cells.colours.size(); ++i) {
     if (std::isnan(ground.shades[i])) continue;
-    const double grey = kLevelGrey + kContrast * (ground.shades[i] - viewshed::kLevelShade);
+    const double grey = kLevelGrey + kContrast * (ground.shades[i] - kLevelShade);
     const auto level = static_cast<std::uint8_t>(std::lround(std::clamp(grey, 120.0, 250.0)));
     cells.colours[i] = {level, level, level, 255};
   }
   return cells;
 }
 
-MapBase base_without_contours(const viewshed::Relief& ground) {
+MapBase base_without_contours(const Relief& ground) {
   return {shaded(ground), {}, {}, "No terrain data"};
 }
 
 MapBase relief_base(const Store& store, const RasterGrid& pixels, Progress& progress) {
-  const viewshed::Relief ground = viewshed::relief(store, pixels, progress);
+  const Relief ground = relief(store, pixels, progress);
   MapBase base = base_without_contours(ground);
   add_contours(smoothed(ground), base);
   return base;
@@ -109,7 +106,7 @@ Rgba paler(const Rgba& c) {
 }  // namespace
 
 MapBase plain_base(const Store& store, const RasterGrid& pixels, Progress& progress) {
-  return base_without_contours(viewshed::relief(store, pixels, progress));
+  return base_without_contours(relief(store, pixels, progress));
 }
 
 MapBase map_base(const Store& store, const Box& frame, double scale, const std::string& basemap, Progress& progress) {
@@ -143,4 +140,4 @@ std::vector<profile::SheetLayer> layers_of(const MapBase& base, profile::SheetCe
   return layers;
 }
 
-}  // namespace itin::cli
+}  // namespace itin::viewshed
