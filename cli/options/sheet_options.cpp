@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <itin/error.hpp>
+#include <profile/map_sheet.hpp>
 
 #include "options/day_of_run.hpp"
 #include "program/call_files.hpp"

@@ -7,8 +7,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include <profile/map_sheet.hpp>
-#include <viewshed/result_sheet.hpp>
+#include <profile/sheet_choice.hpp>
 
 #include "program/verb.hpp"
 
@@ -27,13 +26,13 @@ class SheetOptions {
 
   const std::string& file() const { return file_; }
   const std::vector<profile::PaperSize>& papers() const { return choice_.papers; }
-  const viewshed::SheetChoice& choice() const { return choice_; }
+  const profile::SheetChoice& choice() const { return choice_; }
 
  private:
   void declare_title_block(CLI::App& app);
 
   std::string file_, papers_option_, papers_text_, scale_text_;
-  viewshed::SheetChoice choice_;
+  profile::SheetChoice choice_;
 };
 
 }  // namespace itin::cli

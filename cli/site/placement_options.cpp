@@ -44,10 +44,10 @@ void PlacementOptions::validate() {
   }
   refuse_others();
   size_options_.validate();
-  const TurbineSize& size = size_options_.size();
+  const viewshed::TurbineSize& size = size_options_.size();
   if (size.hub.has_value() + size.rotor.has_value() + size.tip.has_value() < 2)
     throw InputError("--turbines: give two of --hub-height, --rotor-diameter and --tip-height");
-  const TurbineSize completed = size_options_.completed();
+  const viewshed::TurbineSize completed = size_options_.completed();
   if (!(completed.rotor > 0))
     throw InputError("--tip-height: the tip is no higher than the hub; give --rotor-diameter");
   placement_.hub_height = *completed.hub, placement_.rotor_diameter = *completed.rotor;

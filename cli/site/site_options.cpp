@@ -210,7 +210,7 @@ void SiteOptions::validate_demand() {
   if (placement.given()) {
     RadiusOptions by_tip;
     by_tip.validate();
-    request.radius = by_tip.radius(request.turbines->tip_height);
+    request.radius = by_tip.rule().radius(request.turbines->tip_height);
   }
   if (!radius_text_.empty()) request.radius = parse_radius("--radius", radius_text_);
   const std::optional<double> cell = number("--cell", cell_text_, Range::kPositive);

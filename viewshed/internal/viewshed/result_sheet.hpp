@@ -9,20 +9,12 @@
 #include <itin/raster.hpp>
 #include <itin/store.hpp>
 #include <profile/map_sheet.hpp>
+#include <profile/sheet_choice.hpp>
 #include <viewshed/map_base.hpp>
 #include <viewshed/missing_ground.hpp>
 #include <viewshed/result_map.hpp>
 
 namespace itin::viewshed {
-
-/// How maps on paper are wanted.
-struct SheetChoice {
-  std::vector<profile::PaperSize> papers = {};  ///< the papers of every map; empty: no sheets
-  double scale = 0;                             ///< 100000 for 1:100,000; 0: the largest usual one that shows all
-  std::string project = {};                     ///< for title blocks, as the date is
-  std::string date = {};
-  std::string basemap = {};  ///< a georeferenced picture in place of the shaded relief; empty: none
-};
 
 /// The files of a map on one paper: "sheet-coverage-A3.pdf" and its picture.
 std::vector<std::string> sheet_names(const std::string& map, profile::PaperSize paper);
@@ -71,8 +63,8 @@ MapBase fitted(MapBase base, const ResultSheet& content);
 
 /// Makes the base of a result's map on this paper. Results of one area and study may share it. Throws FileError (a
 /// basemap), InputError (a scale that is too large), Cancelled.
-MapBase base_of(const Store& store, const ResultSheet& content, profile::PaperSize paper, const SheetChoice& choice,
-                Progress& progress);
+MapBase base_of(const Store& store, const ResultSheet& content, profile::PaperSize paper,
+                const profile::SheetChoice& choice, Progress& progress);
 
 /// All layers of the result's map, the base lowest.
 std::vector<profile::SheetLayer> layers_of(const MapBase& base, const ResultSheet& content);
@@ -81,10 +73,10 @@ std::vector<profile::SheetKey> keys_of(const MapBase& base, const ResultSheet& c
 
 /// Makes the sheet, for profile::draw_map_sheet().
 profile::MapSheet map_sheet(const Store& store, const ResultSheet& content, const MapBase& base,
-                            profile::PaperSize paper, const SheetChoice& choice);
+                            profile::PaperSize paper, const profile::SheetChoice& choice);
 
 /// Returns the bytes of a .pdf or .png, by the ending of `name`. Throws what base_of() throws.
 std::string draw_result_sheet(const Store& store, const ResultSheet& content, profile::PaperSize paper,
-                              const SheetChoice& choice, const std::string& name, Progress& progress);
+                              const profile::SheetChoice& choice, const std::string& name, Progress& progress);
 
 }  // namespace itin::viewshed

@@ -19,7 +19,7 @@ constexpr Rgba kNoGroundColour{237, 237, 242, 255}, kFadedColour{255, 255, 255, 
 
 /// A sheet that has no layers, legend and title yet.
 profile::MapSheet empty_sheet(const Store& store, const ResultSheet& content, profile::PaperSize paper,
-                              const SheetChoice& choice) {
+                              const profile::SheetChoice& choice) {
   profile::MapSheet sheet;
   sheet.paper = paper, sheet.scale = choice.scale, sheet.area = content.area;
   sheet.crs_wkt = store.metadata().crs_wkt;
@@ -151,8 +151,8 @@ MapBase fitted(MapBase base, const ResultSheet& content) {
   return base;
 }
 
-MapBase base_of(const Store& store, const ResultSheet& content, profile::PaperSize paper, const SheetChoice& choice,
-                Progress& progress) {
+MapBase base_of(const Store& store, const ResultSheet& content, profile::PaperSize paper,
+                const profile::SheetChoice& choice, Progress& progress) {
   const profile::MapSheet sheet = empty_sheet(store, content, paper, choice);
   return fitted(map_base(store, profile::ground_in_frame(sheet), profile::scale_of(sheet), choice.basemap, progress),
                 content);
@@ -190,7 +190,7 @@ std::vector<SheetKey> keys_of(const MapBase& base, const ResultSheet& content, c
 }
 
 profile::MapSheet map_sheet(const Store& store, const ResultSheet& content, const MapBase& base,
-                            profile::PaperSize paper, const SheetChoice& choice) {
+                            profile::PaperSize paper, const profile::SheetChoice& choice) {
   profile::MapSheet sheet = empty_sheet(store, content, paper, choice);
   sheet.layers = layers_of(base, content);
   sheet.legend = keys_of(base, content, profile::ground_in_frame(sheet));
@@ -203,7 +203,7 @@ profile::MapSheet map_sheet(const Store& store, const ResultSheet& content, cons
 }
 
 std::string draw_result_sheet(const Store& store, const ResultSheet& content, profile::PaperSize paper,
-                              const SheetChoice& choice, const std::string& name, Progress& progress) {
+                              const profile::SheetChoice& choice, const std::string& name, Progress& progress) {
   const MapBase base = base_of(store, content, paper, choice, progress);
   return profile::draw_map_sheet(map_sheet(store, content, base, paper, choice), name);
 }

@@ -1,30 +1,58 @@
-#include "ztv/ztv_wirelines.hpp"
+#include "workflows/zone/wireline_files.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <itin/azimuth.hpp>
 #include <itin/coordinates.hpp>
+#include <itin/counted.hpp>
 #include <itin/file_name.hpp>
 #include <itin/grid_reference.hpp>
 #include <itin/output_file.hpp>
 #include <profile/wireline.hpp>
 #include <profile/wireline_sheet.hpp>
 #include <viewshed/map_base.hpp>
+#include <viewshed/zone_files.hpp>
 
-#include "output/output_path.hpp"
-#include "output/store_document.hpp"
-#include "ztv/ztv_turbines.hpp"
+#include "workflows/zone/sight_summary.hpp"
+#include "workflows/zone/viewpoint_study.hpp"
 
-namespace itin::cli {
+namespace itin::viewshed {
 
 namespace {
 
-using viewshed::Turbine;
-using viewshed::Zone;
+/// A surface and the words for the view over it.
+struct ViewedSurface {
+  const SectionSurface& surface;
+  std::string title;   ///< what a wireline's notes call it
+  std::string suffix;  ///< added to the names of its files
+  std::string remark;  ///< about this viewpoint; may be empty
+};
+
+class WirelineWriter {
+ public:
+  WirelineWriter(std::string folder, const Store& store, const Zone& zone, const WirelineChoice& choice,
+                 const profile::SheetChoice& sheets)
+      : folder_(std::move(folder)), store_(store), zone_(zone), choice_(choice), sheets_(sheets) {}
+
+  void write(const Viewpoint& v, const ViewedSurface& view, const std::vector<TurbineSight>& sights,
+             Progress& progress);
+  std::vector<ZoneFile> files() && { return std::move(files_); }
+
+ private:
+  void add(const std::string& name, const std::string& what, const std::string& bytes);
+
+  std::string folder_;
+  const Store& store_;
+  const Zone& zone_;
+  WirelineChoice choice_;
+  const profile::SheetChoice& sheets_;
+  std::vector<ZoneFile> files_;
+};
 
 constexpr double kCylinder = 90, kRoomBeside = 10;  ///< degrees
 
@@ -32,13 +60,13 @@ std::string name_of_file(const char* kind, const Viewpoint& v, const std::string
   return file_name(fmt::format("{}-{}-{}", kind, v.number, v.name)) + ending;
 }
 
-std::string visible_in_words(const Zone& zone, const Seen& seen) {
+std::string visible_in_words(const Zone& zone, const SightSummary& seen) {
   std::string text = fmt::format("the blade tips of {} of {}", seen.tips, counted(seen.turbines, "turbine"));
   if (seen.tips_beyond > 0) text += fmt::format(" ({} beyond the radius of the maps)", seen.tips_beyond);
   if (seen.hubs) text += fmt::format(", the hubs of {}", *seen.hubs);
   if (seen.tips_undecided > 0)
     text += fmt::format("; undecided, across ground without data, for {} more, marked ?", seen.tips_undecided);
-  const std::size_t hubs = viewshed::known_hubs(zone);
+  const std::size_t hubs = known_hubs(zone);
   if (hubs < seen.turbines)
     text += hubs == 0 ? "; hub heights are unknown for all turbines"
                       : fmt::format("; hub heights are unknown for {}", seen.turbines - hubs);
@@ -71,13 +99,13 @@ std::string bearing_in_words(double degrees) {
 }
 
 /// Tells what a picture looks at where no turbine is in sight.
-std::string towards_in_words(const std::vector<Sight>& sights) {
+std::string towards_in_words(const std::vector<TurbineSight>& sights) {
   return std::any_of(sights.begin(), sights.end(), is_shown) ? "" : "; no turbine is in sight";
 }
 
-Facts facts_of(const Viewpoint& v, const ViewedSurface& view, const Zone& zone, const std::vector<Sight>& sights,
+Facts facts_of(const Viewpoint& v, const ViewedSurface& view, const Zone& zone, const std::vector<TurbineSight>& sights,
                double centre_deg, const Store& store) {
-  const Seen seen = seen_of(zone, sights, all_turbines(zone));
+  const SightSummary seen = seen_of(zone, sights, all_turbines(zone));
   Facts facts{{"Grid reference", place_in_words(v, store.metadata().crs_wkt)},
               {"Ground", fmt::format("{:.1f} m", v.ground)},
               {"Eye", fmt::format("{:g} m above the ground, {:.1f} m", v.height, v.ground + v.height)},
@@ -93,7 +121,8 @@ Facts facts_of(const Viewpoint& v, const ViewedSurface& view, const Zone& zone, 
 }
 
 profile::WirelineQuery query_of(const Viewpoint& v, const ViewedSurface& view, const Zone& zone,
-                                const std::vector<Sight>& sights, const WirelineChoice& choice, const Facts& facts) {
+                                const std::vector<TurbineSight>& sights, const WirelineChoice& choice,
+                                const Facts& facts) {
   profile::WirelineQuery query;
   query.eye = v.position;
   query.eye_elevation_m = v.ground + v.height;
@@ -110,9 +139,9 @@ profile::WirelineQuery query_of(const Viewpoint& v, const ViewedSurface& view, c
   double reach = 20000;
   for (std::size_t k = 0; k < sights.size(); ++k) {
     const Turbine& t = zone.request.turbines[k];
-    const bool undecided = sights[k].tip == Sight::Verdict::kUndecided;
+    const bool undecided = sights[k].tip == TurbineSight::Verdict::kUndecided;
     query.turbines.push_back({fmt::format("{}{}", t.number, undecided ? "?" : ""), t.position, zone.ground_m[k],
-                              t.hub_height, t.tip_height, sights[k].tip != Sight::Verdict::kHidden, t.farm,
+                              t.hub_height, t.tip_height, sights[k].tip != TurbineSight::Verdict::kHidden, t.farm,
                               choice.blade_deg.value_or(scattered_blade(t.number))});
     reach = std::max(reach, sights[k].distance + 5000);
   }
@@ -125,24 +154,24 @@ std::string and_undecided(std::size_t seen, std::size_t undecided) {
 }
 
 /// Returns how many hubs are seen, and of how many where the others are not known.
-std::string hubs_in_words(const Seen& seen) {
+std::string hubs_in_words(const SightSummary& seen) {
   if (!seen.hubs) return "unknown";
   const std::string of = seen.hubs_known < seen.turbines ? fmt::format(" of {} known", seen.hubs_known) : "";
   return and_undecided(*seen.hubs, *seen.hubs_undecided) + of;
 }
 
 /// Returns a row for each farm, and one for all turbines where there are several farms.
-std::vector<std::vector<std::string>> farm_table(const Zone& zone, const std::vector<Sight>& sights) {
+std::vector<std::vector<std::string>> farm_table(const Zone& zone, const std::vector<TurbineSight>& sights) {
   std::vector<std::vector<std::string>> rows{
       {"Wind farm", "Turbines", "Hubs visible", "Tips visible", "Nearest, km", "Horizontal extent", "Vertical angle"}};
   const auto add = [&](const std::string& name, const std::vector<std::size_t>& turbines) {
-    const Seen s = seen_of(zone, sights, turbines);
+    const SightSummary s = seen_of(zone, sights, turbines);
     rows.push_back({name, fmt::format("{}", s.turbines), hubs_in_words(s), and_undecided(s.tips, s.tips_undecided),
                     fmt::format("{:.2f}", sights[s.nearest].distance / 1000),
                     s.arc ? fmt::format("{:.1f}°", s.arc->width) : "none",
                     s.tips > 0 ? fmt::format("{:.2f}°", s.vertical_deg) : "none"});
   };
-  const std::vector<std::string> farms = viewshed::farms_of(zone);
+  const std::vector<std::string> farms = farms_of(zone);
   for (const std::string& farm : farms) {
     std::vector<std::size_t> own;
     for (std::size_t k = 0; k < sights.size(); ++k)
@@ -155,8 +184,8 @@ std::vector<std::vector<std::string>> farm_table(const Zone& zone, const std::ve
 
 /// Returns the direction of a picture that is too narrow for all turbines: to the nearest whose tip is seen, else to
 /// the nearest.
-double bearing_of_nearest(const Zone& zone, const std::vector<Sight>& sights) {
-  const Seen seen = seen_of(zone, sights, all_turbines(zone));
+double bearing_of_nearest(const Zone& zone, const std::vector<TurbineSight>& sights) {
+  const SightSummary seen = seen_of(zone, sights, all_turbines(zone));
   return sights[seen.nearest_seen.value_or(seen.nearest)].azimuth;
 }
 
@@ -167,8 +196,8 @@ struct PartOfHorizon {
 };
 
 /// Counts the turbines shown that lie beside a field of view.
-std::size_t shown_beside(const std::vector<Sight>& sights, const PartOfHorizon& field) {
-  return static_cast<std::size_t>(std::count_if(sights.begin(), sights.end(), [&](const Sight& s) {
+std::size_t shown_beside(const std::vector<TurbineSight>& sights, const PartOfHorizon& field) {
+  return static_cast<std::size_t>(std::count_if(sights.begin(), sights.end(), [&](const TurbineSight& s) {
     return is_shown(s) && std::abs(within_turn(s.azimuth - field.bearing + 180) - 180) > field.width / 2;
   }));
 }
@@ -176,7 +205,7 @@ std::size_t shown_beside(const std::vector<Sight>& sights, const PartOfHorizon& 
 /// Returns a sheet that looks in one direction and says how many of the turbines shown lie beside the picture, and
 /// whether the cylindrical sheets have them.
 profile::WirelineSheet sheet_towards(const PartOfHorizon& field, const PartOfHorizon& cylinders,
-                                     const std::vector<Sight>& sights, profile::WirelineSheet sheet) {
+                                     const std::vector<TurbineSight>& sights, profile::WirelineSheet sheet) {
   sheet.centre_deg = field.bearing;
   for (auto& [name, value] : sheet.facts)
     if (name == kMiddle) value = bearing_in_words(field.bearing) + towards_in_words(sights);
@@ -197,8 +226,9 @@ profile::Wireline of_one_farm(profile::Wireline view, const std::string& farm) {
 }
 
 profile::MapSheet location_map(const Store& store, const Zone& zone, const Viewpoint& v,
-                               const std::vector<Sight>& sights, const std::string& basemap, Progress& progress) {
-  const Seen seen = seen_of(zone, sights, all_turbines(zone));
+                               const std::vector<TurbineSight>& sights, const std::string& basemap,
+                               Progress& progress) {
+  const SightSummary seen = seen_of(zone, sights, all_turbines(zone));
   const Turbine& nearest = zone.request.turbines[seen.nearest];
   profile::MapSheet sheet;
   sheet.paper = profile::PaperSize::kA3;
@@ -207,8 +237,7 @@ profile::MapSheet location_map(const Store& store, const Zone& zone, const Viewp
   const double room = std::max(1000.0, 0.35 * sights[seen.nearest].distance);
   sheet.area = {sheet.area.xmin - room, sheet.area.ymin - room, sheet.area.xmax + room, sheet.area.ymax + room};
   sheet.scale = 2 * profile::scale_of(sheet);
-  const viewshed::MapBase base =
-      viewshed::map_base(store, profile::ground_in_location_map(sheet), sheet.scale, basemap, progress);
+  const MapBase base = map_base(store, profile::ground_in_location_map(sheet), sheet.scale, basemap, progress);
   sheet.layers = {base.picture};
   sheet.layers.insert(sheet.layers.end(), base.contours.begin(), base.contours.end());
   profile::SheetMarks turbines{profile::SheetSymbol::kTurbine, {170, 20, 20, 255}, {}};
@@ -219,16 +248,14 @@ profile::MapSheet location_map(const Store& store, const Zone& zone, const Viewp
   return sheet;
 }
 
-}  // namespace
-
 void WirelineWriter::add(const std::string& name, const std::string& what, const std::string& bytes) {
   write_file(folder_ + "/" + name, bytes, true);
   files_.push_back({name, what});
 }
 
-void WirelineWriter::write(const Viewpoint& v, const ViewedSurface& view, const std::vector<Sight>& sights,
+void WirelineWriter::write(const Viewpoint& v, const ViewedSurface& view, const std::vector<TurbineSight>& sights,
                            Progress& progress) {
-  const viewshed::Arc arc = arc_to_shown(sights);
+  const Arc arc = arc_to_shown(sights);
   const double centre = choice_.bearing_deg.value_or(within_turn(arc.from + arc.width / 2));
   const Facts facts = facts_of(v, view, zone_, sights, centre, store_);
   profile::WirelineQuery query = query_of(v, view, zone_, sights, choice_, facts);
@@ -282,4 +309,34 @@ void WirelineWriter::write(const Viewpoint& v, const ViewedSurface& view, const 
           name));
 }
 
-}  // namespace itin::cli
+bool has_wireline(const Viewpoint& v, const WirelineChoice& choice) {
+  const std::vector<std::string>& names = choice.viewpoints;
+  return names.empty() ||
+         std::any_of(names.begin(), names.end(), [&](const std::string& name) { return is_called(v, name); });
+}
+
+}  // namespace
+
+bool is_called(const Viewpoint& v, const std::string& name) {
+  return name == v.name || name == fmt::format("{}", v.number);
+}
+
+std::vector<ZoneFile> write_wirelines(const std::string& folder, const Store& store, const ZoneStudy& study,
+                                      const WirelineChoice& choice, const profile::SheetChoice& sheets,
+                                      Progress& progress) {
+  const ZoneRequest& request = study.zone.request;
+  const StudySurfaces surfaces(store, request);
+  const std::string screened_title =
+      request.themes ? fmt::format("Ground with {}", fmt::join(request.themes->names(study.metadata.themes), ", "))
+                     : "";
+  WirelineWriter writer(folder, store, study.zone, choice, sheets);
+  for (const auto& [v, bare, screened, remark] : study.viewpoints) {
+    if (!has_wireline(v, choice)) continue;
+    writer.write(v, {surfaces.ground, "Bare ground", "", ""}, bare, progress);
+    if (surfaces.features)
+      writer.write(v, {*surfaces.features, screened_title, "-screened", remark}, screened, progress);
+  }
+  return std::move(writer).files();
+}
+
+}  // namespace itin::viewshed

@@ -1,4 +1,4 @@
-#include "ztv/ztv_sheets.hpp"
+#include "workflows/zone/study_sheets.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <itin/contour_lines.hpp>
+#include <itin/counted.hpp>
 #include <itin/output_file.hpp>
 #include <itin/parallel.hpp>
 #include <itin/sources_in.hpp>
@@ -16,18 +17,11 @@
 #include <viewshed/result_sheet.hpp>
 #include <viewshed/zone_maps.hpp>
 
-#include "output/store_document.hpp"
-#include "ztv/ztv_methods.hpp"
-#include "ztv/ztv_route.hpp"
-
-namespace itin::cli {
+namespace itin::viewshed {
 
 namespace {
 
 using profile::SheetKey;
-using viewshed::Turbine;
-using viewshed::Zone;
-using viewshed::ZoneMap;
 
 constexpr Rgba kRing{70, 70, 70, 255}, kStudyArea{20, 20, 20, 255}, kViewpoint{20, 60, 140, 255},
     kRoute{0, 110, 60, 255}, kLink{150, 20, 110, 255}, kRadar{90, 40, 150, 255};
@@ -92,7 +86,7 @@ double ring_step(double farthest) {
 }
 
 /// Returns the study area's edge, and rings of distance within it.
-viewshed::MapObjects distance_objects(const Zone& zone) {
+MapObjects distance_objects(const Zone& zone) {
   const Box box = study_area(zone);
   double farthest = 0;
   for (const Turbine& t : zone.request.turbines) farthest = std::max(farthest, t.radius);
@@ -101,7 +95,7 @@ viewshed::MapObjects distance_objects(const Zone& zone) {
   const PlaneField distance(box, [&](Point2 p) { return nearest_turbine(zone, p); });
   for (double at = step; at < farthest; at += step) distance.add_lines(at, fmt::format("{:g} km", at / 1000), rings);
   PlaneField(box, [&](Point2 p) { return beyond_study_area(zone, p); }).add_lines(0, "", edge);
-  viewshed::MapObjects objects{{}, {{SheetKey::Sample::kDashes, {kStudyArea}, "Study area"}}};
+  MapObjects objects{{}, {{SheetKey::Sample::kDashes, {kStudyArea}, "Study area"}}};
   // There are no rings where all radii are shorter than the first ring.
   if (!rings.lines.empty())
     objects.keys.push_back(
@@ -122,11 +116,11 @@ std::string unknown_hubs(std::size_t unknown, std::size_t all) {
   return unknown == all ? ", of unknown hub height" : fmt::format(", {} of unknown hub height", unknown);
 }
 
-viewshed::MapObjects turbine_objects(const Zone& zone, bool of_hubs) {
-  std::vector<std::string> farms = viewshed::farms_of(zone);
+MapObjects turbine_objects(const Zone& zone, bool of_hubs) {
+  std::vector<std::string> farms = farms_of(zone);
   if (farms.size() > kMostFarmColours) farms = {""};
   const bool single = farms.size() == 1;
-  viewshed::MapObjects objects;
+  MapObjects objects;
   for (std::size_t f = 0; f < farms.size(); ++f) {
     profile::SheetMarks marks{profile::SheetSymbol::kTurbine, farm_colour(f), {}};
     std::size_t unknown = 0;
@@ -146,59 +140,57 @@ viewshed::MapObjects turbine_objects(const Zone& zone, bool of_hubs) {
   return objects;
 }
 
-viewshed::MapObjects viewpoint_objects(const std::vector<NamedPlace>& viewpoints) {
+MapObjects viewpoint_objects(const std::vector<StudiedViewpoint>& viewpoints) {
   profile::SheetMarks marks{profile::SheetSymbol::kViewpoint, kViewpoint, {}};
-  for (const NamedPlace& v : viewpoints) marks.marks.push_back({v.position, fmt::format("{} {}", v.number, v.name)});
+  for (const auto& [v, bare, screened, remark] : viewpoints)
+    marks.marks.push_back({v.position, fmt::format("{} {}", v.number, v.name)});
   return {{std::move(marks)}, {{SheetKey::Sample::kMark, {kViewpoint}, "Viewpoint", profile::SheetSymbol::kViewpoint}}};
 }
 
-viewshed::MapObjects route_objects(const std::vector<Path>& routes) {
+MapObjects route_objects(const std::vector<StudiedRoute>& routes) {
   profile::SheetLines lines{{}, kRoute, 0.6, false};
-  for (std::size_t i = 0; i < routes.size(); ++i)
-    lines.lines.push_back({routes[i].corners, route_name(routes[i], i + 1)});
+  for (const StudiedRoute& route : routes) lines.lines.push_back({route.route.corners, route.title()});
   return {{std::move(lines)}, {{SheetKey::Sample::kLine, {kRoute}, "Route"}}};
 }
 
-viewshed::MapObjects radio_link_objects(const std::vector<viewshed::RadioLink>& links) {
+MapObjects radio_link_objects(const std::vector<profile::Link>& links) {
   profile::SheetLines lines{{}, kLink, 0.3, true};
-  for (const viewshed::RadioLink& link : links) lines.lines.push_back({{link.from, link.to}, link.id});
+  for (const profile::Link& link : links) lines.lines.push_back({{link.from, link.to}, link.id});
   return {{std::move(lines)}, {{SheetKey::Sample::kDashes, {kLink}, "Radio link"}}};
 }
 
-viewshed::MapObjects radar_objects(const viewshed::Observer& radar) {
+MapObjects radar_objects(const Observer& radar) {
   const profile::SheetMarks mark{profile::SheetSymbol::kExistingMast, kRadar, {{radar.position, "Radar"}}};
   return {{mark}, {{SheetKey::Sample::kMark, {kRadar}, "Radar", mark.symbol}}};
 }
 
 /// Returns the objects that a map of hubs, or of what else is seen of the zone, has above its classes.
-std::vector<viewshed::MapObjects> objects_of(const Zone& zone, const viewshed::MapObjects& distances,
-                                             const ZtvSheetFacts& facts, bool of_hubs) {
-  std::vector<viewshed::MapObjects> objects{distances};
-  if (!facts.routes.empty()) objects.push_back(route_objects(facts.routes));
-  if (!facts.links.empty()) objects.push_back(radio_link_objects(facts.links));
-  objects.push_back(turbine_objects(zone, of_hubs));
-  if (facts.radar) objects.push_back(radar_objects(*facts.radar));
-  if (!facts.viewpoints.empty()) objects.push_back(viewpoint_objects(facts.viewpoints));
+std::vector<MapObjects> objects_of(const ZoneStudy& study, const MapObjects& distances, bool of_hubs) {
+  std::vector<MapObjects> objects{distances};
+  if (!study.routes.empty()) objects.push_back(route_objects(study.routes));
+  if (!study.request.links.links.empty()) objects.push_back(radio_link_objects(study.request.links.links));
+  objects.push_back(turbine_objects(study.zone, of_hubs));
+  if (study.zone.request.radar) objects.push_back(radar_objects(*study.zone.request.radar));
+  if (!study.viewpoints.empty()) objects.push_back(viewpoint_objects(study.viewpoints));
   return objects;
 }
 
-viewshed::ResultMap classes_of(const Zone& zone, const ZoneMap& map) {
-  viewshed::ResultMap result;
+ResultMap classes_of(const Zone& zone, const ZoneMap& map) {
+  ResultMap result;
   std::uint64_t all = 0;
   for (const ZoneMap::Class& c : map.classes) all += c.cells;
   for (const ZoneMap::Class& c : map.classes) {
     result.keys.push_back(
-        {{viewshed::over_relief(c.colour)},
-         fmt::format("{}: {} ({:.1f} %)", c.label,
-                     viewshed::area_text(static_cast<double>(c.cells) * zone.grid.cell_area()),
+        {{over_relief(c.colour)},
+         fmt::format("{}: {} ({:.1f} %)", c.label, area_text(static_cast<double>(c.cells) * zone.grid.cell_area()),
                      100.0 * static_cast<double>(c.cells) / static_cast<double>(std::max<std::uint64_t>(1, all)))});
   }
   for (const std::uint8_t c : map.class_of_cell)
-    result.cells.push_back(c == viewshed::kNoMapClass ? kTransparent : result.keys[c].colours.front());
+    result.cells.push_back(c == kNoMapClass ? kTransparent : result.keys[c].colours.front());
   return result;
 }
 
-std::string without_terrain_in_words(const viewshed::MissingGround& missing) {
+std::string without_terrain_in_words(const MissingGround& missing) {
   if (missing.share() == 0) return "";
   return fmt::format("; {} of it has no terrain data and is not in the percentages", missing.percent());
 }
@@ -210,7 +202,7 @@ std::string more_in_words(const Zone& zone, const ZoneMap& map) {
     if (!c.undecided) more += c.open_cells;
   if (more == 0) return "";
   return fmt::format("ground without data leaves open whether more is visible than shown from {}",
-                     viewshed::area_text(static_cast<double>(more) * zone.grid.cell_area()));
+                     area_text(static_cast<double>(more) * zone.grid.cell_area()));
 }
 
 std::string heights_in_words(const Zone& zone) {
@@ -226,7 +218,7 @@ bool shows_hubs(const ZoneMap& map) {
 }
 
 std::string hub_heights_in_words(const Zone& zone) {
-  const std::string known = viewshed::of_known_hubs(zone);
+  const std::string known = of_known_hubs(zone);
   return known.empty() ? "" : fmt::format("; hubs{}, those of the others are not known", known);
 }
 
@@ -238,53 +230,53 @@ std::string radii_in_words(const Zone& zone) {
              : fmt::format("within {:g} to {:g} km of each turbine, by its height", least / 1000, most / 1000);
 }
 
-profile::TitleBlock title_block(const StoreMetadata& metadata, const Zone& zone, const ZoneMap& map,
-                                const ZtvSheetFacts& facts) {
+profile::TitleBlock title_block(const ZoneStudy& study, const ZoneMap& map) {
+  const Zone& zone = study.zone;
+  const StoreMetadata& metadata = study.metadata;
   profile::TitleBlock block;
   block.title = map.title + (map.screened ? ", screened" : "");
   block.statement =
-      viewshed::statement_of(metadata, map.screened ? *zone.request.themes : ThemeChoice::none(), zone.request.detail);
+      statement_of(metadata, map.screened ? *zone.request.themes : ThemeChoice::none(), zone.request.detail);
   if (!map.screened) block.statement += " What is shown as visible may be hidden by them.";
   block.facts = {{"Turbines", heights_in_words(zone) + (shows_hubs(map) ? hub_heights_in_words(zone) : "")},
-                 {"Study area", radii_in_words(zone) + without_terrain_in_words(facts.missing)},
+                 {"Study area", radii_in_words(zone) + without_terrain_in_words(study.missing)},
                  {"Observer", fmt::format("eyes {:g} m above the ground at the centre of cells of {:g} m",
                                           zone.request.observer_height, zone.grid.cell_width())},
                  {"Earth", zone.request.earth.curvature
                                ? "curvature and refraction are taken into account, " + zone.request.earth.convention()
                                : "flat; curvature and refraction are not taken into account"},
-                 viewshed::terrain_fact(metadata, zone.request.detail)};
+                 terrain_fact(metadata, zone.request.detail)};
   if (const std::string undecided = more_in_words(zone, map); !undecided.empty())
     block.facts.emplace_back("Undecided", undecided);
-  block.sources = described(facts.sources, metadata);
+  block.sources = described(study.sources, metadata);
   return block;
 }
 
 }  // namespace
 
-std::vector<viewshed::ZoneFile> write_ztv_sheets(const std::string& folder, const Store& store, const Zone& zone,
-                                                 const viewshed::SheetChoice& choice, const ZtvSheetFacts& facts,
-                                                 Progress& progress) {
-  std::vector<viewshed::ZoneFile> files;
-  const std::vector<ZoneMap> maps = viewshed::zone_maps(zone);
-  const viewshed::MapObjects distances = distance_objects(zone);
-  const viewshed::MissingOnSheet missing =
-      viewshed::missing_on_sheet(viewshed::places_without_ground(zone), facts.missing, "the study area");
+std::vector<ZoneFile> write_study_sheets(const std::string& folder, const Store& store, const ZoneStudy& study,
+                                         const profile::SheetChoice& choice, Progress& progress) {
+  const Zone& zone = study.zone;
+  std::vector<ZoneFile> files;
+  const std::vector<ZoneMap> maps = zone_maps(zone);
+  const MapObjects distances = distance_objects(zone);
+  const MissingOnSheet missing = missing_on_sheet(places_without_ground(zone), study.missing, "the study area");
   const auto content_of = [&](const ZoneMap& map) {
-    return viewshed::ResultSheet{zone.grid,
-                                 study_area(zone),
-                                 classes_of(zone, map),
-                                 map.heading + ", and share of the area that has terrain data",
-                                 [&](Point2 p) { return beyond_study_area(zone, p) <= 0; },
-                                 objects_of(zone, distances, facts, shows_hubs(map)),
-                                 title_block(store.metadata(), zone, map, facts),
-                                 missing};
+    return ResultSheet{zone.grid,
+                       study_area(zone),
+                       classes_of(zone, map),
+                       map.heading + ", and share of the area that has terrain data",
+                       [&](Point2 p) { return beyond_study_area(zone, p) <= 0; },
+                       objects_of(study, distances, shows_hubs(map)),
+                       title_block(study, map),
+                       missing};
   };
   std::size_t done = 0;
   for (const profile::PaperSize paper : choice.papers) {
-    const viewshed::MapBase base = base_of(store, content_of(maps.front()), paper, choice, progress);
+    const MapBase base = base_of(store, content_of(maps.front()), paper, choice, progress);
     for (const ZoneMap& map : maps) {
       const profile::MapSheet sheet = map_sheet(store, content_of(map), base, paper, choice);
-      for (const std::string& name : viewshed::sheet_names(map.name, paper)) {
+      for (const std::string& name : sheet_names(map.name, paper)) {
         write_file(fmt::format("{}/{}", folder, name), profile::draw_map_sheet(sheet, name), true);
         files.push_back({name, fmt::format("map sheet: {}, {} at 1:{:.0f}", sheet.title.title, profile::name_of(paper),
                                            profile::scale_of(sheet))});
@@ -295,4 +287,4 @@ std::vector<viewshed::ZoneFile> write_ztv_sheets(const std::string& folder, cons
   return files;
 }
 
-}  // namespace itin::cli
+}  // namespace itin::viewshed

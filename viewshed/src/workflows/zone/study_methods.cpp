@@ -1,4 +1,4 @@
-#include "ztv/ztv_methods.hpp"
+#include "workflows/zone/study_methods.hpp"
 
 #include <algorithm>
 #include <iterator>
@@ -8,17 +8,17 @@
 #include <fmt/ranges.h>
 
 #include <itin/coordinates.hpp>
+#include <itin/counted.hpp>
 #include <itin/height_axis.hpp>
 #include <itin/sources_in.hpp>
-#include <viewshed/missing_ground.hpp>
+#include <viewshed/undecided_area.hpp>
 #include <viewshed/zone_files.hpp>
 
-#include "options/nodata_option.hpp"
-#include "output/store_document.hpp"
-#include "ztv/ztv_turbines.hpp"
-#include "ztv/ztv_undecided.hpp"
+#include "workflows/zone/radius_text.hpp"
+#include "workflows/zone/study_document.hpp"
+#include "workflows/zone/study_radio.hpp"
 
-namespace itin::cli {
+namespace itin::viewshed {
 
 namespace {
 
@@ -26,26 +26,32 @@ std::string range(double low, double high, const char* unit) {
   return low == high ? fmt::format("{:g} {}", low, unit) : fmt::format("{:g} to {:g} {}", low, high, unit);
 }
 
-std::string turbines_in_words(const viewshed::Zone& zone, const ZtvMethods& facts) {
+std::string origin_in_words(const TurbineTable& table) {
+  std::string text;
+  if (!table.path.empty())
+    text = fmt::format(" Positions and heights are those of the file `{}` (SHA-256 {}).", table.path, table.sha256);
+  const std::size_t bad = table.bad.size();
+  if (bad == 0) return text;
+  return text + fmt::format(" {} of its {} could not be used and {} named in `turbines.csv`.", counted(bad, "row"),
+                            table.rows, bad == 1 ? "is" : "are");
+}
+
+std::string turbines_in_words(const ZoneStudy& study) {
+  const Zone& zone = study.zone;
   const auto& turbines = zone.request.turbines;
   const auto [least, most] = std::minmax_element(
       turbines.begin(), turbines.end(), [](const auto& a, const auto& b) { return a.tip_height < b.tip_height; });
   std::string text =
       fmt::format("The assessment covers {}, with blade tips {} above the ground.",
                   counted(turbines.size(), "wind turbine"), range(least->tip_height, most->tip_height, "m"));
-  const std::vector<std::string> farms = viewshed::farms_of(zone);
+  const std::vector<std::string> farms = farms_of(zone);
   if (farms.size() > 1) text += fmt::format(" The wind farms are {}.", fmt::join(farms, ", "));
-  const std::size_t unknown = turbines.size() - viewshed::known_hubs(zone);
+  const std::size_t unknown = turbines.size() - known_hubs(zone);
   if (unknown == turbines.size())
     text += " Hub heights are unknown for all turbines; hubs are not assessed.";
   else if (unknown > 0)
     text += fmt::format(" Hub heights are unknown for {} of them; these are not counted among the hubs.", unknown);
-  text += fmt::format(" Positions and heights are those of the file `{}` (SHA-256 {}).", facts.turbines_file,
-                      facts.turbines_sha256);
-  if (facts.bad > 0)
-    text += fmt::format(" {} of its {} could not be used and {} named in `turbines.csv`.", counted(facts.bad, "row"),
-                        facts.rows, facts.bad == 1 ? "is" : "are");
-  return text;
+  return text + origin_in_words(study.request.turbines);
 }
 
 /// Returns the sources of terrain, or of a theme, with their notes where they have any.
@@ -67,18 +73,31 @@ std::string datum_in_words(const std::vector<SourceInfo>& sources) {
   return fmt::format("Heights are metres above {}.", fmt::join(datums, " and "));
 }
 
-std::string terrain_in_words(const StoreMetadata& metadata, const ZtvMethods& facts) {
+std::string surface_in_words(const ZoneStudy& study) {
+  const Detail& detail = study.zone.request.detail;
+  if (detail.coarsest() == 0) return "Every point of the model is used.";
+  const Document error = study_surface(study)["certified_error_m"];
+  return fmt::format(
+      "The surface is generalised to a tolerance of {:g} m, with a certified error of {:.2f} to {:.2f} m against the "
+      "full terrain.",
+      detail.coarsest(), error[0].get<double>(), error[1].get<double>());
+}
+
+std::string terrain_in_words(const ZoneStudy& study) {
   double spacing = 0;
-  for (const SourceInfo& source : facts.sources)
+  for (const SourceInfo& source : study.sources)
     if (source.theme.empty()) spacing = std::max(spacing, source.spacing);
-  std::string text = fmt::format("The terrain model of the study area is made from: {}. Coordinates are in {}.",
-                                 sources_in_words(facts.sources, metadata, ""), crs_title(metadata.crs_wkt));
+  std::string text =
+      fmt::format("The terrain model of the study area is made from: {}. Coordinates are in {}.",
+                  sources_in_words(study.sources, study.metadata, ""), crs_title(study.metadata.crs_wkt));
   if (spacing > 0) text += fmt::format(" Its points lie up to {:.3g} m apart.", spacing);
-  return text + " " + datum_in_words(facts.sources) + " " + facts.surface +
+  return text + " " + datum_in_words(study.sources) + " " + surface_in_words(study) +
          " The points are joined by triangles, on which heights between them are read; nothing is resampled.";
 }
 
-std::string screening_in_words(const viewshed::Zone& zone, const StoreMetadata& metadata, const ZtvMethods& facts) {
+std::string screening_in_words(const ZoneStudy& study) {
+  const Zone& zone = study.zone;
+  const StoreMetadata& metadata = study.metadata;
   if (!zone.screened)
     return "The results are for bare ground: the screening effect of buildings, walls and vegetation is not taken into "
            "account, so that what is shown as visible may be hidden by them.";
@@ -87,7 +106,7 @@ std::string screening_in_words(const viewshed::Zone& zone, const StoreMetadata& 
     const std::vector<std::string> names = zone.request.themes->names(metadata.themes);
     if (std::find(names.begin(), names.end(), theme.name) == names.end() || is_terrain(theme.kind)) continue;
     features += fmt::format("{}{} ({}, {}, from {})", features.empty() ? "" : "; ", theme.name, name_of(theme.kind),
-                            counted(theme.features, "feature"), sources_in_words(facts.sources, metadata, theme.name));
+                            counted(theme.features, "feature"), sources_in_words(study.sources, metadata, theme.name));
   }
   const double tolerance = zone.request.detail.coarsest();
   const std::string generalised =
@@ -113,13 +132,13 @@ constexpr const char* kSheets =
     "by 14.2 degrees at 522 mm, on paper of 841 by 297 mm.";
 
 /// Tells how sight lines that cross ground without data are judged.
-std::string crossings_in_words(const viewshed::Zone& zone) {
+std::string crossings_in_words(const Zone& zone, const std::string& decides) {
   if (zone.request.nodata == NoData::kClear)
     return "Where sight lines cross ground without data, it is taken as clear.";
   if (zone.request.nodata == NoData::kBlock)
     return "Where sight lines cross ground without data, it is taken to block them.";
   if (!zone.leaves_open()) return "No sight line to a turbine crosses ground without data.";
-  const auto open = [&](const viewshed::Visibility& v) {
+  const auto open = [&](const Visibility& v) {
     const std::string what = undecided_in_words(undecided_area(zone, v.tip_count, v.tip_undecided));
     return what.empty() ? "of no place" : what;
   };
@@ -129,18 +148,26 @@ std::string crossings_in_words(const viewshed::Zone& zone) {
       "`undecided.tif`. It is undecided " +
       open(zone.bare);
   if (zone.screened) text += "; with the screening effect of features, " + open(*zone.screened);
-  return text + fmt::format(". The option `{}` decides it.", kDecidesMissingGround);
+  return text + fmt::format(". The option `{}` decides it.", decides);
 }
 
-std::string missing_in_words(const viewshed::MissingGround& missing, const viewshed::Zone& zone) {
+std::string missing_in_words(const ZoneStudy& study, const std::string& decides) {
+  const MissingGround& missing = study.missing;
   if (missing.share() == 0) return "The terrain data cover the whole study area: all places within the radii.";
   return fmt::format(
       "{} of the study area, {:.1f} km² within the radii, has no terrain data. Nothing is known of places there; they "
       "are no part of the areas and percentages given, which are of the area with data. {}",
-      missing.text(), missing.study_m2() / 1e6, crossings_in_words(zone));
+      missing.text(), missing.study_m2() / 1e6, crossings_in_words(study.zone, decides));
 }
 
-}  // namespace
+std::string radius_in_words(const ZoneStudy& study) {
+  if (study.request.turbines.radius) return radius_text(*study.request.turbines.radius);
+  const auto& turbines = study.zone.request.turbines;
+  const auto [least, most] = std::minmax_element(turbines.begin(), turbines.end(),
+                                                 [](const auto& a, const auto& b) { return a.radius < b.radius; });
+  return fmt::format("The study area extends to {} from every turbine.",
+                     range(least->radius / 1000, most->radius / 1000, "km"));
+}
 
 std::string refraction_in_words(const Earth& earth) {
   if (!earth.curvature) return "The Earth is taken as flat: neither curvature nor refraction is allowed for.";
@@ -158,24 +185,27 @@ std::string refraction_in_words(const Earth& earth) {
       earth.refraction, earth.radius / 1000, drops);
 }
 
-std::string methods_text(const viewshed::Zone& zone, const StoreMetadata& metadata, const ZtvMethods& facts) {
-  const viewshed::ZoneRequest& request = zone.request;
+}  // namespace
+
+std::string methods_text(const ZoneStudy& study, const ZoneStudyFileOptions& options) {
+  const Zone& zone = study.zone;
+  const ZoneRequest& request = zone.request;
   std::string text = "# Zone of theoretical visibility: methods\n\n";
   const auto paragraph = [&](const std::string& heading, const std::string& body) {
     text += fmt::format("## {}\n\n{}\n\n", heading, body);
   };
-  paragraph("Turbines", turbines_in_words(zone, facts));
-  paragraph("Terrain", terrain_in_words(metadata, facts));
+  paragraph("Turbines", turbines_in_words(study));
+  paragraph("Terrain", terrain_in_words(study));
   paragraph(
       "Observer",
       fmt::format("The observer's eyes are {:g} m above the bare ground, at the centre of every cell of {:g} m by "
                   "{:g} m.",
                   request.observer_height, zone.grid.cell_width(), zone.grid.cell_height()));
   paragraph("Study area",
-            facts.radius +
+            radius_in_words(study) +
                 " Distances are horizontal; beyond its own distance a turbine is not counted on maps and in "
                 "areas. Tables and sheets of viewpoints and routes count every turbine, however far it is.");
-  paragraph("Ground without data", missing_in_words(facts.missing, zone));
+  paragraph("Ground without data", missing_in_words(study, options.decides_missing_ground));
   paragraph("Curvature and refraction", refraction_in_words(request.earth));
   paragraph(
       "Visibility",
@@ -187,11 +217,12 @@ std::string methods_text(const viewshed::Zone& zone, const StoreMetadata& metada
       "visible where this point is no higher than the tip, the hub likewise; the visible height is the part of the "
       "turbine above this point. Rotors are taken to face the observer. Haze, light and the acuity of the eye are not "
       "taken into account.");
-  paragraph("Screening", screening_in_words(zone, metadata, facts));
-  if (facts.wirelines) paragraph("Wirelines", std::string(kWirelines) + (facts.sheets ? kSheets : ""));
-  for (const std::string& further : facts.further) text += further + "\n\n";
+  paragraph("Screening", screening_in_words(study));
+  if (has_viewpoints(study.request) && !options.wirelines.none)
+    paragraph("Wirelines", std::string(kWirelines) + (options.sheets.papers.empty() ? "" : kSheets));
+  for (const std::string& further : radio_methods(study, options.decides_missing_ground)) text += further + "\n\n";
   text += fmt::format("Computed with itin {}.\n", ITIN_VERSION);
   return text;
 }
 
-}  // namespace itin::cli
+}  // namespace itin::viewshed

@@ -1,4 +1,4 @@
-#include "ztv/ztv_sights.hpp"
+#include "workflows/zone/sight_summary.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,33 +9,32 @@
 #include <itin/azimuth.hpp>
 #include <itin/degrees.hpp>
 
-namespace itin::cli {
+namespace itin::viewshed {
 
-using viewshed::Zone;
-
-viewshed::Arc arc_to_shown(const std::vector<Sight>& sights) {
+Arc arc_to_shown(const std::vector<TurbineSight>& sights) {
   const bool none = std::none_of(sights.begin(), sights.end(), is_shown);
-  std::vector<viewshed::Arc> arcs;
-  for (const Sight& s : sights)
+  std::vector<Arc> arcs;
+  for (const TurbineSight& s : sights)
     if (none || is_shown(s)) arcs.push_back({s.azimuth, 0});
   return rotor_horizon(arcs).held;
 }
 
-Seen seen_of(const Zone& zone, const std::vector<Sight>& sights, const std::vector<std::size_t>& turbines) {
-  Seen seen;
+SightSummary seen_of(const Zone& zone, const std::vector<TurbineSight>& sights,
+                     const std::vector<std::size_t>& turbines) {
+  SightSummary seen;
   seen.turbines = turbines.size(), seen.nearest = turbines.front();
-  std::vector<viewshed::Arc> rotors;
+  std::vector<Arc> rotors;
   for (const std::size_t k : turbines) {
-    const Sight& s = sights[k];
+    const TurbineSight& s = sights[k];
     if (s.hub) {
       ++seen.hubs_known;
-      seen.hubs = seen.hubs.value_or(0) + (*s.hub == Sight::Verdict::kVisible ? 1 : 0);
-      seen.hubs_undecided = seen.hubs_undecided.value_or(0) + (*s.hub == Sight::Verdict::kUndecided ? 1 : 0);
+      seen.hubs = seen.hubs.value_or(0) + (*s.hub == TurbineSight::Verdict::kVisible ? 1 : 0);
+      seen.hubs_undecided = seen.hubs_undecided.value_or(0) + (*s.hub == TurbineSight::Verdict::kUndecided ? 1 : 0);
     }
     if (s.distance < sights[seen.nearest].distance) seen.nearest = k;
     seen.gaps = seen.gaps || s.gaps;
-    if (s.tip == Sight::Verdict::kUndecided) ++seen.tips_undecided;
-    if (s.tip != Sight::Verdict::kVisible) continue;
+    if (s.tip == TurbineSight::Verdict::kUndecided) ++seen.tips_undecided;
+    if (s.tip != TurbineSight::Verdict::kVisible) continue;
     ++seen.tips;
     if (s.distance > zone.request.turbines[k].radius) ++seen.tips_beyond;
     const double half = in_degrees(std::atan2(zone.request.turbines[k].rotor_diameter.value_or(0) / 2, s.distance));
@@ -43,6 +42,7 @@ Seen seen_of(const Zone& zone, const std::vector<Sight>& sights, const std::vect
     seen.vertical_deg = std::max(seen.vertical_deg, s.vertical_deg);
     if (!seen.nearest_seen || s.distance < sights[*seen.nearest_seen].distance) seen.nearest_seen = k;
   }
+  seen.nearest_m = sights[seen.nearest].distance;
   if (!rotors.empty()) seen.arc = rotor_horizon(rotors).held;
   return seen;
 }
@@ -76,4 +76,4 @@ std::string before_the_eye(const SectionSurface& surface, const Viewpoint& from,
   return "";
 }
 
-}  // namespace itin::cli
+}  // namespace itin::viewshed

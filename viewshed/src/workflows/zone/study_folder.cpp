@@ -1,4 +1,4 @@
-#include "ztv/ztv_folder.hpp"
+#include "workflows/zone/study_folder.hpp"
 
 #include <cerrno>
 #include <cstdio>
@@ -13,8 +13,10 @@
 #include <nlohmann/json.hpp>
 
 #include <itin/error.hpp>
+#include <viewshed/qgis_styles.hpp>
+#include <viewshed/zone_study.hpp>
 
-namespace itin::cli {
+namespace itin::viewshed {
 
 namespace fs = std::filesystem;
 
@@ -27,7 +29,7 @@ std::string without_slash(std::string path) {
 
 /// Names of the files that an earlier run wrote.
 std::set<std::string> listed_outputs(const fs::path& manifest) {
-  std::set<std::string> names{ZtvFolder::kManifest};
+  std::set<std::string> names{kZoneManifest};
   std::ifstream in(manifest);
   const nlohmann::json document = nlohmann::json::parse(in, nullptr, false);
   if (!document.is_object() || !document.contains("outputs") || !document["outputs"].is_array()) return names;
@@ -35,22 +37,23 @@ std::set<std::string> listed_outputs(const fs::path& manifest) {
     if (!output.is_object() || !output.contains("path") || !output["path"].is_string()) continue;
     const fs::path name = fs::path(output["path"].get<std::string>()).filename();
     names.insert(name.string());
-    names.insert(viewshed::style_beside(name.string()));
+    names.insert(style_beside(name.string()));
   }
   return names;
 }
 
 }  // namespace
 
-void ZtvFolder::require_writable(const std::string& given, const OutputPolicy& policy) {
+void require_zone_folder(const std::string& given, bool overwrite) {
   const std::string path = without_slash(given);
   std::error_code ignored;
   const fs::file_status status = fs::status(path, ignored);
   if (fs::exists(status) && !fs::is_directory(status)) throw FileError(path, "is a file; name a folder");
   if (fs::is_directory(status) && !fs::is_empty(path, ignored)) {
-    if (!policy.overwrite) throw FileError(path, "exists; give --overwrite to replace its outputs");
-    if (!fs::exists(fs::path(path) / kManifest, ignored))
-      throw FileError(path, fmt::format("is no folder of earlier outputs, for it has no {}; name another", kManifest));
+    if (!overwrite) throw FileError(path, "exists; give `overwrite` to replace its outputs");
+    if (!fs::exists(fs::path(path) / kZoneManifest, ignored))
+      throw FileError(path,
+                      fmt::format("is no folder of earlier outputs, for it has no {}; name another", kZoneManifest));
   }
   fs::path parent = fs::path(path).parent_path();
   if (parent.empty()) parent = ".";
@@ -60,8 +63,8 @@ void ZtvFolder::require_writable(const std::string& given, const OutputPolicy& p
     throw FileError(path, "its parent folder is not writable; change its permissions or name another place");
 }
 
-ZtvFolder::ZtvFolder(std::string path, const OutputPolicy& policy) : path_(without_slash(std::move(path))) {
-  require_writable(path_, policy);
+StudyFolder::StudyFolder(std::string path, bool overwrite) : path_(without_slash(std::move(path))) {
+  require_zone_folder(path_, overwrite);
   const std::string working = fmt::format("{}.{}.tmp", path_, getpid());
   std::error_code error;
   fs::create_directory(working, error);
@@ -69,7 +72,7 @@ ZtvFolder::ZtvFolder(std::string path, const OutputPolicy& policy) : path_(witho
   working_.emplace(working, Unfinished::Kind::folder);
 }
 
-void ZtvFolder::publish() {
+void StudyFolder::publish() {
   const bool replace = fs::exists(path_) && !fs::is_empty(path_);
   const unsigned flags = replace ? RENAME_EXCHANGE : 0;
   working_->finish([&] {
@@ -82,8 +85,8 @@ void ZtvFolder::publish() {
   fs::remove_all(working(), ignored);
 }
 
-void ZtvFolder::keep_foreign_files(const std::string& earlier) const {
-  const std::set<std::string> own = listed_outputs(fs::path(earlier) / kManifest);
+void StudyFolder::keep_foreign_files(const std::string& earlier) const {
+  const std::set<std::string> own = listed_outputs(fs::path(earlier) / kZoneManifest);
   for (const fs::directory_entry& entry : fs::directory_iterator(earlier)) {
     const std::string name = entry.path().filename().string();
     const fs::path to = fs::path(path_) / name;
@@ -92,4 +95,4 @@ void ZtvFolder::keep_foreign_files(const std::string& earlier) const {
   }
 }
 
-}  // namespace itin::cli
+}  // namespace itin::viewshed
