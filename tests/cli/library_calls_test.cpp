@@ -1,10 +1,14 @@
 // What the program writes, a few calls of the libraries write as well, to the last byte.
+#include <filesystem>
+#include <fstream>
+
 #include <gtest/gtest.h>
 
 #include <itin/error.hpp>
 #include <itin/store.hpp>
 #include <profile/links.hpp>
 #include <profile/path_profiles.hpp>
+#include <viewshed/zone_study.hpp>
 
 #include "cli/shell.hpp"
 
@@ -72,6 +76,80 @@ TEST_F(LibraryCalls, WriteTheProfilesOfTheProgram) {
   EXPECT_THROW(profile::write_profiles(along, path("mine.txt")), InputError);
   EXPECT_THROW(profile::write_profiles(along, path("mine.csv")), FileError);
   EXPECT_THROW(profile::profiles_along(store, {.corners = {{310000, 184000}}}, progress_), InputError);
+}
+
+TEST_F(LibraryCalls, WriteTheZoneStudyOfTheProgram) {
+  import_hills();
+  std::ofstream(path("t.csv")) << "x,y,hub_height,rotor_diameter,farm\n310600,185000,80,90,A\n313500,187000,60,60,B\n"
+                                  "0,0,60,60,B\n313500,187000,,,B\n";
+  std::ofstream(path("v.csv")) << "x,y,name,height\n310900,185500,Garth,3\n0,0,off,\n";
+  std::ofstream(path("r.csv")) << "name,WKT\nHigh Road,\"LINESTRING (310100 184000, 313400 188400)\"\n";
+  std::ofstream(path("l.csv")) << "id,x1,y1,h1,x2,y2,h2\na,310000,184000,5,313500,188000,20\n";
+  run("itin ztv store.itin --turbines t.csv --viewpoints v.csv --route r.csv --every 400 --links l.csv --frequency 7.5 "
+      "--radar 310900,185500,20 --radius 3000 --cell 100 --wireline-hidden --sheets A3 --date today -o program");
+
+  const Store store(path("store.itin"));
+  const std::string& crs = store.metadata().crs_wkt;
+  viewshed::ZoneStudyRequest request;
+  request.turbines = viewshed::read_turbines(
+      {.path = path("t.csv"), .radius = {.source = "--radius", .steps = {}, .fixed = 3000}}, crs);
+  request.zone.cell_size = 100;
+  request.zone.radar = viewshed::Observer{"radar", {310900, 185500}, 20};
+  request.viewpoints = viewshed::read_viewpoints({.path = path("v.csv")}, crs);
+  request.routes = viewshed::read_routes(path("r.csv"), crs);
+  request.route_step = 400;
+  request.links = profile::read_link_table(path("l.csv"), crs, {});
+  request.frequency_ghz = 7.5;
+  const viewshed::ZoneStudy study = viewshed::study_zone(store, request, progress_);
+  viewshed::ZoneStudyFileOptions options;
+  options.wirelines.hidden_dashed = true;
+  options.sheets = {.papers = {profile::PaperSize::kA3}, .date = "today"};
+  options.decides_missing_ground = "--nodata block or clear";
+  const std::vector<viewshed::ZoneFile> files =
+      viewshed::write_zone_study(path("mine"), store, study, options, progress_);
+
+  EXPECT_EQ(study.viewpoints.size(), 1U);
+  EXPECT_EQ(study.request.viewpoints.bad.size(), 1U);
+  EXPECT_EQ(study.request.turbines.bad.size(), 2U);
+  EXPECT_EQ(study.routes.front().title(), "High Road");
+  EXPECT_EQ(study.link_clearances.size(), 2U);
+  EXPECT_GT(files.size(), 40U);
+  for (const viewshed::ZoneFile& file : files) {
+    // GeoPackages have the time in them, and the text on methods has the path of the turbines' file.
+    if (file.name.ends_with(".gpkg") || file.name == "methods.md") continue;
+    EXPECT_EQ(shell_.read("mine/" + file.name), shell_.read("program/" + file.name)) << file.name;
+  }
+  EXPECT_FALSE(shell_.read("mine/methods.md").empty());
+  EXPECT_NE(shell_.read("mine/ztv.json").find("\"outputs\""), std::string::npos);
+  EXPECT_THROW(viewshed::write_zone_study(path("mine"), store, study, options, progress_), FileError);
+  options.overwrite = true, options.wirelines.viewpoints = {"nobody"};
+  EXPECT_THROW(viewshed::write_zone_study(path("mine"), store, study, options, progress_), InputError);
+}
+
+/// Turbines and viewpoints that are in no file.
+TEST_F(LibraryCalls, StudyTurbinesThatAreInNoFile) {
+  import_hills();
+  const Store store(path("store.itin"));
+  viewshed::ZoneStudyRequest request;
+  request.turbines.turbines = {{.number = 2, .position = {310600, 185000}, .tip_height = 120, .radius = 2000}};
+  request.zone.cell_size = 100;
+  request.zone.themes = ThemeChoice::none();
+  request.viewpoints.viewpoints = {{1, "here", {310900, 185500}, 2, 0}, {2, "nowhere", {0, 0}, 2, 0}};
+  const viewshed::ZoneStudy study = viewshed::study_zone(store, request, progress_);
+  EXPECT_FALSE(study.zone.screened);
+  ASSERT_EQ(study.viewpoints.size(), 1U);
+  EXPECT_GT(study.viewpoints.front().viewpoint.ground, 0);
+  ASSERT_EQ(study.request.viewpoints.bad.size(), 1U);
+  EXPECT_EQ(study.request.viewpoints.bad.front().number, 2U);
+  viewshed::ZoneStudyFileOptions options;
+  options.wirelines.none = true;
+  viewshed::write_zone_study(path("out"), store, study, options, progress_);
+  EXPECT_NE(shell_.read("out/turbines.csv").find("\n2,,"), std::string::npos);
+  EXPECT_NE(shell_.read("out/methods.md").find("extends to 2 km from every turbine"), std::string::npos);
+  EXPECT_FALSE(std::filesystem::exists(path("out/radius-preset.json")));
+  request.zone.cell_size.reset();
+  request.zone.grid = RasterGrid({312500, 184000}, 100, 100, 5, 5);
+  EXPECT_THROW(viewshed::study_zone(store, request, progress_), InputError);
 }
 
 }  // namespace
