@@ -169,38 +169,29 @@ class LosVerb final : public Verb {
     const Store store(store_, cache_within(line_.memory_bytes()));
     earth_.take_body_of(store.metadata());
     set_earth();
-    const profile::LinkTable table = links_.table(store, line_);
+    profile::LinkTable table = links_.table(store, line_);
     std::vector<LosReports::Job> jobs = reports_.jobs(table.links, policy_);
-    const LosLinks::Page page{reports_.title(), facts_of_links(store)};
-    const profile::LinkQuery links = LosLinks::query(query_, line_);
-    LosLinks::Survey survey = links_.run(store, table, links, page, policy_.overwrite, progress);
-    const bool radio = query_.radio || std::any_of(table.links.begin(), table.links.end(),
+    const profile::LinkSurvey survey =
+        profile::survey_link_table(store, std::move(table), LosLinks::query(query_, line_), progress);
+    profile::write_link_table(survey, links_.outputs(), {reports_.title(), people_.facts(), policy_.overwrite});
+    Result result = links_.result_of(survey);
+    const std::vector<profile::Link>& links = survey.table.links;
+    const bool radio = query_.radio || std::any_of(links.begin(), links.end(),
                                                    [](const profile::Link& l) { return l.frequency_ghz.has_value(); });
-    if (radio) warn_of_refraction(profile::effective_earth_km(query_.earth), survey.result);
-    warn_of_grid(store.metadata(), survey.result.warnings);
-    warn_of_date(survey.result);
+    if (radio) warn_of_refraction(profile::effective_earth_km(query_.earth), result);
+    warn_of_grid(store.metadata(), result.warnings);
+    warn_of_date(result);
     // A link without a verdict has no report; the table says why.
-    std::erase_if(jobs, [&](const LosReports::Job& job) { return !survey.computed[job.link]; });
+    std::erase_if(jobs, [&](const LosReports::Job& job) { return !survey.results[job.link].found; });
     const auto work = [&](std::size_t i) {
-      const profile::Link& link = table.links[i];
+      const profile::Link& link = links[i];
       const LosStoreOptions::Ends ends{link.from, link.to, link.from_height, link.to_height};
-      LosCase one = los_case(store, line_.run(store, profile::los_query(link, links), ends), header(link));
+      LosCase one = los_case(store, line_.run(store, profile::los_query(link, survey.query), ends), header(link));
       one.result.document["link"] = link.id;
       return one;
     };
-    reports_.write_all(jobs, work, command(), policy_.overwrite, progress, survey.result);
-    return std::move(survey.result);
-  }
-
-  std::vector<std::pair<std::string, std::string>> facts_of_links(const Store& store) const {
-    const StoreMetadata& metadata = store.metadata();
-    std::vector<std::pair<std::string, std::string>> facts = people_.facts();
-    facts.insert(facts.end(),
-                 {{"Store", std::filesystem::path(store.path()).filename().string()},
-                  {"CRS", fmt::format("{} ({})", crs_title(metadata.crs_wkt), crs_identifier(metadata.crs_wkt))},
-                  {"Refraction", query_.earth.convention()},
-                  {"Program", "itin " ITIN_VERSION}});
-    return facts;
+    reports_.write_all(jobs, work, command(), policy_.overwrite, progress, result);
+    return result;
   }
 
   void warn_of_date(Result& result) const {

@@ -1,14 +1,11 @@
 #include "los/los_links.hpp"
 
 #include <algorithm>
-#include <future>
 
 #include <fmt/format.h>
 
-#include <itin/beside.hpp>
 #include <itin/error.hpp>
 #include <profile/documents.hpp>
-#include <profile/link_output.hpp>
 
 #include "options/memory_option.hpp"
 #include "options/off_the_data.hpp"
@@ -21,17 +18,15 @@ namespace itin::cli {
 
 namespace {
 
-using profile::Link;
-using profile::LinkResult;
-using profile::LinkTable;
-
 /// The first error: of rows that cannot be read or, if there are none, of links.
-std::string first_error(const LinkTable& table, const std::vector<LinkResult>& results, const StoreMetadata& metadata) {
+std::string first_error(const profile::LinkSurvey& survey) {
+  const profile::LinkTable& table = survey.table;
   if (!table.bad.empty()) return fmt::format("{}: {}", table.bad.front().place, table.bad.front().message);
-  const auto first = std::find_if(results.begin(), results.end(), [](const LinkResult& r) { return !r.found; });
-  const Link& link = table.links[static_cast<std::size_t>(first - results.begin())];
-  const Point2 end = is_on_the_data(link.from, metadata) ? link.to : link.from;
-  const std::optional<std::string> off = off_the_data(end, {}, metadata);
+  const auto first =
+      std::find_if(survey.results.begin(), survey.results.end(), [](const profile::LinkResult& r) { return !r.found; });
+  const profile::Link& link = table.links[static_cast<std::size_t>(first - survey.results.begin())];
+  const Point2 end = is_on_the_data(link.from, survey.metadata) ? link.to : link.from;
+  const std::optional<std::string> off = off_the_data(end, {}, survey.metadata);
   const std::string where = off ? fmt::format("; {:.10g},{:.10g} {}", end.x, end.y, *off) : "";
   return fmt::format("{}: {}{}", link.id, first->message, where);
 }
@@ -62,13 +57,7 @@ void LosLinks::declare(CLI::App& app) {
 
 void LosLinks::validate(const std::optional<profile::TallObject>& object) {
   if (outputs_.empty()) throw InputError("--links needs -o FILE.csv, the table to write");
-  for (const std::string& output : outputs_) {
-    try {
-      profile::require_link_format(output);
-    } catch (const InputError& error) {
-      throw InputError(fmt::format("-o {}", error.what()));
-    }
-  }
+  for (const std::string& output : outputs_) profile::require_link_format(output);
   if (object) heights_.to_m = object->tip_m;
   if (height_text_.empty()) return;
   heights_.from_m = heights_.to_m = parse_height("--link-height", height_text_, Range::kNotNegative);
@@ -89,7 +78,7 @@ Document LosLinks::parameters() const {
   return parameters;
 }
 
-LinkTable LosLinks::table(const Store& store, const LosStoreOptions& surface) const {
+profile::LinkTable LosLinks::table(const Store& store, const LosStoreOptions& surface) const {
   return profile::read_link_table(path_, store.metadata().crs_wkt, heights_, surface.in_crs(), choice_);
 }
 
@@ -107,41 +96,20 @@ profile::LinkQuery LosLinks::query(const profile::LosQuery& line, const LosStore
           .day = line.day};
 }
 
-LosLinks::Survey LosLinks::run(const Store& store, const LinkTable& table, const profile::LinkQuery& query,
-                               const Page& page, bool overwrite, Progress& progress) const {
-  const StoreMetadata& metadata = store.metadata();
-  std::future<profile::LinkCourses> courses =
-      beside([&] { return profile::link_courses(table.links, metadata.crs_wkt, progress); });
-  const std::vector<LinkResult> results = profile::survey_links(store, table.links, query, progress);
-  const profile::LinkCourses known = courses.get();
-  const profile::LinkSurvey written{table, results, known, query, metadata.crs_wkt, page.title, page.facts};
-  profile::write_links(written, outputs_, overwrite);
-  Survey survey;
-  for (const LinkResult& r : results) survey.computed.push_back(r.found.has_value());
-  Result& result = survey.result;
-  result.document = profile::links_document(metadata, table, results, query);
+Result LosLinks::result_of(const profile::LinkSurvey& survey) const {
+  Result result;
+  result.document = profile::links_document(survey);
   result.document["outputs"] = outputs_;
-  const profile::LinkCounts counts = profile::counts_of(table, results);
-  const auto gaps = std::count_if(results.begin(), results.end(), [](const LinkResult& r) { return r.gap_m > 0; });
-  const std::size_t all = results.size() + table.bad.size();
-  result.text = fmt::format("{}: {}, {} visible", outputs_.front(), counted(all, "link"), grouped(counts.visible));
+  const profile::LinkCounts counts = profile::counts_of(survey);
+  const std::string all = counted(survey.results.size() + survey.table.bad.size(), "link");
+  result.text = fmt::format("{}: {}, {} visible", outputs_.front(), all, grouped(counts.visible));
   if (counts.undecided > 0) result.text += fmt::format(", {} undecided", grouped(counts.undecided));
   result.text += "\n";
-  result.warnings = table.warnings;
-  for (const std::string& column : table.other_columns)
-    result.warnings.push_back(
-        fmt::format("{}: the column '{}' is not understood; the outputs keep its cells as they are", path_, column));
-  if (gaps > 0 && query.nodata != profile::NoData::kClear) {
-    result.warnings.push_back(fmt::format(
-        "{} of {} cross ground without data, which {}; see --nodata", gaps, counted(all, "link"),
-        query.nodata == profile::NoData::kBlock ? "counts as blocking"
-                                                : "leaves those undecided that known ground does not hide"));
-  }
+  result.warnings = survey.warnings;
   if (counts.error > 0)
-    result.failure =
-        fmt::format("{}: {} of {} could not be computed; see the column message; one of them: {}", outputs_.front(),
-                    counts.error, counted(all, "link"), first_error(table, results, metadata));
-  return survey;
+    result.failure = fmt::format("{}: {} of {} could not be computed; see the column message; one of them: {}",
+                                 outputs_.front(), counts.error, all, first_error(survey));
+  return result;
 }
 
 }  // namespace itin::cli

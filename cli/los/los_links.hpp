@@ -3,7 +3,6 @@
 
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -34,19 +33,8 @@ class LosLinks {
   /// The query for every link that does not ask for something else itself.
   static profile::LinkQuery query(const profile::LosQuery& line, const LosStoreOptions& surface);
 
-  /// The contents of the page besides the links.
-  struct Page {
-    std::string title;
-    std::vector<std::pair<std::string, std::string>> facts;
-  };
-  struct Survey {
-    Result result;
-    std::vector<bool> computed;  ///< for each link, whether it has a verdict
-  };
-  /// Writes the outputs. Where a link could not be computed, the result's failure says so. Throws FileError,
-  /// InputError, CorruptStore, Cancelled.
-  Survey run(const Store& store, const profile::LinkTable& table, const profile::LinkQuery& query, const Page& page,
-             bool overwrite, Progress& progress) const;
+  /// The result of a survey whose outputs are written. Where a link could not be computed, its failure says so.
+  Result result_of(const profile::LinkSurvey& survey) const;
 
  private:
   std::string path_, height_text_;

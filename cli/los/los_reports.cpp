@@ -7,6 +7,7 @@
 
 #include <itin/document.hpp>
 #include <itin/error.hpp>
+#include <itin/file_name.hpp>
 #include <itin/parallel.hpp>
 #include <profile/los.hpp>
 

@@ -7,8 +7,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include <itin/cross_section.hpp>
-#include <itin/store.hpp>
+#include <itin/memory_shares.hpp>
 
 namespace itin::cli {
 
@@ -32,10 +31,5 @@ inline constexpr const char* kKeptOfTheStore =
 inline constexpr const char* kReadInParts =
     "Memory to work in, for example 2G. Surfaces that exceed it are read in parts, and rasters that do are refused; "
     "the result does not depend on it (default: 1G)";
-
-/// Returns store options that keep blocks in at most a quarter of the memory, where that is bounded.
-StoreOptions cache_within(std::optional<std::uint64_t> memory_bytes);
-/// Returns options that keep at most an eighth of the memory for the cross-sections of each surface.
-SectionSurface::Options section_cache_within(std::optional<std::uint64_t> memory_bytes);
 
 }  // namespace itin::cli

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <itin/error.hpp>
+#include <itin/site_list.hpp>
 
 #include "options/off_the_data.hpp"
-#include "options/site_list.hpp"
 #include "program/call_files.hpp"
 #include "program/help.hpp"
 

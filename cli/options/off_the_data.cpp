@@ -8,7 +8,6 @@
 #include <itin/celestial_body.hpp>
 #include <itin/coordinates.hpp>
 #include <itin/error.hpp>
-#include <itin/grid_units.hpp>
 
 namespace itin::cli {
 
@@ -60,19 +59,6 @@ std::string likely_mistake(Point2 given, const InCrs& in_crs, const StoreMetadat
 }
 
 }  // namespace
-
-bool is_on_the_data(Point2 p, const StoreMetadata& metadata) {
-  const auto [x, y] = place_in_units(metadata.grid, p);
-  const GridBox& bounds = metadata.bounds;
-  return x >= bounds.xmin && x <= bounds.xmax && y >= bounds.ymin && y <= bounds.ymax;
-}
-
-std::string extent_of(const StoreMetadata& metadata) {
-  const Box bounds = metadata.grid.box(metadata.bounds);
-  const std::string crs = crs_identifier(metadata.crs_wkt);
-  return fmt::format("{:.10g},{:.10g} to {:.10g},{:.10g} in {}", bounds.xmin, bounds.ymin, bounds.xmax, bounds.ymax,
-                     crs.size() < 40 ? crs : crs_title(metadata.crs_wkt));
-}
 
 std::optional<std::string> off_the_data(Point2 given, const InCrs& in_crs, const StoreMetadata& metadata) {
   if (within(given, in_crs, metadata)) return std::nullopt;

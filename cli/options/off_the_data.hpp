@@ -5,15 +5,13 @@
 #include <string>
 #include <vector>
 
+#include <itin/data_extent.hpp>
 #include <itin/geometry.hpp>
 #include <itin/store.hpp>
 
 #include "options/in_crs.hpp"
 
 namespace itin::cli {
-
-/// Whether a place in the store's CRS lies within the store's bounds.
-bool is_on_the_data(Point2 place, const StoreMetadata& metadata);
 
 /// Returns nothing where `given` (in the CRS of --in-crs, else the store's) lies within the store's bounds. Otherwise
 /// returns a text to follow the name of the place: that it lies off the data, the data's bounds, and the likely
@@ -30,8 +28,5 @@ void require_on_the_data(const std::string& what, Point2 place, const InCrs& in_
 /// Throws InputError, which begins with `first` (what the first place is called), where all places lie off the data.
 void require_any_on_the_data(const std::string& first, const std::vector<Point2>& places, const InCrs& in_crs,
                              const StoreMetadata& metadata);
-
-/// The store's bounds: "xmin,ymin to xmax,ymax in EPSG:27700".
-std::string extent_of(const StoreMetadata& metadata);
 
 }  // namespace itin::cli

@@ -1,12 +1,11 @@
 // The distance up to which turbines are looked for, by the height of their tips: `--radius`, `--radius-preset FILE`.
 #pragma once
 
-#include <limits>
-#include <optional>
 #include <string>
-#include <vector>
 
 #include <CLI/CLI.hpp>
+
+#include <viewshed/zone_study.hpp>
 
 #include "program/verb.hpp"
 
@@ -19,22 +18,13 @@ class RadiusOptions {
   void validate();
   /// Reads the preset's file, where one is given. Throws FileError.
   void load();
-  /// The radius, in metres, for a height of tips.
-  double radius(double tip_height) const;
+  const viewshed::RadiusRule& rule() const { return rule_; }
   /// The rule in force, in the form of a preset's file, so that it can be edited and given again.
   Document document() const;
-  /// Describes the rule in one sentence.
-  std::string text() const;
 
  private:
-  struct Step {
-    double tip_up_to_m = std::numeric_limits<double>::infinity();
-    double radius_km = 0;
-  };
   std::string radius_text_, preset_path_;
-  std::optional<double> fixed_;
-  std::string source_;
-  std::vector<Step> steps_;  ///< ascending, the last open
+  viewshed::RadiusRule rule_;
 };
 
 }  // namespace itin::cli

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <itin/error.hpp>
+#include <profile/map_sheet.hpp>
 
 #include "options/day_of_run.hpp"
 #include "program/call_files.hpp"
@@ -38,43 +39,38 @@ void SheetOptions::declare_title_block(CLI::App& app) {
   app.add_option("--sheet-scale", scale_text_,
                  "Scale of the maps on paper: 100000 for 1:100,000 (default: the largest usual one that shows all)")
       ->type_name("NUMBER");
-  reads(app.add_option("--basemap", basemap_,
+  reads(app.add_option("--basemap", choice_.basemap,
                        "A georeferenced picture below these maps, in place of the shaded relief (.tif, ...)")
             ->type_name("FILE"));
-  app.add_option("--project", project_, "The project's name in title blocks")->type_name("NAME");
-  app.add_option("--date", date_, "The date in title blocks (default: today, UTC)")->type_name("TEXT");
+  app.add_option("--project", choice_.project, "The project's name in title blocks")->type_name("NAME");
+  app.add_option("--date", choice_.date, "The date in title blocks (default: today, UTC)")->type_name("TEXT");
 }
 
 void SheetOptions::validate() {
   const bool alone = papers_option_ == "--paper" && file_.empty();
   if (alone && !papers_text_.empty()) throw InputError("--paper works only with --sheet");
   if (!file_.empty() && papers_text_.empty()) papers_text_ = "A3";
-  for (const auto& [option, text] : {std::pair("--basemap", &basemap_), std::pair("--sheet-scale", &scale_text_),
-                                     std::pair("--project", &project_), std::pair("--date", &date_)})
+  for (const auto& [option, text] : {std::pair("--basemap", &choice_.basemap), std::pair("--sheet-scale", &scale_text_),
+                                     std::pair("--project", &choice_.project), std::pair("--date", &choice_.date)})
     if (!text->empty() && papers_text_.empty()) throw InputError(fmt::format("{} works only with a sheet", option));
-  if (date_.empty()) date_ = day_of_run();
+  if (choice_.date.empty()) choice_.date = day_of_run();
   if (!file_.empty()) profile::require_sheet_format(file_);
-  if (!scale_text_.empty()) scale_ = parse_number("--sheet-scale", scale_text_, Range::kPositive);
+  if (!scale_text_.empty()) choice_.scale = parse_number("--sheet-scale", scale_text_, Range::kPositive);
   if (papers_text_.empty()) return;
   std::istringstream names(papers_text_);
   for (std::string name; std::getline(names, name, ',');)
-    papers_.push_back(parse_choice(papers_option_, name, {"A3", "A1"}) == 0 ? profile::PaperSize::kA3
-                                                                            : profile::PaperSize::kA1);
+    choice_.papers.push_back(parse_choice(papers_option_, name, {"A3", "A1"}) == 0 ? profile::PaperSize::kA3
+                                                                                   : profile::PaperSize::kA1);
 }
 
 Document SheetOptions::parameters() const {
   Document parameters = Document::object();
   if (!given()) return parameters;
-  for (const profile::PaperSize paper : papers_) parameters["sheets"].push_back(profile::name_of(paper));
-  if (scale_ > 0) parameters["sheet_scale"] = scale_;
-  if (!basemap_.empty()) parameters["basemap"] = basemap_;
-  if (!project_.empty()) parameters["project"] = project_;
+  for (const profile::PaperSize paper : choice_.papers) parameters["sheets"].push_back(profile::name_of(paper));
+  if (choice_.scale > 0) parameters["sheet_scale"] = choice_.scale;
+  if (!choice_.basemap.empty()) parameters["basemap"] = choice_.basemap;
+  if (!choice_.project.empty()) parameters["project"] = choice_.project;
   return parameters;
-}
-
-std::vector<std::string> sheet_names(const std::string& map, profile::PaperSize paper) {
-  const std::string name = fmt::format("sheet-{}-{}", map, profile::name_of(paper));
-  return {name + ".pdf", name + ".png"};
 }
 
 }  // namespace itin::cli

@@ -7,7 +7,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include <profile/map_sheet.hpp>
+#include <profile/sheet_choice.hpp>
 
 #include "program/verb.hpp"
 
@@ -21,26 +21,18 @@ class SheetOptions {
   void declare_file(CLI::App& app);
   /// Throws InputError.
   void validate();
-  bool given() const { return !papers_.empty(); }
+  bool given() const { return !choice_.papers.empty(); }
   Document parameters() const;
 
   const std::string& file() const { return file_; }
-  const std::vector<profile::PaperSize>& papers() const { return papers_; }
-  double scale() const { return scale_; }
-  const std::string& project() const { return project_; }
-  const std::string& date() const { return date_; }
-  /// A picture in place of the shaded relief; empty if there is none.
-  const std::string& basemap() const { return basemap_; }
+  const std::vector<profile::PaperSize>& papers() const { return choice_.papers; }
+  const profile::SheetChoice& choice() const { return choice_; }
 
  private:
   void declare_title_block(CLI::App& app);
 
-  std::string file_, papers_option_, papers_text_, scale_text_, project_, date_, basemap_;
-  std::vector<profile::PaperSize> papers_;
-  double scale_ = 0;
+  std::string file_, papers_option_, papers_text_, scale_text_;
+  profile::SheetChoice choice_;
 };
-
-/// The files of a map on one paper: "sheet-coverage-A3.pdf" and its picture.
-std::vector<std::string> sheet_names(const std::string& map, profile::PaperSize paper);
 
 }  // namespace itin::cli

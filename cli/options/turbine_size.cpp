@@ -1,7 +1,5 @@
 #include "options/turbine_size.hpp"
 
-#include <cmath>
-
 #include <fmt/format.h>
 
 #include <itin/error.hpp>
@@ -10,28 +8,6 @@
 #include "program/values.hpp"
 
 namespace itin::cli {
-
-void TurbineSize::complete() {
-  if (!tip) {
-    if (!hub || !rotor) throw InputError("it has neither tip_height nor both hub_height and rotor_diameter");
-    tip = *hub + *rotor / 2;
-  } else if (hub && *hub > *tip) {
-    throw InputError(fmt::format("its hub_height {:g} lies above its tip_height {:g}", *hub, *tip));
-  } else if (hub && !rotor && *tip > *hub) {
-    rotor = 2 * (*tip - *hub);
-  } else if (!hub && rotor) {
-    hub = *tip - *rotor / 2;
-  }
-  if (hub && *hub <= 0)
-    throw InputError("its rotor_diameter is more than twice its tip_height: the hub would lie below the ground");
-  if (hub && rotor && *rotor / 2 > *hub)
-    throw InputError(fmt::format("its blades would reach {:g} m below the ground: hub {:g}, rotor {:g}",
-                                 *rotor / 2 - *hub, *hub, *rotor));
-  if (hub && rotor && std::abs(*hub + *rotor / 2 - *tip) > 1)
-    throw InputError(
-        fmt::format("its heights contradict each other: hub {:g} and half the rotor {:g} are not the tip {:g}", *hub,
-                    *rotor / 2, *tip));
-}
 
 void TurbineSizeOptions::declare(CLI::App& app, const std::string& which) {
   app.add_option("--hub-height", hub_text_, "Hub height " + which)->type_name("METRES");
@@ -46,8 +22,8 @@ void TurbineSizeOptions::validate() {
   if (size_.tip && (size_.hub || size_.rotor)) completed();
 }
 
-TurbineSize TurbineSizeOptions::completed() const {
-  TurbineSize size = size_;
+viewshed::TurbineSize TurbineSizeOptions::completed() const {
+  viewshed::TurbineSize size = size_;
   try {
     size.complete();
   } catch (const InputError& error) {

@@ -1,23 +1,15 @@
 // The size of a turbine: `--hub-height`, `--rotor-diameter`, `--tip-height`.
 #pragma once
 
-#include <optional>
 #include <string>
 
 #include <CLI/CLI.hpp>
 
+#include <viewshed/zone_study.hpp>
+
 #include "program/verb.hpp"
 
 namespace itin::cli {
-
-/// Sizes in metres; two imply the third.
-struct TurbineSize {
-  std::optional<double> hub, rotor, tip;
-
-  /// Completes the size that the other two imply. Throws InputError where the tip stays open, or they contradict each
-  /// other.
-  void complete();
-};
 
 class TurbineSizeOptions {
  public:
@@ -26,14 +18,14 @@ class TurbineSizeOptions {
   /// Throws InputError.
   void validate();
   /// The sizes as given, not completed.
-  const TurbineSize& size() const { return size_; }
+  const viewshed::TurbineSize& size() const { return size_; }
   /// The completed sizes. Throws InputError where the options are not enough, or no turbine can have these sizes.
-  TurbineSize completed() const;
+  viewshed::TurbineSize completed() const;
   Document parameters() const;
 
  private:
   std::string hub_text_, rotor_text_, tip_text_;
-  TurbineSize size_;
+  viewshed::TurbineSize size_;
 };
 
 }  // namespace itin::cli

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "output/output_path.hpp"
+#include <itin/file_name.hpp>
 
 namespace itin::cli {
 

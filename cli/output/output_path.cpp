@@ -43,18 +43,4 @@ bool names_geotiff(const std::string& path) {
   return ending == ".tif" || ending == ".tiff";
 }
 
-std::string style_beside(const std::string& raster) {
-  return std::filesystem::path(raster).replace_extension(".qml").string();
-}
-
-std::string file_name(const std::string& name) {
-  std::string text;
-  for (const char c : name) {
-    const bool plain = (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '-' ||
-                       c == '.' || (c & 0x80) != 0;
-    text += plain ? c : '_';
-  }
-  return text.empty() || text[0] == '.' ? "_" + text : text;
-}
-
 }  // namespace itin::cli

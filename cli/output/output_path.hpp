@@ -30,10 +30,4 @@ class OutputPolicy {
 /// Whether the name has the ending of a GeoTIFF.
 bool names_geotiff(const std::string& path);
 
-/// The QGIS style that is written beside a raster.
-std::string style_beside(const std::string& raster);
-
-/// Returns the name with an underscore for each character that some file systems do not allow.
-std::string file_name(const std::string& name);
-
 }  // namespace itin::cli

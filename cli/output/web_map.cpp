@@ -160,7 +160,7 @@ constexpr const char* kNorthArrow =
 }  // namespace
 
 WebMaps::WebMaps(const Store& store, const Box& frame, Progress& progress)
-    : frame_(frame), base_(plain_base(store, ground_pixels(frame), progress)) {}
+    : frame_(frame), base_(viewshed::plain_base(store, ground_pixels(frame), progress)) {}
 
 std::string WebMaps::part(std::string svg) {
   const auto [known, added] = parts_.emplace(std::move(svg), parts_.size() + 1);
@@ -168,8 +168,8 @@ std::string WebMaps::part(std::string svg) {
   return fmt::format("<g id=\"map-part-{}\">{}</g>\n", known->second, known->first);
 }
 
-std::string WebMaps::figure(const ResultSheet& content, const std::string& about) {
-  const MapBase base = fitted(base_, content);
+std::string WebMaps::figure(const viewshed::ResultSheet& content, const std::string& about) {
+  const viewshed::MapBase base = viewshed::fitted(base_, content);
   const std::vector<profile::SheetLayer> layers = layers_of(base, content);
   std::string html =
       fmt::format("<figure>\n<svg class=\"map\" style=\"aspect-ratio:{:.6g}\" role=\"img\" aria-label=\"{}\">\n",

@@ -10,9 +10,8 @@
 
 #include <itin/geometry.hpp>
 #include <itin/store.hpp>
-
-#include "output/map_base.hpp"
-#include "output/result_sheet.hpp"
+#include <viewshed/map_base.hpp>
+#include <viewshed/result_sheet.hpp>
 
 namespace itin::cli {
 
@@ -26,13 +25,13 @@ class WebMaps {
 
   /// Returns the map with its scale bar, title, `about` (a phrase), statement and legend, as HTML. Throws FileError
   /// where a picture cannot be made.
-  std::string figure(const ResultSheet& content, const std::string& about);
+  std::string figure(const viewshed::ResultSheet& content, const std::string& about);
 
  private:
   std::string part(std::string svg);
 
   Box frame_;
-  MapBase base_;
+  viewshed::MapBase base_;
   std::map<std::string, std::size_t> parts_;  ///< the parts that are in the page, and their numbers
 };
 

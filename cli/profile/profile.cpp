@@ -9,11 +9,12 @@
 #include <itin/cross_section.hpp>
 #include <itin/document.hpp>
 #include <itin/error.hpp>
+#include <itin/file_ending.hpp>
 #include <itin/paths.hpp>
 #include <itin/store.hpp>
 #include <itin/tin_export.hpp>
 #include <profile/documents.hpp>
-#include <profile/profile_text.hpp>
+#include <profile/path_profiles.hpp>
 
 #include "options/in_crs.hpp"
 #include "options/memory_option.hpp"
@@ -24,7 +25,6 @@
 #include "output/output_path.hpp"
 #include "output/store_document.hpp"
 #include "output/tin_export_options.hpp"
-#include "profile/profile_output.hpp"
 #include "program/call_files.hpp"
 #include "program/help.hpp"
 #include "program/values.hpp"
@@ -34,26 +34,14 @@ namespace itin::cli {
 
 namespace {
 
-/// Appends the part of the path beyond a corner; the corner itself is in `whole` already.
-void append(profile::Profile& whole, const profile::Profile& part) {
-  for (const profile::ProfilePoint& p : part.points) {
-    profile::ProfilePoint moved = p;
-    moved.distance_m += whole.length_m;
-    if (!whole.points.empty()) {
-      const profile::ProfilePoint& last = whole.points.back();
-      if (last.distance_m == moved.distance_m && last.ground_m == moved.ground_m) continue;
-    }
-    whole.points.push_back(moved);
-  }
-  for (const auto& [from, to] : part.gaps) {
-    const double begin = from + whole.length_m, end = to + whole.length_m;
-    if (!whole.gaps.empty() && from == 0 && whole.gaps.back().second == begin) {
-      whole.gaps.back().second = end;
-    } else {
-      whole.gaps.emplace_back(begin, end);
-    }
-  }
-  whole.length_m += part.length_m;
+bool is_text(const std::string& path) {
+  return ending_of(path) == ".txt";
+}
+
+/// Whether an output shows the ground under features, too.
+bool shows_ground(const std::string& path) {
+  const std::string ending = ending_of(path);
+  return is_text(path) || ending == ".svg" || ending == ".pdf" || ending == ".png";
 }
 
 class ProfileVerb final : public Verb {
@@ -115,7 +103,7 @@ class ProfileVerb final : public Verb {
     }
     if (!rings_text_.empty()) rings_ = parse_rings("--rings", rings_text_);
     if (tolerances_.empty()) tolerances_.push_back(0);
-    for (const std::string& output : outputs_) require_profile_format(output);
+    for (const std::string& output : outputs_) profile::require_profile_format(output);
     const auto text = std::find_if(outputs_.begin(), outputs_.end(), is_text);
     if (text != outputs_.end() && tolerances_.size() > 1)
       throw InputError(fmt::format("-o '{}': a .txt holds one profile; give one --tolerance", *text));
@@ -153,50 +141,23 @@ class ProfileVerb final : public Verb {
     const Store store(store_, cache_within(memory_.bytes()));
     Result result;
     const std::vector<Point2> corners = corners_in(store.metadata(), result.warnings);
-    std::vector<SurfaceProfile> profiles;
-    Cost cost;
-    for (const auto& [detail, label] : details(corners.front())) {
-      profiles.push_back({detail, label, along(store, corners, detail, themes_.choice(), cost, progress)});
-    }
-    profile::Profile ground;
-    const auto has_ground = [](const std::string& output) { return is_chart(output) || is_text(output); };
-    if (std::any_of(outputs_.begin(), outputs_.end(), has_ground) &&
-        themes_.choice().includes_raised(store.metadata().themes)) {
-      ground = along(store, corners, profiles.front().detail, ThemeChoice::none(), cost, progress);
-    }
-    if (profiles.front().profile.points.empty()) {
+    const profile::PathProfiles along = profile::profiles_along(store, query(corners), progress);
+    if (along.profiles.front().profile.points.empty()) {
       result.warnings.push_back("the line lies wholly outside the data; the profile is empty" +
                                 where_it_begins(store.metadata()));
     }
-    for (const std::string& output : outputs_)
-      if (is_text(output)) profile::require_profile_text(profiles.front().profile, fmt::format("-o '{}'", output));
+    for (const std::string& output : outputs_) profile::require_profile_output(along, output);
     warn_of_grid(store.metadata(), result.warnings);
-    result.document = profile::profile_document(store.metadata(), themes_.choice(), profiles);
+    result.document = profile::profile_document(store.metadata(), themes_.choice(), along.profiles);
     if (!outputs().empty()) result.document["outputs"] = outputs();
-    result.document["statistics"] = statistics_document(cost.read, cost.triangles);
-    write(store.metadata(), profiles, ground, corners, result.document);
-    if (wants_triangles()) write_triangles(store, corners, profiles.front().detail, progress);
-    result.text = text(profiles, cost.read);
+    result.document["statistics"] = statistics_document(along.statistics, along.triangles);
+    write(along, result.document);
+    if (wants_triangles()) write_triangles(store, corners, along.query.details.front(), progress);
+    result.text = text(along);
     return result;
   }
 
  private:
-  struct Cost {
-    RetrievalStatistics read;
-    std::uint64_t triangles = 0;
-  };
-  static profile::Profile along(const Store& store, const std::vector<Point2>& corners, const Detail& detail,
-                                const ThemeChoice& themes, Cost& cost, Progress& progress) {
-    profile::Profile whole;
-    for (std::size_t i = 0; i + 1 < corners.size(); ++i) {
-      const CrossSection section = cross_section(store, corners[i], corners[i + 1], detail, themes, progress);
-      append(whole, profile::from_section(section));
-      cost.read += section.statistics;
-      cost.triangles += section.triangles;
-    }
-    return whole;
-  }
-
   std::vector<Point2> corners_in(const StoreMetadata& metadata, std::vector<std::string>& warnings) const {
     if (!path_.empty()) {
       const std::vector<Path> paths = read_paths(path_, metadata.crs_wkt, warnings);
@@ -215,16 +176,14 @@ class ProfileVerb final : public Verb {
     return off ? fmt::format("; --from '{}' {}", from_text_, *off) : "";
   }
 
-  std::vector<std::pair<Detail, std::string>> details(Point2 centre) const {
-    std::vector<std::pair<Detail, std::string>> result;
-    if (!rings_.empty()) {
-      result.emplace_back(Detail::rings(centre, rings_), "rings " + rings_text_);
-      return result;
-    }
-    for (const double t : tolerances_) {
-      result.emplace_back(Detail::tolerance(t), t == 0 ? "every stored point" : fmt::format("tolerance {:g} m", t));
-    }
-    return result;
+  profile::PathQuery query(const std::vector<Point2>& corners) const {
+    profile::PathQuery query{.corners = corners, .details = {}, .themes = themes_.choice()};
+    query.with_ground = std::any_of(outputs_.begin(), outputs_.end(), shows_ground);
+    for (const double t : tolerances_) query.details.push_back(Detail::tolerance(t));
+    if (rings_.empty()) return query;
+    query.details = {Detail::rings(corners.front(), rings_)};
+    query.names = {"rings " + rings_text_};
+    return query;
   }
 
   std::vector<std::string> outputs() const {
@@ -244,24 +203,18 @@ class ProfileVerb final : public Verb {
     export_tin(crossed, triangles_, options, progress);
   }
 
-  void write(const StoreMetadata& metadata, const std::vector<SurfaceProfile>& profiles, const profile::Profile& ground,
-             const std::vector<Point2>& corners, const Document& found) const {
+  void write(const profile::PathProfiles& along, const Document& found) const {
     Document document = call_document(*this);
     document.update(found);
     document.erase("outputs");
-    const Point2 a = corners.front(), b = corners.back();
-    const std::vector<double> along = distances_along(corners);
-    const std::vector<double> turns(along.begin() + 1, along.end() - 1);
-    std::string title = fmt::format("Profile from {:.10g}, {:.10g} to {:.10g}, {:.10g}", a.x, a.y, b.x, b.y);
-    if (!turns.empty()) title += fmt::format(" with {} corner{}", turns.size(), turns.size() > 1 ? "s" : "");
-    for (const std::string& output : outputs_) {
-      write_profile({metadata, profiles, ground, document, title, turns, policy_.overwrite}, output);
-    }
+    const std::string json = json_text(document, 2) + "\n";
+    for (const std::string& output : outputs_)
+      profile::write_profiles(along, output, {.json = json, .overwrite = policy_.overwrite});
   }
 
-  std::string text(const std::vector<SurfaceProfile>& profiles, const RetrievalStatistics& statistics) const {
+  std::string text(const profile::PathProfiles& along) const {
     std::string text;
-    for (const SurfaceProfile& surface : profiles) {
+    for (const profile::SurfaceProfile& surface : along.profiles) {
       const auto& points = surface.profile.points;
       const auto [low, high] = std::minmax_element(
           points.begin(), points.end(), [](const auto& a, const auto& b) { return a.ground_m < b.ground_m; });
@@ -272,8 +225,8 @@ class ProfileVerb final : public Verb {
       text += "\n";
     }
     for (const std::string& output : outputs()) text += output + "\n";
-    return text + fmt::format("read {} in {}\n", counted(statistics.points_read, "point"),
-                              counted(statistics.blocks_read, "block"));
+    return text + fmt::format("read {} in {}\n", counted(along.statistics.points_read, "point"),
+                              counted(along.statistics.blocks_read, "block"));
   }
 
   std::string store_, from_text_, to_text_, path_, rings_text_, triangles_;

@@ -1,13 +1,9 @@
 #include "program/values.hpp"
 
-#include <charconv>
-#include <cmath>
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <itin/error.hpp>
-#include <itin/height_limit.hpp>
 #include <itin/written_position.hpp>
 
 namespace itin::cli {
@@ -16,20 +12,6 @@ namespace {
 
 [[noreturn]] void refuse(std::string_view option, std::string_view text, std::string_view expected) {
   throw InputError(fmt::format("{} '{}': {}", option, text, expected));
-}
-
-/// Reads a number that is the whole text. std::from_chars ignores the locale, but accepts no leading plus sign, and
-/// accepts inf and nan.
-template <typename Number>
-std::optional<Number> whole_text_as(std::string_view text) {
-  if (text.size() > 1 && text.front() == '+' && text[1] != '-') text.remove_prefix(1);
-  Number value{};
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  if constexpr (std::is_floating_point_v<Number>) {
-    if (!std::isfinite(value)) return std::nullopt;
-  }
-  return value;
 }
 
 std::vector<std::string_view> split(std::string_view text, char separator) {
@@ -44,24 +26,10 @@ std::vector<std::string_view> split(std::string_view text, char separator) {
 
 }  // namespace
 
-double parse_number(std::string_view option, std::string_view text, Range range) {
-  const std::optional<double> value = whole_text_as<double>(text);
-  if (!value) refuse(option, text, "not a number");
-  if (range == Range::kPositive && *value <= 0) refuse(option, text, "must be greater than 0");
-  if (range == Range::kNotNegative && *value < 0) refuse(option, text, "must not be negative");
-  return *value;
-}
-
 double parse_bearing(std::string_view option, std::string_view text) {
   const double bearing = parse_number(option, text, Range::kNotNegative);
   if (bearing > 360) refuse(option, text, "give a bearing from 0 to 360 degrees");
   return bearing;
-}
-
-double parse_height(std::string_view option, std::string_view text, Range range) {
-  const double height = parse_number(option, text, range);
-  require_height(height, fmt::format("{} '{}'", option, text));
-  return height;
 }
 
 double parse_radius(std::string_view option, std::string_view text) {

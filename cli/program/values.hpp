@@ -16,20 +16,15 @@
 #include <itin/detail.hpp>
 #include <itin/error.hpp>
 #include <itin/geometry.hpp>
+#include <itin/parsed_number.hpp>
 
 namespace itin::cli {
 
 /// The numbers that an option takes.
-enum class Range { kAny, kNotNegative, kPositive };
-
-/// Reads a finite decimal number and nothing else.
-double parse_number(std::string_view option, std::string_view text, Range range = Range::kAny);
+using Range = NumberRange;
 
 /// Reads degrees clockwise from north, 0 to 360.
 double parse_bearing(std::string_view option, std::string_view text);
-
-/// Reads metres up to kFarthestHeight.
-double parse_height(std::string_view option, std::string_view text, Range range = Range::kAny);
 
 /// A distance in metres that is farther than any ground reaches.
 inline constexpr double kFarthest = 1e9;

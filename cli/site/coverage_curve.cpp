@@ -5,8 +5,7 @@
 #include <fmt/format.h>
 
 #include <itin/markup.hpp>
-
-#include "site/site_wording.hpp"
+#include <viewshed/site_wording.hpp>
 
 namespace itin::cli {
 
@@ -16,8 +15,8 @@ namespace {
 /// their size on a phone.
 class CoverageCurve {
  public:
-  explicit CoverageCurve(const SiteResult& r) : result_(r), total_(std::max(1.0, whole(r))) {
-    const bool turbines = r.options.placement.given();
+  explicit CoverageCurve(const viewshed::SitePlan& r) : result_(r), total_(std::max(1.0, whole(r))) {
+    const bool turbines = r.request.turbines.has_value();
     bound_ = static_cast<double>(turbines ? r.choice.lower_bound : existing(r) + r.choice.upper_bound) / total_;
     const auto most = static_cast<double>(turbines ? r.choice.value : existing(r) + r.choice.upper_bound);
     most_ = std::max(most, 1.0) / total_ * 1.08;
@@ -25,7 +24,7 @@ class CoverageCurve {
 
   std::string svg() const {
     return fmt::format("<svg class=\"curve\" height=\"{}\" role=\"img\" aria-label=\"{}\">\n", kHeight,
-                       wording_of(result_.options).coverage_curve) +
+                       viewshed::wording_of(result_.request).coverage_curve) +
            grid() + steps() + bound() + "</svg>\n";
   }
 
@@ -34,11 +33,11 @@ class CoverageCurve {
 
   /// Returns the value that counts as 100 %: all demand, or for heights seen, where there is no such total, the value
   /// of the choice.
-  static double whole(const SiteResult& r) {
-    return static_cast<double>(r.options.placement.sums_heights() ? r.choice.value : r.inputs.total);
+  static double whole(const viewshed::SitePlan& r) {
+    return static_cast<double>(r.request.sums_heights() ? r.choice.value : r.inputs.total);
   }
   /// Returns what counts besides the chosen sites: what sees existing turbines does not.
-  static viewshed::Weight existing(const SiteResult& r) { return r.options.placement.given() ? 0 : r.choice.existing; }
+  static viewshed::Weight existing(const viewshed::SitePlan& r) { return r.request.turbines ? 0 : r.choice.existing; }
   std::size_t sites() const { return result_.choice.chosen.size(); }
   /// Returns the share that the first sites serve, with the existing ones.
   double share(std::size_t sites) const {
@@ -84,17 +83,17 @@ class CoverageCurve {
     return fmt::format(
         "<line x1=\"{0}%\" y1=\"{2:.1f}\" x2=\"{1}%\" y2=\"{2:.1f}\" stroke=\"#d55e00\" stroke-dasharray=\"6 4\"/>"
         "<text x=\"{0}%\" dx=\"8\" y=\"{3:.1f}\" fill=\"#d55e00\">{4} {5:.1f} %</text>\n",
-        kLeft, kRight, down(bound_), down(bound_) - 5, wording_of(result_.options).bound, 100 * bound_);
+        kLeft, kRight, down(bound_), down(bound_) - 5, viewshed::wording_of(result_.request).bound, 100 * bound_);
   }
 
-  const SiteResult& result_;
+  const viewshed::SitePlan& result_;
   double total_, bound_ = 0, most_ = 1;
 };
 
 }  // namespace
 
-std::string coverage_curve(const SiteResult& result) {
-  return CoverageCurve(result).svg();
+std::string coverage_curve(const viewshed::SitePlan& r) {
+  return CoverageCurve(r).svg();
 }
 
 }  // namespace itin::cli

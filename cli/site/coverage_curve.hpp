@@ -3,11 +3,11 @@
 
 #include <string>
 
-#include "site/site_result.hpp"
+#include <viewshed/site_plan.hpp>
 
 namespace itin::cli {
 
 /// Returns the curve as an SVG as wide as the page, below the bound on every choice.
-std::string coverage_curve(const SiteResult& result);
+std::string coverage_curve(const viewshed::SitePlan& r);
 
 }  // namespace itin::cli

@@ -31,7 +31,7 @@ void PlacementOptions::declare(CLI::App& app) {
   reads(
       app.add_option("--dwellings", dwellings, "Dwellings to keep away from: points, or polygons")->type_name("FILE"));
   app.add_option("--setback", setback_text_, "No turbine stands nearer to a dwelling")->type_name("METRES");
-  app.add_option("--farm", farm, "The farm's name in turbines.csv (default: proposed)")->type_name("NAME");
+  app.add_option("--farm", placement_.farm, "The farm's name in turbines.csv (default: proposed)")->type_name("NAME");
 }
 
 void PlacementOptions::validate() {
@@ -44,16 +44,21 @@ void PlacementOptions::validate() {
   }
   refuse_others();
   size_options_.validate();
-  const TurbineSize& size = size_options_.size();
+  const viewshed::TurbineSize& size = size_options_.size();
   if (size.hub.has_value() + size.rotor.has_value() + size.tip.has_value() < 2)
     throw InputError("--turbines: give two of --hub-height, --rotor-diameter and --tip-height");
-  size_ = size_options_.completed();
-  if (!(size_.rotor > 0)) throw InputError("--tip-height: the tip is no higher than the hub; give --rotor-diameter");
-  constexpr Minimised kChoices[] = {Minimised::kTips, Minimised::kHubs, Minimised::kHeight};
-  minimised_ = kChoices[parse_choice("--minimise", minimised_text_, {"tips", "hubs", "height"})];
+  const viewshed::TurbineSize completed = size_options_.completed();
+  if (!(completed.rotor > 0))
+    throw InputError("--tip-height: the tip is no higher than the hub; give --rotor-diameter");
+  placement_.hub_height = *completed.hub, placement_.rotor_diameter = *completed.rotor;
+  placement_.tip_height = *completed.tip;
+  using enum viewshed::Minimised;
+  constexpr viewshed::Minimised kChoices[] = {kTips, kHubs, kHeight};
+  placement_.minimised = kChoices[parse_choice("--minimise", minimised_text_, {"tips", "hubs", "height"})];
   validate_spacing();
   if (dwellings.empty() != setback_text_.empty()) throw InputError("--dwellings and --setback go together: give both");
-  if (!setback_text_.empty()) setback_ = parse_number("--setback", setback_text_, Range::kPositive);
+  if (!setback_text_.empty())
+    placement_.dwellings.emplace().setback = parse_number("--setback", setback_text_, Range::kPositive);
 }
 
 void PlacementOptions::refuse_others() const {
@@ -82,22 +87,24 @@ void PlacementOptions::validate_spacing() {
   const double across = cross == std::string::npos ? along : multiple(spacing_text_.substr(cross + 1));
   if (along != across && wind_text_.empty())
     throw InputError(fmt::format("--rotor-spacing '{}': give --wind-from BEARING too", spacing_text_));
-  spacing_ = {along * rotor_diameter(), across * rotor_diameter(), 0};
-  if (!wind_text_.empty()) spacing_->wind_from_deg = parse_bearing("--wind-from", wind_text_);
+  const double rotor = placement_.rotor_diameter;
+  placement_.spacing = {along * rotor, across * rotor, 0};
+  if (!wind_text_.empty()) placement_.spacing->wind_from_deg = parse_bearing("--wind-from", wind_text_);
 }
 
 Document PlacementOptions::parameters() const {
-  Document parameters{{"hub_height_m", hub_height()},
-                      {"rotor_diameter_m", rotor_diameter()},
-                      {"tip_height_m", tip_height()},
+  Document parameters{{"hub_height_m", placement_.hub_height},
+                      {"rotor_diameter_m", placement_.rotor_diameter},
+                      {"tip_height_m", placement_.tip_height},
                       {"minimise", minimised_text_}};
-  if (spacing_) {
-    parameters["spacing_along_wind_m"] = spacing_->along;
-    parameters["spacing_across_wind_m"] = spacing_->across;
-    parameters["wind_from_deg"] = spacing_->wind_from_deg;
+  if (const auto& spacing = placement_.spacing) {
+    parameters["spacing_along_wind_m"] = spacing->along;
+    parameters["spacing_across_wind_m"] = spacing->across;
+    parameters["wind_from_deg"] = spacing->wind_from_deg;
   }
-  if (!dwellings.empty()) parameters["dwellings"] = dwellings, parameters["setback_m"] = setback_;
-  parameters["farm"] = farm;
+  if (placement_.dwellings)
+    parameters["dwellings"] = dwellings, parameters["setback_m"] = placement_.dwellings->setback;
+  parameters["farm"] = placement_.farm;
   return parameters;
 }
 

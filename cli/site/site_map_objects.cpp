@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include <itin/building_outlines.hpp>
-
-#include "site/site_wording.hpp"
+#include <viewshed/site_links.hpp>
+#include <viewshed/site_wording.hpp>
 
 namespace itin::cli {
 
@@ -19,40 +19,40 @@ constexpr Rgba kBuilding{70, 60, 55, 255}, kBackhaul{160, 55, 0, 255}, kExisting
 
 /// Returns building outlines, exact to a tenth of a pixel in a picture 1000 pixels long. Buildings smaller than two
 /// pixels, which would be blots, are left out.
-MapObjects building_objects(const Store& store, const SiteResult& r) {
+viewshed::MapObjects building_objects(const Store& store, const viewshed::SitePlan& r) {
   const Box frame = shown_area(r);
   const double pixel = std::max(frame.width(), frame.height()) / 1000;
   profile::SheetLines lines{{}, kBuilding, 0.2, false};
-  for (auto& ring : building_outlines(store, r.options.themes.choice(), frame, {0.1 * pixel, 2 * pixel}))
+  for (auto& ring : building_outlines(store, r.request.themes, frame, {0.1 * pixel, 2 * pixel}))
     lines.lines.push_back({std::move(ring), ""});
   return {{std::move(lines)}, {{Sample::kLine, {kBuilding}, "Building outline"}}};
 }
 
-MapObjects link_objects(const SiteResult& r) {
-  const SiteNetwork& network = r.network;
-  const LinkRules rules = link_rules(r.options);
+viewshed::MapObjects link_objects(const viewshed::SitePlan& r) {
+  const viewshed::SiteNetwork& network = r.network;
+  const viewshed::LinkRules rules = viewshed::link_rules(r.request);
   const std::vector<std::size_t> routes = routes_over_links(network, r.routes);
   profile::SheetLines lines{{}, kBackhaul, 0.6, false};
-  for (std::size_t i = 0; i < network.links.size() && r.options.intervisible; ++i) {
-    const SiteLink& link = network.links[i];
-    if (r.options.hub ? routes[i] > 0 : rules.met_by(link.found()))
+  for (std::size_t i = 0; i < network.links.size() && r.request.has_links(); ++i) {
+    const viewshed::SiteLink& link = network.links[i];
+    if (r.request.hub ? routes[i] > 0 : rules.met_by(link.found()))
       lines.lines.push_back({{network.from(link).position, network.to(link).position}, ""});
   }
-  const char* const what = r.options.hub ? "Link on a route to the hub" : "Link between sites";
+  const char* const what = r.request.hub ? "Link on a route to the hub" : "Link between sites";
   return {{std::move(lines)}, {{Sample::kLine, {kBackhaul}, what}}};
 }
 
 /// Returns marks for the ends of a network that `is_one` accepts.
 template <class IsOne>
-MapObjects marks(const SiteNetwork& network, SheetSymbol symbol, const Rgba& colour, const std::string& what,
-                 const IsOne& is_one) {
+viewshed::MapObjects marks(const viewshed::SiteNetwork& network, SheetSymbol symbol, const Rgba& colour,
+                           const std::string& what, const IsOne& is_one) {
   profile::SheetMarks marks{symbol, colour, {}};
   for (std::size_t i = 0; i < network.ends.size(); ++i)
     if (is_one(i)) marks.marks.push_back({network.ends[i].place.position, network.ends[i].place.name});
   return {{std::move(marks)}, {{Sample::kMark, {colour}, what, symbol}}};
 }
 
-bool is_empty(const MapObjects& objects) {
+bool is_empty(const viewshed::MapObjects& objects) {
   const profile::SheetLayer& layer = objects.layers.front();
   if (const auto* lines = std::get_if<profile::SheetLines>(&layer)) return lines->lines.empty();
   return std::get<profile::SheetMarks>(layer).marks.empty();
@@ -60,10 +60,10 @@ bool is_empty(const MapObjects& objects) {
 
 }  // namespace
 
-Box shown_area(const SiteResult& r) {
+Box shown_area(const viewshed::SitePlan& r) {
   Box area = r.rasters.grid.bounds();
   const double about = 0.03 * std::max(area.width(), area.height());
-  for (const LinkEnd& end : r.network.ends) {
+  for (const viewshed::LinkEnd& end : r.network.ends) {
     const Point2 p = end.place.position;
     area.extend(Point2{p.x - about, p.y - about});
     area.extend(Point2{p.x + about, p.y + about});
@@ -71,20 +71,20 @@ Box shown_area(const SiteResult& r) {
   return area;
 }
 
-std::vector<MapObjects> site_map_objects(const Store& store, const SiteResult& r) {
-  using enum LinkEnd::Kind;
-  const SiteNetwork& network = r.network;
-  const SiteWording wording = wording_of(r.options);
+std::vector<viewshed::MapObjects> site_map_objects(const Store& store, const viewshed::SitePlan& r) {
+  using enum viewshed::LinkEnd::Kind;
+  const viewshed::SiteNetwork& network = r.network;
+  const viewshed::SiteWording wording = viewshed::wording_of(r.request);
   const std::vector<std::size_t> through = routes_through_ends(network, r.routes);
-  const auto is = [&](std::size_t i, LinkEnd::Kind kind) { return network.ends[i].kind == kind; };
-  std::vector<MapObjects> objects{
+  const auto is = [&](std::size_t i, viewshed::LinkEnd::Kind kind) { return network.ends[i].kind == kind; };
+  std::vector<viewshed::MapObjects> objects{
       building_objects(store, r),
       link_objects(r),
       marks(network, SheetSymbol::kExistingMast, kExistingSite, "Existing " + wording.one,
             [&](std::size_t i) { return is(i, kExisting); }),
-      marks(network, SheetSymbol::kMast, kMastColour, "Chosen " + wording.one,
+      marks(network, SheetSymbol::kMast, viewshed::kMastColour, "Chosen " + wording.one,
             [&](std::size_t i) { return is(i, kChosen) && through[i] == 0; }),
-      marks(network, SheetSymbol::kRelay, kMastColour, "Chosen site that relays others",
+      marks(network, SheetSymbol::kRelay, viewshed::kMastColour, "Chosen site that relays others",
             [&](std::size_t i) { return is(i, kChosen) && through[i] > 0; }),
       marks(network, SheetSymbol::kHub, kHubMark, "Hub", [&](std::size_t i) { return is(i, kHub); })};
   std::erase_if(objects, is_empty);

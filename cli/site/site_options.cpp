@@ -1,16 +1,14 @@
 #include "site/site_options.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include <fmt/format.h>
 
 #include <itin/error.hpp>
 #include <itin/raster_values.hpp>
-#include <profile/fresnel.hpp>
+#include <itin/site_list.hpp>
 
 #include "options/radius_preset.hpp"
-#include "options/site_list.hpp"
 #include "options/wave_options.hpp"
 #include "output/store_document.hpp"
 #include "program/call_files.hpp"
@@ -114,7 +112,7 @@ void SiteOptions::declare_choice(CLI::App& app) {
   app.add_option("--k-cover", cover_text_, "How many sites must serve a target for it to count as served (default: 1)")
       ->type_name("N");
   app.add_flag(
-      "--intervisible", intervisible,
+      "--intervisible", request.intervisible,
       "Chosen sites reach each other by links between them and existing ones that are certainly in sight; sites may be "
       "chosen as relays alone");
   app.add_option("--hub", hub_text_, "Chosen sites reach this place by such links (implies --intervisible)")
@@ -173,22 +171,23 @@ void SiteOptions::validate() {
 void SiteOptions::validate_candidates() {
   if (candidates.path.empty() == search_area.empty())
     throw InputError("give either --candidates FILE, or --search-area AREA --spacing METRES");
-  spacing = number("--spacing", spacing_text_, Range::kPositive);
+  const std::optional<double> spacing = number("--spacing", spacing_text_, Range::kPositive);
   if (search_area.empty() && spacing) throw InputError("--spacing works only with --search-area");
   if (!search_area.empty() && !spacing) throw InputError("--search-area: give --spacing METRES too");
+  request.spacing = spacing.value_or(request.spacing);
   if (candidates.path.empty()) {
     for (const std::string* text :
          {&candidates.layer, &candidates.where, &candidates.name_field, &candidates.height_field, &cost_field})
       if (!text->empty()) throw InputError("--layer, --where and fields work only with --candidates");
   }
-  on_surface = parse_choice("--observer-on", observer_on_, {"ground", "surface"}) == 1;
+  request.on_surface = parse_choice("--observer-on", observer_on_, {"ground", "surface"}) == 1;
 }
 
 void SiteOptions::validate_masts() {
   if (!candidates.height_field.empty() && !mast_height_text_.empty())
     throw InputError("--height-field and --mast-height exclude each other");
   if (placement.given()) {
-    masts = {{placement.minimised_height(), 1}};
+    request.turbines = placement.placement();
     return;
   }
   const std::vector<double> heights = mast_height_text_.empty()
@@ -200,38 +199,40 @@ void SiteOptions::validate_masts() {
   if (costs.size() != heights.size())
     throw InputError(fmt::format("--mast-cost: {} for {}; give each height its cost", counted(costs.size(), "cost"),
                                  counted(heights.size(), "height")));
-  for (std::size_t i = 0; i < heights.size(); ++i) masts.push_back({heights[i], costs[i]});
+  request.masts.clear();
+  for (std::size_t i = 0; i < heights.size(); ++i) request.masts.push_back({heights[i], costs[i]});
 }
 
 void SiteOptions::validate_demand() {
   if (!target_height_text_.empty())
-    target_height = parse_height("--target-height", target_height_text_, Range::kNotNegative);
-  targets_on_surface = parse_choice("--target-on", target_on_, {"ground", "surface"}) == 1;
+    request.demand.height = parse_height("--target-height", target_height_text_, Range::kNotNegative);
+  request.demand.on_surface = parse_choice("--target-on", target_on_, {"ground", "surface"}) == 1;
   if (placement.given()) {
     RadiusOptions by_tip;
     by_tip.validate();
-    radius = by_tip.radius(placement.tip_height());
+    request.radius = by_tip.rule().radius(request.turbines->tip_height);
   }
-  if (!radius_text_.empty()) radius = parse_radius("--radius", radius_text_);
-  cell = number("--cell", cell_text_, Range::kPositive);
-  if (cell.value_or(0) > radius)
+  if (!radius_text_.empty()) request.radius = parse_radius("--radius", radius_text_);
+  const std::optional<double> cell = number("--cell", cell_text_, Range::kPositive);
+  if (cell.value_or(0) > request.radius)
     throw InputError(fmt::format("--cell '{}': larger than the radius; give a smaller one", cell_text_));
+  request.cell_size = cell.value_or(request.cell_size);
   if (demand == "cells" && !weight_field.empty())
     throw InputError("--weight-field works only with points: give them by --demand FILE");
 }
 
 void SiteOptions::validate_links() {
-  if (!frequency_text_.empty()) frequency_ghz = parse_frequency(frequency_text_);
-  if (!frequency_ghz) {
+  if (!frequency_text_.empty()) request.frequency_ghz = parse_frequency(frequency_text_);
+  if (!request.frequency_ghz) {
     if (!fresnel_text_.empty()) throw InputError("--fresnel needs a --frequency: the zone's radius depends on it");
     return;
   }
-  if (!fresnel_text_.empty()) fresnel = parse_fresnel(fresnel_text_);
+  if (!fresnel_text_.empty()) request.fresnel = parse_fresnel(fresnel_text_);
   require_curved(earth.earth());
   // A Fresnel zone that ends on the ground has no clearance at all.
-  if (target_height == 0)
+  if (request.demand.height == 0)
     throw InputError("--frequency needs a --target-height above 0: no link to the ground is clear");
-  for (const Mast& mast : masts)
+  for (const viewshed::Mast& mast : request.masts)
     if (mast.height == 0)
       throw InputError("--frequency needs a --mast-height above 0: no link from the ground is clear");
 }
@@ -269,92 +270,72 @@ std::string SiteOptions::heights_text() const {
          taken("targets", demand_height_field, demand);
 }
 
-std::optional<viewshed::FresnelCriterion> SiteOptions::criterion() const {
-  if (!frequency_ghz) return std::nullopt;
-  return viewshed::FresnelCriterion{profile::wavelength_m(*frequency_ghz), fresnel};
-}
-
-bool SiteOptions::may_both_stand(Point2 a, Point2 b) const {
-  if (min_spacing && std::hypot(a.x - b.x, a.y - b.y) < *min_spacing) return false;
-  return !placement.spacing() || placement.spacing()->keeps_apart(a, b);
-}
-
-std::string SiteOptions::meaning_of_served() const {
-  if (placement.sums_heights())
-    return "To be least: the part of a turbine from its tip down that is seen, in metres, summed over all turbines and "
-           "over the demand with its weights; what one place sees of several turbines counts for each";
-  if (placement.given())
-    return fmt::format("To be least: the demand that has a clear line of sight to {} of at least one turbine",
-                       placement.minimised_part());
-  if (!frequency_ghz) return "A target is served if it has a clear line of sight to a site";
-  return fmt::format(
-      "A target is served if it has a clear line of sight to a site that leaves at least {:g} of the first Fresnel "
-      "zone's radius clear of the surface everywhere between, at {:g} GHz (wavelength {:.6g} m = 0.299792458 / f; F1 = "
-      "sqrt(wavelength d1 d2 / (d1 + d2)))",
-      fresnel, *frequency_ghz, profile::wavelength_m(*frequency_ghz));
-}
-
 void SiteOptions::validate_choice() {
-  if (!count_text_.empty()) count = static_cast<std::size_t>(parse_whole("--count", count_text_, 1, 100000));
-  budget = number("--budget", budget_text_, Range::kPositive);
+  if (!count_text_.empty()) request.count = static_cast<std::size_t>(parse_whole("--count", count_text_, 1, 100000));
+  request.budget = number("--budget", budget_text_, Range::kPositive);
   if (!share_text_.empty()) {
     const bool percent = share_text_.back() == '%';
     const std::string digits = percent ? share_text_.substr(0, share_text_.size() - 1) : share_text_;
-    share = parse_number("--share", digits, Range::kPositive) / (percent ? 100 : 1);
-    if (*share > 1) throw InputError(fmt::format("--share '{}': more than all; give 0.8 or 80%", share_text_));
+    request.share = parse_number("--share", digits, Range::kPositive) / (percent ? 100 : 1);
+    if (*request.share > 1) throw InputError(fmt::format("--share '{}': more than all; give 0.8 or 80%", share_text_));
   }
-  if (!count && !budget && !share)
+  if (!request.count && !request.budget && !request.share)
     throw InputError("nothing says how many sites to choose: give --count, --budget or --share");
-  min_spacing = number("--min-spacing", min_spacing_text_, Range::kPositive);
-  if (!cover_text_.empty()) cover = parse_whole("--k-cover", cover_text_, 1, 255);
+  request.min_spacing = number("--min-spacing", min_spacing_text_, Range::kPositive);
+  if (!cover_text_.empty()) request.cover = parse_whole("--k-cover", cover_text_, 1, 255);
   if (!hub_text_.empty()) hub = parse_place("--hub", hub_text_);
-  intervisible = intervisible || hub.has_value();
-  if (!exact_final_text_.empty()) exact_final = parse_switch("--exact-final", exact_final_text_);
-  if (!swap_text_.empty()) swaps = parse_switch("--swap", swap_text_);
+  if (hub) request.hub.emplace();
+  if (!exact_final_text_.empty()) request.exact_chosen = parse_switch("--exact-final", exact_final_text_);
+  if (!swap_text_.empty()) request.swaps = parse_switch("--swap", swap_text_);
 }
 
 void SiteOptions::validate_work() {
-  tolerance = number("--tolerance", tolerance_text_, Range::kNotNegative);
+  request.tolerance = number("--tolerance", tolerance_text_, Range::kNotNegative);
   themes.validate();
+  request.themes = themes.choice();
   earth.validate();
-  engine.engine();
-  nodata.rule();
-  memory_bytes = memory.bytes().value_or(memory_bytes);
+  request.engine = engine.engine();
+  request.nodata = nodata.rule();
+  request.memory_bytes = memory.bytes().value_or(request.memory_bytes);
 }
 
 Document SiteOptions::parameters() const {
   Document p{{"store", store}};
   if (!candidates.path.empty()) p["candidates"] = candidates.path;
-  if (!search_area.empty()) p["search_area"] = search_area, p["spacing_m"] = *spacing;
+  if (!search_area.empty()) p["search_area"] = search_area, p["spacing_m"] = request.spacing;
   if (placement.given()) {
     p["turbines"] = true;
     p.update(placement.parameters());
   } else if (candidates.height_field.empty()) {
-    for (const Mast& mast : masts) p["masts"].push_back({{"height_m", mast.height}, {"cost", mast.cost}});
+    for (const viewshed::Mast& mast : request.masts)
+      p["masts"].push_back({{"height_m", mast.height}, {"cost", mast.cost}});
   } else {
     p["height_field"] = candidates.height_field;
   }
   if (!cost_field.empty()) p["cost_field"] = cost_field;
   p["observer_on"] = observer_on_;
   p["demand"] = demand;
-  p["target_height_m"] = target_height;
+  p["target_height_m"] = request.demand.height;
   if (!demand_height_field.empty()) p["demand_height_field"] = demand_height_field;
   p["target_on"] = target_on_;
-  p["radius_m"] = radius;
-  p["cell_m"] = cell.value_or(50);
-  if (frequency_ghz) p["frequency_ghz"] = *frequency_ghz, p["fresnel"] = fresnel;
-  if (count) p["count"] = *count;
-  if (budget) p["budget"] = *budget;
-  if (share) p["share"] = *share;
-  if (min_spacing) p["min_spacing_m"] = *min_spacing;
+  p["radius_m"] = request.radius;
+  p["cell_m"] = request.cell_size;
+  if (request.frequency_ghz) p["frequency_ghz"] = *request.frequency_ghz, p["fresnel"] = request.fresnel;
+  if (request.count) p["count"] = *request.count;
+  if (request.budget) p["budget"] = *request.budget;
+  if (request.share) p["share"] = *request.share;
+  if (request.min_spacing) p["min_spacing_m"] = *request.min_spacing;
   if (!existing.empty()) p["existing"] = existing;
   if (!existing_height_field.empty()) p["existing_height_field"] = existing_height_field;
   if (!forbidden.empty()) p["forbidden"] = forbidden;
-  p["k_cover"] = cover;
-  p["intervisible"] = intervisible;
-  if (hub) p["hub"] = {{"x", hub->position.x}, {"y", hub->position.y}, {"height_m", hub->height.value_or(20)}};
-  p["exact_final"] = exact_final;
-  p["swap"] = swaps;
+  p["k_cover"] = request.cover;
+  p["intervisible"] = request.has_links();
+  if (hub)
+    p["hub"] = {{"x", hub->position.x},
+                {"y", hub->position.y},
+                {"height_m", hub->height.value_or(viewshed::SitePlanRequest::kHubHeight)}};
+  p["exact_final"] = request.exact_chosen;
+  p["swap"] = request.swaps;
   p.update(themes.parameters());
   p["nodata"] = nodata.text();
   return p;

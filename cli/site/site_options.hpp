@@ -9,7 +9,7 @@
 #include <CLI/CLI.hpp>
 
 #include <itin/sites.hpp>
-#include <viewshed/site_coverage.hpp>
+#include <viewshed/site_plan.hpp>
 
 #include "options/earth_options.hpp"
 #include "options/engine_option.hpp"
@@ -24,12 +24,6 @@
 #include "site/placement_options.hpp"
 
 namespace itin::cli {
-
-/// A mast that may be built.
-struct Mast {
-  double height = 20;  ///< metres
-  double cost = 1;
-};
 
 class SiteOptions {
  public:
@@ -47,62 +41,28 @@ class SiteOptions {
   /// Returns the values given, by option name without dashes, as a parameter file holds them.
   Document given() const;
   Document parameters() const;
-  /// Returns the part of the Fresnel zone that a link must leave clear, if any.
-  std::optional<viewshed::FresnelCriterion> criterion() const;
-  viewshed::Objective objective() const {
-    return placement.given() ? viewshed::Objective::kLeast : viewshed::Objective::kMost;
-  }
-  /// Returns what targets count as that only ground without data could hide: turbines are hidden in the worst case.
-  viewshed::OpenTargets open_targets() const {
-    return placement.given() ? viewshed::OpenTargets::kServed : viewshed::OpenTargets::kUnserved;
-  }
-  /// Tells whether sites at both places may be chosen, as far as distances go.
-  bool may_both_stand(Point2 a, Point2 b) const;
-  /// Returns a sentence that tells when a target is served, or which targets see turbines.
-  std::string meaning_of_served() const;
 
   std::string store, directory;
   /// Returns the path of a file in the folder.
   std::string path(const std::string& name) const { return (std::filesystem::path(directory) / name).string(); }
   SheetOptions sheets;
-  // Candidates.
+  /// The request as far as options alone give it; site_request.hpp adds what files hold.
+  viewshed::SitePlanRequest request;
   SiteQuery candidates;
   std::string cost_field;
   std::string search_area;
-  std::optional<double> spacing;
-  std::vector<Mast> masts;  ///< empty with a height field; with --turbines one, as high as the tip or the hub
   PlacementOptions placement;
-  bool on_surface = false;
   InCrs in_crs;
-  // Demand.
   std::string demand = "cells";
   std::string weight_field;
-  double target_height = 2;
   std::string demand_height_field;  ///< the field of the demand's points that holds heights; empty: there is none
-  bool targets_on_surface = false;
-  double radius = 10000;
-  std::optional<double> cell;
-  double cell_size() const { return cell.value_or(50); }
-  std::optional<double> frequency_ghz;  ///< nothing: targets in sight are served
-  double fresnel = 0.6;                 ///< fraction of the first Fresnel zone that must be clear, with a frequency
-  // The choice.
-  std::optional<std::size_t> count;
-  std::optional<double> budget, share;
-  std::optional<double> min_spacing;
   std::string existing, existing_height_field, forbidden;
-  int cover = 1;
-  bool intervisible = false;
   std::optional<Place> hub;
-  bool exact_final = true;
-  bool swaps = true;
-  // The computation and the files.
-  std::optional<double> tolerance;
   ThemeOptions themes;
   EarthOptions earth;
   EngineOption engine;
   MemoryOption memory;
   NoDataOption nodata;
-  std::uint64_t memory_bytes = std::uint64_t{1} << 30;
   bool resume = false;
   OutputPolicy policy;
 

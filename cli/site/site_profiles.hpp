@@ -7,8 +7,7 @@
 
 #include <itin/progress.hpp>
 #include <itin/store.hpp>
-
-#include "site/site_result.hpp"
+#include <viewshed/site_plan.hpp>
 
 namespace itin::cli {
 
@@ -19,11 +18,11 @@ struct SiteProfile {
   std::string svg;   ///< the sight line alone, for the report; empty where the report leaves it to the file
 };
 
-/// Draws the links that are not hidden, as `itin los --report` does, into the folder `links` of the directory. Returns
+/// Draws the links that are not hidden, as `itin los --report` does, into a folder. Returns
 /// them in the order of the result's links. The report shows those on routes to the hub; without a hub, the shortest
 /// kMostProfiles. Throws FileError, Cancelled.
 inline constexpr std::size_t kMostProfiles = 40;
-std::vector<SiteProfile> write_site_profiles(const Store& store, const SiteResult& result, bool overwrite,
-                                             Progress& progress);
+std::vector<SiteProfile> write_site_profiles(const Store& store, const viewshed::SitePlan& r, const std::string& folder,
+                                             bool overwrite, Progress& progress);
 
 }  // namespace itin::cli

@@ -9,6 +9,7 @@
 #include <itin/document.hpp>
 #include <itin/markup.hpp>
 #include <itin/output_file.hpp>
+#include <viewshed/site_wording.hpp>
 
 #include "output/store_document.hpp"
 #include "output/web_map.hpp"
@@ -39,32 +40,32 @@ std::string drawing(const SiteProfile& profile) {
       escaped_markup(profile.what), base64(profile.svg));
 }
 
-std::string drawings(const SiteResult& r, const std::vector<SiteProfile>& profiles) {
+std::string drawings(const viewshed::SitePlan& r, const std::vector<SiteProfile>& profiles) {
   const auto shown = static_cast<std::size_t>(
       std::count_if(profiles.begin(), profiles.end(), [](const SiteProfile& p) { return !p.svg.empty(); }));
   if (shown == 0) return {};
   std::string html = fmt::format("<h2>Profiles of the links {}</h2>\n",
-                                 r.options.hub ? "on routes to the hub" : "that are not hidden");
+                                 r.request.hub ? "on routes to the hub" : "that are not hidden");
   html += "<p class=\"note\">A is the site named first, B the second.";
   if (shown < profiles.size())
     html += fmt::format(" These are {} of {} links that are not hidden{}; the folder links has the profiles of all.",
-                        shown, profiles.size(), r.options.hub ? "" : ", the shortest ones");
+                        shown, profiles.size(), r.request.hub ? "" : ", the shortest ones");
   html += "</p>\n";
   for (const SiteProfile& profile : profiles)
     if (!profile.svg.empty()) html += drawing(profile);
   return html;
 }
 
-std::string left_out(const SiteResult& r) {
-  if (r.inputs.rejected.empty()) return {};
-  std::string html = fmt::format("<h2>Rows left out: {}</h2>\n<ul class=\"note\">\n", r.inputs.rejected.size());
-  for (std::size_t i = 0; i < std::min<std::size_t>(r.inputs.rejected.size(), 50); ++i)
-    html += "<li>" + escaped_markup(r.inputs.rejected[i]) + "</li>\n";
+std::string left_out(const viewshed::SitePlan& r) {
+  if (r.inputs.left_out.empty()) return {};
+  std::string html = fmt::format("<h2>Rows left out: {}</h2>\n<ul class=\"note\">\n", r.inputs.left_out.size());
+  for (std::size_t i = 0; i < std::min<std::size_t>(r.inputs.left_out.size(), 50); ++i)
+    html += "<li>" + escaped_markup(r.inputs.left_out[i]) + "</li>\n";
   return html + "</ul>\n";
 }
 
 /// Tells how few candidates had to be surveyed closely, and why that was enough.
-std::string times_surveyed(const SiteResult& r) {
+std::string times_surveyed(const viewshed::SitePlan& r) {
   const std::size_t candidates = r.inputs.candidates.size(), options = r.inputs.options.size();
   const std::string all =
       counted(candidates, "candidate") +
@@ -73,17 +74,17 @@ std::string times_surveyed(const SiteResult& r) {
   return fmt::format(
       "Estimated: {}. Surveyed more closely: {} of them. For the others that was not needed: {}, so exact "
       "coverage of all would have led to the same choice.",
-      all, grouped(r.refined()), wording_of(r.options).sufficient);
+      all, grouped(r.refined()), viewshed::wording_of(r.request).sufficient);
 }
 
-std::string exchanges(const SiteResult& r) {
+std::string exchanges(const viewshed::SitePlan& r) {
   if (r.choice.swaps == 0) return {};
   return fmt::format(" The first selection was improved by {} of one {} for another.",
-                     counted(r.choice.swaps, "exchange"), wording_of(r.options).one);
+                     counted(r.choice.swaps, "exchange"), viewshed::wording_of(r.request).one);
 }
 
 /// Returns the bound on all choices, with its distance where this choice does not meet it.
-std::string best_possible(const SiteResult& r) {
+std::string best_possible(const viewshed::SitePlan& r) {
   const viewshed::Weight missed = r.choice.upper_bound - r.choice.value;
   const std::string text = fmt::format("No choice within the same limits {}serves more", certainly(r));
   if (missed <= 0) return text + ".";
@@ -92,12 +93,12 @@ std::string best_possible(const SiteResult& r) {
 }
 
 /// Tells how much of the summary ground without data leaves open.
-std::string left_open(const SiteResult& r) {
+std::string left_open(const viewshed::SitePlan& r) {
   return r.undecided == 0 ? "" : fmt::format("<p>Undecided: {}.</p>\n", escaped_markup(undecided_in_words(r)));
 }
 
-std::string summary(const SiteResult& r) {
-  if (r.options.placement.given()) {
+std::string summary(const viewshed::SitePlan& r) {
+  if (r.request.turbines) {
     std::string least = least_in_words(r);
     least.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(least.front())));
     return fmt::format("<p class=\"headline\">{}.</p>\n{}<p>{}{}</p>\n", escaped_markup(least), left_open(r),
@@ -108,27 +109,28 @@ std::string summary(const SiteResult& r) {
                                                  counted(r.inputs.existing(), "existing site"))
                                    : "";
   return fmt::format("<p class=\"headline\">{}: {} of a demand of {}{} ({:.1f} %){}. {}</p>\n{}<p>{}{}</p>\n",
-                     r.coverage.leaves_open() ? "Certainly served" : "Served", amount(r.served()),
-                     amount(r.in_metric(r.inputs.total)), r.options.demand == "cells" ? " cells" : "",
+                     r.leaves_open ? "Certainly served" : "Served", amount(r.served()),
+                     amount(r.in_metric(r.inputs.total)), r.request.demand.is_cells_in_reach() ? " cells" : "",
                      r.served_percent(), existing, best_possible(r), left_open(r), times_surveyed(r), exchanges(r));
 }
 
 /// Returns the routes to the hub, where there is one, and the rule by which they are chosen.
-std::string backhaul(const SiteResult& r) {
-  if (!r.options.hub) return {};
+std::string backhaul(const viewshed::SitePlan& r) {
+  if (!r.request.hub) return {};
   return fmt::format(
       "<h2>Routes to the hub</h2>\n<p class=\"note\">Each route has the fewest hops, and among those the least length. "
       "A hop is a link that is {}.</p>\n{}",
-      r.options.frequency_ghz
-          ? fmt::format("visible and leaves at least {:g} of the first Fresnel zone clear", r.options.fresnel)
+      r.request.frequency_ghz
+          ? fmt::format("visible and leaves at least {:g} of the first Fresnel zone clear", r.request.fresnel)
           : "visible",
       routes_html(r));
 }
 
 }  // namespace
 
-void write_site_report(const SiteResult& r, const SiteReportParts& parts, bool overwrite) {
-  const SiteWording wording = wording_of(r.options);
+void write_site_report(const std::string& path, const viewshed::SitePlan& r, const SiteReportParts& parts,
+                       bool overwrite) {
+  const viewshed::SiteWording wording = viewshed::wording_of(r.request);
   std::string html = fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
       "content=\"width=device-width,initial-scale=1\"><title>Siting report</title><style>{}{}</style></head>"
@@ -139,8 +141,8 @@ void write_site_report(const SiteResult& r, const SiteReportParts& parts, bool o
   html += parts.figures.at(0);
   html += backhaul(r);
   html += "<h2>" + wording.coverage_curve + "</h2>\n" + coverage_curve(r);
-  html += "<h2>" + wording.order + "</h2>\n" + (r.options.placement.given() ? turbines_html(r) : sites_html(r));
-  if (!r.options.placement.sums_heights()) html += "<h2>How closely candidates were surveyed</h2>\n" + stages_html(r);
+  html += "<h2>" + wording.order + "</h2>\n" + (r.request.turbines ? turbines_html(r) : sites_html(r));
+  if (!r.request.sums_heights()) html += "<h2>How closely candidates were surveyed</h2>\n" + stages_html(r);
   html += "<h2>Candidates that came closest to being chosen</h2>\n" + closest_html(r);
   if (!r.network.links.empty()) html += "<h2>Lines of sight between sites</h2>\n" + links_html(r);
   html += drawings(r, parts.profiles);
@@ -150,10 +152,10 @@ void write_site_report(const SiteResult& r, const SiteReportParts& parts, bool o
   for (const std::string& source : parts.sources) html += "<li>" + escaped_markup(source) + "</li>\n";
   html += "</ul>\n";
   html += fmt::format("<h2>Parameters and inputs</h2>\n<p class=\"note\">{}. {}</p>\n<pre>{}</pre>\n",
-                      escaped_markup(r.meaning()), escaped_markup(r.options.earth.earth().convention()),
+                      escaped_markup(r.meaning()), escaped_markup(r.request.earth.convention()),
                       escaped_markup(json_text(parts.parameters, 2)));
   html += fmt::format("<p class=\"note\">itin {}</p>\n</body></html>\n", ITIN_VERSION);
-  write_file(r.options.path("report.html"), html, overwrite);
+  write_file(path, html, overwrite);
 }
 
 }  // namespace itin::cli

@@ -4,9 +4,10 @@
 #include <string>
 #include <vector>
 
+#include <viewshed/site_plan.hpp>
+
 #include "program/verb.hpp"
 #include "site/site_profiles.hpp"
-#include "site/site_result.hpp"
 
 namespace itin::cli {
 
@@ -19,6 +20,7 @@ struct SiteReportParts {
 };
 
 /// Writes the page. Throws FileError.
-void write_site_report(const SiteResult& result, const SiteReportParts& parts, bool overwrite);
+void write_site_report(const std::string& path, const viewshed::SitePlan& r, const SiteReportParts& parts,
+                       bool overwrite);
 
 }  // namespace itin::cli

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <itin/markup.hpp>
+#include <viewshed/site_links.hpp>
 
 #include "output/store_document.hpp"
 
@@ -37,10 +38,10 @@ class HtmlTable {
   std::string html_;
 };
 
-std::string metres_clear(const SiteLink& link) {
+std::string metres_clear(const viewshed::SiteLink& link) {
   return link.found().clearance_m ? fmt::format("{:.2f}", *link.found().clearance_m) : "";
 }
-std::string fraction_clear(const SiteLink& link) {
+std::string fraction_clear(const viewshed::SiteLink& link) {
   return link.found().fresnel ? fmt::format("{:.2f}", link.found().fresnel->fraction) : "";
 }
 
@@ -50,27 +51,26 @@ std::string amount(double v) {
   return v == std::floor(v) && v < 1e15 ? grouped(static_cast<std::uint64_t>(v)) : fmt::format("{:.6g}", v);
 }
 
-std::string sites_html(const SiteResult& r) {
+std::string sites_html(const viewshed::SitePlan& r) {
   HtmlTable table({"", "Site", "Easting", "Northing", "Mast m", "Ground m", "Mast base m", "Cost", "Adds",
                    "Served together", "First estimate: at least", "at most", "Serves alone"},
                   2);
   for (std::size_t i = 0; i < r.choice.chosen.size(); ++i) {
     const viewshed::ChosenSite& site = r.choice.chosen[i];
     const viewshed::SitePosition& place = r.place_of(site);
-    const CoverageSummary first = r.summary(r.coverage.first_bounds(site.option)),
-                          now = r.summary(r.coverage.bounds(site.option));
+    const viewshed::OptionSurvey& survey = r.surveys[site.option];
     table.add({fmt::format("{}", i + 1), place.name, fmt::format("{:.0f}", place.position.x),
                fmt::format("{:.0f}", place.position.y), fmt::format("{:g}", place.height),
                fmt::format("{:.1f}", r.ground_m[i]), fmt::format("{:.1f}", place.ground),
                fmt::format("{:g}", r.inputs.options[site.option].cost), amount(r.in_metric(site.gain)),
-               amount(r.in_metric(site.cumulative)), amount(first.certain), amount(first.possible),
-               amount(now.certain)});
+               amount(r.in_metric(site.cumulative)), amount(survey.first.certain), amount(survey.first.possible),
+               amount(survey.last.certain)});
   }
   return table.finish();
 }
 
-std::string turbines_html(const SiteResult& r) {
-  const bool heights = r.options.placement.sums_heights(), open = r.coverage.leaves_open();
+std::string turbines_html(const viewshed::SitePlan& r) {
+  const bool heights = r.request.sums_heights(), open = r.leaves_open;
   const char* const shows = open ? "May show m" : "Shows m";
   HtmlTable table({"", "Turbine", "Easting", "Northing", "Ground m", heights ? shows : "Adds", "Together",
                    open ? "May be seen from, alone" : "Seen from, alone"},
@@ -81,53 +81,48 @@ std::string turbines_html(const SiteResult& r) {
     table.add({fmt::format("{}", i + 1), place.name, fmt::format("{:.0f}", place.position.x),
                fmt::format("{:.0f}", place.position.y), fmt::format("{:.1f}", r.ground_m[i]),
                amount(r.in_metric(site.gain)), amount(r.in_metric(site.cumulative)),
-               amount(r.summary(r.coverage.bounds(site.option)).certain)});
+               amount(r.surveys[site.option].last.certain)});
   }
   return table.finish();
 }
 
-std::string stages_html(const SiteResult& r) {
+std::string stages_html(const viewshed::SitePlan& r) {
   HtmlTable table({"Survey", "Options for which it was enough"}, 1);
-  for (int stage = 0; stage <= r.coverage.last_stage(); ++stage) {
-    std::size_t stayed = 0;
-    for (std::size_t i = 0; i < r.inputs.options.size(); ++i) stayed += r.coverage.stage(i) == stage;
-    table.add({r.coverage.stage_name(stage), grouped(stayed)});
-  }
+  for (const viewshed::SurveyStage& stage : r.stages) table.add({stage.name, grouped(stage.needed_no_more)});
   return table.finish();
 }
 
-std::string closest_html(const SiteResult& r) {
+std::string closest_html(const viewshed::SitePlan& r) {
   std::vector<std::pair<double, std::size_t>> order;
   for (std::size_t i = 0; i < r.inputs.options.size(); ++i) {
     const auto& margin = r.choice.closest[i];
-    if (margin && !r.is_chosen(i)) order.emplace_back(-closeness(*margin, r.options.objective()), i);
+    if (margin && !r.is_chosen(i)) order.emplace_back(-closeness(*margin, r.request.objective()), i);
   }
   std::sort(order.begin(), order.end());
-  HtmlTable table({"Candidate", r.options.placement.given() ? "Tip m" : "Mast m", "Survey", "Why it was not chosen"},
-                  4);
+  HtmlTable table({"Candidate", r.request.turbines ? "Tip m" : "Mast m", "Survey", "Why it was not chosen"}, 4);
   for (std::size_t i = 0; i < std::min<std::size_t>(order.size(), 10); ++i) {
     const std::size_t option = order[i].second;
     table.add({r.inputs.positions[option].name, fmt::format("{:g}", r.inputs.positions[option].height),
-               r.coverage.stage_name(r.coverage.stage(option)), r.reason(option)});
+               r.surveys[option].looked_at, r.reason(option)});
   }
   return table.finish();
 }
 
-std::string routes_html(const SiteResult& r) {
-  const SiteNetwork& network = r.network;
+std::string routes_html(const viewshed::SitePlan& r) {
+  const viewshed::SiteNetwork& network = r.network;
   HtmlTable table({"Site", "Route", "Hops km", "In all km", "Worst hop", "Clearance m", "of F1", "No data m"}, 5, true);
-  for (const SiteRoute& route : r.routes) {
+  for (const viewshed::SiteRoute& route : r.routes) {
     std::vector<std::string> row{network.ends[route.site].place.name, in_words(network, route)};
     row.resize(8);
     double gap = 0;
-    for (const RouteHop& hop : route.hops) {
+    for (const viewshed::RouteHop& hop : route.hops) {
       const profile::LinkResult& line = network.links[hop.link].line;
       row[2] += (row[2].empty() ? "" : " + ") + fmt::format("{:.2f}", line.distance_m / 1000);
       gap += line.gap_m;
     }
     if (!route.hops.empty()) row[3] = fmt::format("{:.2f}", length_m(network, route) / 1000);
     if (const auto worst = worst_hop(network, route)) {
-      const SiteLink& link = network.links[worst->link];
+      const viewshed::SiteLink& link = network.links[worst->link];
       row[4] = network.ends[worst->from].place.name + " to " + network.ends[worst->to].place.name;
       row[5] = metres_clear(link), row[6] = fraction_clear(link);
     }
@@ -137,10 +132,10 @@ std::string routes_html(const SiteResult& r) {
   return table.finish();
 }
 
-std::string links_html(const SiteResult& r) {
+std::string links_html(const viewshed::SitePlan& r) {
   HtmlTable table({"From", "To", "Verdict", "km", "Clearance m", "of F1", "No data m"}, 3);
-  for (const SiteLink& link : r.network.links) {
-    table.add({r.network.from(link).name, r.network.to(link).name, outcome_of(r.options, link),
+  for (const viewshed::SiteLink& link : r.network.links) {
+    table.add({r.network.from(link).name, r.network.to(link).name, viewshed::outcome_of(r.request, link),
                fmt::format("{:.3f}", link.line.distance_m / 1000), metres_clear(link), fraction_clear(link),
                link.line.gap_m > 0 ? fmt::format("{:.0f}", link.line.gap_m) : ""});
   }

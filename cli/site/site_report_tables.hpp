@@ -3,23 +3,22 @@
 
 #include <string>
 
-#include "site/site_profiles.hpp"
-#include "site/site_result.hpp"
+#include <viewshed/site_plan.hpp>
 
 namespace itin::cli {
 
 /// Returns a part of the demand in figures, with commas where it is a whole number.
 std::string amount(double v);
 
-std::string sites_html(const SiteResult& result);
-std::string turbines_html(const SiteResult& result);
+std::string sites_html(const viewshed::SitePlan& r);
+std::string turbines_html(const viewshed::SitePlan& r);
 /// Returns a table of how closely candidates had to be surveyed.
-std::string stages_html(const SiteResult& result);
+std::string stages_html(const viewshed::SitePlan& r);
 /// Returns a table of the options that came nearest to being chosen.
-std::string closest_html(const SiteResult& result);
+std::string closest_html(const viewshed::SitePlan& r);
 /// Returns a table of each site's route to the hub with its hops.
-std::string routes_html(const SiteResult& result);
+std::string routes_html(const viewshed::SitePlan& r);
 /// Returns a table of every line of sight between two ends.
-std::string links_html(const SiteResult& result);
+std::string links_html(const viewshed::SitePlan& r);
 
 }  // namespace itin::cli

@@ -9,11 +9,11 @@
 #include <itin/error.hpp>
 #include <itin/file_ending.hpp>
 #include <itin/output_file.hpp>
+#include <itin/site_list.hpp>
 #include <profile/chart.hpp>
 #include <viewshed/documents.hpp>
 
 #include "options/off_the_data.hpp"
-#include "options/site_list.hpp"
 #include "output/output_path.hpp"
 #include "program/call_files.hpp"
 #include "program/help.hpp"

@@ -14,6 +14,7 @@
 #include <itin/store.hpp>
 #include <viewshed/documents.hpp>
 #include <viewshed/exact_cost.hpp>
+#include <viewshed/hidden_eyes.hpp>
 #include <viewshed/missing_ground.hpp>
 #include <viewshed/viewshed.hpp>
 
@@ -26,7 +27,6 @@
 #include "options/sheet_options.hpp"
 #include "options/store_scale.hpp"
 #include "options/surface_options.hpp"
-#include "output/hidden_eyes.hpp"
 #include "output/store_document.hpp"
 #include "program/call_files.hpp"
 #include "program/field_names.hpp"
@@ -184,8 +184,8 @@ class ViewshedVerb final : public Verb {
     outputs_.write_each([&](std::size_t i) { return compute_for_observer(store, computed, i, progress); }, context,
                         progress);
     if (!answered.observers_on_surface)
-      warn_of_hidden_eyes(store, {"observer", eyes_of(computed.result), answered.detail, answered.themes},
-                          result.warnings);
+      viewshed::warn_of_hidden_eyes(store, {"observer", eyes_of(computed.result), answered.detail, answered.themes},
+                                    result.warnings);
     const Document features = features_.write(store, computed.result.grid, {answered.detail, request_.themes},
                                               outputs_.overwrite(), progress);
     result.document = viewshed::viewshed_document(metadata, computed.result);

@@ -72,7 +72,7 @@ void ViewshedOutputs::prepare(const viewshed::Request& request) {
   for (const std::string& path : single_) policy_.claim(path);
   if (viewshed::qgis_style(request).empty()) return;
   for (const std::string& path : rasters()) {
-    policy_.claim(styles_.emplace_back(style_beside(path)));
+    policy_.claim(styles_.emplace_back(viewshed::style_beside(path)));
     if (folder_ && folder_->made() && fs::path(path).parent_path() == fs::path(each_))
       in_new_folder_.emplace_back(styles_.back());
   }
@@ -94,7 +94,7 @@ void ViewshedOutputs::write_raster(const std::string& path, const viewshed::Resu
   options.overwrite = policy_.overwrite;
   viewshed::write_geotiff(path, result, options, progress);
   if (const std::string style = viewshed::qgis_style(result.request); !style.empty())
-    write_file(style_beside(path), style, policy_.overwrite);
+    write_file(viewshed::style_beside(path), style, policy_.overwrite);
 }
 
 void ViewshedOutputs::write(const Store& store, viewshed::ViewshedWithSurface& computed, const Context& context,

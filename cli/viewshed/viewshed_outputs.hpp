@@ -9,11 +9,11 @@
 
 #include <CLI/CLI.hpp>
 
+#include <itin/new_folder.hpp>
 #include <itin/unfinished.hpp>
 #include <viewshed/missing_ground.hpp>
 #include <viewshed/viewshed.hpp>
 
-#include "output/new_folder.hpp"
 #include "output/output_path.hpp"
 #include "program/verb.hpp"
 

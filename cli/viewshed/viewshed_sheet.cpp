@@ -7,8 +7,8 @@
 #include <itin/output_file.hpp>
 #include <itin/surface_text.hpp>
 #include <viewshed/result_map.hpp>
+#include <viewshed/result_sheet.hpp>
 
-#include "output/result_sheet.hpp"
 #include "output/store_document.hpp"
 #include "viewshed/viewshed_radio.hpp"
 #include "viewshed/viewshed_title.hpp"
@@ -33,7 +33,7 @@ profile::TitleBlock title_of_map(const Store& store, const viewshed::Result& res
   block.title = title_of(result);
   const Detail detail =
       result.certified ? Detail::tolerance(0) : request.detail;  // a certain result holds for all points
-  block.statement = statement_of(store.metadata(), request.themes, detail);
+  block.statement = viewshed::statement_of(store.metadata(), request.themes, detail);
   block.facts = {{"Observers", observers_in_words(request)},
                  {"Targets", fmt::format("{:g} m {}", request.target_height,
                                          request.target_absolute ? "above datum" : "above the ground")},
@@ -42,7 +42,7 @@ profile::TitleBlock title_of_map(const Store& store, const viewshed::Result& res
     block.facts.insert(block.facts.begin() + 2, {"Radius", fmt::format("{:g} km", *request.radius / 1000)});
   if (const auto criterion = radio_criterion(request)) block.facts.emplace_back("Radio", *criterion);
   block.facts.emplace_back("Earth", request.earth.convention());
-  block.facts.push_back(terrain_fact(store.metadata(), detail));
+  block.facts.push_back(viewshed::terrain_fact(store.metadata(), detail));
   if (result.certified && !result.decided_exactly)
     block.facts.emplace_back("Looked at", surface_text(store.metadata(), request.detail));
   block.sources = facts.sources;
@@ -54,21 +54,24 @@ profile::TitleBlock title_of_map(const Store& store, const viewshed::Result& res
 void write_viewshed_sheet(const Store& store, const viewshed::Result& result, const SheetOptions& options,
                           const ViewshedSheetFacts& facts, bool overwrite, Progress& progress) {
   if (options.file().empty()) return;
-  ResultSheet sheet{
+  viewshed::ResultSheet sheet{
       result.grid,
       result.grid.bounds(),
       viewshed::result_map(result, {}),
       "Share of the cells with terrain data in view",
-      in_cells(result.grid, [&](std::size_t cell) { return result.visible[cell] != viewshed::Verdict::kOutside; }),
+      viewshed::in_cells(result.grid,
+                         [&](std::size_t cell) { return result.visible[cell] != viewshed::Verdict::kOutside; }),
       {},
       title_of_map(store, result, facts),
-      missing_on_sheet(viewshed::places_without_ground(store, result, progress), facts.missing, kAreaLookedAt),
+      viewshed::missing_on_sheet(viewshed::places_without_ground(store, result, progress), facts.missing,
+                                 kAreaLookedAt),
       kOutOfView};
   std::vector<profile::SheetMark> observers;
   for (const viewshed::Observer& o : result.request.observers) observers.push_back({o.position, o.name});
-  sheet.objects.push_back(mast_objects(std::move(observers), "Observer"));
+  sheet.objects.push_back(viewshed::mast_objects(std::move(observers), "Observer"));
   write_file(options.file(),
-             draw_result_sheet(store, sheet, options.papers().front(), options, options.file(), progress), overwrite);
+             draw_result_sheet(store, sheet, options.papers().front(), options.choice(), options.file(), progress),
+             overwrite);
 }
 
 }  // namespace itin::cli

@@ -18,6 +18,7 @@
 #include <viewshed/documents.hpp>
 #include <viewshed/missing_ground.hpp>
 #include <viewshed/qgis_styles.hpp>
+#include <viewshed/result_sheet.hpp>
 #include <viewshed/visibility_index.hpp>
 
 #include "options/detail_options.hpp"
@@ -29,7 +30,6 @@
 #include "options/surface_options.hpp"
 #include "options/window_options.hpp"
 #include "output/output_path.hpp"
-#include "output/result_sheet.hpp"
 #include "output/store_document.hpp"
 #include "program/call_files.hpp"
 #include "program/field_names.hpp"
@@ -124,7 +124,7 @@ class VisibilityVerb final : public Verb {
   Result execute(Progress& progress) override {
     const std::future<void> rasters = beside(make_gdal_ready);
     policy_.require_writable(output_);
-    policy_.claim(style_beside(output_));
+    policy_.claim(viewshed::style_beside(output_));
     if (!sheet_.file().empty()) policy_.require_writable(sheet_.file());
     const Store store(store_, cache_within(request_.memory_bytes));
     const StoreMetadata& metadata = store.metadata();
@@ -140,7 +140,7 @@ class VisibilityVerb final : public Verb {
     viewshed::write_geotiff(
         output_, index, request_,
         {metadata.crs_wkt, {{"itin", ITIN_VERSION}, {"surface", json_text(surface)}}, policy_.overwrite}, progress);
-    write_file(style_beside(output_), viewshed::qgis_style_of_shares(), policy_.overwrite);
+    write_file(viewshed::style_beside(output_), viewshed::qgis_style_of_shares(), policy_.overwrite);
     const std::vector<SourceInfo> sources = sources_in(store, looked_at(index), request_.themes);
     if (!sheet_.file().empty()) write_sheet(store, index, described(sources, metadata), progress);
     Result result;
@@ -160,7 +160,7 @@ class VisibilityVerb final : public Verb {
     document["mean_share_undecided"] = index.mean_undecided;
     if (index.mean_undecided > 0) document["undecided_decided_by"] = kDecidesMissingGround;
     document["sources"] = sources_document(sources);
-    document["outputs"] = {output_, style_beside(output_)};
+    document["outputs"] = {output_, viewshed::style_beside(output_)};
     if (!sheet_.file().empty()) document["outputs"].push_back(sheet_.file());
     document["statistics"] = viewshed::statistics_document({index.retrieval, index.triangles, index.lines});
     result.text = fmt::format(
@@ -191,7 +191,8 @@ class VisibilityVerb final : public Verb {
   }
 
   /// Cells of the area that have no observer, since they have no ground.
-  MissingOnSheet places_without_observers(const StoreMetadata& metadata, const viewshed::VisibilityIndex& index) const {
+  viewshed::MissingOnSheet places_without_observers(const StoreMetadata& metadata,
+                                                    const viewshed::VisibilityIndex& index) const {
     std::vector<std::uint8_t> missing(index.grid.cell_count());
     const Box data = metadata.grid.box(metadata.bounds);
     for (std::int64_t row = 0; row < index.grid.rows(); ++row) {
@@ -205,24 +206,25 @@ class VisibilityVerb final : public Verb {
     share.without_ground = static_cast<std::uint64_t>(std::count(missing.begin(), missing.end(), 1));
     share.with_ground = index.observers;
     share.cell_area = index.grid.cell_area();
-    return missing_on_sheet(viewshed::PlacesWithoutGround({{index.grid, std::move(missing)}}), share,
-                            "the area of observers");
+    return viewshed::missing_on_sheet(viewshed::PlacesWithoutGround({{index.grid, std::move(missing)}}), share,
+                                      "the area of observers");
   }
 
   void write_sheet(const Store& store, const viewshed::VisibilityIndex& index, std::vector<std::string> sources,
                    Progress& progress) const {
     const StoreMetadata& metadata = store.metadata();
-    ResultSheet sheet{index.grid,
-                      index.grid.bounds(),
-                      viewshed::result_map(index),
-                      "Share of the ground within the radius that is seen",
-                      in_cells(index.grid, [&](std::size_t cell) { return !std::isnan(index.share[cell]); }),
-                      {},
-                      {},
-                      places_without_observers(metadata, index)};
+    viewshed::ResultSheet sheet{
+        index.grid,
+        index.grid.bounds(),
+        viewshed::result_map(index),
+        "Share of the ground within the radius that is seen",
+        viewshed::in_cells(index.grid, [&](std::size_t cell) { return !std::isnan(index.share[cell]); }),
+        {},
+        {},
+        places_without_observers(metadata, index)};
     profile::TitleBlock& block = sheet.title;
     block.title = "How much is seen from everywhere";
-    block.statement = statement_of(metadata, request_.themes, request_.detail);
+    block.statement = viewshed::statement_of(metadata, request_.themes, request_.detail);
     block.facts = {{"Observers", fmt::format("at the centres of cells of {:g} m, {:g} m above the ground",
                                              request_.cell_size, request_.height)},
                    {"Targets", fmt::format("{} at random for each observer, {:g} m above the ground", request_.targets,
@@ -231,9 +233,10 @@ class VisibilityVerb final : public Verb {
                    {"Undecided", fmt::format("{:.2f} % on average, which ground without data alone could hide",
                                              100 * index.mean_undecided)},
                    {"Earth", request_.earth.convention()},
-                   terrain_fact(metadata, request_.detail)};
+                   viewshed::terrain_fact(metadata, request_.detail)};
     block.sources = std::move(sources);
-    write_file(sheet_.file(), draw_result_sheet(store, sheet, sheet_.papers().front(), sheet_, sheet_.file(), progress),
+    write_file(sheet_.file(),
+               draw_result_sheet(store, sheet, sheet_.papers().front(), sheet_.choice(), sheet_.file(), progress),
                policy_.overwrite);
   }
 

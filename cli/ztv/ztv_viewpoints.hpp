@@ -1,22 +1,15 @@
-// The viewpoints of `itin ztv`: what is seen of every turbine from each, as tables, and wirelines.
+// The viewpoints of `itin ztv`, and the wirelines from them.
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include <CLI/CLI.hpp>
 
-#include <itin/progress.hpp>
 #include <itin/store.hpp>
-#include <viewshed/turbines.hpp>
-#include <viewshed/zone_files.hpp>
+#include <viewshed/zone_study.hpp>
 
 #include "options/in_crs.hpp"
-#include "options/sheet_options.hpp"
 #include "program/verb.hpp"
-#include "ztv/ztv_sheets.hpp"
-#include "ztv/ztv_turbines.hpp"
-#include "ztv/ztv_wirelines.hpp"
 
 namespace itin::cli {
 
@@ -24,34 +17,17 @@ class ViewpointOptions {
  public:
   void declare(CLI::App& app);
   /// Checks the options. Throws InputError.
-  void validate(const InCrs& in_crs, const SheetOptions& sheets);
-  bool given() const { return !query_.path.empty(); }
-  bool draws_wirelines() const { return given() && !no_wirelines_; }
+  void validate(const InCrs& in_crs, bool sheets);
+  bool given() const { return !file_.path.empty(); }
+  const viewshed::WirelineChoice& wirelines() const { return choice_; }
   Document parameters() const;
-
-  struct Written {
-    std::vector<viewshed::ZoneFile> files;
-    std::size_t rows = 0;
-    std::vector<BadRow> bad;
-    std::string path;
-    std::vector<std::string> warnings;  ///< about the file
-    std::vector<NamedPlace> places;     ///< one for each viewpoint used
-  };
-  /// Writes viewpoints.csv, viewpoints-summary.csv, and the files of WirelineWriter for the viewpoints chosen. Throws
-  /// FileError, InputError (a wireline of no viewpoint), Cancelled.
-  Written write(const std::string& folder, const Store& store, const viewshed::Zone& zone, const SheetOptions& sheets,
-                Progress& progress) const;
+  /// Adds the viewpoints to the request. Throws FileError, InputError.
+  void complete(viewshed::ZoneStudyRequest& request, const StoreMetadata& metadata) const;
 
  private:
-  void require_farm_known(const viewshed::Zone& zone) const;
-  void require_wirelines_known(const std::vector<NamedPlace>& places) const;
-  bool has_wireline(const Viewpoint& v) const;
-
-  SiteQuery query_;
+  viewshed::PointFile file_;
   std::string field_text_, bearing_text_, blades_text_, wirelines_text_;
-  std::vector<std::string> wirelines_;  ///< names; empty: all
-  bool no_wirelines_ = false;
-  WirelineChoice choice_;
+  viewshed::WirelineChoice choice_;
 };
 
 }  // namespace itin::cli

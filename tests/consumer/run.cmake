@@ -33,24 +33,40 @@ function(check_pkgconfig)
   run(${CMAKE_COMMAND} -E chdir ${WORK_DIR} ${WORK_DIR}/by-pkg-config)
 endfunction()
 
+function(itin)
+  run(${CMAKE_COMMAND} -E chdir ${WORK_DIR} ${WORK_DIR}/prefix/bin/itin ${ARGV})
+endfunction()
+
 # Runs each on a small town.
 function(run_examples examples)
   set(data ${ROOT_DIR}/scripts/demo-data)
+  file(WRITE ${WORK_DIR}/links.csv
+    "id,x1,y1,h1,x2,y2,h2\nstreet,321590,4297655,10,321790,4297662,12\nroofs,321600,4297640,2,321800,4297750,2\n")
+  file(WRITE ${WORK_DIR}/turbines.csv "x,y,hub_height,rotor_diameter\n321700,4297650,40,30\n321900,4297850,40,30\n")
   foreach(command IN ITEMS
       "make_store|town.itin|${data}/alexandria-dtm.tif|${data}/alexandria-buildings.geojson"
       "viewshed|town.itin|321800|4297750"
       "line_of_sight|town.itin|321590|4297655|10|321790|4297662|12"
-      "siting|town.itin"
+      "links|town.itin|${WORK_DIR}/links.csv|judged.csv"
+      "siting|town.itin|cameras"
+      "wind_farm|town.itin|${WORK_DIR}/turbines.csv|zone"
       "segments|town.itin|321800|4297750|work|2"
       "segments|town.itin|321800|4297750|work"
       "cancel|town.itin|0")
     string(REPLACE "|" ";" command ${command})
     run(${CMAKE_COMMAND} -E chdir ${WORK_DIR} ${examples}/${command})
   endforeach()
-  foreach(file IN ITEMS viewshed.tif viewshed.png segments.tif profile.svg)
+  foreach(file IN ITEMS viewshed.tif viewshed.png segments.tif profile.svg cameras/sites.csv cameras/best-server.tif)
     if(NOT EXISTS ${WORK_DIR}/${file})
       message(FATAL_ERROR "the examples did not write ${file}")
     endif()
+  endforeach()
+  # What the program writes of the same is the same.
+  itin(los town.itin --links links.csv -o program.csv)
+  run(${CMAKE_COMMAND} -E compare_files ${WORK_DIR}/judged.csv ${WORK_DIR}/program.csv)
+  itin(ztv town.itin --turbines turbines.csv -o program-zone)
+  foreach(file IN ITEMS tip-count.tif areas.csv turbines.csv radius-preset.json)
+    run(${CMAKE_COMMAND} -E compare_files ${WORK_DIR}/zone/${file} ${WORK_DIR}/program-zone/${file})
   endforeach()
 endfunction()
 
@@ -92,7 +108,7 @@ foreach(project IN ITEMS tests/consumer examples)
     continue()  # its headers are the same
   endif()
   run(${CMAKE_COMMAND} -S ${ROOT_DIR}/${project} -B ${WORK_DIR}/${project} ${settings} ${foreign}
-    -DCMAKE_PREFIX_PATH=${prefix} -DCMAKE_CXX_FLAGS=${flags})
+    -DCMAKE_PREFIX_PATH=${prefix} "-DCMAKE_CXX_FLAGS=${flags} -Wall -Wextra -Werror")
   run(${CMAKE_COMMAND} --build ${WORK_DIR}/${project})
 endforeach()
 if(NOT SHARED)

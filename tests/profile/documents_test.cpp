@@ -91,9 +91,9 @@ TEST_F(Documents, OfLinks) {
   table.links = {{"near", from_, 30, {300150, 209900}, 30}, {"outside", from_, 10, {0, 0}, 10}};
   table.bad.resize(2);
   NoProgress progress;
-  const std::vector<LinkResult> results = survey_links(*store_, table.links, {}, progress);
-  const Document found = found_in(json_of(metadata(), table, results, {}));
-  EXPECT_EQ(found, links_document(metadata(), table, results, {}));
+  const LinkSurvey survey = survey_link_table(*store_, table, {}, progress);
+  const Document found = found_in(json_of(survey));
+  EXPECT_EQ(found, links_document(survey));
   EXPECT_EQ(found["links"]["visible"], 1);
   EXPECT_EQ(found["links"]["error"], 3);
 }

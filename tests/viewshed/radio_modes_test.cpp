@@ -24,7 +24,7 @@ namespace itin::viewshed {
 namespace {
 
 constexpr Point2 kNorthWest{300000, 200000};
-constexpr double kStep = 50;
+constexpr double kPostStep = 50;
 constexpr int kPosts = 70;
 
 class RadioModes : public ::testing::Test {
@@ -41,7 +41,7 @@ class RadioModes : public ::testing::Test {
   /// Hills with a hole.
   std::string hills() {
     const std::vector<double> z = test::fractal_heights(129, 150, 0.55, static_cast<unsigned>(random_()));
-    test::write_raster(directory_.file("t.tif"), {kNorthWest.x, kNorthWest.y, kStep, kPosts, kPosts, 27700},
+    test::write_raster(directory_.file("t.tif"), {kNorthWest.x, kNorthWest.y, kPostStep, kPosts, kPosts, 27700},
                        [&](int c, int r) {
                          if (std::hypot(c - 0.35 * kPosts, r - 0.6 * kPosts) < 6) return std::nan("");
                          return z[static_cast<std::size_t>(r) * 129 + static_cast<std::size_t>(c)];
@@ -52,7 +52,7 @@ class RadioModes : public ::testing::Test {
     return directory_.file("s.itin");
   }
   static Box middle_of_hills() {
-    return {kNorthWest.x + 200, kNorthWest.y - kStep * kPosts + 200, kNorthWest.x + kStep * kPosts - 200,
+    return {kNorthWest.x + 200, kNorthWest.y - kPostStep * kPosts + 200, kNorthWest.x + kPostStep * kPosts - 200,
             kNorthWest.y - 200};
   }
 

@@ -1,15 +1,18 @@
-// Many lines of sight over one surface, in parallel.
+// Many lines of sight over one surface, in parallel: read from a table, judged, and written as tables.
 //
-//   const profile::LinkTable table = profile::read_link_table("links.csv", store.metadata().crs_wkt, {2, 2});
+//   profile::LinkTable table = profile::read_link_table("links.csv", store.metadata().crs_wkt, {2, 2});
 //   profile::LinkQuery query;
 //   query.radio = profile::RadioPath{.frequency_ghz = 7.5};
-//   for (const profile::LinkResult& row : profile::survey_links(store, table.links, query, progress))
+//   const profile::LinkSurvey survey = profile::survey_link_table(store, std::move(table), query, progress);
+//   profile::write_link_table(survey, {"judged.csv", "judged.gpkg"});
+//   for (const profile::LinkResult& row : survey.results)
 //     std::cout << (row.found ? profile::name_of(row.found->verdict) : row.message) << '\n';
 #pragma once
 
 #include <chrono>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <itin/cross_section.hpp>
@@ -17,13 +20,10 @@
 #include <itin/earth.hpp>
 #include <itin/geometry.hpp>
 #include <itin/progress.hpp>
+#include <itin/store.hpp>
 #include <itin/theme.hpp>
 #include <profile/los.hpp>
 #include <profile/required_heights.hpp>
-
-namespace itin {
-class Store;
-}
 
 namespace itin::profile {
 
@@ -66,6 +66,7 @@ struct LinkTable {
   std::vector<BadLink> bad;                ///< in order
   std::vector<std::string> other_columns;  ///< names of columns that are not understood, but kept for the output
   std::vector<std::string> warnings;       ///< about what was read otherwise than it may be meant, a line each
+  std::string path = {};                   ///< the file; empty: the links are not from a file
 };
 
 /// Reads a table `id,x1,y1,h1,x2,y2,h2`, if the name ends in .csv, .tsv or .txt, in whatever case. Otherwise reads a
@@ -127,15 +128,58 @@ struct LinkResult {
 std::vector<LinkResult> survey_links(const Store& store, const std::vector<Link>& links, const LinkQuery& query,
                                      Progress& progress);
 
-/// The JSON document that `itin los --links --json` prints, without the call and its outputs: the number of links by
-/// verdict.
-std::string json_of(const StoreMetadata& metadata, const LinkTable& table, const std::vector<LinkResult>& results,
-                    const LinkQuery& query);
-
 /// The query of one link: its own frequency, polarisation and criteria, or those of `query`.
 LosQuery los_query(const Link& link, const LinkQuery& query);
 
 /// Computes one link by itself. Throws InputError where it cannot be computed, CorruptStore, FileError.
 LinkResult survey_link(const Store& store, const Link& link, const LinkQuery& query);
+
+/// Where on the Earth a link's ends are, and the geodesic between them.
+struct LinkCourse {
+  Point2 from, to;  ///< longitude and latitude
+  double distance_m = 0;
+  double azimuth_deg = 0;       ///< at the first end, towards the second, from true north
+  double back_azimuth_deg = 0;  ///< at the second end, towards the first
+};
+
+/// The links of a table and what was found: all that files and documents about them tell.
+struct LinkSurvey {
+  LinkTable table;
+  LinkQuery query;
+  std::vector<LinkResult> results;                 ///< one per link of the table, in order
+  std::vector<std::optional<LinkCourse>> courses;  ///< likewise; nothing where an end is no place on the Earth
+  std::string store;                               ///< the store's path
+  StoreMetadata metadata;
+  std::vector<std::string> warnings;  ///< those of the table, and about columns and ground without data, a line each
+};
+
+/// Surveys the links of a table. Throws what survey_links() throws, and InputError for a CRS that has no longitude and
+/// latitude.
+LinkSurvey survey_link_table(const Store& store, LinkTable table, const LinkQuery& query, Progress& progress);
+
+struct LinkCounts {
+  std::size_t visible = 0, hidden = 0, undecided = 0, error = 0;
+};
+/// Counts the links by verdict. Rows that cannot be understood are errors, too.
+LinkCounts counts_of(const LinkSurvey& survey);
+
+/// The JSON document that `itin los --links --json` prints, without the call and its outputs: the number of links by
+/// verdict.
+std::string json_of(const LinkSurvey& survey);
+
+struct LinkFileOptions {
+  std::string title = "Line-of-sight report";                   ///< the title of pages and maps
+  std::vector<std::pair<std::string, std::string>> facts = {};  ///< what pages tell first: name, value
+  bool overwrite = false;
+};
+
+/// Writes each file by its name's ending: .csv (a row per row of the table), .gpkg and .kml (the links that could be
+/// computed, as lines), .pdf (one page: the number of links by verdict, and the links that need attention first). Equal
+/// surveys give equal bytes. Throws what require_link_format() throws, and FileError.
+void write_link_table(const LinkSurvey& survey, const std::vector<std::string>& paths,
+                      const LinkFileOptions& options = {});
+
+/// Throws InputError for any other ending than write_link_table() knows.
+void require_link_format(const std::string& path);
 
 }  // namespace itin::profile

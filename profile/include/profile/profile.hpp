@@ -14,7 +14,6 @@
 #include <vector>
 
 #include <itin/cross_section.hpp>
-#include <itin/detail.hpp>
 #include <itin/theme.hpp>
 
 namespace itin {
@@ -87,17 +86,6 @@ std::vector<std::string> theme_names(const StoreMetadata& metadata);
 Profile read_profile_csv(std::istream& text, const std::string& name, std::vector<std::string>& warnings);
 /// Reads such a profile from a file. Throws FileError where it cannot be read.
 Profile read_profile_csv(const std::string& path, std::vector<std::string>& warnings);
-
-/// The surface at one detail along a line.
-struct SurfaceProfile {
-  Detail detail;
-  std::string name;  ///< "tolerance 2 m"
-  Profile profile;
-};
-/// The JSON document that `itin profile --json` prints, without the call and its outputs. `surface` in it is the
-/// surface of the first profile, with these themes. Throws InputError where there is no profile.
-std::string json_of(const StoreMetadata& metadata, const ThemeChoice& themes,
-                    const std::vector<SurfaceProfile>& profiles);
 
 /// The profile as seen from the other end. Exact for distances that are multiples of 2^-30 m, as the distances of a
 /// CrossSection are.

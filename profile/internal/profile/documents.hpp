@@ -1,12 +1,12 @@
 // Profiles, lines of sight and links as JSON documents, with names that stay the same from release to release.
 #pragma once
 
-#include <cstddef>
 #include <vector>
 
 #include <itin/document.hpp>
 #include <profile/links.hpp>
 #include <profile/los.hpp>
+#include <profile/path_profiles.hpp>
 #include <profile/profile.hpp>
 
 namespace itin::profile {
@@ -24,13 +24,7 @@ Document los_document(const LosReport& report);
 /// Makes the same document with `surface`, `sources` and `statistics` in addition.
 Document los_document(const StoreMetadata& metadata, const StoreLine& line, const LosReport& report);
 
-struct LinkCounts {
-  std::size_t visible = 0, hidden = 0, undecided = 0, error = 0;
-};
-/// Counts the links by verdict. Rows that cannot be understood are errors, too.
-LinkCounts counts_of(const LinkTable& table, const std::vector<LinkResult>& results);
 /// The document of links: `crs`, `surface`, `refraction`, and in `links` the number of links by verdict.
-Document links_document(const StoreMetadata& metadata, const LinkTable& table, const std::vector<LinkResult>& results,
-                        const LinkQuery& query);
+Document links_document(const LinkSurvey& survey);
 
 }  // namespace itin::profile

@@ -8,16 +8,11 @@
 #include <string>
 #include <vector>
 
-#include <itin/geodesic.hpp>
 #include <itin/progress.hpp>
 #include <profile/links.hpp>
 
 namespace itin::profile {
 
-struct LinkCourse {
-  Point2 from, to;  ///< longitude and latitude
-  Geodesic geodesic;
-};
 /// One course per link, in order; nothing where an end is no place on the Earth.
 using LinkCourses = std::vector<std::optional<LinkCourse>>;
 

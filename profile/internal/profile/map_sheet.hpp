@@ -19,13 +19,9 @@
 
 #include <itin/geometry.hpp>
 #include <itin/raster.hpp>
+#include <profile/sheet_choice.hpp>
 
 namespace itin::profile {
-
-/// The sizes of paper in landscape, as in ISO 216.
-enum class PaperSize { kA4, kA3, kA1 };
-/// Returns a name like "A3".
-const char* name_of(PaperSize paper);
 
 /// The cells of a grid, row by row from the north-west, each in its colour.
 struct SheetCells {

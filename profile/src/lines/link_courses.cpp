@@ -1,6 +1,7 @@
 #include <itin/celestial_body.hpp>
 #include <itin/coordinates.hpp>
 #include <itin/error.hpp>
+#include <itin/geodesic.hpp>
 #include <profile/link_courses.hpp>
 
 namespace itin::profile {
@@ -11,7 +12,8 @@ std::optional<LinkCourse> course_of(const Link& link, const CoordinateTransform&
                                     const Ellipsoid& ellipsoid) {
   try {
     const Point2 from = to_geographic(link.from), to = to_geographic(link.to);
-    return LinkCourse{from, to, geodesic(from, to, ellipsoid)};
+    const Geodesic line = geodesic(from, to, ellipsoid);
+    return LinkCourse{from, to, line.distance_m, line.azimuth_deg, line.back_azimuth_deg};
   } catch (const InputError&) {
     return std::nullopt;
   }

@@ -231,6 +231,7 @@ LinkTable read_link_table(const std::string& path, const std::string& to_crs, co
   } else {
     table = read_lines(path, to_crs, heights, csv_crs, choice);
   }
+  table.path = path;
   if (table.links.empty() && table.bad.empty())
     throw InputError(fmt::format("{}: holds no link; give rows id,x1,y1,h1,x2,y2,h2, or lines", path));
   return table;

@@ -34,31 +34,17 @@ Document profile_document(const StoreMetadata& metadata, const ThemeChoice& them
   return document;
 }
 
-LinkCounts counts_of(const LinkTable& table, const std::vector<LinkResult>& results) {
-  LinkCounts counts;
-  counts.error = table.bad.size();
-  for (const LinkResult& r : results) {
-    counts.error += !r.found;
-    if (!r.found) continue;
-    counts.visible += r.found->verdict == SightVerdict::kVisible;
-    counts.hidden += r.found->verdict == SightVerdict::kHidden;
-    counts.undecided += r.found->verdict == SightVerdict::kUndecided;
-  }
-  return counts;
-}
-
-Document links_document(const StoreMetadata& metadata, const LinkTable& table, const std::vector<LinkResult>& results,
-                        const LinkQuery& query) {
-  const LinkCounts counts = counts_of(table, results);
+Document links_document(const LinkSurvey& survey) {
+  const LinkCounts counts = counts_of(survey);
   RetrievalStatistics read;
   std::uint64_t triangles = 0;
-  for (const LinkResult& r : results) {
+  for (const LinkResult& r : survey.results) {
     read += r.statistics;
     triangles += r.triangles;
   }
-  return {{"crs", crs_identifier(metadata.crs_wkt)},
-          {"surface", surface_document(metadata, query.detail, query.themes)},
-          {"refraction", earth_document(query.earth)},
+  return {{"crs", crs_identifier(survey.metadata.crs_wkt)},
+          {"surface", surface_document(survey.metadata, survey.query.detail, survey.query.themes)},
+          {"refraction", earth_document(survey.query.earth)},
           {"links",
            {{"visible", counts.visible},
             {"hidden", counts.hidden},
@@ -73,9 +59,8 @@ std::string json_of(const StoreMetadata& metadata, const ThemeChoice& themes,
   return result_text(profile_document(metadata, themes, profiles));
 }
 
-std::string json_of(const StoreMetadata& metadata, const LinkTable& table, const std::vector<LinkResult>& results,
-                    const LinkQuery& query) {
-  return result_text(links_document(metadata, table, results, query));
+std::string json_of(const LinkSurvey& survey) {
+  return result_text(links_document(survey));
 }
 
 }  // namespace itin::profile

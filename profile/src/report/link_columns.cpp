@@ -23,7 +23,7 @@ void add_directions(LinkRow& row, const std::optional<LinkCourse>& course, const
   if (row.found() == nullptr || !course) return;
   const Link& link = *row.link;
   const EndGrounds& ground = row.result->stands_on;
-  row.geodesic = course->geodesic;
+  row.course = course;
   row.from_declination_deg = declination_on(query.day, course->from, ground.from_m + link.from_height);
   row.to_declination_deg = declination_on(query.day, course->to, ground.to_m + link.to_height);
 }
@@ -60,7 +60,7 @@ class ColumnList {
     if (survey_.query.object) add_object();
     if (any(rows_, [](const LinkRow& r) { return r.found() == nullptr; }))
       text("message", [](const LinkRow& r) { return Value(r.message); });
-    of_geodesic("geodesic_distance_m", &Geodesic::distance_m);
+    of_geodesic("geodesic_distance_m", &LinkCourse::distance_m);
     of_result("gap_m", [](const LinkResult& r) { return Value(r.gap_m); });
     add_ends();
     add_tightest();
@@ -92,8 +92,8 @@ class ColumnList {
     add(name, type,
         [value = std::move(value)](const LinkRow& r) { return r.found() == nullptr ? Value() : value(*r.result); });
   }
-  void of_geodesic(const std::string& name, double Geodesic::*member) {
-    add(name, kNumber, [member](const LinkRow& r) { return r.geodesic ? Value((*r.geodesic).*member) : Value(); });
+  void of_geodesic(const std::string& name, double LinkCourse::*member) {
+    add(name, kNumber, [member](const LinkRow& r) { return r.course ? Value((*r.course).*member) : Value(); });
   }
 
   void add_verdict() {
@@ -151,20 +151,20 @@ class ColumnList {
         return Value(there ? grid_azimuth_deg(r.link->from, r.link->to) : grid_azimuth_deg(r.link->to, r.link->from));
       });
       of_geodesic(there ? "azimuth_true1_deg" : "azimuth_true2_deg",
-                  there ? &Geodesic::azimuth_deg : &Geodesic::back_azimuth_deg);
+                  there ? &LinkCourse::azimuth_deg : &LinkCourse::back_azimuth_deg);
     }
     if (survey_.query.day) add_magnetic();
   }
   void add_magnetic() {
-    const auto of_end = [&](const char* azimuth, const char* declination, double Geodesic::*from_true,
+    const auto of_end = [&](const char* azimuth, const char* declination, double LinkCourse::*from_true,
                             std::optional<double> LinkRow::*of_north) {
       add(azimuth, kNumber, [from_true, of_north](const LinkRow& r) {
-        return r.geodesic ? number(magnetic_azimuth_deg((*r.geodesic).*from_true, r.*of_north)) : Value();
+        return r.course ? number(magnetic_azimuth_deg((*r.course).*from_true, r.*of_north)) : Value();
       });
       add(declination, kNumber, [of_north](const LinkRow& r) { return number(r.*of_north); });
     };
-    of_end("azimuth_magnetic1_deg", "declination1_deg", &Geodesic::azimuth_deg, &LinkRow::from_declination_deg);
-    of_end("azimuth_magnetic2_deg", "declination2_deg", &Geodesic::back_azimuth_deg, &LinkRow::to_declination_deg);
+    of_end("azimuth_magnetic1_deg", "declination1_deg", &LinkCourse::azimuth_deg, &LinkRow::from_declination_deg);
+    of_end("azimuth_magnetic2_deg", "declination2_deg", &LinkCourse::back_azimuth_deg, &LinkRow::to_declination_deg);
   }
   void add_radio() {
     const auto of_radio = [&](const char* name, VectorLayer::Type type,

@@ -6,9 +6,8 @@
 #include <string>
 #include <vector>
 
-#include <itin/geodesic.hpp>
 #include <itin/vector_export.hpp>
-#include <profile/link_output.hpp>
+#include <profile/links.hpp>
 
 namespace itin::profile {
 
@@ -19,7 +18,7 @@ struct LinkRow {
   const LinkResult* result = nullptr;  ///< null: the row could not be read
   std::string message;                 ///< what went wrong, where there was an error
   const std::vector<std::string>* others = nullptr;
-  std::optional<Geodesic> geodesic;  ///< between the ends on WGS 84
+  std::optional<LinkCourse> course;  ///< nothing where the link could not be computed
   /// The declination of magnetic north at the ends, on the survey's day.
   std::optional<double> from_declination_deg = {}, to_declination_deg = {};
 
@@ -39,6 +38,6 @@ std::vector<LinkColumn> link_columns(const LinkSurvey& survey, const std::vector
 std::string verdict_of(const LinkRow& row);
 
 /// Draws the summary, one page.
-std::string link_summary(const LinkSurvey& survey, const std::vector<LinkRow>& rows);
+std::string link_summary(const LinkSurvey& survey, const std::vector<LinkRow>& rows, const LinkFileOptions& options);
 
 }  // namespace itin::profile

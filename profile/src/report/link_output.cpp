@@ -9,6 +9,7 @@
 #include <itin/error.hpp>
 #include <itin/file_ending.hpp>
 #include <itin/output_file.hpp>
+#include <profile/links.hpp>
 
 #include "report/kml.hpp"
 #include "report/link_columns.hpp"
@@ -62,9 +63,9 @@ VectorLayer links_layer(const std::vector<LinkRow>& rows, const std::vector<Link
   return layer;
 }
 
-std::string links_kml(const LinkSurvey& survey, const std::vector<LinkRow>& rows,
+std::string links_kml(const std::string& crs_wkt, const std::string& title, const std::vector<LinkRow>& rows,
                       const std::vector<LinkColumn>& columns) {
-  Kml kml(survey.crs_wkt, survey.title);
+  Kml kml(crs_wkt, title);
   for (const SightVerdict verdict : {SightVerdict::kVisible, SightVerdict::kHidden, SightVerdict::kUndecided})
     kml.style(name_of(verdict), verdict_colour(verdict), 3);
   kml.style("error", "ff909090", 3);
@@ -82,24 +83,25 @@ std::string links_kml(const LinkSurvey& survey, const std::vector<LinkRow>& rows
 void require_link_format(const std::string& path) {
   for (const char* known : {".csv", ".gpkg", ".kml", ".pdf"})
     if (ending_of(path) == known) return;
-  throw InputError(
-      fmt::format("'{}': links are written as a table, .csv, as lines, .gpkg or .kml, or as a page, .pdf", path));
+  throw InputError(fmt::format(
+      "`output` '{}': links are written as a table, .csv, as lines, .gpkg or .kml, or as a page, .pdf", path));
 }
 
-void write_links(const LinkSurvey& survey, const std::vector<std::string>& paths, bool overwrite) {
+void write_link_table(const LinkSurvey& survey, const std::vector<std::string>& paths, const LinkFileOptions& options) {
   for (const std::string& path : paths) require_link_format(path);
+  const std::string& crs = survey.metadata.crs_wkt;
   const std::vector<LinkRow> rows = link_rows(survey);
   const std::vector<LinkColumn> columns = link_columns(survey, rows);
   for (const std::string& path : paths) {
     const std::string ending = ending_of(path);
     if (ending == ".gpkg") {
-      write_geopackage(path, survey.crs_wkt, {links_layer(rows, columns)}, overwrite);
+      write_geopackage(path, crs, {links_layer(rows, columns)}, options.overwrite);
     } else {
       write_file(path,
-                 ending == ".pdf"   ? link_summary(survey, rows)
+                 ending == ".pdf"   ? link_summary(survey, rows, options)
                  : ending == ".csv" ? links_csv(rows, columns)
-                                    : links_kml(survey, rows, columns),
-                 overwrite);
+                                    : links_kml(crs, options.title, rows, columns),
+                 options.overwrite);
     }
   }
 }

@@ -1,10 +1,12 @@
 // Shows many links on pages: first the links that need attention.
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <map>
 
 #include <fmt/format.h>
 
+#include <itin/coordinates.hpp>
 #include <profile/radio_text.hpp>
 #include <profile/report_text.hpp>
 
@@ -67,7 +69,7 @@ std::vector<std::string> cells_of(const LinkRow& row) {
   return {row.id,
           ends_text(row),
           kilometres(row.result->distance_m),
-          row.geodesic ? kilometres(row.geodesic->distance_m) : "",
+          row.course ? kilometres(row.course->distance_m) : "",
           name_of(found.verdict),
           found.clearance_m ? fmt::format("{:.2f}", *found.clearance_m) : "",
           found.fresnel ? fmt::format("{:.2f}", found.fresnel->fraction) : "",
@@ -110,21 +112,32 @@ Table table_of(const std::vector<LinkRow>& rows) {
   return table;
 }
 
+/// The inputs and the settings.
+std::vector<std::pair<std::string, std::string>> facts_of(const LinkSurvey& survey, const LinkFileOptions& options) {
+  const std::string& crs = survey.metadata.crs_wkt;
+  std::vector<std::pair<std::string, std::string>> facts = options.facts;
+  facts.insert(facts.end(), {{"Store", std::filesystem::path(survey.store).filename().string()},
+                             {"CRS", fmt::format("{} ({})", crs_title(crs), crs_identifier(crs))},
+                             {"Refraction", survey.query.earth.convention()},
+                             {"Program", "itin " ITIN_VERSION}});
+  return facts;
+}
+
 }  // namespace
 
-std::string link_summary(const LinkSurvey& survey, const std::vector<LinkRow>& rows) {
+std::string link_summary(const LinkSurvey& survey, const std::vector<LinkRow>& rows, const LinkFileOptions& options) {
   const Table table = table_of(rows);
   return numbered_pdf([&](Pages& pages) {
     Drawing& drawing = pages.drawing();
-    draw_title(drawing, survey.title);
+    draw_title(drawing, options.title);
     const double top = draw_headline(drawing, counts_text(rows)) + 14;
-    const Facts facts = fact_lines(drawing, survey.facts);
+    const Facts facts = fact_lines(drawing, facts_of(survey, options));
     const double bottom = kHeight - kMargin - kFactRow * static_cast<double>(facts.size());
     draw_facts(drawing, facts, bottom + 12);
     std::size_t row = PageColumn(drawing, kMargin, kWidth - 2 * kMargin, top).set_rows(table, 0, bottom - 30);
     while (row < table.rows.size()) {
       pages.begin_page();
-      draw_title(drawing, survey.title);
+      draw_title(drawing, options.title);
       row = PageColumn(drawing, kMargin, kWidth - 2 * kMargin, kBelowTitle).set_rows(table, row);
     }
   });

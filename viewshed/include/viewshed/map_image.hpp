@@ -27,7 +27,7 @@ struct ClassShares {
 
 struct MapOptions {
   std::string title = "Viewshed";
-  std::string subtitle;                             ///< empty: observer and target heights, radius, refraction
+  std::string subtitle = {};                        ///< empty: observer and target heights, radius, refraction
   std::string seen = "Visible", unseen = "Hidden";  ///< in the legend, where cells are one of the two
   std::optional<ClassShares> shares = {};           ///< in the legend; nothing: shares of the cells with data in view
   std::string observers = {};                       ///< what the legend calls them; empty: "Observers"

@@ -10,6 +10,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -163,6 +164,29 @@ struct Result {
   Values& get() {
     return std::get<Values>(values);
   }
+};
+
+/// How much of what observers look at has no ground: no data, and so neither seen nor hidden.
+struct MissingGround {
+  std::uint64_t without_ground = 0;  ///< cells of the raster that an observer looks at, and that have no ground
+  std::uint64_t with_ground = 0;     ///< cells of the raster that an observer looks at, and that have ground
+  std::uint64_t beyond = 0;          ///< cells of that size within observers' radii, but beyond the raster
+  double cell_area = 0;              ///< square metres; 0 where targets at random are counted in place of cells
+  bool bounded = true;               ///< the request limits how far observers look; else: as far as there is ground
+
+  /// The share without ground of all that observers look at, 0 to 1.
+  double share() const;
+  double study_m2() const { return static_cast<double>(with_ground + without_ground + beyond) * cell_area; }
+  double missing_m2() const { return static_cast<double>(without_ground + beyond) * cell_area; }
+  /// The share as text: "12.3 %", "less than 0.1 %", "more than 99.9 %".
+  std::string percent() const;
+  /// The share and its area: "12.3 % (4.6 km²)"; the share alone where no cells are counted.
+  std::string text() const;
+  /// The text about it in a map's legend: "No ground data: 12.3 % (4.6 km²) of `area`".
+  std::string key_text(const std::string& area) const;
+  /// A warning that says what share of `area` has no ground, and what can be done about it; nothing where that is less
+  /// than a thousandth, or the area is wherever there is ground.
+  std::optional<std::string> warning(const std::string& area) const;
 };
 
 }  // namespace itin::viewshed

@@ -33,36 +33,42 @@
 
 namespace itin::viewshed {
 
+/// A part of the horizon, degrees clockwise from grid north.
+struct Arc {
+  double from = 0;
+  double width = 0;
+};
+
 /// A wind turbine. Its heights are metres above the ground at its foot.
 struct Turbine {
   std::size_t number = 1;  ///< from 1; it has bit number - 1
-  std::string name;
-  std::string farm;  ///< may be empty
-  Point2 position;
+  std::string name = {};
+  std::string farm = {};  ///< may be empty
+  Point2 position = {};
   double tip_height = 0;
-  std::optional<double> hub_height;      ///< nothing: unknown; the turbine does not count among the hubs
-  std::optional<double> rotor_diameter;  ///< nothing: unknown, taken as 0
-  double radius = 0;                     ///< the distance up to which eyes see it, metres
+  std::optional<double> hub_height = {};      ///< nothing: unknown; the turbine does not count among the hubs
+  std::optional<double> rotor_diameter = {};  ///< nothing: unknown, taken as 0
+  double radius = 0;                          ///< the distance up to which eyes see it, metres
 };
 
 struct ZoneRequest {
-  std::vector<Turbine> turbines;  ///< at least one; numbers differ
+  std::vector<Turbine> turbines = {};  ///< at least one; numbers differ
   double observer_height = 2;
-  std::optional<double> cell_size;  ///< either this, metres, or `grid` gives the cells
-  std::optional<RasterGrid> grid;
-  Earth earth;
-  Detail detail = Detail::tolerance(0);  ///< the surface's level of detail; not used with a Tin
-  std::optional<ThemeChoice> themes;     ///< features that screen; not used with a Tin; nothing: bare ground alone
+  std::optional<double> cell_size = {};  ///< either this, metres, or `grid` gives the cells
+  std::optional<RasterGrid> grid = {};
+  Earth earth = {};
+  Detail detail = Detail::tolerance(0);    ///< the surface's level of detail; not used with a Tin
+  std::optional<ThemeChoice> themes = {};  ///< features that screen; not used with a Tin; nothing: bare ground alone
   NoData nodata = NoData::kUnknown;
   /// The bytes that a survey of a store may take, about. Where the surface does not fit into them, the survey is made
   /// in parts, with the same results. Nothing: no limit.
-  std::optional<std::uint64_t> memory_bytes;
+  std::optional<std::uint64_t> memory_bytes = {};
   /// The greatest number of turbines in each band of maps and tables, ascending; empty: bands of equal width.
-  std::vector<std::size_t> count_bands;
-  std::optional<Observer> radar;  ///< a radar whose horizon over bare ground is computed as well
+  std::vector<std::size_t> count_bands = {};
+  std::optional<Observer> radar = {};  ///< a radar whose horizon over bare ground is computed as well
   /// A weight, not negative, for each cell of the grid. The visible heights of each turbine are summed with these
   /// weights. Empty: no sums.
-  std::vector<double> weights;
+  std::vector<double> weights = {};
 };
 
 /// Grids with one value for each cell of the zone's grid. Outside, floats are NaN and counts kCountOutside. Under

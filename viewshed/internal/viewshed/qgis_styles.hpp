@@ -16,4 +16,7 @@ std::string qgis_style(const Request& request);
 /// The style of the share that write_geotiff() writes of a VisibilityIndex.
 std::string qgis_style_of_shares();
 
+/// Returns the name of the style that is written beside a raster.
+std::string style_beside(const std::string& raster);
+
 }  // namespace itin::viewshed

@@ -12,22 +12,13 @@
 
 #include <itin/geometry.hpp>
 #include <itin/window.hpp>
+#include <viewshed/site_plan.hpp>
 
 namespace itin::viewshed {
 
 /// Returns the middles of the squares of this side, metres, whose edges lie on multiples of it, where they are within
 /// the area; from the north-west. Throws InputError where there is none, or there are too many.
 std::vector<Point2> spaced_positions(const Window& area, double side);
-
-/// The ellipse about every turbine that stays free of other turbines.
-struct TurbineSpacing {
-  double along = 0;   ///< half its axis along the wind, metres
-  double across = 0;  ///< half its axis across
-  double wind_from_deg = 0;
-
-  /// Tells whether neither stands within the other's ellipse. A place on the ellipse is outside, up to rounding.
-  bool keeps_apart(Point2 a, Point2 b) const;
-};
 
 /// Dwellings as points or as polygons.
 class Dwellings {

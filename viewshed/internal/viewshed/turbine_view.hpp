@@ -11,12 +11,6 @@ namespace itin::viewshed {
 /// Heights are elevations, the drop by curvature not yet taken off.
 double vertical_angle_deg(const Earth& earth, double distance, double eye, double low, double high);
 
-/// A part of the horizon, degrees clockwise from grid north.
-struct Arc {
-  double from = 0;
-  double width = 0;
-};
-
 /// The arc of a rotor that faces the eye.
 Arc rotor_arc(Point2 eye, Point2 turbine, double rotor_diameter);
 

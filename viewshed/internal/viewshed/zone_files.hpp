@@ -15,13 +15,9 @@
 #include <vector>
 
 #include <viewshed/turbines.hpp>
+#include <viewshed/zone_study.hpp>
 
 namespace itin::viewshed {
-
-struct ZoneFile {
-  std::string name;
-  std::string what;  ///< one line: quantity, unit, meaning of nodata
-};
 
 struct ZoneFileOptions {
   std::string crs_wkt;

@@ -41,4 +41,8 @@ std::string qgis_style_of_shares() {
   return banded_style(share_bands());
 }
 
+std::string style_beside(const std::string& raster) {
+  return std::filesystem::path(raster).replace_extension(".qml").string();
+}
+
 }  // namespace itin::viewshed

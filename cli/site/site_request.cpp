@@ -1,0 +1,149 @@
+#include "site/site_request.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include <itin/error.hpp>
+#include <itin/raster_values.hpp>
+#include <itin/site_list.hpp>
+#include <itin/sites.hpp>
+#include <itin/window_source.hpp>
+
+#include "options/off_the_data.hpp"
+
+namespace itin::cli {
+
+namespace {
+
+class RequestFiles {
+ public:
+  RequestFiles(const SiteOptions& options, const StoreMetadata& metadata)
+      : options_(options), metadata_(metadata), crs_(metadata.crs_wkt), request_(options.request) {}
+
+  viewshed::SitePlanRequest read() && {
+    request_.earth = options_.earth.earth();
+    if (options_.search_area.empty()) {
+      read_candidates();
+    } else {
+      request_.search_area = area(options_.search_area);
+    }
+    if (!options_.existing.empty()) read_existing();
+    if (!options_.forbidden.empty()) request_.forbidden = area(options_.forbidden);
+    if (request_.turbines && request_.turbines->dwellings) read_dwellings(*request_.turbines->dwellings);
+    read_demand();
+    if (options_.hub)
+      request_.hub = {.position = on_the_data("--hub", *options_.hub, options_.in_crs, metadata_),
+                      .height = options_.hub->height};
+    return std::move(request_);
+  }
+
+ private:
+  Window area(const std::string& wkt_or_file) const {
+    return window_from_polygon(wkt_or_file, crs_, options_.in_crs.crs);
+  }
+
+  /// Returns a query about a file of the call.
+  SiteQuery query_of(const std::string& path, const std::string& height_field = {}) const {
+    SiteQuery query;
+    query.path = path;
+    query.height_field = height_field;
+    query.crs = options_.in_crs.crs;
+    return query;
+  }
+
+  /// Returns the places of a file. Calls add(site, place), which completes each.
+  template <class Complete>
+  viewshed::SitePlaces places_of(const SiteQuery& query, viewshed::SitePlaces places, const Complete& complete) const {
+    places.source = query.path;
+    for (Site& site : read_sites(query, crs_, places.warnings, places.left_out)) {
+      places.places.push_back({.position = site.position, .height = site.height, .origin = std::move(site.place)});
+      complete(site, places.places.back());
+    }
+    return places;
+  }
+
+  /// Adds the field that holds a number for each place to the query, or else warns of one that may.
+  viewshed::SitePlaces with_number(SiteQuery& query, const std::string& field, const char* likely,
+                                   const char* option) const {
+    viewshed::SitePlaces places;
+    if (field.empty()) {
+      warn_of_unused(query, LayerFields(query), likely, option, places.warnings);
+    } else {
+      query.numbers.push_back({field});
+    }
+    return places;
+  }
+
+  static double number_of(const Site& site, double without_field) {
+    return site.numbers.empty() ? without_field : site.numbers.front().value_or(std::nan(""));
+  }
+
+  void require_any(const viewshed::SitePlaces& places, const SiteQuery& query, const char* what) const {
+    if (places.places.empty() && places.left_out.empty()) throw InputError(none_in(query, what));
+  }
+
+  void read_candidates() {
+    SiteQuery query = options_.candidates;
+    query.crs = options_.in_crs.crs;
+    viewshed::SitePlaces begun = with_number(query, options_.cost_field, "cost", "--cost-field");
+    request_.candidates = places_of(query, std::move(begun), [&](const Site& site, viewshed::SitePlace& candidate) {
+      candidate.name = query.name_field.empty() ? std::to_string(site.row) : site.name;
+      candidate.cost = number_of(site, 0);
+    });
+    require_any(request_.candidates, query, "candidate");
+    std::vector<Point2> positions;
+    for (const viewshed::SitePlace& candidate : request_.candidates.places) positions.push_back(candidate.position);
+    require_any_on_the_data(query.path + ": the first candidate", positions, options_.in_crs, metadata_);
+  }
+
+  void read_existing() {
+    const SiteQuery query = query_of(options_.existing, options_.existing_height_field);
+    request_.existing =
+        places_of(query, {}, [](const Site& site, viewshed::SitePlace& place) { place.name = site.name; });
+    require_any(request_.existing, query, "site");
+  }
+
+  /// Reads the dwellings, which are points or polygons. No dwelling may be left out.
+  void read_dwellings(viewshed::SiteDwellings& dwellings) const {
+    const SiteQuery query = query_of(options_.placement.dwellings);
+    dwellings.source = query.path;
+    std::vector<std::string> no_points;
+    for (const Site& site : read_sites(query, crs_, dwellings.warnings, no_points))
+      dwellings.points.push_back(site.position);
+    if (dwellings.points.empty() && no_points.empty()) throw InputError(none_in(query, "dwelling"));
+    if (dwellings.points.empty()) {
+      dwellings.polygons = window_from_polygon(query.path, crs_);
+    } else if (!no_points.empty()) {
+      throw InputError(fmt::format("{}; give dwellings that are all points, or all polygons", no_points.front()));
+    }
+  }
+
+  void read_demand() {
+    viewshed::SiteDemand& demand = request_.demand;
+    if (options_.demand == "cells") return;
+    if (is_raster(options_.demand)) {
+      RasterValues weights = read_raster_values(options_.demand, crs_);
+      demand.source = options_.demand;
+      demand.grid = weights.grid, demand.weights = std::move(weights.values);
+      return;
+    }
+    SiteQuery query = query_of(options_.demand, options_.demand_height_field);
+    viewshed::SitePlaces begun = with_number(query, options_.weight_field, "weight", "--weight-field");
+    demand.points = places_of(query, std::move(begun),
+                              [](const Site& site, viewshed::SitePlace& point) { point.weight = number_of(site, 1); });
+  }
+
+  const SiteOptions& options_;
+  const StoreMetadata& metadata_;
+  const std::string& crs_;
+  viewshed::SitePlanRequest request_;
+};
+
+}  // namespace
+
+viewshed::SitePlanRequest complete_request(const SiteOptions& options, const StoreMetadata& metadata) {
+  return RequestFiles(options, metadata).read();
+}
+
+}  // namespace itin::cli

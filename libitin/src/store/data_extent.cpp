@@ -1,0 +1,22 @@
+#include <fmt/format.h>
+
+#include <itin/coordinates.hpp>
+#include <itin/data_extent.hpp>
+#include <itin/grid_units.hpp>
+
+namespace itin {
+
+bool is_on_the_data(Point2 p, const StoreMetadata& metadata) {
+  const auto [x, y] = place_in_units(metadata.grid, p);
+  const GridBox& bounds = metadata.bounds;
+  return x >= bounds.xmin && x <= bounds.xmax && y >= bounds.ymin && y <= bounds.ymax;
+}
+
+std::string extent_of(const StoreMetadata& metadata) {
+  const Box bounds = metadata.grid.box(metadata.bounds);
+  const std::string crs = crs_identifier(metadata.crs_wkt);
+  return fmt::format("{:.10g},{:.10g} to {:.10g},{:.10g} in {}", bounds.xmin, bounds.ymin, bounds.xmax, bounds.ymax,
+                     crs.size() < 40 ? crs : crs_title(metadata.crs_wkt));
+}
+
+}  // namespace itin

@@ -1,0 +1,256 @@
+// Plans of sites against a judgement cell by cell, with every triangle under every line.
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <itin/error.hpp>
+#include <itin/import.hpp>
+#include <itin/triangulate.hpp>
+#include <viewshed/site_plan.hpp>
+
+#include "support/brute_force_viewshed.hpp"
+#include "support/houses.hpp"
+#include "support/raster_file.hpp"
+#include "support/seed.hpp"
+#include "support/temporary_directory.hpp"
+#include "support/terrain_tin.hpp"
+#include "support/vector_file.hpp"
+
+namespace itin::viewshed {
+namespace {
+
+/// Hills of 800 m by 800 m with some houses, and a hole.
+class SitePlans : public testing::Test {
+ protected:
+  void SetUp() override {
+    const std::vector<double> z = test::fractal_heights(65, 40, 0.6, test::seed());
+    test::write_raster(file("t.tif"), {300000, 200800, 20, 40, 40, 27700}, [&](int c, int r) {
+      if (std::hypot(c - 30, r - 8) < 3) return std::nan("");
+      return z[static_cast<std::size_t>(r) * 65 + static_cast<std::size_t>(c)];
+    });
+    ImportOptions terrain;
+    terrain.sources = {file("t.tif")};
+    import_terrain(file("s.itin"), terrain, progress_);
+    test::import_houses(file("s.itin"), file("h.geojson"),
+                        {test::box(300100, 200300, 300140, 200330, 9), test::box(300400, 200500, 300420, 200540, 12),
+                         test::box(300300, 200100, 300360, 200120, 7)});
+    store_.emplace(file("s.itin"));
+  }
+
+  std::string file(const std::string& name) const { return directory_.file(name); }
+
+  SitePlanRequest request() const {
+    SitePlanRequest request;
+    for (const Point2 p : {Point2{300110, 200610},
+                           {300510, 200310},
+                           {300290, 200210},
+                           {300650, 200690},
+                           {300050, 200110},
+                           {300410, 200450}})
+      request.candidates.places.push_back({.name = std::to_string(request.candidates.places.size()), .position = p});
+    request.masts = {{.height = 15}};
+    request.existing.places = {{.name = "old", .position = {300710, 200110}, .height = 5}};
+    request.radius = 300;
+    request.cell_size = 20;
+    request.count = 3;
+    request.themes = ThemeChoice::all();
+    request.nodata = NoData::kClear;  // as test::brute_force()
+    return request;
+  }
+
+  SitePlan plan(const SitePlanRequest& request) { return plan_sites(*store_, request, progress_); }
+
+  /// Returns what a site sees of the raster's cells.
+  std::vector<Verdict> seen_from(const SitePlan& plan, const SitePosition& site) {
+    if (!surface_) {
+      surface_ = triangulate(*store_, Window::all(), Detail::tolerance(0), progress_, plan.request.themes);
+      ground_ = triangulate(*store_, Window::all(), Detail::tolerance(0), progress_);
+    }
+    Request look = test::look(site.position, site.height, plan.request.demand.height, plan.request.cell_size);
+    look.radius = plan.request.radius;
+    return test::brute_force(*surface_, *ground_, look, plan.rasters.grid);
+  }
+
+  /// The rasters cell by cell: each site in turn, the nearest first seen.
+  void expect_true_rasters(const SitePlan& plan) {
+    std::vector<SitePosition> sites;
+    for (const ChosenSite& chosen : plan.choice.chosen) sites.push_back(plan.place_of(chosen));
+    for (std::size_t i = plan.inputs.options.size(); i < plan.inputs.positions.size(); ++i)
+      sites.push_back(plan.inputs.positions[i]);
+    std::vector<std::vector<Verdict>> seen;
+    for (const SitePosition& site : sites) seen.push_back(seen_from(plan, site));
+    const RasterGrid& grid = plan.rasters.grid;
+    std::size_t served = 0, overlaps = 0;
+    for (std::int64_t row = 0; row < grid.rows(); ++row) {
+      for (std::int64_t column = 0; column < grid.columns(); ++column) {
+        const std::size_t cell = grid.index({column, row});
+        const Point2 centre = grid.centre(column, row);
+        int best = 0, count = 0;
+        double nearest = std::numeric_limits<double>::infinity();
+        for (std::size_t i = 0; i < sites.size(); ++i) {
+          if (seen[i][cell] != Verdict::kVisible) continue;
+          ++count;
+          const double distance = std::hypot(centre.x - sites[i].position.x, centre.y - sites[i].position.y);
+          if (distance < nearest) nearest = distance, best = static_cast<int>(i) + 1;
+        }
+        if (plan.rasters.served[cell] == Verdict::kOutside) {
+          EXPECT_EQ(plan.rasters.best_server[cell], SiteRasters::kOutside);
+          continue;
+        }
+        EXPECT_EQ(plan.rasters.best_server[cell], best) << column << ' ' << row;
+        EXPECT_EQ(plan.rasters.redundancy[cell], count) << column << ' ' << row;
+        EXPECT_EQ(plan.rasters.served[cell] == Verdict::kVisible, count >= plan.request.cover) << column << ' ' << row;
+        served += count > 0, overlaps += count > 1;
+      }
+    }
+    EXPECT_GT(served, 50U);
+    EXPECT_GT(overlaps, 3U);
+  }
+
+  /// Returns the number of cells with ground within the radius of a candidate.
+  std::size_t cells_in_reach(const SitePlan& plan) {
+    std::size_t count = 0;
+    std::vector<char> reached(plan.rasters.grid.cell_count());
+    for (std::size_t i = 0; i < plan.inputs.options.size(); ++i) {
+      const std::vector<Verdict> seen = seen_from(plan, plan.inputs.positions[i]);
+      for (std::size_t cell = 0; cell < seen.size(); ++cell)
+        if (seen[cell] != Verdict::kOutside) reached[cell] = 1;
+    }
+    for (const char one : reached) count += one;
+    return count;
+  }
+
+  test::TemporaryDirectory directory_;
+  std::optional<Store> store_;
+  std::optional<Tin> surface_, ground_;
+  NoProgress progress_;
+};
+
+TEST_F(SitePlans, ServeEachCellByTheNearestSiteThatSeesIt) {
+  SitePlanRequest asked = request();
+  expect_true_rasters(plan(asked));
+  asked.cover = 2;
+  expect_true_rasters(plan(asked));
+}
+
+TEST_F(SitePlans, CountTheDemandThatTheSitesServe) {
+  const SitePlan made = plan(request());
+  ASSERT_EQ(made.choice.chosen.size(), 3U);
+  EXPECT_EQ(static_cast<std::size_t>(made.inputs.total), cells_in_reach(made));
+  // Every cell of the demand counts as 1, and existing sites may serve cells that no candidate reaches.
+  std::size_t served = 0;
+  for_each_element(made.inputs.cells, [&](std::size_t element) {
+    served += made.rasters.served[made.rasters.grid.index(cell_of(made.rasters.grid, element))] == Verdict::kVisible;
+  });
+  EXPECT_EQ(made.served(), static_cast<double>(served));
+  EXPECT_EQ(made.surveys.size(), made.inputs.options.size());
+  EXPECT_LE(made.choice.value, made.choice.upper_bound);
+}
+
+TEST_F(SitePlans, LinkSitesAndRouteThemToTheHub) {
+  SitePlanRequest asked = request();
+  asked.masts = {{.height = 60}};
+  asked.hub = SitePlace{.position = {300390, 200390}, .height = 70};
+  const SitePlan made = plan(asked);
+  ASSERT_FALSE(made.choice.chosen.empty());
+  const std::size_t ends = made.choice.chosen.size() + 2;
+  EXPECT_EQ(made.network.ends.size(), ends);
+  EXPECT_EQ(made.network.links.size(), ends * (ends - 1) / 2);
+  ASSERT_EQ(made.routes.size(), ends - 1);
+  for (std::size_t i = 0; i < made.choice.chosen.size(); ++i) {
+    ASSERT_FALSE(made.routes[i].hops.empty());
+    EXPECT_EQ(made.routes[i].hops.front().from, i);
+    EXPECT_EQ(made.routes[i].hops.back().to, ends - 1);
+    for (const RouteHop& hop : made.routes[i].hops)
+      EXPECT_EQ(made.network.links[hop.link].found().verdict, profile::SightVerdict::kVisible);
+  }
+}
+
+TEST_F(SitePlans, KeepTheReasonForEachPlaceThatIsLeftOut) {
+  SitePlanRequest asked = request();
+  asked.candidates.source = "list";
+  asked.candidates.places[0].cost = -1, asked.candidates.places[0].origin = "row 1";
+  asked.candidates.places[1].position = {0, 0};
+  asked.forbidden = Window::box({300280, 200200, 300300, 200220});
+  const SitePlan made = plan(asked);
+  ASSERT_EQ(made.inputs.left_out.size(), 3U);
+  EXPECT_EQ(made.inputs.left_out[0], "list: row 1: its cost is missing or negative");
+  EXPECT_EQ(made.inputs.left_out[1], "candidate 2: lies in a forbidden area");
+  EXPECT_EQ(made.inputs.left_out[2], "candidate 1 at 0,0: it lies off the data");
+  EXPECT_EQ(made.inputs.barred.size(), 1U);
+  asked.candidates.source.clear(), asked.candidates.places[0].origin.clear();
+  EXPECT_EQ(plan(asked).inputs.left_out[0], "candidate 0: its cost is missing or negative");
+  EXPECT_EQ(made.inputs.candidates.size(), 3U);
+}
+
+TEST_F(SitePlans, TakeDemandOfPointsWithTheirOwnHeightsAndWeights) {
+  SitePlanRequest asked = request();
+  asked.demand.points.emplace();
+  for (int i = 0; i < 20; ++i)
+    asked.demand.points->places.push_back({.position = {300055.0 + 33 * i, 200745.0 - 31 * i},
+                                           .height = i % 2 == 0 ? std::optional(4.0) : std::nullopt,
+                                           .weight = static_cast<double>(1 + i % 3)});
+  const std::vector<SitePlace> points = asked.demand.points->places;
+  const SitePlan made = plan(asked);
+  double total = 0;
+  for (const SitePlace& point : points) total += point.weight;
+  EXPECT_EQ(made.in_metric(made.inputs.total), total);
+  EXPECT_EQ(made.request.demand.points->places.capacity(), 0U);  // the memory is free again
+  EXPECT_GT(made.served(), 0);
+  // Four points in place of each, with a quarter of its weight.
+  asked.demand.points->places.clear();
+  for (const SitePlace& point : points) {
+    asked.demand.points->places.insert(asked.demand.points->places.end(), 4, point);
+    for (std::size_t k = asked.demand.points->places.size() - 4; k < asked.demand.points->places.size(); ++k)
+      asked.demand.points->places[k].weight /= 4;
+  }
+  EXPECT_EQ(plan(asked).served(), made.served());
+}
+
+TEST_F(SitePlans, WriteWhatTheyList) {
+  SitePlanRequest asked = request();
+  asked.hub = SitePlace{.position = {300390, 200390}, .height = 70};
+  asked.masts = {{.height = 60}};
+  const SitePlan made = plan(asked);
+  const std::string folder = file("sites");
+  const std::vector<PlanFile> written = write_site_plan(folder, made, *store_, progress_).files;
+  EXPECT_EQ(written.size(), 10U);
+  for (const PlanFile& one : written) EXPECT_TRUE(std::filesystem::is_regular_file(one.path)) << one.path;
+  std::size_t found = 0;
+  for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(folder)) ++found;
+  EXPECT_EQ(found, written.size());
+  EXPECT_THROW(write_site_plan(folder, made, *store_, progress_), FileError);
+  EXPECT_NO_THROW(write_site_plan(folder, made, *store_, progress_, {.overwrite = true}));
+}
+
+TEST_F(SitePlans, RefuseWhatMakesNoSense) {
+  const auto refused = [&](const auto& change) {
+    SitePlanRequest asked = request();
+    change(asked);
+    EXPECT_THROW(plan(asked), InputError);
+  };
+  refused([](SitePlanRequest& r) { r.candidates = {}; });
+  refused([](SitePlanRequest& r) { r.search_area = Window::all(); });
+  refused([](SitePlanRequest& r) { r.count.reset(); });
+  refused([](SitePlanRequest& r) { r.masts.clear(); });
+  refused([](SitePlanRequest& r) { r.radius = 0; });
+  refused([](SitePlanRequest& r) { r.share = 2; });
+  refused([](SitePlanRequest& r) { r.cover = 0; });
+  refused([](SitePlanRequest& r) { r.frequency_ghz = 0; });
+  refused([](SitePlanRequest& r) { r.turbines.emplace(); });
+  refused([](SitePlanRequest& r) { r.memory_bytes = 1000; });
+  refused([](SitePlanRequest& r) {
+    r.demand.grid = RasterGrid({300000, 200800}, 20, 20, 10, 10);
+    r.demand.weights = {1, 2};
+  });
+}
+
+}  // namespace
+}  // namespace itin::viewshed

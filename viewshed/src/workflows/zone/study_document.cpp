@@ -1,0 +1,89 @@
+#include "workflows/zone/study_document.hpp"
+
+#include <itin/coordinates.hpp>
+#include <viewshed/documents.hpp>
+#include <viewshed/undecided_area.hpp>
+#include <viewshed/zone_files.hpp>
+#include <viewshed/zone_study_document.hpp>
+
+#include "workflows/zone/bad_rows.hpp"
+#include "workflows/zone/study_radio.hpp"
+
+namespace itin::viewshed {
+
+namespace {
+
+Document areas_of(const Zone& zone, const Visibility& v) {
+  std::uint64_t hubs = 0, tips = 0, all = 0;
+  for (std::size_t i = 0; i < v.tip_count.size(); ++i) {
+    if (v.tip_count[i] == kCountOutside) continue;
+    ++all, hubs += v.hub_count[i] > 0 ? 1U : 0U, tips += v.tip_count[i] > 0 ? 1U : 0U;
+  }
+  const auto km2 = [&](std::uint64_t cells) { return static_cast<double>(cells) * zone.grid.cell_area() / 1e6; };
+  Document areas{{"any_tip_seen", km2(tips)}, {"any_hub_seen", nullptr}, {"studied", km2(all)}};
+  const bool hubs_known = known_hubs(zone) > 0;
+  if (hubs_known) areas["any_hub_seen"] = km2(hubs);
+  const UndecidedArea of_tips = undecided_area(zone, v.tip_count, v.tip_undecided);
+  areas.update({{"any_tip_undecided", of_tips.any_m2 / 1e6}, {"more_tips_undecided", of_tips.more_m2 / 1e6}});
+  if (!hubs_known) return areas;
+  const UndecidedArea of_hubs = undecided_area(zone, v.hub_count, v.hub_undecided);
+  areas.update({{"any_hub_undecided", of_hubs.any_m2 / 1e6}, {"more_hubs_undecided", of_hubs.more_m2 / 1e6}});
+  return areas;
+}
+
+Document turbines_document(const ZoneStudy& study) {
+  const TurbineTable& table = study.request.turbines;
+  Document document = bad_rows_document(table.path, table.rows, study.zone.request.turbines.size(), table.bad);
+  document["sha256"] = table.sha256;
+  document["hub_heights_known"] = known_hubs(study.zone);
+  return document;
+}
+
+Document area_document(const Zone& zone) {
+  Document document{{"bare", areas_of(zone, zone.bare)}};
+  if (zone.screened) document["screened"] = areas_of(zone, *zone.screened);
+  return document;
+}
+
+Document statistics_of(const Zone& zone) {
+  Document document = statistics_document(zone.statistics);
+  document.update({{"retrieval_seconds", zone.statistics.retrieval_seconds},
+                   {"scene_seconds", zone.statistics.scene_seconds},
+                   {"lines_seconds", zone.statistics.lines_seconds}});
+  return document;
+}
+
+}  // namespace
+
+Document study_surface(const ZoneStudy& study) {
+  const ZoneRequest& request = study.zone.request;
+  return surface_document(study.metadata, request.detail, request.themes.value_or(ThemeChoice::none()));
+}
+
+Document zone_study_document(const ZoneStudy& study, const std::string& decides) {
+  const Zone& zone = study.zone;
+  Document document;
+  document["crs"] = crs_identifier(study.metadata.crs_wkt);
+  document["surface"] = study_surface(study);
+  document["sources"] = sources_document(study.sources);
+  document["refraction"] = earth_document(zone.request.earth);
+  document["grid"] = grid_document(zone.grid);
+  document["turbines"] = turbines_document(study);
+  document["farms"] = farms_of(zone);
+  document["study_area"] = {{"km2", study.missing.study_m2() / 1e6},
+                            {"without_data_km2", study.missing.missing_m2() / 1e6},
+                            {"share_without_data", study.missing.share()}};
+  document["area_km2"] = area_document(zone);
+  if (zone.leaves_open()) document["undecided"] = {{"reason", "ground without data"}, {"decided_by", decides}};
+  document.update(radio_document(study));
+  document["statistics"] = statistics_of(zone);
+  if (const ViewpointTable& table = study.request.viewpoints; has_viewpoints(study.request))
+    document["viewpoints"] = bad_rows_document(table.path, table.rows, table.rows - table.bad.size(), table.bad);
+  return document;
+}
+
+std::string json_of(const ZoneStudy& study) {
+  return result_text(zone_study_document(study, ZoneStudyFileOptions().decides_missing_ground));
+}
+
+}  // namespace itin::viewshed

@@ -1,0 +1,180 @@
+#include "workflows/zone/study_radio.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include <itin/counted.hpp>
+#include <itin/csv_cell.hpp>
+#include <itin/earth.hpp>
+#include <itin/error.hpp>
+#include <viewshed/link_exclusion.hpp>
+#include <viewshed/zone_files.hpp>
+
+namespace itin::viewshed {
+
+namespace {
+
+/// Returns how many turbines a radar sees at least in part.
+std::size_t seen_in(const std::vector<double>& turbine_m) {
+  return static_cast<std::size_t>(std::count_if(turbine_m.begin(), turbine_m.end(), [](double m) { return m > 0; }));
+}
+
+/// Tells whether ground without data alone leaves it open that turbine k of the request is seen.
+bool radar_leaves_open(const RadarView& radar, std::size_t k) {
+  return !radar.undecided_turbine_m.empty() && radar.undecided_turbine_m[k] > 0;
+}
+
+std::vector<RadioLink> radio_links(const profile::LinkTable& table) {
+  std::vector<RadioLink> links;
+  for (const profile::Link& link : table.links) links.push_back({link.id, link.from, link.to});
+  return links;
+}
+
+LinkStudy exclusion_of(const ZoneStudy& study) {
+  LinkStudy links{radio_links(study.request.links), study.request.frequency_ghz, 0};
+  for (const Turbine& t : study.zone.request.turbines)
+    links.rotor_radius_m = std::max(links.rotor_radius_m, t.rotor_diameter.value_or(0) / 2);
+  return links;
+}
+
+bool has_links(const ZoneStudy& study) {
+  return !study.request.links.links.empty();
+}
+
+std::vector<BadRow> bad_links(const profile::LinkTable& table) {
+  std::vector<BadRow> bad;
+  for (const profile::BadLink& link : table.bad)
+    bad.push_back({link.row, static_cast<std::int64_t>(link.row), fmt::format("feature {}", link.row), link.message});
+  return bad;
+}
+
+std::string radar_methods(const ZoneStudy& study, const std::string& decides) {
+  const Observer& place = *study.zone.request.radar;
+  const RadarView& radar = *study.zone.radar;
+  std::string text = fmt::format(
+      "## Radar\n\nA radar at {:.0f}, {:.0f}, {:g} m above its ground of {:.1f} m. `radar-height.tif` is the least "
+      "height above the ground that it sees over bare ground, with curvature and refraction as stated; "
+      "`turbines.csv` says how many metres of each turbine rise above its horizon. The heights are exact for the "
+      "surface; between the "
+      "terrain's points they depend on its triangles.",
+      place.position.x, place.position.y, place.height, radar.ground_m);
+  if (radar.leaves_open())
+    text += fmt::format(
+        " Where ground without data alone could hide something from the radar, it is undecided whether that is seen: "
+        "of {}, and from the heights of `radar-height-undecided.tif` on. What must stay out of the radar's sight has "
+        "to stay below these, too; the option `{}` decides it.",
+        counted(seen_in(radar.undecided_turbine_m), "turbine"), decides);
+  return text;
+}
+
+std::string link_methods(const ZoneStudy& study) {
+  const double radius = exclusion_of(study).rotor_radius_m;
+  const std::string rotor =
+      radius > 0 ? fmt::format("the greatest rotor, {:g} m in radius", radius) : "the axis alone, as no rotor is known";
+  return fmt::format(
+      "## Radio links\n\n{} of `{}` at {:g} GHz (wavelength 0.299792458 / f). After Bacon (2002) a rotor must stay "
+      "out of the second Fresnel zone, of radius sqrt(2 lambda d1 d2 / d), in plan: `link-exclusion.tif` for {}; "
+      "`turbines.csv` for each turbine's own. Heights are not taken into account, so that ground without data leaves "
+      "nothing open.",
+      counted(study.request.links.links.size(), "link"), study.request.links.path, study.request.frequency_ghz, rotor);
+}
+
+}  // namespace
+
+void require_links(const ZoneStudyRequest& request) {
+  const profile::LinkTable& table = request.links;
+  if (!table.links.empty() && !(request.frequency_ghz > 0))
+    throw InputError("`frequency_ghz`: radio links need a frequency");
+  if (!table.links.empty() || table.bad.empty()) return;
+  throw InputError(fmt::format("{}: none of its rows can be used ({} in all); the first: {}", table.path,
+                               table.bad.size(), table.bad.front().message));
+}
+
+std::vector<LinkClearance> link_clearances(const ZoneStudyRequest& request, const Zone& zone) {
+  std::vector<LinkClearance> clearances;
+  const std::vector<RadioLink> links = radio_links(request.links);
+  if (links.empty()) return clearances;
+  for (const Turbine& turbine : zone.request.turbines) {
+    LinkClearance& nearest = clearances.emplace_back("", std::numeric_limits<double>::infinity());
+    for (const RadioLink& link : links) {
+      const double clearance =
+          link_clearance_m(link, turbine.position, request.frequency_ghz, turbine.rotor_diameter.value_or(0) / 2);
+      if (clearance < nearest.clearance_m) nearest = {link.id, clearance};
+    }
+  }
+  return clearances;
+}
+
+std::vector<ZoneFile> write_radio_rasters(const std::string& folder, const ZoneStudy& study,
+                                          const ZoneFileOptions& options) {
+  std::vector<ZoneFile> files = write_radar_raster(folder, study.zone, options);
+  const auto links = write_link_raster(folder, study.zone, options, exclusion_of(study));
+  files.insert(files.end(), links.begin(), links.end());
+  return files;
+}
+
+std::string radio_columns(const ZoneStudy& study) {
+  std::string names;
+  if (study.zone.radar) names += ",radar_visible_m";
+  if (has_links(study)) names += ",link,link_clearance_m,link_excluded";
+  if (study.zone.radar) names += ",radar_sees";
+  return names;
+}
+
+std::string radio_cells(const ZoneStudy& study, std::size_t k) {
+  const std::optional<RadarView>& radar = study.zone.radar;
+  std::string text;
+  const bool undecided = radar && radar_leaves_open(*radar, k);
+  if (radar) text += undecided ? "," : fmt::format(",{:.2f}", radar->turbine_m[k]);
+  if (has_links(study)) {
+    const auto& [link, clearance] = study.link_clearances[k];
+    text += fmt::format(",{},{:.2f},{}", csv_cell(link), clearance, clearance < 0 ? "yes" : "no");
+  }
+  if (radar) text += undecided ? ",undecided" : radar->turbine_m[k] > 0 ? ",yes" : ",no";
+  return text;
+}
+
+Document radio_document(const ZoneStudy& study) {
+  Document document = Document::object();
+  if (const std::optional<RadarView>& radar = study.zone.radar) {
+    document["radar"] = {{"ground_m", radar->ground_m},
+                         {"turbines_seen", seen_in(radar->turbine_m)},
+                         {"turbines_undecided", seen_in(radar->undecided_turbine_m)}};
+  }
+  if (has_links(study)) {
+    const profile::LinkTable& table = study.request.links;
+    const auto excluded = std::count_if(study.link_clearances.begin(), study.link_clearances.end(),
+                                        [](const LinkClearance& c) { return c.clearance_m < 0; });
+    const std::size_t used = table.links.size();
+    document["links"] = bad_rows_document(table.path, used + table.bad.size(), used, bad_links(table));
+    document["links"].update({{"links", used},
+                              {"wavelength_m", wavelength_m(study.request.frequency_ghz)},
+                              {"turbines_excluded", excluded}});
+  }
+  return document;
+}
+
+std::vector<std::string> radio_methods(const ZoneStudy& study, const std::string& decides) {
+  std::vector<std::string> paragraphs;
+  if (study.zone.radar) paragraphs.push_back(radar_methods(study, decides));
+  if (has_links(study)) paragraphs.push_back(link_methods(study));
+  return paragraphs;
+}
+
+void warn_of_radio(const ZoneStudy& study, std::vector<std::string>& warnings) {
+  if (!has_links(study)) return;
+  const profile::LinkTable& table = study.request.links;
+  warnings.insert(warnings.end(), table.warnings.begin(), table.warnings.end());
+  for (const BadRow& bad : bad_links(table)) warnings.push_back(bad_row_warning(table.path, bad));
+  const auto& turbines = study.zone.request.turbines;
+  const auto unknown =
+      std::count_if(turbines.begin(), turbines.end(), [](const Turbine& t) { return !t.rotor_diameter; });
+  if (unknown > 0)
+    warnings.push_back(
+        fmt::format("the rotor diameter is unknown for {}: links are kept clear of the axes of these alone",
+                    counted(static_cast<std::uint64_t>(unknown), "turbine")));
+}
+
+}  // namespace itin::viewshed

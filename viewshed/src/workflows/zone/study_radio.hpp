@@ -1,0 +1,37 @@
+// Radar and radio links of a study: rasters, columns of the table of turbines, and what is said about them.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include <itin/document.hpp>
+#include <viewshed/zone_files.hpp>
+#include <viewshed/zone_study.hpp>
+
+#include "workflows/zone/bad_rows.hpp"
+
+namespace itin::viewshed {
+
+/// Throws InputError where none of the links can be used, or they have no frequency.
+void require_links(const ZoneStudyRequest& request);
+
+/// Returns the clearance of each turbine of the zone; empty without links.
+std::vector<LinkClearance> link_clearances(const ZoneStudyRequest& request, const Zone& zone);
+
+/// Writes the rasters of links and of the radar. Throws FileError.
+std::vector<ZoneFile> write_radio_rasters(const std::string& folder, const ZoneStudy& study,
+                                          const ZoneFileOptions& options);
+
+/// Return columns for the table of turbines: names with commas before them, and the values of turbine k of the zone.
+std::string radio_columns(const ZoneStudy& study);
+std::string radio_cells(const ZoneStudy& study, std::size_t k);
+
+/// Returns how many turbines are concerned; empty where there are neither links nor a radar.
+Document radio_document(const ZoneStudy& study);
+/// Returns paragraphs for the text on methods. `decides` is what decides where ground without data leaves something
+/// open.
+std::vector<std::string> radio_methods(const ZoneStudy& study, const std::string& decides);
+void warn_of_radio(const ZoneStudy& study, std::vector<std::string>& warnings);
+
+}  // namespace itin::viewshed

@@ -1,0 +1,290 @@
+#include "workflows/zone/study_sheets.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include <itin/contour_lines.hpp>
+#include <itin/counted.hpp>
+#include <itin/output_file.hpp>
+#include <itin/parallel.hpp>
+#include <itin/sources_in.hpp>
+#include <viewshed/area_text.hpp>
+#include <viewshed/result_map.hpp>
+#include <viewshed/result_sheet.hpp>
+#include <viewshed/zone_maps.hpp>
+
+namespace itin::viewshed {
+
+namespace {
+
+using profile::SheetKey;
+
+constexpr Rgba kRing{70, 70, 70, 255}, kStudyArea{20, 20, 20, 255}, kViewpoint{20, 60, 140, 255},
+    kRoute{0, 110, 60, 255}, kLink{150, 20, 110, 255}, kRadar{90, 40, 150, 255};
+constexpr std::size_t kMostFarmColours = 8;
+
+/// Returns the least distance of `p` beyond the radius of a turbine, metres: not above 0 in the study area.
+double beyond_study_area(const Zone& zone, Point2 p) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Turbine& t : zone.request.turbines)
+    least = std::min(least, std::hypot(t.position.x - p.x, t.position.y - p.y) - t.radius);
+  return least;
+}
+
+double nearest_turbine(const Zone& zone, Point2 p) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Turbine& t : zone.request.turbines)
+    least = std::min(least, std::hypot(t.position.x - p.x, t.position.y - p.y));
+  return least;
+}
+
+Box study_area(const Zone& zone) {
+  Box box;
+  for (const Turbine& t : zone.request.turbines) {
+    box.extend(Point2{t.position.x - t.radius, t.position.y - t.radius});
+    box.extend(Point2{t.position.x + t.radius, t.position.y + t.radius});
+  }
+  return box;
+}
+
+/// Values of a function of the position over a box, close enough for smooth lines.
+struct PlaneField {
+  RasterGrid grid;
+  std::vector<float> values;
+
+  template <class Value>
+  PlaneField(const Box& box, const Value& value) {
+    constexpr double kAcross = 800;
+    const double step = std::max(box.width(), box.height()) / kAcross;
+    grid = {{box.xmin - 2 * step, box.ymax + 2 * step},
+            step,
+            step,
+            static_cast<std::int64_t>(box.width() / step) + 5,
+            static_cast<std::int64_t>(box.height() / step) + 5};
+    values.resize(grid.cell_count());
+    parallel_for(static_cast<std::size_t>(grid.rows()), [&](std::size_t row) {
+      for (std::int64_t column = 0; column < grid.columns(); ++column) {
+        const RasterGrid::Cell cell{column, static_cast<std::int64_t>(row)};
+        values[grid.index(cell)] = static_cast<float>(value(grid.centre(cell.column, cell.row)));
+      }
+    });
+  }
+
+  void add_lines(double level, const std::string& label, profile::SheetLines& lines) const {
+    for (auto& points : contour_lines(grid, values, level)) lines.lines.push_back({std::move(points), label});
+  }
+};
+
+/// Returns the step of the rings of distance to the nearest turbine: 5 km; 1 km in small study areas, 10 km in large
+/// ones.
+double ring_step(double farthest) {
+  return farthest <= 7500 ? 1000 : farthest <= 50000 ? 5000 : 10000;
+}
+
+/// Returns the study area's edge, and rings of distance within it.
+MapObjects distance_objects(const Zone& zone) {
+  const Box box = study_area(zone);
+  double farthest = 0;
+  for (const Turbine& t : zone.request.turbines) farthest = std::max(farthest, t.radius);
+  const double step = ring_step(farthest);
+  profile::SheetLines rings{{}, kRing, 0.15, false}, edge{{}, kStudyArea, 0.4, true};
+  const PlaneField distance(box, [&](Point2 p) { return nearest_turbine(zone, p); });
+  for (double at = step; at < farthest; at += step) distance.add_lines(at, fmt::format("{:g} km", at / 1000), rings);
+  PlaneField(box, [&](Point2 p) { return beyond_study_area(zone, p); }).add_lines(0, "", edge);
+  MapObjects objects{{}, {{SheetKey::Sample::kDashes, {kStudyArea}, "Study area"}}};
+  // There are no rings where all radii are shorter than the first ring.
+  if (!rings.lines.empty())
+    objects.keys.push_back(
+        {SheetKey::Sample::kLine, {kRing}, fmt::format("Distance to the nearest turbine, every {:g} km", step / 1000)});
+  objects.layers = {std::move(rings), std::move(edge)};
+  return objects;
+}
+
+Rgba farm_colour(std::size_t farm) {
+  constexpr Rgba kColours[kMostFarmColours] = {{170, 20, 20},  {20, 40, 110}, {0, 90, 60}, {110, 50, 0},
+                                               {100, 20, 100}, {0, 80, 110},  {70, 70, 0}, {60, 60, 60}};
+  return kColours[farm];
+}
+
+/// Returns what a map of hubs adds to the key of turbines of which some have no hub that is known.
+std::string unknown_hubs(std::size_t unknown, std::size_t all) {
+  if (unknown == 0) return "";
+  return unknown == all ? ", of unknown hub height" : fmt::format(", {} of unknown hub height", unknown);
+}
+
+MapObjects turbine_objects(const Zone& zone, bool of_hubs) {
+  std::vector<std::string> farms = farms_of(zone);
+  if (farms.size() > kMostFarmColours) farms = {""};
+  const bool single = farms.size() == 1;
+  MapObjects objects;
+  for (std::size_t f = 0; f < farms.size(); ++f) {
+    profile::SheetMarks marks{profile::SheetSymbol::kTurbine, farm_colour(f), {}};
+    std::size_t unknown = 0;
+    for (const Turbine& t : zone.request.turbines) {
+      if (!single && t.farm != farms[f]) continue;
+      marks.marks.push_back({t.position, fmt::format("{}", t.number)});
+      if (!t.hub_height) ++unknown;
+    }
+    const std::string turbines = counted(marks.marks.size(), "wind turbine") + ", numbered" +
+                                 (of_hubs ? unknown_hubs(unknown, marks.marks.size()) : "");
+    objects.keys.push_back({SheetKey::Sample::kMark,
+                            {marks.colour},
+                            farms[f].empty() ? turbines : fmt::format("{}: {}", farms[f], turbines),
+                            marks.symbol});
+    objects.layers.emplace_back(std::move(marks));
+  }
+  return objects;
+}
+
+MapObjects viewpoint_objects(const std::vector<StudiedViewpoint>& viewpoints) {
+  profile::SheetMarks marks{profile::SheetSymbol::kViewpoint, kViewpoint, {}};
+  for (const auto& [v, bare, screened, remark] : viewpoints)
+    marks.marks.push_back({v.position, fmt::format("{} {}", v.number, v.name)});
+  return {{std::move(marks)}, {{SheetKey::Sample::kMark, {kViewpoint}, "Viewpoint", profile::SheetSymbol::kViewpoint}}};
+}
+
+MapObjects route_objects(const std::vector<StudiedRoute>& routes) {
+  profile::SheetLines lines{{}, kRoute, 0.6, false};
+  for (const StudiedRoute& route : routes) lines.lines.push_back({route.route.corners, route.title()});
+  return {{std::move(lines)}, {{SheetKey::Sample::kLine, {kRoute}, "Route"}}};
+}
+
+MapObjects radio_link_objects(const std::vector<profile::Link>& links) {
+  profile::SheetLines lines{{}, kLink, 0.3, true};
+  for (const profile::Link& link : links) lines.lines.push_back({{link.from, link.to}, link.id});
+  return {{std::move(lines)}, {{SheetKey::Sample::kDashes, {kLink}, "Radio link"}}};
+}
+
+MapObjects radar_objects(const Observer& radar) {
+  const profile::SheetMarks mark{profile::SheetSymbol::kExistingMast, kRadar, {{radar.position, "Radar"}}};
+  return {{mark}, {{SheetKey::Sample::kMark, {kRadar}, "Radar", mark.symbol}}};
+}
+
+/// Returns the objects that a map of hubs, or of what else is seen of the zone, has above its classes.
+std::vector<MapObjects> objects_of(const ZoneStudy& study, const MapObjects& distances, bool of_hubs) {
+  std::vector<MapObjects> objects{distances};
+  if (!study.routes.empty()) objects.push_back(route_objects(study.routes));
+  if (!study.request.links.links.empty()) objects.push_back(radio_link_objects(study.request.links.links));
+  objects.push_back(turbine_objects(study.zone, of_hubs));
+  if (study.zone.request.radar) objects.push_back(radar_objects(*study.zone.request.radar));
+  if (!study.viewpoints.empty()) objects.push_back(viewpoint_objects(study.viewpoints));
+  return objects;
+}
+
+ResultMap classes_of(const Zone& zone, const ZoneMap& map) {
+  ResultMap result;
+  std::uint64_t all = 0;
+  for (const ZoneMap::Class& c : map.classes) all += c.cells;
+  for (const ZoneMap::Class& c : map.classes) {
+    result.keys.push_back(
+        {{over_relief(c.colour)},
+         fmt::format("{}: {} ({:.1f} %)", c.label, area_text(static_cast<double>(c.cells) * zone.grid.cell_area()),
+                     100.0 * static_cast<double>(c.cells) / static_cast<double>(std::max<std::uint64_t>(1, all)))});
+  }
+  for (const std::uint8_t c : map.class_of_cell)
+    result.cells.push_back(c == kNoMapClass ? kTransparent : result.keys[c].colours.front());
+  return result;
+}
+
+std::string without_terrain_in_words(const MissingGround& missing) {
+  if (missing.share() == 0) return "";
+  return fmt::format("; {} of it has no terrain data and is not in the percentages", missing.percent());
+}
+
+/// Tells from how much area more may be visible than shown, apart from the map's class of undecided cells.
+std::string more_in_words(const Zone& zone, const ZoneMap& map) {
+  std::uint64_t more = 0;
+  for (const ZoneMap::Class& c : map.classes)
+    if (!c.undecided) more += c.open_cells;
+  if (more == 0) return "";
+  return fmt::format("ground without data leaves open whether more is visible than shown from {}",
+                     area_text(static_cast<double>(more) * zone.grid.cell_area()));
+}
+
+std::string heights_in_words(const Zone& zone) {
+  double least = std::numeric_limits<double>::infinity(), most = 0;
+  for (const Turbine& t : zone.request.turbines)
+    least = std::min(least, t.tip_height), most = std::max(most, t.tip_height);
+  const std::string tips = least == most ? fmt::format("{:g}", most) : fmt::format("{:g} to {:g}", least, most);
+  return fmt::format("{}, {} m to blade tip", zone.request.turbines.size(), tips);
+}
+
+bool shows_hubs(const ZoneMap& map) {
+  return std::string_view(map.seen) == "hub";
+}
+
+std::string hub_heights_in_words(const Zone& zone) {
+  const std::string known = of_known_hubs(zone);
+  return known.empty() ? "" : fmt::format("; hubs{}, those of the others are not known", known);
+}
+
+std::string radii_in_words(const Zone& zone) {
+  double least = std::numeric_limits<double>::infinity(), most = 0;
+  for (const Turbine& t : zone.request.turbines) least = std::min(least, t.radius), most = std::max(most, t.radius);
+  return least == most
+             ? fmt::format("within {:g} km of each turbine", most / 1000)
+             : fmt::format("within {:g} to {:g} km of each turbine, by its height", least / 1000, most / 1000);
+}
+
+profile::TitleBlock title_block(const ZoneStudy& study, const ZoneMap& map) {
+  const Zone& zone = study.zone;
+  const StoreMetadata& metadata = study.metadata;
+  profile::TitleBlock block;
+  block.title = map.title + (map.screened ? ", screened" : "");
+  block.statement =
+      statement_of(metadata, map.screened ? *zone.request.themes : ThemeChoice::none(), zone.request.detail);
+  if (!map.screened) block.statement += " What is shown as visible may be hidden by them.";
+  block.facts = {{"Turbines", heights_in_words(zone) + (shows_hubs(map) ? hub_heights_in_words(zone) : "")},
+                 {"Study area", radii_in_words(zone) + without_terrain_in_words(study.missing)},
+                 {"Observer", fmt::format("eyes {:g} m above the ground at the centre of cells of {:g} m",
+                                          zone.request.observer_height, zone.grid.cell_width())},
+                 {"Earth", zone.request.earth.curvature
+                               ? "curvature and refraction are taken into account, " + zone.request.earth.convention()
+                               : "flat; curvature and refraction are not taken into account"},
+                 terrain_fact(metadata, zone.request.detail)};
+  if (const std::string undecided = more_in_words(zone, map); !undecided.empty())
+    block.facts.emplace_back("Undecided", undecided);
+  block.sources = described(study.sources, metadata);
+  return block;
+}
+
+}  // namespace
+
+std::vector<ZoneFile> write_study_sheets(const std::string& folder, const Store& store, const ZoneStudy& study,
+                                         const profile::SheetChoice& choice, Progress& progress) {
+  const Zone& zone = study.zone;
+  std::vector<ZoneFile> files;
+  const std::vector<ZoneMap> maps = zone_maps(zone);
+  const MapObjects distances = distance_objects(zone);
+  const MissingOnSheet missing = missing_on_sheet(places_without_ground(zone), study.missing, "the study area");
+  const auto content_of = [&](const ZoneMap& map) {
+    return ResultSheet{zone.grid,
+                       study_area(zone),
+                       classes_of(zone, map),
+                       map.heading + ", and share of the area that has terrain data",
+                       [&](Point2 p) { return beyond_study_area(zone, p) <= 0; },
+                       objects_of(study, distances, shows_hubs(map)),
+                       title_block(study, map),
+                       missing};
+  };
+  std::size_t done = 0;
+  for (const profile::PaperSize paper : choice.papers) {
+    const MapBase base = base_of(store, content_of(maps.front()), paper, choice, progress);
+    for (const ZoneMap& map : maps) {
+      const profile::MapSheet sheet = map_sheet(store, content_of(map), base, paper, choice);
+      for (const std::string& name : sheet_names(map.name, paper)) {
+        write_file(fmt::format("{}/{}", folder, name), profile::draw_map_sheet(sheet, name), true);
+        files.push_back({name, fmt::format("map sheet: {}, {} at 1:{:.0f}", sheet.title.title, profile::name_of(paper),
+                                           profile::scale_of(sheet))});
+      }
+      progress.report("sheets", static_cast<double>(++done) / static_cast<double>(maps.size() * choice.papers.size()));
+    }
+  }
+  return files;
+}
+
+}  // namespace itin::viewshed

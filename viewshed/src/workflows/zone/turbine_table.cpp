@@ -1,0 +1,133 @@
+// Reads turbines: rows of a file, understood or named as bad.
+#include <algorithm>
+#include <cctype>
+#include <map>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <itin/decimal_comma.hpp>
+#include <itin/error.hpp>
+#include <itin/file_digest.hpp>
+#include <itin/parsed_number.hpp>
+#include <itin/position_columns.hpp>
+#include <itin/progress.hpp>
+#include <itin/site_list.hpp>
+#include <itin/site_table.hpp>
+#include <viewshed/zone_study.hpp>
+
+namespace itin::viewshed {
+
+namespace {
+
+enum TurbineField : std::size_t { kHub, kRotor, kTip, kFarm, kName };
+
+std::optional<double> number_in_row(const char* name, const std::optional<std::string>& text) {
+  return text ? std::optional(parse_height(name, with_decimal_point(*text), NumberRange::kPositive)) : std::nullopt;
+}
+
+/// Warns of fields that seem to hold a size of turbines, and are not read.
+void warn_of_likely_sizes(const std::string& file, const LayerFields& layer, const std::vector<SiteField>& read,
+                          std::vector<std::string>& warnings) {
+  constexpr std::pair<const char*, const char*> kSizes[] = {{"hub", "`hub_height_field`"},
+                                                            {"rotor", "`rotor_diameter_field`"},
+                                                            {"blade", "`tip_height_field`"},
+                                                            {"tip", "`tip_height_field`"},
+                                                            {"height", "`tip_height_field`"}};
+  for (const std::string& name : layer.names()) {
+    const auto is_it = [&](const SiteField& field) { return same_column_name(field.name, name); };
+    if (std::any_of(read.begin(), read.end(), is_it)) continue;
+    std::string lower = name;
+    std::transform(lower.begin(), lower.end(), lower.begin(), [](unsigned char c) { return std::tolower(c); });
+    const auto size = std::find_if(std::begin(kSizes), std::end(kSizes),
+                                   [&](const auto& s) { return lower.find(s.first) != std::string::npos; });
+    if (size != std::end(kSizes))
+      warnings.push_back(
+          fmt::format("{}: its field '{}' is not used; {} '{}' would use it", file, name, size->second, name));
+  }
+}
+
+/// Warns of turbines at one place: they count twice, which is seldom meant.
+void warn_of_duplicates(const std::string& file, TurbineTable& list) {
+  std::map<std::pair<double, double>, std::size_t> first;
+  for (const Turbine& t : list.turbines) {
+    const auto [at, fresh] = first.emplace(std::pair(t.position.x, t.position.y), t.number);
+    if (!fresh)
+      list.warnings.push_back(fmt::format("{}: row {} stands at the same place as row {}, {:.10g},{:.10g}; both count",
+                                          file, t.number, at->second, t.position.x, t.position.y));
+  }
+}
+
+/// Returns the size that a row states. The file's size supplies what the row leaves open, but not a size that follows
+/// from two of the row's own. Throws InputError with what is wrong with the row.
+TurbineSize size_in_row(const SiteRow& row, const TurbineSize& otherwise) {
+  TurbineSize size{number_in_row("its hub_height", row.values[kHub]),
+                   number_in_row("its rotor_diameter", row.values[kRotor]),
+                   number_in_row("its tip_height", row.values[kTip])};
+  const bool is_complete = (size.hub && size.rotor) || (size.tip && (size.hub || size.rotor));
+  if (!is_complete) {
+    if (!size.hub) size.hub = otherwise.hub;
+    if (!size.rotor && !(size.hub && size.tip)) size.rotor = otherwise.rotor;
+    if (!size.tip && !(size.hub && size.rotor)) size.tip = otherwise.tip;
+  }
+  size.complete();
+  return size;
+}
+
+Turbine turbine_of(const SiteRow& row, std::size_t number, const TurbineFile& file) {
+  if (!row.position) throw InputError(row.error);
+  const TurbineSize size = size_in_row(row, file.size);
+  Turbine turbine;
+  turbine.number = number;
+  turbine.position = *row.position;
+  turbine.tip_height = *size.tip, turbine.hub_height = size.hub, turbine.rotor_diameter = size.rotor;
+  turbine.farm = row.values[kFarm].value_or(file.farm);
+  turbine.name = row.values[kName].value_or(fmt::format("{}", number));
+  turbine.radius = file.radius.radius(turbine.tip_height);
+  return turbine;
+}
+
+/// Returns the fields in the order of TurbineField. A field that was asked for has to be there.
+std::vector<SiteField> fields_of(const TurbineFile& file, const LayerFields& layer) {
+  const TurbineFile usual;
+  const auto field = [](const std::string& name, const std::string& by_default) {
+    return SiteField{name, name != by_default};
+  };
+  const std::string name = file.name_field.empty() ? name_field_of(layer).value_or(kNameField) : file.name_field;
+  return {field(file.hub_height_field, usual.hub_height_field),
+          field(file.rotor_diameter_field, usual.rotor_diameter_field),
+          field(file.tip_height_field, usual.tip_height_field), field(file.farm_field, usual.farm_field),
+          SiteField{name, !file.name_field.empty()}};
+}
+
+}  // namespace
+
+TurbineTable read_turbines(const TurbineFile& file, const std::string& to_crs) {
+  SiteQuery query;
+  query.path = file.path, query.layer = file.layer, query.where = file.where, query.crs = file.crs;
+  const LayerFields layer(query);
+  const std::vector<SiteField> fields = fields_of(file, layer);
+  TurbineTable table;
+  table.path = file.path, table.radius = file.radius;
+  const std::vector<SiteRow> rows = read_site_rows(query, fields, to_crs, table.warnings);
+  warn_of_likely_sizes(file.path, layer, fields, table.warnings);
+  NoProgress quiet;
+  table.sha256 = file_sha256(file.path, quiet);
+  for (const SiteRow& row : rows) {
+    const std::size_t k = ++table.rows;
+    table.features.push_back(row.feature), table.places.push_back(row.place);
+    try {
+      table.turbines.push_back(turbine_of(row, k, file));
+    } catch (const InputError& error) {
+      table.bad.push_back({k, row.feature, row.place, error.what()});
+    }
+  }
+  warn_of_duplicates(file.path, table);
+  if (table.rows == 0) throw InputError(none_in(query, "turbine"));
+  if (table.turbines.empty())
+    throw InputError(fmt::format("{}: none of its rows can be used ({} in all); the first: {}", file.path, table.rows,
+                                 table.bad.front().message));
+  return table;
+}
+
+}  // namespace itin::viewshed
