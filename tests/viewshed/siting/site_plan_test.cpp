@@ -228,6 +228,12 @@ TEST_F(SitePlans, WriteWhatTheyList) {
   EXPECT_EQ(found, written.size());
   EXPECT_THROW(write_site_plan(folder, made, *store_, progress_), FileError);
   EXPECT_NO_THROW(write_site_plan(folder, made, *store_, progress_, {.overwrite = true}));
+  // Nothing is written where one file would be lost.
+  for (const PlanFile& one : written)
+    if (!one.path.ends_with("links.csv")) std::filesystem::remove(one.path);
+  EXPECT_THROW(write_site_plan(folder, made, *store_, progress_), FileError);
+  EXPECT_FALSE(std::filesystem::exists(written.front().path));
+  EXPECT_FALSE(std::filesystem::exists(folder + "/coverage.png"));
 }
 
 TEST_F(SitePlans, RefuseWhatMakesNoSense) {

@@ -22,6 +22,12 @@ std::string within(const std::string& folder, const std::string& name) {
   return (std::filesystem::path(folder) / name).string();
 }
 
+/// Checks, before any file is written, that none is there already.
+void require_free(const std::vector<PlanFile>& files) {
+  for (const PlanFile& file : files)
+    if (std::filesystem::exists(file.path)) throw FileError(file.path, "exists already; `overwrite` replaces it");
+}
+
 void write_rasters(const std::string& folder, const SitePlan& r, const SitePlanFileOptions& options) {
   const SiteRasters& rasters = r.rasters;
   const SiteWording wording = wording_of(r.request);
@@ -118,6 +124,7 @@ WrittenPlan write_site_plan(const std::string& folder, const SitePlan& plan, con
                             const SitePlanFileOptions& options) {
   const NewFolder made(folder);
   WrittenPlan written{site_plan_files(folder, plan.request), {}};
+  if (!options.overwrite) require_free(written.files);
   write_maps(folder, plan, store, progress, options.overwrite, written.warnings);
   write_rasters(folder, plan, options);
   write_tables(folder, plan, options.overwrite);
