@@ -107,7 +107,8 @@ class LosVerb final : public Verb {
       if (heights_text_.empty()) throw InputError("--profile-csv needs --heights h1,h2");
       heights_ = parse_tuple("--heights", heights_text_, 2, "h1,h2");
       for (const double height : heights_) require_height(height, "--heights");
-      if (heights_[0] < 0 || heights_[1] < 0) throw InputError("--heights: a height must not be negative");
+      if (heights_[0] < 0 || heights_[1] < 0)
+        throw InputError("--heights: a height must not be negative; 0 is the ground itself");
     } else {
       if (!heights_text_.empty())
         throw InputError("--heights works only with --profile-csv; give heights in --from, --to");

@@ -29,7 +29,7 @@ void ZtvRadioOptions::validate() {
   if (radar_text_.empty()) return;
   radar_place_ = parse_place("--radar", radar_text_);
   if (!radar_place_->height) throw InputError(fmt::format("--radar '{}': expected x,y,h", radar_text_));
-  if (*radar_place_->height < 0) throw InputError("--radar: its height must not be negative");
+  if (*radar_place_->height < 0) throw InputError("--radar: a height must not be negative; 0 is the ground itself");
 }
 
 Document ZtvRadioOptions::parameters() const {

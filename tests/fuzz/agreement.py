@@ -5,15 +5,17 @@ turbines, coverage of sites, and sight lines.
     tests/fuzz/agreement.py FIRST_SEED COUNT      with build/test/bin/itin, or ITIN_PROGRAM; needs gdal-bin python3-gdal
 
 Every seed imports terrain (raster, contours or scattered points) and features in a random order, checks the store, looks
-from three places, by radio from two, at turbines, and from the best of three sites, and in every mode from cell centres, posts, corners of
-what stands and the data's edge, or a little beside them. What disagrees, fails or takes ten minutes is printed; its
-folder in build/fuzz is kept.
+from three places, by radio from two, at turbines, and from the best of three sites, and in every mode from cell centres,
+posts, corners of what stands and the data's edge, or a little beside them. Tables have separators, decimal commas,
+quotes and encodings of many kinds. What disagrees, fails or takes ten minutes is printed; its folder in build/fuzz is
+kept.
 """
 import csv
 import json
 import math
 import os
 import random
+import re
 import shutil
 import subprocess
 import sys
@@ -375,7 +377,7 @@ class Trial:
         cell = self.cell_size()
         turbines = [(self.centred(self.place(0.05), cell) if r.random() < 0.5 else self.place(0.05), r.choice([2, 30, 120]))
                     for _ in range(r.choice([1, 3, 40]))]
-        self.write_sites("turbines.csv", "x,y,tip_height", [(*place, tip) for place, tip in turbines])
+        self.write_table("turbines.csv", ["x", "y", "tip_height"], [(*map(float, place), tip) for place, tip in turbines])
         radius, shared = self.side * r.choice([0.2, 0.6, 2]), self.shared_options()
         call = ["ztv", self.store, "--turbines", self.path("turbines.csv"), "--radius", radius, "--cell", cell,
                 "--observer-height", 2, "--memory", r.choice(["5M", "20M", "2G"]), "-o", self.path("ztv"), "--overwrite",
@@ -402,7 +404,8 @@ class Trial:
     def choose_site(self):
         r = self.random
         cell = self.cell_size()
-        self.write_sites("candidates.csv", "name,x,y", [(f"c{i}", *self.centred(self.place(0.05), cell)) for i in range(3)])
+        sites = {self.odd_name(i).replace("\n", " "): self.centred(self.place(0.05), cell) for i in range(3)}
+        self.write_table("candidates.csv", ["name", "x", "y"], [(name, *place) for name, place in sites.items()])
         shared = [*self.shared_options(), "--target-on", r.choice(["ground", "surface"])]
         looks = ["--target-height", r.choice([0, 1.5, 10]), "--radius", self.side * r.choice([0.2, 0.6]), "--overwrite",
                  "--quiet", *shared]
@@ -411,8 +414,11 @@ class Trial:
         call += r.choice([[], ["--tolerance", r.choice([0, 2])]])
         self.log(*call)
         itin(*call)
-        with open(self.path("site/sites.csv"), encoding="utf-8") as file:
+        with open(self.path("site/sites.csv"), encoding="utf-8", newline="") as file:
             site = next(csv.DictReader(file))
+        name = site.get("id", site.get("name"))
+        if name not in sites or math.dist(sites[name], (float(site["x"]), float(site["y"]))) > GRID_STEP_M:
+            self.faults.append(f"site: no candidate {site} among {sites}")
         itin("viewshed", self.store, "--precise", "--observer", f"{site['x']},{site['y']},15", "--like",
              self.path("site/coverage.tif"), *looks, "-o", self.path("of-site.tif"))
         served, precise = self.raster("site/coverage.tif"), self.raster("of-site.tif")
@@ -420,10 +426,29 @@ class Trial:
         if wrong:
             self.faults.append(f"site: {wrong} cells are served otherwise than precise")
 
-    def write_sites(self, name, header, rows):
-        with open(self.path(name), "w", encoding="ascii") as file:
-            print(header, *(",".join(map(str, row)) for row in rows), sep="\n",
-                  file=file)
+    def odd_name(self, number):
+        return str(number) + self.random.choice(
+            ["", " M\u00fcllers H\u00f6he", ' the "Old" Mast', " Pen-y-Fan, west", " a;b", " Ca\u00f1\u00f3n #5", " two\nlines"])
+
+    def write_table(self, name, header, rows):
+        """A table as people have them: separators, decimal commas, quotes, encodings and rows that say nothing."""
+        r = self.random
+        separator, comma = r.choice([(",", "."), (";", "."), (";", ","), ("\t", "."), ("\t", ","), (",", ",")])
+        always_quoted, ending = r.random() < 0.2, r.choice(["\n", "\r\n"])
+
+        def cell(value):
+            text = value if isinstance(value, str) else re.sub(r"^(-?[1-9]\d{0,2},\d{3})$", r"\g<1>0", repr(value).replace(".", comma))
+            quoted = always_quoted or any(mark in text for mark in separator + '"\n')
+            return '"' + text.replace('"', '""') + '"' if quoted else text
+
+        lines = [separator.join(map(cell, row)) for row in [header, *rows]]
+        nothing = ["", separator * (len(header) - 1), "# no row"]
+        for _ in range(r.choice([0, 0, 3])):
+            lines.insert(r.randint(0, len(lines)), r.choice(nothing))
+        if r.random() < 0.1:
+            lines.insert(0, "sep=" + separator)
+        with open(self.path(name), "wb") as file:
+            file.write((ending.join(lines) + r.choice([ending, ""])).encode(r.choice(["utf-8", "utf-8-sig", "utf-16", "cp1252"])))
 
     def centre_rows(self, name, side):
         return [self.centres(name, [(row, column) for column in range(side)]) for row in range(side)]
@@ -434,18 +459,21 @@ class Trial:
 
     def links(self, ends, options):
         """What is said of each (place, height, place, height), as rows of a table."""
-        with open(self.path("links.csv"), "w", encoding="ascii") as file:
-            print("id,x1,y1,h1,x2,y2,h2", file=file)
-            for i, (a, up, b, over) in enumerate(ends):
-                print(f"{i},{a[0]!r},{a[1]!r},{up},{b[0]!r},{b[1]!r},{over}", file=file)
+        names = [self.odd_name(i) for i in range(len(ends))]
+        self.write_table("links.csv", ["id", "x1", "y1", "h1", "x2", "y2", "h2"],
+                         [(name, *map(float, a), up, *map(float, b), over) for name, (a, up, b, over) in zip(names, ends)])
+        if os.path.exists(self.path("los.csv")):
+            os.remove(self.path("los.csv"))
         try:
             itin("los", self.store, "--links", self.path("links.csv"), "-o", self.path("los.csv"), "--overwrite", "--quiet",
                  *options)
         except Refusal as refusal:  # some ends without ground, which the table names
+            if not os.path.exists(self.path("los.csv")):
+                raise
             self.log("refused:", refusal)
-        with open(self.path("los.csv"), encoding="utf-8") as file:
-            links = {int(link["id"]): link for link in csv.DictReader(file)}
-        return [links[i] for i in range(len(ends))]
+        with open(self.path("los.csv"), encoding="utf-8", newline="") as file:
+            links = {link["id"]: link for link in csv.DictReader(file)}
+        return [links[name.replace("\n", " ")] for name in names]
 
     def lines(self, ends, options):
         """Of each (place, height, place, height): its verdict as rasters have it, none of an error, and its clearance in
@@ -463,6 +491,8 @@ class Trial:
                 ask()
             except Refusal as refusal:
                 self.log("refused:", refusal)
+                if ".csv" in str(refusal):  # every table is a right one
+                    self.faults.append(str(refusal))
 
 
 def main():

@@ -23,7 +23,9 @@ double parse_number(std::string_view name, std::string_view text, NumberRange ra
 }
 
 double parse_height(std::string_view name, std::string_view text, NumberRange range) {
-  const double height = parse_number(name, text, range);
+  const double height = parse_number(name, text, range == NumberRange::kNotNegative ? NumberRange::kAny : range);
+  if (range == NumberRange::kNotNegative && height < 0)
+    refuse_number(name, text, "a height must not be negative; 0 is the ground itself");
   require_height(height, fmt::format("{} '{}'", name, text));
   return height;
 }

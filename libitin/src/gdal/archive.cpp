@@ -26,7 +26,7 @@ bool is_vector_name(const std::string& name) {
 
 }  // namespace
 
-std::string within_archive(const std::string& path) {
+std::string within_archive(const std::string& path, const std::string& what) {
   if (ending_of(path) != ".zip" || path.starts_with("/vsi") || is_missing(path)) return path;
   require_plain_file(path);
   const std::string archive = "/vsizip/" + path;
@@ -34,7 +34,7 @@ std::string within_archive(const std::string& path) {
   std::vector<std::string> found;
   for (int i = 0; i < names.size(); ++i)
     if (is_vector_name(names[i])) found.emplace_back(names[i]);
-  if (found.empty()) throw FileError(path, "holds no vector file or table; unpack what is in it");
+  if (found.empty()) throw FileError(path, fmt::format("holds no {} that can be read; unpack other files first", what));
   if (found.size() > 1)
     throw FileError(path, fmt::format("holds several files, {}; unpack the one that is meant", found));
   return archive + "/" + found.front();

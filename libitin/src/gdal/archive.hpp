@@ -6,7 +6,7 @@
 namespace itin {
 
 /// Returns GDAL's name of the one vector file or table in a .zip, or `path` where that is no .zip. Throws FileError for
-/// an archive with none or several.
-std::string within_archive(const std::string& path);
+/// an archive with several, or with none, whose message says that `what` is missing.
+std::string within_archive(const std::string& path, const std::string& what = "vector file or table");
 
 }  // namespace itin

@@ -19,6 +19,7 @@
 #include <itin/grid_reference.hpp>
 #include <itin/parallel.hpp>
 
+#include "base/remembered.hpp"
 #include "gdal/quiet_gdal.hpp"
 #include "gdal/vertical_axis.hpp"
 
@@ -33,12 +34,20 @@ bool set_from(OGRSpatialReference& reference, const std::string& text) {
   return set;
 }
 
+/// Tells whether PROJ knows a code, which may take it tenths of a second.
+bool is_known(const std::string& code) {
+  static Remembered<bool> known;
+  return known.of(code, [&] {
+    OGRSpatialReference reference;
+    return set_from(reference, code);
+  });
+}
+
 /// Removes a code that nobody knows, such as EPSG:0, EPSG:32767 or LOCAL:1: such a CRS is what its text says.
 void forget_unknown_code(OGRSpatialReference& reference) {
   const char* authority = reference.GetAuthorityName(nullptr);
   const char* code = reference.GetAuthorityCode(nullptr);
-  OGRSpatialReference known;
-  if (!authority || !code || set_from(known, fmt::format("{}:{}", authority, code))) return;
+  if (!authority || !code || is_known(fmt::format("{}:{}", authority, code))) return;
   char* text = nullptr;
   reference.exportToPROJJSON(&text, nullptr);
   const std::unique_ptr<char, void (*)(void*)> owner(text, VSIFree);
@@ -89,10 +98,9 @@ bool agree(const OGRSpatialReference& given, const OGRSpatialReference& known) {
   return true;
 }
 
-/// Replaces a CRS without a code by the one that an authority knows. ESRI's and other dialects come without codes, with
-/// rounded parameters, and with datum names that coordinate operations are not found by.
-void replace_by_authority(OGRSpatialReference& reference) {
-  if (reference.GetAuthorityCode(nullptr)) return;
+/// Returns the code by which an authority knows a CRS that has none; empty where there is no such code. Takes PROJ a
+/// second or more.
+std::string code_of_match(const OGRSpatialReference& reference) {
   int count = 0;
   int* confidences = nullptr;
   OGRSpatialReferenceH* candidates = reference.FindMatches(nullptr, &count, &confidences);
@@ -100,11 +108,19 @@ void replace_by_authority(OGRSpatialReference& reference) {
   const std::unique_ptr<OGRSpatialReferenceH, void (*)(OGRSpatialReferenceH*)> owner(candidates, OSRFreeSRSArray);
   for (int i = 0; i < count; ++i) {
     // A match does not always know its area of use; the authority does.
-    const OGRSpatialReference known = understood(name_of(*OGRSpatialReference::FromHandle(candidates[i])), "PROJ");
-    if (!agree(reference, known)) continue;
-    reference = known;
-    return;
+    std::string code = name_of(*OGRSpatialReference::FromHandle(candidates[i]));
+    if (agree(reference, understood(code, "PROJ"))) return code;
   }
+  return {};
+}
+
+/// Replaces a CRS without a code by the one that an authority knows. ESRI's and other dialects come without codes, with
+/// rounded parameters, and with datum names that coordinate operations are not found by.
+void replace_by_authority(OGRSpatialReference& reference) {
+  if (reference.GetAuthorityCode(nullptr)) return;
+  static Remembered<std::string> codes;
+  const std::string code = codes.of(wkt_of(reference), [&] { return code_of_match(reference); });
+  if (!code.empty()) reference = understood(code, "PROJ");
 }
 
 /// Removes all but the horizontal part.
@@ -180,7 +196,7 @@ Crs parse_any_crs(const std::string& text, const std::string& place) {
   if (reference.IsVertical() && !reference.IsCompound()) return crs;
   const bool has_code = reference.GetAuthorityCode(nullptr) != nullptr;
   std::string vertical_code = reference.IsCompound() ? epsg_code(reference, "VERT_CS") : "";
-  if (OGRSpatialReference known; !set_from(known, "EPSG:" + vertical_code)) vertical_code.clear();
+  if (!is_known("EPSG:" + vertical_code)) vertical_code.clear();
   strip_heights(reference);
   if (!reference.IsProjected() && !reference.IsGeographic())
     throw InputError(fmt::format("{}: the CRS {} is neither projected nor geographic", place, name_of(reference)));

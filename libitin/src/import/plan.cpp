@@ -11,6 +11,7 @@
 #include <itin/file_ending.hpp>
 #include <itin/window_source.hpp>
 
+#include "gdal/archive.hpp"
 #include "gdal/source_path.hpp"
 #include "import/points/point_source.hpp"
 #include "import/rasters/raster_source.hpp"
@@ -49,13 +50,20 @@ struct Identified {
   SourceKind kind;
 };
 
+/// GDAL's name of the layer of points in a .zip. Tables of points are read without GDAL.
+std::string points_in_archive(const std::string& path) {
+  std::string inside = within_archive(path, "raster or vector file");
+  if (is_delimited_text(inside)) throw FileError(path, "holds a table; unpack it");
+  return inside;
+}
+
 Identified identify(const std::string& path) {
   require_plain_file(path);
   if (is_las(path)) return {{path}, SourceKind::las};
   if (std::vector<std::string> rasters = find_rasters(path); !rasters.empty())
     return {std::move(rasters), SourceKind::raster};
   if (is_missing(path)) throw FileError(path, "there is no such file");
-  if (ending_of(path) == ".zip") throw FileError(path, "holds no raster that can be read; unpack other files first");
+  if (ending_of(path) == ".zip") return {{points_in_archive(path)}, SourceKind::points};
   return {{path}, is_delimited_text(path) ? SourceKind::text : SourceKind::points};
 }
 

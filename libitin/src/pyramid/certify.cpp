@@ -1,6 +1,7 @@
 #include "pyramid/certify.hpp"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <map>
 #include <numeric>
@@ -16,6 +17,7 @@
 #include "pyramid/cell_verification.hpp"
 #include "pyramid/changed_by_lines.hpp"
 #include "pyramid/whole_levels.hpp"
+#include "triangulate/triangle_box.hpp"
 
 namespace itin {
 
@@ -102,6 +104,17 @@ struct Raise {
   Task by;  ///< the task whose bounds take it into account
 };
 
+/// Appends the leaves whose squares meet a triangle. The box of a long one, as across the sea, meets far more.
+void leaves_under(const WorkingIndex& index, const std::array<Position, 3>& corners,
+                  std::vector<std::uint32_t>& leaves) {
+  const auto first = static_cast<std::ptrdiff_t>(leaves.size());
+  index.leaves_at(box_of(corners), leaves);
+  leaves.erase(std::remove_if(
+                   leaves.begin() + first, leaves.end(),
+                   [&](std::uint32_t leaf) { return !triangle_meets(corners, square_of(index.ranges()[leaf].cell)); }),
+               leaves.end());
+}
+
 /// A raised vertex changes the surface within its star, for every level it newly belongs to.
 void mark_star(const WorkingIndex& index, const std::vector<std::int32_t>& tolerances, const Raise& raise,
                Disturbed& disturbed) {
@@ -109,8 +122,9 @@ void mark_star(const WorkingIndex& index, const std::vector<std::int32_t>& toler
   std::vector<std::uint32_t> leaves;
   for (int k = raise.from + 1; k <= raise.to; ++k) {
     leaves.clear();
-    const RegionMesh about = triangulate_region(index, levels_from(k, tolerances), {p.x, p.y, p.x, p.y});
-    index.leaves_at(box_of(about.vertices, &SelectedVertex::point), leaves);
+    const RegionMesh star = triangulate_region(index, levels_from(k, tolerances), {p.x, p.y, p.x, p.y});
+    for (std::uint32_t t = 0; t < star.mesh.triangles.size(); ++t) leaves_under(index, star.corners(t), leaves);
+    sort_unique(leaves);
     for (const std::uint32_t leaf : leaves) {
       const bool known = (raise.by.levels >> k & 1) && raise.by.covers(index.ranges()[leaf].cell);
       if (!known) disturbed.mark(leaf, 1u << k);
@@ -181,12 +195,13 @@ std::vector<LineHierarchy::Shortcut> failing_shortcuts(const std::vector<CellOut
   return result;
 }
 
-/// The share of the time that a round takes which looks at everything.
-constexpr double kFirstRound = 0.6;
+/// The share of the time that a round takes which looks at everything. Where coarse triangles are long, mending takes
+/// longer.
+constexpr double kFirstRound = 0.6, kFirstRoundOfLong = 0.3;
 
 }  // namespace
 
-LeafBounds certify(WorkingIndex& index, const std::vector<std::int32_t>& tolerances, bool whole_levels,
+LeafBounds certify(WorkingIndex& index, const std::vector<std::int32_t>& tolerances, bool long_triangles,
                    const RestoreLines& restore, Progress& progress) {
   index.keep_coarse_points();
   const int levels = static_cast<int>(tolerances.size());
@@ -210,10 +225,10 @@ LeafBounds certify(WorkingIndex& index, const std::vector<std::int32_t>& toleran
       continue;
     }
     disturbed.clear();
-    call.step(mend ? 0.5 : kFirstRound);
+    call.step(mend ? 0.5 : long_triangles ? kFirstRoundOfLong : kFirstRound);
 
     std::optional<WholeLevels> whole;
-    if (whole_levels && !mend) whole.emplace(index, tolerances, levels_of_tasks(tasks));
+    if (long_triangles && !mend) whole.emplace(index, tolerances, levels_of_tasks(tasks));
     std::vector<CellOutcome> outcomes(tasks.size());
     std::atomic<std::size_t> done = 0;
     parallel_for(tasks.size(), [&](std::size_t i) {

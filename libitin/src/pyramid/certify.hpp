@@ -26,9 +26,9 @@ using RestoreLines = std::function<std::vector<LineHierarchy::Restored>(const st
 /// lines were put back, are verified again. So the outcome depends on the points alone, not on threads. Throws Error
 /// where a level fails and nothing is left to put back.
 ///
-/// `whole_levels` holds coarse levels as a whole (whole_levels.hpp) in the first rounds, for where their triangles are
-/// long. In the later rounds the levels change, and few cells are left.
-LeafBounds certify(WorkingIndex& index, const std::vector<std::int32_t>& tolerances, bool whole_levels,
+/// `long_triangles`: coarse triangles are long, as across the sea. Then coarse levels are held as a whole
+/// (whole_levels.hpp) in the first rounds. In the later rounds the levels change, and few cells are left.
+LeafBounds certify(WorkingIndex& index, const std::vector<std::int32_t>& tolerances, bool long_triangles,
                    const RestoreLines& restore, Progress& progress);
 
 }  // namespace itin

@@ -49,7 +49,7 @@ std::vector<Corners> ground_about(const GridBox& box, const SourceIndex& points,
   std::vector<Corners> ground;
   if (near.empty()) return ground;
   RegionReader read(points, everything);
-  read.start(near, nullptr, near);
+  read.start(near, {}, near);
   std::vector<Position> positions;
   for (const SelectedVertex& v : read.vertices()) positions.push_back(v.position());
   const GridBox known = with_all_beyond(near, points.bounds());

@@ -160,7 +160,7 @@ class PyramidBuild {
 
   PyramidReport run() {
     const bool alone = lines_.empty();
-    progress_.step(alone ? kGroundAlone : kGroundUnderLines);
+    progress_.step(!alone ? kGroundUnderLines : sea_ ? kGroundBesideSea : kGroundAlone);
     find_coverage();
     progress_.step(alone ? 0 : kLines);
     place();
@@ -182,8 +182,8 @@ class PyramidBuild {
 
  private:
   /// About the share that a step takes of the time that is left.
-  static constexpr double kGroundAlone = 0.8, kGroundUnderLines = 0.2, kLines = 0.1, kProposal = 0.7,
-                          kCertificates = 0.85;
+  static constexpr double kGroundAlone = 0.8, kGroundBesideSea = 0.4, kGroundUnderLines = 0.2, kLines = 0.1,
+                          kProposal = 0.7, kCertificates = 0.85;
 
   void index_points() {
     index_.emplace(points_, levels_, kLeafCapacity);
@@ -285,10 +285,8 @@ class PyramidBuild {
 
   /// Step 6: certifies the levels.
   LeafBounds certify_levels() {
-    // Coarse triangles across the sea are long.
-    const bool sea = std::any_of(sources_.begin(), sources_.end(), is_sea);
     return certify(
-        *index_, whole_units_, sea, [&](const auto& shortcuts) { return restore(shortcuts); }, progress_);
+        *index_, whole_units_, sea_, [&](const auto& shortcuts) { return restore(shortcuts); }, progress_);
   }
 
   /// Step 7: writes points and bounds, level by level.
@@ -364,7 +362,8 @@ class PyramidBuild {
   StoreWriter& writer_;
   CallProgress progress_;
   const Sources ground_ = ground_sources(sources_);
-  std::vector<double> units_;  ///< tolerances in grid units
+  const bool sea_ = std::any_of(sources_.begin(), sources_.end(), is_sea);  ///< then coarse triangles are long
+  std::vector<double> units_;                                               ///< tolerances in grid units
   std::vector<std::int32_t> whole_units_;
   std::optional<SortedPoints> imported_;  ///< where `points_` has become the points of the surface
   std::optional<WorkingIndex> index_;

@@ -7,6 +7,7 @@
 
 #include <itin/box_of.hpp>
 
+#include "geometry/box_gap.hpp"
 #include "triangulate/apex_frame.hpp"
 #include "triangulate/sight_fan.hpp"
 
@@ -234,23 +235,41 @@ std::optional<SelectedVertex> ApexSearch::left_of(Position a, Position b, Segmen
   return least_circle(frame, span * span * (frame.r + 1), nullptr, {}, segments);
 }
 
-std::optional<SelectedVertex> ApexSearch::inside(Position a, Position b, Position c) {
+std::optional<SelectedVertex> ApexSearch::inside(Position a, Position b, Position c, const GridBox& near) {
   const GridBox box = box_of(std::array{a, b, c});
   if (known_.contains(box)) return std::nullopt;
-  leaves_.clear();
-  selected_leaves(index_, selection_, box, leaves_);
-  for (const Leaf& leaf : leaves_) {
-    const auto block = blocks_.read(leaf);
+  const auto holds = [&](Position p) {
+    return p != a && p != b && p != c && orientation(a, b, p) >= 0 && orientation(b, c, p) >= 0 &&
+           orientation(c, a, p) >= 0;
+  };
+  std::optional<SelectedVertex> nearest;
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto& [leaf_gap, leaf] : leaves_from(near, box)) {
+    if (leaf_gap >= least) break;
+    const auto block = blocks_.read(*leaf);
     for (std::size_t k = 0; k < block->points.size(); ++k) {
-      const Position p{block->points[k].x, block->points[k].y};
-      if (!box.contains(p.x, p.y) || known_.contains(p.x, p.y) || p == a || p == b || p == c) continue;
-      if (orientation(a, b, p) < 0 || orientation(b, c, p) < 0 || orientation(c, a, p) < 0) continue;
-      const std::uint8_t level = level_of(leaf, *block, k);
-      if (selection_.selects(level, p.x, p.y))
-        return SelectedVertex{block->points[k], block->sources[k], level, block->theme(k)};
+      const GridPoint& point = block->points[k];
+      const Position p{point.x, point.y};
+      if (!box.contains(p.x, p.y) || known_.contains(p.x, p.y)) continue;
+      const double distance = squared_gap(near, {p.x, p.y, p.x, p.y});
+      const std::uint8_t level = level_of(*leaf, *block, k);
+      if (distance >= least || !holds(p) || !selection_.selects(level, p.x, p.y)) continue;
+      nearest = SelectedVertex{point, block->sources[k], level, block->theme(k)};
+      least = distance;
     }
   }
-  return std::nullopt;
+  return nearest;
+}
+
+/// The leaves that meet `box`, each with the squared distance of its part in there from
+/// `place`, ascending.
+std::vector<std::pair<double, const Leaf*>> ApexSearch::leaves_from(const GridBox& place, const GridBox& box) {
+  leaves_.clear();
+  selected_leaves(index_, selection_, box, leaves_);
+  std::vector<std::pair<double, const Leaf*>> found;
+  for (const Leaf& leaf : leaves_) found.emplace_back(squared_gap(place, intersection(leaf.cell.box(), box)), &leaf);
+  std::sort(found.begin(), found.end());
+  return found;
 }
 
 std::optional<SelectedVertex> ApexSearch::at(Position p) {

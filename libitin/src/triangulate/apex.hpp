@@ -15,6 +15,7 @@
 #include <limits>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <itin/geometry.hpp>
@@ -66,8 +67,9 @@ class ApexSearch {
   /// rule.)
   std::optional<SelectedVertex> intruder(Position a, Position b, Position c);
 
-  /// Returns a vertex in the closed triangle abc (counterclockwise) other than its corners, if there is any.
-  std::optional<SelectedVertex> inside(Position a, Position b, Position c);
+  /// Returns the vertex in the closed triangle abc (counterclockwise) that is nearest to a box, other than its corners,
+  /// if there is any.
+  std::optional<SelectedVertex> inside(Position a, Position b, Position c, const GridBox& near);
 
   /// Returns the selected vertex at this very position.
   std::optional<SelectedVertex> at(Position p);
@@ -85,6 +87,7 @@ class ApexSearch {
                                              const GridBox& known, Segments segments);
   std::optional<SelectedVertex> nearest_circle(const ApexFrame& frame, double lambda, const Position* beyond,
                                                const GridBox& known, Segments segments);
+  std::vector<std::pair<double, const Leaf*>> leaves_from(const GridBox& place, const GridBox& box);
   void search_leaf(const Leaf& leaf, Search& search);
 
   const PointIndex& index_;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 #include <set>
+#include <span>
 #include <utility>
 
 #include <fmt/format.h>
@@ -13,6 +14,7 @@
 #include <itin/sort_unique.hpp>
 
 #include "base/stoppable.hpp"
+#include "geometry/box_gap.hpp"
 #include "triangulate/circumdisc.hpp"
 #include "triangulate/cut_out.hpp"
 #include "triangulate/enclosure.hpp"
@@ -34,6 +36,8 @@ constexpr int kPatience = 32;
 /// and kFewPoints more.
 constexpr std::uint64_t kGrowth = 8, kLargeGrowth = 2;
 constexpr std::uint64_t kManyPoints = 1 << 16, kFewPoints = 4096;
+/// About as many of the nearest points surround open water.
+constexpr std::uint64_t kSeedPoints = 256;
 /// The side of cells in mean point spacings: cells have about 64 points.
 constexpr double kCellSide = 8;
 /// The cost of reading a cell, expressed in points. Over open water there are many cells, all empty.
@@ -79,7 +83,7 @@ class RegionTriangulation {
   bool triangulate_box(double margin) {
     margin_ = margin;
     box_ = read_box_ = box_with(margin_);
-    for (triangulate(nullptr); mesh().triangles.empty(); triangulate(nullptr)) {
+    for (triangulate({}); mesh().triangles.empty(); triangulate({})) {
       if (box_.contains(index_.bounds())) return false;
       box_ = box_with(margin_ *= 4);
       if (triangulate_seed()) return true;
@@ -89,23 +93,27 @@ class RegionTriangulation {
     return true;
   }
 
-  /// Triangulates the first land beyond open water. Where reading the whole box takes long, one leaf of it and the
-  /// lines are enough to start from. Returns false where this does not apply.
+  /// Triangulates the nearest land beyond open water. Where reading the whole box takes long, a few leaves of it and
+  /// the lines are enough to start from. Returns false where this does not apply.
   bool triangulate_seed() {
     const std::vector<Leaf> leaves = read_.leaves_in(box_);
     if (RegionReader::points_of(leaves, box_) <= kFewPoints) return false;
-    const auto distance = [&](const Leaf& leaf) {
-      const GridBox b = leaf.cell.box();
-      return std::max({0.0, 0.0 + b.xmin - tile_.xmax, 0.0 + tile_.xmin - b.xmax, 0.0 + b.ymin - tile_.ymax,
-                       0.0 + tile_.ymin - b.ymax});
-    };
-    triangulate(&*std::min_element(leaves.begin(), leaves.end(),
-                                   [&](const Leaf& a, const Leaf& b) { return distance(a) < distance(b); }));
+    std::vector<std::pair<double, std::size_t>> nearest_first;
+    for (std::size_t i = 0; i < leaves.size(); ++i)
+      nearest_first.emplace_back(squared_gap(tile_, leaves[i].cell.box()), i);
+    std::sort(nearest_first.begin(), nearest_first.end());
+    std::vector<Leaf> seed;
+    std::uint64_t points = 0;
+    for (auto next = nearest_first.begin(); next != nearest_first.end() && points < kSeedPoints; ++next) {
+      seed.push_back(leaves[next->second]);
+      points += seed.back().points;
+    }
+    triangulate(seed);
     return !mesh().triangles.empty();
   }
 
-  /// Triangulates all points in read_box_ and in the seed, if given, with all segments in box_.
-  void triangulate(const Leaf* seed) {
+  /// Triangulates all points in read_box_ and in the seed, with all segments in box_.
+  void triangulate(std::span<const Leaf> seed) {
     hull_.clear();
     read_.start(read_box_, seed, box_);
     bare_beyond_ = with_all_beyond(read_box_, index_.bounds());
@@ -361,8 +369,9 @@ class RegionTriangulation {
       fresh.insert(fresh.end(), crossing.begin(), crossing.end());
       if (!crossing.empty()) return;
     }
-    // A vertex within a triangle removes the triangle, and with it all questions about what it sees.
-    std::optional<SelectedVertex> found = search_.inside(corner(t, 0), corner(t, 1), corner(t, 2));
+    // A vertex within a triangle removes the triangle, and with it all questions about what it sees. The one nearest to
+    // the region removes most of the open water about it.
+    std::optional<SelectedVertex> found = search_.inside(corner(t, 0), corner(t, 1), corner(t, 2), tile_);
     for (int i = 0; i < 3 && !found; ++i) {
       // The place beyond edge i is left of the reversed edge.
       if (!constrained(t, i)) found = search_.intruder(corner(t, i + 2), corner(t, i + 1), corner(t, i));

@@ -41,9 +41,9 @@ double RegionReader::points_of(const std::vector<Leaf>& leaves, const GridBox& b
   });
 }
 
-void RegionReader::start(const GridBox& box, const Leaf* leaf, const GridBox& leaf_box) {
+void RegionReader::start(const GridBox& box, std::span<const Leaf> leaves, const GridBox& box_of_leaves) {
   std::vector<Coded> found = points(box);
-  if (leaf != nullptr) read_block(*leaf, leaf_box, found);
+  for (const Leaf& leaf : leaves) read_block(leaf, box_of_leaves, found);
   merge_runs(found, [](const Coded& a, const Coded& b) { return a.first < b.first; });
   // Themes may share a vertex, and a leaf may be read twice.
   found.erase(

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <set>
+#include <span>
 #include <unordered_map>
 #include <unordered_set>
 #include <utility>
@@ -26,9 +27,9 @@ class RegionReader {
   static double points_of(const std::vector<Leaf>& leaves, const GridBox& box);
   double points_in(const GridBox& box) const { return points_of(leaves_in(box), box); }
 
-  /// Forgets everything, and reads the points of one box and, if given, those of a leaf in another. They get the first
+  /// Forgets everything, and reads the points of one box, and those of some leaves in another. They get the first
   /// numbers, in Morton order.
-  void start(const GridBox& box, const Leaf* leaf, const GridBox& leaf_box);
+  void start(const GridBox& box, std::span<const Leaf> leaves, const GridBox& box_of_leaves);
   /// The points of a box, with their Morton codes.
   using Coded = std::pair<std::uint64_t, SelectedVertex>;
   std::vector<Coded> points(const GridBox& box);

@@ -24,12 +24,19 @@ void require_heights(const StoreLine& line, const LosQuery& query) {
   require("to", query.to_height_m, line.to_is_elevation);
 }
 
+constexpr const char* kElevationOverNothing =
+    ", and its elevation does not tell whether it is above ground; move it onto the data, or, where it is the sea, "
+    "import "
+    "with `sea_level`";
+
 void require_ground(const StoreLine& line, const Profile& profile) {
-  const auto none_at = [](const char* field, Point2 p) {
-    return InputError(fmt::format("{}: there is no ground at {:.2f},{:.2f}; move it onto the data", field, p.x, p.y));
+  const auto none_at = [](const char* field, Point2 p, bool is_elevation) {
+    return InputError(fmt::format("{}: there is no ground at {:.2f},{:.2f}{}", field, p.x, p.y,
+                                  is_elevation ? kElevationOverNothing : "; move it onto the data"));
   };
-  if (profile.points.empty() || profile.points.front().distance_m != 0) throw none_at("`from`", line.from);
-  if (profile.points.back().distance_m != profile.length_m) throw none_at("`to`", line.to);
+  if (profile.points.empty() || profile.points.front().distance_m != 0)
+    throw none_at("`from`", line.from, line.from_is_elevation);
+  if (profile.points.back().distance_m != profile.length_m) throw none_at("`to`", line.to, line.to_is_elevation);
 }
 
 /// The height of an antenna at an elevation above what its end stands on.

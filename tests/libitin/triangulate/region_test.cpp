@@ -276,6 +276,43 @@ INSTANTIATE_TEST_SUITE_P(Region, RegionCoverage,
                          testing::Values(Pattern::kRandom, Pattern::kLattice, Pattern::kClusters, Pattern::kContours,
                                          Pattern::kGappyLattice, Pattern::kTurnedLattice));
 
+constexpr std::int32_t kCoastSide = 1000000;
+
+/// Land, and water at its upper right corner whose points are of level 0 but for the corner itself.
+std::vector<LevelPoint> coast(std::mt19937& random) {
+  std::vector<LevelPoint> points;
+  const auto add = [&](std::int32_t x, std::int32_t y) {
+    const bool corner = x % kCoastSide == 0 && y % kCoastSide == 0;
+    const bool water = std::hypot(x - kCoastSide, y - kCoastSide) < 0.4 * kCoastSide;
+    points.push_back({{x, y, 0}, water && !corner ? 0 : kLevels - 1});
+  };
+  for (const std::int32_t x : {0, kCoastSide})
+    for (const std::int32_t y : {0, kCoastSide}) add(x, y);
+  for (int i = 0; i < 100000; ++i)
+    add(1 + static_cast<std::int32_t>(random() % (kCoastSide - 1)),
+        1 + static_cast<std::int32_t>(random() % (kCoastSide - 1)));
+  return points;
+}
+
+// All that the water's surroundings show at first is the outline, whose triangles hold all of the land. What lies far
+// behind the shore is no concern of the triangles across the water.
+TEST(RegionOnWater, IsMadeFromTheShoreAlone) {
+  std::mt19937 random(test::seed());
+  test::TestIndex index(coast(random), kLevels, 32);
+  index->set_segments({{0, 0, kCoastSide, 0},
+                       {kCoastSide, 0, kCoastSide, kCoastSide},
+                       {kCoastSide, kCoastSide, 0, kCoastSide},
+                       {0, kCoastSide, 0, 0}});
+  const Selection selection(Detail::tolerance(1), std::vector<double>{0, 1, 2, 3}, Grid{{0, 0}, 1.0});
+  std::uint64_t blocks = 0;
+  for (int run = 0; run < 20; ++run) {
+    const auto x = static_cast<std::int32_t>(850000 + random() % 100000),
+               y = static_cast<std::int32_t>(850000 + random() % 100000);
+    blocks += triangulate_region(*index, selection, {x, y, x + 30000, y + 30000}).statistics.blocks_read;
+  }
+  EXPECT_LT(blocks, 20 * 200) << "seed " << test::seed();
+}
+
 class RegionLines : public testing::TestWithParam<Pattern> {};
 
 /// Segments between random positions, of which many are points: through others, along each other, crossing.

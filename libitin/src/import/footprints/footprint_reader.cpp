@@ -54,6 +54,11 @@ class FootprintLayer {
     SourceHeights heights = source_heights(query.path, std::nullopt, crs);
     axis_ = std::move(heights.axis);
     source_.crs = std::move(heights.crs);
+    const auto heights_at_hand = field_called_height(*layer_, HeightOf::kFeatures);
+    if (heights_at_hand && fields_.height < 0 && fields_.eaves < 0)
+      source_.warnings.push_back(
+          fmt::format("{0}: the field '{1}' is not used; if it holds heights above the ground, give `height_field` {1}",
+                      query.path, *heights_at_hand));
     const bool heights_used = fields_.height >= 0 || fields_.eaves >= 0 || fields_.base >= 0;
     if (heights_used && !heights.warning.empty()) source_.warnings.push_back(std::move(heights.warning));
   }
@@ -74,7 +79,9 @@ class FootprintLayer {
     for (std::string& line : findings_.lines()) source_.warnings.push_back(std::move(line));
     for (std::string& line : kept_->warnings()) source_.warnings.push_back(std::move(line));
     if (unused_z_)
-      source_.warnings.push_back(query_.path + ": Z of the footprints is not used; say whether it is base or top");
+      source_.warnings.push_back(
+          query_.path +
+          ": Z of the footprints is not used: they stand on the terrain, or at the elevation in `base_field`");
     return std::move(source_);
   }
 

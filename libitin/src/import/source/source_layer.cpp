@@ -13,6 +13,7 @@
 
 #include <itin/error.hpp>
 
+#include "gdal/archive.hpp"
 #include "gdal/crs.hpp"
 #include "gdal/drivers.hpp"
 #include "gdal/quiet_gdal.hpp"
@@ -22,21 +23,33 @@ namespace itin {
 
 namespace {
 
-/// Whether fields of heights are often called so.
-bool is_called_height(std::string name) {
+/// Whether fields of such heights are often called so.
+bool is_called_height(std::string name, HeightOf what) {
   std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return std::tolower(c); });
   const auto is = [&](const char* other) { return name == other; };
   const auto has = [&](const char* part) { return name.find(part) != std::string::npos; };
-  return is("z") || is("h") || is("alt") || has("elev") || has("height") || has("altitude") || has("contour") ||
-         has("hoehe") || has("hoogte");
+  if (is("h") || has("height") || has("hoehe") || has("hoogte")) return true;
+  return what == HeightOf::kTerrain && (is("z") || is("alt") || has("elev") || has("altitude") || has("contour"));
 }
 
 }  // namespace
 
+std::optional<std::string> field_called_height(OGRLayer& layer, HeightOf what) {
+  const OGRFeatureDefn& definition = *layer.GetLayerDefn();
+  for (int i = 0; i < definition.GetFieldCount(); ++i) {
+    const OGRFieldDefn& field = *definition.GetFieldDefn(i);
+    const OGRFieldType type = field.GetType();
+    const bool number = type == OFTReal || type == OFTInteger || type == OFTInteger64;
+    const bool text = type == OFTString && what == HeightOf::kFeatures;  // "12 m"
+    if ((number || text) && is_called_height(field.GetNameRef(), what)) return field.GetNameRef();
+  }
+  return std::nullopt;
+}
+
 GDALDatasetUniquePtr open_vector_file(const std::string& path, const char* const* options, const std::string& what) {
   require_plain_file(path);
   const QuietGdal quiet;
-  GDALDatasetUniquePtr file = open_dataset(path, GDAL_OF_VECTOR, options);
+  GDALDatasetUniquePtr file = open_dataset(within_archive(path), GDAL_OF_VECTOR, options);
   if (!file) throw FileError(path, why_not_read(path, what));
   return file;
 }
@@ -153,15 +166,10 @@ double SourceLayer::height(const OGRFeature& feature) const {
 }
 
 std::string SourceLayer::zero_heights() const {
-  const OGRFeatureDefn& definition = *layer_->GetLayerDefn();
-  for (int i = 0; i < definition.GetFieldCount(); ++i) {
-    const OGRFieldDefn& field = *definition.GetFieldDefn(i);
-    const OGRFieldType type = field.GetType();
-    if ((type == OFTReal || type == OFTInteger || type == OFTInteger64) && is_called_height(field.GetNameRef()))
-      return fmt::format("{}: Z is 0 throughout; if heights are in the field '{}', give `z_field` {}", path_,
-                         field.GetNameRef(), field.GetNameRef());
-  }
-  return {};
+  const auto field = field_called_height(*layer_, HeightOf::kTerrain);
+  return field ? fmt::format("{0}: Z is 0 throughout; if heights are in the field '{1}', give `z_field` {1}", path_,
+                             *field)
+               : std::string();
 }
 
 std::string SourceLayer::place(const OGRFeature& feature) const {

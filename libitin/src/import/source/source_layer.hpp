@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,9 +15,9 @@
 
 namespace itin {
 
-/// Opens a file with these open options, which may be null. `what` says in messages what the file should hold: "a layer
-/// of points". Throws FileError, also where the file is missing, empty, a pipe or a raster. To be called within the
-/// life of a QuietGdal.
+/// Opens a file, or the one in a .zip, with these open options, which may be null. `what` says in messages what the
+/// file should hold: "a layer of points". Throws FileError, also where the file is missing, empty, a pipe or a raster.
+/// To be called within the life of a QuietGdal.
 GDALDatasetUniquePtr open_vector_file(const std::string& path, const char* const* options,
                                       const std::string& what = "a vector file");
 
@@ -30,6 +31,11 @@ OGRLayer& choose_layer(GDALDataset& dataset, const std::string& path, const std:
 int field_of_layer(OGRLayer& layer, const std::string& path, const std::string& name);
 
 std::vector<std::string> field_names(OGRLayer& layer);
+
+/// Heights of the terrain's points and lines above a datum, or of features above the ground.
+enum class HeightOf { kTerrain, kFeatures };
+/// Returns the first field whose name is one that such heights often go by. Heights of features may be texts.
+std::optional<std::string> field_called_height(OGRLayer& layer, HeightOf what);
 
 /// Restricts what is read to `where`, in OGR's SQL or the database's own; if `where` is empty, all is read. Returns the
 /// number of features left out. Throws FileError for a field that the layer does not have, InputError for a clause that

@@ -91,8 +91,10 @@ void LineLayer::collect(const OGRGeometry& geometry, const OGRFeature& feature, 
   } else if (OGR_GT_IsSubClassOf(type, wkbGeometryCollection)) {
     for (const OGRGeometry* part : *geometry.toGeometryCollection()) collect(*part, feature, lines);
   } else {
-    throw InputError(fmt::format("{}: is a {}; {} are lines or polygons", layer_.place(feature),
-                                 OGRGeometryTypeToName(type), name_of(kind_)));
+    const bool solid = OGR_GT_IsSubClassOf(type, wkbPolyhedralSurface) && may_be_raised(kind_);
+    throw InputError(fmt::format("{}: is a {}; {} are lines or polygons{}", layer_.place(feature),
+                                 OGRGeometryTypeToName(type), name_of(kind_),
+                                 solid ? ", or models of what stands, with `height_field` or `height`" : ""));
   }
 }
 

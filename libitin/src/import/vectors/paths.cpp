@@ -12,7 +12,6 @@
 #include <itin/paths.hpp>
 #include <itin/plain_text.hpp>
 
-#include "gdal/archive.hpp"
 #include "gdal/quiet_gdal.hpp"
 #include "import/source/source_layer.hpp"
 #include "import/vectors/layer_crs.hpp"
@@ -87,7 +86,7 @@ void add_lines_of(OGRLayer& layer, const std::string& path, const std::string& c
 
 PathFile read_path_file(const std::string& path, const std::string& to_crs, const PathChoice& choice) {
   const QuietGdal quiet;
-  const GDALDatasetUniquePtr dataset = open_vector_file(within_archive(path), nullptr);
+  const GDALDatasetUniquePtr dataset = open_vector_file(path, nullptr);
   PathFile file;
   PlainTexts texts(path);
   for (OGRLayer* layer : chosen_layers(*dataset, path, choice)) {
