@@ -21,6 +21,7 @@
 #include "options/radius_preset.hpp"
 #include "options/sheet_options.hpp"
 #include "options/surface_options.hpp"
+#include "output/output_path.hpp"
 #include "output/store_document.hpp"
 #include "program/call_files.hpp"
 #include "program/field_names.hpp"

@@ -1,5 +1,7 @@
-// A rule of radii as the document that read_radius_rule() reads.
+// A rule of radii as the document that read_radius_rule() reads, and in words.
 #pragma once
+
+#include <string>
 
 #include <itin/document.hpp>
 #include <viewshed/zone_study.hpp>
@@ -7,5 +9,8 @@
 namespace itin::viewshed {
 
 Document radius_document(const RadiusRule& rule);
+
+/// Describes the rule in one sentence.
+std::string radius_text(const RadiusRule& rule);
 
 }  // namespace itin::viewshed

@@ -1,3 +1,4 @@
+#include <filesystem>
 #include <vector>
 
 #include <viewshed/qgis_styles.hpp>

@@ -7,8 +7,6 @@
 #include <viewshed/radius_document.hpp>
 #include <viewshed/zone_study.hpp>
 
-#include "workflows/zone/radius_text.hpp"
-
 namespace itin::viewshed {
 
 double RadiusRule::radius(double tip_height) const {

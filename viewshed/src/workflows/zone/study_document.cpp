@@ -1,12 +1,13 @@
 #include "workflows/zone/study_document.hpp"
 
+#include <fmt/format.h>
+
 #include <itin/coordinates.hpp>
 #include <viewshed/documents.hpp>
 #include <viewshed/undecided_area.hpp>
 #include <viewshed/zone_files.hpp>
 #include <viewshed/zone_study_document.hpp>
 
-#include "workflows/zone/bad_rows.hpp"
 #include "workflows/zone/study_radio.hpp"
 
 namespace itin::viewshed {
@@ -54,6 +55,18 @@ Document statistics_of(const Zone& zone) {
 }
 
 }  // namespace
+
+Document bad_rows_document(const std::string& file, std::size_t rows, std::size_t used,
+                           const std::vector<BadRow>& bad) {
+  Document document{{"file", file}, {"rows", rows}, {"used", used}, {"bad", Document::array()}};
+  for (const BadRow& row : bad)
+    document["bad"].push_back({{"row", row.number}, {"feature", row.feature}, {"message", row.message}});
+  return document;
+}
+
+std::string bad_row_warning(const std::string& file, const BadRow& row) {
+  return fmt::format("{}: row {} ({}) is not used: {}", file, row.number, row.place, row.message);
+}
 
 Document study_surface(const ZoneStudy& study) {
   const ZoneRequest& request = study.zone.request;

@@ -11,10 +11,10 @@
 #include <itin/counted.hpp>
 #include <itin/height_axis.hpp>
 #include <itin/sources_in.hpp>
+#include <viewshed/radius_document.hpp>
 #include <viewshed/undecided_area.hpp>
 #include <viewshed/zone_files.hpp>
 
-#include "workflows/zone/radius_text.hpp"
 #include "workflows/zone/study_document.hpp"
 #include "workflows/zone/study_radio.hpp"
 

@@ -12,6 +12,8 @@
 #include <viewshed/link_exclusion.hpp>
 #include <viewshed/zone_files.hpp>
 
+#include "workflows/zone/study_document.hpp"
+
 namespace itin::viewshed {
 
 namespace {

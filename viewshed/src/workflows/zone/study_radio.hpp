@@ -9,8 +9,6 @@
 #include <viewshed/zone_files.hpp>
 #include <viewshed/zone_study.hpp>
 
-#include "workflows/zone/bad_rows.hpp"
-
 namespace itin::viewshed {
 
 /// Throws InputError where none of the links can be used, or they have no frequency.

@@ -15,6 +15,7 @@
 #include <viewshed/area_text.hpp>
 #include <viewshed/result_map.hpp>
 #include <viewshed/result_sheet.hpp>
+#include <viewshed/zone_files.hpp>
 #include <viewshed/zone_maps.hpp>
 
 namespace itin::viewshed {

@@ -9,7 +9,6 @@
 #include <viewshed/missing_ground.hpp>
 #include <viewshed/zone_study.hpp>
 
-#include "workflows/zone/bad_rows.hpp"
 #include "workflows/zone/route_study.hpp"
 #include "workflows/zone/study_document.hpp"
 #include "workflows/zone/study_radio.hpp"
@@ -46,11 +45,7 @@ void require_reasonable(const ZoneStudyRequest& request) {
 
 /// Names turbines without ground among the rows that are not used.
 void add_misplaced(const Zone& zone, TurbineTable& table) {
-  for (const Misplaced& m : zone.misplaced) {
-    const std::size_t row = m.number - 1;
-    table.bad.push_back({m.number, row < table.features.size() ? table.features[row] : 0,
-                         row < table.places.size() ? table.places[row] : "", m.message});
-  }
+  for (const Misplaced& m : zone.misplaced) table.bad.push_back(bad_row(table, m.number, m.message));
 }
 
 void require_any_cell(const ZoneStudy& study) {

@@ -13,6 +13,7 @@
 #include <viewshed/turbine_sights.hpp>
 
 #include "workflows/zone/sight_summary.hpp"
+#include "workflows/zone/study_document.hpp"
 
 namespace itin::viewshed {
 
@@ -43,14 +44,6 @@ StudiedViewpoint look_from_viewpoint(const Viewpoint& v, const StudySurfaces& su
   const SightSummary seen = seen_of(zone, studied.screened, all_turbines(zone));
   studied.before_the_eye = before_the_eye(*surfaces.features, v, zone.request.turbines[seen.nearest].position, themes);
   return studied;
-}
-
-/// Names a viewpoint without ground among the rows that are not used.
-void add_without_ground(const Viewpoint& v, ViewpointTable& table) {
-  const std::size_t row = v.number - 1;
-  table.bad.push_back({v.number, row < table.features.size() ? table.features[row] : 0,
-                       row < table.places.size() ? table.places[row] : "",
-                       fmt::format("there is no data at {:.10g},{:.10g}", v.position.x, v.position.y)});
 }
 
 }  // namespace
@@ -92,7 +85,8 @@ std::vector<StudiedViewpoint> study_viewpoints(const StudySurfaces& surfaces, co
     progress.throw_if_cancelled();
     const CrossSection here = surfaces.ground.between(v.position, v.position);
     if (here.breakpoints.empty()) {
-      add_without_ground(v, table);
+      table.bad.push_back(
+          bad_row(table, v.number, fmt::format("there is no data at {:.10g},{:.10g}", v.position.x, v.position.y)));
       continue;
     }
     v.ground = here.breakpoints.front().position.z;
