@@ -99,7 +99,7 @@ std::vector<LinkClearance> link_clearances(const ZoneStudyRequest& request, cons
   const std::vector<RadioLink> links = radio_links(request.links);
   if (links.empty()) return clearances;
   for (const Turbine& turbine : zone.request.turbines) {
-    LinkClearance& nearest = clearances.emplace_back("", std::numeric_limits<double>::infinity());
+    LinkClearance& nearest = clearances.emplace_back(LinkClearance{"", std::numeric_limits<double>::infinity()});
     for (const RadioLink& link : links) {
       const double clearance =
           link_clearance_m(link, turbine.position, request.frequency_ghz, turbine.rotor_diameter.value_or(0) / 2);
