@@ -285,7 +285,7 @@ TEST_F(Plan, RefusesWhatItCannotOpen) {
   EXPECT_THAT(refusal<FileError>({directory_.write("novel.doc", "Call me Ishmael.")}), HasSubstr("novel.doc: "));
   EXPECT_THAT(refusal<FileError>({directory_.write("broken.las", "LASF and no more")}), HasSubstr("broken.las: "));
   EXPECT_THAT(refusal<FileError>({directory_.write("bad.zip", "PK and no more")}),
-              HasSubstr("bad.zip: holds no raster that can be read"));
+              HasSubstr("bad.zip: holds no raster or vector file that can be read"));
   EXPECT_THAT(refusal<FileError>({directory_.path()}), HasSubstr(directory_.path() + ": is a directory"));
 }
 
