@@ -87,7 +87,7 @@ class Rays final : public CoarsePass {
   /// Adds the ground under the targets, and where it may rise into lines.
   void add_ground(const EnvelopePacket& packet, TileSet& tiles) const {
     Scene::Stretches stretches;
-    scene_.upper.find_hidden(packet.low, stretches);
+    scene_.upper().find_hidden(packet.low, stretches);
     for_each_bit(packet.low.active, [&](unsigned i) {
       const Point2 target = along(packet.low, i, 1);
       over_.ground.add_line(target, target, tiles);

@@ -11,11 +11,11 @@ namespace itin::viewshed {
 EnvelopeScene::EnvelopeScene(Envelope e, const Request& request, const RasterGrid& tiles, NoData r)
     : envelope(std::move(e)),
       lower(envelope.lower, request.earth),
-      upper(envelope.upper, request.earth, kGrazing / 2),
       bins(envelope.lower, tiles),
       rule(r),
       exact(envelope.exact),
       drop(request.earth.drop_coefficient() * envelope.lower.grid.resolution) {
+  if (!exact) upper_.emplace(envelope.upper, request.earth, kGrazing / 2);
   if (envelope.bare_ground) ground_bins.emplace(*envelope.bare_ground, tiles);
   if (rule != NoData::kClear) rim_ = rim_of(envelope.upper, envelope.outline);
 }
@@ -32,8 +32,9 @@ EnvelopeScene::Decided EnvelopeScene::decide(EnvelopePacket& packet) const {
   packet.high.active = all & ~packet.perhaps_outside;
   const unsigned hidden = packet.high.active == 0 ? 0 : lower.hidden(packet.high);
   packet.low.active = packet.high.active & ~packet.behind_void & ~hidden;
-  const unsigned visible = packet.low.active == 0 ? 0 : packet.low.active & ~upper.hidden(packet.low);
-  const int lines = std::popcount(packet.low.active) + std::popcount(packet.high.active);
+  const unsigned cast = exact ? 0 : packet.low.active;
+  const unsigned visible = packet.low.active & ~(cast == 0 ? 0 : upper_->hidden(packet.low));
+  const int lines = std::popcount(cast) + std::popcount(packet.high.active);
   packet.low.active = all & ~visible & ~hidden;
   return {visible, hidden, static_cast<unsigned>(lines)};
 }

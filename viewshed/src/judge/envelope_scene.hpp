@@ -7,7 +7,8 @@
 //   const EnvelopeScene::Decided decided = scene.decide(packet);   // packet.low.active is left open
 //
 // A target is between a lowest and a highest place. If the line to the lowest clears the upper surface, the target is
-// seen whatever the full surface is; if the lower surface hides the line to the highest, it is not.
+// seen whatever the full surface is; if the lower surface hides the line to the highest, it is not. Where both are the
+// full surface, whatever it does not hide is seen.
 #pragma once
 
 #include <cstdint>
@@ -61,6 +62,9 @@ class EnvelopeScene {
     std::shared_ptr<const VoidShadow> shadow = nullptr;  ///< null where voids are passed
   };
   View view_from(const Eye& eye) const;
+  /// The upper surface, which hides what grazes it by half as much, so that what clears it is seen whatever lies below
+  /// it. The lower one where both are the full surface.
+  const Scene& upper() const { return upper_ ? *upper_ : lower; }
 
   /// The lines that were decided, one bit per line.
   struct Decided {
@@ -72,7 +76,6 @@ class EnvelopeScene {
 
   Envelope envelope;
   Scene lower;
-  Scene upper;  ///< hides what grazes it by half as much, so that what clears it is seen whatever lies below it
   TriangleBins bins;
   std::optional<TriangleBins> ground_bins;  ///< the bare ground's, where the envelope has it
   NoData rule;                              ///< what missing ground does
@@ -80,7 +83,8 @@ class EnvelopeScene {
   double drop;                              ///< how far curvature lowers the ground, grid units per squared grid unit
 
  private:
-  std::vector<RimEdge> rim_;  ///< where the surface ends; empty where missing ground hides nothing
+  std::optional<Scene> upper_;  ///< nothing where both are the full surface
+  std::vector<RimEdge> rim_;    ///< where the surface ends; empty where missing ground hides nothing
 };
 
 }  // namespace itin::viewshed

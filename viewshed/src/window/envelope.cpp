@@ -224,8 +224,8 @@ Envelope envelop(const Store& store, const EnvelopeRequest& request, Progress& p
     if (i == 0) builder.mark_outline();
   }
   Envelope envelope = std::move(builder).finish();
-  envelope.exact =
-      request.level == request.surface && feature_cuts(store, request.cut_by, envelope.lower.bounds()).empty();
+  envelope.exact = request.level == request.surface && !request.enclosed.includes_raised(store.metadata().themes) &&
+                   feature_cuts(store, request.cut_by, envelope.lower.bounds()).empty();
   if (request.bare_ground) {
     envelope.bare_ground = triangulate(store, *request.bare_ground, Detail::tolerance(0), call.step(1));
     envelope.lower.statistics += envelope.bare_ground->statistics;

@@ -77,8 +77,6 @@ class PointPass {
     const unsigned lines = packet.low.active;
     if (lines == 0) return decided;
     Decided of_lines = scene_.decide(packet);
-    // What the surface itself does not hide is seen, though it may graze.
-    if (scene_.exact) of_lines.visible |= packet.low.active;
     if (zone_) judge_zones(packet, lines, of_lines);
     decided.visible |= of_lines.visible;
     decided.hidden |= of_lines.hidden;
