@@ -74,7 +74,7 @@ std::vector<RimEdge> VisibilitySampler::rim_near(const Point3& eye) const {
   return near;
 }
 
-/// Draws the targets about an eye that have ground.
+/// Draws the targets about an eye that have ground, and sorts them by azimuth.
 std::vector<VisibilitySampler::Target> VisibilitySampler::draw(Point2 eye, std::uint64_t seed) const {
   const Grid& units = surface_.units();
   Random random(seed);
@@ -89,22 +89,23 @@ std::vector<VisibilitySampler::Target> VisibilitySampler::draw(Point2 eye, std::
                           (*height + targets_.height) / units.resolution},
                          azimuth});
   }
+  std::sort(targets.begin(), targets.end(), [](const Target& a, const Target& b) { return a.azimuth < b.azimuth; });
   return targets;
 }
 
 /// Decides lines to targets in similar directions, which meet the same ground.
-void VisibilitySampler::judge(const Point3& eye, const VoidShadow& behind_voids, std::span<Target*> targets) const {
+void VisibilitySampler::judge(const Point3& eye, const VoidShadow& behind_voids, std::span<Target> targets) const {
   SightLines lines;
   lines.start_at(eye);
   for (unsigned i = 0; i < targets.size(); ++i) {
-    const Point3& to = targets[i]->units;
+    const Point3& to = targets[i].units;
     lines.to_x[i] = to.x, lines.to_y[i] = to.y, lines.to_z[i] = to.z;
     // A target at the eye's own place is seen without a line.
     if (!same_place(to.x - eye.x, to.y - eye.y)) lines.active |= 1U << i;
   }
   const unsigned hidden = surface_.hidden(lines);
   for_each_bit(lines.active, [&](unsigned i) {
-    Target& target = *targets[i];
+    Target& target = targets[i];
     if ((hidden >> i & 1) != 0) {
       target.verdict = Verdict::kHidden;
     } else if (behind_voids.holds(target.units.x, target.units.y)) {
@@ -119,11 +120,8 @@ VisibilitySampler::Tally VisibilitySampler::observe(Point2 eye, double elevation
   const Point3 from{easting_in_units(units, eye.x), northing_in_units(units, eye.y), elevation / units.resolution};
   const VoidShadow behind_voids(rim_near(from), from);
   std::vector<Target> targets = draw(eye, seed);
-  std::vector<Target*> around;
-  for (Target& target : targets) around.push_back(&target);
-  std::sort(around.begin(), around.end(), [](const Target* a, const Target* b) { return a->azimuth < b->azimuth; });
-  for (std::span<Target*> left = around; !left.empty();) {
-    const std::span<Target*> together = left.first(std::min<std::size_t>(SightLines::kSize, left.size()));
+  for (std::span<Target> left = targets; !left.empty();) {
+    const std::span<Target> together = left.first(std::min<std::size_t>(SightLines::kSize, left.size()));
     judge(from, behind_voids, together);
     left = left.subspan(together.size());
   }

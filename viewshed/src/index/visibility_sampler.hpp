@@ -45,7 +45,7 @@ class VisibilitySampler {
   struct Target;
   std::vector<RimEdge> rim_near(const Point3& eye) const;
   std::vector<Target> draw(Point2 eye, std::uint64_t seed) const;
-  void judge(const Point3& eye, const VoidShadow& behind_voids, std::span<Target*> targets) const;
+  void judge(const Point3& eye, const VoidShadow& behind_voids, std::span<Target> targets) const;
 
   const SampledSurface& surface_;
   const SampledSurface& ground_;
