@@ -21,8 +21,7 @@ namespace itin::viewshed {
 namespace {
 
 /// About the share of the time that reading takes.
-double share_of_reading(const Store& store, const Request& request, SurfaceForm form) {
-  const std::uint64_t points = points_about(store, request.detail, box_of_window(store, request));
+double share_of_reading(const Store& store, const Request& request, std::uint64_t points, SurfaceForm form) {
   const std::uint64_t cells = cells_of(request, extent_of(store)).cell_count();
   return effort_of_viewshed(request, points, cells, form).share_of_reading();
 }
@@ -42,9 +41,10 @@ std::optional<ViewshedWithSurface> compute_over_lattice(const Store& store, cons
   ITIN_PRECONDITION(takes_a_lattice(store, request));
   Stopwatch watch;
   CallProgress call(progress);
+  const std::uint64_t points = store.points_about(0, box_of_window(store, request));
+  const double share = share_of_reading(store, request, points, SurfaceForm::kPosts);
   auto surface = retrieve_lattice(store, window_of(request), request.detail, request.themes,
-                                  heights_for(request, store.points_about(0, box_of_window(store, request))),
-                                  most_posts, call.step(share_of_reading(store, request, SurfaceForm::kPosts)));
+                                  heights_for(request, points), most_posts, call.step(share));
   if (!surface) return std::nullopt;
   return survey(request, {std::make_shared<Surface>(std::move(*surface)), std::nullopt, true, {}}, watch.lap(), sink,
                 call.step(1));
@@ -57,7 +57,8 @@ ViewshedWithSurface compute_over_tin(const Store& store, const Request& request,
   ViewshedWithSurface computed;
   computed.surface = std::make_shared<Surface>();
   Tin& tin = computed.surface->tin;
-  const double share = share_of_reading(store, request, SurfaceForm::kTriangles);
+  const std::uint64_t points = points_about(store, request.detail, box_of_window(store, request));
+  const double share = share_of_reading(store, request, points, SurfaceForm::kTriangles);
   tin = triangulate(store, window_of(request), request.detail, call.step(share), request.themes);
   computed.surface->extent = extent_of(store);
   const double seconds = watch.lap();

@@ -105,9 +105,8 @@ FourBits may_touch(const FourRays& ray, const Corners& at, const Errors& errors)
     rise[k] = (at.z[k] - ray.from_z) * squared - (ray.x * x + ray.y * y) * ray.z;
   }
   const Four aside = errors.place * about_length;
-  const FourBits to_the_right =
-      greatest(greatest(side[0], side[1]), side[2])<-aside, to_the_left = least(least(side[0], side[1]), side[2])>
-          aside;
+  const FourBits to_the_right = greatest(greatest(side[0], side[1]), side[2]) < -aside;
+  const FourBits to_the_left = least(least(side[0], side[1]), side[2]) > aside;
   const Four heights = errors.height + at.bulge +
                        static_cast<float>(kRoundingsOfFilter * kRounding) * (magnitude(ray.from_z) + magnitude(ray.z));
   const FourBits below = greatest(greatest(rise[0], rise[1]), rise[2]) <
@@ -294,15 +293,15 @@ class Scene::Impl {
     keep(from.z, along.z, top_);
     if (first > last) return false;
     const auto at = [&](double start, double step, double s) { return start + s * step; };
-    const double low = at(from.z, along.z, first), high = at(from.z, along.z, last);
-    const double lower = kRoundingsOfBoxes * kRounding * (top_ + std::abs(low) + std::abs(high));
+    const double first_z = at(from.z, along.z, first), last_z = at(from.z, along.z, last);
+    const double lower = kRoundingsOfBoxes * kRounding * (top_ + std::abs(first_z) + std::abs(last_z));
     rays.org_x[i] = static_cast<float>(at(from.x, along.x, first));
     rays.org_y[i] = static_cast<float>(at(from.y, along.y, first));
-    rays.org_z[i] = static_cast<float>(low - lower);
+    rays.org_z[i] = static_cast<float>(first_z - lower);
     // The direction is taken from the rounded origin, so that the other end is where it should be.
     rays.dir_x[i] = static_cast<float>(at(from.x, along.x, last) - double{1} * rays.org_x[i]);
     rays.dir_y[i] = static_cast<float>(at(from.y, along.y, last) - double{1} * rays.org_y[i]);
-    rays.dir_z[i] = static_cast<float>(high - lower - double{1} * rays.org_z[i]);
+    rays.dir_z[i] = static_cast<float>(last_z - lower - double{1} * rays.org_z[i]);
     rays.tnear[i] = 0;
     rays.tfar[i] = 1;
     rays.time[i] = 0;
