@@ -9,6 +9,7 @@
 #include <itin/error.hpp>
 #include <itin/height_limit.hpp>
 #include <itin/store.hpp>
+#include <itin/store_scale.hpp>
 #include <profile/los.hpp>
 #include <profile/profile.hpp>
 
@@ -20,7 +21,6 @@
 #include "options/earth_options.hpp"
 #include "options/memory_option.hpp"
 #include "options/radio_options.hpp"
-#include "options/store_scale.hpp"
 #include "output/output_path.hpp"
 #include "output/store_document.hpp"
 #include "program/call_files.hpp"

@@ -12,6 +12,7 @@
 #include <itin/file_ending.hpp>
 #include <itin/paths.hpp>
 #include <itin/store.hpp>
+#include <itin/store_scale.hpp>
 #include <itin/tin_export.hpp>
 #include <profile/documents.hpp>
 #include <profile/path_profiles.hpp>
@@ -20,7 +21,6 @@
 #include "options/memory_option.hpp"
 #include "options/off_the_data.hpp"
 #include "options/picture_options.hpp"
-#include "options/store_scale.hpp"
 #include "options/surface_options.hpp"
 #include "output/output_path.hpp"
 #include "output/store_document.hpp"

@@ -14,13 +14,13 @@
 #include <itin/output_file.hpp>
 #include <itin/sources_in.hpp>
 #include <itin/store.hpp>
+#include <itin/store_scale.hpp>
 #include <viewshed/documents.hpp>
 #include <viewshed/site_document.hpp>
 #include <viewshed/site_plan.hpp>
 
 #include "options/memory_option.hpp"
 #include "options/nodata_option.hpp"
-#include "options/store_scale.hpp"
 #include "output/output_path.hpp"
 #include "output/store_document.hpp"
 #include "program/verb.hpp"

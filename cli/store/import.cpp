@@ -8,9 +8,9 @@
 #include <itin/coordinates.hpp>
 #include <itin/height_limit.hpp>
 #include <itin/import.hpp>
+#include <itin/store_scale.hpp>
 
 #include "options/memory_option.hpp"
-#include "options/store_scale.hpp"
 #include "output/store_document.hpp"
 #include "program/call_files.hpp"
 #include "program/help.hpp"

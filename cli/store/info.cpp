@@ -8,8 +8,8 @@
 #include <itin/height_axis.hpp>
 #include <itin/stated_heights.hpp>
 #include <itin/store.hpp>
+#include <itin/store_scale.hpp>
 
-#include "options/store_scale.hpp"
 #include "output/store_document.hpp"
 #include "program/call_files.hpp"
 #include "program/verb.hpp"
@@ -53,6 +53,10 @@ Document sources_document(const StoreMetadata& metadata, const StatedHeights& he
                        {"note", source.note.empty() ? Document(nullptr) : Document(source.note)}});
   }
   return sources;
+}
+
+Document scale_document(const std::optional<GridScale>& scale) {
+  return scale ? Document{{"least", scale->least}, {"greatest", scale->greatest}} : Document(nullptr);
 }
 
 Document info_document(const Store& store, const StatedHeights& heights) {

@@ -12,13 +12,13 @@
 #include <itin/document.hpp>
 #include <itin/error.hpp>
 #include <itin/store.hpp>
+#include <itin/store_scale.hpp>
 #include <itin/tin_export.hpp>
 #include <itin/triangulate.hpp>
 
 #include "options/detail_options.hpp"
 #include "options/memory_option.hpp"
 #include "options/picture_options.hpp"
-#include "options/store_scale.hpp"
 #include "options/surface_options.hpp"
 #include "options/window_options.hpp"
 #include "output/output_path.hpp"

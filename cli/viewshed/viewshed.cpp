@@ -12,6 +12,7 @@
 #include <itin/gdal_ready.hpp>
 #include <itin/sources_in.hpp>
 #include <itin/store.hpp>
+#include <itin/store_scale.hpp>
 #include <viewshed/documents.hpp>
 #include <viewshed/exact_cost.hpp>
 #include <viewshed/hidden_eyes.hpp>
@@ -25,7 +26,6 @@
 #include "options/nodata_option.hpp"
 #include "options/observer_options.hpp"
 #include "options/sheet_options.hpp"
-#include "options/store_scale.hpp"
 #include "options/surface_options.hpp"
 #include "output/store_document.hpp"
 #include "program/call_files.hpp"

@@ -15,6 +15,7 @@
 #include <itin/output_file.hpp>
 #include <itin/sources_in.hpp>
 #include <itin/store.hpp>
+#include <itin/store_scale.hpp>
 #include <viewshed/documents.hpp>
 #include <viewshed/missing_ground.hpp>
 #include <viewshed/qgis_styles.hpp>
@@ -26,7 +27,6 @@
 #include "options/memory_option.hpp"
 #include "options/nodata_option.hpp"
 #include "options/sheet_options.hpp"
-#include "options/store_scale.hpp"
 #include "options/surface_options.hpp"
 #include "options/window_options.hpp"
 #include "output/output_path.hpp"
