@@ -15,6 +15,9 @@ BoxTree::BoxTree(std::uint32_t boxes, void* owner, const Functions& functions) :
   rtcCommitGeometry(geometry);
   rtcAttachGeometry(scene_.get(), geometry);
   rtcReleaseGeometry(geometry);
+  // A better tree takes longer to make than it saves, even with hundreds of lines to a box: most of a line's time is
+  // spent on exact tests, whose number the tree does not change.
+  rtcSetSceneBuildQuality(scene_.get(), RTC_BUILD_QUALITY_LOW);
   rtcCommitScene(scene_.get());
   if (rtcGetDeviceError(device_.get()) != RTC_ERROR_NONE) throw std::bad_alloc();
 }

@@ -17,8 +17,6 @@ namespace {
 constexpr double kRounding = 0x1p-24;
 /// How many roundings the boxes allow for, and the test in single precision within them.
 constexpr double kRoundingsOfBoxes = 16, kRoundingsOfFilter = 64;
-/// All lines are above this, grid units.
-constexpr float kFloor = -1e9F;
 
 /// What the callbacks see of a packet; Embree hands back the pointer to the first member.
 class Packet {
@@ -64,6 +62,12 @@ Four least(Four a, Four b) {
 }
 Four magnitude(Four a) {
   return greatest(a, -a);
+}
+
+bool none(FourBits bits) {
+  std::array<std::int64_t, 2> halves;
+  std::memcpy(&halves, &bits, sizeof(halves));
+  return (halves[0] | halves[1]) == 0;
 }
 
 /// Some of a packet's rays, from the first to the first + kLanes: all but the last may be missing.
@@ -182,9 +186,10 @@ class Scene::Impl {
   Point3 about_centre(const GridPoint& p) const { return about_centre(p.x, p.y, p.z); }
 
   void measure() {
-    double height = 0;
+    double height = 0, lowest = 0;
     for (const GridPoint& v : tin_.vertices) {
       const Point3 p = about_centre(v);
+      lowest = std::min(lowest, p.z);
       half_width_ = std::max({half_width_, std::abs(p.x), std::abs(p.y)});
       height = std::max(height, std::abs(p.z));
     }
@@ -196,6 +201,7 @@ class Scene::Impl {
     margin_ = static_cast<float>(kRoundingsOfBoxes * kRounding * half_width_);
     errors_ = {static_cast<float>(kRoundingsOfFilter * kRounding * half_width_),
                static_cast<float>(kRoundingsOfFilter * kRounding * top_)};
+    floor_ = static_cast<float>(lowest - 1) - errors_.height;
   }
 
   Corners corners_of(const Triangle& triangle) const {
@@ -221,7 +227,7 @@ class Scene::Impl {
     box.upper_x = std::max({at.x[0], at.x[1], at.x[2]}) + self.margin_;
     box.lower_y = std::min({at.y[0], at.y[1], at.y[2]}) - self.margin_;
     box.upper_y = std::max({at.y[0], at.y[1], at.y[2]}) + self.margin_;
-    box.lower_z = kFloor;
+    box.lower_z = self.floor_ - self.errors_.height;
     box.upper_z = std::max({at.z[0], at.z[1], at.z[2]}) + at.bulge;
   }
 
@@ -234,6 +240,7 @@ class Scene::Impl {
   void ask(std::uint32_t triangle, Packet& packet, const RTCOccludedFunctionNArguments& arguments) const {
     for (unsigned first = 0; first < arguments.N; first += kLanes) {
       const FourBits near = may_touch(FourRays(arguments.ray, arguments.N, first), corners_[triangle], errors_);
+      if (none(near)) continue;
       for (unsigned i = first; i < std::min(first + kLanes, arguments.N); ++i)
         if (near[i - first] != 0 && arguments.valid[i] != 0) ask_one(triangle, packet, arguments, i);
     }
@@ -293,15 +300,17 @@ class Scene::Impl {
     keep(from.z, along.z, top_);
     if (first > last) return false;
     const auto at = [&](double start, double step, double s) { return start + s * step; };
-    const double first_z = at(from.z, along.z, first), last_z = at(from.z, along.z, last);
+    double first_z = at(from.z, along.z, first), last_z = at(from.z, along.z, last);
     const double lower = kRoundingsOfBoxes * kRounding * (top_ + std::abs(first_z) + std::abs(last_z));
+    first_z -= lower, last_z -= lower;
+    if (std::min(first_z, last_z) < floor_) first_z = last_z = floor_;
     rays.org_x[i] = static_cast<float>(at(from.x, along.x, first));
     rays.org_y[i] = static_cast<float>(at(from.y, along.y, first));
-    rays.org_z[i] = static_cast<float>(first_z - lower);
+    rays.org_z[i] = static_cast<float>(first_z);
     // The direction is taken from the rounded origin, so that the other end is where it should be.
     rays.dir_x[i] = static_cast<float>(at(from.x, along.x, last) - double{1} * rays.org_x[i]);
     rays.dir_y[i] = static_cast<float>(at(from.y, along.y, last) - double{1} * rays.org_y[i]);
-    rays.dir_z[i] = static_cast<float>(last_z - lower - double{1} * rays.org_z[i]);
+    rays.dir_z[i] = static_cast<float>(last_z - double{1} * rays.org_z[i]);
     rays.tnear[i] = 0;
     rays.tfar[i] = 1;
     rays.time[i] = 0;
@@ -318,6 +327,7 @@ class Scene::Impl {
   // In grid units about the centre: what all the surface is within, and by how much boxes are wider than triangles.
   double half_width_ = 0, top_ = 0;
   float margin_ = 0;
+  float floor_ = 0;  ///< below all of the surface; no ray goes below it
   Errors errors_;
   std::vector<Corners> corners_;  ///< each triangle's
   std::optional<BoxTree> tree_;

@@ -16,8 +16,9 @@
 // which Embree's ray passes a side of a box, (side - origin) / direction, errs by what a shift of the side by
 // 8 u X makes: three roundings of each product. A line that meets a triangle is at that parameter within the box in
 // each axis; hence boxes that are wider by 16 u X on each side are met. Heights need no wider boxes: both ends of
-// the ray are lowered by 16 u (Z + |z| at either end), Z the greatest height. What a packet's callback leaves out in
-// single precision (scene.cpp) is left out by the same bounds.
+// the ray are lowered by 16 u (Z + |z| at either end), Z the greatest height. All boxes begin at one floor below the
+// surface; a line that goes below that is cast level at the floor, where it meets every box along its way. What a
+// packet's callback leaves out in single precision (scene.cpp) is left out by the same bounds.
 //
 // So every triangle that hides a line is asked, in double precision, whatever the instruction set, the threads and the
 // shape of the tree: these cannot change an answer.
