@@ -32,8 +32,8 @@ SampledSurface::SampledSurface(const Surface& surface, const Earth& earth, std::
 }
 
 std::uint64_t SampledSurface::bytes(std::uint64_t points, std::uint64_t lines) {
-  constexpr std::uint64_t kTin = 300, kRays = 300;
-  return points * (casts_rays(2 * points, lines) ? kTin + kRays : kTin);
+  constexpr std::uint64_t kTin = 300;
+  return points * (casts_rays(2 * points, lines) ? kTin + Scene::kBytesPerPoint : kTin);
 }
 
 std::vector<RimEdge> SampledSurface::rim() const {

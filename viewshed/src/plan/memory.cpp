@@ -9,6 +9,7 @@
 #include <viewshed/surface.hpp>
 
 #include "request/request.hpp"
+#include "scene/rays/scene.hpp"
 
 namespace itin::viewshed {
 
@@ -58,9 +59,9 @@ bool takes_a_lattice(const Store& store, const Request& request) {
 }
 
 std::uint64_t bytes_per_point(const Request& request) {
-  constexpr std::uint64_t kStudies = 150, kRays = 300;
+  constexpr std::uint64_t kStudies = 150;
   const std::uint64_t studies = needs_bare_lines(request) ? 2 : needs_triangles(request) ? 1 : 0;
-  return kBytesPerSurfacePoint + studies * kStudies + (casts_rays(request) ? kRays : 0);
+  return kBytesPerSurfacePoint + studies * kStudies + (casts_rays(request) ? Scene::kBytesPerPoint : 0);
 }
 
 std::uint64_t points_about(const Store& store, const Detail& detail, const Box& box) {
