@@ -355,6 +355,19 @@ TEST(Analyse, NamesNoFootAsTheCriticalPoint) {
   EXPECT_NEAR(*with_frequency.clearance_m, *report.clearance_m, 1e-6);
 }
 
+/// Whether the sum of ground and height falls short of a wall's top by a rounding is nobody's concern.
+TEST(Analyse, GivesLossesToAntennasLevelWithWhatTheyStandIn) {
+  for (int i = 0; i < 200; ++i) {
+    const double ground = -1.7430211560805577 + 0.01 * i, top = ground + 1.5;
+    const Profile surface = even_profile(1000, {top, 0, 0, top}), bare = even_profile(1000, {ground, 0, 0, ground});
+    LosQuery q = query(1.5, 1.5 - 1e-9, Earth::effective_earth(4.0 / 3));
+    q.radio = RadioPath{.frequency_ghz = 0.9, .effective_earth_km = 6371 * 4.0 / 3};
+    ASSERT_TRUE(analyse(surface, q, bare).losses) << i;
+    q.to_height_m = 1.499;
+    ASSERT_FALSE(analyse(surface, q, bare).losses) << i;
+  }
+}
+
 TEST(Analyse, JudgesClutterWhereTheLossesHaveIt) {
   Profile profile = even_profile(1000, {0, 0, 0, 0, 0});
   for (ProfilePoint& p : profile.points) p.clutter_m = 25;

@@ -32,6 +32,10 @@ struct PathEnds {
   double from_m = 0, to_m = 0;
 };
 
+/// Returns the ends with antennas that rounding has put below what they stand on, raised to it; nothing where one is
+/// within what stands there.
+std::optional<PathEnds> above_tops(PathEnds ends, double from_top_m, double to_top_m);
+
 /// A point strictly between the ends.
 struct PathEdge {
   double km = 0;

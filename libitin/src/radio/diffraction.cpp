@@ -1,7 +1,9 @@
+#include <algorithm>
 #include <limits>
 #include <numbers>
 
 #include <itin/diffraction.hpp>
+#include <itin/grazing.hpp>
 #include <itin/precondition.hpp>
 
 namespace itin {
@@ -99,6 +101,12 @@ SmoothEnds smooth_ends(std::span<const PathPoint> ground, const PathEnds& ends) 
   smooth.hstd_m = std::min(smooth.hst_m - highest * share, from);
   smooth.hsrd_m = std::min(smooth.hsr_m - highest * (1 - share), to);
   return smooth;
+}
+
+std::optional<PathEnds> above_tops(PathEnds ends, double from_top_m, double to_top_m) {
+  if (ends.from_m < from_top_m - kGrazing || ends.to_m < to_top_m - kGrazing) return std::nullopt;
+  ends.from_m = std::max(ends.from_m, from_top_m), ends.to_m = std::max(ends.to_m, to_top_m);
+  return ends;
 }
 
 DeltaBullington delta_bullington(std::span<const PathPoint> tops, std::span<const PathPoint> ground,

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <itin/grazing.hpp>
 #include <itin/section_line.hpp>
 
 #include "line/infinity.hpp"
@@ -71,15 +70,13 @@ LineLosses::Outcome LineLosses::of_line(const Line& line, Scratch& scratch) cons
   Outcome outcome;
   outcome.over_missing = !profile(surface_, greatest_spacing_m(length), scratch.tops_);
   if (!reaches_from_end_to_end(scratch.tops_, length)) return outcome;
-  PathEnds ends{length, line.from.z * grid.resolution, line.to.z * grid.resolution};
-  // An antenna on the surface stands on it, up to rounding.
-  const double from_top = scratch.tops_.front().height_m, to_top = scratch.tops_.back().height_m;
-  if (ends.from_m < from_top - kGrazing || ends.to_m < to_top - kGrazing) return outcome;
-  ends.from_m = std::max(ends.from_m, from_top), ends.to_m = std::max(ends.to_m, to_top);
+  const auto ends = above_tops({length, line.from.z * grid.resolution, line.to.z * grid.resolution},
+                               scratch.tops_.front().height_m, scratch.tops_.back().height_m);
+  if (!ends) return outcome;
   if (bare_) profile(*bare_, kInfinity, scratch.ground_);
   const std::vector<PathPoint>& ground = bare_ ? scratch.ground_ : scratch.tops_;
-  outcome.loss = Loss{delta_bullington(scratch.tops_, ground, ends, path_).ld_db,
-                      free_space_db(std::hypot(length, ends.to_m - ends.from_m), wavelength_m(path_.frequency_ghz))};
+  outcome.loss = Loss{delta_bullington(scratch.tops_, ground, *ends, path_).ld_db,
+                      free_space_db(std::hypot(length, ends->to_m - ends->from_m), wavelength_m(path_.frequency_ghz))};
   return outcome;
 }
 
