@@ -72,6 +72,7 @@ std::vector<std::unique_ptr<Verb>> make_verbs() {
   verbs.push_back(make_profile_verb());
   verbs.push_back(make_los_verb());
   verbs.push_back(make_site_verb());
+  verbs.push_back(make_premises_verb());
   return verbs;
 }
 

@@ -51,5 +51,6 @@ std::unique_ptr<Verb> make_ztv_verb();
 std::unique_ptr<Verb> make_profile_verb();
 std::unique_ptr<Verb> make_los_verb();
 std::unique_ptr<Verb> make_site_verb();
+std::unique_ptr<Verb> make_premises_verb();
 
 }  // namespace itin::cli

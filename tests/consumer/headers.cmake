@@ -1,7 +1,7 @@
-# check_headers(INCLUDE_DIR OUTPUT_DIR SOURCES) fails where more than 45 headers are installed, where one includes what
+# check_headers(INCLUDE_DIR OUTPUT_DIR SOURCES) fails where more than 48 headers are installed, where one includes what
 # is neither installed nor of the standard library, or has no example. It sets SOURCES to a source for each header, which
 # includes nothing else, and one that holds the examples of all.
-set(MOST_HEADERS 45)
+set(MOST_HEADERS 48)
 
 # The first block of lines that begin with "//   ", without those slashes.
 function(example_of header example)

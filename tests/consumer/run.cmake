@@ -49,6 +49,7 @@ function(run_examples examples)
       "line_of_sight|town.itin|321590|4297655|10|321790|4297662|12"
       "links|town.itin|${WORK_DIR}/links.csv|judged.csv"
       "siting|town.itin|cameras"
+      "premises|town.itin|321790|4297662|18|served"
       "wind_farm|town.itin|${WORK_DIR}/turbines.csv|zone"
       "segments|town.itin|321800|4297750|work|2"
       "segments|town.itin|321800|4297750|work"
@@ -56,7 +57,8 @@ function(run_examples examples)
     string(REPLACE "|" ";" command ${command})
     run(${CMAKE_COMMAND} -E chdir ${WORK_DIR} ${examples}/${command})
   endforeach()
-  foreach(file IN ITEMS viewshed.tif viewshed.png segments.tif profile.svg cameras/sites.csv cameras/best-server.tif)
+  foreach(file IN ITEMS viewshed.tif viewshed.png segments.tif profile.svg cameras/sites.csv cameras/best-server.tif
+      served/premises.csv served/premises.gpkg)
     if(NOT EXISTS ${WORK_DIR}/${file})
       message(FATAL_ERROR "the examples did not write ${file}")
     endif()

@@ -89,3 +89,8 @@ itin site garth.itin --turbines --search-area 'POLYGON((309500 183500,314500 183
 itin site garth.itin --turbines --minimise height --demand viewpoints.csv --candidates turbines.csv --count 1 --hub-height 80 --rotor-diameter 90 --radius 4000 --cell 100 -o least-height --json >least-height.json
 itin site town.itin --search-area 'POLYGON((321550 4297550,322010 4297550,322010 4297970,321550 4297970,321550 4297550))' --spacing 120 --mast-height 6 --count 3 --target-height 1.5 --radius 150 --cell 2 --themes buildings -o cameras --json >cameras.json
 itin site garth.itin --search-area 'POLYGON((309500 183500,314500 183500,314500 188500,309500 188500,309500 183500))' --spacing 1200 --mast-height 20 --count 3 --radius 3000 --cell 100 --frequency 5.8 --fresnel 0.6 --effective-earth 4/3 -o radio-masts --json >radio-masts.json
+
+# Premises.
+printf 'name,x,y,height\nchurch,321790,4297662,18\nmill,321900,4297850,12\n' >masts.csv
+itin premises town.itin --masts masts.csv --radius 250 --pole 0,3 -o premises --json >premises.json
+itin premises town.itin --masts masts.csv --radius 200 --spacing 2 --frequency 5.8 --effective-earth 4/3 -o radio-premises

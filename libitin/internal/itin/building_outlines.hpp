@@ -1,9 +1,10 @@
-// Outlines of buildings as they were imported, for maps.
+// Outlines of buildings as they were imported: for maps, and one by one.
 //
 //   const OutlineDetail detail{.tolerance = 0.1 * pixel, .least = 2 * pixel};
 //   for (const std::vector<Point2>& ring : building_outlines(store, ThemeChoice::all(), box, detail)) draw(ring);
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include <itin/geometry.hpp>
@@ -23,5 +24,17 @@ struct OutlineDetail {
 /// do not stand on the ground. Reads all footprints of these themes, about a microsecond each. Throws CorruptStore.
 std::vector<std::vector<Point2>> building_outlines(const Store& store, const ThemeChoice& themes, const Box& box,
                                                    const OutlineDetail& detail);
+
+/// A building in plan.
+struct BuildingFoot {
+  std::uint16_t theme = 0;                 ///< its theme's number, from 1
+  std::int64_t feature = 0;                ///< as FeatureAt::number
+  std::vector<std::vector<Point2>> rings;  ///< closed, of any orientation; read by the even-odd rule
+};
+
+/// Returns the buildings and terraces of the chosen themes that meet the box, in the order of themes and of import. For
+/// a building with measured roofs but no footprint, the rings are those of its roof planes. Costs and errors are those
+/// of building_outlines().
+std::vector<BuildingFoot> building_feet(const Store& store, const ThemeChoice& themes, const Box& box);
 
 }  // namespace itin

@@ -29,9 +29,11 @@ struct VectorLayer {
   Shape shape = Shape::kPoints;
   std::vector<std::pair<std::string, Type>> fields;
   std::vector<Feature> features;
+  std::string style = {};  ///< how QGIS draws the layer of a GeoPackage, as QML; empty: as it likes
 };
 
-/// Equal calls write equal bytes. Throws FileError if the file exists and may not be replaced, or cannot be written.
+/// Writes the layers, and their styles in the table in which QGIS looks for them. Equal calls write equal bytes. Throws
+/// FileError if the file exists and may not be replaced, or cannot be written.
 void write_geopackage(const std::string& path, const std::string& crs_wkt, const std::vector<VectorLayer>& layers,
                       bool overwrite);
 

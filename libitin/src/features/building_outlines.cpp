@@ -9,18 +9,42 @@ namespace itin {
 
 namespace {
 
+/// Calls visit(theme, number, feature) for each building and terrace of the chosen themes.
+template <class Visit>
+void for_each_building(const Store& store, const ThemeChoice& themes, const Visit& visit) {
+  const std::vector<ThemeInfo>& known = store.metadata().themes;
+  for (std::size_t t = 0; t < known.size(); ++t) {
+    const bool houses = known[t].kind == ThemeKind::Buildings || known[t].kind == ThemeKind::Terraces;
+    if (!houses || !themes.includes(known[t])) continue;
+    const auto theme = static_cast<std::uint16_t>(t + 1);
+    std::int64_t number = 0;
+    for (std::uint32_t block = 0; block < known[t].footprint_blocks; ++block)
+      for (const StoredFootprint& footprint : stored_footprints(store, theme, block))
+        visit(theme, number++, footprint.feature);
+  }
+}
+
+/// Calls visit(ring) for the outline of each roof plane, and for its holes where `holes`; for a building that has a
+/// footprint, for the rings of that instead.
+template <class Visit>
+void for_each_ring(const FootprintFeature& feature, bool holes, const Visit& visit) {
+  for (const PlanRing& ring : feature.rings) visit(ring);
+  if (!feature.rings.empty()) return;
+  for (const RoofSurface& surface : feature.surfaces) {
+    for (std::size_t i = 0; i < (holes ? surface.rings.size() : 1); ++i) {
+      PlanRing ring;
+      for (const Point3& p : surface.rings[i]) ring.push_back({p.x, p.y});
+      visit(std::move(ring));
+    }
+  }
+}
+
 class OutlineCollection {
  public:
   OutlineCollection(const Box& box, const OutlineDetail& detail) : box_(box), detail_(detail) {}
 
   void add(const FootprintFeature& feature) {
-    for (const PlanRing& ring : feature.rings) add(ring);
-    if (!feature.rings.empty()) return;
-    for (const RoofSurface& surface : feature.surfaces) {
-      PlanRing outline;
-      for (const Point3& p : surface.rings.front()) outline.push_back({p.x, p.y});
-      add(std::move(outline));
-    }
+    for_each_ring(feature, false, [&](PlanRing ring) { add(std::move(ring)); });
   }
   std::vector<std::vector<Point2>> finish() && { return std::move(rings_); }
 
@@ -44,15 +68,25 @@ class OutlineCollection {
 std::vector<std::vector<Point2>> building_outlines(const Store& store, const ThemeChoice& themes, const Box& box,
                                                    const OutlineDetail& detail) {
   OutlineCollection outlines(box, detail);
-  const std::vector<ThemeInfo>& known = store.metadata().themes;
-  for (std::size_t t = 0; t < known.size(); ++t) {
-    const bool houses = known[t].kind == ThemeKind::Buildings || known[t].kind == ThemeKind::Terraces;
-    if (!houses || !themes.includes(known[t])) continue;
-    for (std::uint32_t block = 0; block < known[t].footprint_blocks; ++block)
-      for (const StoredFootprint& footprint : stored_footprints(store, static_cast<std::uint16_t>(t + 1), block))
-        outlines.add(footprint.feature);
-  }
+  for_each_building(store, themes,
+                    [&](std::uint16_t, std::int64_t, const FootprintFeature& feature) { outlines.add(feature); });
   return std::move(outlines).finish();
+}
+
+std::vector<BuildingFoot> building_feet(const Store& store, const ThemeChoice& themes, const Box& box) {
+  std::vector<BuildingFoot> feet;
+  for_each_building(store, themes, [&](std::uint16_t theme, std::int64_t number, const FootprintFeature& feature) {
+    BuildingFoot foot{theme, number, {}};
+    Box extent;
+    for_each_ring(feature, true, [&](PlanRing ring) {
+      if (ring.empty()) return;
+      if (ring.front() != ring.back()) ring.push_back(ring.front());
+      for (const Point2& p : ring) extent.extend(p);
+      foot.rings.push_back(std::move(ring));
+    });
+    if (!foot.rings.empty() && box.meets(extent)) feet.push_back(std::move(foot));
+  });
+  return feet;
 }
 
 }  // namespace itin

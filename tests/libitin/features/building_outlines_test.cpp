@@ -93,5 +93,24 @@ TEST_F(BuildingOutlines, LeavesOutWhatLiesElsewhereOrIsSmaller) {
   expect_same(boxes_of(ThemeChoice::all(), part, {0.1, 12}), expected);
 }
 
+TEST_F(BuildingOutlines, TellOneBuildingFromAnother) {
+  const std::vector<BuildingFoot> feet =
+      building_feet(Store(store_), ThemeChoice::all(), {299000, 198000, 302000, 201000});
+  ASSERT_EQ(feet.size(), footprints_.size());
+  for (std::size_t i = 0; i < feet.size(); ++i) {
+    EXPECT_EQ(feet[i].feature, static_cast<std::int64_t>(i));
+    EXPECT_EQ(Store(store_).metadata().themes[feet[i].theme - std::size_t{1}].name, "houses");
+    ASSERT_EQ(feet[i].rings.size(), 1U);
+    EXPECT_EQ(feet[i].rings.front().front(), feet[i].rings.front().back());
+    Box box;
+    for (const Point2& p : feet[i].rings.front()) box.extend(p);
+    expect_same({box}, {footprints_[i]});
+  }
+  const Box part{300200, 199400, 300420, 199600};
+  const auto meeting =
+      std::count_if(footprints_.begin(), footprints_.end(), [&](const Box& b) { return part.meets(b); });
+  EXPECT_EQ(building_feet(Store(store_), ThemeChoice::all(), part).size(), static_cast<std::size_t>(meeting));
+}
+
 }  // namespace
 }  // namespace itin

@@ -87,7 +87,7 @@ ClearZone::ClearZone(const Tin& lower, const Tin* upper, const Earth& earth, con
 
 unsigned ClearZone::cut(const Bounded& surface, const SightLines& lines) const {
   const Tin& tin = surface.tin;
-  const double resolution = tin.grid.resolution, grazing = kGrazing / resolution;
+  const double grazing = kGrazing / tin.grid.resolution;
   std::vector<ZoneTest> tests;
   tests.reserve(SightLines::kSize);
   LoweredLines bundle;
@@ -97,8 +97,7 @@ unsigned ClearZone::cut(const Bounded& surface, const SightLines& lines) const {
     // The line starts at the target: what cuts the zone is most often near it.
     const SightLine line({lines.to_x[i], lines.to_y[i], lines.to_z[i]},
                          {lines.from_x[i], lines.from_y[i], lines.from_z[i]}, drop_, grazing);
-    const double zone = std::sqrt(criterion_.wavelength / resolution * std::hypot(line.dx(), line.dy()));
-    tests.emplace_back(line, zone, criterion_.fraction, grazing);
+    tests.emplace_back(line, zone_of(line), criterion_.fraction, grazing);
     bundle.add(line);
     bundle.end = std::min(bundle.end, line.to_z());
     bundle.depth = std::max(bundle.depth, tests.back().depth());
@@ -117,6 +116,33 @@ unsigned ClearZone::cut(const Bounded& surface, const SightLines& lines) const {
     if (result == lines.active) bundle.reach = -1;
   });
   return result;
+}
+
+/// Twice the greatest radius of the line's first zone, grid units.
+double ClearZone::zone_of(const SightLine& line) const {
+  return std::sqrt(criterion_.wavelength / lower_.tin.grid.resolution * std::hypot(line.dx(), line.dy()));
+}
+
+std::optional<ClearZone::FirstCut> ClearZone::first_cut(const Point3& from, const Point3& to) const {
+  const Tin& tin = lower_.tin;
+  const double grazing = kGrazing / tin.grid.resolution;
+  const SightLine line(from, to, drop_, grazing);
+  const ZoneTest test(line, zone_of(line), criterion_.fraction, grazing);
+  LoweredLines bundle;
+  bundle.margin = grazing;
+  bundle.add(line);
+  bundle.end = line.to_z();
+  bundle.depth = test.depth();
+  std::optional<FirstCut> first;
+  lower_.pyramid.search(bundle, [&](std::uint32_t t) {
+    const Triangle& triangle = tin.triangles[t];
+    const GridPoint &a = tin.vertices[triangle[0]], &b = tin.vertices[triangle[1]], &c = tin.vertices[triangle[2]];
+    if (!test.cut_by(a, b, c)) return;
+    const double at = line.ground_over(a, b, c)->from;
+    if (first && (at > first->at || (at == first->at && t >= first->triangle))) return;
+    first = {t, at};
+  });
+  return first;
 }
 
 unsigned ClearZone::certainly_cut(const SightLines& to_highest_targets) const {

@@ -10,6 +10,7 @@
 // that lines of sight have (itin/fresnel_zone.hpp). Raising a target only clears more.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 
 #include <itin/earth.hpp>
@@ -35,6 +36,14 @@ class ClearZone {
   /// Returns one bit per line, and tells nothing of the lines themselves across ground without data.
   unsigned certainly_clear(const SightLines& to_lowest_targets) const;
 
+  /// The triangle that cuts a zone nearest to the line's start.
+  struct FirstCut {
+    std::uint32_t triangle = 0;
+    double at = 0;  ///< fraction of the line's length where the line comes over the triangle
+  };
+  /// Returns nothing where no triangle of the lower surface cuts the zone of a line between ends in grid units.
+  std::optional<FirstCut> first_cut(const Point3& from, const Point3& to) const;
+
  private:
   /// A surface, and the pyramid of its bounds.
   struct Bounded {
@@ -43,6 +52,7 @@ class ClearZone {
     HeightPyramid pyramid;
   };
   unsigned cut(const Bounded& surface, const SightLines& lines) const;
+  double zone_of(const SightLine& line) const;
 
   double drop_;  ///< grid units per squared grid unit
   FresnelCriterion criterion_;

@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::int64_t kCoarser = 3;  ///< pixels along the side of a square, whose mean contours follow
 constexpr Rgba kContour{150, 105, 60, 150};
-constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+constexpr float kNoElevation = std::numeric_limits<float>::quiet_NaN();
 
 struct Heights {
   RasterGrid grid;
@@ -30,7 +30,7 @@ Heights smoothed(const Relief& ground) {
   const std::int64_t columns = std::max<std::int64_t>(1, fine.columns() / kCoarser),
                      rows = std::max<std::int64_t>(1, fine.rows() / kCoarser);
   Heights result{{fine.north_west(), kCoarser * fine.cell_width(), kCoarser * fine.cell_height(), columns, rows}, {}};
-  result.values.assign(result.grid.cell_count(), kNaN);
+  result.values.assign(result.grid.cell_count(), kNoElevation);
   if (fine.columns() < kCoarser || fine.rows() < kCoarser) return result;
   for (std::int64_t row = 0; row < rows; ++row)
     for (std::int64_t column = 0; column < columns; ++column) {

@@ -29,7 +29,7 @@ std::string without_slash(std::string path) {
 
 /// Names of the files that an earlier run wrote.
 std::set<std::string> listed_outputs(const fs::path& manifest) {
-  std::set<std::string> names{kZoneManifest};
+  std::set<std::string> names{manifest.filename().string()};
   std::ifstream in(manifest);
   const nlohmann::json document = nlohmann::json::parse(in, nullptr, false);
   if (!document.is_object() || !document.contains("outputs") || !document["outputs"].is_array()) return names;
@@ -44,16 +44,15 @@ std::set<std::string> listed_outputs(const fs::path& manifest) {
 
 }  // namespace
 
-void require_zone_folder(const std::string& given, bool overwrite) {
+void require_study_folder(const std::string& given, const char* manifest, bool overwrite) {
   const std::string path = without_slash(given);
   std::error_code ignored;
   const fs::file_status status = fs::status(path, ignored);
   if (fs::exists(status) && !fs::is_directory(status)) throw FileError(path, "is a file; name a folder");
   if (fs::is_directory(status) && !fs::is_empty(path, ignored)) {
     if (!overwrite) throw FileError(path, "exists; give `overwrite` to replace its outputs");
-    if (!fs::exists(fs::path(path) / kZoneManifest, ignored))
-      throw FileError(path,
-                      fmt::format("is no folder of earlier outputs, for it has no {}; name another", kZoneManifest));
+    if (!fs::exists(fs::path(path) / manifest, ignored))
+      throw FileError(path, fmt::format("is no folder of earlier outputs, for it has no {}; name another", manifest));
   }
   fs::path parent = fs::path(path).parent_path();
   if (parent.empty()) parent = ".";
@@ -63,8 +62,13 @@ void require_zone_folder(const std::string& given, bool overwrite) {
     throw FileError(path, "its parent folder is not writable; change its permissions or name another place");
 }
 
-StudyFolder::StudyFolder(std::string path, bool overwrite) : path_(without_slash(std::move(path))) {
-  require_zone_folder(path_, overwrite);
+void require_zone_folder(const std::string& path, bool overwrite) {
+  require_study_folder(path, kZoneManifest, overwrite);
+}
+
+StudyFolder::StudyFolder(std::string path, const char* manifest, bool overwrite)
+    : path_(without_slash(std::move(path))), manifest_(manifest) {
+  require_study_folder(path_, manifest, overwrite);
   const std::string working = fmt::format("{}.{}.tmp", path_, getpid());
   std::error_code error;
   fs::create_directory(working, error);
@@ -86,7 +90,7 @@ void StudyFolder::publish() {
 }
 
 void StudyFolder::keep_foreign_files(const std::string& earlier) const {
-  const std::set<std::string> own = listed_outputs(fs::path(earlier) / kZoneManifest);
+  const std::set<std::string> own = listed_outputs(fs::path(earlier) / manifest_);
   for (const fs::directory_entry& entry : fs::directory_iterator(earlier)) {
     const std::string name = entry.path().filename().string();
     const fs::path to = fs::path(path_) / name;

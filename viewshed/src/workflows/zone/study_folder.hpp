@@ -1,6 +1,6 @@
 // A folder of outputs that appears complete or not at all.
 //
-//   StudyFolder folder("ztv", false);
+//   StudyFolder folder("ztv", kZoneManifest, false);
 //   write(folder.working() + "/tip-count.tif");
 //   folder.publish();
 #pragma once
@@ -12,11 +12,16 @@
 
 namespace itin::viewshed {
 
+/// Checks that such a folder may be written at `path`. `manifest` is the file that tells a folder of earlier outputs
+/// from any other. Throws FileError if nothing can be written beside it, or if it is something else than a folder, or a
+/// folder with files in it that may not be replaced.
+void require_study_folder(const std::string& path, const char* manifest, bool overwrite);
+
 class StudyFolder {
  public:
   /// Makes a working folder beside `path`, which is removed in the end unless it is published. Throws as
-  /// require_zone_folder() does.
-  StudyFolder(std::string path, bool overwrite);
+  /// require_study_folder() does.
+  StudyFolder(std::string path, const char* manifest, bool overwrite);
 
   const std::string& working() const { return working_->path(); }
   /// Renames the working folder to `path`, in one step. Files of the earlier folder that its manifest does not list as
@@ -27,6 +32,7 @@ class StudyFolder {
   void keep_foreign_files(const std::string& earlier) const;
 
   std::string path_;
+  const char* manifest_;
   std::optional<Unfinished> working_;
 };
 

@@ -140,7 +140,7 @@ Document outputs_document(const std::string& folder, const std::vector<ZoneFile>
 
 std::vector<ZoneFile> write_zone_study(const std::string& folder, const Store& store, const ZoneStudy& study,
                                        const ZoneStudyFileOptions& options, Progress& progress) {
-  StudyFolder target(folder, options.overwrite);
+  StudyFolder target(folder, kZoneManifest, options.overwrite);
   std::vector<ZoneFile> files = StudyWriter(target.working(), store, study, options, progress).write();
   write_file(target.working() + "/" + kZoneManifest, manifest_of(study, folder, files, options), true);
   target.publish();

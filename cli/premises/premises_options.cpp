@@ -1,0 +1,157 @@
+#include "premises/premises_options.hpp"
+
+#include <fmt/format.h>
+
+#include <itin/error.hpp>
+#include <itin/site_list.hpp>
+
+#include "options/off_the_data.hpp"
+#include "options/wave_options.hpp"
+#include "program/call_files.hpp"
+#include "program/help.hpp"
+#include "program/values.hpp"
+
+namespace itin::cli {
+
+void PremisesOptions::declare(CLI::App& app) {
+  reads(app.add_option("STORE", store, "The store")->required());
+  declare_masts(app);
+  declare_antennas(app);
+  begin_group(app, kOutputs);
+  replaces(app.add_option("-o,--output", directory, "The folder to write")->type_name("DIR")->required());
+  policy.declare(app);
+  declare_work(app);
+}
+
+void PremisesOptions::declare_masts(CLI::App& app) {
+  begin_group(app, "Masts");
+  reads(app.add_option("--masts", masts_.path, "Masts from a vector file, or from CSV with columns x,y or lon,lat")
+            ->type_name("FILE")
+            ->required());
+  app.add_option("--layer", masts_.layer, "The layer of that file")->type_name("NAME");
+  app.add_option("--where", masts_.where, "Only masts that this SQL condition holds for")->type_name("SQL");
+  app.add_option("--name-field", masts_.name_field, "The field that holds names (default: name, or one like it)")
+      ->type_name("FIELD");
+  app.add_option("--height-field", masts_.height_field,
+                 "The field that holds each mast's height (default: height, unless --mast-height is given)")
+      ->type_name("FIELD");
+  app.add_option("--mast-height", mast_height_text_, "Height of masts without one of their own (default: 20)")
+      ->type_name("METRES");
+  app.add_option("--observer-on", observer_on_,
+                 "Masts stand on the ground (default), or on the surface with the roofs of --themes")
+      ->type_name("ground|surface");
+  in_crs_.declare(app);
+  app.add_option("--radius", radius_text_, "How far a mast serves (default: 1000)")->type_name("METRES");
+}
+
+void PremisesOptions::declare_antennas(CLI::App& app) {
+  begin_group(app, "Antennas on buildings");
+  app.add_option("--spacing", spacing_text_, "Distance between the places along a wall and on a roof (default: 1)")
+      ->type_name("METRES");
+  app.add_option("--reveal", reveal_text_, "How far before its wall an antenna is (default: 0.3)")->type_name("METRES");
+  app.add_option("--storey", storey_text_,
+                 "Antennas on walls are at multiples of this height above the ground (default: 3)")
+      ->type_name("METRES");
+  app.add_option("--pole", pole_text_, "Heights of antennas above the roof, the least first (default: 0,5)")
+      ->type_name("H[,H...]");
+  app.add_option("--frequency", frequency_text_,
+                 "Serve only what is in sight with its first Fresnel zone clear at this frequency: GHz, or 7500MHz")
+      ->type_name("GHZ");
+  app.add_option("--fresnel", fresnel_text_,
+                 "Share of the first Fresnel zone's radius that must be clear, 0 to 1 (default: 0.6)")
+      ->type_name("FRACTION");
+}
+
+void PremisesOptions::declare_work(CLI::App& app) {
+  themes_.declare(app);
+  earth_.declare(app);
+  nodata_.declare(app);
+  memory_.declare(app,
+                  "Memory to work in, for example 2G. Surfaces that exceed it are read in parts; the result does not "
+                  "depend on it (default: 1G)");
+}
+
+void PremisesOptions::validate() {
+  themes_.validate();
+  earth_.validate();
+  request_.themes = themes_.choice();
+  request_.nodata = nodata_.rule();
+  request_.memory_bytes = memory_.bytes().value_or(request_.memory_bytes);
+  request_.masts_on_surface = parse_choice("--observer-on", observer_on_, {"ground", "surface"}) == 1;
+  if (!masts_.height_field.empty() && !mast_height_text_.empty())
+    throw InputError("--height-field and --mast-height exclude each other");
+  if (!mast_height_text_.empty())
+    request_.mast_height = parse_height("--mast-height", mast_height_text_, Range::kNotNegative);
+  if (!radius_text_.empty()) request_.radius = parse_radius("--radius", radius_text_);
+  validate_antennas();
+}
+
+void PremisesOptions::validate_antennas() {
+  const auto take = [](const char* option, const std::string& text, double& value) {
+    if (!text.empty()) value = parse_number(option, text, Range::kPositive);
+  };
+  take("--spacing", spacing_text_, request_.spacing);
+  take("--reveal", reveal_text_, request_.reveal);
+  take("--storey", storey_text_, request_.storey);
+  if (!pole_text_.empty()) request_.poles = parse_heights("--pole", pole_text_, Range::kNotNegative);
+  if (frequency_text_.empty()) {
+    if (!fresnel_text_.empty()) throw InputError("--fresnel needs a --frequency: the zone's radius depends on it");
+    return;
+  }
+  request_.frequency_ghz = parse_frequency(frequency_text_);
+  if (!fresnel_text_.empty()) request_.fresnel = parse_fresnel(fresnel_text_);
+  require_curved(earth_.earth());
+}
+
+viewshed::PremisesRequest PremisesOptions::complete_request(const StoreMetadata& metadata) {
+  earth_.take_body_of(metadata);
+  request_.earth = earth_.earth();
+  themes_.choice().check(metadata.themes);
+  viewshed::SitePlaces& masts = request_.masts;
+  take_fields(masts.warnings);
+  masts.source = masts_.path;
+  masts_.crs = in_crs_.crs;
+  for (const Site& site : read_sites(masts_, metadata.crs_wkt, masts.warnings)) {
+    const std::string name = site.name.empty() ? std::to_string(site.row) : site.name;
+    require_on_the_data(fmt::format("{}: mast {}", masts_.path, name), site.position, in_crs_, metadata);
+    masts.places.push_back({.name = name, .position = site.position, .height = site.height, .origin = site.place});
+  }
+  if (masts.places.empty()) throw InputError(none_in(masts_, "mast"));
+  return request_;
+}
+
+void PremisesOptions::take_fields(std::vector<std::string>& warnings) {
+  const LayerFields fields(masts_);
+  take_names(masts_, fields);
+  if (!masts_.height_field.empty()) return;
+  take_heights(masts_, fields, {mast_height_text_.empty() ? "" : "--mast-height", "--height-field"}, warnings);
+  took_heights_ = !masts_.height_field.empty();
+}
+
+std::string PremisesOptions::heights_text() const {
+  return took_heights_
+             ? fmt::format("heights of masts are those of the field '{}' of {}\n", masts_.height_field, masts_.path)
+             : "";
+}
+
+void PremisesOptions::warn_of_light(std::vector<std::string>& warnings) const {
+  if (request_.frequency_ghz) earth_.warn_of_light(warnings);
+}
+
+Document PremisesOptions::parameters() const {
+  Document p{{"store", store}, {"masts", masts_.path}};
+  if (!masts_.height_field.empty()) p["height_field"] = masts_.height_field;
+  p["mast_height_m"] = request_.mast_height;
+  p["observer_on"] = observer_on_;
+  p["radius_m"] = request_.radius;
+  p["spacing_m"] = request_.spacing;
+  p["reveal_m"] = request_.reveal;
+  p["storey_m"] = request_.storey;
+  p["poles_m"] = request_.poles;
+  if (request_.frequency_ghz) p["frequency_ghz"] = *request_.frequency_ghz, p["fresnel"] = request_.fresnel;
+  p.update(themes_.parameters());
+  p["nodata"] = nodata_.text();
+  return p;
+}
+
+}  // namespace itin::cli

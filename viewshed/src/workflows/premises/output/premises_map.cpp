@@ -1,0 +1,103 @@
+#include "workflows/premises/output/premises_map.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include <itin/counted.hpp>
+#include <itin/sources_in.hpp>
+#include <viewshed/result_sheet.hpp>
+
+#include "workflows/premises/output/wall_service.hpp"
+
+namespace itin::viewshed {
+
+namespace {
+
+using Sample = profile::SheetKey::Sample;
+
+MapObjects lines_of_class(profile::SheetLines lines, const ServiceClass& service) {
+  lines.colour = service.colour;
+  return {{std::move(lines)}, {{Sample::kLine, {service.colour}, service.text}}};
+}
+
+/// The feet of the buildings of a class that walls do not show.
+MapObjects feet_of(const PremisesSurvey& survey, PremisesService service) {
+  profile::SheetLines lines{{}, {}, 0.25, false};
+  for (const Premises& p : survey.premises)
+    if (service_of(p) == service)
+      for (const std::vector<Point2>& ring : p.foot) lines.lines.push_back({ring, ""});
+  return lines_of_class(std::move(lines), class_of(service));
+}
+
+MapObjects walls_of(const PremisesSurvey& survey, WallService service) {
+  profile::SheetLines lines{{}, {}, 0.6, false};
+  for (const Premises& p : survey.premises)
+    for (const WallPlace& wall : p.walls)
+      if (service_of(wall, survey.request.storey) == service) lines.lines.push_back({wall.stretch, ""});
+  return lines_of_class(std::move(lines), class_of(service));
+}
+
+std::vector<MapObjects> premises_objects(const PremisesSurvey& survey) {
+  std::vector<MapObjects> objects;
+  for (const PremisesService service : {PremisesService::kOutOfReach, PremisesService::kUnserved,
+                                        PremisesService::kUndecided, PremisesService::kWall, PremisesService::kRoof})
+    objects.push_back(feet_of(survey, service));
+  for (const WallService service :
+       {WallService::kUnserved, WallService::kUndecided, WallService::kHigh, WallService::kLow})
+    objects.push_back(walls_of(survey, service));
+  std::erase_if(objects,
+                [](const MapObjects& o) { return std::get<profile::SheetLines>(o.layers.front()).lines.empty(); });
+  std::vector<profile::SheetMark> masts;
+  for (const SitePosition& mast : survey.masts) masts.push_back({mast.position, mast.name});
+  objects.push_back(mast_objects(std::move(masts), "Mast"));
+  return objects;
+}
+
+/// The box about the buildings within reach and the masts.
+Box shown_box(const PremisesSurvey& survey) {
+  Box box;
+  for (const SitePosition& mast : survey.masts) box.extend(mast.position);
+  for (const Premises& p : survey.premises) {
+    if (p.links.empty()) continue;
+    for (const std::vector<Point2>& ring : p.foot)
+      for (const Point2& at : ring) box.extend(at);
+  }
+  const double margin = 0.03 * std::max(box.width(), box.height());
+  return {box.xmin - margin, box.ymin - margin, box.xmax + margin, box.ymax + margin};
+}
+
+profile::TitleBlock title_of_premises(const Store& store, const PremisesSurvey& survey, const Box& shown) {
+  const PremisesRequest& request = survey.request;
+  const PremisesCounts counts = survey.counts();
+  profile::TitleBlock title;
+  title.title = "Premises served by " + counted(survey.masts.size(), "mast");
+  title.statement = statement_of(survey.metadata, request.themes, Detail::tolerance(0));
+  title.facts = {
+      {"Premises", fmt::format("{} of {} served: {} on a wall, {} on the roof alone", grouped(counts.served()),
+                               grouped(counts.all), grouped(counts.on_walls), grouped(counts.on_roofs))},
+      {"Antennas", fmt::format("{:g} m before walls, at storeys of {:g} m; on roofs {:g} m up and higher",
+                               request.reveal, request.storey, request.poles.front())},
+      {"Served", request.frequency_ghz ? fmt::format("in sight with {:g} F1 clear at {:g} GHz, within {:g} m",
+                                                     request.fresnel, *request.frequency_ghz, request.radius)
+                                       : fmt::format("in sight, within {:g} m", request.radius)},
+      {"Earth", request.earth.convention()}};
+  title.sources = described(sources_in(store, shown, request.themes), survey.metadata);
+  return title;
+}
+
+}  // namespace
+
+std::string premises_map(const Store& store, const PremisesSurvey& survey, const std::string& name,
+                         Progress& progress) {
+  const Box shown = shown_box(survey);
+  const double side = std::max(shown.width(), shown.height());
+  ResultSheet sheet{
+      RasterGrid({shown.xmin, shown.ymax}, side, side, 1, 1), shown, {}, "", {}, premises_objects(survey), {}};
+  sheet.map.cells = {kTransparent};
+  sheet.studied = [](Point2) { return true; };
+  sheet.title = title_of_premises(store, survey, shown);
+  return draw_result_sheet(store, sheet, profile::PaperSize::kA3, {}, name, progress);
+}
+
+}  // namespace itin::viewshed

@@ -1,0 +1,28 @@
+// The survey of premises as tables and as layers for a GIS.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include <itin/vector_export.hpp>
+#include <viewshed/premises.hpp>
+
+namespace itin::viewshed {
+
+/// How many buildings a mast reaches, serves, and serves best.
+struct MastService {
+  std::size_t within_reach = 0, serves = 0, best = 0;
+};
+/// One for each mast.
+std::vector<MastService> services_of(const PremisesSurvey& survey);
+
+/// A row for each building: what serves it from where, or what is in the way.
+std::string premises_csv(const PremisesSurvey& survey);
+/// A row for each building and mast within reach.
+std::string premises_links_csv(const PremisesSurvey& survey);
+
+/// The layers premises, facades, links and masts, with their styles.
+std::vector<VectorLayer> premises_layers(const PremisesSurvey& survey);
+
+}  // namespace itin::viewshed

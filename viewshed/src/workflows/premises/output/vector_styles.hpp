@@ -1,0 +1,16 @@
+// Styles by which QGIS draws lines and points in colours by the classes of a field.
+//
+//   layer.style = line_style("service", {{"served", "Served", {0, 114, 178}}});
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "workflows/premises/output/wall_service.hpp"
+
+namespace itin::viewshed {
+
+std::string line_style(const std::string& field, std::span<const ServiceClass> classes, double width_mm);
+std::string point_style(const std::string& field, std::span<const ServiceClass> classes);
+
+}  // namespace itin::viewshed

@@ -1,0 +1,61 @@
+// The folder of a survey of premises.
+
+#include <filesystem>
+
+#include <itin/output_file.hpp>
+#include <viewshed/premises.hpp>
+#include <viewshed/premises_document.hpp>
+
+#include "workflows/premises/output/premises_map.hpp"
+#include "workflows/premises/output/premises_tables.hpp"
+#include "workflows/zone/study_folder.hpp"
+
+namespace itin::viewshed {
+
+namespace {
+
+/// The file that tells a folder of such outputs from any other.
+constexpr const char* kPremisesManifest = "premises.json";
+
+std::vector<PlanFile> premises_files(const std::string& folder) {
+  std::vector<PlanFile> files{
+      {"premises.csv",
+       "a row for each building: which mast serves it, where on it and from which height, or what is in "
+       "the way"},
+      {"links.csv", "a row for each building and mast within reach"},
+      {"premises.gpkg", "walls, buildings, links and masts for a GIS, with styles for QGIS"},
+      {"premises.png", "map of walls and buildings by how they are served"}};
+  for (PlanFile& file : files) file.path = (std::filesystem::path(folder) / file.path).string();
+  return files;
+}
+
+/// The document of the folder, without times, so that equal runs write equal files.
+std::string manifest_of_premises(const PremisesSurvey& survey, const std::vector<PlanFile>& files) {
+  Document document = premises_document(survey);
+  document.erase("statistics");
+  for (const PlanFile& file : files) document["outputs"].push_back({{"path", file.path}, {"what", file.what}});
+  return json_text(document, 2) + "\n";
+}
+
+}  // namespace
+
+void require_premises_folder(const std::string& path, bool overwrite) {
+  require_study_folder(path, kPremisesManifest, overwrite);
+}
+
+std::vector<PlanFile> write_premises(const std::string& folder, const Store& store, const PremisesSurvey& survey,
+                                     const PremisesFileOptions& options, Progress& progress) {
+  StudyFolder target(folder, kPremisesManifest, options.overwrite);
+  const auto path = [&](const char* name) { return target.working() + "/" + name; };
+  write_file(path("premises.csv"), premises_csv(survey), true);
+  write_file(path("links.csv"), premises_links_csv(survey), true);
+  write_geopackage(path("premises.gpkg"), survey.metadata.crs_wkt, premises_layers(survey), true);
+  write_file(path("premises.png"), premises_map(store, survey, "premises.png", progress), true);
+  std::vector<PlanFile> files = premises_files(folder);
+  write_file(path(kPremisesManifest), options.manifest ? options.manifest(files) : manifest_of_premises(survey, files),
+             true);
+  target.publish();
+  return files;
+}
+
+}  // namespace itin::viewshed
