@@ -17,6 +17,7 @@
 #include <viewshed/exact_cost.hpp>
 #include <viewshed/hidden_eyes.hpp>
 #include <viewshed/missing_ground.hpp>
+#include <viewshed/result_raster.hpp>
 #include <viewshed/viewshed.hpp>
 
 #include "options/detail_options.hpp"
@@ -157,14 +158,7 @@ class ViewshedVerb final : public Verb {
     viewshed::ViewshedWithSurface computed = survey(store, request_, progress);
     const viewshed::MissingGround missing = viewshed::missing_ground(store, computed.result, progress);
     const std::vector<SourceInfo> sources = sources_in(store, looked_at(computed.result), request_.themes);
-    const ViewshedOutputs::Context context{metadata.crs_wkt,
-                                           surface_document(metadata, request_.detail, request_.themes),
-                                           {{"mode", mode_name()},
-                                            {"precise", precise_ ? "yes" : "no"},
-                                            {"observer_on", request_.observers_on_surface ? "surface" : "ground"},
-                                            {"target_on", targets_.on()}},
-                                           missing,
-                                           described(sources, metadata)};
+    const ViewshedOutputs::Context context{metadata, certified_, missing, described(sources, metadata)};
     result.warnings.insert(result.warnings.end(), computed.result.warnings.begin(), computed.result.warnings.end());
     if (const auto warning = missing.warning("the area looked at")) result.warnings.push_back(in_options(*warning));
     if (computed.result.cells.in_view() == 0)
@@ -217,23 +211,18 @@ class ViewshedVerb final : public Verb {
     return paths;
   }
 
-  /// The names of viewshed::Mode's values, in order. The modes of radio come last, and have options of their own.
-  static constexpr std::string_view kModes[] = {"visible", "count",  "which",       "angle",   "nearest",
-                                                "blocker", "height", "probability", "fresnel", "loss"};
-  static constexpr std::size_t kModesOfRadio = 2;
-
   void parse_mode() {
     if (radio_.is_given())
       throw InputError("--frequency judges Fresnel zones, or losses with --loss, and nothing else: leave out --mode");
-    std::vector<std::string_view> choices(std::begin(kModes), std::end(kModes) - kModesOfRadio);
+    // The modes of radio come last, and have options of their own.
+    const auto modes = viewshed::mode_names().first(viewshed::mode_names().size() - 2);
+    std::vector<std::string_view> choices(modes.begin(), modes.end());
     choices.emplace_back("certified");  // the name by which certificates tell the visible
     const std::size_t mode = parse_choice("--mode", mode_text_, choices);
     certified_ = choices[mode] == "certified";
     request_.mode = certified_ ? viewshed::Mode::kVisible : static_cast<viewshed::Mode>(mode);
   }
-  std::string mode_name() const {
-    return std::string(certified_ ? "certified" : kModes[static_cast<std::size_t>(request_.mode)]);
-  }
+  std::string mode_name() const { return viewshed::mode_name(request_.mode, certified_); }
 
   void validate_vertical_error() {
     const bool wanted = request_.mode == viewshed::Mode::kProbability;

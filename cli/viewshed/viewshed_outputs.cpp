@@ -6,12 +6,12 @@
 
 #include <fmt/format.h>
 
-#include <itin/document.hpp>
 #include <itin/error.hpp>
 #include <itin/file_ending.hpp>
-#include <itin/output_file.hpp>
 #include <viewshed/map_image.hpp>
 #include <viewshed/qgis_styles.hpp>
+#include <viewshed/result_files.hpp>
+#include <viewshed/result_raster.hpp>
 
 #include "output/file_names.hpp"
 #include "program/call_files.hpp"
@@ -87,14 +87,7 @@ std::vector<std::string> ViewshedOutputs::rasters() const {
 
 void ViewshedOutputs::write_raster(const std::string& path, const viewshed::Result& result, const Context& context,
                                    const Progress& progress) const {
-  viewshed::GeotiffOptions options;
-  options.crs_wkt = context.crs_wkt;
-  options.metadata = {{"itin", ITIN_VERSION}, {"surface", json_text(context.surface)}};
-  options.metadata.insert(options.metadata.end(), context.parameters.begin(), context.parameters.end());
-  options.overwrite = policy_.overwrite;
-  viewshed::write_geotiff(path, result, options, progress);
-  if (const std::string style = viewshed::qgis_style(result.request); !style.empty())
-    write_file(viewshed::style_beside(path), style, policy_.overwrite);
+  viewshed::write_result_raster(path, result, context.metadata, {context.certified, policy_.overwrite}, progress);
 }
 
 void ViewshedOutputs::write(const Store& store, viewshed::ViewshedWithSurface& computed, const Context& context,
@@ -119,7 +112,7 @@ void ViewshedOutputs::write(const Store& store, viewshed::ViewshedWithSurface& c
   }
   for (const std::string& path : outputs_) {
     if (is_polygons(path)) {
-      viewshed::write_polygons(path, computed.result, context.crs_wkt, policy_.overwrite, no_data);
+      viewshed::write_polygons(path, computed.result, context.metadata.crs_wkt, policy_.overwrite, no_data);
     } else {
       write_raster(path, computed.result, context, progress);
     }

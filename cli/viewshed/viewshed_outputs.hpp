@@ -15,7 +15,6 @@
 #include <viewshed/viewshed.hpp>
 
 #include "output/output_path.hpp"
-#include "program/verb.hpp"
 
 namespace itin::cli {
 
@@ -29,9 +28,8 @@ class ViewshedOutputs {
   void prepare(const viewshed::Request& request);
 
   struct Context {
-    std::string crs_wkt;
-    Document surface;
-    std::vector<std::pair<std::string, std::string>> parameters;  ///< parameters that a result does not tell
+    const StoreMetadata& metadata;
+    bool certified;  ///< what is certain was asked for
     const viewshed::MissingGround& missing;
     std::vector<std::string> sources;  ///< where the surface comes from, sort by sort
   };

@@ -27,7 +27,6 @@ class ViewshedTargets {
   /// Whether the call states the height of targets.
   bool height_given() const { return !height_text_.empty(); }
   /// "ground" or "surface".
-  const std::string& on() const { return on_; }
   /// Tells how the request came to its targets.
   Document parameters(const viewshed::Request& request) const;
 

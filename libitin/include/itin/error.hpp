@@ -1,9 +1,11 @@
 // Errors as types that carry their data. Every message is one line: what, where, what to do.
 //
 //   try {
-//     const Store store("wales.itin");
+//     import_terrain("wales.itin", {.sources = {"wales.tif"}, .resolution = 0}, progress);
 //   } catch (const FileError& error) {
 //     std::cerr << error.what() << "; try " << error.path() << " elsewhere\n";
+//   } catch (const InputError& error) {
+//     std::cerr << error.what() << "; see " << error.field() << '\n';
 //   }
 //
 // Input errors end the command line with status 2, all others with status 1.
@@ -12,6 +14,7 @@
 #include <cstdint>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace itin {
 
@@ -24,7 +27,14 @@ class Error : public std::runtime_error {
 /// The call or its input is wrong: an option, a value, a geometry.
 class InputError : public Error {
  public:
-  using Error::Error;
+  /// `field` is the field of the request that is wrong or missing; empty where it is none of them, but a file or a
+  /// place.
+  explicit InputError(const std::string& what, std::string field = {}) : Error(what), field_(std::move(field)) {}
+  /// The name of that field, "cell_size", as its struct declares it.
+  const std::string& field() const { return field_; }
+
+ private:
+  std::string field_;
 };
 
 /// A file could not be read, written or understood.

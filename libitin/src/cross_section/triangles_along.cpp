@@ -69,7 +69,7 @@ Tin part_of(const Tin& tin, const std::vector<std::uint32_t>& triangles) {
 
 Tin triangles_along(const Store& store, const std::vector<Point2>& path, const Detail& detail,
                     const ThemeChoice& themes, Progress& progress) {
-  if (path.size() < 2) throw InputError("path: give at least two places");
+  if (path.size() < 2) throw InputError("path: give at least two places", "path");
   const Grid& grid = store.metadata().grid;
   const std::vector<SectionLine> lines = lines_of(path, grid);
   const Tin about = triangulate(store, window_along(path, grid.resolution), detail, progress, themes);

@@ -14,7 +14,7 @@ namespace itin {
 nlohmann::ordered_json parsed_metadata(const std::string& metadata_json) {
   if (metadata_json.empty()) return nlohmann::ordered_json::object();
   auto metadata = nlohmann::ordered_json::parse(metadata_json, nullptr, false);
-  if (!metadata.is_object()) throw InputError("export: the metadata is not a JSON object");
+  if (!metadata.is_object()) throw InputError("export: the metadata is not a JSON object", "metadata_json");
   return metadata;
 }
 

@@ -50,7 +50,7 @@ TopologyKind topology_kind(std::string_view name) {
   if (name == "triangle") return TopologyKind::TriangleBased;
   if (name == "vertex") return TopologyKind::VertexBased;
   if (name == "edge") return TopologyKind::EdgeBased;
-  throw InputError(fmt::format("topology: '{}' is none of triangle, vertex and edge", name));
+  throw InputError(fmt::format("topology: '{}' is none of triangle, vertex and edge", name), "topology");
 }
 
 void require_tin_output(const std::string& path, bool overwrite) {

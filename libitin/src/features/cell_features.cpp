@@ -119,12 +119,15 @@ std::string metres(std::int32_t millimetres) {
 void require_room_for(const StoredFootprint& part, std::uint64_t patches, std::uint64_t corners,
                       std::uint64_t memory_bytes) {
   if (corners <= memory_bytes / kBytesPerCorner) return;
-  throw InputError(fmt::format(
-      "{}: its cells make more than {} patches of equal height with {} corners, for which {} MB of memory are too "
-      "little; raise `height_step` (it is {}) or `height_threshold` ({}), give more `memory_bytes`, or import a part "
-      "of it",
-      part.feature.name, patches, corners, memory_bytes >> 20, metres(part.feature.cells->step),
-      metres(part.feature.cells->threshold)));
+  throw InputError(
+      fmt::format(
+          "{}: its cells make more than {} patches of equal height with {} corners, for which {} MB of memory are too "
+          "little; raise `height_step` (it is {}) or `height_threshold` ({}), give more `memory_bytes`, or import a "
+          "part "
+          "of it",
+          part.feature.name, patches, corners, memory_bytes >> 20, metres(part.feature.cells->step),
+          metres(part.feature.cells->threshold)),
+      "memory_bytes");
 }
 
 }  // namespace

@@ -77,7 +77,8 @@ void require_wall_offset(double metres, const Grid& grid) {
   const double least = 2 * grid.resolution;
   if (metres >= least && metres <= kGreatest) return;
   throw InputError(fmt::format("`wall_offset`: {} m; from {} m (two steps of the grid) to {} m is possible", metres,
-                               least, kGreatest));
+                               least, kGreatest),
+                   "wall_offset");
 }
 
 FeatureMesh build_feature_mesh(std::span<const FootprintFeature> features, const FeatureOptions& options,

@@ -55,10 +55,16 @@ void forget_unknown_code(OGRSpatialReference& reference) {
   if (json.is_object() && json.erase("id") > 0) set_from(reference, json.dump());
 }
 
+/// Returns an error about a CRS. `place` is a file, or the field that names the CRS between backticks.
+InputError crs_error(const std::string& place, const std::string& what) {
+  return InputError(fmt::format("{}: {}", place, what),
+                    place.starts_with('`') ? place.substr(1, place.size() - 2) : "");
+}
+
 OGRSpatialReference understood(const std::string& text, const std::string& place) {
   OGRSpatialReference reference;
   if (!set_from(reference, text))
-    throw InputError(fmt::format("{}: the CRS '{:.60}' is not understood; give it as EPSG:xxxx or WKT", place, text));
+    throw crs_error(place, fmt::format("the CRS '{:.60}' is not understood; give it as EPSG:xxxx or WKT", text));
   forget_unknown_code(reference);
   return reference;
 }
@@ -182,7 +188,7 @@ bool same_crs(const OGRSpatialReference& a, const OGRSpatialReference& b) {
 Crs parse_crs(const std::string& text, const std::string& place) {
   Crs crs = parse_any_crs(text, place);
   if (crs.wkt.empty())
-    throw InputError(fmt::format("{}: the CRS {} is only vertical; a horizontal one is needed", place, crs.name));
+    throw crs_error(place, fmt::format("the CRS {} is only vertical; a horizontal one is needed", crs.name));
   return crs;
 }
 
@@ -199,7 +205,7 @@ Crs parse_any_crs(const std::string& text, const std::string& place) {
   if (!is_known("EPSG:" + vertical_code)) vertical_code.clear();
   strip_heights(reference);
   if (!reference.IsProjected() && !reference.IsGeographic())
-    throw InputError(fmt::format("{}: the CRS {} is neither projected nor geographic", place, name_of(reference)));
+    throw crs_error(place, fmt::format("the CRS {} is neither projected nor geographic", name_of(reference)));
   crs.wkt = wkt_of(reference);
   crs.name = name_of(reference);
   // The parts may have codes where the whole has none.
@@ -218,7 +224,7 @@ Crs utm_zone(const Crs& crs, Point2 position, const std::string& place) {
   const OGRSpatialReference reference = understood(crs.wkt, place);
   std::unique_ptr<OGRSpatialReference> geographic(reference.CloneGeogCS());
   if (!geographic || !is_of_earth({geographic->GetSemiMajor(), 0}))
-    throw InputError(fmt::format("{}: no UTM zone for {}; give `to_crs`", place, crs.name));
+    throw InputError(fmt::format("{}: no UTM zone for {}; give `to_crs`", place, crs.name), "to_crs");
   geographic->SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
   PointTransform(crs.wkt, wkt_of(*geographic), place).transform(std::span(&position.x, 1), std::span(&position.y, 1));
   const double longitude = in_degrees(position.x * geographic->GetAngularUnits()) + geographic->GetPrimeMeridian();
@@ -226,7 +232,8 @@ Crs utm_zone(const Crs& crs, Point2 position, const std::string& place) {
   const std::optional<int> zone = utm_zone_at({longitude, latitude});
   if (!zone)
     throw InputError(
-        fmt::format("{}: no UTM zone at longitude {:.4f}, latitude {:.4f}; give `to_crs`", place, longitude, latitude));
+        fmt::format("{}: no UTM zone at longitude {:.4f}, latitude {:.4f}; give `to_crs`", place, longitude, latitude),
+        "to_crs");
   return parse_crs(fmt::format("EPSG:{}", utm_base(*geographic, *zone, latitude >= 0) + *zone), place);
 }
 
@@ -273,8 +280,8 @@ PointTransform::PointTransform(const std::string& source_wkt, const std::string&
   if (same_crs(source, target)) return;
   Transformation transformation(OGRCreateCoordinateTransformation(&source, &target));
   if (!transformation)
-    throw InputError(
-        fmt::format("{}: coordinates cannot be transformed from {} to {}", place, name_of(source), name_of(target)));
+    throw crs_error(place,
+                    fmt::format("coordinates cannot be transformed from {} to {}", name_of(source), name_of(target)));
   impl_ = std::make_unique<Impl>(std::move(transformation));
 }
 

@@ -104,7 +104,8 @@ bool is_network_allowed() {
 void allow_network() {
   Network open = Network::kOpen;
   network_state.compare_exchange_strong(open, Network::kAllowed);
-  if (!is_network_allowed()) throw InputError("`allow_network` comes too late: GDAL has been used without it");
+  if (!is_network_allowed())
+    throw InputError("`allow_network` comes too late: GDAL has been used without it", "allow_network");
 }
 
 void refuse(const std::string& reason) {

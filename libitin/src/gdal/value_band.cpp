@@ -45,7 +45,8 @@ GDALRasterBand& chosen_band(GDALDataset& dataset, const std::string& path, int n
   const int count = dataset.GetRasterCount();
   if (number < 1 || number > count)
     throw InputError(fmt::format("{}: has no band {}, only {}; give another `band`", path, number,
-                                 count == 1 ? std::string("band 1") : fmt::format("bands 1 to {}", count)));
+                                 count == 1 ? std::string("band 1") : fmt::format("bands 1 to {}", count)),
+                     "band");
   GDALRasterBand& band = *dataset.GetRasterBand(number);
   if (is_mask(band)) throw FileError(path, fmt::format("band {} is a mask, and holds no {}", number, values));
   return band;

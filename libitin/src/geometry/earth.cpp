@@ -22,11 +22,14 @@ Earth Earth::effective_earth(double factor) {
 void Earth::validate() const {
   const auto positive = [](double v) { return std::isfinite(v) && v > 0; };
   if (!positive(radius))
-    throw InputError(fmt::format("Earth radius {} m: give a positive number of metres, such as 6371000", radius));
+    throw InputError(fmt::format("Earth radius {} m: give a positive number of metres, such as 6371000", radius),
+                     "radius");
   if (effective_factor && !positive(*effective_factor))
-    throw InputError(fmt::format("effective Earth factor {}: give a positive number, such as 4/3", *effective_factor));
+    throw InputError(fmt::format("effective Earth factor {}: give a positive number, such as 4/3", *effective_factor),
+                     "effective_factor");
   if (!std::isfinite(refraction) || refraction >= 1)
-    throw InputError(fmt::format("refraction coefficient {}: give a number below 1, such as 0.13", refraction));
+    throw InputError(fmt::format("refraction coefficient {}: give a number below 1, such as 0.13", refraction),
+                     "refraction");
 }
 
 double Earth::drop_coefficient() const {

@@ -34,13 +34,14 @@ RasterGrid::RasterGrid(Point2 north_west, double cell_width, double cell_height,
 RasterGrid RasterGrid::aligned(const Box& box, double cell_size) {
   if (box.empty()) throw InputError("raster: the area is empty");
   if (!(std::isfinite(cell_size) && cell_size > 0))
-    throw InputError(fmt::format("cell size {}: give a positive number of metres", cell_size));
+    throw InputError(fmt::format("cell size {}: give a positive number of metres", cell_size), "cell_size");
   const double west = floor_multiple(box.xmin, cell_size), east = ceil_multiple(box.xmax, cell_size);
   const double south = floor_multiple(box.ymin, cell_size), north = ceil_multiple(box.ymax, cell_size);
   const double columns = std::max(1.0, east - west), rows = std::max(1.0, north - south);
   if (!(columns <= kMaxCells && rows <= kMaxCells))
     throw InputError(fmt::format("cell size {:g}: the raster would have {:.3g} x {:.3g} cells; give a larger one",
-                                 cell_size, columns, rows));
+                                 cell_size, columns, rows),
+                     "cell_size");
   return {{west * cell_size, (south + rows) * cell_size},
           cell_size,
           cell_size,

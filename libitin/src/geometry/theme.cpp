@@ -29,7 +29,7 @@ std::string_view name_of(AttributeType type) {
 ThemeKind theme_kind(std::string_view name) {
   const auto* found = std::find(kKinds.begin(), kKinds.end(), name);
   if (found == kKinds.end())
-    throw InputError(fmt::format("kind of theme '{}': give one of {}", name, fmt::join(kKinds, ", ")));
+    throw InputError(fmt::format("kind of theme '{}': give one of {}", name, fmt::join(kKinds, ", ")), "kind");
   return static_cast<ThemeKind>(found - kKinds.begin());
 }
 
@@ -57,7 +57,7 @@ ThemeChoice ThemeChoice::parse(std::string_view text) {
   while (true) {
     const std::size_t comma = text.find(',');
     names.emplace_back(text.substr(0, comma));
-    if (names.back().empty()) throw InputError("themes: expected all, none, or names with commas between");
+    if (names.back().empty()) throw InputError("themes: expected all, none, or names with commas between", "themes");
     if (comma == std::string_view::npos) return ThemeChoice(false, std::move(names));
     text.remove_prefix(comma + 1);
   }
@@ -85,7 +85,8 @@ void ThemeChoice::check(const std::vector<ThemeInfo>& themes) const {
     std::vector<std::string> known;
     for (const ThemeInfo& theme : themes) known.push_back(theme.name);
     throw InputError(fmt::format("theme '{}': the store has none of this name; it has {}", name,
-                                 known.empty() ? "no themes" : fmt::format("{}", fmt::join(known, ", "))));
+                                 known.empty() ? "no themes" : fmt::format("{}", fmt::join(known, ", "))),
+                     "themes");
   }
 }
 

@@ -50,7 +50,8 @@ void require_ground(const ImportReport& report, const ImportOptions& options) {
       fmt::format("nothing to import: {} read, but no three of them span ground: they lie on one line, too far "
                   "apart, or nearer to each other than `resolution`{}",
                   report.read == 1 ? "1 point was" : fmt::format("{} points were", report.read),
-                  options.max_gap > 0 ? "; give a larger `max_gap`" : ""));
+                  options.max_gap > 0 ? "; give a larger `max_gap`" : ""),
+      "resolution");
 }
 
 }  // namespace itin

@@ -36,8 +36,9 @@ std::vector<double> tolerances_of(const ImportOptions& options, const Store* exi
     for (const LevelInfo& level : existing->metadata().levels) stored.push_back(level.tolerance);
     if (!options.tolerances.empty() &&
         !std::equal(options.tolerances.begin(), options.tolerances.end(), stored.begin() + 1, stored.end())) {
-      throw InputError("`tolerances`: " + existing->path() +
-                       " has other levels already; leave `tolerances` out to add to it");
+      throw InputError(
+          "`tolerances`: " + existing->path() + " has other levels already; leave `tolerances` out to add to it",
+          "tolerances");
     }
     return stored;
   }
@@ -49,9 +50,10 @@ std::vector<double> tolerances_of(const ImportOptions& options, const Store* exi
   }
   for (const double t : options.tolerances) {
     if (!std::isfinite(t) || t <= tolerances.back())
-      throw InputError("`tolerances`: tolerances must be positive and ascending");
+      throw InputError("`tolerances`: tolerances must be positive and ascending", "tolerances");
     if (t < options.resolution)
-      throw InputError("`tolerances`: a tolerance below the resolution means nothing; raise it or lower `resolution`");
+      throw InputError("`tolerances`: a tolerance below the resolution means nothing; raise it or lower `resolution`",
+                       "tolerances");
     tolerances.push_back(t);
   }
   return tolerances;
@@ -59,18 +61,19 @@ std::vector<double> tolerances_of(const ImportOptions& options, const Store* exi
 
 void check_resolution(const ImportOptions& options, const Store* existing) {
   if (!std::isfinite(options.resolution) || options.resolution <= 0)
-    throw InputError("`resolution`: must be positive, in metres");
+    throw InputError("`resolution`: must be positive, in metres", "resolution");
   if (existing != nullptr && options.resolution != ImportOptions{}.resolution &&
       options.resolution != existing->metadata().grid.resolution) {
-    throw InputError("`resolution`: " + existing->path() +
-                     " has another one already; leave it out to add to the store");
+    throw InputError("`resolution`: " + existing->path() + " has another one already; leave it out to add to the store",
+                     "resolution");
   }
 }
 
 /// Refuses names that would be mistaken: they stand in lists with commas, beside `all` and `none`.
 void require_theme_name(const std::string& name) {
   if (name == "all" || name == "none" || name == "terrain" || name.find(',') != std::string::npos)
-    throw InputError(fmt::format("theme '{}': choose a name without commas, other than all, none and terrain", name));
+    throw InputError(fmt::format("theme '{}': choose a name without commas, other than all, none and terrain", name),
+                     "theme");
 }
 
 /// Reports the changes from `before` to `now`.
@@ -142,7 +145,7 @@ void write_in_passes(Target target, const Store* existing, Additions additions, 
 
 ImportReport import_sources(const std::string& store_path, const ImportOptions& options, Progress& progress) {
   const auto start = std::chrono::steady_clock::now();
-  if (options.sources.empty()) throw InputError("no source given: name at least one file to import");
+  if (options.sources.empty()) throw InputError("no source given: name at least one file to import", "sources");
   const Stoppable stoppable(progress);
   static_cast<void>(utc_now());  // a wrong SOURCE_DATE_EPOCH is noticed before hours of work
   // The file comes first, for another import could change the store once it has been opened. A place that cannot be
@@ -186,7 +189,7 @@ ImportReport import_terrain(const std::string& store_path, const ImportOptions& 
 }
 
 ImportReport import_lines(const std::string& store_path, const ImportOptions& options, Progress& progress) {
-  if (!options.kind) throw InputError("lines: say of which kind they are");
+  if (!options.kind) throw InputError("lines: say of which kind they are", "kind");
   ImportOptions lines = options;
   if (lines.theme.empty()) lines.theme = name_of(*options.kind);
   require_theme_name(lines.theme);

@@ -98,7 +98,8 @@ Crs metric_crs(const std::string& text, const std::string& place) {
     throw InputError(
         fmt::format("{}: {} is not projected with axes in metres, to the east and to the north, as a store's CRS must "
                     "be; choose one that is, such as a UTM zone",
-                    place, crs.name));
+                    place, crs.name),
+        "to_crs");
   return crs;
 }
 
@@ -113,10 +114,10 @@ StoreCrs choose_crs(const ImportOptions& options, const StoreMetadata* existing,
     const StoreCrs fixed{parse_crs(existing->crs_wkt, "the store's CRS")};
     if (!options.to_crs.empty() &&
         !PointTransform(metric_crs(options.to_crs, "`to_crs`").wkt, fixed.crs.wkt, "`to_crs`").identity())
-      throw InputError(
-          fmt::format("`to_crs` {}: the store's CRS is {} already; leave the option out, or import into a "
-                      "new store",
-                      options.to_crs, fixed.crs.name));
+      throw InputError(fmt::format("`to_crs` {}: the store's CRS is {} already; leave the option out, or import into a "
+                                   "new store",
+                                   options.to_crs, fixed.crs.name),
+                       "to_crs");
     return fixed;
   }
   if (!options.to_crs.empty()) return {metric_crs(options.to_crs, "`to_crs`")};
@@ -152,13 +153,14 @@ Grid choose_grid(const ImportOptions& options, const StoreMetadata* existing, co
   if (existing) return existing->grid;
   if (!(options.resolution >= kFinestResolution && options.resolution <= kCoarsestResolution))
     throw InputError(fmt::format("`resolution` {}: give {} to {} metres", options.resolution, kFinestResolution,
-                                 kCoarsestResolution));
+                                 kCoarsestResolution),
+                     "resolution");
   const std::string& place = options.sources.front();
   Point2 centre = first.centre();
   PointTransform(first.crs().wkt, crs.wkt, place).transform(std::span(&centre.x, 1), std::span(&centre.y, 1));
   if (!std::isfinite(centre.x) || !std::isfinite(centre.y))
-    throw InputError(
-        fmt::format("{}: lies where {} is not defined; choose another CRS with `to_crs`", place, crs.name));
+    throw InputError(fmt::format("{}: lies where {} is not defined; choose another CRS with `to_crs`", place, crs.name),
+                     "to_crs");
   const double step = kGridHalfSide * options.resolution;
   // Adding zero turns -0, which would be written differently, into 0.
   return {{std::round(centre.x / step) * step + 0.0, std::round(centre.y / step) * step + 0.0}, options.resolution};
@@ -189,15 +191,17 @@ void require_one_sea(double level, const StoreMetadata* existing) {
       throw InputError(
           fmt::format("`sea_level` {:g}: the store has the {} already; give the same, or import into a new "
                       "store",
-                      level, source.path));
+                      level, source.path),
+          "sea_level");
 }
 
 void fill_sea(const ImportOptions& options, const StoreMetadata* existing, const Box& box, const Crs& crs,
               ImportPlan& plan) {
-  if (!options.sea_level) throw InputError("`sea_area`: give `sea_level` with it");
+  if (!options.sea_level) throw InputError("`sea_area`: give `sea_level` with it", "sea_area");
   if (!std::isfinite(*options.sea_level) || std::abs(*options.sea_level) > kHighestSea)
     throw InputError(
-        fmt::format("`sea_level` {0:g}: give metres between -{1:g} and {1:g}", *options.sea_level, kHighestSea));
+        fmt::format("`sea_level` {0:g}: give metres between -{1:g} and {1:g}", *options.sea_level, kHighestSea),
+        "sea_level");
   require_one_sea(*options.sea_level, existing);
   std::optional<Window> area;
   if (!options.sea_area.empty()) area = window_from_polygon(options.sea_area, crs.wkt);
@@ -214,7 +218,7 @@ ImportPlan& ImportPlan::operator=(ImportPlan&&) noexcept = default;
 ImportPlan::~ImportPlan() = default;
 
 ImportPlan plan_import(const ImportOptions& options, const StoreMetadata* existing) {
-  if (options.sources.empty()) throw InputError("import: name at least one source");
+  if (options.sources.empty()) throw InputError("import: name at least one source", "sources");
   ImportPlan plan;
   SourceFiles points;
   if (options.kind) {

@@ -53,7 +53,8 @@ class PanoramaPage {
  public:
   PanoramaPage(const Panorama& panorama, Drawing::Format format)
       : panorama_(panorama), frame_{52, 130, kPanoramaWidth - 18, kPanoramaHeight - 66} {
-    if (panorama.skyline.size() < 2) throw InputError("a panorama of fewer than two azimuths: widen `azimuth`");
+    if (panorama.skyline.size() < 2)
+      throw InputError("a panorama of fewer than two azimuths: widen `azimuth`", "azimuth");
     unwrap();
     x_ = {azimuths_.front(), azimuths_.back(), frame_.xmin, frame_.xmax};
     place_names(format);

@@ -100,7 +100,7 @@ void require_valid(const Profile& profile, const LosQuery& query, const Profile&
   if (!(query.from_height_m >= 0) || !(query.to_height_m >= 0)) throw InputError("a height above ground is negative");
   for (const Criterion& c : query.criteria) {
     if (c.fraction > 0 && !query.radio) {
-      throw InputError("a criterion with a fraction of the Fresnel zone needs a frequency");
+      throw InputError("a criterion with a fraction of the Fresnel zone needs a frequency", "radio");
     }
   }
 }

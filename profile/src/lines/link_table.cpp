@@ -184,11 +184,14 @@ class LinkReader {
 /// A table is no layer, and its cells are not a database's.
 void require_no_choice(const std::string& path, const LinkChoice& choice) {
   if (!choice.layer.empty())
-    throw InputError(fmt::format("`layer` '{}': {} is a table, which has no layers; leave it out", choice.layer, path));
+    throw InputError(fmt::format("`layer` '{}': {} is a table, which has no layers; leave it out", choice.layer, path),
+                     "layer");
   if (!choice.where.empty())
-    throw InputError(fmt::format(
-        "`where` {}: {} is a table, of which all rows are links; take out the others, or give a file of lines",
-        choice.where, path));
+    throw InputError(
+        fmt::format(
+            "`where` {}: {} is a table, of which all rows are links; take out the others, or give a file of lines",
+            choice.where, path),
+        "where");
 }
 
 /// Warns of what links do not take from lines: places between the ends, and Z.

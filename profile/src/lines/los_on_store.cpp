@@ -18,7 +18,8 @@ void require_heights(const StoreLine& line, const LosQuery& query) {
     require_height(height, fmt::format("`{}_height_m`", end));
     if (height < 0 && !is_elevation)
       throw InputError(
-          fmt::format("`{0}_height_m`: a height must not be negative; for an elevation set `{0}_is_elevation`", end));
+          fmt::format("`{0}_height_m`: a height must not be negative; for an elevation set `{0}_is_elevation`", end),
+          fmt::format("{}_height_m", end));
   };
   require("from", query.from_height_m, line.from_is_elevation);
   require("to", query.to_height_m, line.to_is_elevation);
@@ -31,19 +32,21 @@ constexpr const char* kElevationOverNothing =
 
 void require_ground(const StoreLine& line, const Profile& profile) {
   const auto none_at = [](const char* field, Point2 p, bool is_elevation) {
-    return InputError(fmt::format("{}: there is no ground at {:.2f},{:.2f}{}", field, p.x, p.y,
-                                  is_elevation ? kElevationOverNothing : "; move it onto the data"));
+    return InputError(fmt::format("`{}`: there is no ground at {:.2f},{:.2f}{}", field, p.x, p.y,
+                                  is_elevation ? kElevationOverNothing : "; move it onto the data"),
+                      field);
   };
   if (profile.points.empty() || profile.points.front().distance_m != 0)
-    throw none_at("`from`", line.from, line.from_is_elevation);
-  if (profile.points.back().distance_m != profile.length_m) throw none_at("`to`", line.to, line.to_is_elevation);
+    throw none_at("from", line.from, line.from_is_elevation);
+  if (profile.points.back().distance_m != profile.length_m) throw none_at("to", line.to, line.to_is_elevation);
 }
 
 /// The height of an antenna at an elevation above what its end stands on.
 double height_above(const char* field, double stands_on_m, double elevation_m) {
   if (elevation_m < stands_on_m)
     throw InputError(
-        fmt::format("{}: elevation {:g} m is below what it stands on, {:.2f} m", field, elevation_m, stands_on_m));
+        fmt::format("`{}`: elevation {:g} m is below what it stands on, {:.2f} m", field, elevation_m, stands_on_m),
+        field);
   return elevation_m - stands_on_m;
 }
 
@@ -60,8 +63,8 @@ LosReport analyse(const Store& store, const StoreLine& line, LosQuery query) {
     section.statistics += bare.statistics;
   }
   const EndGrounds grounds = stands_on(profile, ground, query);
-  if (line.from_is_elevation) query.from_height_m = height_above("`from`", grounds.from_m, query.from_height_m);
-  if (line.to_is_elevation) query.to_height_m = height_above("`to`", grounds.to_m, query.to_height_m);
+  if (line.from_is_elevation) query.from_height_m = height_above("from", grounds.from_m, query.from_height_m);
+  if (line.to_is_elevation) query.to_height_m = height_above("to", grounds.to_m, query.to_height_m);
   query.clearance_error_m += clearance_error(store, line.detail, line.themes, line.from, line.to);
 
   LosReport report = analyse(std::move(profile), query, std::move(ground));

@@ -51,10 +51,10 @@ std::string name_of(const Detail& detail) {
 }
 
 void require_complete(const PathQuery& query) {
-  if (query.corners.size() < 2) throw InputError("`corners`: a path has at least two");
-  if (query.details.empty()) throw InputError("`details`: give at least one");
+  if (query.corners.size() < 2) throw InputError("`corners`: a path has at least two", "corners");
+  if (query.details.empty()) throw InputError("`details`: give at least one", "details");
   if (!query.names.empty() && query.names.size() != query.details.size())
-    throw InputError("`names`: give one for each of `details`, or none");
+    throw InputError("`names`: give one for each of `details`, or none", "names");
 }
 
 }  // namespace

@@ -83,8 +83,10 @@ std::string links_kml(const std::string& crs_wkt, const std::string& title, cons
 void require_link_format(const std::string& path) {
   for (const char* known : {".csv", ".gpkg", ".kml", ".pdf"})
     if (ending_of(path) == known) return;
-  throw InputError(fmt::format(
-      "`output` '{}': links are written as a table, .csv, as lines, .gpkg or .kml, or as a page, .pdf", path));
+  throw InputError(
+      fmt::format("`output` '{}': links are written as a table, .csv, as lines, .gpkg or .kml, or as a page, .pdf",
+                  path),
+      "output");
 }
 
 void write_link_table(const LinkSurvey& survey, const std::vector<std::string>& paths, const LinkFileOptions& options) {

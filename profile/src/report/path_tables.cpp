@@ -93,7 +93,8 @@ double spacing_of(const LosReport& report) {
                spacing = report.table_spacing_m.value_or(Axis{0, length}.step(kUsualRows));
   if (!(spacing > 0) || length / spacing > kMostRows)
     throw InputError(fmt::format("`table_spacing_m` {:g}: over {:.1f} m it must be at least {:g}", spacing, length,
-                                 length / kMostRows));
+                                 length / kMostRows),
+                     "table_spacing_m");
   return spacing;
 }
 

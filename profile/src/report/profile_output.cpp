@@ -131,14 +131,15 @@ void require_profile_format(const std::string& path) {
     if (ending == known) return;
   }
   throw InputError(
-      fmt::format("`output` '{}': a profile ends in .csv, .txt, .json, .geojson, .svg, .pdf or .png", path));
+      fmt::format("`output` '{}': a profile ends in .csv, .txt, .json, .geojson, .svg, .pdf or .png", path), "output");
 }
 
 void require_profile_output(const PathProfiles& profiles, const std::string& path) {
   require_profile_format(path);
   if (ending_of(path) != ".txt") return;
   const std::string name = fmt::format("`output` '{}'", path);
-  if (profiles.profiles.size() > 1) throw InputError(name + ": a .txt holds one profile; give one `tolerance`");
+  if (profiles.profiles.size() > 1)
+    throw InputError(name + ": a .txt holds one profile; give one `tolerance`", "details");
   require_profile_text(profiles.profiles.front().profile, name);
 }
 

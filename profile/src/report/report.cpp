@@ -30,10 +30,11 @@ void require_report_format(const std::string& path, bool has_positions) {
   const std::string ending = ending_of(path);
   if (std::find(std::begin(kEndings), std::end(kEndings), ending) == std::end(kEndings)) {
     throw InputError(
-        fmt::format("`report` '{}': expected .json, .csv, .txt, .svg, .pdf, .png, .html, .kml or .gpkg", path));
+        fmt::format("`report` '{}': expected .json, .csv, .txt, .svg, .pdf, .png, .html, .kml or .gpkg", path),
+        "report");
   }
   if (!has_positions && (ending == ".kml" || ending == ".gpkg")) {
-    throw InputError(fmt::format("`report` '{}': a profile from a file has no positions to map", path));
+    throw InputError(fmt::format("`report` '{}': a profile from a file has no positions to map", path), "report");
   }
 }
 

@@ -33,7 +33,8 @@ double scale_of(const MapSheet& sheet) {
   if (sheet.scale > 0) {
     if (sheet.scale < least * (1 - 1e-9))
       throw InputError(fmt::format("at `scale` 1:{:.0f} the study area does not fit on {}; give at least {:.0f}",
-                                   sheet.scale, name_of(sheet.paper), std::ceil(least / 100) * 100));
+                                   sheet.scale, name_of(sheet.paper), std::ceil(least / 100) * 100),
+                       "scale");
     return sheet.scale;
   }
   constexpr std::array<double, 11> kUsual{10, 12.5, 15, 20, 25, 30, 40, 50, 60, 75, 80};

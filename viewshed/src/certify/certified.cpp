@@ -39,7 +39,8 @@ void require_memory(const Store& store, const Request& request, CertifiedWay way
     throw InputError(
         fmt::format("the level takes {:.0f} MB at a time: give more `memory_bytes`, a coarser tolerance or "
                     "a smaller `radius`",
-                    static_cast<double>(bytes) / 1e6));
+                    static_cast<double>(bytes) / 1e6),
+        "memory_bytes");
 }
 
 }  // namespace

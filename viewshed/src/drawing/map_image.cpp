@@ -39,7 +39,7 @@ std::string length_text(double metres) {
 
 void require_possible(const MapOptions& options) {
   if (options.map_pixels < 200 || options.map_pixels > 16000)
-    throw InputError(fmt::format("map of {} pixels: give 200 to 16000", options.map_pixels));
+    throw InputError(fmt::format("map of {} pixels: give 200 to 16000", options.map_pixels), "map_pixels");
 }
 
 class MapDrawing {

@@ -157,7 +157,7 @@ class Survey {
 void require_valid(const Request& request, const HorizonOptions& options) {
   validate(request);
   require_whole_turn(options.step_deg);
-  if (request.observers.size() != 1) throw InputError("a horizon is of one observer: give one");
+  if (request.observers.size() != 1) throw InputError("a horizon is of one observer: give one", "observers");
 }
 
 std::vector<Point2> positions_of(const std::vector<HorizonTarget>& targets) {

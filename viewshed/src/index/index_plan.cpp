@@ -55,7 +55,8 @@ class IndexPlan {
     throw InputError(
         fmt::format("the ground about a single observer has some {} points, more than the memory holds: give a "
                     "smaller `radius`, a coarser `tolerance`, or more `memory_bytes` than {}",
-                    block.points, request_.memory_bytes));
+                    block.points, request_.memory_bytes),
+        "memory_bytes");
   }
 
   /// The box about the cells' centres that lie in the area.

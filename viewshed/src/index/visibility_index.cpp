@@ -25,13 +25,15 @@ namespace {
 constexpr float kNoShare = std::numeric_limits<float>::quiet_NaN();
 
 void require_valid_index(const IndexRequest& request) {
-  const auto require = [](bool holds, const char* what) {
-    if (!holds) throw InputError(what);
+  const auto require = [](bool holds, const char* field, const char* what) {
+    if (!holds) throw InputError(what, field);
   };
-  require(std::isfinite(request.cell_size) && request.cell_size > 0, "the cell size must be positive, in metres");
-  require(std::isfinite(request.radius) && request.radius > 0, "the radius must be positive, in metres");
-  require(request.height >= 0 && request.target_height >= 0, "heights above the ground must not be negative");
-  require(request.targets > 0, "give at least one target for each observer");
+  require(std::isfinite(request.cell_size) && request.cell_size > 0, "cell_size",
+          "the cell size must be positive, in metres");
+  require(std::isfinite(request.radius) && request.radius > 0, "radius", "the radius must be positive, in metres");
+  require(request.height >= 0, "height", "heights above the ground must not be negative");
+  require(request.target_height >= 0, "target_height", "heights above the ground must not be negative");
+  require(request.targets > 0, "targets", "give at least one target for each observer");
 }
 
 /// The standard error of the share seen among targets on ground, with one more of either kind, so that none or all seen
@@ -139,8 +141,8 @@ class IndexWork {
   void summarise() {
     index_.retrieval = read_.retrieval;
     index_.triangles = read_.triangles;
-    if (index_.triangles == 0) throw InputError("the area holds no ground");
-    if (!any_eye_) throw InputError("no cell's centre lies on ground in the area; give smaller cells");
+    if (index_.triangles == 0) throw InputError("the area holds no ground", "area");
+    if (!any_eye_) throw InputError("no cell's centre lies on ground in the area; give smaller cells", "cell_size");
     double variance = 0;
     for (std::size_t i = 0; i < index_.share.size(); ++i) {
       if (std::isnan(index_.share[i])) continue;
@@ -151,7 +153,7 @@ class IndexWork {
     }
     if (index_.observers == 0)
       throw InputError(
-          "no target fell on ground: the radius reaches far beyond it; give a smaller one, or more targets");
+          "no target fell on ground: the radius reaches far beyond it; give a smaller one, or more targets", "radius");
     index_.targets = targets_;
     index_.lines = lines_;
     index_.mean /= static_cast<double>(index_.observers);

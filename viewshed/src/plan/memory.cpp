@@ -85,7 +85,8 @@ void require_memory_for_rasters(const RasterGrid& cells, std::uint64_t bytes, st
   throw InputError(
       fmt::format("{} x {} cells take about {} MB, more than three quarters of the {} MB of memory: give a greater "
                   "`cell_size`, a smaller `radius`, or more `memory_bytes`",
-                  cells.columns(), cells.rows(), bytes / kMega, memory / kMega));
+                  cells.columns(), cells.rows(), bytes / kMega, memory / kMega),
+      "memory_bytes");
 }
 
 void require_memory_for_rasters(const Store& store, const Request& request, std::uint64_t memory) {

@@ -76,7 +76,8 @@ void SightSectors::remove_decided(const Sector& sector, double reach) {
 
 void SightSectors::divide_next() {
   if (parts_.back().columns * parts_.back().rows == 1)
-    throw InputError("the sight line to a single cell does not fit into the memory: give more `memory_bytes`");
+    throw InputError("the sight line to a single cell does not fit into the memory: give more `memory_bytes`",
+                     "memory_bytes");
   const auto [first, rest] = halves(parts_.back());
   parts_.back() = rest;
   parts_.push_back(first);

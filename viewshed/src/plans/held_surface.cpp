@@ -40,7 +40,7 @@ class HeldSurface::Impl {
   Impl(const Store& store, const Box& area, const Detail& detail, const ThemeChoice& themes,
        const ComputeOptions& options, Progress& progress)
       : store_(store), area_(area), detail_(detail), themes_(themes) {
-    if (area.empty()) throw InputError("area: it is empty; give a box in metres");
+    if (area.empty()) throw InputError("area: it is empty; give a box in metres", "area");
     CallProgress call(progress);
     const Window window = Window::box(area);
     if (options.lattices) retrieve_posts(window, options, call);
@@ -68,10 +68,10 @@ class HeldSurface::Impl {
     request.detail = detail_, request.themes = themes_;
     validate(request);
     if (!covers(request))
-      throw InputError(
-          fmt::format("sight lines leave the surface that is held, {:.0f},{:.0f} to {:.0f},{:.0f}: give a "
-                      "smaller `radius`, or hold a larger area",
-                      area_.xmin, area_.ymin, area_.xmax, area_.ymax));
+      throw InputError(fmt::format("sight lines leave the surface that is held, {:.0f},{:.0f} to {:.0f},{:.0f}: give a "
+                                   "smaller `radius`, or hold a larger area",
+                                   area_.xmin, area_.ymin, area_.xmax, area_.ymax),
+                       "radius");
     CallProgress call(progress);
     const SurfaceInMemory over = surface_for(request, call);
     Result result = viewshed::compute(over, request, call, sink);
@@ -100,7 +100,8 @@ class HeldSurface::Impl {
     const std::uint64_t needed = bytes_held(store_, detail_, area_, SurfaceForm::kTriangles);
     if (needed > memory)
       throw InputError(fmt::format("the surface takes about {:.0f} MB: give more `memory_bytes`, or a smaller area",
-                                   static_cast<double>(needed) / 1e6));
+                                   static_cast<double>(needed) / 1e6),
+                       "memory_bytes");
   }
 
   SurfaceInMemory surface_for(const Request& request, CallProgress& call) const {

@@ -21,10 +21,10 @@ void require_surface_of(const Plan& plan, const Store& store, const Detail& deta
     throw InputError("a plan over a coarse level is decided over its store, not over a surface that is held");
   const bool certified = plan.certainty() == Certainty::kCertified;
   if (!same_detail(detail, certified ? Detail::tolerance(0) : plan.request().detail))
-    throw InputError("the surface that is held has another `detail` than the plan");
+    throw InputError("the surface that is held has another `detail` than the plan", "detail");
   const std::vector<ThemeInfo>& all = store.metadata().themes;
   if (themes.names(all) != plan.request().themes.names(all))
-    throw InputError("the surface that is held has other `themes` than the plan");
+    throw InputError("the surface that is held has other `themes` than the plan", "themes");
 }
 
 }  // namespace itin::viewshed

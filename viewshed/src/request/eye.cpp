@@ -17,7 +17,8 @@ constexpr const char* kElevationOverNothing =
 
 void refuse(const Observer& observer, const std::string& why) {
   throw InputError(
-      fmt::format("observer {} at {:.10g},{:.10g}: {}", observer.name, observer.position.x, observer.position.y, why));
+      fmt::format("observer {} at {:.10g},{:.10g}: {}", observer.name, observer.position.x, observer.position.y, why),
+      "observers");
 }
 
 Eye eye_of(const Grid& grid, const Request& request, const Observer& observer, std::optional<double> ground) {

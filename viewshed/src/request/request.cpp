@@ -25,21 +25,22 @@ bool positive(double v) {
 void validate_view(const Request& request, const Observer& observer) {
   const double target = observer.target_height.value_or(request.target_height);
   if (!std::isfinite(target) || (!request.target_absolute && target < 0))
-    throw InputError(fmt::format("target height {:g}: give 0 or a positive number of metres", target));
+    throw InputError(fmt::format("target height {:g}: give 0 or a positive number of metres", target), "target_height");
   const std::optional<double> radius = radius_of(request, observer);
   if (radius && !positive(*radius))
-    throw InputError(fmt::format("radius {:g}: give a positive number of metres, or none for all the data", *radius));
+    throw InputError(fmt::format("radius {:g}: give a positive number of metres, or none for all the data", *radius),
+                     "radius");
   const double min_radius = observer.min_radius.value_or(request.min_radius);
   if (!(std::isfinite(min_radius) && min_radius >= 0))
-    throw InputError(fmt::format("least radius {:g}: give 0 or a positive number of metres", min_radius));
+    throw InputError(fmt::format("least radius {:g}: give 0 or a positive number of metres", min_radius), "min_radius");
   if (radius && min_radius > *radius)
-    throw InputError(fmt::format("least radius {:g} exceeds the radius {:g}", min_radius, *radius));
+    throw InputError(fmt::format("least radius {:g} exceeds the radius {:g}", min_radius, *radius), "min_radius");
   const auto finite = [](const AngleRange& r) { return std::isfinite(r.from) && std::isfinite(r.to); };
   const auto& azimuth = observer.azimuth ? observer.azimuth : request.azimuth;
-  if (azimuth && !finite(*azimuth)) throw InputError("azimuth: give two numbers of degrees");
+  if (azimuth && !finite(*azimuth)) throw InputError("azimuth: give two numbers of degrees", "azimuth");
   const auto& e = observer.elevation ? observer.elevation : request.elevation;
   if (e && !(finite(*e) && e->from >= -90 && e->to <= 90 && e->from <= e->to))
-    throw InputError("elevation: give two numbers of degrees from -90 to 90, the lower first");
+    throw InputError("elevation: give two numbers of degrees from -90 to 90, the lower first", "elevation");
 }
 
 void validate_observer(const Request& request, const Observer& observer) {
@@ -59,18 +60,21 @@ void validate_observer(const Request& request, const Observer& observer) {
 }
 
 void validate_cells(const Request& request) {
-  if (request.cell_size && request.grid) throw InputError("both a cell size and a grid are given: give one of them");
+  if (request.cell_size && request.grid)
+    throw InputError("both a cell size and a grid are given: give one of them", "cell_size");
   if (request.cell_size && !positive(*request.cell_size))
-    throw InputError(fmt::format("cell size {:g}: give a positive number of metres", *request.cell_size));
+    throw InputError(fmt::format("cell size {:g}: give a positive number of metres", *request.cell_size), "cell_size");
   if (request.cell_size && *request.cell_size < kFinestCell)
-    throw InputError(fmt::format("cell size {:g}: give at least {} metres", *request.cell_size, kFinestCell));
+    throw InputError(fmt::format("cell size {:g}: give at least {} metres", *request.cell_size, kFinestCell),
+                     "cell_size");
   const double cell =
       request.grid ? std::max(request.grid->cell_width(), request.grid->cell_height()) : request.cell_size.value_or(0);
   for (const Observer& observer : request.observers) {
     const std::optional<double> radius = radius_of(request, observer);
     if (radius && cell > *radius)
       throw InputError(
-          fmt::format("cells of {:g} m are larger than the radius of {:g} m: give smaller cells", cell, *radius));
+          fmt::format("cells of {:g} m are larger than the radius of {:g} m: give smaller cells", cell, *radius),
+          "cell_size");
   }
 }
 
@@ -93,52 +97,57 @@ void validate_bands(const Request& request) {
     throw InputError(
         fmt::format("{} observers take {} bands to tell apart, and a raster has at most {}: give at most {} observers, "
                     "or count them",
-                    request.observers.size(), bands, kMostBands, 32 * kMostBands));
+                    request.observers.size(), bands, kMostBands, 32 * kMostBands),
+        "observers");
 }
 
 RasterGrid with_room_for_bands(const Request& request, RasterGrid grid) {
   const std::size_t bands = request.mode == Mode::kWhich ? bit_grids(request.observers.size()) : 1;
   const auto most = static_cast<std::size_t>(RasterGrid::kMaxCells);
   if (grid.cell_count() > most / bands)
-    throw InputError(
-        fmt::format("{} cells in {} bands, one for every 32 observers, are more than {} values: give "
-                    "larger cells or fewer observers, or count them",
-                    grid.cell_count(), bands, most));
+    throw InputError(fmt::format("{} cells in {} bands, one for every 32 observers, are more than {} values: give "
+                                 "larger cells or fewer observers, or count them",
+                                 grid.cell_count(), bands, most),
+                     "observers");
   return grid;
 }
 
 void validate_errors(const VerticalError& e) {
   if (!positive(e.sigma))
-    throw InputError(fmt::format("vertical error {:g}: give a positive number of metres", e.sigma));
+    throw InputError(fmt::format("vertical error {:g}: give a positive number of metres", e.sigma), "vertical_error");
   if (!(std::isfinite(e.correlation_length) && e.correlation_length >= 0))
     throw InputError(
-        fmt::format("correlation length {:g}: give 0 or a positive number of metres", e.correlation_length));
+        fmt::format("correlation length {:g}: give 0 or a positive number of metres", e.correlation_length),
+        "vertical_error");
 }
 
 /// Requires both ends above the ground: the zone ends at both ends of a line, and on the ground nothing of it is clear.
 void validate_zones(const Request& request) {
   const FresnelCriterion& zone = request.fresnel;
   if (!positive(zone.wavelength))
-    throw InputError(fmt::format("wavelength {:g}: give a positive number of metres", zone.wavelength));
+    throw InputError(fmt::format("wavelength {:g}: give a positive number of metres", zone.wavelength), "fresnel");
   if (!positive(zone.fraction) || zone.fraction > 1)
-    throw InputError(fmt::format("fraction {:g} of the Fresnel zone: give a number above 0, 1 at most", zone.fraction));
+    throw InputError(fmt::format("fraction {:g} of the Fresnel zone: give a number above 0, 1 at most", zone.fraction),
+                     "fresnel");
   for (const Observer& observer : request.observers) {
     if (!observer.absolute && observer.height == 0)
       refuse(observer, "its height is 0, and no link from the ground has a clear Fresnel zone; give more");
     if (!request.target_absolute && observer.target_height.value_or(request.target_height) == 0)
-      throw InputError("no link to the ground has a clear Fresnel zone: give a `target_height` above 0");
+      throw InputError("no link to the ground has a clear Fresnel zone: give a `target_height` above 0",
+                       "target_height");
   }
 }
 
 void validate_radio(const Request& request) {
   const RadioPath& radio = request.radio;
   if (!positive(radio.frequency_ghz))
-    throw InputError(fmt::format("frequency {:g}: give a positive number of GHz", radio.frequency_ghz));
+    throw InputError(fmt::format("frequency {:g}: give a positive number of GHz", radio.frequency_ghz), "radio");
   if (!(radio.over_sea >= 0 && radio.over_sea <= 1))
-    throw InputError(fmt::format("share over sea {:g}: give 0 to 1", radio.over_sea));
+    throw InputError(fmt::format("share over sea {:g}: give 0 to 1", radio.over_sea), "radio");
   if (radio.effective_earth_km != effective_earth_km(request.earth))
     throw InputError(fmt::format("the effective Earth radius of {:g} km is not that of the sight lines, {:g} km",
-                                 radio.effective_earth_km, effective_earth_km(request.earth)));
+                                 radio.effective_earth_km, effective_earth_km(request.earth)),
+                     "radio");
 }
 
 }  // namespace
@@ -166,15 +175,17 @@ bool all_bounded(const Request& request) {
 }
 
 void validate(const Request& request) {
-  if (request.observers.empty()) throw InputError("no observer: give at least one");
+  if (request.observers.empty()) throw InputError("no observer: give at least one", "observers");
   if (request.mode == Mode::kCount && request.observers.size() >= kCountOutside)
-    throw InputError(fmt::format("{} observers are too many to count: give at most {}", request.observers.size(),
-                                 kCountOutside - 1));
+    throw InputError(
+        fmt::format("{} observers are too many to count: give at most {}", request.observers.size(), kCountOutside - 1),
+        "observers");
   validate_bands(request);
   for (const Observer& observer : request.observers) validate_observer(request, observer);
   validate_cells(request);
   if (request.engine == Engine::kRays && request.mode == Mode::kHeight)
-    throw InputError("rays tell whether a target is seen, not from what height on: give the engine sweep or auto");
+    throw InputError("rays tell whether a target is seen, not from what height on: give the engine sweep or auto",
+                     "engine");
   request.earth.validate();
   if (request.mode == Mode::kProbability) validate_errors(request.vertical_error);
   if (request.mode == Mode::kFresnel) validate_zones(request);
@@ -183,7 +194,7 @@ void validate(const Request& request) {
 
 void validate_certified(const Request& request) {
   validate(request);
-  if (request.mode != Mode::kVisible) throw InputError("certificates tell what is visible, and nothing else");
+  if (request.mode != Mode::kVisible) throw InputError("certificates tell what is visible, and nothing else", "mode");
 }
 
 bool has_raised_features(const Store& store, const Request& request) {
@@ -203,7 +214,7 @@ RasterGrid cells_of(const Request& request, const Box& extent) {
     for (const Observer& observer : request.observers)
       area.extend(intersection(square_about(observer.position, *radius_of(request, observer)), extent));
   }
-  if (area.empty()) throw InputError("no observer's radius reaches any data");
+  if (area.empty()) throw InputError("no observer's radius reaches any data", "observers");
   const double size = request.cell_size ? *request.cell_size : default_cell_size(area);
   return with_room_for_bands(request, RasterGrid::aligned(area, size));
 }

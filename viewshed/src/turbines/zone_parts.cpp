@@ -153,7 +153,8 @@ class Partition {
     throw InputError(
         fmt::format("this takes about {:.2g} GB of memory, more than the {:.2g} GB allowed: give a coarser "
                     "`tolerance`, a greater `cell_size`, a smaller `radius`, or more `memory_bytes`",
-                    needed / 1e9, static_cast<double>(*zone_.request.memory_bytes) / 1e9));
+                    needed / 1e9, static_cast<double>(*zone_.request.memory_bytes) / 1e9),
+        "memory_bytes");
   }
 
   const Zone& zone_;

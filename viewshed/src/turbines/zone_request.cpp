@@ -26,7 +26,8 @@ bool is_positive(double v) {
 
 void require_valid_turbine(const Turbine& t) {
   const auto refuse = [&](const std::string& what) {
-    throw InputError(fmt::format("turbine {} at {:.10g},{:.10g}: {}", t.number, t.position.x, t.position.y, what));
+    throw InputError(fmt::format("turbine {} at {:.10g},{:.10g}: {}", t.number, t.position.x, t.position.y, what),
+                     "turbines");
   };
   if (t.number < 1) refuse("turbines are numbered from 1");
   if (!std::isfinite(t.position.x) || !std::isfinite(t.position.y)) refuse("its position is not finite");
@@ -56,10 +57,10 @@ void place_turbines(const std::function<std::optional<double>(Point2)>& ground, 
     }
   }
   if (placed.empty())
-    throw InputError(
-        fmt::format("no turbine that can be used stands on data: turbine {}: {}; see the CRS of the "
-                    "turbines and of the store",
-                    zone.misplaced.front().number, zone.misplaced.front().message));
+    throw InputError(fmt::format("no turbine that can be used stands on data: turbine {}: {}; see the CRS of the "
+                                 "turbines and of the store",
+                                 zone.misplaced.front().number, zone.misplaced.front().message),
+                     "turbines");
   zone.request.turbines = std::move(placed);
 }
 
@@ -102,23 +103,25 @@ void see_nothing(const Zone& zone, RadarView& radar) {
 }  // namespace
 
 void validate(const ZoneRequest& request) {
-  if (request.turbines.empty()) throw InputError("no turbine: give at least one");
-  if (request.turbines.size() >= kCountOutside) throw InputError("too many turbines: give at most 65534");
+  if (request.turbines.empty()) throw InputError("no turbine: give at least one", "turbines");
+  if (request.turbines.size() >= kCountOutside) throw InputError("too many turbines: give at most 65534", "turbines");
   for (const Turbine& t : request.turbines) {
     require_valid_turbine(t);
     if (request.cell_size && *request.cell_size > t.radius)
       throw InputError(fmt::format("cells of {:g} m are larger than turbine {}'s radius of {:g} m", *request.cell_size,
-                                   t.number, t.radius));
+                                   t.number, t.radius),
+                       "cell_size");
   }
   if (!std::isfinite(request.observer_height) || request.observer_height < 0)
     throw InputError(
-        fmt::format("observer height {:g}: give 0 or a positive number of metres", request.observer_height));
+        fmt::format("observer height {:g}: give 0 or a positive number of metres", request.observer_height),
+        "observer_height");
   if (request.cell_size.has_value() == request.grid.has_value())
-    throw InputError("give a cell size or a grid, and not both");
+    throw InputError("give a cell size or a grid, and not both", "cell_size");
   if (request.cell_size && !is_positive(*request.cell_size))
-    throw InputError(fmt::format("cell size {:g}: give a positive number of metres", *request.cell_size));
+    throw InputError(fmt::format("cell size {:g}: give a positive number of metres", *request.cell_size), "cell_size");
   if (!request.weights.empty() && (!request.grid || request.weights.size() != request.grid->cell_count()))
-    throw InputError("weights are of the cells of a grid, one each");
+    throw InputError("weights are of the cells of a grid, one each", "weights");
   request.earth.validate();
 }
 

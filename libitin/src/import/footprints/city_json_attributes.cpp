@@ -54,8 +54,10 @@ AttributeType CityJsonAttributes::type_of(const std::string& name) const {
     throw FileError(path_, fmt::format("no building has an attribute '{}'; they have {}", name, names));
   }
   if (!found->second)
-    throw InputError(fmt::format(
-        "{}: attribute '{}' holds lists or objects; `attributes` are numbers, texts and truth values", path_, name));
+    throw InputError(
+        fmt::format("{}: attribute '{}' holds lists or objects; `attributes` are numbers, texts and truth values",
+                    path_, name),
+        "attributes");
   return *found->second;
 }
 

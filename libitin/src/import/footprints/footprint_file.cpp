@@ -76,7 +76,7 @@ struct FootprintImport {
 FootprintSource read_model(const std::string& path, const FootprintImport& import) {
   const ImportOptions& options = import.options;
   if (options.kind != ThemeKind::Buildings)
-    throw InputError(path + ": CityJSON holds buildings; import it with `kind` buildings");
+    throw InputError(path + ": CityJSON holds buildings; import it with `kind` buildings", "kind");
   CityJsonQuery query;
   query.path = path;
   query.crs = options.crs;
@@ -112,8 +112,9 @@ FootprintFile read_raster(const std::string& path, const FootprintImport& import
   if (!is_raster(path)) {
     if (is_missing(path)) throw FileError(path, "there is no such file");
     throw InputError(path +
-                     ": is no raster, as `kind` surface takes; import footprints with `kind` buildings, terraces, "
-                     "walls or vegetation");
+                         ": is no raster, as `kind` surface takes; import footprints with `kind` buildings, terraces, "
+                         "walls or vegetation",
+                     "kind");
   }
   HeightRasterQuery query;
   query.path = path;

@@ -68,7 +68,8 @@ class HeightRasterReading {
     if (result_.cells == 0) throw FileError(query_.path, "holds no height; all of its cells are without data");
     if (result_.low == result_.cells)
       throw InputError(fmt::format("{}: no cell is as high as `height_threshold`, {:g} m; the highest has {:g} m",
-                                   query_.path, query_.threshold, highest_));
+                                   query_.path, query_.threshold, highest_),
+                       "height_threshold");
     cut_into_parts();
     add_warnings();
     return std::move(result_);
@@ -97,9 +98,10 @@ class HeightRasterReading {
     rule_.corner = lattice.post(-0.5, -0.5), rule_.across = lattice.u, rule_.down = lattice.v;
     const std::uint64_t cells = static_cast<std::uint64_t>(columns_) * static_cast<std::uint64_t>(rows_);
     if (cells > query_.memory_bytes / kBytesPerCell)
-      throw InputError(fmt::format(
-          "{}: has {} cells, for which {} MB of memory are too little; give more `memory_bytes`, or cut it into parts",
-          query_.path, cells, query_.memory_bytes >> 20));
+      throw InputError(fmt::format("{}: has {} cells, for which {} MB of memory are too little; give more "
+                                   "`memory_bytes`, or cut it into parts",
+                                   query_.path, cells, query_.memory_bytes >> 20),
+                       "memory_bytes");
     Box box;
     for (const double column : {0, columns_})
       for (const double row : {0, rows_}) box.extend(rule_.corner_at(column, row));
@@ -134,10 +136,10 @@ class HeightRasterReading {
   [[noreturn]] void refuse(double metres, int column, int row) const {
     const std::string place = fmt::format("{}: column {}, row {}", query_.path, column, row);
     require_height(metres, place);
-    throw InputError(
-        fmt::format("{} has {:g} m above the ground; heights above sea level are those of a surface, "
-                    "which `kind` surface imports",
-                    place, metres));
+    throw InputError(fmt::format("{} has {:g} m above the ground; heights above sea level are those of a surface, "
+                                 "which `kind` surface imports",
+                                 place, metres),
+                     "kind");
   }
 
   std::size_t index(int column, int row) const {

@@ -22,7 +22,8 @@ Classes kept_classes(const std::string& path, const std::vector<int>& classes) {
   Classes kept;
   if (classes.empty()) return kept.set().reset(kLowNoise).reset(kHighNoise);
   for (const int c : classes) {
-    if (c < 0 || c > 255) throw InputError(fmt::format("{}: `classes` {}: LAS classes are 0 to 255", path, c));
+    if (c < 0 || c > 255)
+      throw InputError(fmt::format("{}: `classes` {}: LAS classes are 0 to 255", path, c), "classes");
     kept.set(static_cast<std::size_t>(c));
   }
   return kept;

@@ -66,9 +66,10 @@ void PointLayer::check_geometry_type() const {
 }
 
 void PointLayer::refuse_geometry(const std::string& type) const {
-  throw InputError(fmt::format(
-      "{}: layer '{}' holds {}, not points; import lines and polygons with `kind` contours, breaklines, buildings, ...",
-      layer_.path(), layer_.name(), type));
+  throw InputError(fmt::format("{}: layer '{}' holds {}, not points; import lines and polygons with `kind` contours, "
+                               "breaklines, buildings, ...",
+                               layer_.path(), layer_.name(), type),
+                   "kind");
 }
 
 void PointLayer::refuse_heightless() const {
@@ -76,7 +77,8 @@ void PointLayer::refuse_heightless() const {
       !layer_.has_height_field()
           ? fmt::format("{}: the points of layer '{}' have no Z; name the field of the height with `z_field`",
                         layer_.path(), layer_.name())
-          : fmt::format("{}: layer '{}' has a height in no feature; check `z_field`", layer_.path(), layer_.name()));
+          : fmt::format("{}: layer '{}' has a height in no feature; check `z_field`", layer_.path(), layer_.name()),
+      "z_field");
 }
 
 Point2 PointLayer::find_centre() {

@@ -160,7 +160,8 @@ void RasterTerrain::measure_steps() {
   const Point2 u = across.longest, v = down.longest;
   const double cell = std::abs(u.x * v.y - u.y * v.x);
   if (!(cell > 0))
-    throw InputError(fmt::format("{}: lies where the store's CRS is not defined; choose another with `to_crs`", path_));
+    throw InputError(fmt::format("{}: lies where the store's CRS is not defined; choose another with `to_crs`", path_),
+                     "to_crs");
   info_.gap_basis = {kGapSteps * u.x, kGapSteps * u.y, kGapSteps * v.x, kGapSteps * v.y};
   info_.spacing = std::sqrt(cell);
   if (const double variation = std::max(across.variation(), down.variation()); variation > kSteadySteps)

@@ -128,8 +128,11 @@ class SeaFill::Lattices {
  private:
   static void require_few(double posts) {
     if (posts > kMostSeaPosts)
-      throw InputError(fmt::format(
-          "`sea_level`: the sea would have {:.1e} posts, which is beyond any store; give a smaller `sea_area`", posts));
+      throw InputError(
+          fmt::format(
+              "`sea_level`: the sea would have {:.1e} posts, which is beyond any store; give a smaller `sea_area`",
+              posts),
+          "sea_level");
   }
 
   double level_;

@@ -56,8 +56,10 @@ void FeatureFields::add(OGRLayer& layer, int index) {
   const bool again = std::any_of(fields_.begin(), fields_.end(), [&](const auto& f) { return f.name == name; });
   if (query_.attributes && !type)
     throw InputError(fmt::format("{}: field '{}' holds {}; `attributes` are numbers, texts, dates and times", path_,
-                                 name, OGRFieldDefn::GetFieldTypeName(field.GetType())));
-  if (query_.attributes && again) throw InputError(fmt::format("{}: `attributes`: '{}' comes twice", path_, name));
+                                 name, OGRFieldDefn::GetFieldTypeName(field.GetType())),
+                     "attributes");
+  if (query_.attributes && again)
+    throw InputError(fmt::format("{}: `attributes`: '{}' comes twice", path_, name), "attributes");
   if (again) warnings_.push_back(fmt::format("{}: has two fields '{}'; the first is kept", path_, name));
   if (!type)
     warnings_.push_back(fmt::format("{}: field '{}' is not kept: it holds {}", path_, name,

@@ -49,7 +49,8 @@ std::optional<LinearUnit> HeightBand::stated_unit() const {
   throw InputError(
       fmt::format("{}: the unit of heights, '{}', is not understood; give `crs` the CRS of heights in the right unit, "
                   "such as EPSG:5703 for metres",
-                  path_, text));
+                  path_, text),
+      "crs");
 }
 
 int HeightBand::columns() const {

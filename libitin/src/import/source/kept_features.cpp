@@ -14,7 +14,7 @@ FeatureQuery feature_query(const ImportOptions& options) {
     std::vector<std::string> names = *options.attributes;
     std::sort(names.begin(), names.end());
     const auto twice = std::adjacent_find(names.begin(), names.end());
-    if (twice != names.end()) throw InputError(fmt::format("`attributes`: '{}' comes twice", *twice));
+    if (twice != names.end()) throw InputError(fmt::format("`attributes`: '{}' comes twice", *twice), "attributes");
   }
   return {options.id_field, options.name_field, options.attributes};
 }
@@ -26,8 +26,9 @@ AttributeType wider(AttributeType a, AttributeType b) {
 
 void require_few_fields(std::size_t fields, const std::string& path) {
   if (fields > kMostAttributes)
-    throw InputError(fmt::format("{}: a theme keeps at most {} fields; name those to keep with `attributes`", path,
-                                 kMostAttributes));
+    throw InputError(
+        fmt::format("{}: a theme keeps at most {} fields; name those to keep with `attributes`", path, kMostAttributes),
+        "attributes");
 }
 
 std::string KeptTexts::required(std::string text, const std::string& feature, const std::string& field) const {

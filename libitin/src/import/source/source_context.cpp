@@ -68,7 +68,8 @@ Crs source_crs(const std::string& path, const std::string& option_crs, const std
   Crs crs = given.wkt.empty() ? own : given;
   if (crs.wkt.empty())
     throw InputError(fmt::format("{}: does not say its {}CRS; give it with `crs` EPSG:xxxx", path,
-                                 given.heights || own.heights ? "horizontal " : ""));
+                                 given.heights || own.heights ? "horizontal " : ""),
+                     "crs");
   crs.given = !given.wkt.empty();
   if (crs.given && !own.wkt.empty() && !PointTransform(own.wkt, given.wkt, path).identity()) crs.overridden = own.wkt;
   crs.heights_given = given.heights.has_value();
@@ -158,7 +159,8 @@ GridBox Placement::bounds() const {
 ReadCounts Placement::counts() const {
   if (placed_ == 0 && beyond_.count > 0)
     throw InputError(fmt::format("{}: position {}; import it into a store of its own, or give a coarser `resolution`",
-                                 path_, beyond_the_grid()));
+                                 path_, beyond_the_grid()),
+                     "resolution");
   ReadCounts counts{placed_, voids_ + marks_ + out_of_range_ + unmapped_, 0, bounds(), {}};
   const auto left_out = [&](const Far& points, const std::string& where) {
     if (points.count > 0)

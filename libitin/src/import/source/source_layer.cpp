@@ -95,7 +95,7 @@ namespace {
       reason.find("no such column") != std::string::npos)
     throw FileError(path, fmt::format("`where` {} names a field that layer '{}' does not have: {}", where,
                                       layer.GetName(), reason));
-  throw InputError(fmt::format("{}: `where` {} is not understood: {}", path, where, reason));
+  throw InputError(fmt::format("{}: `where` {} is not understood: {}", path, where, reason), "where");
 }
 
 }  // namespace
@@ -110,7 +110,8 @@ std::uint64_t select_features(OGRLayer& layer, const std::string& path, const st
   if (!understood || left < 0 || QuietGdal::failed()) refuse_clause(layer, path, where);
   if (left == 0 && all > 0)
     throw InputError(fmt::format("{}: `where` {} leaves none of {} feature{} of layer '{}'", path, where, all,
-                                 all == 1 ? "" : "s", layer.GetName()));
+                                 all == 1 ? "" : "s", layer.GetName()),
+                     "where");
   return static_cast<std::uint64_t>(std::max<GIntBig>(0, all - left));
 }
 

@@ -25,7 +25,8 @@ std::vector<Point2> transformed(std::span<const Point2> places, const PointTrans
   throw InputError(
       fmt::format("{}: lies where {} is not defined; check the file's CRS (`crs`), or choose another for the store "
                   "with `to_crs`",
-                  path, crs.name));
+                  path, crs.name),
+      "crs");
 }
 
 }  // namespace

@@ -42,7 +42,8 @@ void VerticalDatums::add(const Crs& crs, const std::string& place) {
     throw InputError(
         fmt::format("{}: heights refer to {}, but those of {} to {}; convert one of them, or take them as they are "
                     "with `allow_mixed_vertical`",
-                    place, datum, place_, datum_));
+                    place, datum, place_, datum_),
+        "allow_mixed_vertical");
 }
 
 std::string VerticalDatums::warning() const {

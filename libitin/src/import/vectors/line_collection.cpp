@@ -211,11 +211,13 @@ std::uint32_t LineCollection::theme(const std::string& name, ThemeKind kind, boo
   }
   if (found->info.kind != kind)
     throw InputError(fmt::format("theme '{}': holds {} already, not {}; choose another name with `theme`", name,
-                                 name_of(found->info.kind), name_of(kind)));
+                                 name_of(found->info.kind), name_of(kind)),
+                     "theme");
   if (found->raised != raised)
     throw InputError(fmt::format("theme '{}': holds {}; choose another name with `theme`", name,
                                  raised ? "outlines on the ground, not features with heights"
-                                        : "features with heights, not outlines on the ground"));
+                                        : "features with heights, not outlines on the ground"),
+                     "theme");
   return static_cast<std::uint32_t>(found - themes_.begin());
 }
 
@@ -224,9 +226,10 @@ void LineCollection::offset_walls(std::uint32_t theme, double metres, const Grid
   ThemeInfo& info = themes_[theme].info;
   const double before = info.wall_offset.value_or(default_wall_offset(grid));
   if (metres != before && !themes_[theme].footprints.empty())
-    throw InputError(fmt::format(
-        "theme '{}': has a `wall_offset` of {} m already, not {} m; leave it out, or choose another name with `theme`",
-        info.name, before, metres));
+    throw InputError(fmt::format("theme '{}': has a `wall_offset` of {} m already, not {} m; leave it out, or choose "
+                                 "another name with `theme`",
+                                 info.name, before, metres),
+                     "wall_offset");
   info.wall_offset = metres;
 }
 

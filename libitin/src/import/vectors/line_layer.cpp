@@ -92,9 +92,10 @@ void LineLayer::collect(const OGRGeometry& geometry, const OGRFeature& feature, 
     for (const OGRGeometry* part : *geometry.toGeometryCollection()) collect(*part, feature, lines);
   } else {
     const bool solid = OGR_GT_IsSubClassOf(type, wkbPolyhedralSurface) && may_be_raised(kind_);
-    throw InputError(fmt::format("{}: is a {}; {} are lines or polygons{}", layer_.place(feature),
-                                 OGRGeometryTypeToName(type), name_of(kind_),
-                                 solid ? ", or models of what stands, with `height_field` or `height`" : ""));
+    throw InputError(
+        fmt::format("{}: is a {}; {} are lines or polygons{}", layer_.place(feature), OGRGeometryTypeToName(type),
+                    name_of(kind_), solid ? ", or models of what stands, with `height_field` or `height`" : ""),
+        "height_field");
   }
 }
 
@@ -104,7 +105,8 @@ void LineLayer::add(const OGRSimpleCurve& curve, const OGRFeature& feature, std:
   const bool needs_height = is_terrain(kind_);
   if (needs_height && !layer_.has_height_field() && !curve.Is3D()) {
     throw InputError(fmt::format("{}: has no heights, which {} need; name the field of the height with `z_field`",
-                                 layer_.place(feature), name_of(kind_)));
+                                 layer_.place(feature), name_of(kind_)),
+                     "z_field");
   }
   const double of_feature = needs_height && layer_.has_height_field() ? layer_.height(feature) : 0;
   Line line;

@@ -161,7 +161,7 @@ std::vector<ChosenSite> in_order(const ChoiceProblem& problem, std::vector<std::
 /// check_goal() throws for Objective::kLeast.
 Conflicts checked_conflicts(const std::vector<SiteOption>& options, const ChoiceGoal& goal) {
   if (!goal.count || goal.budget || goal.wanted || goal.cover != 1 || goal.network || !goal.exact_chosen)
-    throw InputError("the least is asked of a `count` of sites alone, whose coverage is exact");
+    throw InputError("the least is asked of a `count` of sites alone, whose coverage is exact", "count");
   Conflicts conflicts({options, goal, {}}, *goal.count);
   const std::size_t found = conflicts.fitting().size();
   if (found >= *goal.count) return conflicts;
@@ -176,8 +176,8 @@ Conflicts checked_conflicts(const std::vector<SiteOption>& options, const Choice
 /// Checks as check_goal() does. Returns the conflicts for Objective::kLeast.
 std::optional<Conflicts> checked(const std::vector<SiteOption>& options, const ChoiceGoal& goal) {
   if (!goal.count && !goal.budget && !goal.wanted)
-    throw InputError("the choice has no end: give a count, a budget or a share of the demand");
-  if (goal.cover < 1 || goal.cover > 255) throw InputError("an element is served by 1 to 255 sites");
+    throw InputError("the choice has no end: give a count, a budget or a share of the demand", "count");
+  if (goal.cover < 1 || goal.cover > 255) throw InputError("an element is served by 1 to 255 sites", "cover");
   for (const SiteOption& option : options)
     if (!(option.cost > 0)) throw InputError("the cost of a site must be a positive number");
   if (goal.objective == Objective::kLeast) return checked_conflicts(options, goal);

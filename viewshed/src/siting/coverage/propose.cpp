@@ -193,20 +193,21 @@ std::vector<Proposal> propose_sites(const Store& store, const Window& area, cons
   Box box = area.bounds();
   if (box.width() / request.spacing * (box.height() / request.spacing) > kMostSquares)
     throw InputError(fmt::format("a spacing of {:g} m cuts the search area into more than {:g} squares: give a greater",
-                                 request.spacing, kMostSquares));
+                                 request.spacing, kMostSquares),
+                     "spacing");
   box = {box.xmin - request.radius, box.ymin - request.radius, box.xmax + request.radius, box.ymax + request.radius};
   const Detail detail = detail_of(store.metadata(), finest_level_of(store, box, kPoints));
   CallProgress call(progress);
   const Window window = Window::box(box);
   const Surface ground{triangulate(store, window, detail, call.step(0.3)), nullptr, {}};
-  if (ground.tin.triangles.empty()) throw InputError("the search area holds no ground");
+  if (ground.tin.triangles.empty()) throw InputError("the search area holds no ground", "search_area");
   std::optional<Surface> raised;
   if (request.themes.includes_raised(store.metadata().themes))
     raised = Surface{triangulate(store, window, detail, call.step(0.4), request.themes), nullptr, {}};
   std::vector<Proposal> proposals =
       Proposer(store, raised ? *raised : ground, raised ? &ground : nullptr, area, request).run(call.step(1));
   call.finish();
-  if (proposals.empty()) throw InputError("the search area holds no ground");
+  if (proposals.empty()) throw InputError("the search area holds no ground", "search_area");
   return proposals;
 }
 

@@ -26,10 +26,12 @@ constexpr std::uint64_t kFewPoints = 40000;
 std::uint64_t required_sets(const SiteSurvey& survey) {
   const std::uint64_t sets = bytes_of_coverage(survey);
   if (sets <= survey.memory_bytes / 4 * 3) return sets;
-  throw InputError(fmt::format(
-      "what {} sites may serve takes {:.2g} GB, too much for {:.2g} GB of memory: give a greater `cell_size`, a "
-      "smaller `radius`, fewer sites, or more `memory_bytes`",
-      survey.positions.size(), static_cast<double>(sets) / 1e9, static_cast<double>(survey.memory_bytes) / 1e9));
+  throw InputError(
+      fmt::format(
+          "what {} sites may serve takes {:.2g} GB, too much for {:.2g} GB of memory: give a greater `cell_size`, a "
+          "smaller `radius`, fewer sites, or more `memory_bytes`",
+          survey.positions.size(), static_cast<double>(sets) / 1e9, static_cast<double>(survey.memory_bytes) / 1e9),
+      "memory_bytes");
 }
 
 }  // namespace

@@ -30,7 +30,8 @@ std::vector<Point2> spaced_positions(const Window& area, double side) {
   const Box box = area.bounds();
   if (box.width() / side * (box.height() / side) > kMostPlaces)
     throw InputError(fmt::format("a spacing of {:g} m makes more than {:g} places in the search area: give a greater",
-                                 side, kMostPlaces));
+                                 side, kMostPlaces),
+                     "spacing");
   const RasterGrid squares = RasterGrid::aligned(box, side);
   std::vector<Point2> places;
   for (std::int64_t row = 0; row < squares.rows(); ++row)
@@ -38,7 +39,8 @@ std::vector<Point2> spaced_positions(const Window& area, double side) {
       if (const Point2 middle = squares.centre(column, row); area.contains(middle)) places.push_back(middle);
   if (places.empty())
     throw InputError(
-        fmt::format("no middle of a square of {:g} m lies in the search area: give a smaller spacing", side));
+        fmt::format("no middle of a square of {:g} m lies in the search area: give a smaller spacing", side),
+        "spacing");
   return places;
 }
 

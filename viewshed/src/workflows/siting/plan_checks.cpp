@@ -12,8 +12,8 @@ namespace itin::viewshed {
 
 namespace {
 
-void require_that(bool holds, const char* what) {
-  if (!holds) throw InputError(what);
+void require_that(bool holds, const char* field, const char* what) {
+  if (!holds) throw InputError(what, field);
 }
 
 }  // namespace
@@ -21,19 +21,20 @@ void require_that(bool holds, const char* what) {
 void check(const SitePlanRequest& r) {
   const SiteDemand& demand = r.demand;
   require_that(r.search_area.has_value() != !r.candidates.places.empty() || !r.candidates.left_out.empty(),
-               "give either `candidates` or a `search_area`");
-  require_that(r.spacing > 0, "`spacing` must be positive");
-  require_that(r.turbines || !r.masts.empty(), "`masts` is empty: give at least one");
-  require_that(!(demand.points && demand.grid), "the demand is either `points` or a `grid`");
-  require_that(!demand.grid || demand.weights.size() == demand.grid->cell_count(),
+               "candidates", "give either `candidates` or a `search_area`");
+  require_that(r.spacing > 0, "spacing", "`spacing` must be positive");
+  require_that(r.turbines || !r.masts.empty(), "masts", "`masts` is empty: give at least one");
+  require_that(!(demand.points && demand.grid), "demand", "the demand is either `points` or a `grid`");
+  require_that(!demand.grid || demand.weights.size() == demand.grid->cell_count(), "weights",
                "`weights` needs `grid` and one value for each cell");
-  require_that(r.radius > 0 && r.cell_size > 0, "`radius` and `cell_size` must be positive");
-  require_that(!r.frequency_ghz || *r.frequency_ghz > 0, "`frequency_ghz` must be positive");
-  require_that(!r.share || (*r.share > 0 && *r.share <= 1), "`share` must be above 0 and at most 1");
-  require_that(r.cover >= 1 && r.cover <= 255, "`cover` must be 1 to 255");
+  require_that(r.radius > 0, "radius", "`radius` must be positive");
+  require_that(r.cell_size > 0, "cell_size", "`cell_size` must be positive");
+  require_that(!r.frequency_ghz || *r.frequency_ghz > 0, "frequency_ghz", "`frequency_ghz` must be positive");
+  require_that(!r.share || (*r.share > 0 && *r.share <= 1), "share", "`share` must be above 0 and at most 1");
+  require_that(r.cover >= 1 && r.cover <= 255, "cover", "`cover` must be 1 to 255");
   require_that(!r.turbines || (r.turbines->hub_height > 0 && r.turbines->tip_height >= r.turbines->hub_height),
-               "`turbines` need a hub above the ground, and a tip that is no lower");
-  require_that(!r.turbines || !(r.has_links() || r.frequency_ghz || r.budget || r.share || r.cover > 1),
+               "turbines", "`turbines` need a hub above the ground, and a tip that is no lower");
+  require_that(!r.turbines || !(r.has_links() || r.frequency_ghz || r.budget || r.share || r.cover > 1), "turbines",
                "`turbines` have no links, radio, budget, share or k-coverage: leave these out");
 }
 
@@ -47,7 +48,8 @@ void require_memory(const Store& store, const SitePlanRequest& request, const Si
       fmt::format("maps of {} cells, and what {} may serve of them, take some {:.2g} GB, more than the {:.2g} GB of "
                   "`memory_bytes`: give a greater `cell_size`, a smaller `radius`, fewer sites, or more memory",
                   grouped(grid.cell_count()), counted(inputs.positions.size(), "site"),
-                  static_cast<double>(needed) / 1e9, static_cast<double>(request.memory_bytes) / 1e9));
+                  static_cast<double>(needed) / 1e9, static_cast<double>(request.memory_bytes) / 1e9),
+      "memory_bytes");
 }
 
 void require_enough(const SitePlanRequest& request, const SiteInputs& inputs) {

@@ -65,7 +65,7 @@ class SitePlanner {
     const SitePlace& place = *plan_.request.hub;
     const auto ground = ground_under(store_, {place.position},
                                      plan_.request.on_surface ? plan_.request.themes : ThemeChoice::none(), progress_);
-    if (!ground.front()) throw InputError("`hub`: there is no data there; move it onto the data");
+    if (!ground.front()) throw InputError("`hub`: there is no data there; move it onto the data", "hub");
     return SitePosition{"hub", place.position, place.height.value_or(SitePlanRequest::kHubHeight), *ground.front()};
   }
 

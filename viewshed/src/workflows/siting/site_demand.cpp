@@ -55,7 +55,7 @@ class DemandOfPlan {
     } else {
       add_cells();
     }
-    if (inputs_.total == 0) throw InputError("there is no demand within the data: nothing to serve");
+    if (inputs_.total == 0) throw InputError("there is no demand within the data: nothing to serve", "demand");
   }
 
  private:
@@ -83,7 +83,8 @@ class DemandOfPlan {
     try {
       inputs_.demand = Demand(of_element);
     } catch (const InputError& error) {
-      throw InputError(fmt::format("{}: {}", given_.source.empty() ? "`weights`" : given_.source, error.what()));
+      throw InputError(fmt::format("{}: {}", given_.source.empty() ? "`weights`" : given_.source, error.what()),
+                       "weights");
     }
     inputs_.total = inputs_.demand.total();
   }
@@ -91,7 +92,7 @@ class DemandOfPlan {
   void add_points() {
     std::vector<PointToServe> points = points_to_serve();
     const std::string source = name_of(*given_.points, "demand");
-    if (points.empty()) throw InputError(source + ": holds no point to serve");
+    if (points.empty()) throw InputError(source + ": holds no point to serve", "demand");
     sort_by_place(points);
     const std::vector<SitePlace>& places = given_.points->places;
     const bool own_heights = std::any_of(places.begin(), places.end(), [](const SitePlace& p) { return p.height; });
@@ -107,7 +108,8 @@ class DemandOfPlan {
     inputs_.demand_without_ground = points.size() - on_ground;
     if (on_ground == 0 && !request_.turbines)
       throw InputError(fmt::format("{}: none of its {} has ground data below it; the data is {}", source,
-                                   counted(points.size(), "point"), extent_of(store_.metadata())));
+                                   counted(points.size(), "point"), extent_of(store_.metadata())),
+                       "demand");
   }
 
   std::vector<PointToServe> points_to_serve() {

@@ -37,7 +37,7 @@ class InputReader {
     leave_out_near_dwellings();
     leave_out_near_existing();
     place_on_ground();
-    if (inputs_.options.empty()) throw InputError(nothing_left());
+    if (inputs_.options.empty()) throw InputError(nothing_left(), "candidates");
     place_existing();
     add_demand(store_, request_, inputs_, warnings_, progress_);
     return std::move(inputs_);
@@ -165,7 +165,7 @@ class InputReader {
     if (place.height) masts = {{*place.height, masts.front().cost}};
     for (const Mast& mast : masts) {
       if (!(place.cost + mast.cost > 0))
-        throw InputError(fmt::format("candidate {}: its cost is 0; costs must be positive", place.name));
+        throw InputError(fmt::format("candidate {}: its cost is 0; costs must be positive", place.name), "candidates");
       inputs_.options.push_back({number, place.cost + mast.cost});
       inputs_.positions.push_back({place.name, place.position, mast.height, ground});
     }

@@ -23,7 +23,8 @@ std::vector<RoutePlace> places_along(const std::vector<Point2>& corners, const s
   if (at.back() / every > kMostRoutePlaces)
     throw InputError(
         fmt::format("`route_step` {:g}: a route of {:.0f} m would have more than {:g} places; give a greater distance",
-                    every, at.back(), kMostRoutePlaces));
+                    every, at.back(), kMostRoutePlaces),
+        "route_step");
   const auto count = static_cast<std::size_t>(std::max(1.0, std::ceil(at.back() / every - 1e-9)));
   std::vector<RoutePlace> places;
   std::size_t side = 0;
@@ -84,7 +85,7 @@ std::vector<StudiedRoute> study_routes(const StudySurfaces& surfaces, const Zone
     routes.push_back(look_along(route, routes.size() + 1, request.route_step, surfaces, zone, progress));
     const StudiedRoute& last = routes.back();
     if (std::none_of(last.places.begin(), last.places.end(), [](const RoutePlace& p) { return p.bare.has_value(); }))
-      throw InputError(fmt::format("{}: {} lies off the data", request.routes.path, last.title()));
+      throw InputError(fmt::format("{}: {} lies off the data", request.routes.path, last.title()), "routes");
   }
   return routes;
 }

@@ -88,10 +88,11 @@ std::string link_methods(const ZoneStudy& study) {
 void require_links(const ZoneStudyRequest& request) {
   const profile::LinkTable& table = request.links;
   if (!table.links.empty() && !(request.frequency_ghz > 0))
-    throw InputError("`frequency_ghz`: radio links need a frequency");
+    throw InputError("`frequency_ghz`: radio links need a frequency", "frequency_ghz");
   if (!table.links.empty() || table.bad.empty()) return;
   throw InputError(fmt::format("{}: none of its rows can be used ({} in all); the first: {}", table.path,
-                               table.bad.size(), table.bad.front().message));
+                               table.bad.size(), table.bad.front().message),
+                   "links");
 }
 
 std::vector<LinkClearance> link_clearances(const ZoneStudyRequest& request, const Zone& zone) {

@@ -40,7 +40,7 @@ void complete(ZoneStudyRequest& request, const StoreMetadata& metadata) {
 
 void require_reasonable(const ZoneStudyRequest& request) {
   require_links(request);
-  if (!(request.route_step > 0)) throw InputError("`route_step`: give a distance greater than 0");
+  if (!(request.route_step > 0)) throw InputError("`route_step`: give a distance greater than 0", "route_step");
 }
 
 /// Names turbines without ground among the rows that are not used.
@@ -51,11 +51,13 @@ void add_misplaced(const Zone& zone, TurbineTable& table) {
 void require_any_cell(const ZoneStudy& study) {
   if (study.missing.study_m2() > 0) return;
   const std::string& source = study.request.grid_source;
-  throw InputError(fmt::format(
-      "{}: none of the cells lies within the radius of a turbine; move them there, or give a larger `radius`",
-      study.zone.request.cell_size ? "`cell_size`"
-      : source.empty()             ? "`grid`"
-                                   : source));
+  throw InputError(
+      fmt::format(
+          "{}: none of the cells lies within the radius of a turbine; move them there, or give a larger `radius`",
+          study.zone.request.cell_size ? "`cell_size`"
+          : source.empty()             ? "`grid`"
+                                       : source),
+      study.zone.request.cell_size ? "cell_size" : "grid");
 }
 
 std::vector<std::string> warnings_of(const ZoneStudy& study) {

@@ -30,7 +30,8 @@ void require_farm_known(const Zone& zone, const std::string& farm) {
   const std::vector<std::string> farms = farms_of(zone);
   if (!farm.empty() && std::find(farms.begin(), farms.end(), farm) == farms.end())
     throw InputError(
-        fmt::format("`alone`: '{}' is no wind farm of the turbines; there is: {}", farm, fmt::join(farms, ", ")));
+        fmt::format("`alone`: '{}' is no wind farm of the turbines; there is: {}", farm, fmt::join(farms, ", ")),
+        "alone");
 }
 
 void require_viewpoint_known(const ZoneStudy& study, const std::string& name) {
@@ -38,7 +39,8 @@ void require_viewpoint_known(const ZoneStudy& study, const std::string& name) {
                                  [&](const StudiedViewpoint& v) { return is_called(v.viewpoint, name); });
   if (!known)
     throw InputError(
-        fmt::format("`wirelines`: '{}' is no viewpoint of {} that can be used", name, study.request.viewpoints.path));
+        fmt::format("`wirelines`: '{}' is no viewpoint of {} that can be used", name, study.request.viewpoints.path),
+        "wirelines");
 }
 
 /// Writes the files of a study into a folder, one kind after the other.

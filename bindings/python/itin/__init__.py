@@ -1,0 +1,69 @@
+"""What can be seen from where over real terrain, with buildings and trees.
+
+    >>> import itin
+    >>> itin.import_terrain("cardiff.itin", "cardiff.tif")
+    >>> store = itin.Store("cardiff.itin")
+    >>> seen = store.viewshed((310375, 183525, 30), radius=20000, cell_size=25)
+    >>> seen.verdict.mean(where=seen.verdict != itin.Verdict.OUTSIDE)
+    >>> seen.write("mast.tif")
+
+The results are those of the command line, to the byte. Positions are in the store's CRS, lengths in metres.
+"""
+
+from ._asked import Bounds, Earth, Grid, Observer, Place, Turbine, Verdict, Window
+from ._errors import CorruptStore, Error, FileError, InputError
+from ._imports import import_features, import_terrain
+from ._itin import allow_network, set_thread_count, thread_count
+from ._itin import version as __version__
+from ._results import (
+    ChosenSite,
+    ImportReport,
+    Level,
+    LineOfSight,
+    LinkCounts,
+    Links,
+    Profile,
+    SitePlan,
+    Theme,
+    Tin,
+    Viewshed,
+    WrittenFile,
+    ZoneStudy,
+)
+from ._store import HeldSurface, Store
+
+__all__ = [
+    "Bounds",
+    "ChosenSite",
+    "CorruptStore",
+    "Earth",
+    "Error",
+    "FileError",
+    "Grid",
+    "HeldSurface",
+    "ImportReport",
+    "InputError",
+    "Level",
+    "LineOfSight",
+    "LinkCounts",
+    "Links",
+    "Observer",
+    "Place",
+    "Profile",
+    "SitePlan",
+    "Store",
+    "Theme",
+    "Tin",
+    "Turbine",
+    "Verdict",
+    "Viewshed",
+    "Window",
+    "WrittenFile",
+    "ZoneStudy",
+    "__version__",
+    "allow_network",
+    "import_features",
+    "import_terrain",
+    "set_thread_count",
+    "thread_count",
+]

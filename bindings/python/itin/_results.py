@@ -1,0 +1,399 @@
+"""What calls return. Arrays over a grid are views of what the result holds: no values are copied, none can be changed."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _itin
+from ._asked import Grid, Path, Progress, Verdict
+
+
+@dataclass(frozen=True)
+class Level:
+    """A level of detail of a store.
+
+    Attributes:
+        tolerance: Metres; 0 is the full surface.
+        vertices: Vertices whose coarsest level this is.
+        certified_error: The full surface lies within these bounds of the level's, (lowest, highest), metres.
+    """
+
+    tolerance: float
+    vertices: int
+    certified_error: tuple[float, float]
+
+
+@dataclass(frozen=True)
+class Theme:
+    """A theme of a store: buildings, contours, ...
+
+    Attributes:
+        name: As in ``themes=``.
+        kind: ``"buildings"``, ``"vegetation"``, ``"contours"``, ...
+        features: How many were imported.
+        stands: Whether its features stand on the ground.
+    """
+
+    name: str
+    kind: str
+    features: int
+    stands: bool
+
+
+@dataclass(frozen=True)
+class Tin:
+    """Triangles of the surface.
+
+    Attributes:
+        vertices: Easting, northing and elevation, metres; shape (n, 3).
+        triangles: Indices into ``vertices``, counterclockwise seen from above; shape (m, 3).
+        themes: The theme that each triangle is part of, from 1 in the order of ``Store.themes``; 0: ground; shape (m,).
+        sources: The number of each vertex's source, from 0; shape (n,).
+    """
+
+    vertices: NDArray[np.float64]
+    triangles: NDArray[np.uint32]
+    themes: NDArray[np.uint16]
+    sources: NDArray[np.uint16]
+
+
+@dataclass(frozen=True)
+class Profile:
+    """The surface along a path: every crossing of a triangle's edge, nothing sampled. All arrays have the shape (n,).
+
+    Attributes:
+        length: Metres.
+        distance: Metres along the path, ascending.
+        x: Easting, metres.
+        y: Northing, metres.
+        z: Elevation, metres.
+        theme: The theme that stands there, from 1; 0: ground.
+        gaps: Parts without ground, (from, to), metres along the path; shape (k, 2).
+    """
+
+    length: float
+    distance: NDArray[np.float64]
+    x: NDArray[np.float64]
+    y: NDArray[np.float64]
+    z: NDArray[np.float64]
+    theme: NDArray[np.uint16]
+    gaps: NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Links:
+    """What was found of many links, in their order. All arrays have the shape (n,); NaN: there is no such value.
+
+    Attributes:
+        verdict: ``Verdict`` numbers, uint8; OUTSIDE where a link could not be computed.
+        distance: Metres.
+        clearance: The least height of the ray above the surface between the ends, metres; negative where it is cut.
+        critical: Where the ray is cut deepest, or nearest to being cut: metres from the first end.
+        fresnel_fraction: The least clearance as a fraction of the first Fresnel zone's radius; with a frequency.
+        diffraction_db: Delta-Bullington diffraction (ITU-R P.526); with a frequency.
+        free_space_db: With a frequency.
+        gap: How much of the line is without ground data, metres.
+        messages: Why a link could not be computed, by its index.
+    """
+
+    verdict: NDArray[np.uint8]
+    distance: NDArray[np.float64]
+    clearance: NDArray[np.float64]
+    critical: NDArray[np.float64]
+    fresnel_fraction: NDArray[np.float64]
+    diffraction_db: NDArray[np.float64]
+    free_space_db: NDArray[np.float64]
+    gap: NDArray[np.float64]
+    messages: Mapping[int, str]
+
+
+@dataclass(frozen=True)
+class LinkCounts:
+    """How many links of a table are visible, hidden, undecided or could not be computed, and what there is to say."""
+
+    visible: int
+    hidden: int
+    undecided: int
+    error: int
+    warnings: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class ChosenSite:
+    """A site of a choice.
+
+    Attributes:
+        name: Of its place.
+        x: Easting, metres.
+        y: Northing, metres.
+        height: Of its mast, metres above what it stands on.
+        gain: What it adds to what the sites before it serve.
+        cumulative: What it and those before it serve.
+    """
+
+    name: str
+    x: float
+    y: float
+    height: float
+    gain: float
+    cumulative: float
+
+
+@dataclass(frozen=True)
+class WrittenFile:
+    """A file that was written, and what is in it."""
+
+    path: str
+    what: str
+
+
+@dataclass(frozen=True)
+class ImportReport:
+    """What an import did.
+
+    Attributes:
+        crs: The name of the store's CRS.
+        vertices: How many the store has now.
+        features: Lines that were read, or features that stand now.
+        refused: Features that could not stand; warnings say why.
+        voids: Posts without data.
+        seconds: How long it took.
+        warnings: One line each.
+    """
+
+    crs: str
+    vertices: int
+    features: int
+    refused: int
+    voids: int
+    seconds: float
+    warnings: tuple[str, ...]
+
+
+def _document(text: str) -> dict[str, Any]:
+    document: dict[str, Any] = json.loads(text)
+    return document
+
+
+class _OverGrid:
+    """A result over the cells of a grid."""
+
+    _core: _itin.Viewshed | _itin.SitePlan | _itin.ZoneStudy
+
+    @property
+    def grid(self) -> Grid:
+        """The cells. A cell's value is decided at its centre."""
+        return Grid(*self._core.grid)
+
+    @property
+    def crs(self) -> str:
+        """The CRS of the grid, as WKT."""
+        return self._core.crs_wkt
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """What is to be minded, a line each."""
+        return tuple(self._core.warnings)
+
+    @property
+    def document(self) -> dict[str, Any]:
+        """The JSON document that the command line prints, without the call and its outputs."""
+        return _document(self._core.json)
+
+
+class Viewshed(_OverGrid):
+    """Which cells of a raster observers see."""
+
+    _core: _itin.Viewshed
+
+    def __init__(self, core: _itin.Viewshed) -> None:
+        self._core = core
+
+    @property
+    def verdict(self) -> NDArray[np.uint8]:
+        """``Verdict`` numbers of the cells, in every mode; a view of shape (rows, columns)."""
+        return self._core.verdict
+
+    @property
+    def values(self) -> dict[str, NDArray[Any]]:
+        """What the mode tells besides, by name; views of shape (rows, columns).
+
+        - ``count``: ``count``, uint16: how many observers certainly see the cell; 65535 outside
+        - ``which``: ``words``, uint32 of shape (bands, rows, columns): bit i % 32 of band i // 32 for observer i
+        - ``angle``: ``angle_deg``, float32, NaN where hidden
+        - ``nearest``: ``number``, uint32 from 1, 0 where none sees; ``distance_m``, float32
+        - ``blocker``: ``theme`` and ``feature``, uint32
+        - ``height``: ``height_m``, float32: the least height at which a target is seen
+        - ``probability``: ``probability``, float32
+        - ``loss``: ``diffraction_db`` and ``free_space_db``, float32
+        """
+        return self._core.values
+
+    @property
+    def cells(self) -> dict[str, int]:
+        """How many cells are ``visible``, ``hidden``, ``undecided``, ``outside`` and ``zone_cut``."""
+        return self._core.cells
+
+    @property
+    def ground(self) -> tuple[float, ...]:
+        """The elevation of what each observer stands on, metres."""
+        return tuple(self._core.ground_m)
+
+    def write(self, path: Path, *, overwrite: bool = False, progress: Progress | None = None) -> None:
+        """Writes the bytes that ``itin viewshed -o`` writes.
+
+        A GeoTIFF (.tif), with a QGIS style beside it (.qml) where it has no colours of its own; or the regions of its
+        classes as polygons (.gpkg).
+
+        Raises:
+            InputError: Another ending.
+            FileError: The place cannot be written, or the file exists and ``overwrite`` is false.
+        """
+        self._core.write(os.fspath(path), overwrite, progress)
+
+    def __repr__(self) -> str:
+        rows, columns = self.grid.shape
+        return f"<itin.Viewshed of {rows} x {columns} cells, {self.cells['visible']} visible>"
+
+
+class LineOfSight:
+    """The report on one line of sight."""
+
+    def __init__(self, core: _itin.LineOfSight) -> None:
+        self._core = core
+
+    @property
+    def verdict(self) -> Verdict:
+        """VISIBLE, HIDDEN or UNDECIDED."""
+        return Verdict(self._core.verdict)
+
+    @property
+    def distance(self) -> float:
+        """Metres between the ends."""
+        return self._core.distance
+
+    @property
+    def clearance(self) -> float | None:
+        """The least height of the ray above the surface between the ends, metres; negative where it is cut."""
+        return self._core.clearance
+
+    @property
+    def profile(self) -> Profile:
+        """The surface under the line."""
+        return Profile(*self._core.profile)
+
+    @property
+    def document(self) -> dict[str, Any]:
+        """The JSON document that ``itin los --json`` prints, without the call and its outputs."""
+        return _document(self._core.json)
+
+    def write(self, path: Path, *, overwrite: bool = False) -> None:
+        """Writes a report: .pdf, .html, .svg, .png, .csv, .txt, .json, .kml or .gpkg.
+
+        Raises:
+            InputError: Another ending.
+            FileError: The place cannot be written, or the file exists and ``overwrite`` is false.
+        """
+        self._core.write(os.fspath(path), overwrite)
+
+    def __repr__(self) -> str:
+        return f"<itin.LineOfSight of {self.distance:.0f} m, {self.verdict.name.lower()}>"
+
+
+class SitePlan(_OverGrid):
+    """A choice of sites, and what they serve."""
+
+    _core: _itin.SitePlan
+
+    def __init__(self, core: _itin.SitePlan) -> None:
+        self._core = core
+
+    @property
+    def chosen(self) -> tuple[ChosenSite, ...]:
+        """The sites in the order of the choice."""
+        return tuple(ChosenSite(*site) for site in self._core.chosen)
+
+    @property
+    def value(self) -> float:
+        """What the choice serves: the sum of the weights of points, or a number of cells."""
+        return self._core.value
+
+    @property
+    def upper_bound(self) -> float:
+        """No choice of as many sites, or within the budget, serves more than this."""
+        return self._core.upper_bound
+
+    @property
+    def redundancy(self) -> NDArray[np.uint16]:
+        """How many sites serve a cell; 65535 beyond reach or data; a view of shape (rows, columns)."""
+        return self._core.rasters["redundancy"]
+
+    @property
+    def best_server(self) -> NDArray[np.uint16]:
+        """The nearest site that serves a cell, from 1 in the order of the choice; 0: none; 65535 outside; a view."""
+        return self._core.rasters["best_server"]
+
+    @property
+    def served(self) -> NDArray[np.uint8]:
+        """``Verdict`` numbers: VISIBLE where enough sites serve the cell; a view of shape (rows, columns)."""
+        return self._core.rasters["served"]
+
+    def write(
+        self, folder: Path, *, overwrite: bool = False, progress: Progress | None = None
+    ) -> tuple[WrittenFile, ...]:
+        """Writes tables, layers, rasters and maps into a folder, which is made where it is not there.
+
+        Raises:
+            FileError: The place cannot be written, or a file exists and ``overwrite`` is false.
+        """
+        return _written(self._core.write(os.fspath(folder), overwrite, progress))
+
+    def __repr__(self) -> str:
+        return f"<itin.SitePlan of {len(self._core.chosen)} sites, value {self.value:g}>"
+
+
+class ZoneStudy(_OverGrid):
+    """Where wind turbines are visible from."""
+
+    _core: _itin.ZoneStudy
+
+    def __init__(self, core: _itin.ZoneStudy) -> None:
+        self._core = core
+
+    @property
+    def bare(self) -> dict[str, NDArray[Any]]:
+        """What is certainly seen over bare ground, by name; views of shape (rows, columns).
+
+        ``hub_count``, ``tip_count``: uint16, 65535 outside. ``turbines``: uint32 of shape (bands, rows, columns), a bit
+        for each tip. ``visible_height_m``, ``vertical_angle_deg``, ``horizontal_angle_deg``, ``share``, ``nearest_m``:
+        float32, NaN outside.
+        """
+        return self._core.visibility(False) or {}
+
+    @property
+    def screened(self) -> dict[str, NDArray[Any]] | None:
+        """The same with the features that stand on the ground; None where no theme was asked for."""
+        return self._core.visibility(True)
+
+    def write(
+        self, folder: Path, *, overwrite: bool = False, progress: Progress | None = None
+    ) -> tuple[WrittenFile, ...]:
+        """Writes the folder that ``itin ztv`` writes: rasters, polygons, tables, a text on methods.
+
+        The folder appears complete or not at all.
+
+        Raises:
+            FileError: The place cannot be written, or holds files and ``overwrite`` is false.
+        """
+        return _written(self._core.write(os.fspath(folder), overwrite, progress))
+
+
+def _written(files: Sequence[tuple[str, str]]) -> tuple[WrittenFile, ...]:
+    return tuple(WrittenFile(*file) for file in files)

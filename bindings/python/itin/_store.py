@@ -1,0 +1,543 @@
+"""Stores, and what is asked of them."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Sequence
+from typing import Any, Literal, cast
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _itin
+from ._asked import (
+    Angles,
+    Bounds,
+    Earth,
+    Grid,
+    NoData,
+    Observer,
+    Path,
+    Place,
+    Progress,
+    Themes,
+    Turbine,
+    Window,
+    fields_of,
+    given,
+    names_of,
+    tuple_of,
+)
+from ._errors import InputError
+from ._results import (
+    Level,
+    LineOfSight,
+    LinkCounts,
+    Links,
+    Profile,
+    SitePlan,
+    Theme,
+    Tin,
+    Viewshed,
+    ZoneStudy,
+)
+
+Mode = Literal[
+    "visible",
+    "certified",
+    "count",
+    "which",
+    "angle",
+    "nearest",
+    "blocker",
+    "height",
+    "probability",
+    "fresnel",
+    "loss",
+]
+"""What each cell has, as ``itin viewshed --mode``; ``fresnel`` and ``loss`` are what ``--frequency`` and ``--loss`` ask."""
+
+Engine = Literal["auto", "sweep", "rays"]
+"""The algorithm; the result never depends on it."""
+
+Polarisation = Literal["h", "v"]
+
+ObserverLike = Observer | tuple[float, float] | tuple[float, float, float]
+"""An observer, or (x, y) or (x, y, height)."""
+
+
+_PLACES = ("candidates", "existing", "demand", "hub")
+"""Fields of a choice of sites that are places."""
+
+
+def _numbers(values: ArrayLike) -> NDArray[np.float64]:
+    return np.ascontiguousarray(values, dtype=np.float64)
+
+
+def _surface(tolerance: float, themes: Themes) -> dict[str, Any]:
+    return {"tolerance": float(tolerance), "themes": names_of(themes)}
+
+
+def _observers(observers: ObserverLike | Sequence[ObserverLike]) -> list[dict[str, Any]]:
+    single = isinstance(observers, Observer) or (len(observers) > 0 and not isinstance(observers[0], (Observer, tuple)))
+    several = [cast(ObserverLike, observers)] if single else cast(Sequence[ObserverLike], observers)
+    return [fields_of(o if isinstance(o, Observer) else Observer(*o)) for o in several]
+
+
+def _places(places: Iterable[Place] | None) -> list[dict[str, Any]] | None:
+    return None if places is None else [fields_of(place) for place in places]
+
+
+def _named(places: Iterable[Place] | None) -> list[dict[str, Any]] | None:
+    """Places that have the numbers of their rows for names, where they have none."""
+    fields = _places(places)
+    for number, place in enumerate(fields or []):
+        place["name"] = place["name"] or str(number)
+    return fields
+
+
+class HeldSurface:
+    """The surface of an area, read once for many viewsheds. Safe in threads."""
+
+    def __init__(self, core: _itin.HeldSurface, tolerance: float, themes: Themes) -> None:
+        self._core = core
+        self._surface = _surface(tolerance, themes)
+
+    @property
+    def bytes(self) -> int:
+        """About how much memory it takes."""
+        return self._core.bytes
+
+    def viewshed(
+        self,
+        observers: ObserverLike | Sequence[ObserverLike],
+        *,
+        target_height: float = 0.0,
+        target_absolute: bool = False,
+        radius: float | None = None,
+        min_radius: float = 0.0,
+        azimuth: Angles | None = None,
+        elevation: Angles | None = None,
+        cell_size: float | None = None,
+        grid: Grid | None = None,
+        earth: Earth = Earth(),
+        observers_on_surface: bool = False,
+        targets_on_surface: bool = False,
+        nodata: NoData = "unknown",
+        engine: Engine = "auto",
+        mode: Mode = "visible",
+        progress: Progress | None = None,
+    ) -> Viewshed:
+        """Computes what ``Store.viewshed()`` does, equal to the last bit, at this surface's tolerance and themes.
+
+        Raises:
+            InputError: Also where sight lines leave the area.
+        """
+        fields = given({k: v for k, v in locals().items() if k not in ("self", "observers", "progress")})
+        fields["observers"] = _observers(observers)
+        return Viewshed(self._core.viewshed(fields | self._surface, progress))
+
+
+class Store:
+    """A landscape: one file, open for reading. It does not change, and is safe in threads.
+
+    Every call that takes long releases the interpreter's lock, hears Ctrl-C within half a second, and tells
+    ``progress``. Positions are in the store's CRS, lengths in metres. ``tolerance`` is that of the surface: 0 is every
+    stored point. ``themes`` are the features that stand on it.
+
+    Raises:
+        FileError: The file is missing, or no store.
+        CorruptStore: It is damaged.
+    """
+
+    def __init__(self, path: Path, *, cache_bytes: int = 256 << 20) -> None:
+        """Opens a store. ``cache_bytes`` bounds what it keeps of what was read, and changes the speed only."""
+        self._core = _itin.Store(os.fspath(path), cache_bytes)
+
+    @property
+    def path(self) -> str:
+        """The file."""
+        return self._core.path
+
+    @property
+    def crs(self) -> str:
+        """The CRS as ``"EPSG:27700"``, or as WKT where it has no code."""
+        return self._core.crs
+
+    @property
+    def crs_wkt(self) -> str:
+        """The CRS as WKT."""
+        return self._core.crs_wkt
+
+    @property
+    def bounds(self) -> Bounds:
+        """The box about all vertices, metres."""
+        return Bounds(*self._core.bounds)
+
+    @property
+    def resolution(self) -> float:
+        """The step of the grid that all coordinates lie on, metres."""
+        return self._core.resolution
+
+    @property
+    def vertices(self) -> int:
+        """How many vertices are stored."""
+        return self._core.vertices
+
+    @property
+    def levels(self) -> tuple[Level, ...]:
+        """The levels of detail, the full surface first."""
+        return tuple(Level(t, n, (lo, hi)) for t, n, lo, hi in self._core.levels)
+
+    @property
+    def themes(self) -> tuple[Theme, ...]:
+        """The themes, those of the terrain first."""
+        return tuple(Theme(*theme) for theme in self._core.themes)
+
+    def heights(
+        self,
+        xy: ArrayLike,
+        *,
+        tolerance: float = 0.0,
+        themes: Themes = "all",
+        progress: Progress | None = None,
+    ) -> NDArray[np.float64]:
+        """Returns the elevation of the surface under positions.
+
+        Args:
+            xy: Positions, shape (n, 2).
+
+        Returns:
+            Metres, shape (n,); NaN where there is no ground.
+
+        Raises:
+            InputError: Another shape, numbers that are not finite, or a theme that the store does not have.
+        """
+        return self._core.heights(_numbers(xy), _surface(tolerance, themes), progress)
+
+    def height_raster(
+        self,
+        grid: Grid,
+        *,
+        tolerance: float = 0.0,
+        themes: Themes = "all",
+        progress: Progress | None = None,
+    ) -> NDArray[np.float32]:
+        """Returns the elevation under the centres of cells: metres, shape (rows, columns); NaN without ground."""
+        return self._core.height_raster(tuple_of(grid), _surface(tolerance, themes), progress)
+
+    def triangulate(
+        self,
+        window: Window,
+        *,
+        tolerance: float = 0.0,
+        themes: Themes = "none",
+        progress: Progress | None = None,
+    ) -> Tin:
+        """Returns exactly those triangles of the whole store's triangulation that meet the window."""
+        return Tin(*self._core.triangulate(window, _surface(tolerance, themes), progress))
+
+    def profile(
+        self,
+        corners: ArrayLike,
+        *,
+        tolerance: float = 0.0,
+        themes: Themes = "all",
+        progress: Progress | None = None,
+    ) -> Profile:
+        """Returns the surface along a path.
+
+        Args:
+            corners: The path's corners, at least two; shape (n, 2).
+        """
+        return Profile(*self._core.profile(_numbers(corners), _surface(tolerance, themes), progress))
+
+    def line_of_sight(
+        self,
+        start: Sequence[float],
+        end: Sequence[float],
+        *,
+        from_is_elevation: bool = False,
+        to_is_elevation: bool = False,
+        from_on_surface: bool = False,
+        to_on_surface: bool = False,
+        frequency_ghz: float | None = None,
+        polarisation: Polarisation = "h",
+        over_sea: float = 0.0,
+        criteria: Sequence[tuple[float, float]] = (),
+        earth: Earth = Earth(),
+        tolerance: float = 0.0,
+        themes: Themes = "all",
+        nodata: NoData = "unknown",
+        progress: Progress | None = None,
+    ) -> LineOfSight:
+        """Judges one line of sight, and all that a report says about it.
+
+        Args:
+            start: (x, y, height), the height above what it stands on.
+            end: Likewise.
+            frequency_ghz: Gives Fresnel clearances and losses.
+            criteria: Rules of two-criterion planning, (K, fraction of F1).
+
+        Raises:
+            InputError: No ground under an end (``field`` is ``"from"`` or ``"to"``), a height below the ground, ...
+        """
+        fields = given({k: v for k, v in locals().items() if k not in ("self", "start", "end", "progress")})
+        fields["themes"] = names_of(themes)
+        fields["criteria"] = list(criteria)
+        return LineOfSight(self._core.line_of_sight(_numbers([start, end]), fields, progress))
+
+    def links(
+        self,
+        start: ArrayLike,
+        end: ArrayLike,
+        *,
+        from_on_surface: bool = False,
+        to_on_surface: bool = False,
+        frequency_ghz: float | None = None,
+        polarisation: Polarisation = "h",
+        over_sea: float = 0.0,
+        earth: Earth = Earth(),
+        tolerance: float = 0.0,
+        themes: Themes = "all",
+        nodata: NoData = "unknown",
+        progress: Progress | None = None,
+    ) -> Links:
+        """Judges many links, in parallel. The answers are those of ``line_of_sight()`` to the last bit.
+
+        Args:
+            start: First ends, (x, y, height above what they stand on); shape (n, 3).
+            end: Second ends, likewise.
+
+        Raises:
+            InputError: Another shape, or numbers that are not finite. A link without ground under an end is a row with
+                the verdict OUTSIDE.
+        """
+        fields = given({k: v for k, v in locals().items() if k not in ("self", "start", "end", "progress")})
+        fields["themes"] = names_of(themes)
+        return Links(*self._core.links(_numbers(start), _numbers(end), fields, progress))
+
+    def link_table(
+        self,
+        path: Path,
+        outputs: Path | Sequence[Path],
+        *,
+        heights: tuple[float, float] = (2.0, 2.0),
+        layer: str = "",
+        where: str = "",
+        crs: str = "",
+        from_on_surface: bool = False,
+        to_on_surface: bool = False,
+        frequency_ghz: float | None = None,
+        polarisation: Polarisation = "h",
+        over_sea: float = 0.0,
+        earth: Earth = Earth(),
+        tolerance: float = 0.0,
+        themes: Themes = "all",
+        nodata: NoData = "unknown",
+        overwrite: bool = False,
+        progress: Progress | None = None,
+    ) -> LinkCounts:
+        """Judges the links of a file and writes the tables that ``itin los --links`` writes, to the byte.
+
+        Args:
+            path: A table ``id,x1,y1,h1,x2,y2,h2`` (.csv), or a file of lines.
+            outputs: Files to write: .csv, .gpkg, .kml, .pdf.
+            heights: Of the two ends of lines, whose file gives none, metres.
+            layer: The layer of a file of lines; empty: all.
+            where: Only lines that this SQL condition holds for.
+            crs: The CRS of a file that states none; empty: the store's.
+        """
+        fields = given({k: v for k, v in locals().items() if k not in ("self", "path", "outputs", "progress")})
+        fields["themes"] = names_of(themes)
+        several = [outputs] if isinstance(outputs, (str, os.PathLike)) else outputs
+        texts = [os.fspath(output) for output in several]
+        return LinkCounts(*self._core.link_table(os.fspath(path), texts, fields, progress))
+
+    def viewshed(
+        self,
+        observers: ObserverLike | Sequence[ObserverLike],
+        *,
+        target_height: float = 0.0,
+        target_absolute: bool = False,
+        radius: float | None = None,
+        min_radius: float = 0.0,
+        azimuth: Angles | None = None,
+        elevation: Angles | None = None,
+        cell_size: float | None = None,
+        grid: Grid | None = None,
+        earth: Earth = Earth(),
+        tolerance: float = 0.0,
+        themes: Themes = "all",
+        observers_on_surface: bool = False,
+        targets_on_surface: bool = False,
+        nodata: NoData = "unknown",
+        engine: Engine = "auto",
+        mode: Mode = "visible",
+        vertical_error: float | None = None,
+        error_correlation: float = 0.0,
+        frequency_ghz: float | None = None,
+        fresnel: float = 0.6,
+        polarisation: Polarisation = "h",
+        over_sea: float = 0.0,
+        memory_bytes: int = 1 << 30,
+        progress: Progress | None = None,
+    ) -> Viewshed:
+        """Computes which cells observers see, exactly for the surface asked for.
+
+        Args:
+            observers: One or several; (x, y) and (x, y, height) stand for an observer, who is 2 m high by default.
+            target_height: Of the target in every cell, metres above the ground; an elevation with ``target_absolute``.
+            radius: How far to look. None: as far as there is ground.
+            min_radius: Leaves out what is nearer.
+            azimuth: The field of view, degrees clockwise from grid north; may pass through north, (350, 10).
+            elevation: The field of view, degrees above the horizontal.
+            cell_size: Of the raster's cells. None: a round size for at most 2048 cells on a side.
+            grid: The cells, in place of ``cell_size``.
+            observers_on_surface: Observers stand on the roofs and tops of ``themes``.
+            targets_on_surface: Targets do.
+            mode: What each cell has, besides its verdict; see ``Viewshed.values``. ``certified`` says what is certain of
+                the full surface at this tolerance.
+            vertical_error: Standard deviation of heights, metres; with the mode ``probability``.
+            error_correlation: L: errors x apart are correlated as exp(-x / L), metres.
+            frequency_ghz: With the modes ``fresnel`` and ``loss``.
+            fresnel: The share of the first Fresnel zone's radius that must be clear.
+            memory_bytes: Bounds the memory; the result does not depend on it.
+
+        Raises:
+            InputError: An observer off the data, an unusable radius, cell size or angle; ``field`` has its name.
+            CorruptStore: A damaged block.
+
+        The result, and so ``Viewshed.write()``, is that of ``itin viewshed`` with the options of the same names.
+        """
+        fields = given({k: v for k, v in locals().items() if k not in ("self", "observers", "progress")})
+        if mode in ("fresnel", "loss") and frequency_ghz is None:
+            raise InputError(f"`frequency_ghz`: the mode {mode} needs a frequency", "frequency_ghz")
+        fields["observers"] = _observers(observers)
+        fields["themes"] = names_of(themes)
+        return Viewshed(self._core.viewshed(fields, progress))
+
+    def hold(
+        self,
+        area: Sequence[float],
+        *,
+        tolerance: float = 0.0,
+        themes: Themes = "all",
+        memory_bytes: int = 1 << 30,
+        progress: Progress | None = None,
+    ) -> HeldSurface:
+        """Reads the surface of an area, for many viewsheds in it.
+
+        Args:
+            area: (xmin, ymin, xmax, ymax).
+
+        Raises:
+            InputError: The area takes more than ``memory_bytes``.
+        """
+        fields = _surface(tolerance, themes) | {"memory_bytes": memory_bytes}
+        return HeldSurface(self._core.hold(Bounds(*area), fields, progress), tolerance, themes)
+
+    def site(
+        self,
+        candidates: Iterable[Place] | None = None,
+        *,
+        search_area: Window | None = None,
+        spacing: float = 1000.0,
+        masts: Sequence[tuple[float, float]] = ((20.0, 1.0),),
+        on_surface: bool = False,
+        forbidden: Window | None = None,
+        existing: Iterable[Place] | None = None,
+        demand: Iterable[Place] | tuple[Grid, ArrayLike] | None = None,
+        target_height: float = 2.0,
+        targets_on_surface: bool = False,
+        radius: float = 10000.0,
+        cell_size: float = 50.0,
+        frequency_ghz: float | None = None,
+        fresnel: float = 0.6,
+        count: int | None = None,
+        budget: float | None = None,
+        share: float | None = None,
+        min_spacing: float | None = None,
+        cover: int = 1,
+        intervisible: bool = False,
+        hub: Place | None = None,
+        earth: Earth = Earth(),
+        themes: Themes = "all",
+        nodata: NoData = "unknown",
+        memory_bytes: int = 1 << 30,
+        progress: Progress | None = None,
+    ) -> SitePlan:
+        """Chooses the few of many sites that serve the most, with a bound on the best choice.
+
+        Args:
+            candidates: Where a mast may stand; or None, and candidates are proposed in ``search_area``.
+            search_area: Two candidates or so are proposed from the terrain in each square of ``spacing``.
+            masts: Heights and costs of masts to choose from, (metres, cost).
+            on_surface: Sites stand on the roofs and tops of ``themes``.
+            forbidden: Where no site may stand.
+            existing: Sites that serve already.
+            demand: What is to be served: points, or a grid and the weights of its cells, shape (rows, columns). None:
+                all cells with ground within the radius of a candidate.
+            target_height: Metres above what targets stand on, for points without a height and for cells.
+            radius: How far a site serves.
+            cell_size: Of the cells of the demand and of the rasters.
+            frequency_ghz: Serve only what is in sight with ``fresnel`` of its first Fresnel zone clear.
+            count: How many sites to choose. The choice ends at the first of ``count``, ``budget`` and ``share``.
+            budget: The most that the sites may cost together.
+            share: The part of the demand that is to be served, 0 to 1.
+            cover: How many sites must serve a target.
+            intervisible: Chosen sites reach each other by links in sight.
+            hub: Chosen sites reach this place by such links.
+
+        Raises:
+            InputError: A request that makes no sense; ``field`` has its name.
+            Error: No choice is possible.
+        """
+        fields = given({k: v for k, v in locals().items() if k not in _PLACES and k not in ("self", "progress")})
+        fields["themes"] = names_of(themes)
+        fields["masts"] = [(float(height), float(cost)) for height, cost in masts]
+        fields |= given({"candidates": _named(candidates), "existing": _named(existing), "hub": hub and fields_of(hub)})
+        if isinstance(demand, tuple) and len(demand) == 2 and isinstance(demand[0], Grid):
+            fields["demand_grid"] = tuple_of(demand[0])
+            fields["demand_weights"] = _numbers(cast(ArrayLike, demand[1]))
+        elif demand is not None:
+            fields["demand"] = _places(cast(Iterable[Place], demand))
+        return SitePlan(self._core.site(fields, progress))
+
+    def ztv(
+        self,
+        turbines: Path | Iterable[Turbine],
+        *,
+        turbine_crs: str = "",
+        radius: float | None = None,
+        observer_height: float = 2.0,
+        cell_size: float | None = None,
+        grid: Grid | None = None,
+        earth: Earth = Earth(),
+        tolerance: float = 0.0,
+        themes: Themes = "all",
+        nodata: NoData = "unknown",
+        memory_bytes: int | None = None,
+        progress: Progress | None = None,
+    ) -> ZoneStudy:
+        """Studies where wind turbines are visible from.
+
+        Args:
+            turbines: Turbines, or a file of them as ``itin ztv --turbines`` takes it.
+            turbine_crs: The CRS of a file that states none.
+            radius: How far turbines are looked for, metres. None: by their tips, or each turbine's own.
+            observer_height: Of the eyes above the bare ground.
+            cell_size: Metres; 50 where neither it nor ``grid`` is given.
+
+        Raises:
+            InputError: No turbine that can be used, an unusable size, ...
+        """
+        fields = given({k: v for k, v in locals().items() if k not in ("self", "turbines", "progress")})
+        fields["themes"] = names_of(themes)
+        if cell_size is None and grid is None:
+            fields["cell_size"] = 50.0
+        if isinstance(turbines, (str, os.PathLike)):
+            fields["turbines"] = os.fspath(turbines)
+        else:
+            fields["turbines"] = [fields_of(t) | given({"radius": t.radius or radius}) for t in turbines]
+        return ZoneStudy(self._core.ztv(fields, progress))

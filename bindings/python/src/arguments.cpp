@@ -1,0 +1,96 @@
+#include "arguments.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <itin/celestial_body.hpp>
+#include <itin/error.hpp>
+
+namespace itin::python {
+
+namespace {
+
+/// Returns the rows of an array, each `columns` numbers from where it is told.
+template <class Row>
+std::vector<Row> finite_rows(const Numbers& array, py::ssize_t columns, const char* field,
+                             Row (*row_at)(const double*)) {
+  if (array.ndim() != 2 || array.shape(1) != columns)
+    throw InputError(fmt::format("`{}`: give an array of shape (n, {})", field, columns), field);
+  const double* const values = array.data();
+  if (!std::all_of(values, values + array.size(), [](double v) { return std::isfinite(v); }))
+    throw InputError(fmt::format("`{}`: holds a number that is not finite", field), field);
+  std::vector<Row> rows;
+  rows.reserve(static_cast<std::size_t>(array.shape(0)));
+  for (py::ssize_t i = 0; i < array.shape(0); ++i) rows.push_back(row_at(values + columns * i));
+  return rows;
+}
+
+}  // namespace
+
+std::vector<Point2> points_of(const Numbers& array, const char* field) {
+  return finite_rows<Point2>(array, 2, field, [](const double* v) { return Point2{v[0], v[1]}; });
+}
+
+std::vector<Point3> places_of(const Numbers& array, const char* field) {
+  return finite_rows<Point3>(array, 3, field, [](const double* v) { return Point3{v[0], v[1], v[2]}; });
+}
+
+Detail detail_of(const py::dict& fields) {
+  double tolerance = 0;
+  take(fields, "tolerance", tolerance);
+  return Detail::tolerance(tolerance);
+}
+
+ThemeChoice themes_of(const py::dict& fields) {
+  std::string themes = "all";
+  take(fields, "themes", themes);
+  return ThemeChoice::parse(themes);
+}
+
+Earth earth_of(const py::dict& fields, const Store& store) {
+  Earth earth;
+  std::optional<double> radius;
+  if (fields.contains("earth")) {
+    const auto given = fields["earth"].cast<py::tuple>();
+    earth.curvature = given[0].cast<bool>();
+    earth.refraction = given[1].cast<double>();
+    radius = given[2].cast<std::optional<double>>();
+    earth.effective_factor = given[3].cast<std::optional<double>>();
+  }
+  const CelestialBody body = body_of(store.metadata().crs_wkt);
+  if (radius || !body.is_earth) earth.radius = radius.value_or(body.mean_radius_m());
+  earth.validate();
+  return earth;
+}
+
+NoData nodata_of(const py::dict& fields) {
+  std::string rule = "unknown";
+  take(fields, "nodata", rule);
+  return static_cast<NoData>(choice_of(rule, {"unknown", "block", "clear"}, "nodata"));
+}
+
+std::size_t choice_of(const std::string& text, const std::vector<std::string>& choices, const char* field) {
+  const auto found = std::find(choices.begin(), choices.end(), text);
+  if (found == choices.end())
+    throw InputError(fmt::format("`{}` '{}': give one of {}", field, text, fmt::join(choices, ", ")), field);
+  return static_cast<std::size_t>(found - choices.begin());
+}
+
+RasterGrid grid_of(const py::tuple& grid) {
+  return {{grid[0].cast<double>(), grid[1].cast<double>()},
+          grid[2].cast<double>(),
+          grid[3].cast<double>(),
+          grid[4].cast<std::int64_t>(),
+          grid[5].cast<std::int64_t>()};
+}
+
+py::tuple tuple_of(const RasterGrid& grid) {
+  return py::make_tuple(grid.north_west().x, grid.north_west().y, grid.cell_width(), grid.cell_height(), grid.columns(),
+                        grid.rows());
+}
+
+}  // namespace itin::python

@@ -1,0 +1,52 @@
+// What a call asks for, from the plain values that the package hands over: dictionaries of fields, tuples, arrays.
+//
+// Requests of the libraries are filled from dictionaries whose keys are the names of their fields. Fields that are
+// missing keep their defaults.
+#pragma once
+
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+#include <string>
+#include <vector>
+
+#include <itin/detail.hpp>
+#include <itin/earth.hpp>
+#include <itin/geometry.hpp>
+#include <itin/raster.hpp>
+#include <itin/store.hpp>
+#include <itin/theme.hpp>
+
+namespace itin::python {
+
+namespace py = pybind11;
+
+using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
+
+/// Takes a field of this name, if there is one.
+template <class Value>
+void take(const py::dict& fields, const char* name, Value& value) {
+  if (fields.contains(name)) value = fields[name].cast<Value>();
+}
+
+/// Returns the rows of an array of shape (n, 2), or (n, 3). Throws InputError, which names the field, for another shape
+/// and for numbers that are not finite.
+std::vector<Point2> points_of(const Numbers& array, const char* field);
+std::vector<Point3> places_of(const Numbers& array, const char* field);
+
+/// Reads `tolerance` and `themes`, which are "all" by default.
+Detail detail_of(const py::dict& fields);
+ThemeChoice themes_of(const py::dict& fields);
+/// Reads `earth`: (curvature, refraction, radius or None, effective factor or None). The radius is by default that of
+/// the body of the store's CRS.
+Earth earth_of(const py::dict& fields, const Store& store);
+/// Reads `nodata`: "unknown", "block" or "clear".
+NoData nodata_of(const py::dict& fields);
+/// Returns the index of a field's text among the choices. Throws InputError.
+std::size_t choice_of(const std::string& text, const std::vector<std::string>& choices, const char* field);
+
+/// A raster's cells as (west, north, cell width, cell height, columns, rows).
+RasterGrid grid_of(const py::tuple& grid);
+py::tuple tuple_of(const RasterGrid& grid);
+
+}  // namespace itin::python

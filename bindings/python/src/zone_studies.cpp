@@ -1,0 +1,132 @@
+// Studies of wind farms.
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <viewshed/zone_study.hpp>
+
+#include "arguments.hpp"
+#include "arrays.hpp"
+#include "call.hpp"
+#include "module.hpp"
+#include "shared_store.hpp"
+
+namespace itin::python {
+
+namespace {
+
+struct Study {
+  SharedStore store;
+  viewshed::ZoneStudy study;
+};
+
+/// A turbine is a dictionary of its fields; the rule of radii gives a radius that is missing.
+viewshed::Turbine turbine_of(const py::dict& fields, std::size_t number) {
+  viewshed::Turbine turbine;
+  turbine.number = number;
+  take(fields, "name", turbine.name);
+  take(fields, "farm", turbine.farm);
+  take(fields, "x", turbine.position.x), take(fields, "y", turbine.position.y);
+  viewshed::TurbineSize size;
+  take(fields, "hub_height", size.hub);
+  take(fields, "rotor_diameter", size.rotor);
+  take(fields, "tip_height", size.tip);
+  size.complete();
+  turbine.hub_height = size.hub, turbine.rotor_diameter = size.rotor, turbine.tip_height = *size.tip;
+  turbine.radius = viewshed::RadiusRule().radius(turbine.tip_height);
+  take(fields, "radius", turbine.radius);
+  return turbine;
+}
+
+viewshed::TurbineTable turbines_of(const py::list& list) {
+  viewshed::TurbineTable table;
+  for (const py::handle turbine : list)
+    table.turbines.push_back(turbine_of(turbine.cast<py::dict>(), table.turbines.size() + 1));
+  table.rows = table.turbines.size();
+  for (std::size_t i = 0; i < table.rows; ++i) {
+    table.features.push_back(static_cast<std::int64_t>(i));
+    table.places.push_back("turbine " + std::to_string(i + 1));
+  }
+  return table;
+}
+
+viewshed::TurbineTable turbines_of(const std::string& path, const py::dict& fields, const Store& store) {
+  viewshed::TurbineFile file{.path = path};
+  take(fields, "turbine_crs", file.crs);
+  if (double radius = 0; fields.contains("radius")) {
+    take(fields, "radius", radius);
+    file.radius.fixed = radius, file.radius.source = "radius";
+  }
+  return viewshed::read_turbines(file, store.metadata().crs_wkt);
+}
+
+viewshed::ZoneStudyRequest study_request_of(const py::dict& fields, const Store& store) {
+  viewshed::ZoneStudyRequest request;
+  const py::object turbines = fields["turbines"];
+  request.turbines = py::isinstance<py::str>(turbines) ? turbines_of(turbines.cast<std::string>(), fields, store)
+                                                       : turbines_of(turbines.cast<py::list>());
+  viewshed::ZoneRequest& zone = request.zone;
+  take(fields, "observer_height", zone.observer_height);
+  take(fields, "cell_size", zone.cell_size);
+  if (fields.contains("grid")) zone.grid = grid_of(fields["grid"].cast<py::tuple>());
+  zone.earth = earth_of(fields, store);
+  zone.detail = detail_of(fields);
+  zone.themes = themes_of(fields);
+  zone.nodata = nodata_of(fields);
+  take(fields, "memory_bytes", zone.memory_bytes);
+  return request;
+}
+
+std::shared_ptr<Study> ztv(const SharedStore& store, const py::dict& fields, const py::object& show) {
+  viewshed::ZoneStudyRequest request = study_request_of(fields, *store);
+  auto study = result_of(show, [&](Progress& progress) { return study_zone(*store, std::move(request), progress); });
+  return std::make_shared<Study>(Study{store, std::move(study)});
+}
+
+/// Views of what is seen over bare ground or, where `screened`, past what stands on it; None where nothing does.
+py::object visibility_of(const py::object& self, bool screened) {
+  const viewshed::Zone& zone = self.cast<const Study&>().study.zone;
+  if (screened && !zone.screened) return py::none();
+  const viewshed::Visibility& v = screened ? *zone.screened : zone.bare;
+  const Shape shape = shape_of(zone.grid);
+  py::dict views;
+  views["hub_count"] = view_of(v.hub_count.data(), shape, self);
+  views["tip_count"] = view_of(v.tip_count.data(), shape, self);
+  Shape banded = shape;
+  banded.insert(banded.begin(), static_cast<py::ssize_t>(zone.words));
+  views["turbines"] = view_of(v.turbines.data(), banded, self);
+  const std::pair<const char*, const std::vector<float>*> numbers[] = {
+      {"visible_height_m", &v.visible_height_m},
+      {"vertical_angle_deg", &v.vertical_angle_deg},
+      {"horizontal_angle_deg", &v.horizontal_angle_deg},
+      {"share", &v.share},
+      {"nearest_m", &v.nearest_m}};
+  for (const auto& [name, values] : numbers) views[name] = view_of(values->data(), shape, self);
+  return std::move(views);
+}
+
+py::list write_study(const Study& s, const std::string& folder, bool overwrite, const py::object& show) {
+  viewshed::ZoneStudyFileOptions options;
+  options.overwrite = overwrite;
+  const auto written = result_of(
+      show, [&](Progress& progress) { return write_zone_study(folder, *s.store, s.study, options, progress); });
+  py::list files;
+  for (const viewshed::ZoneFile& file : written) files.append(py::make_tuple(file.name, file.what));
+  return files;
+}
+
+}  // namespace
+
+void bind_zone_studies(py::module_& module) {
+  py::class_<Study, std::shared_ptr<Study>>(module, "ZoneStudy")
+      .def("visibility", [](const py::object& self, bool screened) { return visibility_of(self, screened); })
+      .def_property_readonly("grid", [](const Study& s) { return tuple_of(s.study.zone.grid); })
+      .def_property_readonly("crs_wkt", [](const Study& s) { return s.study.metadata.crs_wkt; })
+      .def_property_readonly("warnings", [](const Study& s) { return s.study.warnings; })
+      .def_property_readonly("json", [](const Study& s) { return json_of(s.study); })
+      .def("write", &write_study);
+  store_class(module).def("ztv", &ztv);
+}
+
+}  // namespace itin::python

@@ -1,0 +1,73 @@
+"""Sites and wind turbines: the command line's choice and bytes."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+from conftest import run
+
+import itin
+
+PLACES = [(310375, 183525), (312000, 185000), (308000, 181000), (314500, 187500), (305500, 186500)]
+
+
+def test_sites_are_the_command_line_s(cardiff: itin.Store, tmp_path: Path) -> None:
+    plan = cardiff.site(
+        [itin.Place(x, y) for x, y in PLACES], masts=[(15, 1), (25, 2)], count=2, radius=4000, cell_size=100
+    )
+    lines = ["x,y", *(f"{x},{y}" for x, y in PLACES)]
+    (tmp_path / "places.csv").write_text("\n".join(lines) + "\n")
+    options = ["--mast-height", "15,25", "--mast-cost", "1,2", "--count", "2", "--radius", "4000", "--cell", "100"]
+    run("site", cardiff.path, "--candidates", tmp_path / "places.csv", *options, "-o", tmp_path / "theirs")
+    document = json.loads((tmp_path / "theirs" / "site.json").read_text())
+    assert [site.name for site in plan.chosen] == [site["id"] for site in document["chosen"]]
+    assert [site.height for site in plan.chosen] == [site["height_m"] for site in document["chosen"]]
+    assert plan.value == document["value"] == plan.chosen[-1].cumulative
+    assert plan.upper_bound == document["upper_bound"]
+    files = plan.write(tmp_path / "ours")
+    assert files
+    for file in files:
+        theirs = tmp_path / "theirs" / Path(file.path).name
+        if theirs.suffix not in (".tif", ".png"):  # whose metadata has the command
+            assert Path(file.path).read_bytes() == theirs.read_bytes(), file.path
+    assert {"sites.csv"} <= {Path(file.path).name for file in files}
+    assert (plan.served == itin.Verdict.VISIBLE).sum() == plan.value
+    assert set(np.unique(plan.best_server)) == {0, 1, 2, 65535}
+    assert plan.redundancy.shape == plan.grid.shape
+
+
+def test_sites_are_proposed_in_an_area_for_weighted_cells(town: itin.Store) -> None:
+    grid = itin.Grid(321600, 4297900, 10, 10, 30, 30)
+    weights = np.ones(grid.shape)
+    weights[:15] = 0
+    plan = town.site(
+        search_area=itin.Window.box(321650, 4297650, 321850, 4297850),
+        spacing=60,
+        masts=[(6, 1)],
+        demand=(grid, weights),
+        radius=150,
+        count=2,
+    )
+    assert plan.grid == grid
+    assert 0 < plan.value <= plan.upper_bound <= 450
+    assert len(plan.chosen) == 2
+
+
+def test_a_wind_farm_is_the_command_line_s(cardiff: itin.Store, tmp_path: Path) -> None:
+    (tmp_path / "turbines.csv").write_text("x,y,hub_height,rotor_diameter\n310375,183525,80,90\n312000,185000,80,90\n")
+    study = cardiff.ztv(tmp_path / "turbines.csv", cell_size=250)
+    files = study.write(tmp_path / "ours")
+    options = ["--cell", "250"]
+    run("ztv", cardiff.path, "--turbines", tmp_path / "turbines.csv", *options, "-o", tmp_path / "theirs")
+    for file in files:
+        if Path(file.path).name != "methods.md":  # which has names of options
+            assert (tmp_path / "ours" / file.path).read_bytes() == (tmp_path / "theirs" / file.path).read_bytes()
+    assert len(files) > 5
+    listed = [itin.Turbine(x, y, hub_height=80, rotor_diameter=90) for x, y in PLACES[:2]]
+    again = cardiff.ztv(listed, cell_size=250)
+    for name, values in study.bare.items():
+        np.testing.assert_array_equal(values, again.bare[name], err_msg=name)
+    assert study.screened is None or study.screened.keys() == study.bare.keys()
+    assert study.bare["tip_count"].shape == study.grid.shape

@@ -1,0 +1,32 @@
+// The raster of a viewshed as the command line writes it: with the store's CRS, the surface and the question in its
+// metadata, and with a style for QGIS beside it where it has no colours of its own.
+//
+//   write_result_raster("seen.tif", result, store.metadata(), {.certified = false, .overwrite = true}, progress);
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+#include <itin/progress.hpp>
+#include <itin/store.hpp>
+#include <viewshed/result.hpp>
+
+namespace itin::viewshed {
+
+struct ResultRasterOptions {
+  bool certified = false;  ///< what is certain was asked for, by compute_certified()
+  bool overwrite = false;
+};
+
+/// The command line's names of the modes, in their order; those of radio come last.
+std::span<const std::string_view> mode_names();
+/// Returns the command line's name of what cells have: "visible", "certified", "count", ...
+std::string mode_name(Mode mode, bool certified);
+
+/// Writes a GeoTIFF at `path` and, where qgis_style() has one, its style at style_beside(path). Throws FileError,
+/// Cancelled.
+void write_result_raster(const std::string& path, const Result& result, const StoreMetadata& metadata,
+                         const ResultRasterOptions& options, const Progress& progress);
+
+}  // namespace itin::viewshed
