@@ -11,12 +11,14 @@
 //   viewshed::PagedSurface pages(store, Detail::tolerance(0), ThemeChoice::none(), {.memory_bytes = 512 << 20});
 //   double& east = near.observers.front().position.x;
 //   for (; east < 400000; east += 10) std::cout << pages.compute(near, progress).cells.visible << '\n';
-//   // A server shows the cells nearest to the observer first, until `progress` says that the observer has moved on:
-//   const viewshed::Plan plan(store, near, {}, 10000);
-//   for (std::size_t i = 0; i < plan.segments().size() && !progress.cancelled(); ++i) {
-//     const viewshed::Result tile = viewshed::decide(pages, plan, i, progress);
-//     std::cout << tile.grid.bounds().xmin << ' ' << tile.cells.visible << '\n';
-//   }
+//   // A server shows 1 cell in 81, then 1 in 9, then all, the cells nearest to the observer first, until `progress`
+//   says
+//   // that the observer has moved on:
+//   pages.compute(near, progress, [](const viewshed::Result& result, const viewshed::DecidedCells& cells) {
+//     for (std::int64_t row = 0; row < cells.rows; ++row)
+//       for (std::int64_t column = 0; column < cells.columns; ++column)
+//         paint(cells.at(column, row), result.visible[result.grid.index(cells.at(column, row))]);
+//   });
 //
 // A surface is retrieved and prepared for its sight lines once for each area. A call that is cancelled throws
 // Cancelled; the next call reads again what it was reading.
@@ -59,7 +61,7 @@ class HeldSurface {
   bool covers(const Request& request) const;
   /// Computes as compute() does on the store with this surface's detail and themes, which count instead of the
   /// request's; the result is equal to the last bit. Throws InputError for a request that is not covered, and what
-  /// compute() throws. `sink` gets cells as they are decided.
+  /// compute() throws. `sink` gets cells as they are decided, in three passes.
   Result compute(const Request& request, Progress& progress, const CellSink& sink = {}) const;
 
  private:

@@ -50,6 +50,8 @@ class SurfaceAtOnce final : public SurfaceSource {
   /// A tile's ground is found anew for each group of eyes; the views of so many are in memory at a time.
   std::size_t eyes_at_once() const override { return 256; }
 
+  bool decides_all_cells() const override { return true; }
+
   bool decide(const EyeGroup& group, ViewshedCells& cells) override {
     Stopwatch watch;
     Result& result = cells.result();
@@ -57,7 +59,7 @@ class SurfaceAtOnce final : public SurfaceSource {
       const Eye& eye = group.eyes[i];
       return EyeView{eye, view_of(eye, group.first + i), shadow_of(eye, surface_->rim(), result)};
     }));
-    cells.observe({judge, group.first, cells.in_order(), studies_ ? &*studies_ : nullptr, group.last});
+    cells.observe_all({judge, group.first, studies_ ? &*studies_ : nullptr, group.last});
     result.statistics.lines_seconds += watch.lap();
     return true;
   }
