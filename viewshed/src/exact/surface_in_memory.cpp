@@ -35,7 +35,7 @@ class SurfaceAtOnce final : public SurfaceSource {
     tiles_ = grid_of_tiles(result.grid);
     if (over_.reader != nullptr && asks_for_all_heights(request)) over_.reader->read_all(call);
     surface_.emplace(heights_for_cells(result.grid), over_.tin, request.targets_on_surface ? nullptr : over_.bare,
-                     request.earth, result.grid, tiles_);
+                     over_.ground, request.earth, result.grid, tiles_);
     if (casts_rays(request)) surface_->cast_rays(request.earth);
     const std::vector<Eye> eyes = stand_on_ground(result, call);
     find_voids(over_.units(), surface_->rim(), result);

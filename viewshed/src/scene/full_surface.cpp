@@ -19,21 +19,22 @@ namespace itin::viewshed {
 
 FullSurface::FullSurface(const Tin& surface, const Tin* bare_ground, const Earth& earth, const RasterGrid& grid,
                          const RasterGrid& tiles)
-    : FullSurface(std::make_shared<BinnedHeights>(surface, grid.cell_area()), &surface, bare_ground, earth, grid,
-                  tiles) {}
+    : FullSurface(std::make_shared<BinnedHeights>(surface, grid.cell_area()), &surface, bare_ground, nullptr, earth,
+                  grid, tiles) {}
 
 FullSurface::FullSurface(const LatticeTin& surface, const Earth& earth, const RasterGrid& grid, const RasterGrid& tiles)
-    : FullSurface(std::make_shared<BinnedHeights>(surface), nullptr, nullptr, earth, grid, tiles) {}
+    : FullSurface(std::make_shared<BinnedHeights>(surface), nullptr, nullptr, nullptr, earth, grid, tiles) {}
 
 FullSurface::FullSurface(std::shared_ptr<BinnedHeights> heights, const Tin* surface, const Tin* bare_ground,
-                         const Earth& earth, const RasterGrid& grid, const RasterGrid& tiles)
+                         const KeptGround* kept, const Earth& earth, const RasterGrid& grid, const RasterGrid& tiles)
     : surface_(surface),
       targets_on_(bare_ground != nullptr ? bare_ground : surface),
+      kept_(kept),
       grid_(grid),
       tiles_(tiles),
       heights_(std::move(heights)),
       sweep_(earth, *heights_) {
-  if (surface == nullptr) return;
+  if (surface == nullptr || kept != nullptr) return;
   // Cells much smaller than triangles are filled triangle by triangle.
   const bool small = 2 * grid.cell_width() < heights_->bin_size() * units().resolution;
   if (bare_ground != nullptr || small || !heights_->partition()) of_tiles_.emplace(*targets_on_, tiles);
@@ -77,7 +78,9 @@ std::unique_ptr<FullSurface::TileCells> FullSurface::begin(std::size_t tile) con
 
 std::unique_ptr<FullSurface::TileCells> FullSurface::begin(const Tile& tile, std::span<const Tile> parts) const {
   auto work = std::make_unique<TileCells>(units(), grid_, tile);
-  if (of_tiles_) {
+  if (kept_ != nullptr) {
+    kept_->find(grid_, tile, work->centres, work->ground);
+  } else if (of_tiles_) {
     std::vector<std::uint32_t> gathered;
     scan_convert(*targets_on_, triangles_about(tile, gathered), tile, work->centres, work->ground);
   } else {

@@ -28,6 +28,7 @@
 #include "bounds/triangle_bins.hpp"
 #include "line/cell_tiles.hpp"
 #include "request/eye.hpp"
+#include "scene/kept_ground.hpp"
 #include "scene/rays/scene.hpp"
 #include "scene/sweep/radial_sweep.hpp"
 
@@ -40,9 +41,10 @@ class FullSurface {
   FullSurface(const Tin& surface, const Tin* bare_ground, const Earth& earth, const RasterGrid& grid,
               const RasterGrid& tiles);
   FullSurface(const LatticeTin& surface, const Earth& earth, const RasterGrid& grid, const RasterGrid& tiles);
-  /// Uses heights that have been binned before, and are shared; `surface` is null where they are a lattice's.
-  FullSurface(std::shared_ptr<BinnedHeights> heights, const Tin* surface, const Tin* bare_ground, const Earth& earth,
-              const RasterGrid& grid, const RasterGrid& tiles);
+  /// Uses heights that have been binned before, and are shared; `surface` is null where they are a lattice's. `kept` is
+  /// the ground that targets stand on, where it is kept, or else null.
+  FullSurface(std::shared_ptr<BinnedHeights> heights, const Tin* surface, const Tin* bare_ground,
+              const KeptGround* kept, const Earth& earth, const RasterGrid& grid, const RasterGrid& tiles);
   FullSurface(const FullSurface&) = delete;
   FullSurface& operator=(const FullSurface&) = delete;
 
@@ -117,6 +119,7 @@ class FullSurface {
 
   const Tin* surface_ = nullptr;     ///< what hides, where that is a Tin
   const Tin* targets_on_ = nullptr;  ///< what targets stand on, where that is a Tin
+  const KeptGround* kept_ = nullptr;
   const RasterGrid& grid_;
   const RasterGrid& tiles_;
   const std::shared_ptr<BinnedHeights> heights_;
