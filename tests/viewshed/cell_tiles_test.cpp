@@ -1,6 +1,7 @@
 // Every cell is in one tile, and boxes hold what they are about.
 #include "line/cell_tiles.hpp"
 
+#include <cmath>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -28,6 +29,34 @@ TEST(CellTiles, HoldEveryCellOnce) {
   }
   EXPECT_EQ(by_cell, std::vector<int>(kGrid.cell_count(), 1));
   EXPECT_EQ(by_row, by_cell);
+}
+
+/// Every cell that lies amid a square of 3 or 9 cells on a multiple of its size, and no other.
+TEST(CellTiles, HoldEveryThirdOrNinthCellOnce) {
+  for (const RasterGrid& grid : {kGrid, RasterGrid({-70, 45}, 10, 5, 700, 600), RasterGrid({30, -25}, 10, 5, 4, 4)}) {
+    for (const std::int64_t step : {9, 3, 1}) {
+      const SteppedTiles tiles(grid, step);
+      std::vector<int> times(grid.cell_count()), expected(grid.cell_count());
+      for (std::size_t i = 0; i < tiles.count(); ++i) {
+        const Tile tile = tiles.tile(i);
+        EXPECT_TRUE(tile.columns <= Tile::kSide && tile.rows <= Tile::kSide);
+        for_each_cell(tile, [&](std::size_t cell, RasterGrid::Cell place) {
+          EXPECT_EQ(tile.cell(place), cell);
+          ++times[grid.index(place)];
+        });
+      }
+      const auto amid = [&](double centre, double side) {
+        const double squares = centre / (side * static_cast<double>(step));
+        return std::abs(squares - std::floor(squares) - 0.5) < 1e-9;
+      };
+      for (std::size_t i = 0; i < expected.size(); ++i) {
+        const RasterGrid::Cell place = place_of(grid, i);
+        const Point2 centre = grid.centre(place.column, place.row);
+        expected[i] = amid(centre.x, grid.cell_width()) && amid(centre.y, grid.cell_height()) ? 1 : 0;
+      }
+      EXPECT_EQ(times, expected) << step;
+    }
+  }
 }
 
 TEST(CellTiles, PlacesAndIndicesAreInverse) {

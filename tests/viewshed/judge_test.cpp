@@ -212,7 +212,7 @@ TEST(HiddenTiles, HaveNoCellThatIsAnythingElse) {
     const Eye eye = eye_of(tin.grid, request, request.observers.front(), ground);
     const ExactJudge judge(surface, EyeView{eye, surface.view_from(eye)});
     for (std::size_t tile = 0; tile < tiles.cell_count(); ++tile) {
-      const bool all = judge.hides(0, tile);
+      const bool all = judge.hides(0, tile_at(grid, tiles, tile));
       ++(all ? hidden : others);
       if (!all) continue;
       TileValues<Verdict> values;

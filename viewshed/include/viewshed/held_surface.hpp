@@ -11,12 +11,13 @@
 //   viewshed::PagedSurface pages(store, Detail::tolerance(0), ThemeChoice::none(), {.memory_bytes = 512 << 20});
 //   double& east = near.observers.front().position.x;
 //   for (; east < 400000; east += 10) std::cout << pages.compute(near, progress).cells.visible << '\n';
-//   // A server shows the cells nearest to the observer first, until `progress` says that the observer has moved on:
-//   const viewshed::Plan plan(store, near, {}, 10000);
-//   for (std::size_t i = 0; i < plan.segments().size() && !progress.cancelled(); ++i) {
-//     const viewshed::Result tile = viewshed::decide(pages, plan, i, progress);
-//     std::cout << tile.grid.bounds().xmin << ' ' << tile.cells.visible << '\n';
-//   }
+//   // A server shows 1 cell in 81, then 1 in 9, then all, each time the cells nearest to the observer first, until
+//   // `progress` says that the observer has moved on:
+//   const viewshed::Result all =
+//       pages.compute(near, progress, [](const viewshed::Result& result, const viewshed::DecidedCells& cells) {
+//         const RasterGrid::Cell first = cells.at(0, 0);
+//         std::cout << cells.step << ' ' << static_cast<int>(result.visible[result.grid.index(first)]) << '\n';
+//       });
 //
 // A surface is retrieved and prepared for its sight lines once for each area. A call that is cancelled throws
 // Cancelled; the next call reads again what it was reading.
@@ -37,10 +38,14 @@
 
 namespace itin::viewshed {
 
+class GroundCache;
+
 /// Immutable, and safe for concurrent use.
 class HeldSurface {
  public:
-  /// Reads all of the store's surface over the area, which is in metres. The store must outlive this object. Throws
+  /// Reads all of the store's surface over the area, which is in metres. The store must outlive this object. The memory
+  /// that the surface leaves, at most a quarter of all, keeps the ground of cells between calls, 8 bytes a cell: of
+  /// cells whose edges are multiples of a size that has an exact binary form, such as 0.5 or 20 metres. Throws
   /// InputError where the area takes more than the memory, and what triangulate() throws.
   HeldSurface(const Store& store, const Box& area, const Detail& detail, const ThemeChoice& themes,
               const ComputeOptions& options, Progress& progress);
@@ -53,16 +58,19 @@ class HeldSurface {
   const Box& area() const;
   const Detail& detail() const;
   const ThemeChoice& themes() const;
-  /// About how much memory the surface takes.
+  /// About how much memory the surface takes, without the ground of cells.
   std::uint64_t bytes() const;
   /// Whether every sight line of the request lies over the area, or beyond all data.
   bool covers(const Request& request) const;
   /// Computes as compute() does on the store with this surface's detail and themes, which count instead of the
   /// request's; the result is equal to the last bit. Throws InputError for a request that is not covered, and what
-  /// compute() throws. `sink` gets cells as they are decided.
+  /// compute() throws. `sink` gets cells as they are decided, in three passes.
   Result compute(const Request& request, Progress& progress, const CellSink& sink = {}) const;
 
  private:
+  friend class HeldAreas;  // whose surfaces share the memory for the ground of cells
+  HeldSurface(const Store& store, const Box& area, const Detail& detail, const ThemeChoice& themes,
+              const ComputeOptions& options, std::shared_ptr<GroundCache> ground, Progress& progress);
   friend Result decide(const HeldSurface& surface, const Plan& plan, std::size_t segment, Progress& progress);
   class Impl;
   std::unique_ptr<const Impl> impl_;
@@ -76,8 +84,8 @@ class HeldSurface {
 /// it ends. Threads that need the same area read it once.
 class PagedSurface {
  public:
-  /// `options.memory_bytes` bounds all areas together, beside what each running call takes for itself. The store must
-  /// outlive this object.
+  /// `options.memory_bytes` bounds all areas and the ground of cells that is kept for them together, beside what each
+  /// running call takes for itself. The store must outlive this object.
   PagedSurface(const Store& store, const Detail& detail, const ThemeChoice& themes, const ComputeOptions& options = {});
   PagedSurface(Store&& store, const Detail& detail, const ThemeChoice& themes, const ComputeOptions& options) = delete;
   PagedSurface(PagedSurface&&) noexcept;

@@ -39,17 +39,26 @@ Result compute(const Tin& tin, const Request& request, Progress& progress);
 /// Computes as above, but ends that are not on the surface stand on `ground`, which must cover what the surface covers.
 Result compute(const Tin& tin, const Tin& ground, const Request& request, Progress& progress);
 
-/// A rectangle of a result's cells.
+/// Cells of a result that form a rectangle: the north-west one, and those at every `step`-th column and row from it.
 struct DecidedCells {
   RasterGrid::Cell north_west;
-  std::int64_t columns = 0;
+  std::int64_t columns = 0;  ///< of these cells
   std::int64_t rows = 0;
+  std::int64_t step = 1;
+
+  /// The place of the cell in one of these columns and rows.
+  RasterGrid::Cell at(std::int64_t column, std::int64_t row) const {
+    return {north_west.column + column * step, north_west.row + row * step};
+  }
 };
 
-/// Gets every rectangle of cells that an observer may see, as soon as all of it is decided: those nearest to an
-/// observer first where the surface fits into the memory at once, else all at the end. `result` has the final verdicts
-/// of the cells and the values of its mode there, but in mode kBlocker, which numbers blockers at the end. One call at
-/// a time, on any thread, which it keeps from deciding other cells meanwhile.
+/// Gets every rectangle of cells that an observer may see, as soon as all of it is decided. Where the surface fits into
+/// the memory at once, the cells come in three passes, each pass with those nearest to an observer first: with `step` 9
+/// (1 cell in 81), with 3 (1 in 9), and with 1 (all, those of the passes before among them). On edges that are
+/// multiples of the cell size, the cells of a pass share their centres with cells of that many times the size, wherever
+/// the request lies. Elsewhere all cells come once, at the end. `result` has the final verdicts of the cells and the
+/// values of its mode there, but in mode kBlocker, which numbers blockers at the end. One call at a time, on any
+/// thread, which it keeps from deciding other cells meanwhile.
 using CellSink = std::function<void(const Result& result, const DecidedCells& cells)>;
 
 struct ComputeOptions {

@@ -50,6 +50,7 @@ class BinGrid {
   BinGrid(const Grid& units, const RasterGrid& grid) : units_(units), grid_(grid) {}
 
   const Grid& units() const { return units_; }
+  const RasterGrid& grid() const { return grid_; }
   std::int64_t columns() const { return grid_.columns(); }
   std::int64_t rows() const { return grid_.rows(); }
   /// The side of a bin, grid units.

@@ -61,9 +61,13 @@ class BinnedHeights : public BinBounds {
   template <class Visit>
   bool for_each_triangle(RasterGrid::Cell bin, double above, const Visit& visit) const {
     if (lattice_ != nullptr) return !lattice_->read(cell(bin)) || lattice_->for_each_triangle(cell(bin), visit);
-    const auto triangles = listed_->bins.triangles(grid_.index(bin));
-    return std::all_of(triangles.begin(), triangles.end(),
+    const auto listed = triangles(bin);
+    return std::all_of(listed.begin(), listed.end(),
                        [&](std::uint32_t t) { return listed_->tops[t] <= above || visit(t); });
+  }
+  /// These triangles, ascending. Precondition: the surface is no lattice.
+  std::span<const std::uint32_t> triangles(RasterGrid::Cell bin) const {
+    return listed_->bins.triangles(grid_.index(bin));
   }
   static constexpr double kSlack = 1e-7;
   std::array<GridPoint, 3> corners(std::uint32_t triangle) const {

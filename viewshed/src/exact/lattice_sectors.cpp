@@ -153,7 +153,7 @@ class LatticeSectors final : public SurfaceSource {
     std::copy_if(parts.begin(), parts.end(), std::back_inserter(decided),
                  [&](const Tile& part) { return sectors.within(reach, part); });
     const ExactJudge judge(surface, {eye, std::move(revealed.view), shadow_of(eye, surface.rim(), result)});
-    cells.observe({judge, observer, by_tile(decided, tiles_)});
+    cells.observe({judge, observer}, by_tile(decided, tiles_));
     result.statistics.lines_seconds += watch_.lap();
     return reach;
   }

@@ -35,7 +35,7 @@ class SurfaceAtOnce final : public SurfaceSource {
     tiles_ = grid_of_tiles(result.grid);
     if (over_.reader != nullptr && asks_for_all_heights(request)) over_.reader->read_all(call);
     surface_.emplace(heights_for_cells(result.grid), over_.tin, request.targets_on_surface ? nullptr : over_.bare,
-                     request.earth, result.grid, tiles_);
+                     over_.ground, request.earth, result.grid, tiles_);
     if (casts_rays(request)) surface_->cast_rays(request.earth);
     const std::vector<Eye> eyes = stand_on_ground(result, call);
     find_voids(over_.units(), surface_->rim(), result);
@@ -50,6 +50,8 @@ class SurfaceAtOnce final : public SurfaceSource {
   /// A tile's ground is found anew for each group of eyes; the views of so many are in memory at a time.
   std::size_t eyes_at_once() const override { return 256; }
 
+  bool decides_all_cells() const override { return true; }
+
   bool decide(const EyeGroup& group, ViewshedCells& cells) override {
     Stopwatch watch;
     Result& result = cells.result();
@@ -57,7 +59,7 @@ class SurfaceAtOnce final : public SurfaceSource {
       const Eye& eye = group.eyes[i];
       return EyeView{eye, view_of(eye, group.first + i), shadow_of(eye, surface_->rim(), result)};
     }));
-    cells.observe({judge, group.first, cells.in_order(), studies_ ? &*studies_ : nullptr, group.last});
+    cells.observe_all({judge, group.first, studies_ ? &*studies_ : nullptr, group.last});
     result.statistics.lines_seconds += watch.lap();
     return true;
   }

@@ -8,6 +8,7 @@
 #include <viewshed/viewshed.hpp>
 
 #include "bounds/binned_heights.hpp"
+#include "scene/kept_ground.hpp"
 
 namespace itin::viewshed {
 
@@ -19,6 +20,7 @@ struct SurfaceInMemory {
   const Tin* bare = nullptr;                         ///< what ends stand on, where that is not the surface
   Box extent;                                        ///< the box that cells are laid over
   std::shared_ptr<BinnedHeights> heights = nullptr;  ///< the surface's, where they have been binned
+  const KeptGround* ground = nullptr;                ///< what targets stand on, where it is kept
 
   const Grid& units() const { return lattice != nullptr ? lattice->grid : tin->grid; }
 };

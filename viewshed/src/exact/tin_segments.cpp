@@ -125,7 +125,7 @@ class TinSegments final : public SurfaceSource {
       // The edges of a segment's window are no voids, and features never reach beyond the ground.
       const ExactJudge judge(segment.full, {eye, segment.full.view_from(eye), left.shadow});
       if (way_ == CoarseWay::kNothing) {
-        study({judge, group.first, all_cells(result.grid, tiles_, tiles)}, segment, ground, cells);
+        study({judge, group.first}, tiles, segment, ground, cells);
       } else {
         verdicts.judge(judge, tiles);
       }
@@ -134,15 +134,16 @@ class TinSegments final : public SurfaceSource {
     result.statistics.lines_seconds += watch_.lap();
   }
 
-  /// Observes a portion over the segment with the studies of triangles that the mode needs.
-  void study(Portion portion, const OwnedSurface& segment, const TileSet& ground, ViewshedCells& cells) {
+  /// Observes tiles over the segment with the studies of triangles that the mode needs.
+  void study(Portion portion, const std::vector<std::size_t>& tiles, const OwnedSurface& segment, const TileSet& ground,
+             ViewshedCells& cells) {
     std::optional<Tin> bare;
     if (features_ && needs_bare_lines(request_))
       bare = triangulated(ground_->window(ground), ThemeChoice::none(), cells.result().statistics);
     std::optional<TriangleStudies> studies;
     if (needs_triangles(request_)) studies.emplace(request_, segment.surface.tin, bare ? &*bare : nullptr);
     portion.studies = studies ? &*studies : nullptr;
-    cells.observe(portion);
+    cells.observe(portion, all_cells(cells.result().grid, tiles_, tiles));
   }
 
   /// Returns runs of tiles of cells next to each other in azimuth, as many tiles together as the memory holds.

@@ -12,7 +12,7 @@ std::unique_ptr<ExactJudge::ExactWork> ExactJudge::begin_exactly(std::size_t til
   return std::make_unique<ExactWork>(*this, surface_.begin(tile));
 }
 
-std::unique_ptr<ExactJudge::ExactWork> ExactJudge::begin_exactly(std::size_t tile, std::span<const Tile> parts) const {
+std::unique_ptr<ExactJudge::ExactWork> ExactJudge::begin_exactly(const Tile& tile, std::span<const Tile> parts) const {
   return std::make_unique<ExactWork>(*this, surface_.begin(tile, parts));
 }
 

@@ -54,9 +54,9 @@ class ExactJudge final : public TileJudge {
   std::unique_ptr<Work> begin(std::size_t tile) const override { return begin_exactly(tile); }
   std::unique_ptr<ExactWork> begin_exactly(std::size_t tile) const;
   /// Begins a tile where only cells in these parts are asked about.
-  std::unique_ptr<ExactWork> begin_exactly(std::size_t tile, std::span<const Tile> parts) const;
+  std::unique_ptr<ExactWork> begin_exactly(const Tile& tile, std::span<const Tile> parts) const;
   /// Calls FullSurface::hides() for one of the eyes.
-  bool hides(std::size_t eye, std::size_t tile) const {
+  bool hides(std::size_t eye, const Tile& tile) const {
     return surface_.hides(views_[eye].eye, views_[eye].view, tile);
   }
   const Eye& eye(std::size_t number) const override { return views_[number].eye; }

@@ -26,10 +26,11 @@ struct Tile {
   std::int64_t row = 0;
   std::int64_t columns = 0;  ///< at most kSide
   std::int64_t rows = 0;
+  std::int64_t step = 1;  ///< its cells lie so many columns and rows of the grid apart
 
   /// The index of one of its cells.
   std::size_t cell(RasterGrid::Cell place) const {
-    return static_cast<std::size_t>((place.row - row) * kSide + place.column - column);
+    return static_cast<std::size_t>((place.row - row) / step * kSide + (place.column - column) / step);
   }
 };
 
@@ -40,6 +41,24 @@ using TileValues = std::array<T, Tile::kSide * Tile::kSide>;
 /// The tiles of a grid as the cells of a coarser grid, and the tile that is cell `index` of the coarser grid.
 RasterGrid grid_of_tiles(const RasterGrid& cells);
 Tile tile_at(const RasterGrid& cells, const RasterGrid& tiles, std::size_t index);
+
+/// The cells of a grid that lie at every `step`-th column and row, in tiles. The step is odd. Where edges are multiples
+/// of the cell size, these cells share their centres with cells `step` times as large on edges that are multiples of
+/// theirs, so that whatever part of such a grid is looked at, the same cells are chosen.
+class SteppedTiles {
+ public:
+  SteppedTiles(const RasterGrid& grid, std::int64_t step);
+
+  std::size_t count() const { return static_cast<std::size_t>(tiles_along(columns_) * tiles_along(rows_)); }
+  Tile tile(std::size_t index) const;
+
+ private:
+  static std::int64_t tiles_along(std::int64_t cells) { return (cells + Tile::kSide - 1) / Tile::kSide; }
+
+  std::int64_t step_;
+  RasterGrid::Cell first_;       ///< the north-west one
+  std::int64_t columns_, rows_;  ///< how many there are; 0 where the grid has none
+};
 
 /// A rectangle of cells of any size.
 struct CellRectangle {
@@ -70,15 +89,16 @@ template <class Visit>
 void for_each_cell(const Tile& tile, const Visit& visit) {
   for (std::int64_t r = 0; r < tile.rows; ++r)
     for (std::int64_t c = 0; c < tile.columns; ++c)
-      visit(static_cast<std::size_t>(r * Tile::kSide + c), RasterGrid::Cell{tile.column + c, tile.row + r});
+      visit(static_cast<std::size_t>(r * Tile::kSide + c),
+            RasterGrid::Cell{tile.column + c * tile.step, tile.row + r * tile.step});
 }
 
-/// Calls visit(cell, place) for the first cell of each of a tile's rows, in which its tile.columns cells lie one after
-/// the other.
+/// Calls visit(cell, place) for the first cell of each of a tile's rows, in which its tile.columns cells lie tile.step
+/// places apart.
 template <class Visit>
 void for_each_row(const Tile& tile, const Visit& visit) {
   for (std::int64_t r = 0; r < tile.rows; ++r)
-    visit(static_cast<std::size_t>(r * Tile::kSide), RasterGrid::Cell{tile.column, tile.row + r});
+    visit(static_cast<std::size_t>(r * Tile::kSide), RasterGrid::Cell{tile.column, tile.row + r * tile.step});
 }
 
 /// The positions of a tile's cell centres, in grid units.

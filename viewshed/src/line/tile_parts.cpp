@@ -1,7 +1,6 @@
 #include "line/tile_parts.hpp"
 
 #include <map>
-#include <numeric>
 #include <utility>
 
 namespace itin::viewshed {
@@ -26,12 +25,6 @@ std::vector<PartsOfTile> all_cells(const RasterGrid& grid, const RasterGrid& til
   std::vector<PartsOfTile> all;
   for (const std::size_t number : numbers) all.push_back({number, {tile_at(grid, tiles, number)}});
   return all;
-}
-
-std::vector<PartsOfTile> all_cells(const RasterGrid& grid, const RasterGrid& tiles) {
-  std::vector<std::size_t> numbers(tiles.cell_count());
-  std::iota(numbers.begin(), numbers.end(), std::size_t{0});
-  return all_cells(grid, tiles, numbers);
 }
 
 }  // namespace itin::viewshed

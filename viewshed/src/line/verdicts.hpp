@@ -63,8 +63,9 @@ class Verdicts {
   /// Counts the cells, and writes their verdicts to their places in the result.
   void store(const Tile& tile, Result& result, CellCounts& cells) const {
     for_each_row(tile, [&](std::size_t cell, RasterGrid::Cell first) {
-      const auto columns = static_cast<std::size_t>(tile.columns);
-      std::copy_n(values_.data() + cell, columns, result.visible.data() + result.grid.index(first));
+      const auto columns = static_cast<std::size_t>(tile.columns), step = static_cast<std::size_t>(tile.step);
+      Verdict* const to = result.visible.data() + result.grid.index(first);
+      for (std::size_t i = 0; i < columns; ++i) to[i * step] = values_[cell + i];
     });
     cells += counts(tile);
   }

@@ -60,10 +60,10 @@ void BlockerObservation::study(const TileView& tile, const CellView& view, const
   }
 }
 
-void BlockerObservation::store_row(std::size_t cell, std::size_t columns, std::size_t place, Result& result) const {
-  for (std::size_t i = 0; i < columns; ++i)
-    result.get<Blockers>().triangle[place + i] =
-        verdicts()[cell + i] == Verdict::kHidden ? blocker_[cell + i] : kNoBlocker;
+void BlockerObservation::store_row(const StoredRow& row, Result& result) const {
+  row.for_each([&](std::size_t cell, std::size_t place) {
+    result.get<Blockers>().triangle[place] = verdicts()[cell] == Verdict::kHidden ? blocker_[cell] : kNoBlocker;
+  });
 }
 
 }  // namespace itin::viewshed

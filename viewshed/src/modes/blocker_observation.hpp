@@ -19,7 +19,7 @@ class BlockerObservation final : public Observation {
 
  private:
   void study(const TileView& tile, const CellView& view, const Sight& sight) override;
-  void store_row(std::size_t cell, std::size_t columns, std::size_t place, Result& result) const override;
+  void store_row(const StoredRow& row, Result& result) const override;
 
   BlockerTable& table_;
   /// The values of the nearest observer so far; if two are equally near, the first counts.

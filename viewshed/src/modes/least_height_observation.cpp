@@ -70,13 +70,13 @@ void LeastHeightObservation::record(const TileView& tile, const CellView& view, 
     verdicts().add(view.cell, over_missing ? Verdict::kUndecided : Verdict::kVisible);
 }
 
-void LeastHeightObservation::store_row(std::size_t cell, std::size_t columns, std::size_t place, Result& result) const {
-  for (std::size_t i = 0; i < columns; ++i) {
-    const double least = least_[cell + i];
-    const bool known = !std::isinf(least) && least <= open_[cell + i];
-    result.get<LeastHeights>().height_m[place + i] =
+void LeastHeightObservation::store_row(const StoredRow& row, Result& result) const {
+  row.for_each([&](std::size_t cell, std::size_t place) {
+    const double least = least_[cell];
+    const bool known = !std::isinf(least) && least <= open_[cell];
+    result.get<LeastHeights>().height_m[place] =
         known ? static_cast<float>(least) : std::numeric_limits<float>::quiet_NaN();
-  }
+  });
 }
 
 }  // namespace itin::viewshed

@@ -15,7 +15,7 @@ class LeastHeightObservation final : public Observation {
   std::uint64_t observe(const TileView& tile) override;
 
  private:
-  void store_row(std::size_t cell, std::size_t columns, std::size_t place, Result& result) const override;
+  void store_row(const StoredRow& row, Result& result) const override;
   /// The ends of one observer's lines, grid units.
   struct Ends {
     TileValues<double> lowest;

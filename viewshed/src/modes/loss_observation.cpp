@@ -42,14 +42,14 @@ void LossObservation::study(const TileView& tile, const CellView& view, const Si
     least = diffraction, beside = free_space;
 }
 
-void LossObservation::store_row(std::size_t cell, std::size_t columns, std::size_t place, Result& result) const {
+void LossObservation::store_row(const StoredRow& row, Result& result) const {
   constexpr float kNoValue = std::numeric_limits<float>::quiet_NaN();
   auto& losses = result.get<Losses>();
-  for (std::size_t i = 0; i < columns; ++i) {
-    const bool known = !unknown_[cell + i] && !std::isinf(diffraction_[cell + i]);
-    losses.diffraction_db[place + i] = known ? diffraction_[cell + i] : kNoValue;
-    losses.free_space_db[place + i] = known ? free_space_[cell + i] : kNoValue;
-  }
+  row.for_each([&](std::size_t cell, std::size_t place) {
+    const bool known = !unknown_[cell] && !std::isinf(diffraction_[cell]);
+    losses.diffraction_db[place] = known ? diffraction_[cell] : kNoValue;
+    losses.free_space_db[place] = known ? free_space_[cell] : kNoValue;
+  });
 }
 
 }  // namespace itin::viewshed

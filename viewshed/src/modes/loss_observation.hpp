@@ -16,7 +16,7 @@ class LossObservation final : public Observation {
 
  private:
   void study(const TileView& tile, const CellView& view, const Sight& sight) override;
-  void store_row(std::size_t cell, std::size_t columns, std::size_t place, Result& result) const override;
+  void store_row(const StoredRow& row, Result& result) const override;
 
   NoData nodata_;
   LineLosses::Scratch scratch_;                     ///< empty except while an observer looks

@@ -21,11 +21,6 @@ namespace {
 
 constexpr float kNoAngle = std::numeric_limits<float>::quiet_NaN();
 
-template <class T>
-void copy_row(const TileValues<T>& values, std::size_t cell, std::size_t columns, T* to) {
-  std::copy_n(values.data() + cell, columns, to);
-}
-
 class AnyObserver final : public Observation {
  public:
   bool open(const CellView& view) const override { return verdicts().open(view.cell); }
@@ -37,10 +32,11 @@ class ObserverCount final : public Observation {
 
  private:
   void keep(const CellView& view) override { ++counts_[view.cell]; }
-  void store_row(std::size_t cell, std::size_t columns, std::size_t place, Result& result) const override {
+  void store_row(const StoredRow& row, Result& result) const override {
     auto& counts = result.get<Counts>().count;
-    for (std::size_t i = 0; i < columns; ++i)
-      counts[place + i] = verdicts()[cell + i] == Verdict::kOutside ? kCountOutside : counts_[cell + i];
+    row.for_each([&](std::size_t cell, std::size_t place) {
+      counts[place] = verdicts()[cell] == Verdict::kOutside ? kCountOutside : counts_[cell];
+    });
   }
   TileValues<std::uint16_t> counts_;
 };
@@ -57,13 +53,15 @@ class ObserverBits final : public Observation {
     if (row.size() <= words) row.resize(words + grids_);
     row[words + bit.grid] |= bit.mask;
   }
-  void store_row(std::size_t cell, std::size_t columns, std::size_t place, Result& result) const override {
+  void store_row(const StoredRow& row, Result& result) const override {
     auto& words = result.get<ObserverSets>().words;
-    const std::vector<std::uint32_t>& row = rows_[cell / Tile::kSide];
-    const std::size_t seen = std::min(columns, row.size() / grids_);  // beyond, the result's words are 0
-    for (std::size_t i = 0; i < seen; ++i)
+    const std::vector<std::uint32_t>& of_row = rows_[row.cell / Tile::kSide];
+    StoredRow seen = row;
+    seen.columns = std::min(row.columns, of_row.size() / grids_);  // beyond, the result's words are 0
+    seen.for_each([&](std::size_t cell, std::size_t place) {
       for (std::size_t grid = 0; grid < grids_; ++grid)
-        words[grid * result.grid.cell_count() + place + i] = row[i * grids_ + grid];
+        words[grid * result.grid.cell_count() + place] = of_row[cell % Tile::kSide * grids_ + grid];
+    });
   }
   std::size_t grids_;
   /// Each of the tile's rows has the words of its cells, cell by cell, up to the last that is seen.
@@ -79,8 +77,8 @@ class GreatestAngle final : public Observation {
     const auto angle = static_cast<float>(view_.elevation(view.dx, view.dy, view.dz));
     if (!(angles_[view.cell] >= angle)) angles_[view.cell] = angle;
   }
-  void store_row(std::size_t cell, std::size_t columns, std::size_t place, Result& result) const override {
-    copy_row(angles_, cell, columns, result.get<Angles>().angle_deg.data() + place);
+  void store_row(const StoredRow& row, Result& result) const override {
+    row.for_each([&](std::size_t cell, std::size_t place) { result.get<Angles>().angle_deg[place] = angles_[cell]; });
   }
   FieldOfView view_;
   TileValues<float> angles_;
@@ -103,13 +101,12 @@ class NearestObserver final : public Observation {
     squared_[view.cell] = view.squared_distance();
     numbers_[view.cell] = view.observer + 1;
   }
-  void store_row(std::size_t cell, std::size_t columns, std::size_t place, Result& result) const override {
+  void store_row(const StoredRow& row, Result& result) const override {
     auto& nearest = result.get<NearestObservers>();
-    copy_row(numbers_, cell, columns, nearest.number.data() + place);
-    for (std::size_t i = 0; i < columns; ++i) {
-      const bool seen = numbers_[cell + i] != 0;
-      nearest.distance_m[place + i] = seen ? static_cast<float>(std::sqrt(squared_[cell + i])) : kNoAngle;
-    }
+    row.for_each([&](std::size_t cell, std::size_t place) {
+      nearest.number[place] = numbers_[cell];
+      nearest.distance_m[place] = numbers_[cell] != 0 ? static_cast<float>(std::sqrt(squared_[cell])) : kNoAngle;
+    });
   }
   TileValues<double> squared_;
   TileValues<std::uint32_t> numbers_;
@@ -118,9 +115,7 @@ class NearestObserver final : public Observation {
 }  // namespace
 
 std::uint64_t Observation::hide(const Tile& tile, std::span<const Tile> parts) {
-  for (const Tile& part : parts)
-    for_each_cell(part,
-                  [&](std::size_t, RasterGrid::Cell place) { verdicts_.add(tile.cell(place), Verdict::kHidden); });
+  for_each_cell(parts, tile, [&](std::size_t cell) { verdicts_.add(cell, Verdict::kHidden); });
   return cell_count(parts);
 }
 
@@ -159,7 +154,9 @@ std::uint64_t Observation::observe(const TileView& tile) {
 void Observation::store(const Tile& tile, Result& result, CellCounts& cells) const {
   verdicts_.store(tile, result, cells);
   for_each_row(tile, [&](std::size_t cell, RasterGrid::Cell first) {
-    store_row(cell, static_cast<std::size_t>(tile.columns), result.grid.index(first), result);
+    store_row(
+        {cell, static_cast<std::size_t>(tile.columns), result.grid.index(first), static_cast<std::size_t>(tile.step)},
+        result);
   });
 }
 

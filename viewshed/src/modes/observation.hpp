@@ -60,6 +60,20 @@ struct Sight {
   Verdict verdict = Verdict::kHidden;  ///< or visible, or undecided
 };
 
+/// A row of a tile's cells, and where they are in the result's rasters.
+struct StoredRow {
+  std::size_t cell = 0;  ///< the first, in the tile
+  std::size_t columns = 0;
+  std::size_t place = 0;  ///< of the first, in the rasters
+  std::size_t step = 1;   ///< how many places apart the cells are
+
+  /// Calls visit(cell, place) for each of the cells.
+  template <class Visit>
+  void for_each(const Visit& visit) const {
+    for (std::size_t i = 0; i < columns; ++i) visit(cell + i, place + i * step);
+  }
+};
+
 class Observation {
  public:
   Observation() = default;
@@ -102,8 +116,7 @@ class Observation {
   virtual void study(const TileView&, const CellView& view, const Sight& sight) {
     if (sight.verdict == Verdict::kVisible) keep(view);
   }
-  /// Stores a row of `columns` cells, from `cell` in the tile to `place` in the grid.
-  virtual void store_row(std::size_t, std::size_t, std::size_t, Result&) const {}
+  virtual void store_row(const StoredRow&, Result&) const {}
 
   Verdicts verdicts_;
 };

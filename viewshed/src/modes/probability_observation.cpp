@@ -31,12 +31,11 @@ void ProbabilityObservation::study(const TileView& tile, const CellView& view, c
   greatest = std::max(greatest, static_cast<float>(tile.studies->odds->of_line(line, *scratch_).probability));
 }
 
-void ProbabilityObservation::store_row(std::size_t cell, std::size_t columns, std::size_t place, Result& result) const {
-  for (std::size_t i = cell; i < cell + columns; ++i) {
-    const bool known = verdicts()[i] != Verdict::kOutside && known_[i] >= open_[i];
-    result.get<Probabilities>().probability[place + i - cell] =
-        known ? known_[i] : std::numeric_limits<float>::quiet_NaN();
-  }
+void ProbabilityObservation::store_row(const StoredRow& row, Result& result) const {
+  row.for_each([&](std::size_t cell, std::size_t place) {
+    const bool known = verdicts()[cell] != Verdict::kOutside && known_[cell] >= open_[cell];
+    result.get<Probabilities>().probability[place] = known ? known_[cell] : std::numeric_limits<float>::quiet_NaN();
+  });
 }
 
 }  // namespace itin::viewshed

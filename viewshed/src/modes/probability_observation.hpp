@@ -19,7 +19,7 @@ class ProbabilityObservation final : public Observation {
  private:
   void study(const TileView& tile, const CellView& view, const Sight& sight) override;
   void keep(const CellView& view) override;
-  void store_row(std::size_t cell, std::size_t columns, std::size_t place, Result& result) const override;
+  void store_row(const StoredRow& row, Result& result) const override;
 
   std::optional<VisibilityProbability::Scratch> scratch_;  ///< made for the surface looked at
   TileValues<float> known_;                                ///< the greatest over several observers

@@ -79,6 +79,10 @@ std::uint64_t bytes_held(const Store& store, const Detail& detail, const Box& ar
   return points_about(store, detail, area) * (form == SurfaceForm::kPosts ? kBytesPerPost : kBytesPerSurfacePoint);
 }
 
+std::uint64_t memory_for_ground(std::uint64_t memory, std::uint64_t surfaces) {
+  return std::min(memory / 4, memory - std::min(memory, surfaces));
+}
+
 void require_memory_for_rasters(const RasterGrid& cells, std::uint64_t bytes, std::uint64_t memory) {
   if (holds(memory, bytes)) return;
   constexpr std::uint64_t kMega = 1 << 20;  // as --memory counts

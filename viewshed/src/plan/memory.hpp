@@ -32,6 +32,9 @@ enum class SurfaceForm : std::uint8_t { kTriangles, kPosts };
 /// About how many bytes it takes to hold a surface, or to retrieve it.
 std::uint64_t bytes_held(const Store& store, const Detail& detail, const Box& area, SurfaceForm form);
 
+/// The memory that keeps the ground of cells, beside surfaces that take this much: a quarter of all, or what is left.
+std::uint64_t memory_for_ground(std::uint64_t memory, std::uint64_t surfaces);
+
 /// Throws InputError where rasters of these cells are large and leave less than a quarter of the memory; `bytes` is
 /// what they take on the way and in the end.
 void require_memory_for_rasters(const RasterGrid& cells, std::uint64_t bytes, std::uint64_t memory);

@@ -46,7 +46,8 @@ HeldAreas::HeldAreas(const Store& store, const Detail& detail, const ThemeChoice
       detail_(detail),
       themes_(themes),
       options_(options),
-      is_full_(level_within(store.metadata(), detail.coarsest()) == 0) {}
+      is_full_(level_within(store.metadata(), detail.coarsest()) == 0),
+      ground_(std::make_shared<GroundCache>(memory_for_ground(options.memory_bytes, 0))) {}
 
 std::shared_ptr<const HeldSurface> HeldAreas::get(const Box& whole, const Box& part, SurfaceForm needed,
                                                   CallProgress& call) {
@@ -90,16 +91,20 @@ std::shared_ptr<HeldAreas::Area> HeldAreas::area_about(const Box& box, SurfaceFo
   return nullptr;
 }
 
-/// Adds an area, and drops as many of the areas used longest ago as the memory does not hold beside it.
+/// Adds an area, and drops as many of the areas used longest ago as the memory does not hold beside it and the ground
+/// of cells. A single area may take what that would have.
 void HeldAreas::add(std::shared_ptr<Area> area) {
   ++readings_;
-  areas_.push_front(std::move(area));
-  std::uint64_t bytes = 0;
+  const std::uint64_t most = options_.memory_bytes - memory_for_ground(options_.memory_bytes, 0);
+  std::uint64_t bytes = area->bytes;
   const auto too_many = std::find_if(areas_.begin(), areas_.end(), [&](const auto& held) {
+    if (bytes + held->bytes > most) return true;
     bytes += held->bytes;
-    return bytes > options_.memory_bytes;
+    return false;
   });
   areas_.erase(too_many, areas_.end());
+  areas_.push_front(std::move(area));
+  ground_->limit(memory_for_ground(options_.memory_bytes, bytes));
 }
 
 HeldAreas::Surface HeldAreas::read(const std::shared_ptr<Area>& area, CallProgress& call) {
@@ -109,8 +114,8 @@ HeldAreas::Surface HeldAreas::read(const std::shared_ptr<Area>& area, CallProgre
     const ThreadLimit own(thread_count());
     ComputeOptions options = options_;
     options.lattices = area->form == SurfaceForm::kPosts;
-    auto surface =
-        std::make_shared<const HeldSurface>(store_, area->box, detail_, themes_, options, call.step(kReadingArea));
+    const Surface surface(
+        new HeldSurface(store_, area->box, detail_, themes_, options, ground_, call.step(kReadingArea)));
     call.step(1);
     area->read.set_value(surface);
     return surface;

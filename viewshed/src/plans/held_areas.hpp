@@ -13,6 +13,7 @@
 #include <viewshed/held_surface.hpp>
 
 #include "plan/memory.hpp"
+#include "scene/ground_cache.hpp"
 
 namespace itin::viewshed {
 
@@ -56,7 +57,8 @@ class HeldAreas {
   Detail detail_;
   ThemeChoice themes_;
   ComputeOptions options_;
-  bool is_full_;  ///< the full surface is held, not a coarser one
+  bool is_full_;                         ///< the full surface is held, not a coarser one
+  std::shared_ptr<GroundCache> ground_;  ///< of cells, on all areas
   mutable std::mutex mutex_;
   std::list<std::shared_ptr<Area>> areas_;  ///< the one used last first
   std::uint64_t readings_ = 0;

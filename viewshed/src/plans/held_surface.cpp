@@ -26,11 +26,31 @@ namespace {
 /// About the share of a call's time that reading takes, in calls that read first.
 constexpr double kReading = 0.7;
 
-/// A surface with its heights binned.
+/// A surface with its heights binned, and the ground of cells on it.
 struct Binned {
-  explicit Binned(Tin of) : tin(std::move(of)), heights(std::make_shared<BinnedHeights>(tin)) {}
+  Binned(Tin of, std::shared_ptr<GroundCache> cache)
+      : tin(std::move(of)), heights(std::make_shared<BinnedHeights>(tin)), ground(heights, &tin, std::move(cache)) {}
   const Tin tin;
   const std::shared_ptr<BinnedHeights> heights;
+  const KeptGround ground;
+};
+
+/// The posts of a lattice, likewise.
+struct BinnedPosts {
+  BinnedPosts(std::unique_ptr<LatticeReader> of, std::shared_ptr<GroundCache> cache)
+      : reader(std::move(of)),
+        heights(std::make_shared<BinnedHeights>(reader->lattice())),
+        ground(heights, nullptr, std::move(cache)) {}
+  const std::unique_ptr<LatticeReader> reader;
+  const std::shared_ptr<BinnedHeights> heights;
+  const KeptGround ground;
+};
+
+/// What ends stand on, where features stand.
+struct BareGround {
+  BareGround(Tin of, std::shared_ptr<GroundCache> cache) : tin(std::move(of)), ground(tin, std::move(cache)) {}
+  const Tin tin;
+  const KeptGround ground;
 };
 
 }  // namespace
@@ -38,8 +58,8 @@ struct Binned {
 class HeldSurface::Impl {
  public:
   Impl(const Store& store, const Box& area, const Detail& detail, const ThemeChoice& themes,
-       const ComputeOptions& options, Progress& progress)
-      : store_(store), area_(area), detail_(detail), themes_(themes) {
+       const ComputeOptions& options, std::shared_ptr<GroundCache> cache, Progress& progress)
+      : store_(store), area_(area), detail_(detail), themes_(themes), cache_(std::move(cache)) {
     if (area.empty()) throw InputError("area: it is empty; give a box in metres", "area");
     CallProgress call(progress);
     const Window window = Window::box(area);
@@ -58,6 +78,8 @@ class HeldSurface::Impl {
     return (posts_ ? bytes_held(store_, detail_, area_, SurfaceForm::kPosts) : 0) +
            (triangles_ ? bytes_held(store_, detail_, area_, SurfaceForm::kTriangles) : 0);
   }
+
+  void keep_ground(std::uint64_t most_bytes) const { cache_->limit(most_bytes); }
 
   bool covers(const Request& request) const {
     const Box asked = area_under(store_, request);
@@ -85,15 +107,14 @@ class HeldSurface::Impl {
     auto surface = retrieve_lattice(store_, window, detail_, themes_, LatticeReader::Heights::kAll,
                                     options.memory_bytes / kBytesPerPost, progress);
     if (!surface) return;
-    posts_ = std::move(surface->lattice);
-    post_heights_ = std::make_shared<BinnedHeights>(posts_->lattice());
+    posts_.emplace(std::move(surface->lattice), cache_);
   }
 
   void retrieve_triangles(const Window& window, std::uint64_t memory, CallProgress& call) {
     require_memory(memory);
     const bool raised = themes_.includes_raised(store_.metadata().themes);
-    triangles_.emplace(triangulate(store_, window, detail_, call.step(raised ? 0.7 : 1), themes_));
-    if (raised) bare_ = triangulate(store_, window, detail_, call.step(1), ThemeChoice::none());
+    triangles_.emplace(triangulate(store_, window, detail_, call.step(raised ? 0.7 : 1), themes_), cache_);
+    if (raised) bare_.emplace(triangulate(store_, window, detail_, call.step(1), ThemeChoice::none()), cache_);
   }
 
   void require_memory(std::uint64_t memory) const {
@@ -105,13 +126,14 @@ class HeldSurface::Impl {
   }
 
   SurfaceInMemory surface_for(const Request& request, CallProgress& call) const {
-    SurfaceInMemory over{.bare = bare_ ? &*bare_ : nullptr, .extent = extent_of(store_)};
+    SurfaceInMemory over{.bare = bare_ ? &bare_->tin : nullptr, .extent = extent_of(store_)};
     if (posts_ && !needs_triangles(request) && !casts_rays(request)) {
-      over.lattice = &posts_->lattice(), over.heights = post_heights_;
+      over.lattice = &posts_->reader->lattice(), over.heights = posts_->heights, over.ground = &posts_->ground;
       return over;
     }
     const Binned& triangles = listed(call);
     over.tin = &triangles.tin, over.heights = triangles.heights;
+    over.ground = bare_ && !request.targets_on_surface ? &bare_->ground : &triangles.ground;
     return over;
   }
 
@@ -119,7 +141,7 @@ class HeldSurface::Impl {
   const Binned& listed(CallProgress& call) const {
     const std::lock_guard lock(listing_);
     if (triangles_) return *triangles_;
-    triangles_.emplace(triangulate(store_, Window::box(area_), detail_, call.step(kReading), themes_));
+    triangles_.emplace(triangulate(store_, Window::box(area_), detail_, call.step(kReading), themes_), cache_);
     call.step(1);
     return *triangles_;
   }
@@ -128,16 +150,21 @@ class HeldSurface::Impl {
   Box area_;
   Detail detail_;
   ThemeChoice themes_;
-  std::unique_ptr<LatticeReader> posts_;  ///< where the surface is a lattice
-  std::shared_ptr<BinnedHeights> post_heights_;
+  std::shared_ptr<GroundCache> cache_;
+  std::optional<BinnedPosts> posts_;  ///< where the surface is a lattice
   mutable std::mutex listing_;
   mutable std::optional<Binned> triangles_;
-  std::optional<Tin> bare_;  ///< what ends stand on, where features stand
+  std::optional<BareGround> bare_;
 };
 
 HeldSurface::HeldSurface(const Store& store, const Box& area, const Detail& detail, const ThemeChoice& themes,
                          const ComputeOptions& options, Progress& progress)
-    : impl_(std::make_unique<const Impl>(store, area, detail, themes, options, progress)) {}
+    : HeldSurface(store, area, detail, themes, options, std::make_shared<GroundCache>(0), progress) {
+  impl_->keep_ground(memory_for_ground(options.memory_bytes, bytes()));
+}
+HeldSurface::HeldSurface(const Store& store, const Box& area, const Detail& detail, const ThemeChoice& themes,
+                         const ComputeOptions& options, std::shared_ptr<GroundCache> cache, Progress& progress)
+    : impl_(std::make_unique<const Impl>(store, area, detail, themes, options, std::move(cache), progress)) {}
 HeldSurface::HeldSurface(HeldSurface&&) noexcept = default;
 HeldSurface& HeldSurface::operator=(HeldSurface&&) noexcept = default;
 HeldSurface::~HeldSurface() = default;

@@ -28,8 +28,8 @@ void for_each_offset(const Eye& eye, const RasterGrid& grid, const Tile& tile, c
     const double dy = grid.centre_y(place.row) - eye.position.y;
     // Few rows come near the eye.
     const bool near = same_place(0, centres.at(cell).y - eye.units.y);
-    const std::int64_t end = place.column + tile.columns;
-    for (; place.column < end; ++place.column, ++cell) {
+    const std::int64_t end = place.column + tile.columns * tile.step;
+    for (; place.column < end; place.column += tile.step, ++cell) {
       const bool own = near && eye.stands_at(centres.at(cell));
       visit(cell, own ? Point2{} : Point2{grid.centre_x(place.column) - eye.position.x, dy});
     }

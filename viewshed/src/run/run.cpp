@@ -10,7 +10,7 @@ std::optional<Result> run(SurfaceSource& source, const Request& request, const C
   Result result;
   result.request = request;
   const std::vector<Eye> eyes = source.begin(result, call);
-  ViewshedCells cells(result, sink, call.step(1));
+  ViewshedCells cells(result, sink, source.decides_all_cells(), call.step(1));
   const std::size_t most = source.eyes_at_once();
   for (std::size_t first = 0; first < eyes.size(); first += most) {
     call.throw_if_cancelled();

@@ -41,6 +41,9 @@ class SurfaceSource {
   /// How many eyes decide() takes at a time.
   virtual std::size_t eyes_at_once() const { return 1; }
 
+  /// Tells whether decide() always decides all cells, by ViewshedCells::observe_all().
+  virtual bool decides_all_cells() const { return false; }
+
   /// Decides all that the eyes look at. Returns false where the surface turns out not to be of the source's form.
   virtual bool decide(const EyeGroup& group, ViewshedCells& cells) = 0;
 };

@@ -1,6 +1,7 @@
 #include "run/viewshed_cells.hpp"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <numeric>
 #include <utility>
@@ -11,32 +12,43 @@ namespace itin::viewshed {
 
 namespace {
 
+/// How many columns and rows apart the cells of the passes before the last are.
+constexpr std::array<std::int64_t, 2> kCoarseSteps{9, 3};
+
 /// Tells whether nothing of a tile is seen, where no more is asked of hidden cells.
-bool is_hidden(const ExactJudge& judge, std::size_t eye, std::size_t tile, const Observation& observation) {
+bool is_hidden(const ExactJudge& judge, std::size_t eye, const Tile& tile, const Observation& observation) {
   return !observation.asks_of_the_hidden() && judge.hides(eye, tile);
 }
 
 }  // namespace
 
-ViewshedCells::ViewshedCells(Result& result, const CellSink& sink, Progress& progress)
+ViewshedCells::ViewshedCells(Result& result, const CellSink& sink, bool in_passes, Progress& progress)
     : result_(result),
       sink_(sink),
       tiles_(grid_of_tiles(result.grid)),
-      order_(order_of_tiles()),
       stage_("sight lines", result.request.observers.size() * result.grid.cell_count(), progress),
       modes_(result.request),
-      observations_(tiles_.cell_count()),
       counts_(tiles_.cell_count()) {
+  if (sink && in_passes)
+    for (const std::int64_t step : kCoarseSteps) passes_.push_back(pass(step));
+  passes_.push_back(pass(1));
   Observation::prepare(result);
 }
 
-std::vector<std::size_t> ViewshedCells::order_of_tiles() const {
-  std::vector<std::size_t> order(tiles_.cell_count());
+ViewshedCells::Pass ViewshedCells::pass(std::int64_t step) const {
+  const SteppedTiles tiles(result_.grid, step);
+  Pass pass{tiles, step == 1, order_of(tiles)};
+  pass.observations.resize(tiles.count());
+  return pass;
+}
+
+std::vector<std::size_t> ViewshedCells::order_of(const SteppedTiles& tiles) const {
+  std::vector<std::size_t> order(tiles.count());
   std::iota(order.begin(), order.end(), std::size_t{0});
   if (!sink_) return order;
   std::vector<double> distances;
   for (const std::size_t tile : order) {
-    const Box cells = box_of(result_.grid, tile_at(result_.grid, tiles_, tile));
+    const Box cells = box_of(result_.grid, tiles.tile(tile));
     double nearest = kInfinity;
     for (const Observer& o : result_.request.observers)
       nearest = std::min(nearest, squared_distance(o.position, cells));
@@ -47,31 +59,40 @@ std::vector<std::size_t> ViewshedCells::order_of_tiles() const {
   return order;
 }
 
-Observation& ViewshedCells::of_tile(std::size_t tile) {
-  std::unique_ptr<Observation>& observation = observations_[tile];
+Observation& ViewshedCells::of_tile(Pass& pass, std::size_t tile) {
+  std::unique_ptr<Observation>& observation = pass.observations[tile];
   if (!observation) observation = modes_.of_tile();
   return *observation;
 }
 
-void ViewshedCells::observe(const Portion& portion) {
-  std::atomic<std::uint64_t> lines = 0;
-  for_each(portion.cells.size(), [&](std::size_t i) {
-    const PartsOfTile& cells = portion.cells[i];
-    lines += observe(portion, cells);
-    if (portion.last) store(cells.tile);
-    return portion.judge.eye_count() * cell_count(cells.parts);
-  });
-  result_.statistics.lines += lines;
+void ViewshedCells::observe_all(const Portion& portion) {
+  for (Pass& pass : passes_) {
+    std::vector<PartsOfTile> cells;
+    for (const std::size_t tile : pass.order) cells.push_back({tile, {pass.tiles.tile(tile)}});
+    observe(portion, pass, cells);
+  }
 }
 
-std::uint64_t ViewshedCells::observe(const Portion& portion, const PartsOfTile& cells) {
-  const auto& [tile, parts] = cells;
-  Observation& observation = of_tile(tile);
+/// The coarse passes' steps and sight lines do not count: the last pass makes them all.
+void ViewshedCells::observe(const Portion& portion, Pass& pass, std::span<const PartsOfTile> cells) {
+  std::atomic<std::uint64_t> lines = 0;
+  for_each(cells.size(), [&](std::size_t i) {
+    lines += observe(portion, pass, cells[i]);
+    if (portion.last) store(pass, cells[i].tile);
+    return pass.last ? portion.judge.eye_count() * cell_count(cells[i].parts) : 0;
+  });
+  if (pass.last) result_.statistics.lines += lines;
+}
+
+std::uint64_t ViewshedCells::observe(const Portion& portion, Pass& pass, const PartsOfTile& cells) {
+  const std::vector<Tile>& parts = cells.parts;
+  const Tile tile = pass.tiles.tile(cells.tile);
+  Observation& observation = of_tile(pass, cells.tile);
   std::unique_ptr<ExactJudge::ExactWork> work;
   std::uint64_t lines = 0;
   for (const std::size_t eye : eyes_near(portion.judge, tile)) {
     if (is_hidden(portion.judge, eye, tile, observation)) {
-      lines += observation.hide(tile_at(result_.grid, tiles_, tile), parts);
+      lines += observation.hide(tile, parts);
       continue;
     }
     if (!work) work = portion.judge.begin_exactly(tile, parts);
@@ -82,8 +103,8 @@ std::uint64_t ViewshedCells::observe(const Portion& portion, const PartsOfTile& 
 }
 
 /// Returns the eyes that reach the tile, the nearest first: they most often settle what is asked of the others.
-std::vector<std::size_t> ViewshedCells::eyes_near(const ExactJudge& judge, std::size_t tile) const {
-  const Box centres = box_of_centres(result_.grid, tile_at(result_.grid, tiles_, tile));
+std::vector<std::size_t> ViewshedCells::eyes_near(const ExactJudge& judge, const Tile& tile) const {
+  const Box centres = box_of_centres(result_.grid, tile);
   std::vector<std::pair<double, std::size_t>> order;
   for (std::size_t i = 0; i < judge.eye_count(); ++i) {
     const double squared = squared_distance(judge.eye(i).position, centres);
@@ -102,7 +123,7 @@ void ViewshedCells::judge(const TileJudge& judge, std::span<const PartsOfTile> c
     Observation& observation = of_tile(cells[i].tile);
     const auto open = [&](std::size_t, TileValues<Verdict>& values) {
       bool any = false;
-      for_each_cell(cells[i], tile, [&](std::size_t cell) {
+      for_each_cell(cells[i].parts, tile, [&](std::size_t cell) {
         if (observation.sees(cell)) return;
         values[cell] = Verdict::kUndecided;
         any = true;
@@ -121,20 +142,22 @@ void ViewshedCells::advance_past(std::size_t eyes) {
 }
 
 void ViewshedCells::finish() {
-  for (const std::size_t tile : order_) store(tile);
+  Pass& all = passes_.back();
+  for (const std::size_t tile : all.order) store(all, tile);
   for (const CellCounts& counts : counts_) result_.cells += counts;
   result_.cells.outside = result_.grid.cell_count() - result_.cells.in_view();
   modes_.finish(result_);
 }
 
 /// Stores a tile that has not been stored. One that nobody looks at has no observation, and is outside already.
-void ViewshedCells::store(std::size_t tile) {
-  if (!observations_[tile]) return;
-  const Tile cells = tile_at(result_.grid, tiles_, tile);
-  std::exchange(observations_[tile], nullptr)->store(cells, result_, counts_[tile]);
+void ViewshedCells::store(Pass& pass, std::size_t tile) {
+  if (!pass.observations[tile]) return;
+  const Tile cells = pass.tiles.tile(tile);
+  CellCounts not_counted;
+  std::exchange(pass.observations[tile], nullptr)->store(cells, result_, pass.last ? counts_[tile] : not_counted);
   if (!sink_) return;
   const std::lock_guard lock(sinking_);
-  sink_(result_, {{cells.column, cells.row}, cells.columns, cells.rows});
+  sink_(result_, {{cells.column, cells.row}, cells.columns, cells.rows, cells.step});
 }
 
 }  // namespace itin::viewshed

@@ -1,9 +1,12 @@
 // The cells of a viewshed while surfaces decide them. All loops over a viewshed's tiles are here.
 //
-//   ViewshedCells cells(result, sink, call.step(1));
-//   cells.observe({judge, 0, cells.in_order()});   // what the mode asks, over the surface itself
-//   cells.judge(block_judge, within_reach);        // or only what a level is certain of
+//   ViewshedCells cells(result, sink, false, call.step(1));
+//   cells.observe({judge, 0}, parts);         // what the mode asks, over the surface itself
+//   cells.judge(block_judge, within_reach);   // or only what a level is certain of
 //   cells.finish();
+//
+// Where a sink waits and the surface is in memory at once, observe_all() goes over the cells three times: over 1 in 81,
+// over 1 in 9, and over all. The first two passes cost an eighth of the last, and what they tell of a cell is final.
 #pragma once
 
 #include <cstddef>
@@ -17,37 +20,38 @@
 #include <viewshed/viewshed.hpp>
 
 #include "judge/exact_judge.hpp"
+#include "line/cell_tiles.hpp"
 #include "line/tile_parts.hpp"
 #include "modes/observation.hpp"
 #include "progress/stage.hpp"
 
 namespace itin::viewshed {
 
-/// Cells that are decided together, over one surface in memory.
+/// Eyes over one surface in memory.
 struct Portion {
   const ExactJudge& judge;
   std::uint32_t first = 0;  ///< the observer of the judge's first eye; its other eyes are the observers after it
-  std::span<const PartsOfTile> cells;
   const TriangleStudies* studies = nullptr;  ///< the surface's, where the mode needs any
-  bool last = false;                         ///< nothing else is asked about these tiles
+  bool last = false;                         ///< nothing else is asked about the tiles that are observed
 };
 
 class ViewshedCells {
  public:
   /// Begins the cells of the result, whose request and grid are given. Each cell is a step of the progress for each
-  /// observer. The sink gets tiles as they are stored. All must outlive this object.
-  ViewshedCells(Result& result, const CellSink& sink, Progress& progress);
+  /// observer. The sink gets tiles as they are stored. `in_passes`: all cells will be observed by observe_all(). All
+  /// must outlive this object.
+  ViewshedCells(Result& result, const CellSink& sink, bool in_passes, Progress& progress);
 
   Result& result() { return result_; }
   const RasterGrid& tiles() const { return tiles_; }
-  /// All cells, in the order in which tiles are begun: where a sink waits for them, the nearest to an observer first.
-  std::vector<PartsOfTile> in_order() const { return all_cells(result_.grid, tiles_, order_); }
   /// What has been kept of a tile. Safe for concurrent use with different tiles.
-  Observation& of_tile(std::size_t tile);
+  Observation& of_tile(std::size_t tile) { return of_tile(passes_.back(), tile); }
 
-  /// Observes the portion's cells on all threads, each from the nearest of its eyes first, and counts the sight lines.
+  /// Observes some cells on all threads, each from the nearest of the portion's eyes first, and counts the sight lines.
   /// Throws Cancelled.
-  void observe(const Portion& portion);
+  void observe(const Portion& portion, std::span<const PartsOfTile> cells) { observe(portion, passes_.back(), cells); }
+  /// Observes all cells, pass after pass.
+  void observe_all(const Portion& portion);
   /// Judges cells for the first eye of a judge that may leave some undecided. A cell that an eye certainly saw before
   /// is not judged again. Throws Cancelled.
   void judge(const TileJudge& judge, std::span<const PartsOfTile> cells);
@@ -65,20 +69,29 @@ class ViewshedCells {
   void finish();
 
  private:
-  std::uint64_t observe(const Portion& portion, const PartsOfTile& cells);
-  std::vector<std::size_t> eyes_near(const ExactJudge& judge, std::size_t tile) const;
-  std::vector<std::size_t> order_of_tiles() const;
-  void store(std::size_t tile);
+  /// Cells that lie equally far apart, in tiles, and what is known of them.
+  struct Pass {
+    SteppedTiles tiles;
+    bool last;                                                 ///< it has all cells
+    std::vector<std::size_t> order;                            ///< the numbers of all tiles, as they are begun
+    std::vector<std::unique_ptr<Observation>> observations{};  ///< each tile's, until it is stored
+  };
+  Pass pass(std::int64_t step) const;
+  std::vector<std::size_t> order_of(const SteppedTiles& tiles) const;
+  Observation& of_tile(Pass& pass, std::size_t tile);
+  void observe(const Portion& portion, Pass& pass, std::span<const PartsOfTile> cells);
+  std::uint64_t observe(const Portion& portion, Pass& pass, const PartsOfTile& cells);
+  std::vector<std::size_t> eyes_near(const ExactJudge& judge, const Tile& tile) const;
+  void store(Pass& pass, std::size_t tile);
 
   Result& result_;
   const CellSink& sink_;
   std::mutex sinking_;
   const RasterGrid tiles_;
-  const std::vector<std::size_t> order_;  ///< the numbers of all tiles
+  std::vector<Pass> passes_;  ///< the last one has all cells
   Stage stage_;
   Observations modes_;
-  std::vector<std::unique_ptr<Observation>> observations_;  ///< each tile's, until it is stored
-  std::vector<CellCounts> counts_;                          ///< each tile's, once it is stored
+  std::vector<CellCounts> counts_;  ///< of the last pass: each tile's, once it is stored
 };
 
 }  // namespace itin::viewshed

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
 #include <utility>
 
 #include <itin/grazing.hpp>
 #include <itin/grid_units.hpp>
 #include <itin/lattice_tin.hpp>
 #include <itin/precondition.hpp>
+#include <itin/sort_unique.hpp>
 
 #include "line/infinity.hpp"
 #include "line/set_bits.hpp"
@@ -19,22 +19,22 @@ namespace itin::viewshed {
 
 FullSurface::FullSurface(const Tin& surface, const Tin* bare_ground, const Earth& earth, const RasterGrid& grid,
                          const RasterGrid& tiles)
-    : FullSurface(std::make_shared<BinnedHeights>(surface, grid.cell_area()), &surface, bare_ground, earth, grid,
-                  tiles) {}
+    : FullSurface(std::make_shared<BinnedHeights>(surface, grid.cell_area()), &surface, bare_ground, nullptr, earth,
+                  grid, tiles) {}
 
 FullSurface::FullSurface(const LatticeTin& surface, const Earth& earth, const RasterGrid& grid, const RasterGrid& tiles)
-    : FullSurface(std::make_shared<BinnedHeights>(surface), nullptr, nullptr, earth, grid, tiles) {}
+    : FullSurface(std::make_shared<BinnedHeights>(surface), nullptr, nullptr, nullptr, earth, grid, tiles) {}
 
 FullSurface::FullSurface(std::shared_ptr<BinnedHeights> heights, const Tin* surface, const Tin* bare_ground,
-                         const Earth& earth, const RasterGrid& grid, const RasterGrid& tiles)
+                         const KeptGround* kept, const Earth& earth, const RasterGrid& grid, const RasterGrid& tiles)
     : surface_(surface),
       targets_on_(bare_ground != nullptr ? bare_ground : surface),
+      kept_(kept),
       grid_(grid),
       tiles_(tiles),
       heights_(std::move(heights)),
-      sweep_(earth, *heights_),
-      cells_(boxes_of_tiles()) {
-  if (surface == nullptr) return;
+      sweep_(earth, *heights_) {
+  if (surface == nullptr || kept != nullptr) return;
   // Cells much smaller than triangles are filled triangle by triangle.
   const bool small = 2 * grid.cell_width() < heights_->bin_size() * units().resolution;
   if (bare_ground != nullptr || small || !heights_->partition()) of_tiles_.emplace(*targets_on_, tiles);
@@ -58,8 +58,8 @@ RadialSweep::View FullSurface::view_of_cells(const Eye& eye) const {
   axis.radius = std::min(axis.radius, farthest / units().resolution + 1);
   RadialSweep::View view = sweep_.beginning(axis);
   std::vector<BinBox> reached;
-  std::copy_if(cells_.begin(), cells_.end(), std::back_inserter(reached),
-               [&](const BinBox& box) { return view.reaches(box); });
+  for (const BinBox& box : boxes_of_tiles())
+    if (view.reaches(box)) reached.push_back(box);
   view.narrow(reached);
   view.advance(kInfinity);
   return view;
@@ -73,25 +73,47 @@ std::optional<double> FullSurface::height(Point2 position) const {
 
 std::unique_ptr<FullSurface::TileCells> FullSurface::begin(std::size_t tile) const {
   const Tile whole = tile_at(grid_, tiles_, tile);
-  return begin(tile, {&whole, 1});
+  return begin(whole, {&whole, 1});
 }
 
-std::unique_ptr<FullSurface::TileCells> FullSurface::begin(std::size_t tile, std::span<const Tile> parts) const {
-  auto work = std::make_unique<TileCells>(units(), grid_, tile_at(grid_, tiles_, tile));
-  if (of_tiles_) {
-    scan_convert(*targets_on_, of_tiles_->triangles(tile), work->tile, work->centres, work->ground);
+std::unique_ptr<FullSurface::TileCells> FullSurface::begin(const Tile& tile, std::span<const Tile> parts) const {
+  auto work = std::make_unique<TileCells>(units(), grid_, tile);
+  if (kept_ != nullptr) {
+    kept_->find(grid_, tile, work->centres, work->ground);
+  } else if (of_tiles_) {
+    std::vector<std::uint32_t> gathered;
+    scan_convert(*targets_on_, triangles_about(tile, gathered), tile, work->centres, work->ground);
   } else {
     find_ground(parts, *work);
   }
   return work;
 }
 
-bool FullSurface::hides(const Eye& eye, const RadialSweep::View& view, std::size_t tile) const {
+/// Lists the triangles that may hold cells of a tile, ascending; `gathered` is memory for those of several tiles.
+std::span<const std::uint32_t> FullSurface::triangles_about(const Tile& tile,
+                                                            std::vector<std::uint32_t>& gathered) const {
+  const auto number = [](std::int64_t cell) { return cell / Tile::kSide; };
+  if (tile.step == 1) return of_tiles_->triangles(tiles_.index({number(tile.column), number(tile.row)}));
+  const std::int64_t east = number(tile.column + (tile.columns - 1) * tile.step),
+                     south = number(tile.row + (tile.rows - 1) * tile.step);
+  for (std::int64_t row = number(tile.row); row <= south; ++row) {
+    for (std::int64_t column = number(tile.column); column <= east; ++column) {
+      const auto triangles = of_tiles_->triangles(tiles_.index({column, row}));
+      gathered.insert(gathered.end(), triangles.begin(), triangles.end());
+    }
+  }
+  sort_unique(gathered);
+  return gathered;
+}
+
+bool FullSurface::hides(const Eye& eye, const RadialSweep::View& view, const Tile& tile) const {
   // Targets on the ground below another surface may not lie below its bounds.
   if (targets_on_ != surface_ || rays_) return false;
-  if (!MapView{eye.position, eye.view}.holds(box_of_centres(grid_, tile_at(grid_, tiles_, tile)))) return false;
-  const auto highest = heights_->highest_where_covered(cells_[tile]);
-  return highest && view.hides(cells_[tile], eye.target(*highest * units().resolution) / units().resolution);
+  const Box centres = box_of_centres(grid_, tile);
+  if (!MapView{eye.position, eye.view}.holds(centres)) return false;
+  const BinBox box = heights_->in_bins(centres);
+  const auto highest = heights_->highest_where_covered(box);
+  return highest && view.hides(box, eye.target(*highest * units().resolution) / units().resolution);
 }
 
 std::uint64_t FullSurface::judge(const Eye& eye, const RadialSweep::View& view, TileValues<Verdict>& values,
@@ -157,8 +179,8 @@ void FullSurface::find_ground(std::span<const Tile> parts, TileCells& work) cons
   work.ground.fill(kNoSurface);
   work.unread = true;
   for (const Tile& part : parts) {
-    const auto west = static_cast<std::size_t>(part.column - work.tile.column),
-               north = static_cast<std::size_t>(part.row - work.tile.row);
+    const std::size_t first = work.tile.cell({part.column, part.row}), west = first % Tile::kSide,
+                      north = first / Tile::kSide;
     const std::size_t east = west + static_cast<std::size_t>(part.columns),
                       south = north + static_cast<std::size_t>(part.rows);
     using Expanse = BinnedHeights::Expanse;

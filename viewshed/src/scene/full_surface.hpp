@@ -28,6 +28,7 @@
 #include "bounds/triangle_bins.hpp"
 #include "line/cell_tiles.hpp"
 #include "request/eye.hpp"
+#include "scene/kept_ground.hpp"
 #include "scene/rays/scene.hpp"
 #include "scene/sweep/radial_sweep.hpp"
 
@@ -40,9 +41,10 @@ class FullSurface {
   FullSurface(const Tin& surface, const Tin* bare_ground, const Earth& earth, const RasterGrid& grid,
               const RasterGrid& tiles);
   FullSurface(const LatticeTin& surface, const Earth& earth, const RasterGrid& grid, const RasterGrid& tiles);
-  /// Uses heights that have been binned before, and are shared; `surface` is null where they are a lattice's.
-  FullSurface(std::shared_ptr<BinnedHeights> heights, const Tin* surface, const Tin* bare_ground, const Earth& earth,
-              const RasterGrid& grid, const RasterGrid& tiles);
+  /// Uses heights that have been binned before, and are shared; `surface` is null where they are a lattice's. `kept` is
+  /// the ground that targets stand on, where it is kept, or else null.
+  FullSurface(std::shared_ptr<BinnedHeights> heights, const Tin* surface, const Tin* bare_ground,
+              const KeptGround* kept, const Earth& earth, const RasterGrid& grid, const RasterGrid& tiles);
   FullSurface(const FullSurface&) = delete;
   FullSurface& operator=(const FullSurface&) = delete;
 
@@ -76,7 +78,7 @@ class FullSurface {
   };
   std::unique_ptr<TileCells> begin(std::size_t tile) const;
   /// Begins a tile where only cells in these parts are asked about: others may have no ground.
-  std::unique_ptr<TileCells> begin(std::size_t tile, std::span<const Tile> parts) const;
+  std::unique_ptr<TileCells> begin(const Tile& tile, std::span<const Tile> parts) const;
 
   /// Returns what all tiles share of an eye; with rays they share nothing.
   RadialSweep::View view_from(const Eye& eye) const {
@@ -91,7 +93,7 @@ class FullSurface {
 
   /// Tells whether a tile has ground at every cell and is certainly hidden from an eye, which looks at all of it.
   /// Bounds tell that, so that no height of the tile needs to be known.
-  bool hides(const Eye& eye, const RadialSweep::View& view, std::size_t tile) const;
+  bool hides(const Eye& eye, const RadialSweep::View& view, const Tile& tile) const;
 
   /// Turns Verdict::kUndecided cells to Verdict::kVisible, Verdict::kHidden, or Verdict::kOutside where there is no
   /// ground or the eye does not look. Returns how many sight lines that took.
@@ -112,16 +114,17 @@ class FullSurface {
   void raise_targets(const Eye& eye, TileValues<Verdict>& values, TileCells& work) const;
   void cast_rays_to_targets(const Eye& eye, TileCells& work) const;
   void find_ground(std::span<const Tile> parts, TileCells& work) const;
+  std::span<const std::uint32_t> triangles_about(const Tile& tile, std::vector<std::uint32_t>& gathered) const;
   std::vector<BinBox> boxes_of_tiles() const;
 
   const Tin* surface_ = nullptr;     ///< what hides, where that is a Tin
   const Tin* targets_on_ = nullptr;  ///< what targets stand on, where that is a Tin
+  const KeptGround* kept_ = nullptr;
   const RasterGrid& grid_;
   const RasterGrid& tiles_;
   const std::shared_ptr<BinnedHeights> heights_;
   std::optional<TriangleBins> of_tiles_;  ///< that Tin's triangles, where `heights_` does not tell its heights well
   RadialSweep sweep_;
-  const std::vector<BinBox> cells_;  ///< one for each tile, about its cells' centres
   std::unique_ptr<const Scene> rays_;
 };
 
