@@ -7,9 +7,10 @@ namespace itin::cli {
 
 void EngineOption::declare(CLI::App& app) {
   begin_group(app, kRunning);
-  app.add_option("--engine", text_,
-                 "What decides sight lines to cells: a sweep about each observer, or rays; auto takes the faster one "
-                 "(the default). The result does not depend on it")
+  app.add_option(
+         "--engine", text_,
+         "What decides sight lines to cells: a sweep about each observer, rays, or auto (the default), which takes "
+         "the faster of the two. The result does not depend on it")
       ->type_name("auto|sweep|rays");
 }
 

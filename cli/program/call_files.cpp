@@ -27,12 +27,7 @@ CLI::Option* marked(CLI::Option* option, const char* role) {
 }
 
 bool has_role(CLI::Option* option, const char* role) {
-  try {
-    option->get_validator(role);
-    return true;
-  } catch (const CLI::OptionNotFound&) {
-    return false;
-  }
+  return role_of(*option) == role;
 }
 
 bool names_files(const CLI::Option& option) {
@@ -100,9 +95,23 @@ CLI::Option* replaces(CLI::Option* option) {
   return marked(option, kReplaces);
 }
 
+std::string role_of(const CLI::Option& option) {
+  // What an option has been checked by can be asked of options that may change alone.
+  auto& asked = const_cast<CLI::Option&>(option);  // NOLINT(cppcoreguidelines-pro-type-const-cast)
+  for (const char* role : {kReads, kWrites, kReplaces}) {
+    try {
+      asked.get_validator(role);
+      return role;
+    } catch (const CLI::OptionNotFound&) {
+      continue;
+    }
+  }
+  return {};
+}
+
 void require_roles(CLI::App& verb) {
   for (CLI::Option* option : verb.get_options([](const CLI::Option* o) { return names_files(*o); })) {
-    if (!has_role(option, kReads) && !has_role(option, kWrites) && !has_role(option, kReplaces))
+    if (role_of(*option).empty())
       throw std::logic_error(
           fmt::format("{} {} names files, but not whether they are read", verb.get_name(), option->get_name()));
   }

@@ -25,6 +25,9 @@ CLI::Option* writes(CLI::Option* option);
 /// Marks an option for a folder that another one replaces: nothing that is read may lie in it.
 CLI::Option* replaces(CLI::Option* option);
 
+/// Returns what becomes of the files that an option names: "reads", "writes" or "replaces"; empty where it names none.
+std::string role_of(const CLI::Option& option);
+
 /// Throws std::logic_error, which names an option that has a type of files, but does not state its role.
 void require_roles(CLI::App& verb);
 

@@ -25,6 +25,7 @@
 #include "program/call_files.hpp"
 #include "program/field_names.hpp"
 #include "program/help.hpp"
+#include "program/help_document.hpp"
 #include "program/interruption.hpp"
 #include "program/likely_meant.hpp"
 #include "program/stderr_progress.hpp"
@@ -43,19 +44,29 @@ struct Everywhere {
   bool json = false;
   bool quiet = false;
   bool network = false;
-  std::string threads;
+  std::string threads, progress;
 
   void declare(CLI::App& app) {
     begin_group(app, kRunning);
     app.add_flag("--json", json, "Print the result as one JSON document");
     app.add_flag("--quiet", quiet, "No progress; the result and warnings are still told");
+    app.add_option(
+           "--progress", progress,
+           "lines: a line of JSON every 200 ms on stderr, with stage, share and seconds_left, for programs that "
+           "run this one")
+        ->type_name("lines");
     app.add_option("--threads", threads, "Threads to use; the result never depends on it (default: all cores)")
         ->type_name("N");
     app.add_flag("--allow-network", network,
                  "Let sources send the requests that they name; none leaves this machine else");
   }
+  StderrProgress::Style style() const {
+    return progress.empty() ? StderrProgress::style_for(quiet) : StderrProgress::Style::kJson;
+  }
   void apply() const {
     if (network) allow_network();
+    if (!progress.empty()) parse_choice("--progress", progress, {"lines"});
+    if (!progress.empty() && quiet) throw InputError("--progress and --quiet exclude each other; give one of them");
     if (!threads.empty()) set_thread_count(parse_whole("--threads", threads, 1, 4096));
   }
 };
@@ -147,7 +158,7 @@ void run_verb(Verb& verb, CLI::App& options, const Everywhere& everywhere) {
   require_threads();
   Result result;
   {
-    StderrProgress progress(StderrProgress::style_for(everywhere.quiet));
+    StderrProgress progress(everywhere.style());
     result = verb.execute(progress);
   }
   for (std::string& warning : result.warnings) warning = in_options(std::move(warning));
@@ -178,7 +189,8 @@ void parse_and_run(const std::vector<std::string>& arguments) {
   try {
     app.parse(std::move(reversed));
   } catch (const CLI::CallForHelp&) {
-    return print(app.help());
+    const bool json = std::find(arguments.begin(), arguments.end(), "--json") != arguments.end();
+    return print(json ? json_text(help_document(app), 2) + "\n" : app.help());
   } catch (const CLI::CallForVersion&) {
     return print(app.version() + "\n");
   } catch (const CLI::ParseError& error) {

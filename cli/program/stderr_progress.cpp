@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include <itin/document.hpp>
+
 #include "program/interruption.hpp"
 
 namespace itin::cli {
@@ -15,8 +17,11 @@ namespace {
 
 using std::chrono::milliseconds;
 
-constexpr milliseconds kRedraw{100};
-constexpr milliseconds kPlainLine{3000};
+/// The time between two lines, by style.
+milliseconds interval_of(StderrProgress::Style style) {
+  using enum StderrProgress::Style;
+  return style == kTerminal ? milliseconds(100) : style == kJson ? milliseconds(200) : milliseconds(3000);
+}
 
 /// Writes so far as that is possible: a call does not depend on who reads its progress, or on the disk that keeps it.
 void write_to_stderr(const std::string& text) {
@@ -31,7 +36,9 @@ StderrProgress::Style StderrProgress::style_for(bool quiet) {
   return isatty(STDERR_FILENO) != 0 ? Style::kTerminal : Style::kLines;
 }
 
-StderrProgress::StderrProgress(Style style) : style_(style), last_drawn_(Clock::now()) {}
+// A program that reads lines gets the first at once.
+StderrProgress::StderrProgress(Style style)
+    : style_(style), last_drawn_(Clock::now() - (style == Style::kJson ? interval_of(style) : milliseconds(0))) {}
 
 StderrProgress::~StderrProgress() {
   clear();
@@ -45,12 +52,22 @@ void StderrProgress::report(std::string_view stage, double reported) {
   const auto now = Clock::now();
   const double fraction = std::clamp(reported, 0.0, 1.0);
   const auto left = left_.after(fraction, now);
-  if (now - last_drawn_ < (style_ == Style::kTerminal ? kRedraw : kPlainLine)) return;
+  if (now - last_drawn_ < interval_of(style_)) return;
   last_drawn_ = now;
+  write_to_stderr(line(stage, fraction, left));
+  drawn_ = true;
+}
+
+std::string StderrProgress::line(std::string_view stage, double fraction,
+                                 std::optional<std::chrono::seconds> left) const {
+  if (style_ == Style::kJson) {
+    Document document{{"stage", stage}, {"share", fraction}, {"seconds_left", nullptr}};
+    if (left) document["seconds_left"] = left->count();
+    return json_text(document) + "\n";
+  }
   const std::string text = fmt::format("{} {:3.0f} %{}", stage, std::floor(100 * fraction),
                                        left ? fmt::format(", {} left", about(*left)) : "");
-  write_to_stderr(style_ == Style::kTerminal ? "\r\x1b[K" + text : text + "\n");
-  drawn_ = true;
+  return style_ == Style::kTerminal ? "\r\x1b[K" + text : text + "\n";
 }
 
 bool StderrProgress::cancelled() const {

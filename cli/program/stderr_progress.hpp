@@ -1,8 +1,10 @@
-// Progress on stderr: one line redrawn in place on a terminal, a plain line every few seconds elsewhere.
+// Progress on stderr: one line redrawn in place on a terminal, a plain line every few seconds elsewhere, or lines of
+// JSON for a program that reads them.
 #pragma once
 
 #include <chrono>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -14,7 +16,7 @@ namespace itin::cli {
 
 class StderrProgress final : public Progress {
  public:
-  enum class Style { kSilent, kTerminal, kLines };
+  enum class Style { kSilent, kTerminal, kLines, kJson };
 
   /// kTerminal where stderr is a terminal, kLines elsewhere, kSilent if quiet.
   static Style style_for(bool quiet);
@@ -31,6 +33,8 @@ class StderrProgress final : public Progress {
 
  private:
   using Clock = std::chrono::steady_clock;
+
+  std::string line(std::string_view stage, double fraction, std::optional<std::chrono::seconds> left) const;
 
   const Style style_;
   std::mutex mutex_;

@@ -68,10 +68,10 @@ void SiteOptions::declare_candidates(CLI::App& app) {
 
 void SiteOptions::declare_demand(CLI::App& app) {
   begin_group(app, "Demand");
-  reads(app.add_option(
-               "--demand", demand,
-               "What is to be served: cells (default: those within the radius of a candidate), a raster of weights, or "
-               "a vector file of points")
+  reads(app.add_option("--demand", demand,
+                       "What is to be served: cells (the default), which are those within the radius of a candidate, a "
+                       "raster of weights, or "
+                       "a vector file of points")
             ->type_name("cells|FILE"));
   app.add_option("--weight-field", weight_field, "The field of the points that holds weights (default: 1 each)")
       ->type_name("FIELD");
@@ -105,8 +105,8 @@ void SiteOptions::declare_choice(CLI::App& app) {
   app.add_option("--min-spacing", min_spacing_text_, "No two chosen sites are nearer to each other than this")
       ->type_name("METRES");
   reads(app.add_option("--existing", existing,
-                       "Sites that serve already, from a vector file; their heights are in --height-field (default: "
-                       "height); those without one have the first of --mast-height")
+                       "Sites that serve already, from a vector file; their heights are in --height-field, or else in "
+                       "height; those without one have the first of --mast-height")
             ->type_name("FILE"));
   reads(app.add_option("--forbidden", forbidden, "No site in these polygons (a file, or WKT)")->type_name("AREA"));
   app.add_option("--k-cover", cover_text_, "How many sites must serve a target for it to count as served (default: 1)")

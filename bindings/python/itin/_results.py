@@ -6,13 +6,16 @@ import json
 import os
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from . import _itin
 from ._asked import Grid, Path, Progress, Verdict
+
+if TYPE_CHECKING:
+    import xarray
 
 
 @dataclass(frozen=True)
@@ -245,6 +248,24 @@ class Viewshed(_OverGrid):
     def ground(self) -> tuple[float, ...]:
         """The elevation of what each observer stands on, metres."""
         return tuple(self._core.ground_m)
+
+    def to_xarray(self) -> xarray.Dataset:
+        """Returns ``verdict`` and ``values`` over the centres of cells, ``y`` from north to south; views, no copies.
+
+        Raises:
+            ImportError: There is no xarray.
+        """
+        import xarray
+
+        grid = self.grid
+        x = grid.west + (np.arange(grid.columns) + 0.5) * grid.cell_width
+        y = grid.north - (np.arange(grid.rows) + 0.5) * grid.cell_height
+        arrays = {"verdict": self.verdict} | self.values
+        return xarray.Dataset(
+            {name: (("band", "y", "x")[-values.ndim :], values) for name, values in arrays.items()},
+            coords={"x": x, "y": y},
+            attrs={"crs": self.crs},
+        )
 
     def write(self, path: Path, *, overwrite: bool = False, progress: Progress | None = None) -> None:
         """Writes the bytes that ``itin viewshed -o`` writes.

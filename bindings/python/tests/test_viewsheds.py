@@ -90,6 +90,19 @@ def test_rasters_have_the_arrays(cardiff: itin.Store, tmp_path: Path) -> None:
             assert raster.crs == rasterio.crs.CRS.from_wkt(seen.crs)
 
 
+def test_datasets_of_xarray_are_views(cardiff: itin.Store) -> None:
+    pytest.importorskip("xarray")
+    seen = cardiff.viewshed([HILL, FARM], radius=2000, cell_size=40, mode="which")
+    data = seen.to_xarray()
+    assert data["words"].dims == ("band", "y", "x") and data["verdict"].dims == ("y", "x")
+    assert address(data["verdict"].values) == address(seen.verdict)
+    row, column = np.argwhere(seen.verdict == itin.Verdict.VISIBLE)[0]
+    cell = data["verdict"][row, column]
+    alone = cardiff.viewshed([HILL, FARM], grid=itin.Grid(float(cell.x) - 1, float(cell.y) + 1, 2, 2, 1, 1))
+    assert alone.verdict[0, 0] == itin.Verdict.VISIBLE
+    assert data.attrs["crs"] == seen.crs
+
+
 def test_takes_the_cells_of_a_grid(cardiff: itin.Store) -> None:
     grid = itin.Grid(308000, 186000, 25, 50, 120, 60)
     seen = cardiff.viewshed(HILL, grid=grid)
