@@ -30,9 +30,12 @@ std::string polygon_style(const std::vector<RegionClass>& classes) {
          "    </symbols>\n  </renderer-v2>\n  <layerGeometryType>2</layerGeometryType>\n</qgis>\n";
 }
 
-bool add_layer_style(GDALDataset& geopackage, const std::string& layer, const std::string& style) {
+namespace {
+
+/// Returns null where the table cannot be made.
+OGRLayer* layer_styles_table(GDALDataset& geopackage) {
   OGRLayer* const table = geopackage.CreateLayer("layer_styles", nullptr, wkbNone, nullptr);
-  if (table == nullptr) return false;
+  if (table == nullptr) return nullptr;
   const std::pair<const char*, OGRFieldType> fields[] = {{"f_table_catalog", OFTString},
                                                          {"f_table_schema", OFTString},
                                                          {"f_table_name", OFTString},
@@ -48,18 +51,29 @@ bool add_layer_style(GDALDataset& geopackage, const std::string& layer, const st
   for (const auto& [name, type] : fields) {
     OGRFieldDefn field(name, type);
     if (std::string(name) == "useAsDefault") field.SetSubType(OFSTBoolean);
-    if (table->CreateField(&field) != OGRERR_NONE) return false;
+    if (table->CreateField(&field) != OGRERR_NONE) return nullptr;
   }
-  OGRFeature row(table->GetLayerDefn());
-  for (const char* empty : {"f_table_catalog", "f_table_schema", "styleSLD", "owner"}) row.SetField(empty, "");
-  row.SetField("f_table_name", layer.c_str());
-  row.SetField("f_geometry_column", "geom");
-  row.SetField("styleName", layer.c_str());
-  row.SetField("styleQML", style.c_str());
-  row.SetField("useAsDefault", 1);
-  row.SetField("description", "classes in their colours");
-  row.SetField("update_time", 1970, 1, 1, 0, 0, 0.0F, 100);
-  return table->CreateFeature(&row) == OGRERR_NONE;
+  return table;
+}
+
+}  // namespace
+
+bool add_layer_styles(GDALDataset& geopackage, const std::vector<std::pair<std::string, std::string>>& styles) {
+  OGRLayer* const table = layer_styles_table(geopackage);
+  if (table == nullptr) return false;
+  for (const auto& [layer, style] : styles) {
+    OGRFeature row(table->GetLayerDefn());
+    for (const char* empty : {"f_table_catalog", "f_table_schema", "styleSLD", "owner"}) row.SetField(empty, "");
+    row.SetField("f_table_name", layer.c_str());
+    row.SetField("f_geometry_column", "geom");
+    row.SetField("styleName", layer.c_str());
+    row.SetField("styleQML", style.c_str());
+    row.SetField("useAsDefault", 1);
+    row.SetField("description", "classes in their colours");
+    row.SetField("update_time", 1970, 1, 1, 0, 0, 0.0F, 100);
+    if (table->CreateFeature(&row) != OGRERR_NONE) return false;
+  }
+  return true;
 }
 
 }  // namespace itin

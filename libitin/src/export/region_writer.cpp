@@ -83,7 +83,7 @@ void write_layer(const PendingFile& output, const RasterGrid& grid, Regions& reg
     row.SetGeometryDirectly(region.shape.release());
     package.add(layer, row);
   }
-  package.require(add_layer_style(package.dataset(), description.layer, polygon_style(description.classes)));
+  package.require(add_layer_styles(package.dataset(), {{description.layer, polygon_style(description.classes)}}));
   package.close();
 }
 

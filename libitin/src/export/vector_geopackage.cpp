@@ -1,10 +1,10 @@
-#include <algorithm>
 #include <memory>
 
 #include <itin/plain_text.hpp>
 #include <itin/vector_export.hpp>
 
 #include "export/geopackage.hpp"
+#include "export/polygon_style.hpp"
 
 namespace itin {
 
@@ -41,30 +41,11 @@ void add(GeoPackage& package, const VectorLayer& layer) {
   }
 }
 
-/// Adds the table `layer_styles` as QGIS makes it, with a default style for each layer that has one.
 void add_styles(GeoPackage& package, const std::vector<VectorLayer>& layers) {
-  const bool any = std::any_of(layers.begin(), layers.end(), [](const VectorLayer& l) { return !l.style.empty(); });
-  if (!any) return;
-  OGRLayer& to = package.add_layer("layer_styles", wkbNone, false);
-  for (const char* field :
-       {"f_table_catalog", "f_table_schema", "f_table_name", "f_geometry_column", "styleName", "styleQML", "styleSLD"})
-    package.add_field(to, field, OFTString);
-  package.add_field(to, "useAsDefault", OFTInteger);
-  for (const char* field : {"description", "owner", "ui"}) package.add_field(to, field, OFTString);
-  package.add_field(to, "update_time", OFTDateTime);
-  for (const VectorLayer& layer : layers) {
-    if (layer.style.empty()) continue;
-    OGRFeature row(to.GetLayerDefn());
-    for (const char* field : {"f_table_catalog", "f_table_schema", "styleSLD", "description", "owner", "ui"})
-      row.SetField(field, "");
-    row.SetField("f_table_name", layer.name.c_str());
-    row.SetField("f_geometry_column", "geom");
-    row.SetField("styleName", layer.name.c_str());
-    row.SetField("styleQML", layer.style.c_str());
-    row.SetField("useAsDefault", 1);
-    row.SetField("update_time", 1970, 1, 1, 0, 0, 0.0F, 100);
-    package.add(to, row);
-  }
+  std::vector<std::pair<std::string, std::string>> styles;
+  for (const VectorLayer& layer : layers)
+    if (!layer.style.empty()) styles.emplace_back(layer.name, layer.style);
+  package.require(styles.empty() || add_layer_styles(package.dataset(), styles));
 }
 
 }  // namespace

@@ -68,10 +68,16 @@ std::vector<PremisesSegment> premises_segments(const Store& store, const Premise
     return {segment};
   }
   const GroundTiles ground(store, 0, all);
+  const auto needed = [&](std::size_t i) { return tiles_of(ground, buildings[i], masts); };
+  // The ground of one building has to be held, whatever it takes: then others may share as much and a little more.
+  std::uint64_t greatest = 0;
+  for (const std::size_t i : numbers) greatest = std::max(greatest, ground.points(needed(i)));
+  const auto segment_fits = [&](const TileSet& tiles) {
+    const std::uint64_t points = ground.points(tiles);
+    return fits(points) || points <= greatest + greatest / 4;
+  };
   std::vector<PremisesSegment> segments;
-  for (const GroundRun& run : ground_runs(
-           numbers, ground.count(), [&](std::size_t i) { return tiles_of(ground, buildings[i], masts); },
-           [&](const TileSet& tiles) { return fits(ground.points(tiles)); })) {
+  for (const GroundRun& run : ground_runs(numbers, ground.count(), needed, segment_fits)) {
     PremisesSegment& segment = segments.emplace_back(segment_of(buildings, run.pieces));
     TileSet about(ground.count());
     for (const std::size_t i : run.pieces)
