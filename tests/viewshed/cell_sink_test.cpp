@@ -2,6 +2,7 @@
 #include <atomic>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <map>
 #include <span>
 #include <tuple>
@@ -248,6 +249,40 @@ TEST_F(CellSinks, GetOverHeldSurfacesWhatComesWithoutThem) {
       test::expect_same_result(surface.compute(request, progress_), with);
       received.expect_is(with, kAtOnce);
       expect_right_until_stopped(surface, request);
+    }
+  }
+}
+
+/// Counts how often it is asked, and is cancelled from some time on.
+class Asked final : public Progress {
+ public:
+  explicit Asked(std::size_t most = std::numeric_limits<std::size_t>::max()) : most_(most) {}
+  void report(std::string_view, double) override {}
+  bool cancelled() const override { return ++times_ > most_; }
+  std::size_t times() const { return times_; }
+
+ private:
+  std::size_t most_;
+  mutable std::atomic<std::size_t> times_ = 0;
+};
+
+/// A single tile takes tens of milliseconds in modes that ask much of each line; the call must not wait for its end.
+TEST_F(CellSinks, AreNotAwaitedTileByTile) {
+  const Store hills(stores_->hills());
+  const HeldSurface surface(hills, extent_of(hills), Detail::tolerance(0), ThemeChoice::none(), {}, progress_);
+  for (const Mode mode : test::kEveryMode) {
+    SCOPED_TRACE(static_cast<int>(mode));
+    Request request = test::HillsAndTown::in_mode(mode, test::HillsAndTown::over_hills());
+    request.observers.resize(1);
+    request.cell_size = 100;
+    std::ignore = surface.compute(request, progress_);  // lists triangles, in some modes
+    Asked to_the_end;
+    std::ignore = surface.compute(request, to_the_end);
+    EXPECT_GT(to_the_end.times(), 60U) << "the horizon and each few cells ask";
+    for (const std::size_t part : {1, 2, 5, 9}) {
+      Asked stopped(to_the_end.times() * part / 10);
+      EXPECT_THROW(std::ignore = surface.compute(request, stopped), Cancelled);
+      EXPECT_LE(stopped.times(), to_the_end.times() * part / 10 + 100);
     }
   }
 }

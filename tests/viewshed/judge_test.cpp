@@ -162,7 +162,7 @@ TEST_F(Judges, AModeKeepsTheVerdictsOfAllEyes) {
       const auto values = all_of(judge, tile, eye);
       verdicts.add(values);
       for (std::size_t cell = 0; cell < values.size(); ++cell) seen_by[cell] += values[cell] == Verdict::kVisible;
-      observation->observe({*work, eye, static_cast<std::uint32_t>(eye)});
+      observation->observe({*work, eye, static_cast<std::uint32_t>(eye), NoProgress()});
     }
     Result result;
     result.request = request_, result.grid = grid_;

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstring>
 #include <numeric>
+#include <optional>
 #include <random>
 #include <thread>
 
@@ -136,9 +137,57 @@ TEST_F(PagedSurfaces, ComputeFromTheStoreWhatTheMemoryDoesNotHold) {
   const Result whole = compute(store, far, progress_);
   EXPECT_GT(whole.cells.visible, 1000U);
   test::expect_same_result(whole, pages.compute(far, progress_));
-  EXPECT_TRUE(pages.areas().empty());
+  EXPECT_EQ(pages.areas().size(), 1U);
   test::expect_same_result(compute(store, near, progress_), pages.compute(near, progress_));
-  EXPECT_EQ(pages.readings(), 2U);
+  EXPECT_EQ(pages.readings(), 1U);
+}
+
+/// Half of the memory is enough, or all of it: a request that a store answers within the memory is answered.
+TEST_F(PagedSurfaces, AnswerWhatTheStoreAnswersWithAllMemory) {
+  const Store store(stores_->hills());
+  Request far = from({303000, 201000}, 300);
+  far.radius.reset();
+  far.cell_size = 50;
+  int with_half = 0;
+  for (std::uint64_t points = 200; points < 8000; points *= 2) {
+    SCOPED_TRACE(points);
+    ComputeOptions options = triangles_of(points);
+    options.whole_surface = false;
+    std::optional<Result> whole;
+    try {
+      whole = compute_with_surface(store, far, options, progress_).result;
+    } catch (const InputError&) {
+    }
+    PagedSurface pages(store, Detail::tolerance(0), ThemeChoice::none(), options);
+    std::ignore = pages.compute(from({303000, 201000}, 20), progress_);
+    if (pages.areas().empty()) continue;
+    if (!whole) {
+      EXPECT_THROW(std::ignore = pages.compute(far, progress_), InputError);
+      continue;
+    }
+    test::expect_same_result(*whole, pages.compute(far, progress_));
+    with_half += pages.areas().empty() ? 0 : 1;
+  }
+  EXPECT_GT(with_half, 2);
+}
+
+TEST_F(PagedSurfaces, PrefetchWhatFitsBesideTheAreaUsedLast) {
+  const Store store(stores_->hills());
+  const Request here = from({300700, 203000}, 300), there = from({303200, 200900}, 300);
+  const Box ahead{302900, 200600, 303500, 201200};
+  PagedSurface roomy(store, Detail::tolerance(0), ThemeChoice::none());
+  PagedSurface tight(store, Detail::tolerance(0), ThemeChoice::none(), triangles_of(3400));
+  for (PagedSurface* const pages : {&roomy, &tight}) {
+    std::ignore = pages->compute(here, progress_);
+    pages->prefetch(ahead, progress_);
+    pages->prefetch(ahead, progress_);
+    pages->prefetch({0, 0, 1000, 1000}, progress_);  // beyond all data
+  }
+  EXPECT_EQ(roomy.readings(), 2U);
+  test::expect_same_result(compute(store, there, progress_), roomy.compute(there, progress_));
+  EXPECT_EQ(roomy.readings(), 2U);
+  EXPECT_EQ(tight.readings(), 1U);
+  EXPECT_EQ(tight.areas().size(), 1U);
 }
 
 TEST_F(PagedSurfaces, RefuseWhatTheStoreRefuses) {

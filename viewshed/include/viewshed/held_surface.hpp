@@ -99,9 +99,16 @@ class PagedSurface {
   /// How many areas have been read since this object was made.
   std::uint64_t readings() const;
 
+  /// Reads the surface over a box, metres, towards which requests move, so that they do not wait for it. Does nothing
+  /// where an area holds it, or the memory does not hold it beside the area used last. Throws what triangulate()
+  /// throws.
+  void prefetch(const Box& box, Progress& progress);
+
   /// Computes as compute() does on the store with this surface's detail and themes, which count instead of the
-  /// request's; the result is equal to the last bit. A request whose surface exceeds the memory drops all areas and is
-  /// computed from the store, in segments. Throws what compute() throws. `sink` gets cells as they are decided.
+  /// request's; the result is equal to the last bit. A request whose surface exceeds the memory is computed from the
+  /// store, in segments. It leaves the areas used last that take no more than half of the memory, but where the other
+  /// half is too little for it. Throws what compute() throws. `sink` gets cells as they are decided, in three passes
+  /// where an area holds the surface.
   Result compute(const Request& request, Progress& progress, const CellSink& sink = {});
 
  private:

@@ -24,14 +24,18 @@ double reciprocal(double d) {
 
 }  // namespace
 
-HeightPyramid::HeightPyramid(const Tin& tin)
-    : tin_(&tin), units_(tin.grid), bin_grid_(grid_of_bins(tin)), listed_(Listed{TriangleBins(tin, bin_grid_), {}}) {
+HeightPyramid::HeightPyramid(const Tin& tin, const Progress& progress)
+    : tin_(&tin),
+      units_(tin.grid),
+      bin_grid_(grid_of_bins(tin)),
+      listed_(Listed{TriangleBins(tin, bin_grid_, progress), {}}) {
   listed_->tops.resize(tin.triangles.size());
   std::transform(tin.triangles.begin(), tin.triangles.end(), listed_->tops.begin(), [&](const Triangle& t) {
     return std::max({tin.vertices[t[0]].z, tin.vertices[t[1]].z, tin.vertices[t[2]].z});
   });
   std::vector<std::int32_t>& bins = highest_.emplace_back(bin_grid_.cell_count(), kNothing);
   parallel_for(rows(0), [&](std::size_t row) {
+    progress.throw_if_cancelled();
     for (std::size_t b = row * columns(0); b < (row + 1) * columns(0); ++b)
       for (const std::uint32_t t : listed_->bins.triangles(b)) bins[b] = std::max(bins[b], listed_->tops[t]);
   });

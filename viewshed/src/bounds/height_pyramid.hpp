@@ -68,8 +68,8 @@ struct LineBundle {
 
 class HeightPyramid {
  public:
-  /// The surface must outlive this object. Takes about 20 bytes per triangle of even size.
-  explicit HeightPyramid(const Tin& tin);
+  /// The surface must outlive this object. Takes about 20 bytes per triangle of even size. Throws Cancelled.
+  explicit HeightPyramid(const Tin& tin, const Progress& progress = NoProgress());
   /// All heights of the lattice must have been read. Takes less than two bytes per post.
   explicit HeightPyramid(const LatticeTin& lattice);
 

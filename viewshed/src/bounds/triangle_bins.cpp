@@ -14,6 +14,13 @@
 
 namespace itin::viewshed {
 
+namespace {
+
+/// After so many triangles it is looked whether the call is cancelled.
+constexpr std::size_t kTrianglesPerLook = 1024;
+
+}  // namespace
+
 RasterGrid square_bins_over(const Tin& tin, double side) {
   const Box box = tin.bounds();
   if (box.empty()) return {{0, 0}, 1, 1, 1, 1};
@@ -27,7 +34,7 @@ RasterGrid location_grid(const Tin& tin) {
   return square_bins_over(tin, std::clamp(std::floor(std::sqrt(tin.triangles.size())), 1.0, 512.0));
 }
 
-TriangleBins::TriangleBins(const Tin& tin, const RasterGrid& grid) {
+TriangleBins::TriangleBins(const Tin& tin, const RasterGrid& grid, const Progress& progress) {
   const std::size_t count = tin.triangles.size(), bins = grid.cell_count();
   const VerticesInBins vertices(tin, grid);
   const auto for_each_bin = [&](std::size_t t, const auto& visit) {
@@ -44,8 +51,10 @@ TriangleBins::TriangleBins(const Tin& tin, const RasterGrid& grid) {
   const auto chunks = static_cast<std::size_t>(std::min(16, thread_count()));
   std::vector<std::vector<std::uint32_t>> places(chunks, std::vector<std::uint32_t>(bins));
   const auto for_each_entry = [&](std::size_t chunk, const auto& body) {
-    for (std::size_t t = count * chunk / chunks; t < count * (chunk + 1) / chunks; ++t)
+    for (std::size_t t = count * chunk / chunks; t < count * (chunk + 1) / chunks; ++t) {
+      if (t % kTrianglesPerLook == 0) progress.throw_if_cancelled();
       for_each_bin(t, [&](std::size_t bin) { body(static_cast<std::uint32_t>(t), bin); });
+    }
   };
   parallel_for(chunks, [&](std::size_t chunk) {
     for_each_entry(chunk, [&](std::uint32_t, std::size_t bin) { ++places[chunk][bin]; });

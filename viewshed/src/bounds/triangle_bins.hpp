@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include <itin/progress.hpp>
 #include <itin/raster.hpp>
 #include <itin/tin.hpp>
 
@@ -18,8 +19,8 @@ RasterGrid location_grid(const Tin& tin);
 class TriangleBins {
  public:
   /// Lists a triangle in every cell of `grid` that it meets, or nearly meets, by ascending number. O(n) plus the
-  /// entries. Throws std::length_error for 2^32 entries and more.
-  TriangleBins(const Tin& tin, const RasterGrid& grid);
+  /// entries. Throws std::length_error for 2^32 entries and more, and Cancelled.
+  TriangleBins(const Tin& tin, const RasterGrid& grid, const Progress& progress = NoProgress());
 
   std::span<const std::uint32_t> triangles(std::size_t bin) const {
     return std::span(triangles_).subspan(first_[bin], first_[bin + 1] - first_[bin]);

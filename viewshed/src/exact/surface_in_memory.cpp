@@ -39,7 +39,7 @@ class SurfaceAtOnce final : public SurfaceSource {
     if (casts_rays(request)) surface_->cast_rays(request.earth);
     const std::vector<Eye> eyes = stand_on_ground(result, call);
     find_voids(over_.units(), surface_->rim(), result);
-    if (needs_triangles(request)) studies_.emplace(request, *over_.tin, over_.bare);
+    if (needs_triangles(request)) studies_.emplace(request, *over_.tin, over_.bare, call);
     result.statistics.scene_seconds = watch.lap();
     if (over_.reader != nullptr && !all_read(*over_.reader))
       for (const Eye& eye : eyes) revealed_.push_back(reveal(eye, *over_.reader, *surface_, kAnyTiles, call).view);
@@ -57,7 +57,7 @@ class SurfaceAtOnce final : public SurfaceSource {
     Result& result = cells.result();
     const ExactJudge judge(*surface_, make_views(group.eyes.size(), [&](std::size_t i) {
       const Eye& eye = group.eyes[i];
-      return EyeView{eye, view_of(eye, group.first + i), shadow_of(eye, surface_->rim(), result)};
+      return EyeView{eye, view_of(eye, group.first + i, cells.progress()), shadow_of(eye, surface_->rim(), result)};
     }));
     cells.observe_all({judge, group.first, studies_ ? &*studies_ : nullptr, group.last});
     result.statistics.lines_seconds += watch.lap();
@@ -92,8 +92,8 @@ class SurfaceAtOnce final : public SurfaceSource {
     return eyes;
   }
 
-  RadialSweep::View view_of(const Eye& eye, std::size_t number) {
-    return revealed_.empty() ? surface_->view_of_cells(eye) : std::move(revealed_[number]);
+  RadialSweep::View view_of(const Eye& eye, std::size_t number, const Progress& progress) {
+    return revealed_.empty() ? surface_->view_of_cells(eye, progress) : std::move(revealed_[number]);
   }
 
   const SurfaceInMemory& over_;

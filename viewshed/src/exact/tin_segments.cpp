@@ -141,7 +141,8 @@ class TinSegments final : public SurfaceSource {
     if (features_ && needs_bare_lines(request_))
       bare = triangulated(ground_->window(ground), ThemeChoice::none(), cells.result().statistics);
     std::optional<TriangleStudies> studies;
-    if (needs_triangles(request_)) studies.emplace(request_, segment.surface.tin, bare ? &*bare : nullptr);
+    if (needs_triangles(request_))
+      studies.emplace(request_, segment.surface.tin, bare ? &*bare : nullptr, cells.progress());
     portion.studies = studies ? &*studies : nullptr;
     cells.observe(portion, all_cells(cells.result().grid, tiles_, tiles));
   }

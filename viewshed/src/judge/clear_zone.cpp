@@ -80,9 +80,10 @@ class ZoneTest {
 
 }  // namespace
 
-ClearZone::ClearZone(const Tin& lower, const Tin* upper, const Earth& earth, const FresnelCriterion& criterion)
-    : drop_(earth.drop_coefficient() * lower.grid.resolution), criterion_(criterion), lower_(lower) {
-  if (upper != nullptr) upper_.emplace(*upper);
+ClearZone::ClearZone(const Tin& lower, const Tin* upper, const Earth& earth, const FresnelCriterion& criterion,
+                     const Progress& progress)
+    : drop_(earth.drop_coefficient() * lower.grid.resolution), criterion_(criterion), lower_(lower, progress) {
+  if (upper != nullptr) upper_.emplace(*upper, progress);
 }
 
 unsigned ClearZone::cut(const Bounded& surface, const SightLines& lines) const {

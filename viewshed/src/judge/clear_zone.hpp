@@ -28,7 +28,8 @@ class ClearZone {
  public:
   /// The surface lies between the two, or is `lower` itself: then `upper` is null. They must outlive this. O(n) time
   /// and memory.
-  ClearZone(const Tin& lower, const Tin* upper, const Earth& earth, const FresnelCriterion& criterion);
+  ClearZone(const Tin& lower, const Tin* upper, const Earth& earth, const FresnelCriterion& criterion,
+            const Progress& progress = NoProgress());
 
   /// Returns one bit per line; the closer together the lines' ends, the faster. Over the surface itself a zone is
   /// either certainly cut or certainly clear. May be called from any number of threads.
@@ -47,7 +48,7 @@ class ClearZone {
  private:
   /// A surface, and the pyramid of its bounds.
   struct Bounded {
-    explicit Bounded(const Tin& t) : tin(t), pyramid(t) {}
+    Bounded(const Tin& t, const Progress& progress) : tin(t), pyramid(t, progress) {}
     const Tin& tin;
     HeightPyramid pyramid;
   };

@@ -4,11 +4,11 @@
 
 namespace itin::viewshed {
 
-FirstBlocker::FirstBlocker(const Tin& tin, const Earth& earth)
+FirstBlocker::FirstBlocker(const Tin& tin, const Earth& earth, const Progress& progress)
     : tin_(tin),
       drop_(earth.drop_coefficient() * tin.grid.resolution),
       grazing_(kGrazing / tin.grid.resolution),
-      pyramid_(tin) {}
+      pyramid_(tin, progress) {}
 
 std::optional<FirstBlocker::Blocker> FirstBlocker::find(const Point3& from, const Point3& to) const {
   const SightLine line(from, to, drop_, grazing_);

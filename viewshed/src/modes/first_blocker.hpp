@@ -20,8 +20,8 @@ namespace itin::viewshed {
 /// Safe for concurrent use.
 class FirstBlocker {
  public:
-  /// The Tin must outlive it. Cost and memory: HeightPyramid's.
-  FirstBlocker(const Tin& tin, const Earth& earth);
+  /// The Tin must outlive it. Cost and memory: HeightPyramid's. Throws Cancelled.
+  FirstBlocker(const Tin& tin, const Earth& earth, const Progress& progress = NoProgress());
 
   struct Blocker {
     std::uint32_t triangle = 0;

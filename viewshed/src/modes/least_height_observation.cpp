@@ -27,7 +27,7 @@ std::uint64_t LeastHeightObservation::observe(const TileView& tile) {
   tile.for_each_cell([&](const CellView& view) {
     if (open(view)) lines += raise(tile, view, *ends) ? 1 : 0;
   });
-  tile.work.surface().raise_from(tile.from().view, {ends->lowest, ends->wanted}, cells);
+  tile.work.surface().raise_from(tile.from().view, {ends->lowest, ends->wanted}, cells, tile.progress);
   tile.for_each_cell([&](const CellView& view) {
     if (!std::isnan(cells.targets[view.cell]) && !std::isnan(cells.seen[view.cell])) record(tile, view, *ends);
   });

@@ -54,8 +54,9 @@ bool reaches_from_end_to_end(const std::vector<PathPoint>& points, double length
 
 }  // namespace
 
-LineLosses::LineLosses(const Tin& surface, const Tin* bare, const RadioPath& path) : surface_(surface), path_(path) {
-  if (bare != nullptr) bare_.emplace(*bare);
+LineLosses::LineLosses(const Tin& surface, const Tin* bare, const RadioPath& path, const Progress& progress)
+    : surface_(surface, progress), path_(path) {
+  if (bare != nullptr) bare_.emplace(*bare, progress);
 }
 
 LineLosses::Outcome LineLosses::of_line(const Line& line, Scratch& scratch) const {

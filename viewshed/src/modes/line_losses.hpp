@@ -23,7 +23,7 @@ class LineLosses {
  public:
   /// `bare`: the ground under what stands on the surface; null where nothing does. Both must outlive it. Cost and
   /// memory: those of SurfacePieces.
-  LineLosses(const Tin& surface, const Tin* bare, const RadioPath& path);
+  LineLosses(const Tin& surface, const Tin* bare, const RadioPath& path, const Progress& progress = NoProgress());
 
   /// The ends of a line, grid units; they differ horizontally.
   struct Line {

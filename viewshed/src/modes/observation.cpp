@@ -19,6 +19,9 @@ namespace itin::viewshed {
 
 namespace {
 
+/// After so many cells it is looked whether the call is cancelled.
+constexpr std::size_t kCellsPerLook = 4;
+
 constexpr float kNoAngle = std::numeric_limits<float>::quiet_NaN();
 
 class AnyObserver final : public Observation {
@@ -143,6 +146,7 @@ std::uint64_t Observation::observe(const TileView& tile) {
     if (verdict == Verdict::kOutside) return;
     view.dz = eye.target(cells.ground[view.cell] * tile.resolution()) - eye.elevation;
     if (!std::isnan(cells.targets[view.cell])) {
+      if (view.cell % kCellsPerLook == 0) tile.progress.throw_if_cancelled();
       study(tile, view, {eye, eye.units, cells.target(view.cell), verdict});
     } else if (verdict == Verdict::kVisible) {
       keep(view);

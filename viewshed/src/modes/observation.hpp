@@ -3,7 +3,7 @@
 //   Observations observations(request);
 //   const std::unique_ptr<Observation> observation = observations.of_tile();
 //   const auto work = judge.begin_exactly(i);
-//   lines += observation->observe({*work, eye, observer});     // one observer after another, in any order
+//   lines += observation->observe({*work, eye, observer, progress});   // one observer after another, in any order
 //   observation->store(tile_at(grid, tiles, i), result, cells);
 #pragma once
 
@@ -37,8 +37,9 @@ struct CellView {
 /// One observer's view of the cells of a tile.
 struct TileView {
   ExactJudge::ExactWork& work;
-  std::size_t number;                        ///< the eye's number in the judge
-  std::uint32_t observer;                    ///< from 0
+  std::size_t number;      ///< the eye's number in the judge
+  std::uint32_t observer;  ///< from 0
+  const Progress& progress;
   const TriangleStudies* studies = nullptr;  ///< made for the surface, where the mode needs them
 
   const EyeView& from() const { return work.view(number); }
@@ -95,7 +96,7 @@ class Observation {
   virtual bool asks_of_the_hidden() const { return false; }
   /// Adds all cells of these parts of the tile as hidden, and returns their number.
   std::uint64_t hide(const Tile& tile, std::span<const Tile> parts);
-  /// Adds what the observer sees of every cell that is open. Returns how many sight lines that took.
+  /// Adds what the observer sees of every cell that is open. Returns how many sight lines that took. Throws Cancelled.
   virtual std::uint64_t observe(const TileView& tile);
   /// Counts the cells, and writes their values to their places in the result.
   void store(const Tile& tile, Result& result, CellCounts& cells) const;

@@ -26,7 +26,8 @@ void add_piece(const SectionLine& line, const SectionCrossing& in, const Section
 
 }  // namespace
 
-SurfacePieces::SurfacePieces(const Tin& tin) : tin_(tin), pyramid_(tin), neighbours_(adjacent_triangles(tin)) {}
+SurfacePieces::SurfacePieces(const Tin& tin, const Progress& progress)
+    : tin_(tin), pyramid_(tin, progress), neighbours_(adjacent_triangles(tin)) {}
 
 void SurfacePieces::along(const SectionLine& line, std::vector<Piece>& pieces) const {
   if (!walk(line, pieces)) search(line, pieces);

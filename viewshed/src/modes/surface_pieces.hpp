@@ -26,7 +26,7 @@ namespace itin::viewshed {
 class SurfacePieces {
  public:
   /// The Tin must outlive it. Cost and memory: HeightPyramid's, and 12 bytes per triangle.
-  explicit SurfacePieces(const Tin& tin);
+  explicit SurfacePieces(const Tin& tin, const Progress& progress = NoProgress());
 
   const Grid& grid() const { return tin_.grid; }
 

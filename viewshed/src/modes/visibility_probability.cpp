@@ -25,13 +25,14 @@ std::array<double, 3> weights_at(const std::array<GridPoint, 3>& corners, const 
 
 }  // namespace
 
-VisibilityProbability::VisibilityProbability(const Tin& tin, const Earth& earth, const VerticalError& error)
+VisibilityProbability::VisibilityProbability(const Tin& tin, const Earth& earth, const VerticalError& error,
+                                             const Progress& progress)
     : tin_(tin),
       drop_(earth.drop_coefficient() * tin.grid.resolution),
       grazing_(kGrazing / tin.grid.resolution),
       sigma_(error.sigma / tin.grid.resolution),
       correlation_(error.correlation_length / tin.grid.resolution),
-      pyramid_(tin) {}
+      pyramid_(tin, progress) {}
 
 VisibilityProbability::Odds VisibilityProbability::of_line(const Line& line, Scratch& scratch) const {
   if (!cross(line, scratch)) return {0, false};

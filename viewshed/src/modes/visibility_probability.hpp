@@ -35,7 +35,8 @@ namespace itin::viewshed {
 class VisibilityProbability {
  public:
   /// The Tin must outlive it. Cost and memory: HeightPyramid's, and 1 MB.
-  VisibilityProbability(const Tin& tin, const Earth& earth, const VerticalError& error);
+  VisibilityProbability(const Tin& tin, const Earth& earth, const VerticalError& error,
+                        const Progress& progress = NoProgress());
 
   /// The ends of a line, grid units; they differ horizontally.
   struct Line {

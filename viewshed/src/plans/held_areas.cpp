@@ -95,16 +95,27 @@ std::shared_ptr<HeldAreas::Area> HeldAreas::area_about(const Box& box, SurfaceFo
 /// of cells. A single area may take what that would have.
 void HeldAreas::add(std::shared_ptr<Area> area) {
   ++readings_;
-  const std::uint64_t most = options_.memory_bytes - memory_for_ground(options_.memory_bytes, 0);
-  std::uint64_t bytes = area->bytes;
+  const std::uint64_t most = most_for_areas();
+  const std::uint64_t bytes = area->bytes + drop_surplus(most - std::min(most, area->bytes));
+  areas_.push_front(std::move(area));
+  ground_->limit(memory_for_ground(options_.memory_bytes, bytes));
+}
+
+/// The memory that several areas may take together.
+std::uint64_t HeldAreas::most_for_areas() const {
+  return options_.memory_bytes - memory_for_ground(options_.memory_bytes, 0);
+}
+
+/// Drops the areas used longest ago that do not fit, and returns what the others take.
+std::uint64_t HeldAreas::drop_surplus(std::uint64_t most_bytes) {
+  std::uint64_t bytes = 0;
   const auto too_many = std::find_if(areas_.begin(), areas_.end(), [&](const auto& held) {
-    if (bytes + held->bytes > most) return true;
+    if (bytes + held->bytes > most_bytes) return true;
     bytes += held->bytes;
     return false;
   });
   areas_.erase(too_many, areas_.end());
-  areas_.push_front(std::move(area));
-  ground_->limit(memory_for_ground(options_.memory_bytes, bytes));
+  return bytes;
 }
 
 HeldAreas::Surface HeldAreas::read(const std::shared_ptr<Area>& area, CallProgress& call) {
@@ -137,9 +148,27 @@ void HeldAreas::give_up(Area& area) {
   area.read.set_value(nullptr);
 }
 
-void HeldAreas::drop_all() {
+std::uint64_t HeldAreas::keep(std::uint64_t most_bytes) {
   const std::lock_guard lock(mutex_);
-  areas_.clear();
+  const std::uint64_t bytes = drop_surplus(most_bytes);
+  const std::uint64_t ground = std::min(memory_for_ground(options_.memory_bytes, bytes), most_bytes - bytes);
+  ground_->limit(ground);
+  return bytes + ground;
+}
+
+void HeldAreas::prefetch(const Box& box, CallProgress& call) {
+  if (const auto area = claim_beside_last(box)) read(area, call);
+}
+
+/// Returns an area to be read; null where none is needed, or none fits.
+std::shared_ptr<HeldAreas::Area> HeldAreas::claim_beside_last(const Box& box) {
+  const std::lock_guard lock(mutex_);
+  if (find(box, SurfaceForm::kPosts)) return nullptr;
+  auto area = area_about(box, SurfaceForm::kPosts);
+  const std::uint64_t last = areas_.empty() ? 0 : areas_.front()->bytes;
+  if (!area || (last > 0 && last + area->bytes > most_for_areas())) return nullptr;
+  add(area);
+  return area;
 }
 
 std::vector<Box> HeldAreas::areas() const {

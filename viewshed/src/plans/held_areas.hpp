@@ -26,8 +26,12 @@ class HeldAreas {
   /// does not hold the whole; or null where it does not hold the part either. Reading is a step of the call. Throws
   /// what reading throws.
   std::shared_ptr<const HeldSurface> get(const Box& whole, const Box& part, SurfaceForm needed, CallProgress& call);
-  /// Drops all areas; areas that running calls use end with these calls.
-  void drop_all();
+  /// Reads a surface over the box where no area holds it, and the memory holds it beside the area used last. Throws
+  /// what reading throws.
+  void prefetch(const Box& box, CallProgress& call);
+  /// Drops the areas used longest ago until what is left, and the ground of cells on it, takes no more than this, and
+  /// returns what that takes; areas that running calls use end with these calls.
+  std::uint64_t keep(std::uint64_t most_bytes);
 
   std::vector<Box> areas() const;
   std::uint64_t readings() const;
@@ -47,9 +51,12 @@ class HeldAreas {
   };
 
   Claim claim(const Box& whole, const Box& part, SurfaceForm needed);
+  std::shared_ptr<Area> claim_beside_last(const Box& box);
   std::shared_ptr<Area> find(const Box& box, SurfaceForm needed);
   std::shared_ptr<Area> area_about(const Box& box, SurfaceForm needed) const;
+  std::uint64_t most_for_areas() const;
   void add(std::shared_ptr<Area> area);
+  std::uint64_t drop_surplus(std::uint64_t most_bytes);
   Surface read(const std::shared_ptr<Area>& area, CallProgress& call);
   void give_up(Area& area);
 

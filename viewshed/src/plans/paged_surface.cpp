@@ -1,7 +1,9 @@
 #include <utility>
 
 #include <itin/call_progress.hpp>
+#include <itin/error.hpp>
 #include <viewshed/held_surface.hpp>
+#include <viewshed/surface.hpp>
 
 #include "exact/compute.hpp"
 #include "plan/planned_result.hpp"
@@ -35,14 +37,34 @@ class PagedSurface::Impl {
           needs_triangles(request) || casts_rays(request) ? SurfaceForm::kTriangles : SurfaceForm::kPosts;
       if (const auto surface = areas_.get(under_whole, under, needed, call))
         return surface->compute(request, call, sink);
-      areas_.drop_all();
     }
-    ComputeOptions options = options_;
-    options.sink = sink;
-    return compute_result(store_, request, std::move(options), call);
+    return compute_from_store(request, sink, call);
+  }
+
+  void prefetch(const Box& box, Progress& progress) {
+    const Box on_data = intersection(box, extent_of(store_));
+    CallProgress call(progress);
+    if (!on_data.empty()) areas_.prefetch(on_data, call);
+    call.finish();
   }
 
  private:
+  /// Computes with the half of the memory that the areas used last do not take, or where that is too little with all.
+  Result compute_from_store(const Request& request, const CellSink& sink, Progress& progress) {
+    ComputeOptions options = options_;
+    options.sink = sink;
+    const std::uint64_t kept = areas_.keep(options_.memory_bytes / 2);
+    options.memory_bytes -= kept;
+    try {
+      return compute_result(store_, request, options, progress);
+    } catch (const InputError&) {
+      if (kept == 0) throw;
+    }
+    areas_.keep(0);
+    options.memory_bytes = options_.memory_bytes;
+    return compute_result(store_, request, std::move(options), progress);
+  }
+
   const Store& store_;
   Detail detail_;
   ThemeChoice themes_;
@@ -68,6 +90,9 @@ std::vector<Box> PagedSurface::areas() const {
 }
 std::uint64_t PagedSurface::readings() const {
   return impl_->areas().readings();
+}
+void PagedSurface::prefetch(const Box& box, Progress& progress) {
+  impl_->prefetch(box, progress);
 }
 Result PagedSurface::compute(const Request& request, Progress& progress, const CellSink& sink) {
   return impl_->compute(request, request, progress, sink);

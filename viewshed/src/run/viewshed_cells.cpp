@@ -25,6 +25,7 @@ bool is_hidden(const ExactJudge& judge, std::size_t eye, const Tile& tile, const
 ViewshedCells::ViewshedCells(Result& result, const CellSink& sink, bool in_passes, Progress& progress)
     : result_(result),
       sink_(sink),
+      progress_(progress),
       tiles_(grid_of_tiles(result.grid)),
       stage_("sight lines", result.request.observers.size() * result.grid.cell_count(), progress),
       modes_(result.request),
@@ -97,7 +98,7 @@ std::uint64_t ViewshedCells::observe(const Portion& portion, Pass& pass, const P
     }
     if (!work) work = portion.judge.begin_exactly(tile, parts);
     const auto observer = static_cast<std::uint32_t>(portion.first + eye);
-    lines += observation.observe({*work, eye, observer, portion.studies});
+    lines += observation.observe({*work, eye, observer, progress_, portion.studies});
   }
   return lines;
 }

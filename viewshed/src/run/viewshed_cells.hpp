@@ -44,6 +44,7 @@ class ViewshedCells {
 
   Result& result() { return result_; }
   const RasterGrid& tiles() const { return tiles_; }
+  const Progress& progress() const { return progress_; }
   /// What has been kept of a tile. Safe for concurrent use with different tiles.
   Observation& of_tile(std::size_t tile) { return of_tile(passes_.back(), tile); }
 
@@ -86,6 +87,7 @@ class ViewshedCells {
 
   Result& result_;
   const CellSink& sink_;
+  const Progress& progress_;
   std::mutex sinking_;
   const RasterGrid tiles_;
   std::vector<Pass> passes_;  ///< the last one has all cells

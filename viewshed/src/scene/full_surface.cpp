@@ -47,7 +47,7 @@ std::vector<BinBox> FullSurface::boxes_of_tiles() const {
   return boxes;
 }
 
-RadialSweep::View FullSurface::view_of_cells(const Eye& eye) const {
+RadialSweep::View FullSurface::view_of_cells(const Eye& eye, const Progress& progress) const {
   if (rays_) return view_from(eye);
   RadialSweep::Axis axis = axis_of(eye);
   double farthest = 0;
@@ -61,7 +61,7 @@ RadialSweep::View FullSurface::view_of_cells(const Eye& eye) const {
   for (const BinBox& box : boxes_of_tiles())
     if (view.reaches(box)) reached.push_back(box);
   view.narrow(reached);
-  view.advance(kInfinity);
+  view.advance(kInfinity, progress);
   return view;
 }
 

@@ -84,8 +84,8 @@ class FullSurface {
   RadialSweep::View view_from(const Eye& eye) const {
     return rays_ ? sweep_.beginning(axis_of(eye)) : sweep_.view_of(axis_of(eye));
   }
-  /// Surveys the ground towards the cells alone: ground beyond and beside them costs nothing.
-  RadialSweep::View view_of_cells(const Eye& eye) const;
+  /// Surveys the ground towards the cells alone: ground beyond and beside them costs nothing. Throws Cancelled.
+  RadialSweep::View view_of_cells(const Eye& eye, const Progress& progress) const;
   /// Begins a view of the eye, to be advanced.
   RadialSweep::View begin_view(const Eye& eye) const { return sweep_.beginning(axis_of(eye)); }
   /// Takes in heights of tiles of the lattice that have been read since: they count from now on.
@@ -100,9 +100,10 @@ class FullSurface {
   std::uint64_t judge(const Eye& eye, const RadialSweep::View& view, TileValues<Verdict>& values,
                       TileCells& work) const;
 
-  /// Calls RadialSweep::raise_from() up to work.targets; work.seen gets the heights.
-  void raise_from(const RadialSweep::View& view, const RadialSweep::Lowest& lowest, TileCells& work) const {
-    sweep_.raise_from(view, {work.tile, work.centres, work.targets}, lowest, work.scratch, work.seen);
+  /// Calls RadialSweep::raise_from() up to work.targets; work.seen gets the heights. Throws Cancelled.
+  void raise_from(const RadialSweep::View& view, const RadialSweep::Lowest& lowest, TileCells& work,
+                  const Progress& progress = NoProgress()) const {
+    sweep_.raise_from(view, {work.tile, work.centres, work.targets}, lowest, work.scratch, work.seen, progress);
   }
   /// Does so for a single place, given in metres; heights are in grid units.
   double raise_from(const RadialSweep::View& view, Point2 position, double lowest, double highest) const;

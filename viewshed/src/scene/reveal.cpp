@@ -61,7 +61,7 @@ Revealed reveal(const Eye& eye, LatticeReader& reader, FullSurface& surface, std
   // Each tile comes after the tiles before it.
   for (double reach = 0; !left.empty(); reach += LatticeTin::kSide) {
     progress.throw_if_cancelled();
-    view.advance(reach);
+    view.advance(reach, progress);
     Tiles near;
     for (; !left.empty() && left.back().first < reach + LatticeTin::kSide; left.pop_back())
       near.push_back(left.back().second);
@@ -80,7 +80,7 @@ Revealed reveal(const Eye& eye, LatticeReader& reader, FullSurface& surface, std
     read(wanted, reader, surface, progress);
   }
   constexpr double kAll = kInfinity;
-  view.advance(kAll);
+  view.advance(kAll, progress);
   return {std::move(view), kAll};
 }
 

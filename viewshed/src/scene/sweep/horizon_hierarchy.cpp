@@ -22,7 +22,8 @@ constexpr std::size_t kSectorsPerTask = 64;
 
 }  // namespace
 
-void HorizonHierarchy::advance(const Quadrant& quadrant, const Sector::Axis& axis, std::size_t slab) {
+void HorizonHierarchy::advance(const Quadrant& quadrant, const Sector::Axis& axis, std::size_t slab,
+                               const Progress& progress) {
   slab = std::min(slab, farthest_);
   while (front_.slab < slab) {
     if (front_.slab == widest_) widen();
@@ -34,6 +35,7 @@ void HorizonHierarchy::advance(const Quadrant& quadrant, const Sector::Axis& axi
     std::fill_n(front_.above.rbegin(), front_.above.size() - last, kFloatInfinity);
     parallel_for((last - first + kSectorsPerTask - 1) / kSectorsPerTask, [&, first = first,
                                                                           last = last](std::size_t task) {
+      progress.throw_if_cancelled();
       const std::size_t begin = first + task * kSectorsPerTask;
       for (std::size_t i = begin; i < std::min(last, begin + kSectorsPerTask); ++i) {
         const double from = static_cast<double>(i) * width - 1;

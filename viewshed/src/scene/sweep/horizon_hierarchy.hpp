@@ -12,6 +12,8 @@
 #include <utility>
 #include <vector>
 
+#include <itin/progress.hpp>
+
 #include "scene/sweep/sector_profile.hpp"
 
 namespace itin::viewshed {
@@ -26,8 +28,9 @@ class HorizonHierarchy {
   }
 
   /// Looks along the sectors up to a slab, if it has not come that far yet. Memory: at most 1280 bytes per slab. Uses
-  /// all threads.
-  void advance(const Quadrant& quadrant, const Sector::Axis& axis, std::size_t slab);
+  /// all threads. Throws Cancelled, after which the hierarchy is of no more use.
+  void advance(const Quadrant& quadrant, const Sector::Axis& axis, std::size_t slab,
+               const Progress& progress = NoProgress());
 
   /// The bound known by now for lines within slopes [from, to] that begin in slab `nearest`, which is the bound of the
   /// farthest slab up to there.

@@ -61,12 +61,12 @@ void HorizonView::narrow(std::span<const BinBox> boxes) {
   }
 }
 
-void HorizonView::advance(double reach) {
+void HorizonView::advance(double reach, const Progress& progress) {
   for (std::size_t i = 0; i < quadrants_.size(); ++i) {
     const Quadrant& quadrant = quadrants_[i];
     if (quadrant.slabs() == 0) continue;
     // Ground farther away begins in that slab or beyond.
-    fans_[i].advance(quadrant, sector_axis_, quadrant.slab_at(std::min(reach, axis_.radius / bin_)));
+    fans_[i].advance(quadrant, sector_axis_, quadrant.slab_at(std::min(reach, axis_.radius / bin_)), progress);
   }
 }
 

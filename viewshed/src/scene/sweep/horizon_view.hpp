@@ -42,8 +42,8 @@ class HorizonView {
   /// Promises that ends will be asked about in these boxes only, and near the axis.
   void narrow(std::span<const BinBox> boxes);
   /// Looks at what hides up to `reach` bins away along columns and rows; ends farther away will be asked about later.
-  /// Infinity completes the view.
-  void advance(double reach);
+  /// Infinity completes the view. Throws Cancelled, after which the view is of no more use.
+  void advance(double reach, const Progress& progress = NoProgress());
   /// Tells whether every end in the box up to an elevation, grid units, is certainly hidden, by what has been looked
   /// at.
   bool hides(const BinBox& box, double elevation) const;

@@ -27,7 +27,7 @@ class RadialSweep::Task {
  public:
   /// `lowest` is for Kind::kHeight, and null for others.
   Task(const RadialSweep& sweep, const View& view, Kind kind, const Ends& ends, const Lowest* lowest, Scratch& scratch,
-       Heights& heights)
+       Heights& heights, const Progress& progress)
       : sweep_(sweep),
         bins_(sweep.bins_),
         view_(view),
@@ -36,7 +36,8 @@ class RadialSweep::Task {
         ends_(ends),
         lowest_(lowest),
         profile_(scratch),
-        heights_(heights) {
+        heights_(heights),
+        progress_(progress) {
     radius_squared_ = axis_.radius * axis_.radius;
   }
 
@@ -76,6 +77,7 @@ class RadialSweep::Task {
     const double width = std::max(1.0, 1 / cells_per_bin_) / farthest_;
     silhouettes_.fill(kNoSilhouette);
     for (std::size_t i = 0; from + static_cast<double>(i) * width <= to; ++i) {
+      progress_.throw_if_cancelled();
       const Slopes sector{from + static_cast<double>(i) * width, from + static_cast<double>(i + 1) * width};
       // The outermost sectors take all cells that are left: near the axis a cell's slope may err by more than a hair.
       sweep(quadrant, fan, sector, {i == 0 ? -kInfinity : sector.from, sector.to > to ? kInfinity : sector.to});
@@ -324,6 +326,7 @@ class RadialSweep::Task {
   const Lowest* lowest_;
   SectorProfile& profile_;
   Heights& heights_;
+  const Progress& progress_;
   double radius_squared_;
   // The tile's cells as the quadrant has them, in bins.
   std::array<double, Tile::kSide> along_{}, across_{}, along_squared_{}, across_squared_{};
@@ -355,16 +358,16 @@ RadialSweep::Axis RadialSweep::axis_at(const Point3& eye, double radius) const {
 }
 
 void RadialSweep::run(const View& axis, const Ends& eyes, Scratch& scratch, Heights& heights) const {
-  Task(*this, axis, Kind::kAxis, eyes, nullptr, scratch, heights).run();
+  Task(*this, axis, Kind::kAxis, eyes, nullptr, scratch, heights, NoProgress()).run();
 }
 
 void RadialSweep::decide(const View& eye, const Ends& targets, Scratch& scratch, Heights& seen) const {
-  Task(*this, eye, Kind::kPoint, targets, nullptr, scratch, seen).run();
+  Task(*this, eye, Kind::kPoint, targets, nullptr, scratch, seen, NoProgress()).run();
 }
 
 void RadialSweep::raise_from(const View& eye, const Ends& highest, const Lowest& lowest, Scratch& scratch,
-                             Heights& least) const {
-  Task(*this, eye, Kind::kHeight, highest, &lowest, scratch, least).run();
+                             Heights& least, const Progress& progress) const {
+  Task(*this, eye, Kind::kHeight, highest, &lowest, scratch, least, progress).run();
 }
 
 }  // namespace itin::viewshed

@@ -23,6 +23,7 @@
 #include <vector>
 
 #include <itin/earth.hpp>
+#include <itin/progress.hpp>
 
 #include "bounds/binned_heights.hpp"
 #include "line/cell_tiles.hpp"
@@ -74,8 +75,9 @@ class RadialSweep {
   /// Finds how high a cell's end must be for the eye to see it, from the lowest up to `highest`; NaN where the highest
   /// is hidden, infinity for a cell at the eye's own place. The line to a height found touches the surface, or the
   /// height is one of the three given. The height is at most one of these exactly where decide() sees that one. Cost:
-  /// some tenths of a microsecond per cell that does not see the lowest.
-  void raise_from(const View& eye, const Ends& highest, const Lowest& lowest, Scratch& scratch, Heights& least) const;
+  /// some tenths of a microsecond per cell that does not see the lowest. Throws Cancelled.
+  void raise_from(const View& eye, const Ends& highest, const Lowest& lowest, Scratch& scratch, Heights& least,
+                  const Progress& progress = NoProgress()) const;
 
  private:
   enum class Kind : std::uint8_t { kAxis, kPoint, kHeight };
