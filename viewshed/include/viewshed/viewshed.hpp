@@ -42,7 +42,7 @@ Result compute(const Tin& tin, const Tin& ground, const Request& request, Progre
 /// Cells of a result that form a rectangle: the north-west one, and those at every `step`-th column and row from it.
 struct DecidedCells {
   RasterGrid::Cell north_west;
-  std::int64_t columns = 0;  ///< of these cells
+  std::int64_t columns = 0;  ///< how many of these cells are side by side
   std::int64_t rows = 0;
   std::int64_t step = 1;
 

@@ -5,6 +5,7 @@
 #include "bounds/boundary.hpp"
 #include "line/set_bits.hpp"
 #include "line/sight_line.hpp"
+#include "plan/memory.hpp"
 
 namespace itin::viewshed {
 
@@ -33,7 +34,7 @@ SampledSurface::SampledSurface(const Surface& surface, const Earth& earth, std::
 
 std::uint64_t SampledSurface::bytes(std::uint64_t points, std::uint64_t lines) {
   constexpr std::uint64_t kTin = 300;
-  return points * (casts_rays(2 * points, lines) ? kTin + Scene::kBytesPerPoint : kTin);
+  return points * (casts_rays(2 * points, lines) ? kTin + kBytesPerPointOfRays : kTin);
 }
 
 std::vector<RimEdge> SampledSurface::rim() const {

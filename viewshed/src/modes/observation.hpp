@@ -65,7 +65,7 @@ struct Sight {
 struct StoredRow {
   std::size_t cell = 0;  ///< the first, in the tile
   std::size_t columns = 0;
-  std::size_t place = 0;  ///< of the first, in the rasters
+  std::size_t place = 0;  ///< where the first is in the rasters
   std::size_t step = 1;   ///< how many places apart the cells are
 
   /// Calls visit(cell, place) for each of the cells.

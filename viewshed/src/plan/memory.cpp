@@ -9,7 +9,6 @@
 #include <viewshed/surface.hpp>
 
 #include "request/request.hpp"
-#include "scene/rays/scene.hpp"
 
 namespace itin::viewshed {
 
@@ -61,7 +60,7 @@ bool takes_a_lattice(const Store& store, const Request& request) {
 std::uint64_t bytes_per_point(const Request& request) {
   constexpr std::uint64_t kStudies = 150;
   const std::uint64_t studies = needs_bare_lines(request) ? 2 : needs_triangles(request) ? 1 : 0;
-  return kBytesPerSurfacePoint + studies * kStudies + (casts_rays(request) ? Scene::kBytesPerPoint : 0);
+  return kBytesPerSurfacePoint + studies * kStudies + (casts_rays(request) ? kBytesPerPointOfRays : 0);
 }
 
 std::uint64_t points_about(const Store& store, const Detail& detail, const Box& box) {

@@ -21,6 +21,9 @@ inline constexpr std::uint64_t kPointsWithFeatures = 3;
 /// more than sight lines, by the sweep.
 bool takes_a_lattice(const Store& store, const Request& request);
 
+/// What a scene of rays takes for each point of its surface: 160 to 170 bytes were measured over lidar and rasters.
+inline constexpr std::uint64_t kBytesPerPointOfRays = 200;
+
 /// Returns kBytesPerSurfacePoint, and what the engine and the mode add.
 std::uint64_t bytes_per_point(const Request& request);
 

@@ -65,7 +65,7 @@ class HeldAreas {
   ThemeChoice themes_;
   ComputeOptions options_;
   bool is_full_;                         ///< the full surface is held, not a coarser one
-  std::shared_ptr<GroundCache> ground_;  ///< of cells, on all areas
+  std::shared_ptr<GroundCache> ground_;  ///< the cells' ground, on all areas
   mutable std::mutex mutex_;
   std::list<std::shared_ptr<Area>> areas_;  ///< the one used last first
   std::uint64_t readings_ = 0;

@@ -93,7 +93,7 @@ class ViewshedCells {
   std::vector<Pass> passes_;  ///< the last one has all cells
   Stage stage_;
   Observations modes_;
-  std::vector<CellCounts> counts_;  ///< of the last pass: each tile's, once it is stored
+  std::vector<CellCounts> counts_;  ///< each tile's in the last pass, once it is stored
 };
 
 }  // namespace itin::viewshed

@@ -17,7 +17,7 @@ std::int64_t tile_of(std::int64_t cell) {
 }
 
 /// The cells of a tile that is kept.
-RasterGrid cells_of(const GroundCache::Key& key) {
+RasterGrid grid_of_tile(const GroundCache::Key& key) {
   constexpr auto kSide = static_cast<double>(Tile::kSide);
   return {{static_cast<double>(key.column) * kSide * key.cell_width,
            static_cast<double>(key.row + 1) * kSide * key.cell_height},
@@ -93,7 +93,7 @@ std::vector<KeptGround::Share> KeptGround::shares(const RasterGrid& grid, const 
 
 /// Tells whether cells have their centres where the kept ones have them, to the last bit.
 bool KeptGround::holds_centres(const Share& share, const TileCentres& at) const {
-  const TileCentres kept(units_, cells_of(share.key), kWholeTile);
+  const TileCentres kept(units_, grid_of_tile(share.key), kWholeTile);
   const auto same = [](const auto& a, std::int64_t from_a, const auto& b, std::int64_t from_b, std::int64_t count) {
     return std::equal(a.begin() + from_a, a.begin() + from_a + count, b.begin() + from_b);
   };
@@ -105,7 +105,7 @@ GroundCache::Heights KeptGround::kept(const GroundCache::Key& key) const {
   return cache_->get(key, [&] {
     const auto heights = std::make_shared<TileValues<double>>();
     heights->fill(kNoSurface);
-    measure(kWholeTile, TileCentres(units_, cells_of(key), kWholeTile), key.cell_width, *heights);
+    measure(kWholeTile, TileCentres(units_, grid_of_tile(key), kWholeTile), key.cell_width, *heights);
     return heights;
   });
 }

@@ -44,7 +44,7 @@ class KeptGround {
   /// Cells of the tile that is looked at which lie in one that is kept.
   struct Share {
     GroundCache::Key key;
-    std::int64_t column = 0, row = 0;            ///< of the first, in the tile looked at
+    std::int64_t column = 0, row = 0;            ///< where the first is in the tile looked at
     std::int64_t kept_column = 0, kept_row = 0;  ///< and in the kept one
     std::int64_t columns = 0, rows = 0;
   };

@@ -64,7 +64,7 @@ Four magnitude(Four a) {
   return greatest(a, -a);
 }
 
-bool none(FourBits bits) {
+bool no_lane(FourBits bits) {
   std::array<std::int64_t, 2> halves;
   std::memcpy(&halves, &bits, sizeof(halves));
   return (halves[0] | halves[1]) == 0;
@@ -240,7 +240,7 @@ class Scene::Impl {
   void ask(std::uint32_t triangle, Packet& packet, const RTCOccludedFunctionNArguments& arguments) const {
     for (unsigned first = 0; first < arguments.N; first += kLanes) {
       const FourBits near = may_touch(FourRays(arguments.ray, arguments.N, first), corners_[triangle], errors_);
-      if (none(near)) continue;
+      if (no_lane(near)) continue;
       for (unsigned i = first; i < std::min(first + kLanes, arguments.N); ++i)
         if (near[i - first] != 0 && arguments.valid[i] != 0) ask_one(triangle, packet, arguments, i);
     }
