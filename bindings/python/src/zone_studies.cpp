@@ -103,7 +103,7 @@ py::object visibility_of(const py::object& self, bool screened) {
       {"share", &v.share},
       {"nearest_m", &v.nearest_m}};
   for (const auto& [name, values] : numbers) views[name] = view_of(values->data(), shape, self);
-  return std::move(views);
+  return views;
 }
 
 py::list write_study(const Study& s, const std::string& folder, bool overwrite, const py::object& show) {
