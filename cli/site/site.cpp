@@ -55,7 +55,8 @@ class SiteVerb final : public Verb {
   Result execute(Progress& progress) override {
     // Files that a killed run has written may be replaced when it is resumed.
     policy_ = options_.policy;
-    policy_.overwrite = policy_.overwrite || (options_.resume && std::filesystem::exists(options_.path("site.work")));
+    policy_.overwrite = policy_.overwrite || (options_.resume && was_killed());
+    if (options_.resume) require_unfinished();
     const NewFolder folder(options_.directory);
     outputs_ = site_outputs(options_, policy_);
     const Store store(options_.store, cache_within(options_.request.memory_bytes));
@@ -81,6 +82,16 @@ class SiteVerb final : public Verb {
   }
 
  private:
+  /// Tells whether the folder has the results of a run that has not ended.
+  bool was_killed() const { return std::filesystem::exists(options_.path("site.work")); }
+
+  void require_unfinished() const {
+    const std::string document = options_.path("site.json");
+    if (!policy_.overwrite && !was_killed() && std::filesystem::exists(document))
+      throw FileError(document,
+                      "the run has finished, and --resume has nothing to go on with; give --overwrite to run it again");
+  }
+
   /// Returns the hash of every file on which the result depends.
   Document hash_inputs(Progress& progress) const {
     Document inputs = Document::array();
