@@ -20,7 +20,7 @@ const std::set<std::string> kInputs = {
     "STORE",      "SOURCE",          "--profile-csv", "--links",      "--observers",   "--horizon-targets",
     "--path",     "--route",         "--params",      "--candidates", "--search-area", "--demand",
     "--existing", "--radius-preset", "--like",        "--turbines",   "--viewpoints",  "--forbidden",
-    "--polygon",  "--sea-area",      "--basemap",     "--dwellings"};
+    "--polygon",  "--sea-area",      "--basemap",     "--dwellings",  "--masts"};
 
 struct FileOption {
   std::string name;
@@ -59,8 +59,9 @@ std::string required(const std::string& verb) {
 std::map<std::string, std::string> required_files(const std::string& verb) {
   if (verb == "import") return {{"STORE", "fresh.itin"}, {"SOURCE", "hill.asc"}};
   std::map<std::string, std::string> files{{"STORE", "hill.asc"}};
-  if (verb == "ztv" || verb == "site" || verb == "visibility") files["--output"] = "fresh";
+  if (verb == "ztv" || verb == "site" || verb == "visibility" || verb == "premises") files["--output"] = "fresh";
   if (verb == "ztv") files["--turbines"] = "hill.prj";
+  if (verb == "premises") files["--masts"] = "hill.prj";
   return files;
 }
 
@@ -112,7 +113,7 @@ TEST_P(OwnFiles, AreNeverWrittenOver) {
 }
 
 std::vector<std::string> verbs() {
-  return {"import", "info", "check", "tin", "viewshed", "visibility", "ztv", "profile", "los", "site"};
+  return {"import", "info", "check", "tin", "viewshed", "visibility", "ztv", "profile", "los", "site", "premises"};
 }
 
 INSTANTIATE_TEST_SUITE_P(Verbs, OwnFiles, ::testing::ValuesIn(verbs()), [](const auto& verb) { return verb.param; });
