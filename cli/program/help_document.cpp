@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "program/call_files.hpp"
 #include "program/help.hpp"
 
@@ -50,8 +52,8 @@ std::string default_of(const std::string& help, const std::vector<std::string>& 
 std::vector<std::string> names_of(const CLI::Option& option) {
   if (option.get_positional()) return {option.get_name()};
   std::vector<std::string> names;
-  for (const std::string& name : option.get_snames()) names.push_back("-" + name);
-  for (const std::string& name : option.get_lnames()) names.push_back("--" + name);
+  for (const std::string& name : option.get_snames()) names.push_back(fmt::format("-{}", name));
+  for (const std::string& name : option.get_lnames()) names.push_back(fmt::format("--{}", name));
   return names;
 }
 
