@@ -58,7 +58,8 @@ std::vector<std::string> names_of(const CLI::Option& option) {
 }
 
 Document option_document(const CLI::Option& option) {
-  const std::string help = option.get_description(), type = option.get_type_name();
+  const std::string& help = option.get_description();
+  const std::string type = option.get_type_name();
   const bool flag = option.get_items_expected_max() == 0;
   Document document{{"names", names_of(option)},
                     {"help", help},
