@@ -254,9 +254,10 @@ TEST_F(PremisesSurveys, AgreeWithEveryTriangleForEveryPlace) {
   std::mt19937_64 random(test::seed());
   const auto in = [&](double low, double high) { return std::uniform_real_distribution(low, high)(random); };
   std::vector<test::LineFeature> houses;
-  for (int i = 0; i < 16; ++i)
-    houses.push_back(test::turned_box({300050 + i % 4 * 55 + in(0, 20), 200050 + i / 4 * 55 + in(0, 20)}, in(8, 20),
-                                      in(6, 14), in(0, 3), in(2, 16)));
+  for (int row = 0; row < 4; ++row)
+    for (int column = 0; column < 4; ++column)
+      houses.push_back(test::turned_box({300050 + column * 55 + in(0, 20), 200050 + row * 55 + in(0, 20)}, in(8, 20),
+                                        in(6, 14), in(0, 3), in(2, 16)));
   build(houses);
   PremisesRequest request;
   for (int i = 0; i < 3; ++i)
