@@ -1,7 +1,7 @@
 // How much of the first Fresnel zone is clear along one line: the definition that profiles and siting share (law 4).
 //
 //   const LineOverGround line(120.5, 98.0, 1, drop * length * length);   // distances are fractions of the length
-//   LeastFraction least(std::sqrt(wavelength * length));
+//   LeastFraction least(std::sqrt(wavelength * length), kGrazing);
 //   least.consider(t, line.clearance({t, ground}));                  // a place of the ground
 //   least.consider_inside(line.piece({t, ground}, {u, height}));     // straight ground between two places
 //   if (least.least() && least.least()->fraction < 0.6) ...
@@ -19,7 +19,8 @@
 namespace itin {
 
 /// The least ratio, over all places considered, of clearance to the first zone's radius, radius_unit sqrt(t (1 - t)).
-/// At the ends the radius is 0: there a clearance of 0 counts as a ratio of 0, and any other does not count.
+/// At the ends the radius is 0: there a clearance within `touching` of 0 counts as a ratio of 0, and any other does not
+/// count.
 class LeastFraction {
  public:
   struct Place {
@@ -29,7 +30,7 @@ class LeastFraction {
   };
 
   /// Takes sqrt(wavelength times length) as `radius_unit`: twice the greatest radius.
-  explicit LeastFraction(double radius_unit) : unit_(radius_unit) {}
+  LeastFraction(double radius_unit, double touching) : unit_(radius_unit), touching_(touching) {}
 
   void consider(double t, double clearance);
   /// Considers the places between the piece's ends; the ends themselves count by consider() only.
@@ -40,7 +41,7 @@ class LeastFraction {
  private:
   bool is_greater_along(const ClearancePiece& piece) const;
 
-  double unit_;
+  double unit_, touching_;
   std::optional<Place> least_;
 };
 

@@ -42,7 +42,7 @@ std::array<double, 2> stationary_points(const Cubic& cubic, double from) {
 
 void LeastFraction::consider(double t, double clearance) {
   const double radius = unit_ * std::sqrt(t * (1 - t));
-  if (radius == 0 && clearance != 0) return;
+  if (radius == 0 && std::abs(clearance) > touching_) return;
   const double fraction = radius == 0 ? 0 : clearance / radius;
   if (!least_ || fraction < least_->fraction) least_ = Place{fraction, t, clearance};
 }

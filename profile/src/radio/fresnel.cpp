@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include <itin/fresnel_zone.hpp>
+#include <itin/grazing.hpp>
 #include <profile/fresnel.hpp>
 
 #include "lines/ground_pieces.hpp"
@@ -15,7 +16,7 @@ std::optional<FresnelClearance> fresnel_clearance(const Profile& profile, const 
                                                   double wavelength) {
   const double length = profile.length_m;
   if (!profile.has_length()) return std::nullopt;
-  LeastFraction tightest(std::sqrt(wavelength * length));
+  LeastFraction tightest(std::sqrt(wavelength * length), kGrazing);
   const LineOverGround line(antennas.from_m, antennas.to_m, 1, earth.drop_coefficient() * length * length);
   for (const ProfilePoint& p : profile.points) {
     const double t = p.distance_m / length;

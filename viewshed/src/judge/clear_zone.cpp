@@ -65,7 +65,7 @@ class ZoneTest {
   }
   double least_fraction(const Ground& g) const {
     const LineOverGround flat(0, 0, 1, line_.bulge().drop);
-    LeastFraction least(zone_);
+    LeastFraction least(zone_, sure_);
     least.consider(g.from, flat.clearance({g.from, g.from_rise}));
     least.consider(g.to, flat.clearance({g.to, g.to_rise}));
     if (g.from < g.to) least.consider_inside(flat.piece({g.from, g.from_rise}, {g.to, g.to_rise}));
