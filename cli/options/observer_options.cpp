@@ -6,6 +6,7 @@
 #include <itin/site_list.hpp>
 
 #include "options/off_the_data.hpp"
+#include "options/taken_heights.hpp"
 #include "program/call_files.hpp"
 #include "program/help.hpp"
 
@@ -99,8 +100,7 @@ Document ObserverOptions::parameters() const {
 }
 
 std::string ObserverOptions::text() const {
-  if (!took_heights_) return {};
-  return fmt::format("heights of observers are those of the field '{}' of {}\n", sites_.height_field, sites_.path);
+  return taken_heights_text("observers", took_heights_ ? sites_.height_field : "", sites_.path);
 }
 
 std::vector<viewshed::Observer> ObserverOptions::observers_given(const StoreMetadata& metadata) const {

@@ -13,6 +13,17 @@ double parse_frequency(const std::string& text) {
   return parsed_by("--frequency", text, profile::parse_frequency_ghz);
 }
 
+void declare_fresnel(CLI::App& app, std::string& text) {
+  app.add_option("--fresnel", text,
+                 "Share of the first Fresnel zone's radius that must be clear, 0 to 1 (default: 0.6)")
+      ->type_name("FRACTION");
+}
+
+void require_frequency_of_zone(const std::string& fresnel_text, bool has_frequency) {
+  if (!fresnel_text.empty() && !has_frequency)
+    throw InputError("--fresnel needs a --frequency: the zone's radius depends on it");
+}
+
 double parse_fresnel(const std::string& text) {
   const double fraction = parse_number("--fresnel", text, Range::kPositive);
   if (fraction > 1) throw InputError(fmt::format("--fresnel '{}': more than the zone; give 0 to 1", text));

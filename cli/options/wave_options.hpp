@@ -15,8 +15,11 @@ namespace itin::cli {
 /// Reads the value of --frequency, in GHz. Throws InputError.
 double parse_frequency(const std::string& text);
 
-/// Reads the value of --fresnel, the part of the first Fresnel zone's radius that must be clear: above 0, at most 1.
-/// Throws InputError.
+/// Declares --fresnel, the part of the first Fresnel zone's radius that must be clear.
+void declare_fresnel(CLI::App& app, std::string& text);
+/// Throws InputError where --fresnel is given without a frequency.
+void require_frequency_of_zone(const std::string& fresnel_text, bool has_frequency);
+/// Reads the value of --fresnel: above 0, at most 1. Throws InputError.
 double parse_fresnel(const std::string& text);
 
 /// Throws InputError where rays at a frequency would run over a flat Earth.

@@ -6,6 +6,7 @@
 #include <itin/site_list.hpp>
 
 #include "options/off_the_data.hpp"
+#include "options/taken_heights.hpp"
 #include "options/wave_options.hpp"
 #include "program/call_files.hpp"
 #include "program/help.hpp"
@@ -57,9 +58,7 @@ void PremisesOptions::declare_antennas(CLI::App& app) {
   app.add_option("--frequency", frequency_text_,
                  "Serve only what is in sight with its first Fresnel zone clear at this frequency: GHz, or 7500MHz")
       ->type_name("GHZ");
-  app.add_option("--fresnel", fresnel_text_,
-                 "Share of the first Fresnel zone's radius that must be clear, 0 to 1 (default: 0.6)")
-      ->type_name("FRACTION");
+  declare_fresnel(app, fresnel_text_);
 }
 
 void PremisesOptions::declare_work(CLI::App& app) {
@@ -94,10 +93,8 @@ void PremisesOptions::validate_antennas() {
   take("--reveal", reveal_text_, request_.reveal);
   take("--storey", storey_text_, request_.storey);
   if (!pole_text_.empty()) request_.poles = parse_heights("--pole", pole_text_, Range::kNotNegative);
-  if (frequency_text_.empty()) {
-    if (!fresnel_text_.empty()) throw InputError("--fresnel needs a --frequency: the zone's radius depends on it");
-    return;
-  }
+  require_frequency_of_zone(fresnel_text_, !frequency_text_.empty());
+  if (frequency_text_.empty()) return;
   request_.frequency_ghz = parse_frequency(frequency_text_);
   if (!fresnel_text_.empty()) request_.fresnel = parse_fresnel(fresnel_text_);
   require_curved(earth_.earth());
@@ -129,9 +126,7 @@ void PremisesOptions::take_fields(std::vector<std::string>& warnings) {
 }
 
 std::string PremisesOptions::heights_text() const {
-  return took_heights_
-             ? fmt::format("heights of masts are those of the field '{}' of {}\n", masts_.height_field, masts_.path)
-             : "";
+  return taken_heights_text("masts", took_heights_ ? masts_.height_field : "", masts_.path);
 }
 
 void PremisesOptions::warn_of_light(std::vector<std::string>& warnings) const {

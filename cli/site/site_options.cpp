@@ -9,6 +9,7 @@
 #include <itin/site_list.hpp>
 
 #include "options/radius_preset.hpp"
+#include "options/taken_heights.hpp"
 #include "options/wave_options.hpp"
 #include "output/store_document.hpp"
 #include "program/call_files.hpp"
@@ -84,9 +85,7 @@ void SiteOptions::declare_demand(CLI::App& app) {
          "--frequency", frequency_text_,
          "Serve only what is in sight with its first Fresnel zone clear at this frequency; links are judged so, too")
       ->type_name("GHZ");
-  app.add_option("--fresnel", fresnel_text_,
-                 "Share of the first Fresnel zone's radius that must be clear, 0 to 1 (default: 0.6)")
-      ->type_name("FRACTION");
+  declare_fresnel(app, fresnel_text_);
   app.add_option(
          "--radius", radius_text_,
          "How far a site serves (default: 10000), or turbines are looked for (default: by their tips, as ztv has "
@@ -223,10 +222,8 @@ void SiteOptions::validate_demand() {
 
 void SiteOptions::validate_links() {
   if (!frequency_text_.empty()) request.frequency_ghz = parse_frequency(frequency_text_);
-  if (!request.frequency_ghz) {
-    if (!fresnel_text_.empty()) throw InputError("--fresnel needs a --frequency: the zone's radius depends on it");
-    return;
-  }
+  require_frequency_of_zone(fresnel_text_, request.frequency_ghz.has_value());
+  if (!request.frequency_ghz) return;
   if (!fresnel_text_.empty()) request.fresnel = parse_fresnel(fresnel_text_);
   require_curved(earth.earth());
   // A Fresnel zone that ends on the ground has no clearance at all.
@@ -263,11 +260,8 @@ void SiteOptions::take_demand_heights(std::vector<std::string>& warnings) {
 }
 
 std::string SiteOptions::heights_text() const {
-  const auto taken = [](const char* what, const std::string& field, const std::string& path) {
-    return field.empty() ? "" : fmt::format("heights of {} are those of the field '{}' of {}\n", what, field, path);
-  };
-  return taken("masts", took_heights_ ? candidates.height_field : "", candidates.path) +
-         taken("targets", demand_height_field, demand);
+  return taken_heights_text("masts", took_heights_ ? candidates.height_field : "", candidates.path) +
+         taken_heights_text("targets", demand_height_field, demand);
 }
 
 void SiteOptions::validate_choice() {

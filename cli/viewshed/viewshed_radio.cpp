@@ -50,9 +50,7 @@ void ViewshedRadio::declare(CLI::App& app) {
   wave_.declare(app,
                 "Tell in sight with the first Fresnel zone clear at this frequency (1) from in sight with the zone cut "
                 "(3): GHz, or 7500MHz");
-  app.add_option("--fresnel", fresnel_text_,
-                 "Share of the first Fresnel zone's radius that must be clear, 0 to 1 (default: 0.6)")
-      ->type_name("FRACTION");
+  declare_fresnel(app, fresnel_text_);
   app.add_flag("--loss", loss_,
                "With --frequency, what a radio path to each cell loses instead, dB, in two bands: diffraction "
                "(ITU-R P.526 delta-Bullington), and free space; of several observers that with the least sum");
@@ -60,8 +58,7 @@ void ViewshedRadio::declare(CLI::App& app) {
 
 void ViewshedRadio::validate() {
   wave_.validate();
-  if (!wave_.has_frequency() && !fresnel_text_.empty())
-    throw InputError("--fresnel needs a --frequency: the zone's radius depends on it");
+  require_frequency_of_zone(fresnel_text_, wave_.has_frequency());
   if (!wave_.has_frequency() && loss_) throw InputError("--loss needs a --frequency: losses depend on it");
   if (loss_ && !fresnel_text_.empty())
     throw InputError("--loss and --fresnel exclude each other: a loss is of the whole path; give one of them");

@@ -73,6 +73,12 @@ NoData nodata_of(const py::dict& fields) {
   return static_cast<NoData>(choice_of(rule, {"unknown", "block", "clear"}, "nodata"));
 }
 
+Polarisation polarisation_of(const py::dict& fields) {
+  std::string polarisation = "h";
+  take(fields, "polarisation", polarisation);
+  return static_cast<Polarisation>(choice_of(polarisation, {"h", "v"}, "polarisation"));
+}
+
 std::size_t choice_of(const std::string& text, const std::vector<std::string>& choices, const char* field) {
   const auto found = std::find(choices.begin(), choices.end(), text);
   if (found == choices.end())

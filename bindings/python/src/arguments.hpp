@@ -42,6 +42,8 @@ ThemeChoice themes_of(const py::dict& fields);
 Earth earth_of(const py::dict& fields, const Store& store);
 /// Reads `nodata`: "unknown", "block" or "clear".
 NoData nodata_of(const py::dict& fields);
+/// Reads `polarisation`: "h" by default, or "v".
+Polarisation polarisation_of(const py::dict& fields);
 /// Returns the index of a field's text among the choices. Throws InputError.
 std::size_t choice_of(const std::string& text, const std::vector<std::string>& choices, const char* field);
 

@@ -39,9 +39,7 @@ std::optional<RadioPath> radio_of(const py::dict& fields, const Earth& earth) {
   RadioPath path;
   take(fields, "frequency_ghz", path.frequency_ghz);
   take(fields, "over_sea", path.over_sea);
-  std::string polarisation = "h";
-  take(fields, "polarisation", polarisation);
-  path.polarisation = static_cast<Polarisation>(choice_of(polarisation, {"h", "v"}, "polarisation"));
+  path.polarisation = polarisation_of(fields);
   path.effective_earth_km = effective_earth_km(earth);
   return path;
 }

@@ -63,9 +63,7 @@ bool take_mode(const py::dict& fields, Request& request) {
   take(fields, "error_correlation", request.vertical_error.correlation_length);
   take(fields, "frequency_ghz", request.radio.frequency_ghz);
   take(fields, "over_sea", request.radio.over_sea);
-  std::string polarisation = "h";
-  take(fields, "polarisation", polarisation);
-  request.radio.polarisation = static_cast<Polarisation>(choice_of(polarisation, {"h", "v"}, "polarisation"));
+  request.radio.polarisation = polarisation_of(fields);
   request.radio.effective_earth_km = effective_earth_km(request.earth);
   request.fresnel.wavelength = wavelength_m(request.radio.frequency_ghz);
   take(fields, "fresnel", request.fresnel.fraction);

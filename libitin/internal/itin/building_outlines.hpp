@@ -13,6 +13,11 @@
 
 namespace itin {
 
+/// Tells whether a theme's features are buildings or terraces.
+inline bool is_of_buildings(const ThemeInfo& theme) {
+  return theme.kind == ThemeKind::Buildings || theme.kind == ThemeKind::Terraces;
+}
+
 /// The precision of outlines in a picture, metres.
 struct OutlineDetail {
   double tolerance = 0;  ///< vertices that lie nearer to the rest are left out

@@ -1,6 +1,7 @@
-// Positions in metres as places in grid units.
+// Positions in metres as places in grid units, and back.
 //
 //   const Point2 units = place_in_units(store.metadata().grid, {318000.25, 176000.5});
+//   const Point2 metres = place_in_metres(store.metadata().grid, units);
 #pragma once
 
 #include <cmath>
@@ -24,6 +25,9 @@ inline double northing_in_units(const Grid& grid, double y) {
 }
 inline Point2 place_in_units(const Grid& grid, Point2 p) {
   return {easting_in_units(grid, p.x), northing_in_units(grid, p.y)};
+}
+inline Point2 place_in_metres(const Grid& grid, Point2 units) {
+  return {grid.origin.x + units.x * grid.resolution, grid.origin.y + units.y * grid.resolution};
 }
 
 }  // namespace itin

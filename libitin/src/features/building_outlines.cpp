@@ -14,8 +14,7 @@ template <class Visit>
 void for_each_building(const Store& store, const ThemeChoice& themes, const Visit& visit) {
   const std::vector<ThemeInfo>& known = store.metadata().themes;
   for (std::size_t t = 0; t < known.size(); ++t) {
-    const bool houses = known[t].kind == ThemeKind::Buildings || known[t].kind == ThemeKind::Terraces;
-    if (!houses || !themes.includes(known[t])) continue;
+    if (!is_of_buildings(known[t]) || !themes.includes(known[t])) continue;
     const auto theme = static_cast<std::uint16_t>(t + 1);
     std::int64_t number = 0;
     for (std::uint32_t block = 0; block < known[t].footprint_blocks; ++block)

@@ -7,6 +7,7 @@
 
 #include <itin/degrees.hpp>
 #include <itin/error.hpp>
+#include <itin/in_ring.hpp>
 #include <itin/window.hpp>
 
 namespace itin {
@@ -109,15 +110,6 @@ Window::Ring arc(Point2 centre, double azimuth, double width, double radius, int
     corners.push_back({centre.x + reach * std::sin(angle), centre.y + reach * std::cos(angle)});
   }
   return corners;
-}
-
-bool in_ring(const Window::Ring& ring, Point2 p) {
-  bool inside = false;
-  for (std::size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++) {
-    const Point2 &a = ring[i], &b = ring[j];
-    if ((a.y > p.y) != (b.y > p.y) && p.x < (b.x - a.x) * (p.y - a.y) / (b.y - a.y) + a.x) inside = !inside;
-  }
-  return inside;
 }
 
 }  // namespace

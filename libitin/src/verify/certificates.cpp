@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <itin/box_of.hpp>
+#include <itin/grid_units.hpp>
 
 #include "pyramid/overlay.hpp"
 #include "store/store_format.hpp"
@@ -103,7 +104,7 @@ std::vector<FalseCell> false_certificates(const StoreFile& file, const std::vect
 
 Damage false_certificate(const FalseCell& cell, const Grid& grid) {
   if (!cell.leaf) {
-    const Point2 at = in_metres(grid, cell.differs.highest);
+    const Point2 at = place_in_metres(grid, cell.differs.highest);
     return {fmt::format("level {}", cell.tree),
             fmt::format("there is ground without a certificate at {:.2f},{:.2f}", at.x, at.y)};
   }

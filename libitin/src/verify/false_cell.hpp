@@ -31,9 +31,4 @@ inline std::vector<FalseCell> merged(const std::vector<FalseCell>& found) {
   return all;
 }
 
-/// Returns a position in grid units as messages have it, in metres.
-inline Point2 in_metres(const Grid& grid, Point2 at) {
-  return {grid.origin.x + at.x * grid.resolution, grid.origin.y + at.y * grid.resolution};
-}
-
 }  // namespace itin

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include <itin/grid_units.hpp>
+
 #include "store/store_format.hpp"
 #include "verify/leaf_cover.hpp"
 #include "verify/merged_leaves.hpp"
@@ -140,7 +142,7 @@ Damage PartHeights::higher(const FalseCell& cell) const {
     return {cell.leaf ? format::place("directory", cell.leaf->key) : fmt::format("tree {}", tree_),
             fmt::format("theme '{}' cuts {:.2f} m into the ground, where the index says at most {:.2f} m", theme_.name,
                         -cell.differs.lo * grid.resolution, -lowest * grid.resolution)};
-  const Point2 at = in_metres(grid, cell.differs.highest);
+  const Point2 at = place_in_metres(grid, cell.differs.highest);
   return {
       cell.leaf ? format::place("directory", cell.leaf->key) : fmt::format("tree {}", tree_),
       fmt::format("theme '{}' rises {:.2f} m above the ground at {:.2f},{:.2f}, where the index says at most {:.2f} m",

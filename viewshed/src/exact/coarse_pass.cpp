@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include <itin/grid_units.hpp>
 #include <itin/level_choice.hpp>
 #include <itin/parallel.hpp>
 
@@ -96,9 +97,8 @@ class Rays final : public CoarsePass {
     });
   }
   Point2 along(const SightLines& lines, unsigned i, double s) const {
-    const Grid& grid = scene_.envelope.lower.grid;
-    return {grid.origin.x + (lines.from_x[i] + s * (lines.to_x[i] - lines.from_x[i])) * grid.resolution,
-            grid.origin.y + (lines.from_y[i] + s * (lines.to_y[i] - lines.from_y[i])) * grid.resolution};
+    return place_in_metres(scene_.envelope.lower.grid, {lines.from_x[i] + s * (lines.to_x[i] - lines.from_x[i]),
+                                                        lines.from_y[i] + s * (lines.to_y[i] - lines.from_y[i])});
   }
 
   Over over_;

@@ -13,22 +13,6 @@ namespace itin::viewshed {
 
 namespace {
 
-/// Lines lowered by no more than depth sqrt(s (1 - s)).
-struct LoweredLines : LineBundle {
-  /// A height below every line, and never more than the lowest height: found by the tangent in the middle.
-  double lowest_over(double first, double last) const {
-    const double a = std::max(first, 0.0), b = std::min(last, 1.0), s = (a + b) / 2;
-    const double radius = std::sqrt(s * (1 - s));
-    if (radius == 0) return std::min(from_z, end);
-    const double dz = end - from_z;
-    const double height = from_z + s * (dz - bulge * (1 - s)) - depth * radius;
-    const double slope = dz - bulge * (1 - 2 * s) - depth * (0.5 - s) / radius;
-    return height - std::abs(slope) * (b - a) / 2;
-  }
-
-  double depth = 0;
-};
-
 /// Tests whether one triangle reaches into the zone of one line.
 class ZoneTest {
  public:
@@ -78,6 +62,31 @@ class ZoneTest {
   double sure_;  ///< beyond rounding
 };
 
+/// The lines of some tests, lowered by no more than depth sqrt(s (1 - s)).
+struct LoweredLines : LineBundle {
+  explicit LoweredLines(double grazing) {
+    margin = grazing;
+    end = kInfinity;
+  }
+  void add(const ZoneTest& test) {
+    LineBundle::add(test.line());
+    end = std::min(end, test.line().to_z());
+    depth = std::max(depth, test.depth());
+  }
+  /// A height below every line, and never more than the lowest height: found by the tangent in the middle.
+  double lowest_over(double first, double last) const {
+    const double a = std::max(first, 0.0), b = std::min(last, 1.0), s = (a + b) / 2;
+    const double radius = std::sqrt(s * (1 - s));
+    if (radius == 0) return std::min(from_z, end);
+    const double dz = end - from_z;
+    const double height = from_z + s * (dz - bulge * (1 - s)) - depth * radius;
+    const double slope = dz - bulge * (1 - 2 * s) - depth * (0.5 - s) / radius;
+    return height - std::abs(slope) * (b - a) / 2;
+  }
+
+  double depth = 0;
+};
+
 }  // namespace
 
 ClearZone::ClearZone(const Tin& lower, const Tin* upper, const Earth& earth, const FresnelCriterion& criterion,
@@ -91,17 +100,13 @@ unsigned ClearZone::cut(const Bounded& surface, const SightLines& lines) const {
   const double grazing = kGrazing / tin.grid.resolution;
   std::vector<ZoneTest> tests;
   tests.reserve(SightLines::kSize);
-  LoweredLines bundle;
-  bundle.margin = grazing;
-  bundle.end = kInfinity;
+  LoweredLines bundle(grazing);
   for_each_bit(lines.active, [&](unsigned i) {
     // The line starts at the target: what cuts the zone is most often near it.
     const SightLine line({lines.to_x[i], lines.to_y[i], lines.to_z[i]},
                          {lines.from_x[i], lines.from_y[i], lines.from_z[i]}, drop_, grazing);
     tests.emplace_back(line, zone_of(line), criterion_.fraction, grazing);
-    bundle.add(line);
-    bundle.end = std::min(bundle.end, line.to_z());
-    bundle.depth = std::max(bundle.depth, tests.back().depth());
+    bundle.add(tests.back());
   });
   unsigned result = 0;
   RecentTriangles recent;
@@ -129,11 +134,8 @@ std::optional<ClearZone::FirstCut> ClearZone::first_cut(const Point3& from, cons
   const double grazing = kGrazing / tin.grid.resolution;
   const SightLine line(from, to, drop_, grazing);
   const ZoneTest test(line, zone_of(line), criterion_.fraction, grazing);
-  LoweredLines bundle;
-  bundle.margin = grazing;
-  bundle.add(line);
-  bundle.end = line.to_z();
-  bundle.depth = test.depth();
+  LoweredLines bundle(grazing);
+  bundle.add(test);
   std::optional<FirstCut> first;
   lower_.pyramid.search(bundle, [&](std::uint32_t t) {
     const Triangle& triangle = tin.triangles[t];

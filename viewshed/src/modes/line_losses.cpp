@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <itin/grid_units.hpp>
 #include <itin/section_line.hpp>
 
 #include "line/infinity.hpp"
@@ -12,10 +13,6 @@ namespace itin::viewshed {
 namespace {
 
 using Pieces = std::vector<SurfacePieces::Piece>;
-
-Point2 metres(const Grid& grid, const Point3& units) {
-  return {grid.origin.x + units.x * grid.resolution, grid.origin.y + units.y * grid.resolution};
-}
 
 /// Turns the pieces to be seen from the line's other end.
 void mirror(double length_m, Pieces& pieces) {
@@ -61,7 +58,8 @@ LineLosses::LineLosses(const Tin& surface, const Tin* bare, const RadioPath& pat
 
 LineLosses::Outcome LineLosses::of_line(const Line& line, Scratch& scratch) const {
   const Grid& grid = surface_.grid();
-  const SectionLine section(grid, metres(grid, line.from), metres(grid, line.to));
+  const auto metres = [&](const Point3& end) { return place_in_metres(grid, {end.x, end.y}); };
+  const SectionLine section(grid, metres(line.from), metres(line.to));
   const double length = section.length();
   const auto profile = [&](const SurfacePieces& over, double most_m, std::vector<PathPoint>& points) {
     over.along(section, scratch.pieces_);

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include <itin/grid_units.hpp>
+#include <itin/in_ring.hpp>
 
 namespace itin::viewshed {
 
@@ -20,14 +21,7 @@ Point2 in_millimetres(Point2 p) {
 
 /// Tells whether rings hold a place, by the even-odd rule.
 bool hold(const std::vector<std::vector<Point2>>& rings, Point2 p) {
-  bool inside = false;
-  for (const std::vector<Point2>& ring : rings) {
-    for (std::size_t i = 0; i + 1 < ring.size(); ++i) {
-      const Point2 &a = ring[i], &b = ring[i + 1];
-      if ((a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x)) inside = !inside;
-    }
-  }
-  return inside;
+  return std::count_if(rings.begin(), rings.end(), [&](const auto& ring) { return in_ring(ring, p); }) % 2 != 0;
 }
 
 /// A closed ring by the distance along it.

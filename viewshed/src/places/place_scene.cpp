@@ -68,12 +68,9 @@ std::optional<PlaceScene::Obstacle> PlaceScene::obstacle(const View& view, const
     return std::nullopt;
   }
   const Tin& tin = surface_.tin;
-  const double dx = view.eye.x - from.x, dy = view.eye.y - from.y, resolution = tin.grid.resolution;
-  const double farther = std::min(1.0, at + kWithin / resolution / std::hypot(dx, dy));
-  const auto along = [&](double s) {
-    return Point2{tin.grid.origin.x + (from.x + s * dx) * resolution,
-                  tin.grid.origin.y + (from.y + s * dy) * resolution};
-  };
+  const double dx = view.eye.x - from.x, dy = view.eye.y - from.y;
+  const double farther = std::min(1.0, at + kWithin / tin.grid.resolution / std::hypot(dx, dy));
+  const auto along = [&](double s) { return place_in_metres(tin.grid, {from.x + s * dx, from.y + s * dy}); };
   return Obstacle{tin.theme(tin.triangles[triangle]), along(at), along(farther)};
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <itin/grid_units.hpp>
 #include <itin/sort_unique.hpp>
 #include <itin/tin_heights.hpp>
 
@@ -122,13 +123,9 @@ void KeptGround::measure(const Tile& tile, const TileCentres& at, double cell_wi
   });
 }
 
-Point2 KeptGround::metres(Point2 units) const {
-  return {units_.origin.x + units.x * units_.resolution, units_.origin.y + units.y * units_.resolution};
-}
-
 std::optional<double> KeptGround::height_at(Point2 units) const {
   if (heights_) return heights_->height_at(units);
-  const auto bin = bins_->grid.cell_at(metres(units));
+  const auto bin = bins_->grid.cell_at(place_in_metres(units_, units));
   if (!bin) return std::nullopt;
   return height_over(*surface_, bins_->triangles.triangles(bins_->grid.index(*bin)), units);
 }
@@ -137,7 +134,8 @@ std::optional<double> KeptGround::height_at(Point2 units) const {
 std::vector<std::uint32_t> KeptGround::triangles_about(const Tile& tile, const TileCentres& at) const {
   const auto east = static_cast<std::size_t>(tile.columns - 1), south = static_cast<std::size_t>(tile.rows - 1);
   const RasterGrid& grid = bins_ ? bins_->grid : heights_->grid();
-  const Point2 north_west = metres(at.at(0)), south_east = metres({at.x[east], at.y[south]});
+  const Point2 north_west = place_in_metres(units_, at.at(0)),
+               south_east = place_in_metres(units_, {at.x[east], at.y[south]});
   const auto bin = [](double v, std::int64_t count) {
     return std::clamp<std::int64_t>(static_cast<std::int64_t>(std::floor(v)), 0, count - 1);
   };

@@ -52,7 +52,6 @@ class KeptGround {
   bool holds_centres(const Share& share, const TileCentres& at) const;
   GroundCache::Heights kept(const GroundCache::Key& key) const;
   void measure(const Tile& tile, const TileCentres& at, double cell_width, TileValues<double>& ground) const;
-  Point2 metres(Point2 units) const;
   std::optional<double> height_at(Point2 units) const;
   std::vector<std::uint32_t> triangles_about(const Tile& tile, const TileCentres& at) const;
 

@@ -100,7 +100,7 @@ void add_roofs(const Store& store, const Tin& tin, const SampledSurface& surface
     middle = {std::round(middle.x), std::round(middle.y)};
     const auto roof = surface.height(middle), under = ground.height(middle);
     if (!roof || !under || (*roof - *under) * units.resolution < kLeastRoofHeight) continue;
-    const Point2 place{units.origin.x + middle.x * units.resolution, units.origin.y + middle.y * units.resolution};
+    const Point2 place = place_in_metres(units, middle);
     posts.push_back({{place.x, place.y, *roof * units.resolution}, seed, true, true});
   }
 }

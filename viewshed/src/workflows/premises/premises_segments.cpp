@@ -39,10 +39,14 @@ PremisesSegment segment_of(const std::vector<ReachedBuilding>& buildings, const 
   return segment;
 }
 
+void add_ground_under(const ReachedBuilding& building, const GroundTiles& ground, TileSet& tiles) {
+  ground.add_lines({building.box.xmin, building.box.ymin}, building.box, tiles);
+}
+
 /// The ground that one building needs.
 TileSet tiles_of(const GroundTiles& ground, const ReachedBuilding& building, const std::vector<SitePosition>& masts) {
   TileSet tiles(ground.count());
-  ground.add_lines({building.box.xmin, building.box.ymin}, building.box, tiles);
+  add_ground_under(building, ground, tiles);
   for (const std::size_t mast : building.masts) ground.add_lines(masts[mast].position, building.box, tiles);
   return tiles;
 }
@@ -80,8 +84,7 @@ std::vector<PremisesSegment> premises_segments(const Store& store, const Premise
   for (const GroundRun& run : ground_runs(numbers, ground.count(), needed, segment_fits)) {
     PremisesSegment& segment = segments.emplace_back(segment_of(buildings, run.pieces));
     TileSet about(ground.count());
-    for (const std::size_t i : run.pieces)
-      ground.add_lines({buildings[i].box.xmin, buildings[i].box.ymin}, buildings[i].box, about);
+    for (const std::size_t i : run.pieces) add_ground_under(buildings[i], ground, about);
     segment.surface = ground.window(run.ground), segment.ground = ground.window(about);
     segment.points = ground.points(run.ground);
   }

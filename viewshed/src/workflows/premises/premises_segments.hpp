@@ -1,7 +1,6 @@
 // Buildings in groups, each with the masts that reach them and the ground on the way, as large as the memory holds.
 //
-//   const PremisesSegments segments(store, request, feet, masts);
-//   for (const PremisesSegment& segment : segments.all())
+//   for (const PremisesSegment& segment : premises_segments(store, request, masts, reached))
 //     triangulate(store, segment.surface, ...);
 #pragma once
 

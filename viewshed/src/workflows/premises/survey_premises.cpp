@@ -30,30 +30,26 @@ namespace itin::viewshed {
 
 namespace {
 
-bool is_of_buildings(const ThemeInfo& theme) {
-  return theme.kind == ThemeKind::Buildings || theme.kind == ThemeKind::Terraces;
-}
-
 void require_premises_request(PremisesRequest& request) {
   constexpr double kLeastSpacing = 0.1;
-  const auto require = [](bool right, const char* what) {
-    if (!right) throw InputError(what);
+  const auto require = [](bool right, const char* field, const char* what) {
+    if (!right) throw InputError(fmt::format("`{}`: {}", field, what), field);
   };
-  require(!request.masts.places.empty(), "`masts`: there is none; give at least one");
-  require(request.radius > 0, "`radius`: give more than 0 m");
-  require(request.spacing >= kLeastSpacing, "`spacing`: give 0.1 m or more");
-  require(request.reveal > 0, "`reveal`: give more than 0 m: an antenna within a wall serves nothing");
-  require(request.storey > 0, "`storey`: give more than 0 m");
-  require(!request.poles.empty(), "`poles`: give at least one height");
+  require(!request.masts.places.empty(), "masts", "there is none; give at least one");
+  require(request.radius > 0, "radius", "give more than 0 m");
+  require(request.spacing >= kLeastSpacing, "spacing", "give 0.1 m or more");
+  require(request.reveal > 0, "reveal", "give more than 0 m: an antenna within a wall serves nothing");
+  require(request.storey > 0, "storey", "give more than 0 m");
+  require(!request.poles.empty(), "poles", "give at least one height");
   std::sort(request.poles.begin(), request.poles.end());
-  require(request.poles.front() >= 0, "`poles`: give heights of 0 m or more");
+  require(request.poles.front() >= 0, "poles", "give heights of 0 m or more");
   if (!request.frequency_ghz) return;
-  require(*request.frequency_ghz > 0, "`frequency_ghz`: give more than 0 GHz");
-  require(request.fresnel > 0 && request.fresnel <= 1, "`fresnel`: give more than 0, and 1 at most");
+  require(*request.frequency_ghz > 0, "frequency_ghz", "give more than 0 GHz");
+  require(request.fresnel > 0 && request.fresnel <= 1, "fresnel", "give more than 0, and 1 at most");
   // A Fresnel zone that ends on the surface has no clearance at all.
   std::erase(request.poles, 0);
-  require(!request.poles.empty(),
-          "`poles`: with a `frequency_ghz` give a height above 0: no link from the roof is clear");
+  require(!request.poles.empty(), "poles",
+          "with a `frequency_ghz` give a height above 0: no link from the roof is clear");
 }
 
 /// Checks that the chosen buildings stand on the ground. Warns of those of some themes that do not.
@@ -72,8 +68,10 @@ void require_buildings(const StoreMetadata& metadata, const ThemeChoice& themes,
         fmt::format("buildings of {} have no heights and are left out; {}", fmt::join(flat, ", "), kWhatToDo));
   if (raised) return;
   if (!flat.empty())
-    throw InputError(fmt::format("`themes`: buildings of {} have no heights; {}", fmt::join(flat, ", "), kWhatToDo));
-  throw InputError("`themes`: none of them has buildings; import some with `kind` buildings, or choose their theme");
+    throw InputError(fmt::format("`themes`: buildings of {} have no heights; {}", fmt::join(flat, ", "), kWhatToDo),
+                     "themes");
+  throw InputError("`themes`: none of them has buildings; import some with `kind` buildings, or choose their theme",
+                   "themes");
 }
 
 class PremisesSurveyor {
@@ -124,7 +122,8 @@ class PremisesSurveyor {
   }
 
   [[noreturn]] static void refuse(const SitePlace& mast, const std::string& why) {
-    throw InputError(fmt::format("mast {} at {:.10g},{:.10g}: {}", mast.name, mast.position.x, mast.position.y, why));
+    throw InputError(fmt::format("mast {} at {:.10g},{:.10g}: {}", mast.name, mast.position.x, mast.position.y, why),
+                     "masts");
   }
 
   /// Finds the buildings within the radius of a mast. Throws InputError where there are none.
@@ -142,10 +141,10 @@ class PremisesSurveyor {
       if (!building.masts.empty()) reached.push_back(std::move(building));
     }
     if (reached.empty())
-      throw InputError(
-          fmt::format("no building is within the `radius` of {:g} m of a mast; the nearest is {:.0f} m "
-                      "away; give a greater `radius`, or move the masts",
-                      request.radius, std::sqrt(nearest)));
+      throw InputError(fmt::format("no building is within the `radius` of {:g} m of a mast; the nearest is {:.0f} m "
+                                   "away; give a greater `radius`, or move the masts",
+                                   request.radius, std::sqrt(nearest)),
+                       "radius");
     return reached;
   }
 
