@@ -33,7 +33,7 @@ void expect_first(const Tin& tin, Point2 from, double cell, const Earth& earth) 
   request.earth = earth;
   const Result result = run(tin, request);
   const test::ExactLineOfSight exact(tin, earth);
-  const FirstBlocker blockers(tin, earth);
+  const FirstBlocker blockers(std::make_shared<const HeightPyramid>(tin), earth);
   const double unit = tin.grid.resolution, drop = earth.drop_coefficient() * unit;
   const Point3 eye{from.x, from.y, *exact.height(from) + 2};
   std::size_t hidden = 0;

@@ -8,6 +8,7 @@
 #include <viewshed/held_surface.hpp>
 
 #include "support/hills_and_town.hpp"
+#include "support/impatient.hpp"
 #include "support/same_result.hpp"
 #include "support/seed.hpp"
 
@@ -90,6 +91,22 @@ TEST_F(HeldSurfaces, ServeSeveralThreads) {
   for (std::size_t i = 0; i < found.size(); ++i) {
     SCOPED_TRACE(i);
     test::expect_same_result(expected[i], found[i]);
+  }
+}
+
+/// What finds triangles along lines is kept between calls, but never half made.
+TEST_F(HeldSurfaces, FindTrianglesAfterACancelledCall) {
+  const Store store(stores_->town());
+  const HeldSurface surface(store, {321600, 4297550, 322000, 4297900}, Detail::tolerance(0), ThemeChoice::all(), {},
+                            progress_);
+  for (const Mode mode : {Mode::kBlocker, Mode::kLoss}) {
+    Request request =
+        look_within(surface.area(), 120, test::HillsAndTown::in_mode(mode, test::HillsAndTown::over_town()));
+    for (const int looks : {0, 3, 10, 20, 40}) {
+      test::Impatient impatient(looks);
+      EXPECT_THROW(std::ignore = surface.compute(request, impatient), Cancelled);
+    }
+    test::expect_same_result(compute(store, request, progress_), surface.compute(request, progress_));
   }
 }
 

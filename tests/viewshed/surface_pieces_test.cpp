@@ -56,7 +56,7 @@ class SurfacePiecesOfLines : public testing::Test {
 
 TEST_F(SurfacePiecesOfLines, AreThoseThatASearchFinds) {
   const Tin tin = test::fractal_tin(65, 25, 80, 0.55, static_cast<unsigned>(random_()));
-  const SurfacePieces surface(tin);
+  const SurfacePieces surface(std::make_shared<const HeightPyramid>(tin));
   const Box box = tin.bounds();
   const auto place = [&] { return Point2{draw(box.xmin, box.xmax), draw(box.ymin, box.ymax)}; };
   for (int i = 0; i < 2000; ++i) EXPECT_TRUE(compare(surface, place(), place()));
@@ -65,7 +65,7 @@ TEST_F(SurfacePiecesOfLines, AreThoseThatASearchFinds) {
 /// From post to post, and from the middle of an edge: lines pass over vertices and along edges, also of the outline.
 TEST_F(SurfacePiecesOfLines, AreSoOverVerticesAndAlongEdges) {
   const Tin tin = test::fractal_tin(17, 25, 80, 0.55, static_cast<unsigned>(random_()));
-  const SurfacePieces surface(tin);
+  const SurfacePieces surface(std::make_shared<const HeightPyramid>(tin));
   int whole = 0;
   for (int i = 0; i < 4000; ++i) {
     const auto post = [&] { return 12.5 * draw_int(0, 32); };
@@ -83,7 +83,7 @@ TEST_F(SurfacePiecesOfLines, AreFoundBeyondMissingGround) {
     const Point3 p = tin.point(t[0]);
     return std::abs(p.x - test::kCorner.x - 400) < 120 && std::abs(p.y - test::kCorner.y - 350) < 90;
   });
-  const SurfacePieces surface(tin);
+  const SurfacePieces surface(std::make_shared<const HeightPyramid>(tin));
   int whole = 0;
   for (int i = 0; i < 1000; ++i) {
     const auto place = [&] { return Point2{test::kCorner.x + draw(-50, 850), test::kCorner.y + draw(-50, 850)}; };

@@ -74,6 +74,8 @@ class HeightPyramid {
   explicit HeightPyramid(const LatticeTin& lattice);
 
   const Grid& units() const { return units_; }
+  /// The surface, where it is a Tin.
+  const Tin& tin() const { return *tin_; }
 
   /// Calls visit(triangle) for every triangle that may rise above a line of the bundle, or come within its margin,
   /// nearest first, some more than once. A block is left out as a whole where the lines run above its highest point.

@@ -39,7 +39,7 @@ class SurfaceAtOnce final : public SurfaceSource {
     if (casts_rays(request)) surface_->cast_rays(request.earth);
     const std::vector<Eye> eyes = stand_on_ground(result, call);
     find_voids(over_.units(), surface_->rim(), result);
-    if (needs_triangles(request)) studies_.emplace(request, *over_.tin, over_.bare, call);
+    if (needs_triangles(request)) studies_.emplace(request, finders(), bare_finders(), call);
     result.statistics.scene_seconds = watch.lap();
     if (over_.reader != nullptr && !all_read(*over_.reader))
       for (const Eye& eye : eyes) revealed_.push_back(reveal(eye, *over_.reader, *surface_, kAnyTiles, call).view);
@@ -65,6 +65,12 @@ class SurfaceAtOnce final : public SurfaceSource {
   }
 
  private:
+  const TriangleFinders& finders() { return over_.finders != nullptr ? *over_.finders : finders_.emplace(*over_.tin); }
+  const TriangleFinders* bare_finders() {
+    if (over_.bare_finders != nullptr || over_.bare == nullptr) return over_.bare_finders;
+    return &bare_finders_.emplace(*over_.bare);
+  }
+
   void take_statistics(Result& result) const {
     Statistics& statistics = result.statistics;
     statistics.triangles = over_.lattice != nullptr ? over_.lattice->triangle_count() : over_.tin->triangles.size();
@@ -99,6 +105,7 @@ class SurfaceAtOnce final : public SurfaceSource {
   const SurfaceInMemory& over_;
   RasterGrid tiles_;
   std::optional<FullSurface> surface_;
+  std::optional<TriangleFinders> finders_, bare_finders_;  ///< where `over_` has none
   std::optional<TriangleStudies> studies_;
   std::vector<RadialSweep::View> revealed_;  ///< each eye's, where not all heights have been read; else none
 };

@@ -8,6 +8,7 @@
 #include <viewshed/viewshed.hpp>
 
 #include "bounds/binned_heights.hpp"
+#include "modes/triangle_finders.hpp"
 #include "scene/kept_ground.hpp"
 
 namespace itin::viewshed {
@@ -21,6 +22,9 @@ struct SurfaceInMemory {
   Box extent;                                        ///< the box that cells are laid over
   std::shared_ptr<BinnedHeights> heights = nullptr;  ///< the surface's, where they have been binned
   const KeptGround* ground = nullptr;                ///< what targets stand on, where it is kept
+  // What finds triangles along lines, where it is kept:
+  const TriangleFinders* finders = nullptr;       ///< those of `tin`
+  const TriangleFinders* bare_finders = nullptr;  ///< those of `bare`
 
   const Grid& units() const { return lattice != nullptr ? lattice->grid : tin->grid; }
 };

@@ -140,9 +140,12 @@ class TinSegments final : public SurfaceSource {
     std::optional<Tin> bare;
     if (features_ && needs_bare_lines(request_))
       bare = triangulated(ground_->window(ground), ThemeChoice::none(), cells.result().statistics);
+    const TriangleFinders finders(segment.surface.tin);
+    std::optional<TriangleFinders> bare_finders;
+    if (bare) bare_finders.emplace(*bare);
     std::optional<TriangleStudies> studies;
     if (needs_triangles(request_))
-      studies.emplace(request_, segment.surface.tin, bare ? &*bare : nullptr, cells.progress());
+      studies.emplace(request_, finders, bare_finders ? &*bare_finders : nullptr, cells.progress());
     portion.studies = studies ? &*studies : nullptr;
     cells.observe(portion, all_cells(cells.result().grid, tiles_, tiles));
   }

@@ -87,15 +87,14 @@ class Survey {
 
   /// Casts the lines in these directions over the surface under all of them.
   void cast(const Tin& surface, Directions directions, Progress& progress) {
-    const Panorama panorama(surface, request_.earth, eye_, reach_);
-    std::optional<FirstBlocker> blockers;
-    if (std::any_of(directions.begin(), directions.end(), [](const Direction& d) { return d.target; }))
-      blockers.emplace(surface, request_.earth);
+    const auto pyramid = std::make_shared<const HeightPyramid>(surface, progress);
+    const Panorama panorama(pyramid, request_.earth, eye_, reach_);
+    const FirstBlocker blockers(pyramid, request_.earth);
     for_each_step(directions.size(), "horizon", progress, [&](std::size_t i) {
       const Direction& d = directions[i];
       if (d.target) {
         const Point3 to = units_of(result_.targets[d.index]);
-        const bool visible = eye_.stands_at({to.x, to.y}) || !blockers->find(eye_.units, to);
+        const bool visible = eye_.stands_at({to.x, to.y}) || !blockers.find(eye_.units, to);
         result_.targets[d.index].verdict = visible ? Verdict::kVisible : Verdict::kHidden;
       } else {
         result_.points[d.index].sky = panorama.sky(result_.points[d.index].azimuth_deg);

@@ -18,13 +18,12 @@ constexpr double kStepBehind = 1e-2;
 
 }  // namespace
 
-Panorama::Panorama(const Tin& surface, const Earth& earth, const Eye& eye, double reach)
-    : surface_(surface),
+Panorama::Panorama(std::shared_ptr<const HeightPyramid> surface, const Earth& earth, const Eye& eye, double reach)
+    : surface_(std::move(surface)),
       eye_(eye),
-      drop_(earth.drop_coefficient() * surface.grid.resolution),
-      grazing_(kGrazing / surface.grid.resolution),
-      reach_(reach / surface.grid.resolution),
-      pyramid_(surface) {}
+      drop_(earth.drop_coefficient() * surface_->units().resolution),
+      grazing_(kGrazing / surface_->units().resolution),
+      reach_(reach / surface_->units().resolution) {}
 
 std::optional<SkyPoint> Panorama::sky(double azimuth) const {
   const double x = std::sin(in_radians(azimuth)), y = std::cos(in_radians(azimuth));
@@ -35,8 +34,8 @@ std::optional<SkyPoint> Panorama::sky(double azimuth) const {
   LineBundle bundle(level);
   bundle.end = eye_.units.z - 1e4 * reach_;  // far below all ground in sight
   std::vector<std::uint32_t> highest;        // equally high
-  pyramid_.search(bundle, [&](std::uint32_t triangle) {
-    const auto [a, b, c] = surface_.corners(triangle);
+  surface_->search(bundle, [&](std::uint32_t triangle) {
+    const auto [a, b, c] = surface_->tin().corners(triangle);
     const double clear = level.clearing_end(a, b, c);
     if (clear > bundle.end) bundle.end = clear, highest.clear();
     if (clear == bundle.end) highest.push_back(triangle);
@@ -45,7 +44,7 @@ std::optional<SkyPoint> Panorama::sky(double azimuth) const {
   if (std::isinf(bundle.end)) throw InputError("the observer stands beneath a roof or top: it has no horizon");
   const SightLine line = line_to(bundle.end);
   const auto [s, theme] = nearest_touch(line, highest);
-  const double unit = surface_.grid.resolution, bulge = drop_ * reach_ * reach_;
+  const double unit = surface_->units().resolution, bulge = drop_ * reach_ * reach_;
   const double rise = bundle.end - eye_.units.z, distance = s * reach_ * unit;
   return SkyPoint{in_degrees(std::atan2(rise - bulge, reach_)),
                   distance,
@@ -59,8 +58,9 @@ std::optional<SkyPoint> Panorama::sky(double azimuth) const {
 Panorama::Touch Panorama::nearest_touch(const SightLine& line, const std::vector<std::uint32_t>& triangles) const {
   Touch nearest{kInfinity, 0};
   for (const std::uint32_t triangle : triangles) {
-    const auto [a, b, c] = surface_.corners(triangle);
-    nearest = std::min(nearest, Touch{line.highest_at(a, b, c), surface_.theme(surface_.triangles[triangle])});
+    const auto [a, b, c] = surface_->tin().corners(triangle);
+    nearest =
+        std::min(nearest, Touch{line.highest_at(a, b, c), surface_->tin().theme(surface_->tin().triangles[triangle])});
   }
   return nearest;
 }
@@ -73,8 +73,8 @@ bool Panorama::ends_behind(Point2 place, const SightLine& line) const {
   constexpr double kBelowAll = -1e12;
   LineBundle bundle(SightLine({place.x, place.y, kBelowAll}, {behind.x, behind.y, kBelowAll}, drop_, grazing_));
   bool ground = false;
-  pyramid_.search(bundle, [&](std::uint32_t triangle) {
-    ground = ground || height_over(surface_.corners(triangle), behind).has_value();
+  surface_->search(bundle, [&](std::uint32_t triangle) {
+    ground = ground || height_over(surface_->tin().corners(triangle), behind).has_value();
   });
   return !ground;
 }

@@ -89,14 +89,14 @@ struct LoweredLines : LineBundle {
 
 }  // namespace
 
-ClearZone::ClearZone(const Tin& lower, const Tin* upper, const Earth& earth, const FresnelCriterion& criterion,
-                     const Progress& progress)
-    : drop_(earth.drop_coefficient() * lower.grid.resolution), criterion_(criterion), lower_(lower, progress) {
-  if (upper != nullptr) upper_.emplace(*upper, progress);
-}
+ClearZone::ClearZone(Surface lower, Surface upper, const Earth& earth, const FresnelCriterion& criterion)
+    : drop_(earth.drop_coefficient() * lower->units().resolution),
+      criterion_(criterion),
+      lower_(std::move(lower)),
+      upper_(std::move(upper)) {}
 
-unsigned ClearZone::cut(const Bounded& surface, const SightLines& lines) const {
-  const Tin& tin = surface.tin;
+unsigned ClearZone::cut(const HeightPyramid& surface, const SightLines& lines) const {
+  const Tin& tin = surface.tin();
   const double grazing = kGrazing / tin.grid.resolution;
   std::vector<ZoneTest> tests;
   tests.reserve(SightLines::kSize);
@@ -110,7 +110,7 @@ unsigned ClearZone::cut(const Bounded& surface, const SightLines& lines) const {
   });
   unsigned result = 0;
   RecentTriangles recent;
-  surface.pyramid.search(bundle, [&](std::uint32_t t) {
+  surface.search(bundle, [&](std::uint32_t t) {
     if (recent.seen(t)) return;
     const Triangle& triangle = tin.triangles[t];
     const GridPoint &a = tin.vertices[triangle[0]], &b = tin.vertices[triangle[1]], &c = tin.vertices[triangle[2]];
@@ -126,18 +126,18 @@ unsigned ClearZone::cut(const Bounded& surface, const SightLines& lines) const {
 
 /// Twice the greatest radius of the line's first zone, grid units.
 double ClearZone::zone_of(const SightLine& line) const {
-  return std::sqrt(criterion_.wavelength / lower_.tin.grid.resolution * std::hypot(line.dx(), line.dy()));
+  return std::sqrt(criterion_.wavelength / lower_->units().resolution * std::hypot(line.dx(), line.dy()));
 }
 
 std::optional<ClearZone::FirstCut> ClearZone::first_cut(const Point3& from, const Point3& to) const {
-  const Tin& tin = lower_.tin;
+  const Tin& tin = lower_->tin();
   const double grazing = kGrazing / tin.grid.resolution;
   const SightLine line(from, to, drop_, grazing);
   const ZoneTest test(line, zone_of(line), criterion_.fraction, grazing);
   LoweredLines bundle(grazing);
   bundle.add(test);
   std::optional<FirstCut> first;
-  lower_.pyramid.search(bundle, [&](std::uint32_t t) {
+  lower_->search(bundle, [&](std::uint32_t t) {
     const Triangle& triangle = tin.triangles[t];
     const GridPoint &a = tin.vertices[triangle[0]], &b = tin.vertices[triangle[1]], &c = tin.vertices[triangle[2]];
     if (!test.cut_by(a, b, c)) return;
@@ -149,11 +149,11 @@ std::optional<ClearZone::FirstCut> ClearZone::first_cut(const Point3& from, cons
 }
 
 unsigned ClearZone::certainly_cut(const SightLines& to_highest_targets) const {
-  return cut(lower_, to_highest_targets);
+  return cut(*lower_, to_highest_targets);
 }
 
 unsigned ClearZone::certainly_clear(const SightLines& to_lowest_targets) const {
-  return to_lowest_targets.active & ~cut(upper_ ? *upper_ : lower_, to_lowest_targets);
+  return to_lowest_targets.active & ~cut(upper_ ? *upper_ : *lower_, to_lowest_targets);
 }
 
 }  // namespace itin::viewshed

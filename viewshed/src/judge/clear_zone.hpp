@@ -1,6 +1,6 @@
 // Which sight lines leave a given fraction of the first Fresnel zone clear.
 //
-//   const ClearZone zone(lower, &upper, earth, {.wavelength = 0.06, .fraction = 0.6});
+//   const ClearZone zone(lower, upper, earth, {.wavelength = 0.06, .fraction = 0.6});
 //   unsigned cut = zone.certainly_cut(to_highest_targets);        // whatever the full surface is: one bit per line
 //   unsigned clear = zone.certainly_clear(to_lowest_targets);
 //
@@ -26,10 +26,9 @@ namespace itin::viewshed {
 
 class ClearZone {
  public:
-  /// The surface lies between the two, or is `lower` itself: then `upper` is null. They must outlive this. O(n) time
-  /// and memory.
-  ClearZone(const Tin& lower, const Tin* upper, const Earth& earth, const FresnelCriterion& criterion,
-            const Progress& progress = NoProgress());
+  using Surface = std::shared_ptr<const HeightPyramid>;
+  /// The surface lies between the two, which are Tins, or is `lower` itself: then `upper` is null.
+  ClearZone(Surface lower, Surface upper, const Earth& earth, const FresnelCriterion& criterion);
 
   /// Returns one bit per line; the closer together the lines' ends, the faster. Over the surface itself a zone is
   /// either certainly cut or certainly clear. May be called from any number of threads.
@@ -46,19 +45,12 @@ class ClearZone {
   std::optional<FirstCut> first_cut(const Point3& from, const Point3& to) const;
 
  private:
-  /// A surface, and the pyramid of its bounds.
-  struct Bounded {
-    Bounded(const Tin& t, const Progress& progress) : tin(t), pyramid(t, progress) {}
-    const Tin& tin;
-    HeightPyramid pyramid;
-  };
-  unsigned cut(const Bounded& surface, const SightLines& lines) const;
+  unsigned cut(const HeightPyramid& surface, const SightLines& lines) const;
   double zone_of(const SightLine& line) const;
 
   double drop_;  ///< grid units per squared grid unit
   FresnelCriterion criterion_;
-  Bounded lower_;
-  std::optional<Bounded> upper_;
+  Surface lower_, upper_;
 };
 
 }  // namespace itin::viewshed

@@ -56,10 +56,13 @@ class ZonePacket {
 
 }  // namespace
 
-void cut_zones(const ClearZone& zone, const Eye& eye, const TileTargets& targets, TileValues<Verdict>& values) {
+void cut_zones(const ClearZone& zone, const Eye& eye, const TileTargets& targets, const Progress& progress,
+               TileValues<Verdict>& values) {
   ZonePacket packet(zone, eye, targets);
-  for (std::size_t row = 0; row < Tile::kSide; row += kPacketSide)
+  for (std::size_t row = 0; row < Tile::kSide; row += kPacketSide) {
+    progress.throw_if_cancelled();
     for (std::size_t column = 0; column < Tile::kSide; column += kPacketSide) packet.judge(row, column, values);
+  }
 }
 
 }  // namespace itin::viewshed

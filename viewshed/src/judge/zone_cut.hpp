@@ -11,7 +11,8 @@
 namespace itin::viewshed {
 
 /// Turns visible and undecided cells whose zone is certainly cut to Verdict::kZoneCut, and visible cells whose zone is
-/// not certainly clear to Verdict::kUndecided. A target at the eye's own place has no zone.
-void cut_zones(const ClearZone& zone, const Eye& eye, const TileTargets& targets, TileValues<Verdict>& values);
+/// not certainly clear to Verdict::kUndecided. A target at the eye's own place has no zone. Throws Cancelled.
+void cut_zones(const ClearZone& zone, const Eye& eye, const TileTargets& targets, const Progress& progress,
+               TileValues<Verdict>& values);
 
 }  // namespace itin::viewshed

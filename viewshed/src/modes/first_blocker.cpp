@@ -4,19 +4,18 @@
 
 namespace itin::viewshed {
 
-FirstBlocker::FirstBlocker(const Tin& tin, const Earth& earth, const Progress& progress)
-    : tin_(tin),
-      drop_(earth.drop_coefficient() * tin.grid.resolution),
-      grazing_(kGrazing / tin.grid.resolution),
-      pyramid_(tin, progress) {}
+FirstBlocker::FirstBlocker(std::shared_ptr<const HeightPyramid> surface, const Earth& earth)
+    : surface_(std::move(surface)),
+      drop_(earth.drop_coefficient() * surface_->units().resolution),
+      grazing_(kGrazing / surface_->units().resolution) {}
 
 std::optional<FirstBlocker::Blocker> FirstBlocker::find(const Point3& from, const Point3& to) const {
   const SightLine line(from, to, drop_, grazing_);
   std::optional<Blocker> first;
   LineBundle bundle(line);
-  pyramid_.search(bundle, [&](std::uint32_t triangle) {
-    const Triangle& t = tin_.triangles[triangle];
-    const std::optional<double> at = line.hidden_from(tin_.vertices[t[0]], tin_.vertices[t[1]], tin_.vertices[t[2]]);
+  surface_->search(bundle, [&](std::uint32_t triangle) {
+    const auto [a, b, c] = surface_->tin().corners(triangle);
+    const std::optional<double> at = line.hidden_from(a, b, c);
     if (!at || (first && (*at > first->at || (*at == first->at && triangle >= first->triangle)))) return;
     first = {triangle, *at};
     bundle.reach = *at;

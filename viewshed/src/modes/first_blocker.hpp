@@ -1,6 +1,6 @@
 // Finds what first hides a target from an eye: the triangle nearest to the eye that rises above the sight line.
 //
-//   const FirstBlocker blockers(tin, earth);
+//   const FirstBlocker blockers(std::make_shared<const HeightPyramid>(tin), earth);
 //   const std::optional<FirstBlocker::Blocker> blocker = blockers.find(eye, target);
 //
 // Every triangle that may matter (HeightPyramid) is looked at in double precision, with SightLine's rule for grazing: a
@@ -20,8 +20,8 @@ namespace itin::viewshed {
 /// Safe for concurrent use.
 class FirstBlocker {
  public:
-  /// The Tin must outlive it. Cost and memory: HeightPyramid's. Throws Cancelled.
-  FirstBlocker(const Tin& tin, const Earth& earth, const Progress& progress = NoProgress());
+  /// The surface is a Tin.
+  FirstBlocker(std::shared_ptr<const HeightPyramid> surface, const Earth& earth);
 
   struct Blocker {
     std::uint32_t triangle = 0;
@@ -32,10 +32,9 @@ class FirstBlocker {
   std::optional<Blocker> find(const Point3& from, const Point3& to) const;
 
  private:
-  const Tin& tin_;
+  std::shared_ptr<const HeightPyramid> surface_;
   double drop_;     ///< grid units of drop per squared grid unit
   double grazing_;  ///< grid units
-  HeightPyramid pyramid_;
 };
 
 }  // namespace itin::viewshed

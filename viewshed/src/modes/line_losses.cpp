@@ -51,13 +51,12 @@ bool reaches_from_end_to_end(const std::vector<PathPoint>& points, double length
 
 }  // namespace
 
-LineLosses::LineLosses(const Tin& surface, const Tin* bare, const RadioPath& path, const Progress& progress)
-    : surface_(surface, progress), path_(path) {
-  if (bare != nullptr) bare_.emplace(*bare, progress);
-}
+LineLosses::LineLosses(std::shared_ptr<const SurfacePieces> surface, std::shared_ptr<const SurfacePieces> bare,
+                       const RadioPath& path)
+    : surface_(std::move(surface)), bare_(std::move(bare)), path_(path) {}
 
 LineLosses::Outcome LineLosses::of_line(const Line& line, Scratch& scratch) const {
-  const Grid& grid = surface_.grid();
+  const Grid& grid = surface_->grid();
   const auto metres = [&](const Point3& end) { return place_in_metres(grid, {end.x, end.y}); };
   const SectionLine section(grid, metres(line.from), metres(line.to));
   const double length = section.length();
@@ -67,7 +66,7 @@ LineLosses::Outcome LineLosses::of_line(const Line& line, Scratch& scratch) cons
     return chain(scratch.pieces_, most_m, points);
   };
   Outcome outcome;
-  outcome.over_missing = !profile(surface_, greatest_spacing_m(length), scratch.tops_);
+  outcome.over_missing = !profile(*surface_, greatest_spacing_m(length), scratch.tops_);
   if (!reaches_from_end_to_end(scratch.tops_, length)) return outcome;
   const auto ends = above_tops({length, line.from.z * grid.resolution, line.to.z * grid.resolution},
                                scratch.tops_.front().height_m, scratch.tops_.back().height_m);

@@ -1,6 +1,6 @@
 // The losses of a radio path over a line, by the profile that its triangles make.
 //
-//   const LineLosses losses(tin, nullptr, {.frequency_ghz = 2.5});
+//   const LineLosses losses(surface, nullptr, {.frequency_ghz = 2.5});
 //   LineLosses::Scratch scratch;  // for many lines
 //   if (const auto loss = losses.of_line({eye, target}, scratch)) ...
 //
@@ -21,9 +21,9 @@ namespace itin::viewshed {
 /// Safe for concurrent use.
 class LineLosses {
  public:
-  /// `bare`: the ground under what stands on the surface; null where nothing does. Both must outlive it. Cost and
-  /// memory: those of SurfacePieces.
-  LineLosses(const Tin& surface, const Tin* bare, const RadioPath& path, const Progress& progress = NoProgress());
+  /// `bare`: the ground under what stands on the surface; null where nothing does.
+  LineLosses(std::shared_ptr<const SurfacePieces> surface, std::shared_ptr<const SurfacePieces> bare,
+             const RadioPath& path);
 
   /// The ends of a line, grid units; they differ horizontally.
   struct Line {
@@ -42,8 +42,7 @@ class LineLosses {
   Outcome of_line(const Line& line, Scratch& scratch) const;
 
  private:
-  SurfacePieces surface_;
-  std::optional<SurfacePieces> bare_;
+  std::shared_ptr<const SurfacePieces> surface_, bare_;
   RadioPath path_;
 };
 

@@ -26,8 +26,8 @@ void add_piece(const SectionLine& line, const SectionCrossing& in, const Section
 
 }  // namespace
 
-SurfacePieces::SurfacePieces(const Tin& tin, const Progress& progress)
-    : tin_(tin), pyramid_(tin, progress), neighbours_(adjacent_triangles(tin)) {}
+SurfacePieces::SurfacePieces(std::shared_ptr<const HeightPyramid> surface)
+    : surface_(std::move(surface)), neighbours_(adjacent_triangles(surface_->tin())) {}
 
 void SurfacePieces::along(const SectionLine& line, std::vector<Piece>& pieces) const {
   if (!walk(line, pieces)) search(line, pieces);
@@ -56,7 +56,7 @@ bool SurfacePieces::walk(const SectionLine& line, std::vector<Piece>& pieces) co
 std::optional<SurfacePieces::Stop> SurfacePieces::first_stop(const SectionLine& line) const {
   using Place = SectionCrossing::Place;
   std::optional<Stop> first;
-  pyramid_.for_each_triangle_near(place_in_units(tin_.grid, line.start()), [&](std::uint32_t t) {
+  surface_->for_each_triangle_near(place_in_units(grid(), line.start()), [&](std::uint32_t t) {
     const std::array<bool, 3> left{lies_left(line, corner(t, 0)), lies_left(line, corner(t, 1)),
                                    lies_left(line, corner(t, 2))};
     std::uint32_t entry = 3, exit = 3;
@@ -76,13 +76,13 @@ std::optional<SurfacePieces::Stop> SurfacePieces::first_stop(const SectionLine& 
 
 void SurfacePieces::search(const SectionLine& line, std::vector<Piece>& pieces) const {
   pieces.clear();
-  const Point2 from = place_in_units(tin_.grid, line.start()), to = place_in_units(tin_.grid, line.end());
+  const Point2 from = place_in_units(grid(), line.start()), to = place_in_units(grid(), line.end());
   LineBundle bundle(SightLine({from.x, from.y, 0}, {to.x, to.y, 0}, 0, 0));
   bundle.margin = kInfinity;  // however far below
   RecentTriangles recent;
-  pyramid_.search(bundle, [&](std::uint32_t t) {
+  surface_->search(bundle, [&](std::uint32_t t) {
     if (recent.seen(t)) return;
-    if (const auto chord = line.chord(tin_.corners(t))) add_piece(line, chord->from, chord->to, pieces);
+    if (const auto chord = line.chord(surface_->tin().corners(t))) add_piece(line, chord->from, chord->to, pieces);
   });
   std::sort(pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) {
     return std::pair(a.from.distance_m, a.to.distance_m) < std::pair(b.from.distance_m, b.to.distance_m);

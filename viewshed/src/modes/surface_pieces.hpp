@@ -1,6 +1,6 @@
 // The pieces of a surface along lines: straight over each triangle, as cross-sections have them.
 //
-//   const SurfacePieces surface(tin);
+//   const SurfacePieces surface(std::make_shared<const HeightPyramid>(tin));
 //   std::vector<SurfacePieces::Piece> pieces;
 //   surface.along(SectionLine(tin.grid, a, b), pieces);
 //
@@ -25,10 +25,10 @@ namespace itin::viewshed {
 /// Safe for concurrent use.
 class SurfacePieces {
  public:
-  /// The Tin must outlive it. Cost and memory: HeightPyramid's, and 12 bytes per triangle.
-  explicit SurfacePieces(const Tin& tin, const Progress& progress = NoProgress());
+  /// The surface is a Tin. Takes 12 bytes per triangle.
+  explicit SurfacePieces(std::shared_ptr<const HeightPyramid> surface);
 
-  const Grid& grid() const { return tin_.grid; }
+  const Grid& grid() const { return surface_->units(); }
 
   /// The ends of a piece: metres from the line's start (SectionLine::start()), and heights.
   struct Piece {
@@ -52,11 +52,10 @@ class SurfacePieces {
   };
   std::optional<Stop> first_stop(const SectionLine& line) const;
   const GridPoint& corner(std::uint32_t triangle, std::uint32_t i) const {
-    return tin_.vertices[tin_.triangles[triangle][i % 3]];
+    return surface_->tin().vertices[surface_->tin().triangles[triangle][i % 3]];
   }
 
-  const Tin& tin_;
-  HeightPyramid pyramid_;
+  std::shared_ptr<const HeightPyramid> surface_;
   std::vector<std::array<std::uint32_t, 3>> neighbours_;  ///< as adjacent_triangles()
 };
 

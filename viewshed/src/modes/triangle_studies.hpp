@@ -9,6 +9,7 @@
 #include "judge/clear_zone.hpp"
 #include "modes/first_blocker.hpp"
 #include "modes/line_losses.hpp"
+#include "modes/triangle_finders.hpp"
 #include "modes/visibility_probability.hpp"
 
 namespace itin::viewshed {
@@ -16,12 +17,16 @@ namespace itin::viewshed {
 struct TriangleStudies {
   /// Makes the studies that the request's mode needs. `bare` is the ground under what stands on the surface; null where
   /// nothing does. All must outlive it, but the progress. Throws Cancelled.
-  TriangleStudies(const Request& request, const Tin& surface, const Tin* bare, const Progress& progress)
-      : tin(surface) {
-    if (request.mode == Mode::kBlocker) blockers.emplace(surface, request.earth, progress);
-    if (request.mode == Mode::kProbability) odds.emplace(surface, request.earth, request.vertical_error, progress);
-    if (request.mode == Mode::kFresnel) zone.emplace(surface, nullptr, request.earth, request.fresnel, progress);
-    if (request.mode == Mode::kLoss) losses.emplace(surface, bare, request.radio, progress);
+  TriangleStudies(const Request& request, const TriangleFinders& surface, const TriangleFinders* bare,
+                  const Progress& progress)
+      : tin(surface.tin()) {
+    if (request.mode == Mode::kBlocker) blockers.emplace(surface.pyramid(progress), request.earth);
+    if (request.mode == Mode::kProbability)
+      odds.emplace(surface.pyramid(progress), request.earth, request.vertical_error);
+    if (request.mode == Mode::kFresnel)
+      zone.emplace(surface.pyramid(progress), nullptr, request.earth, request.fresnel);
+    if (request.mode == Mode::kLoss)
+      losses.emplace(surface.pieces(progress), bare != nullptr ? bare->pieces(progress) : nullptr, request.radio);
   }
 
   const Tin& tin;

@@ -25,14 +25,13 @@ std::array<double, 3> weights_at(const std::array<GridPoint, 3>& corners, const 
 
 }  // namespace
 
-VisibilityProbability::VisibilityProbability(const Tin& tin, const Earth& earth, const VerticalError& error,
-                                             const Progress& progress)
-    : tin_(tin),
-      drop_(earth.drop_coefficient() * tin.grid.resolution),
-      grazing_(kGrazing / tin.grid.resolution),
-      sigma_(error.sigma / tin.grid.resolution),
-      correlation_(error.correlation_length / tin.grid.resolution),
-      pyramid_(tin, progress) {}
+VisibilityProbability::VisibilityProbability(std::shared_ptr<const HeightPyramid> surface, const Earth& earth,
+                                             const VerticalError& error)
+    : surface_(std::move(surface)),
+      drop_(earth.drop_coefficient() * surface_->units().resolution),
+      grazing_(kGrazing / surface_->units().resolution),
+      sigma_(error.sigma / surface_->units().resolution),
+      correlation_(error.correlation_length / surface_->units().resolution) {}
 
 VisibilityProbability::Odds VisibilityProbability::of_line(const Line& line, Scratch& scratch) const {
   if (!cross(line, scratch)) return {0, false};
@@ -88,6 +87,7 @@ bool VisibilityProbability::cross(const Line& line, Scratch& scratch) const {
     const double rest = 1 - at;
     return rise <= 0 && rise * rise >= kSure * kSure * sigma_ * sigma_ * (1 + at * at + rest * rest);
   };
+  const Tin& tin = surface_->tin();
   const SightLine sight(line.from, line.to, drop_, grazing_);
   std::vector<Crossing>& crossings = scratch.crossings_;
   crossings.clear();
@@ -95,10 +95,10 @@ bool VisibilityProbability::cross(const Line& line, Scratch& scratch) const {
   bundle.margin = sure;
   double highest = -sure;
   const auto add = [&](std::uint32_t triangle) {
-    Triangle t = tin_.triangles[triangle];
+    Triangle t = tin.triangles[triangle];
     // The corners are sorted so that an edge's two triangles see it alike.
     std::sort(t.begin(), t.end());
-    sight.for_each_crossing({tin_.vertices[t[0]], tin_.vertices[t[1]], tin_.vertices[t[2]]},
+    sight.for_each_crossing({tin.vertices[t[0]], tin.vertices[t[1]], tin.vertices[t[2]]},
                             [&](std::size_t i, std::size_t j, double weight, double at, double rise) {
                               if (surely_below(rise, at)) return;
                               crossings.push_back({at, rise, t[i], t[j], weight});
@@ -108,7 +108,7 @@ bool VisibilityProbability::cross(const Line& line, Scratch& scratch) const {
     if (highest >= hidden) bundle.margin = -kInfinity;
   };
   if (const auto last = scratch.highest_) add(*last);
-  if (highest < hidden) pyramid_.search(bundle, add);
+  if (highest < hidden) surface_->search(bundle, add);
   if (highest >= hidden) return false;
   sort_unique(crossings);
   return true;
@@ -116,10 +116,11 @@ bool VisibilityProbability::cross(const Line& line, Scratch& scratch) const {
 
 /// The ground under an end; far below where there is none.
 VisibilityProbability::Footing VisibilityProbability::under(const Point3& end) const {
-  const auto triangle = pyramid_.triangle_at({end.x, end.y});
+  const auto triangle = surface_->triangle_at({end.x, end.y});
   if (!triangle) return {{}, std::numeric_limits<float>::max()};
-  const std::array<GridPoint, 3> corners = tin_.corners(*triangle);
-  Footing footing{{tin_.triangles[*triangle], weights_at(corners, end), 3}, end.z};
+  const Tin& tin = surface_->tin();
+  const std::array<GridPoint, 3> corners = tin.corners(*triangle);
+  Footing footing{{tin.triangles[*triangle], weights_at(corners, end), 3}, end.z};
   for (std::size_t i = 0; i < 3; ++i) footing.above -= footing.error.weight[i] * corners[i].z;
   return footing;
 }

@@ -1,6 +1,6 @@
 // How probable it is that a sight line is clear where heights are uncertain.
 //
-//   const VisibilityProbability odds(tin, earth, {2.0, 0});
+//   const VisibilityProbability odds(std::make_shared<const HeightPyramid>(tin), earth, {2.0, 0});
 //   VisibilityProbability::Scratch scratch(odds);  // for many lines
 //   odds.of_line({eye, target}, scratch).probability
 //
@@ -34,9 +34,8 @@ namespace itin::viewshed {
 /// Safe for concurrent use.
 class VisibilityProbability {
  public:
-  /// The Tin must outlive it. Cost and memory: HeightPyramid's, and 1 MB.
-  VisibilityProbability(const Tin& tin, const Earth& earth, const VerticalError& error,
-                        const Progress& progress = NoProgress());
+  /// The surface is a Tin. Takes 1 MB.
+  VisibilityProbability(std::shared_ptr<const HeightPyramid> surface, const Earth& earth, const VerticalError& error);
 
   /// The ends of a line, grid units; they differ horizontally.
   struct Line {
@@ -79,12 +78,11 @@ class VisibilityProbability {
   void narrow(Margins& least, double above, const ErrorsAlongLine::Errors& ground) const;
   void narrow(Margins& least, const Line& line, const Crossing& c, ErrorsAlongLine& errors) const;
 
-  const Tin& tin_;
+  std::shared_ptr<const HeightPyramid> surface_;
   double drop_;         ///< grid units of drop per squared grid unit
   double grazing_;      ///< grid units
   double sigma_;        ///< grid units
   double correlation_;  ///< L in grid units
-  HeightPyramid pyramid_;
   ErrorRealisations realisations_;
 };
 
@@ -92,7 +90,8 @@ class VisibilityProbability {
 class VisibilityProbability::Scratch {
  public:
   /// Serves lines of these odds, which must outlive this object.
-  explicit Scratch(const VisibilityProbability& odds) : errors_(odds.tin_, odds.correlation_, odds.realisations_) {}
+  explicit Scratch(const VisibilityProbability& odds)
+      : errors_(odds.surface_->tin(), odds.correlation_, odds.realisations_) {}
 
  private:
   friend class VisibilityProbability;

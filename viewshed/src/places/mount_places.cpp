@@ -140,12 +140,12 @@ class PlaceFinder {
 }  // namespace
 
 std::optional<double> PlacedSurface::height(Point2 position) const {
-  const auto units = pyramid.height_at(place_in_units(tin.grid, position));
+  const auto units = pyramid->height_at(place_in_units(tin.grid, position));
   return units ? std::optional(*units * tin.grid.resolution) : std::nullopt;
 }
 
 std::uint16_t PlacedSurface::theme(Point2 position) const {
-  const auto triangle = pyramid.triangle_at(place_in_units(tin.grid, position));
+  const auto triangle = pyramid->triangle_at(place_in_units(tin.grid, position));
   return triangle ? tin.theme(tin.triangles[*triangle]) : std::uint16_t{0};
 }
 

@@ -25,7 +25,7 @@ inline constexpr double kLeastWall = 2.5;
 
 /// A surface, and what finds the triangle under a place.
 struct PlacedSurface {
-  explicit PlacedSurface(Tin of) : tin(std::move(of)), pyramid(tin) {}
+  explicit PlacedSurface(Tin of) : tin(std::move(of)), pyramid(std::make_shared<const HeightPyramid>(tin)) {}
   PlacedSurface(const PlacedSurface&) = delete;
   PlacedSurface& operator=(const PlacedSurface&) = delete;
 
@@ -35,7 +35,7 @@ struct PlacedSurface {
   std::uint16_t theme(Point2 position) const;
 
   const Tin tin;
-  const HeightPyramid pyramid;  ///< finds the triangles of `tin`
+  const std::shared_ptr<const HeightPyramid> pyramid;  ///< finds the triangles of `tin`
 };
 
 /// A place on a roof, where poles stand.

@@ -17,8 +17,8 @@ PlaceScene::PlaceScene(Tin surface, const LinkJudgement& rules)
     : surface_(std::move(surface)),
       nodata_(rules.nodata),
       rays_(surface_.tin, rules.earth),
-      blockers_(surface_.tin, rules.earth) {
-  if (rules.fresnel) zone_.emplace(surface_.tin, nullptr, rules.earth, *rules.fresnel);
+      blockers_(surface_.pyramid, rules.earth) {
+  if (rules.fresnel) zone_.emplace(surface_.pyramid, nullptr, rules.earth, *rules.fresnel);
   if (nodata_ != NoData::kClear) rim_ = rim_of(surface_.tin, boundary_edges(surface_.tin));
 }
 

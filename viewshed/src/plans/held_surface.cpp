@@ -26,11 +26,15 @@ namespace {
 /// About the share of a call's time that reading takes, in calls that read first.
 constexpr double kReading = 0.7;
 
-/// A surface with its heights binned, and the ground of cells on it.
+/// A surface with its heights binned, what finds its triangles, and the ground of cells on it.
 struct Binned {
   Binned(Tin of, std::shared_ptr<GroundCache> cache)
-      : tin(std::move(of)), heights(std::make_shared<BinnedHeights>(tin)), ground(heights, &tin, std::move(cache)) {}
+      : tin(std::move(of)),
+        finders(tin),
+        heights(std::make_shared<BinnedHeights>(tin)),
+        ground(heights, &tin, std::move(cache)) {}
   const Tin tin;
+  const TriangleFinders finders;
   const std::shared_ptr<BinnedHeights> heights;
   const KeptGround ground;
 };
@@ -48,8 +52,10 @@ struct BinnedPosts {
 
 /// What ends stand on, where features stand.
 struct BareGround {
-  BareGround(Tin of, std::shared_ptr<GroundCache> cache) : tin(std::move(of)), ground(tin, std::move(cache)) {}
+  BareGround(Tin of, std::shared_ptr<GroundCache> cache)
+      : tin(std::move(of)), finders(tin), ground(tin, std::move(cache)) {}
   const Tin tin;
+  const TriangleFinders finders;
   const KeptGround ground;
 };
 
@@ -132,7 +138,8 @@ class HeldSurface::Impl {
       return over;
     }
     const Binned& triangles = listed(call);
-    over.tin = &triangles.tin, over.heights = triangles.heights;
+    over.tin = &triangles.tin, over.heights = triangles.heights, over.finders = &triangles.finders;
+    if (bare_) over.bare_finders = &bare_->finders;
     over.ground = bare_ && !request.targets_on_surface ? &bare_->ground : &triangles.ground;
     return over;
   }

@@ -13,7 +13,9 @@ class EnvelopeCells final : public GroupSurvey {
       : survey_(survey),
         tiles_(grid_of_tiles(*survey.targets.grid)),
         scene_(std::move(envelope), request, tiles_, survey.nodata) {
-    if (zones) zone_.emplace(scene_.envelope.lower, &scene_.envelope.upper, survey.earth, *survey.fresnel);
+    if (zones)
+      zone_.emplace(std::make_shared<const HeightPyramid>(scene_.envelope.lower),
+                    std::make_shared<const HeightPyramid>(scene_.envelope.upper), survey.earth, *survey.fresnel);
   }
 
   std::vector<CoverageBounds> judge(const SitesToJudge& sites, Progress& progress,
@@ -36,7 +38,9 @@ class ExactCells final : public GroupSurvey {
       : survey_(survey),
         tiles_(grid_of_tiles(*survey.targets.grid)),
         surface_(std::move(surface), std::move(bare_ground), survey.earth, *survey.targets.grid, tiles_, rays) {
-    if (survey.fresnel) zone_.emplace(surface_.surface.tin, nullptr, survey.earth, *survey.fresnel);
+    if (survey.fresnel)
+      zone_.emplace(std::make_shared<const HeightPyramid>(surface_.surface.tin), nullptr, survey.earth,
+                    *survey.fresnel);
   }
 
   std::vector<CoverageBounds> judge(const SitesToJudge& sites, Progress& progress,

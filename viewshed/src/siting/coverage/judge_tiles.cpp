@@ -108,14 +108,15 @@ class SiteTiles {
 
   std::vector<CoverageBounds> run(Progress& progress, Statistics& statistics) {
     std::atomic<std::uint64_t> lines = 0;
-    for_each_step(covers_.size(), "sight lines of candidates", progress, [&](std::size_t t) { lines += judge(t); });
+    for_each_step(covers_.size(), "sight lines of candidates", progress,
+                  [&](std::size_t t) { lines += judge(t, progress); });
     statistics.lines += lines;
     return gather();
   }
 
  private:
   /// Judges tile `t`. Returns the number of sight lines that were cast.
-  std::uint64_t judge(std::size_t t) {
+  std::uint64_t judge(std::size_t t, const Progress& progress) {
     const Tile tile = tile_at(grid_, tiles_, t);
     const Box box = box_of(grid_, tile);
     std::vector<TileCover>& covers = covers_[t];
@@ -128,7 +129,7 @@ class SiteTiles {
       return any;
     };
     const auto close_them = [&](std::size_t i, TileValues<Verdict>& values, TileJudge::Work& work) {
-      if (zone_) cut_zones(*zone_, judge_.eye(i), work.targets(), values);
+      if (zone_) cut_zones(*zone_, judge_.eye(i), work.targets(), progress, values);
       close(values, covers.back());
       if (!covers.back().any()) covers.pop_back();
     };

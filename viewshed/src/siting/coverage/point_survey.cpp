@@ -132,7 +132,8 @@ class PointSurvey final : public GroupSurvey {
         scene_(std::move(envelope), request, bins_, survey.nodata),
         grounds_(survey.targets.points.size()) {
     if (zones) {
-      zone_.emplace(scene_.envelope.lower, scene_.exact ? nullptr : &scene_.envelope.upper, survey.earth,
+      zone_.emplace(std::make_shared<const HeightPyramid>(scene_.envelope.lower),
+                    scene_.exact ? nullptr : std::make_shared<const HeightPyramid>(scene_.envelope.upper), survey.earth,
                     *survey.fresnel);
     }
     constexpr std::size_t kChunk = 256;
