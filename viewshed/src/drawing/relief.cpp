@@ -1,5 +1,7 @@
-#include <algorithm>
+#include <cstdint>
+#include <optional>
 
+#include <itin/lattice_reader.hpp>
 #include <itin/level_choice.hpp>
 #include <itin/triangulate.hpp>
 #include <viewshed/relief.hpp>
@@ -9,14 +11,34 @@
 
 namespace itin::viewshed {
 
-Relief relief(const Store& store, const RasterGrid& pixels, Progress& progress) {
+namespace {
+
+constexpr std::uint64_t kMostReliefPoints = 1'500'000;
+
+/// Heights from the posts of a lattice, where to read them costs less than to triangulate `points` points.
+std::optional<std::vector<float>> heights_from_posts(const Store& store, const RasterGrid& pixels, std::uint64_t points,
+                                                     Progress& progress) {
+  constexpr std::uint64_t kPostsForAPoint = 8;
+  const Box box = pixels.bounds();
+  if (store.points_about(0, box) > kPostsForAPoint * points) return std::nullopt;
+  const auto reader = LatticeReader::open(store, Window::box(box), ThemeChoice::none(), LatticeReader::Heights::kAll,
+                                          kPostsForAPoint * kMostReliefPoints, progress);
+  return reader ? std::optional(heights_at(reader->lattice(), pixels)) : std::nullopt;
+}
+
+std::vector<float> heights_of(const Store& store, const RasterGrid& pixels, Progress& progress) {
   constexpr double kTellable = 0.1;  ///< what is smaller cannot be told, in widths of a pixel
-  constexpr std::uint64_t kMostPoints = 1'500'000;
   const Box box = pixels.bounds();
   const int fine = level_within(store.metadata(), kTellable * pixels.cell_width());
-  const int level = finest_level_of(store, box, kMostPoints, fine);
-  const Tin tin = triangulate(store, Window::box(box), detail_of(store.metadata(), level), progress);
-  Relief result{pixels, heights_at(tin, pixels), {}};
+  const int level = finest_level_of(store, box, kMostReliefPoints, fine);
+  if (auto heights = heights_from_posts(store, pixels, store.points_about(level, box), progress)) return *heights;
+  return heights_at(triangulate(store, Window::box(box), detail_of(store.metadata(), level), progress), pixels);
+}
+
+}  // namespace
+
+Relief relief(const Store& store, const RasterGrid& pixels, Progress& progress) {
+  Relief result{pixels, heights_of(store, pixels, progress), {}};
   result.shades = hillshade(result.heights_m, pixels);
   return result;
 }
