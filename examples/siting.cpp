@@ -48,7 +48,7 @@ int main(int argc, char** argv) {
     const viewshed::SitePlan plan = viewshed::plan_sites(store, three_cameras(store.metadata()), progress);
     print(plan);
     for (const viewshed::PlanFile& file :
-         viewshed::write_site_plan(argv[2], plan, store, progress, {.overwrite = true}).files)
+         viewshed::write_site_plan(argv[2], plan, store, progress, {.overwrite = true}))
       std::cout << file.path << ": " << file.what << '\n';
   } catch (const Error& error) {
     std::cerr << error.what() << '\n';

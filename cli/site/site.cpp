@@ -131,11 +131,9 @@ class SiteVerb final : public Verb {
     if (site.leaves_open) result.document["undecided"]["decided_by"] = kDecidesMissingGround;
     for (const viewshed::PlanFile& output : outputs_)
       result.document["outputs"].push_back({{"path", output.path}, {"what", output.what}});
-    const viewshed::WrittenPlan written =
-        write_site_plan(options_.directory, site, store, progress,
-                        {.metadata = {{"itin", ITIN_VERSION}, {"parameters", json_text(parameters())}},
-                         .overwrite = policy_.overwrite});
-    result.warnings.insert(result.warnings.end(), written.warnings.begin(), written.warnings.end());
+    write_site_plan(options_.directory, site, store, progress,
+                    {.metadata = {{"itin", ITIN_VERSION}, {"parameters", json_text(parameters())}},
+                     .overwrite = policy_.overwrite});
     const auto profiles = write_site_profiles(store, site, options_.path(kLinkFolder), policy_.overwrite, progress);
     for (const SiteProfile& profile : profiles)
       result.document["outputs"].push_back({{"path", profile.path}, {"what", "profile of the link " + profile.what}});

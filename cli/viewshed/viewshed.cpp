@@ -173,7 +173,7 @@ class ViewshedVerb final : public Verb {
     // The horizon comes before the other files, for it refuses targets that no line reaches.
     const Document targets =
         horizon_.write(store, computed, answered, compute_options_, outputs_.overwrite(), progress, result.warnings);
-    outputs_.write(store, computed, context, result.warnings, progress);
+    outputs_.write(store, computed, context, progress);
     write_viewshed_sheet(store, computed.result, sheet_, {missing, context.sources}, outputs_.overwrite(), progress);
     outputs_.write_each([&](std::size_t i) { return compute_for_observer(store, computed, i, progress); }, context,
                         progress);

@@ -91,7 +91,7 @@ void ViewshedOutputs::write_raster(const std::string& path, const viewshed::Resu
 }
 
 void ViewshedOutputs::write(const Store& store, viewshed::ViewshedWithSurface& computed, const Context& context,
-                            std::vector<std::string>& warnings, Progress& progress) const {
+                            Progress& progress) const {
   std::vector<std::uint8_t> no_data;
   if (!image_.empty() || std::any_of(outputs_.begin(), outputs_.end(), is_polygons))
     no_data = viewshed::cells_without_ground(store, computed.result, progress);
@@ -102,13 +102,13 @@ void ViewshedOutputs::write(const Store& store, viewshed::ViewshedWithSurface& c
     options.no_data = no_data;
     options.outside = kOutOfView;
     options.title = title_of(computed.result);
+    options.crs_wkt = context.metadata.crs_wkt;
     if (context.missing.without_ground > 0) {
       options.no_data_text = context.missing.key_text(kAreaLookedAt);
     } else if (context.missing.share() > 0) {
-      options.beyond_text = "Beyond the ground data: " + context.missing.text();
+      options.beyond_text = context.missing.text();
     }
     map = viewshed::draw_map(*computed.surface, computed.result, progress, options);
-    warnings.insert(warnings.end(), map->warnings.begin(), map->warnings.end());
   }
   for (const std::string& path : outputs_) {
     if (is_polygons(path)) {

@@ -34,7 +34,7 @@ class ViewshedOutputs {
     std::vector<std::string> sources;  ///< where the surface comes from, sort by sort
   };
   void write(const Store& store, viewshed::ViewshedWithSurface& computed, const Context& context,
-             std::vector<std::string>& warnings, Progress& progress) const;
+             Progress& progress) const;
   /// Computes the viewshed of one observer; called for every observer whose own raster is wanted.
   using Compute = std::function<viewshed::Result(std::size_t)>;
   void write_each(const Compute& compute, const Context& context, const Progress& progress);

@@ -46,8 +46,8 @@ void expect_agreement(const Shell& shell, viewshed::SitePlanRequest request) {
   const auto written = viewshed::write_site_plan(
       (shell.directory() / "planned").string(), plan, store, progress,
       {.metadata = {{"itin", called.at("itin").get<std::string>()}, {"parameters", json_text(parameters)}}});
-  EXPECT_GE(written.files.size(), 9U);
-  for (const viewshed::PlanFile& file : written.files)
+  EXPECT_GE(written.size(), 9U);
+  for (const viewshed::PlanFile& file : written)
     EXPECT_TRUE(bytes_of(file.path) == bytes_of(shell.directory() / "called" / fs::path(file.path).filename()))
         << file.path;
 }

@@ -2,11 +2,9 @@
 #include <string>
 
 #include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imagebuf.h>
-#include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/imageio.h>
 
-#include "../src/drawing/drawing.hpp"
+#include "../src/drawing/picture_encoder.hpp"
 
 namespace itin::viewshed {
 
@@ -14,18 +12,6 @@ namespace {
 
 OIIO::ImageSpec spec_of(const Picture& picture) {
   return {picture.width, picture.height, picture.channels, OIIO::TypeDesc::UINT8};
-}
-
-void draw_text(const Picture& picture, const char* text, const Font& font, int x, int y, int align,
-               const float* colour) {
-  using OIIO::ImageBufAlgo::TextAlignX;
-  OIIO::ImageBuf image(spec_of(picture), picture.samples);
-  const TextAlignX side = align == 0 ? TextAlignX::Left : align == 1 ? TextAlignX::Center : TextAlignX::Right;
-  OIIO::ImageBufAlgo::render_text(image, x, y, text, font.size, font.path, {colour, 3}, side);
-}
-
-int text_width(const char* text, const Font& font) {
-  return OIIO::ImageBufAlgo::text_size(text, font.size, font.path).width();
 }
 
 bool knows_format(const char* path) {
@@ -54,7 +40,6 @@ const char* encode(const Picture& picture, const char* path, int quality, void* 
 
 }  // namespace
 
-extern "C" __attribute__((visibility("default")))
-const Drawing itin_drawing{draw_text, text_width, knows_format, encode};
+extern "C" __attribute__((visibility("default"))) const PictureEncoder itin_picture_encoder{knows_format, encode};
 
 }  // namespace itin::viewshed

@@ -122,7 +122,7 @@ py::list write_plan(const Plan& p, const std::string& folder, bool overwrite, co
     return write_site_plan(folder, p.plan, *p.store, progress, {.overwrite = overwrite});
   });
   py::list files;
-  for (const viewshed::PlanFile& file : written.files) files.append(py::make_tuple(file.path, file.what));
+  for (const viewshed::PlanFile& file : written) files.append(py::make_tuple(file.path, file.what));
   return files;
 }
 

@@ -86,11 +86,11 @@ struct TitleBlock {
 };
 
 struct MapSheet {
-  PaperSize paper = PaperSize::kA3;
-  double scale = 0;                ///< 1 : scale; 0: the largest of the usual ones at which the frame holds `area`
-  Box area;                        ///< in the middle of the frame, metres
-  std::string crs_wkt;             ///< the CRS whose grid is marked; the National Grid is marked by its letters
-  std::vector<SheetLayer> layers;  ///< the lowest first
+  PaperSize paper = PaperSize::kA3;  ///< as the scale, not of pictures
+  double scale = 0;                  ///< 1 : scale; 0: the largest of the usual ones at which the frame holds `area`
+  Box area;                          ///< in the middle of the frame, metres
+  std::string crs_wkt;               ///< the CRS whose grid is marked; the National Grid is marked by its letters
+  std::vector<SheetLayer> layers;    ///< the lowest first
   std::vector<SheetKey> legend;
   TitleBlock title;
 };
@@ -106,5 +106,16 @@ void require_sheet_format(const std::string& path);
 /// Returns the bytes of a file: .pdf or .png (200 dots per inch) by the name's ending. Equal sheets give equal bytes.
 /// Throws InputError for another ending, and for a scale at which the area is larger than the frame.
 std::string draw_map_sheet(const MapSheet& sheet, const std::string& path);
+
+/// A picture: red, green and blue of 8 bits, row by row from the north-west.
+struct MapPicture {
+  int width = 0, height = 0;
+  std::string rgb;
+};
+/// Draws the map for a screen instead: `area` fills the frame, whose longer side has so many pixels, and the panel is
+/// as high as its content. There is no paper, and no scale in figures.
+MapPicture draw_map_picture(const MapSheet& sheet, int pixels);
+/// The distance of the stripes where there is no ground, pixels of such a picture.
+int void_stripe_pixels(int pixels);
 
 }  // namespace itin::profile

@@ -28,7 +28,7 @@ void require_success(cairo_status_t status) {
 
 cairo_surface_t* make_page(Drawing::Format format, double width, double height, double pixels_per_point,
                            std::string* bytes) {
-  if (format == Drawing::Format::kPng)
+  if (format != Drawing::Format::kPdf)
     return cairo_image_surface_create(CAIRO_FORMAT_RGB24, static_cast<int>(std::lround(width * pixels_per_point)),
                                       static_cast<int>(std::lround(height * pixels_per_point)));
   cairo_surface_t* pdf = cairo_pdf_surface_create_for_stream(append, bytes, width, height);
@@ -65,7 +65,7 @@ class CairoSurface final : public Surface {
       : format_(format),
         page_(make_page(format, width, height, pixels_per_point, &bytes_)),
         cairo_(cairo_create(page_)) {
-    if (format == Drawing::Format::kPng) {
+    if (format != Drawing::Format::kPdf) {
       cairo_set_source_rgb(cairo_, 1, 1, 1);
       cairo_paint(cairo_);
       cairo_scale(cairo_, pixels_per_point, pixels_per_point);
@@ -166,6 +166,7 @@ class CairoSurface final : public Surface {
       cairo_surface_flush(page_);
       require_success(cairo_surface_write_to_png_stream(page_, append, &bytes_));
     }
+    if (format_ == Drawing::Format::kPixels) append_pixels();
     cairo_surface_finish(page_);
     require_success(cairo_status(cairo_));
     require_success(cairo_surface_status(page_));
@@ -173,6 +174,21 @@ class CairoSurface final : public Surface {
   }
 
  private:
+  void append_pixels() {
+    require_success(cairo_surface_status(page_));
+    cairo_surface_flush(page_);
+    const int width = cairo_image_surface_get_width(page_), height = cairo_image_surface_get_height(page_);
+    const unsigned char* row = cairo_image_surface_get_data(page_);
+    bytes_.reserve(3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+    for (int y = 0; y < height; ++y, row += cairo_image_surface_get_stride(page_)) {
+      for (int x = 0; x < width; ++x) {
+        std::uint32_t pixel = 0;
+        std::memcpy(&pixel, row + sizeof(pixel) * static_cast<std::size_t>(x), sizeof(pixel));
+        for (const unsigned shift : {16U, 8U, 0U}) bytes_ += static_cast<char>(pixel >> shift & 0xff);
+      }
+    }
+  }
+
   Drawing::Format format_;
   std::string bytes_;
   cairo_surface_t* page_;

@@ -45,11 +45,11 @@ inline constexpr Colour kRim{1, 1, 1, 0.85};
 
 class Drawing {
  public:
-  enum class Format { kSvg, kPdf, kPng };
+  enum class Format { kSvg, kPdf, kPng, kPixels };
   /// The format for a file's name, by its ending in whatever case; nothing for another ending.
   static std::optional<Format> format_of(const std::string& path);
 
-  /// `pixels_per_point` is the resolution of PNG.
+  /// `pixels_per_point` is the resolution of PNG and pixels.
   Drawing(Format format, double width, double height, double pixels_per_point = 2);
   ~Drawing();
   Drawing(const Drawing&) = delete;
@@ -64,7 +64,7 @@ class Drawing {
   void outline(const Box& box, const Stroke& stroke);
   void circle(Point2 centre, double radius, const Colour& fill);
   /// Draws cells of equal size over a box, unsmoothed, row by row from the top. Colours are 0xAARRGGBB, not yet
-  /// multiplied by alpha. Only for PDF and PNG.
+  /// multiplied by alpha. Not for SVG.
   void cells(const Box& box, int columns, int rows, std::span<const std::uint32_t> argb);
   /// Draws a text. The anchor is on the baseline, at the text's left end, centre or right end.
   void text(Point2 anchor, const std::string& text, const Lettering& lettering);
@@ -84,7 +84,8 @@ class Drawing {
   /// Starts another page. Only for PDF.
   void new_page();
 
-  /// Returns the file's bytes. Nothing can be drawn afterwards. Throws Error when Cairo fails.
+  /// Returns the file's bytes, or the pixels: red, green and blue of 8 bits, row by row from the top. Nothing can be
+  /// drawn afterwards. Throws Error when Cairo fails.
   std::string finish();
 
  private:

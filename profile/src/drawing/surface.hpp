@@ -27,7 +27,7 @@ class Surface {
   virtual std::string finish() = 0;
 };
 
-/// Makes a PDF or a PNG.
+/// Makes a PDF, a PNG or pixels.
 std::unique_ptr<Surface> cairo_surface(Drawing::Format format, double width, double height, double pixels_per_point);
 std::unique_ptr<Surface> svg_surface(double width, double height);
 

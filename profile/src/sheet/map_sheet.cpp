@@ -18,6 +18,31 @@ namespace itin::profile {
 namespace {
 
 constexpr double kPixelsPerPoint = 200 / 72.0;
+/// The longer side of a picture's frame, points, and the coarsest that its letters can be read at.
+constexpr double kPictureFrame = 560, kLeastPixelsPerPoint = 1.4;
+
+double pixels_per_point_of(int pixels) {
+  return std::max(kLeastPixelsPerPoint, pixels / kPictureFrame);
+}
+
+/// Draws the map, which shows this ground, and the panel beside it.
+void draw(const MapSheet& sheet, const Paper& paper, const Box& ground, Drawing& drawing) {
+  drawing.rectangle({0, 0, paper.width, paper.height}, kPaper);
+  MapFrame map(drawing, paper, ground);
+  map.draw(sheet);
+  SidePanel(drawing, paper, sheet, 1000 * kPointsPerMillimetre / map.points_per_metre(), map.left_out()).draw();
+}
+
+/// The height of a panel that leaves nothing out, and has room for a line about names.
+double panel_height(const MapSheet& sheet, const Paper& picture, double pixels_per_point) {
+  constexpr double kEndless = 1e5;
+  const Paper tall = with_panel(picture, kEndless);
+  Drawing scratch(Drawing::Format::kPixels, 1, 1, pixels_per_point);
+  const double points_per_metre = picture.frame.width() / sheet.area.width();
+  SidePanel panel(scratch, tall, sheet, 1000 * kPointsPerMillimetre / points_per_metre, left_out_text(1, 1));
+  panel.draw();
+  return panel.height();
+}
 
 /// The metres of ground that a metre of the frame must hold.
 double least_scale(const MapSheet& sheet) {
@@ -58,11 +83,23 @@ std::string draw_map_sheet(const MapSheet& sheet, const std::string& path) {
   require_sheet_format(path);
   const Paper paper = paper_of(sheet.paper);
   Drawing drawing(*Drawing::format_of(path), paper.width, paper.height, kPixelsPerPoint);
-  drawing.rectangle({0, 0, paper.width, paper.height}, kPaper);
-  MapFrame map(drawing, paper, ground_in_frame(sheet));
-  map.draw(sheet);
-  SidePanel(drawing, paper, sheet, scale_of(sheet), map.left_out()).draw();
+  draw(sheet, paper, ground_in_frame(sheet), drawing);
   return drawing.finish();
+}
+
+MapPicture draw_map_picture(const MapSheet& sheet, int pixels) {
+  const double pixels_per_point = pixels_per_point_of(pixels);
+  Paper picture = picture_of(sheet.area, pixels, pixels_per_point);
+  picture = with_panel(picture, panel_height(sheet, picture, pixels_per_point));
+  Drawing drawing(Drawing::Format::kPixels, picture.width, picture.height, pixels_per_point);
+  draw(sheet, picture, sheet.area, drawing);
+  const auto whole = [&](double points) { return static_cast<int>(std::lround(points * pixels_per_point)); };
+  return {whole(picture.width), whole(picture.height), drawing.finish()};
+}
+
+int void_stripe_pixels(int pixels) {
+  return static_cast<int>(
+      std::lround(kVoidStripePixels * kSheetPixelMm * kPointsPerMillimetre * pixels_per_point_of(pixels)));
 }
 
 }  // namespace itin::profile

@@ -1,5 +1,8 @@
 #include "sheet/paper.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 namespace itin::profile {
 
 const char* name_of(PaperSize paper) {
@@ -12,12 +15,37 @@ Paper paper_of(PaperSize size) {
   paper.width = (a1 ? 841 : a4 ? 297 : 420) * kPointsPerMillimetre;
   paper.height = (a1 ? 594 : a4 ? 210 : 297) * kPointsPerMillimetre;
   paper.type = a1 ? 1.6 : a4 ? 0.8 : 1;
+  paper.name = name_of(size);
   const double margin = (a1 ? 15 : 8) * kPointsPerMillimetre, panel = 82 * paper.type * kPointsPerMillimetre,
                references = 4 * paper.type * kPointsPerMillimetre;
   paper.panel = {paper.width - margin - panel, margin, paper.width - margin, paper.height - margin};
   paper.frame = {margin + references, margin + references, paper.panel.xmin - references - 2 * kPointsPerMillimetre,
                  paper.height - margin - references};
   return paper;
+}
+
+Paper picture_of(const Box& area, int pixels, double pixels_per_point) {
+  // Everything begins at whole pixels, so that the map's pixels are the picture's.
+  const auto whole = [&](double points) { return std::round(points * pixels_per_point) / pixels_per_point; };
+  const double longer = std::max(area.width(), area.height());
+  const double points_per_metre = pixels / pixels_per_point / longer;
+  Paper picture{};
+  picture.type = 1;
+  const double margin = whole(4 * kPointsPerMillimetre), references = whole(5 * kPointsPerMillimetre);
+  const Point2 corner{margin + references, margin + references};
+  picture.frame = {corner.x, corner.y, corner.x + whole(area.width() * points_per_metre),
+                   corner.y + whole(area.height() * points_per_metre)};
+  const double panel = picture.frame.xmax + references + margin / 2;
+  picture.panel = {panel, margin, panel + 82 * kPointsPerMillimetre, picture.frame.ymax + references};
+  picture.width = picture.panel.xmax + margin, picture.height = picture.panel.ymax + margin;
+  return picture;
+}
+
+Paper with_panel(Paper picture, double height) {
+  const double margin = picture.height - picture.panel.ymax;
+  picture.panel.ymax = std::max(picture.panel.ymax, picture.panel.ymin + height);
+  picture.height = picture.panel.ymax + margin;
+  return picture;
 }
 
 Box ground_in(const Box& frame, const Box& area, double scale) {

@@ -1,5 +1,8 @@
-// The parts of a sheet of paper: its edges, the map's frame and the panel beside it. Lengths are points, 1/72 inch.
+// The parts of a sheet of paper or of a picture for a screen: its edges, the map's frame and the panel beside it.
+// Lengths are points, 1/72 inch.
 #pragma once
+
+#include <string>
 
 #include <itin/geometry.hpp>
 #include <profile/map_sheet.hpp>
@@ -10,12 +13,18 @@ inline constexpr double kPointsPerMillimetre = 72 / 25.4;
 
 struct Paper {
   double width, height;
-  double type;  ///< factor for sizes of letters and symbols: A1 is read from farther away
-  Box frame;    ///< about the map
+  double type;       ///< factor for sizes of letters and symbols: A1 is read from farther away
+  std::string name;  ///< "A3"; empty for a picture, which has no scale of its own
+  Box frame;         ///< about the map
   Box panel;
 };
 
 Paper paper_of(PaperSize size);
+/// A picture whose frame has the shape of `area`, and as many pixels along its longer side. Its panel may be made
+/// longer: see with_panel().
+Paper picture_of(const Box& area, int pixels, double pixels_per_point);
+/// Returns the picture with a panel of this height, if that is more than the frame's.
+Paper with_panel(Paper picture, double height);
 
 /// The ground, in metres, that a frame shows at 1 : scale, with the middle of `area` in its middle.
 Box ground_in(const Box& frame, const Box& area, double scale);

@@ -31,12 +31,19 @@ SidePanel::SidePanel(Drawing& drawing, const Paper& paper, const MapSheet& sheet
 
 void SidePanel::draw() {
   draw_heading();
-  const double notes = notes_height(), foot = 17 * kPointsPerMillimetre * paper_.type;
-  draw_legend(paper_.panel.ymax - foot - notes - 24 * kPointsPerMillimetre * paper_.type);
+  draw_legend(paper_.panel.ymax - foot_height() - notes_height() - 24 * kPointsPerMillimetre * paper_.type);
   draw_scale();
   draw_notes();
   draw_foot();
   drawing_.outline(paper_.panel, {kInk, 0.8 * paper_.type, {}});
+}
+
+double SidePanel::foot_height() const {
+  return (has_date() ? 17 : 6) * kPointsPerMillimetre * paper_.type;
+}
+
+double SidePanel::height() const {
+  return y_ - paper_.panel.ymin + foot_height();
 }
 
 void SidePanel::rule() {
@@ -147,10 +154,11 @@ void SidePanel::draw_scale() {
                bar = length * points_per_metre;
   const double unit = length >= 2000 ? 1000 : 1;
   const Lettering small{.size = 6.5 * paper_.type, .colour = kInk, .align = Align::kCentre};
-  drawing_.text({left_, y_ + 9 * paper_.type},
-                fmt::format("Scale 1:{} at {}", grouped(static_cast<std::uint64_t>(std::nearbyint(scale_))),
-                            name_of(sheet_.paper)),
-                {.size = 8.5 * paper_.type, .colour = kInk, .bold = true});
+  if (!paper_.name.empty())
+    drawing_.text(
+        {left_, y_ + 9 * paper_.type},
+        fmt::format("Scale 1:{} at {}", grouped(static_cast<std::uint64_t>(std::nearbyint(scale_))), paper_.name),
+        {.size = 8.5 * paper_.type, .colour = kInk, .bold = true});
   y_ += 13 * paper_.type;
   constexpr int kParts = 4;
   const double left = left_ + 2 * kPointsPerMillimetre * paper_.type, height = 1.6 * kPointsPerMillimetre * paper_.type;
@@ -205,6 +213,8 @@ void SidePanel::draw_foot() {
   const double u = paper_.type;
   const double y = paper_.panel.ymax;
   const Lettering small{.size = 6.3 * u, .colour = kFaint}, plain{.size = 8.5 * u, .colour = kInk, .bold = true};
+  drawing_.text({left_, y - 5 * u}, drawing_.fitted(t.made_by, right_ - left_, small), small);
+  if (!has_date()) return;
   drawing_.polyline(std::array{Point2{paper_.panel.xmin, y - 36 * u}, Point2{paper_.panel.xmax, y - 36 * u}},
                     {kInk, 0.4 * u, {}});
   drawing_.text({left_, y - 27 * u}, "Date", small);
@@ -214,7 +224,6 @@ void SidePanel::draw_foot() {
     drawing_.text({middle, y - 27 * u}, "Figure", small);
     drawing_.text({middle, y - 16 * u}, t.figure, plain);
   }
-  drawing_.text({left_, y - 5 * u}, drawing_.fitted(t.made_by, right_ - left_, small), small);
 }
 
 }  // namespace itin::profile

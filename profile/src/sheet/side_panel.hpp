@@ -14,6 +14,8 @@ class SidePanel {
  public:
   SidePanel(Drawing& drawing, const Paper& paper, const MapSheet& sheet, double scale, std::string below_legend);
   void draw();
+  /// The height that its content took when it was drawn, points: what a panel has to have.
+  double height() const;
 
  private:
   void draw_heading();
@@ -27,6 +29,8 @@ class SidePanel {
   void draw_notes();
   void draw_foot();
   double notes_height();
+  bool has_date() const { return !sheet_.title.date.empty() || !sheet_.title.figure.empty(); }
+  double foot_height() const;
   void rule();
 
   Drawing& drawing_;

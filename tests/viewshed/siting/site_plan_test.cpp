@@ -220,7 +220,7 @@ TEST_F(SitePlans, WriteWhatTheyList) {
   asked.masts = {{.height = 60}};
   const SitePlan made = plan(asked);
   const std::string folder = file("sites");
-  const std::vector<PlanFile> written = write_site_plan(folder, made, *store_, progress_).files;
+  const std::vector<PlanFile> written = write_site_plan(folder, made, *store_, progress_);
   EXPECT_EQ(written.size(), 10U);
   for (const PlanFile& one : written) EXPECT_TRUE(std::filesystem::is_regular_file(one.path)) << one.path;
   std::size_t found = 0;

@@ -1,5 +1,5 @@
-// Pictures for reports: a map of a viewshed with hillshade, observers, legend, scale bar, north arrow and title; and a
-// surface seen from afar and above, or from a place.
+// Pictures for reports: a map of a viewshed over hillshade, with observers, and beside it title, legend, scale bar,
+// north and sources; and a surface seen from afar and above, or from a place.
 //
 //   const Tin tin = triangulate(store, Window::all(), request.detail, progress);
 //   const viewshed::Result result = viewshed::compute(tin, request, progress);
@@ -21,7 +21,7 @@ namespace itin::viewshed {
 
 /// Shares of `of` that fall to the classes of a legend, percent.
 struct ClassShares {
-  std::string of;  ///< "the demand"
+  std::string of = {};  ///< "the demand"
   double seen = 0, unseen = 0, undecided = 0;
 };
 
@@ -35,8 +35,9 @@ struct MapOptions {
   std::string outside = "Outside the field of view, or no data";
   std::vector<std::uint8_t> no_data = {};  ///< one per cell: 1 to stripe it as without ground; empty: none
   std::string no_data_text = "No ground data";
-  std::string beyond_text = {};           ///< a line of the legend about what lies beyond the map; or none
-  std::vector<std::string> sources = {};  ///< lines below the legend; more than six are counted
+  std::string beyond_text = {};           ///< what lies beyond the ground data; empty: nothing is said
+  std::vector<std::string> sources = {};  ///< where the data comes from
+  std::string crs_wkt = {};               ///< the CRS whose grid is marked; the National Grid is marked by its letters
   int map_pixels = 1600;                  ///< the longer side of the map proper, 200 to 16000
 };
 
@@ -45,11 +46,10 @@ struct MapImage {
   int width = 0;
   int height = 0;
   std::vector<std::uint8_t> rgb;
-  std::vector<std::string> warnings;  ///< one line each; a missing font leaves the map without text
 };
 
 /// Draws a map of a viewshed; `result` must come from `tin`. Colours can be told apart by colour-blind readers and in
-/// grey print. Throws InputError for a size out of range.
+/// grey print. Throws InputError for a size out of range, Error when drawing fails.
 MapImage draw_map(const Tin& tin, const Result& result, const MapOptions& options = {});
 /// Draws the map over the surface that compute_with_surface() kept, and reads the heights of it that have not been
 /// read.
@@ -72,7 +72,7 @@ MapImage draw_oblique(const Tin& tin, const ObliqueOptions& options = {});
 /// Options of draw_perspective(): what an eye sees of a surface over the curved Earth, in the colours of
 /// draw_oblique().
 struct PerspectiveOptions {
-  Point3 eye;          ///< its z an elevation, metres
+  Point3 eye = {};     ///< its z an elevation, metres
   double azimuth = 0;  ///< degrees clockwise from grid north, in the middle of the picture
   double pitch = 0;    ///< degrees above the horizontal, between -90 and 90
   double field = 60;   ///< degrees across the picture, 1 to 150

@@ -2,7 +2,7 @@
 //
 //   viewshed::SitePlanRequest request{.search_area = Window::box({304000, 181000, 336000, 206000}), .count = 5};
 //   const viewshed::SitePlan plan = viewshed::plan_sites(store, request, progress);
-//   for (const viewshed::PlanFile& file : viewshed::write_site_plan("sites", plan, store, progress).files)
+//   for (const viewshed::PlanFile& file : viewshed::write_site_plan("sites", plan, store, progress))
 //     std::cout << file.path << ": " << file.what << '\n';
 //
 // Masts are chosen where they serve the most. With `turbines`, places are chosen where the demand sees least of them:
@@ -322,15 +322,10 @@ struct SitePlanFileOptions {
   bool overwrite = false;
 };
 
-struct WrittenPlan {
-  std::vector<PlanFile> files;
-  std::vector<std::string> warnings;  ///< a line each, about the maps
-};
-
 /// Writes tables (CSV), layers (GeoPackage), rasters (GeoTIFF) and maps (PNG) into a folder, which is made where it is
-/// not there. The store is the one of the plan. Throws FileError, Cancelled.
-WrittenPlan write_site_plan(const std::string& folder, const SitePlan& plan, const Store& store, Progress& progress,
-                            const SitePlanFileOptions& options = {});
+/// not there, and returns the files. The store is the one of the plan. Throws FileError, Cancelled.
+std::vector<PlanFile> write_site_plan(const std::string& folder, const SitePlan& plan, const Store& store,
+                                      Progress& progress, const SitePlanFileOptions& options = {});
 
 /// Returns the JSON document of the plan: the members that `itin site --json` prints about the choice. `metadata` is
 /// that of the store.

@@ -5,10 +5,9 @@
 #include <string>
 #include <vector>
 
+#include <itin/raster.hpp>
 #include <viewshed/map_image.hpp>
 #include <viewshed/result.hpp>
-
-#include "drawing/canvas.hpp"
 
 namespace itin::viewshed {
 

@@ -4,10 +4,9 @@
 #include <array>
 #include <vector>
 
+#include <itin/raster.hpp>
 #include <itin/theme.hpp>
 #include <itin/tin.hpp>
-
-#include "drawing/canvas.hpp"
 
 namespace itin::viewshed {
 

@@ -8,10 +8,9 @@
 #include <array>
 #include <vector>
 
+#include <itin/raster.hpp>
 #include <itin/tin.hpp>
 #include <viewshed/map_image.hpp>
-
-#include "drawing/canvas.hpp"
 
 namespace itin::viewshed {
 

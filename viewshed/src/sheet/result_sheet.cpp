@@ -169,7 +169,7 @@ std::vector<SheetKey> keys_of(const MapBase& base, const ResultSheet& content, c
   std::vector<SheetKey> keys;
   const auto add = [&](const std::string& heading, const std::vector<ResultMap::Key>& more) {
     if (more.empty()) return;
-    keys.push_back({SheetKey::Sample::kHeading, {}, heading});
+    if (!heading.empty()) keys.push_back({SheetKey::Sample::kHeading, {}, heading});
     for (const auto& key : more) keys.push_back({SheetKey::Sample::kPatch, key.colours, key.text});
   };
   add(content.heading, content.map.keys);

@@ -72,6 +72,7 @@ std::vector<SiteMap> site_maps(const Store& store, const SitePlan& r, Progress& 
   options.no_data = cells_without_ground(store, result, progress);
   if (missing.without_ground > 0) options.no_data_text = missing.key_text(kWithinRadius);
   options.map_pixels = kPixelsOfPlan;
+  options.crs_wkt = store.metadata().crs_wkt;
   const SiteWording wording = wording_of(r.request);
   options.seen = wording.served, options.unseen = wording.unserved, options.shares = r.shares;
   options.observers = wording.mark + (result.request.observers.size() == 1 ? "" : "s");

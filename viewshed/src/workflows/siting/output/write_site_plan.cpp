@@ -81,14 +81,12 @@ void write_layers(const std::string& folder, const SitePlan& plan, bool overwrit
   write_geopackage(within(folder, "sites.gpkg"), plan.crs_wkt, layers, overwrite);
 }
 
-void write_maps(const std::string& folder, const SitePlan& plan, const Store& store, Progress& progress, bool overwrite,
-                std::vector<std::string>& warnings) {
+void write_maps(const std::string& folder, const SitePlan& plan, const Store& store, Progress& progress,
+                bool overwrite) {
   const std::vector<SiteMap> maps = site_maps(store, plan, progress);
   const std::vector<MapImage> images = drawn(store, plan, maps, progress);
   for (std::size_t i = 0; i < maps.size(); ++i)
     write_image(within(folder, maps[i].name + ".png"), images[i], overwrite);
-  // All maps are drawn with the same font, or without one, so that the warnings of the first one suffice.
-  warnings.insert(warnings.end(), images.front().warnings.begin(), images.front().warnings.end());
 }
 
 }  // namespace
@@ -120,16 +118,16 @@ std::vector<PlanFile> site_plan_files(const std::string& folder, const SitePlanR
   return files;
 }
 
-WrittenPlan write_site_plan(const std::string& folder, const SitePlan& plan, const Store& store, Progress& progress,
-                            const SitePlanFileOptions& options) {
+std::vector<PlanFile> write_site_plan(const std::string& folder, const SitePlan& plan, const Store& store,
+                                      Progress& progress, const SitePlanFileOptions& options) {
   const NewFolder made(folder);
-  WrittenPlan written{site_plan_files(folder, plan.request), {}};
-  if (!options.overwrite) require_free(written.files);
-  write_maps(folder, plan, store, progress, options.overwrite, written.warnings);
+  std::vector<PlanFile> files = site_plan_files(folder, plan.request);
+  if (!options.overwrite) require_free(files);
+  write_maps(folder, plan, store, progress, options.overwrite);
   write_rasters(folder, plan, options);
   write_tables(folder, plan, options.overwrite);
   write_layers(folder, plan, options.overwrite);
-  return written;
+  return files;
 }
 
 }  // namespace itin::viewshed

@@ -1,4 +1,4 @@
-#include "drawing/drawing.hpp"
+#include "drawing/picture_encoder.hpp"
 
 #include <dlfcn.h>
 
@@ -14,17 +14,17 @@ constexpr const char* kModule = "itin-drawing.so";
 
 /// Loads the module by its name alone. The dynamic linker looks for it where this library, or the program that it was
 /// linked into, says (RUNPATH: viewshed/CMakeLists.txt), so that it is found wherever an installation has been moved.
-const Drawing& load() {
+const PictureEncoder& load() {
   void* const module = dlopen(kModule, RTLD_NOW | RTLD_LOCAL);
-  void* const found = module == nullptr ? nullptr : dlsym(module, "itin_drawing");
+  void* const found = module == nullptr ? nullptr : dlsym(module, "itin_picture_encoder");
   if (found == nullptr) throw FileError(kModule, fmt::format("maps cannot be drawn without it: {}", dlerror()));
-  return *static_cast<const Drawing*>(found);
+  return *static_cast<const PictureEncoder*>(found);
 }
 
 }  // namespace
 
-const Drawing& drawing() {
-  static const Drawing& loaded = load();
+const PictureEncoder& picture_encoder() {
+  static const PictureEncoder& loaded = load();
   return loaded;
 }
 
