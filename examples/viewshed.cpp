@@ -18,12 +18,13 @@ int main(int argc, char** argv) {
     const itin::Store store(argv[1]);
     itin::NoProgress progress;
 
-    itin::viewshed::Request request;
-    request.observers = {{"observer", {std::atof(argv[2]), std::atof(argv[3])}, 2}};  // 2 m above the ground
-    request.target_height = 1.5;
-    request.radius = 300;
-    request.cell_size = 1;
-    request.themes = itin::ThemeChoice::all();  // buildings stand in the way
+    const itin::viewshed::Request request{
+        .observers = {{"observer", {std::atof(argv[2]), std::atof(argv[3])}, 2}},  // 2 m above the ground
+        .target_height = 1.5,
+        .radius = 300,
+        .cell_size = 1,
+        .themes = itin::ThemeChoice::all(),  // buildings stand in the way
+    };
 
     // Keeps the surface, which the map is drawn over.
     const itin::viewshed::ViewshedWithSurface computed =

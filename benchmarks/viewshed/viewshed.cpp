@@ -16,7 +16,7 @@
 #include "bounds/surface_heights.hpp"
 #include "bounds/triangle_bins.hpp"
 #include "request/eye.hpp"
-#include "scene/full_surface.hpp"
+#include "scene/exact_scene.hpp"
 #include "scene/rays/scene.hpp"
 #include "support/terrain_tin.hpp"
 
@@ -78,7 +78,7 @@ BENCHMARK(BM_Boundary)->Unit(benchmark::kMillisecond)->UseRealTime();
 void decide_cells(benchmark::State& state, const Tin& tin, bool rays) {
   const Request request = whole(state.range(0));
   const RasterGrid tiles = grid_of_tiles(*request.grid);
-  FullSurface surface(tin, nullptr, request.earth, *request.grid, tiles);
+  ExactScene surface(tin, nullptr, request.earth, *request.grid, tiles);
   if (rays) surface.cast_rays(request.earth);
   const Observer& observer = request.observers.front();
   const Eye eye = eye_of(tin.grid, request, observer, height_on(tin, observer.position));

@@ -14,7 +14,7 @@
 #include <viewshed/viewshed.hpp>
 
 #include "certify/level_source.hpp"
-#include "index/sampled_surface.hpp"
+#include "index/line_tester.hpp"
 #include "request/eye.hpp"
 #include "support/brute_force_viewshed.hpp"
 #include "support/exact_line_of_sight.hpp"
@@ -338,8 +338,8 @@ TEST(Precise, TheMemoryChangesNothingOnTheWholeSample) {
   for (const double target : {0.0, 2.0}) {
     const Request request = look(terrain.at(381.3, 7002.4), 2, target, 60);
     const Result result = test::compute_at_full_detail(terrain.store(), request, {}, progress).result;
-    const Surface full{terrain.full(), nullptr, {}};
-    const SampledSurface whole(full, request.earth, 0);  // without rays
+    const RetrievedSurface full{terrain.full(), nullptr, {}};
+    const LineTester whole(full, request.earth, 0);  // without rays
     for (const std::uint64_t memory : {std::uint64_t{16000000}, std::uint64_t{1300000}}) {
       const Result other =
           test::compute_at_full_detail(terrain.store(), request, {.memory_bytes = memory, .lattices = false}, progress)

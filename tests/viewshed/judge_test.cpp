@@ -75,7 +75,7 @@ class Judges : public testing::Test {
   Request request_;
   Tin tin_;
   RasterGrid grid_, tiles_;
-  FullSurface surface_;
+  ExactScene surface_;
   std::vector<Eye> eyes_;
 };
 
@@ -206,7 +206,7 @@ TEST(HiddenTiles, HaveNoCellThatIsAnythingElse) {
         {"", {box.xmin + share(random) * box.width(), box.ymin + share(random) * box.height()}, 3, false});
     const RasterGrid grid({box.xmin - 400, box.ymax + 400}, 5, 5, 680, 680);
     const RasterGrid tiles = grid_of_tiles(grid);
-    const FullSurface surface(tin, nullptr, request.earth, grid, tiles);
+    const ExactScene surface(tin, nullptr, request.earth, grid, tiles);
     const auto ground = surface.height(request.observers.front().position);
     if (!ground) continue;
     const Eye eye = eye_of(tin.grid, request, request.observers.front(), ground);

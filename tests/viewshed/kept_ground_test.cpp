@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "scene/full_surface.hpp"
+#include "scene/exact_scene.hpp"
 #include "support/delaunay_tin.hpp"
 #include "support/same_bits.hpp"
 #include "support/seed.hpp"
@@ -18,7 +18,7 @@ namespace {
 /// Compares the ground of every tile with what a surface without kept ground finds.
 void expect_same_ground(const KeptGround& kept, const Tin& tin, const RasterGrid& grid) {
   const RasterGrid tiles = grid_of_tiles(grid);
-  const FullSurface anew(tin, nullptr, Earth::flat(), grid, tiles);
+  const ExactScene anew(tin, nullptr, Earth::flat(), grid, tiles);
   for (const std::int64_t step : {9, 3, 1}) {
     const SteppedTiles stepped(grid, step);
     for (std::size_t i = 0; i < stepped.count(); ++i) {

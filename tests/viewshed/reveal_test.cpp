@@ -72,7 +72,7 @@ class Reveal : public testing::Test {
     return request;
   }
 
-  Surface surface(Heights heights) {
+  RetrievedSurface surface(Heights heights) {
     return *retrieve_lattice(*store_, Window::all(), Detail::tolerance(0), ThemeChoice::none(), heights, kAnyLattice,
                              progress_);
   }
@@ -107,7 +107,7 @@ TEST_F(Reveal, ChangesNothingAndLeavesOutWhatNobodySees) {
       if (void_radius > 0) request.nodata = mode == Mode::kAngle ? NoData::kBlock : NoData::kClear;
       if (mode == Mode::kCount) request.observers[1].radius = 4000, request.observers[2].azimuth = AngleRange{200, 300};
       if (mode == Mode::kNearest) request.earth.refraction = 0.9;
-      const Surface whole = surface(Heights::kAll), revealed = surface(Heights::kNone);
+      const RetrievedSurface whole = surface(Heights::kAll), revealed = surface(Heights::kNone);
       const Result result = compute(revealed, nullptr, request, progress_);
       expect_same(compute(whole, nullptr, request, progress_), result);
       std::size_t unread = 0;
@@ -129,7 +129,7 @@ TEST_F(Reveal, WhatIsToldOfABoxHoldsAllOverIt) {
     const auto missing = [](int at) { return at + 1 > 2 * tile_side && at + 1 < 5 * tile_side; };
     return missing(c) && missing(r) ? NAN : 100.0 + (7 * c + 13 * r) % 50;
   });
-  const Surface unread = surface(Heights::kNone);
+  const RetrievedSurface unread = surface(Heights::kNone);
   const LatticeTin& lattice = unread.lattice->lattice();
   const BinnedHeights heights(lattice);
   using Expanse = BinnedHeights::Expanse;
@@ -179,7 +179,7 @@ TEST_F(Reveal, ElevationsAreThoseOfAllGround) {
   make(700, 0);
   Request request = look(1);
   request.elevation = AngleRange{-2, 1};
-  const Surface whole = surface(Heights::kAll), revealed = surface(Heights::kNone);
+  const RetrievedSurface whole = surface(Heights::kAll), revealed = surface(Heights::kNone);
   expect_same(compute(whole, nullptr, request, progress_), compute(revealed, nullptr, request, progress_));
 }
 

@@ -12,7 +12,7 @@
 #include <viewshed/visibility_index.hpp>
 
 #include "index/index_plan.hpp"
-#include "index/sampled_surface.hpp"
+#include "index/line_tester.hpp"
 #include "index/visibility_sampler.hpp"
 #include "support/houses.hpp"
 #include "support/raster_file.hpp"
@@ -83,10 +83,10 @@ class VisibilityIndexTest : public testing::Test {
     const Store store(path_);
     NoProgress progress;
     const auto surface = [&](const ThemeChoice& themes) {
-      return Surface{triangulate(store, Window::all(), request.detail, progress, themes), nullptr, {}};
+      return RetrievedSurface{triangulate(store, Window::all(), request.detail, progress, themes), nullptr, {}};
     };
-    const Surface full = surface(request.themes), bare = surface(ThemeChoice::none());
-    const SampledSurface screen(full, request.earth, 0), ground(bare, request.earth, 0);
+    const RetrievedSurface full = surface(request.themes), bare = surface(ThemeChoice::none());
+    const LineTester screen(full, request.earth, 0), ground(bare, request.earth, 0);
     const VisibilitySampler sampler(screen, ground, {request.radius, request.target_height, request.targets},
                                     request.nodata);
     int visible = 0, hidden = 0, undecided = 0;
@@ -247,10 +247,10 @@ TEST_F(VisibilityIndexTest, RaysFindNothingElse) {
   import_hills();
   import_houses();
   NoProgress progress;
-  const Surface surface{
+  const RetrievedSurface surface{
       triangulate(Store(path_), Window::all(), Detail::tolerance(0), progress, ThemeChoice::all()), nullptr, {}};
   const Earth earth;
-  const SampledSurface few(surface, earth, 0), many(surface, earth, std::uint64_t{1} << 40);
+  const LineTester few(surface, earth, 0), many(surface, earth, std::uint64_t{1} << 40);
   const VisibilitySampler one(few, few, {1500, 0, 4000}, NoData::kClear),
       other(many, many, {1500, 0, 4000}, NoData::kClear);
   for (const Point2 eye : {Point2{301500, 197900}, {302225, 198725}, {301225, 197225}}) {

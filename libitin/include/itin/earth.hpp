@@ -19,9 +19,9 @@ namespace itin {
 
 struct Earth {
   bool curvature = true;
-  double refraction = 0.13;                ///< coefficient k; ignored when effective_factor is given
-  double radius = 6371000;                 ///< metres
-  std::optional<double> effective_factor;  ///< radio's K
+  double refraction = 0.13;                     ///< coefficient k; ignored when effective_factor is given
+  double radius = 6371000;                      ///< metres
+  std::optional<double> effective_factor = {};  ///< radio's K
 
   static Earth flat();
   static Earth effective_earth(double factor);

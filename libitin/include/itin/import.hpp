@@ -29,64 +29,65 @@ namespace itin {
 enum class Foundation { walls, flat };
 
 struct ImportOptions {
-  std::vector<std::string> sources;  ///< anything GDAL opens as a raster or a point layer, .las, .csv, .xyz, .txt
+  std::vector<std::string> sources = {};  ///< anything GDAL opens as a raster or a point layer, .las, .csv, .xyz, .txt
 
   // These options change the answer.
-  std::optional<ThemeKind> kind;  ///< the kind of lines, for import_lines(); nothing: terrain points
-  std::string theme;              ///< the name of the lines' theme
-  std::string crs;                ///< the CRS of sources that do not name one; overrides those that do
-  std::string to_crs;             ///< the store's; default: the source's own if metric and projected, else a UTM zone
-  std::string
-      z_field;  ///< the height attribute of point layers and CSV; default: Z of the geometry, or the third column
-  std::string layer;
-  std::string where;
+  std::optional<ThemeKind> kind = {};  ///< the kind of lines, for import_lines(); nothing: terrain points
+  std::string theme = {};              ///< the name of the lines' theme
+  std::string crs = {};                ///< the CRS of sources that do not name one; overrides those that do
+  std::string to_crs = {};  ///< the store's; default: the source's own if metric and projected, else a UTM zone
+  std::string z_field =
+      {};  ///< the height attribute of point layers and CSV; default: Z of the geometry, or the third column
+  std::string layer = {};
+  std::string where = {};
   /// What the store keeps of the features of lines, footprints and CityJSON, for exports and reports.
-  std::string id_field;                                ///< default: the source's number or key for the feature
-  std::string name_field;                              ///< also the name of a raised feature in messages; default: none
-  std::optional<std::vector<std::string>> attributes;  ///< fields; default: all with numbers, texts, dates and times
-  std::optional<int> band;  ///< the band of rasters that holds heights, from 1; default: their only one
+  std::string id_field = {};    ///< default: the source's number or key for the feature
+  std::string name_field = {};  ///< also the name of a raised feature in messages; default: none
+  std::optional<std::vector<std::string>> attributes =
+      {};                        ///< fields; default: all with numbers, texts, dates and times
+  std::optional<int> band = {};  ///< the band of rasters that holds heights, from 1; default: their only one
 
   // These are for raised features only: CityJSON, and buildings, vegetation and walls for which one of the first three
   // is given.
-  std::string height_field;      ///< height of the highest point above the base
-  std::string eaves_field;       ///< height of the eaves above the base
-  std::optional<double> height;  ///< metres; for features that have none in the fields
-  std::string base_field;        ///< elevation of the base
-  std::optional<BaseRule> base;  ///< for buildings without base_field; default: minimum, or the floors of CityJSON
-  std::optional<RoofKind> roof;  ///< default: flat
+  std::string height_field = {};      ///< height of the highest point above the base
+  std::string eaves_field = {};       ///< height of the eaves above the base
+  std::optional<double> height = {};  ///< metres; for features that have none in the fields
+  std::string base_field = {};        ///< elevation of the base
+  std::optional<BaseRule> base = {};  ///< for buildings without base_field; default: minimum, or the floors of CityJSON
+  std::optional<RoofKind> roof = {};  ///< default: flat
   /// How buildings meet the terrain; default: walls down to it.
-  std::optional<Foundation> foundation;
-  std::optional<double> storey;     ///< metres; height_field and eaves_field count storeys of this height
-  std::optional<double> thickness;  ///< metres, of features that stand on lines; default: 0.3
+  std::optional<Foundation> foundation = {};
+  std::optional<double> storey = {};     ///< metres; height_field and eaves_field count storeys of this height
+  std::optional<double> thickness = {};  ///< metres, of features that stand on lines; default: 0.3
   /// How far within its outline a feature's walls reach their full height: metres, from two grid steps to 10. There is
   /// one value for all features of a theme. Default: the theme's own; for a new theme 0.05 or two grid steps.
-  std::optional<double> wall_offset;
+  std::optional<double> wall_offset = {};
 
   // These are for rasters of standing heights only: heights above the ground (of buildings and vegetation), and
   // elevations of a surface.
-  std::optional<double> height_step;       ///< metres, whole millimetres: cells stand in multiples of it; default: 2
-  std::optional<double> height_threshold;  ///< metres above the ground: lower cells do not stand; default: 2
-  std::optional<HeightRounding> height_rounding;  ///< default: nearest
+  std::optional<double> height_step = {};  ///< metres, whole millimetres: cells stand in multiples of it; default: 2
+  std::optional<double> height_threshold = {};  ///< metres above the ground: lower cells do not stand; default: 2
+  std::optional<HeightRounding> height_rounding = {};  ///< default: nearest
 
-  std::vector<int> classes;           ///< LAS classes to keep; empty: all but noise (7, 18)
+  std::vector<int> classes = {};      ///< LAS classes to keep; empty: all but noise (7, 18)
   double max_gap = 0;                 ///< metres, scattered points: ground is not triangulated over longer edges;
                                       ///< 0: 100 times the mean spacing of the source
   bool allow_mixed_vertical = false;  ///< take heights as they are, though they refer to different vertical datums
-  std::string source_note;            ///< product, date and licence of the sources, for reports; default: the
+  std::string source_note = {};       ///< product, date and licence of the sources, for reports; default: the
                                       ///< copyright that a raster states
   bool repair = true;                 ///< import_lines() of contours: infer points where their triangles are flat
   /// For rasters: missing ground within the box about them, voids included, becomes level ground at this elevation (the
   /// sea), metres, on their datum. Any other ground takes its place, whenever that is imported. Nothing: the ground
   /// stays missing.
-  std::optional<double> sea_level;
-  std::string sea_area;  ///< polygons, as text or a file: the sea fills missing ground within all of them, and nowhere
-                         ///< else
+  std::optional<double> sea_level = {};
+  std::string sea_area = {};  ///< polygons, as text or a file: the sea fills missing ground within all of them, and
+                              ///< nowhere else
   bool replace = false;  ///< these sources take the place of others that are no finer in their coverage
   bool stay = false;     ///< import_lines() of contours, breaklines and water: they stay within the coverage of sources
                          ///< that replace others
-  std::vector<double> tolerances;  ///< metres; default: those of 0.5,1,2,4,8,16,32 that are no less than the
-                                   ///< resolution. An existing store keeps its own.
-  double resolution = 0.01;        ///< metres; an existing store keeps its own
+  std::vector<double> tolerances = {};  ///< metres; default: those of 0.5,1,2,4,8,16,32 that are no less than the
+                                        ///< resolution. An existing store keeps its own.
+  double resolution = 0.01;             ///< metres; an existing store keeps its own
 
   // These options change the speed only.
   std::uint64_t memory_bytes = std::uint64_t{4} << 30;

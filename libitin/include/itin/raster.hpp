@@ -120,18 +120,18 @@ inline constexpr Rgba kTransparent{0, 0, 0, 0};
 /// A value that stands for a class.
 struct RasterClass {
   int value = 0;
-  std::string name;
-  Rgba colour;
+  std::string name = {};
+  Rgba colour = {};
 };
 
 struct RasterDescription {
-  std::string crs_wkt;  ///< may be empty: unknown
-  std::optional<double> nodata;
-  std::string band_name;                   ///< may be empty
-  std::vector<std::string> further_bands;  ///< names of the second band and those after it
-  std::vector<RasterClass> classes;        ///< if not empty: colour table and category names (Byte only)
-  std::vector<std::pair<std::string, std::string>> metadata;  ///< name, value
-  bool overwrite = false;                                     ///< an existing file may be replaced
+  std::string crs_wkt = {};  ///< may be empty: unknown
+  std::optional<double> nodata = {};
+  std::string band_name = {};                   ///< may be empty
+  std::vector<std::string> further_bands = {};  ///< names of the second band and those after it
+  std::vector<RasterClass> classes = {};        ///< if not empty: colour table and category names (Byte only)
+  std::vector<std::pair<std::string, std::string>> metadata = {};  ///< name, value
+  bool overwrite = false;                                          ///< an existing file may be replaced
 };
 
 /// Writes a cloud-optimised GeoTIFF: tiled, compressed, with overviews (the most frequent value for classes, the

@@ -69,7 +69,7 @@ std::string_view name_of(AttributeType type);
 
 /// An attribute of a theme's features, as their sources name it.
 struct AttributeField {
-  std::string name;
+  std::string name = {};
   AttributeType type = AttributeType::text;
   friend bool operator==(const AttributeField&, const AttributeField&) = default;
 };

@@ -44,12 +44,12 @@ namespace itin {
 class Store;
 
 struct TinExportOptions {
-  std::vector<std::string> theme_names;  ///< names for Tin::lines: theme t is theme_names[t - 1]
-  std::string crs_wkt;                   ///< the CRS of the coordinates; empty: unknown
-  bool overwrite = false;                ///< replace an existing file
-  std::string metadata_json;  ///< a JSON object that says where the Tin comes from, or nothing. Kept by .glb (extras),
-                              ///< .gpkg (metadata item METADATA_JSON), .geojson (`metadata`); its members open a
-                              ///< topology document.
+  std::vector<std::string> theme_names = {};  ///< names for Tin::lines: theme t is theme_names[t - 1]
+  std::string crs_wkt = {};                   ///< the CRS of the coordinates; empty: unknown
+  bool overwrite = false;                     ///< replace an existing file
+  std::string metadata_json = {};  ///< a JSON object that says where the Tin comes from, or nothing. Kept by .glb
+                                   ///< (extras), .gpkg (metadata item METADATA_JSON), .geojson (`metadata`); its
+                                   ///< members open a topology document.
 };
 
 /// The three structures of topology.hpp.

@@ -29,10 +29,10 @@ namespace itin::profile {
 
 /// A link between two places. Heights are metres above what the ends stand on.
 struct Link {
-  std::string id;
-  Point2 from;
+  std::string id = {};
+  Point2 from = {};
   double from_height = 0;
-  Point2 to;
+  Point2 to = {};
   double to_height = 0;
   // What its file tells about this link alone:
   std::string from_name = {}, to_name = {};
@@ -90,7 +90,7 @@ LinkTable read_link_table(const std::string& path, const std::string& to_crs, co
                           const std::string& csv_crs = {}, const LinkChoice& choice = {});
 
 struct LinkQuery {
-  Earth earth;
+  Earth earth = {};
   Detail detail = Detail::tolerance(0);      ///< the surface's level of detail
   ThemeChoice themes = ThemeChoice::none();  ///< raised features on the surface
   /// Whether an end within a raised feature stands on the feature, or else on the ground under it.
@@ -136,7 +136,7 @@ LinkResult survey_link(const Store& store, const Link& link, const LinkQuery& qu
 
 /// Where on the Earth a link's ends are, and the geodesic between them.
 struct LinkCourse {
-  Point2 from, to;  ///< longitude and latitude
+  Point2 from = {}, to = {};  ///< longitude and latitude
   double distance_m = 0;
   double azimuth_deg = 0;       ///< at the first end, towards the second, from true north
   double back_azimuth_deg = 0;  ///< at the second end, towards the first

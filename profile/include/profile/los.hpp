@@ -78,21 +78,21 @@ struct CriterionResult {
   std::optional<double> margin_at_m;  ///< the distance of the place of margin_m
 };
 struct NamedHeights {
-  std::string name;  ///< "line of sight", "0.6 F1", "K = 1.333, 1 F1"
-  double k = 0;      ///< effective Earth factor; infinity without curvature
+  std::string name = {};  ///< "line of sight", "0.6 F1", "K = 1.333, 1 F1"
+  double k = 0;           ///< effective Earth factor; infinity without curvature
   double fraction = 0;
-  RequiredHeights heights;
-  std::vector<HeightPair> curve;  ///< ascending in from_m, descending in to_m
+  RequiredHeights heights = {};
+  std::vector<HeightPair> curve = {};  ///< ascending in from_m, descending in to_m
 };
 
 struct LosQuery {
   double from_height_m = 0, to_height_m = 0;  ///< above what the ends stand on
   /// Whether an end within a raised feature stands on the feature, or else on the ground under it.
   bool from_on_surface = false, to_on_surface = false;
-  Earth earth;
-  std::optional<RadioPath> radio;
-  std::vector<Criterion> criteria;   ///< with fraction > 0 only if there is a frequency
-  std::optional<TallObject> object;  ///< at the second end
+  Earth earth = {};
+  std::optional<RadioPath> radio = {};
+  std::vector<Criterion> criteria = {};   ///< with fraction > 0 only if there is a frequency
+  std::optional<TallObject> object = {};  ///< at the second end
   /// How far, in metres, the clearance over the full surface may lie from the one on this profile: the width of the
   /// surface's certified error. A clearance nearer to 0 leaves the verdict undecided.
   double clearance_error_m = 0;
@@ -101,12 +101,12 @@ struct LosQuery {
   /// straight ground between them, at most 100 m and a 50th of the length apart.
   bool points_as_given = false;
   /// The day of the magnetic azimuths of a line over a store.
-  std::optional<std::chrono::year_month_day> day;
+  std::optional<std::chrono::year_month_day> day = {};
 };
 
 /// The course of a line over a store, and the surface that it runs over.
 struct StoreLine {
-  Point2 from, to;                           ///< in the store's CRS
+  Point2 from = {}, to = {};                 ///< in the store's CRS
   Detail detail = Detail::tolerance(0);      ///< the surface's level of detail
   ThemeChoice themes = ThemeChoice::none();  ///< raised features on the surface
   /// Whether the query's height of an end is an elevation, not a height above what the end stands on.

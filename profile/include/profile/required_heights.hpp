@@ -20,7 +20,7 @@
 namespace itin::profile {
 
 struct Requirement {
-  Earth earth;
+  Earth earth = {};
   double fraction = 0;    ///< part of the first Fresnel radius; 0: mere line of sight
   double wavelength = 0;  ///< metres; not used when the fraction is 0
 };
@@ -56,8 +56,8 @@ std::vector<HeightPair> height_curve(const Profile& profile, const PlannedHeight
 
 /// A tall upright object, such as a wind turbine. Its foot is on what the end stands on.
 struct TallObject {
-  std::optional<double> hub_m;  ///< above its foot, no higher than the tip; nothing: no hub
-  double tip_m = 0;             ///< above its foot
+  std::optional<double> hub_m = {};  ///< above its foot, no higher than the tip; nothing: no hub
+  double tip_m = 0;                  ///< above its foot
 };
 
 /// A part of an object that reaches from its foot up to some height.

@@ -23,8 +23,8 @@
 namespace itin::viewshed {
 
 struct HorizonTarget {
-  std::string name;
-  Point2 position;
+  std::string name = {};
+  Point2 position = {};
   double height = 0;        ///< metres above the ground, or an elevation when `absolute`
   std::string source = {};  ///< where it was read, for messages, such as "peaks.csv: feature 7"; or empty
   bool absolute = false;
@@ -32,7 +32,7 @@ struct HorizonTarget {
 
 struct HorizonOptions {
   double step_deg = 0.1;  ///< between azimuths: a whole number of steps makes a turn
-  std::vector<HorizonTarget> targets;
+  std::vector<HorizonTarget> targets = {};
 };
 
 struct SkyPoint {

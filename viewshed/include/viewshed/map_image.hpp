@@ -53,7 +53,7 @@ struct MapImage {
 MapImage draw_map(const Tin& tin, const Result& result, const MapOptions& options = {});
 /// Draws the map over the surface that compute_with_surface() kept, and reads the heights of it that have not been
 /// read.
-MapImage draw_map(Surface& surface, const Result& result, Progress& progress, const MapOptions& options = {});
+MapImage draw_map(RetrievedSurface& surface, const Result& result, Progress& progress, const MapOptions& options = {});
 
 /// Options of draw_oblique(), a shaded parallel projection. What stands on the surface has a colour for each kind of
 /// theme.

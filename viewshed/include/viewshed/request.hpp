@@ -33,8 +33,8 @@ struct AngleRange {
 };
 
 struct Observer {
-  std::string name;  ///< for messages and maps; may be empty
-  Point2 position;
+  std::string name = {};  ///< for messages and maps; may be empty
+  Point2 position = {};
   double height = 2;  ///< metres above the surface, or an elevation when `absolute`
   bool absolute = false;
   // The observer's own field of view and targets, where they differ from the request's.
@@ -85,19 +85,19 @@ struct FresnelCriterion {
 };
 
 struct Request {
-  std::vector<Observer> observers;
+  std::vector<Observer> observers = {};
   double target_height = 0;  ///< metres above the surface, or an elevation when `target_absolute`
   bool target_absolute = false;
   // The field of view of observers that have none of their own.
-  std::optional<double> radius;  ///< metres; none: the whole coverage
+  std::optional<double> radius = {};  ///< metres; none: the whole coverage
   double min_radius = 0;
-  std::optional<AngleRange> azimuth;
-  std::optional<AngleRange> elevation;
+  std::optional<AngleRange> azimuth = {};
+  std::optional<AngleRange> elevation = {};
   // The cells: one of the two, or neither. Then the cell size is the least of 1, 2, 5, 10, ... (or their decimal
   // fractions) metres that gives at most kDefaultCells cells per side.
-  std::optional<double> cell_size;
-  std::optional<RasterGrid> grid;
-  Earth earth;
+  std::optional<double> cell_size = {};
+  std::optional<RasterGrid> grid = {};
+  Earth earth = {};
   Detail detail = Detail::tolerance(0);      ///< the surface's level of detail; not used with a Tin
   ThemeChoice themes = ThemeChoice::none();  ///< raised features on the surface; not used with a Tin
   // Both ends stand on the ground without raised features, or on the surface with them. compute() takes the surface for
@@ -107,9 +107,9 @@ struct Request {
   NoData nodata = NoData::kUnknown;
   Engine engine = Engine::kAuto;
   Mode mode = Mode::kVisible;
-  VerticalError vertical_error;  ///< kProbability
-  FresnelCriterion fresnel;      ///< kFresnel: a visible cell is one whose zone is clear
-  RadioPath radio;               ///< kLoss; its effective radius is that of `earth`
+  VerticalError vertical_error = {};  ///< kProbability
+  FresnelCriterion fresnel = {};      ///< kFresnel: a visible cell is one whose zone is clear
+  RadioPath radio = {};               ///< kLoss; its effective radius is that of `earth`
 };
 
 inline constexpr int kDefaultCells = 2048;

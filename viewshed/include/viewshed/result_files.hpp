@@ -23,8 +23,8 @@ namespace itin::viewshed {
 std::string json_of(const Result& result, const StoreMetadata& metadata);
 
 struct GeotiffOptions {
-  std::string crs_wkt;
-  std::vector<std::pair<std::string, std::string>> metadata;  ///< added to what the request says of itself
+  std::string crs_wkt = {};
+  std::vector<std::pair<std::string, std::string>> metadata = {};  ///< added to what the request says of itself
   bool overwrite = false;
 };
 

@@ -41,8 +41,8 @@ namespace itin::viewshed {
 
 /// A site on its ground.
 struct SitePosition {
-  std::string name;
-  Point2 position;
+  std::string name = {};
+  Point2 position = {};
   double height = 0;  ///< metres above the ground
   double ground = 0;  ///< metres; the surface's elevation there, with features if it stands on these
 
@@ -56,11 +56,11 @@ std::vector<std::optional<double>> ground_under(const Store& store, const std::v
 /// The targets: either the centres of a raster's cells, or points. For the numbers of elements see element_of() and
 /// SiteCoverage.
 struct SiteTargets {
-  std::optional<RasterGrid> grid;
-  std::vector<Point2> points;
-  double height = 0;            ///< metres above the ground
-  std::vector<double> heights;  ///< one for each point; empty where all have `height`
-  bool on_surface = false;      ///< heights are above the surface with the themes instead
+  std::optional<RasterGrid> grid = {};
+  std::vector<Point2> points = {};
+  double height = 0;                 ///< metres above the ground
+  std::vector<double> heights = {};  ///< one for each point; empty where all have `height`
+  bool on_surface = false;           ///< heights are above the surface with the themes instead
 
   double height_of(std::size_t point) const { return heights.empty() ? height : heights[point]; }
 };
@@ -72,19 +72,19 @@ enum class OpenTargets {
 };
 
 struct SiteSurvey {
-  std::vector<SitePosition> positions;  ///< one per option
-  SiteTargets targets;
+  std::vector<SitePosition> positions = {};  ///< one per option
+  SiteTargets targets = {};
   double radius = 10000;  ///< metres: no site serves farther
-  Earth earth;
+  Earth earth = {};
   /// Under kBlock no target across ground without data is served; under kUnknown `open` decides.
   NoData nodata = NoData::kUnknown;
   OpenTargets open = OpenTargets::kUnserved;
   ThemeChoice themes = ThemeChoice::none();
   /// With a criterion, a target in sight is served only if its link meets the criterion, too.
-  std::optional<FresnelCriterion> fresnel;
+  std::optional<FresnelCriterion> fresnel = {};
   // The following change the speed, never what is exact.
-  Engine engine = Engine::kAuto;    ///< judges cells at full detail; points are decided by rays
-  std::optional<double> tolerance;  ///< tolerance of the first stage; nothing: chosen by the number of points
+  Engine engine = Engine::kAuto;         ///< judges cells at full detail; points are decided by rays
+  std::optional<double> tolerance = {};  ///< tolerance of the first stage; nothing: chosen by the number of points
   /// The memory for surfaces and for the bounds on what each site serves.
   std::uint64_t memory_bytes = std::uint64_t{1} << 30;
 };

@@ -25,7 +25,7 @@ struct ProposalRequest {
   double radius = 10000;
   double mast_height = 20;
   double target_height = 2;
-  Earth earth;
+  Earth earth = {};
   ThemeChoice themes = ThemeChoice::none();  ///< what stands on the ground
   bool on_surface = false;                   ///< on roofs of these as well, at least three metres high
   bool targets_on_surface = false;           ///< targets stand on these themes, too

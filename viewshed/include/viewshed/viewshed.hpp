@@ -72,13 +72,13 @@ struct ComputeOptions {
 };
 
 /// The surface over which sight lines were decided. Opaque: draw_map() and compute_on_surface() take it.
-struct Surface;
+struct RetrievedSurface;
 
 /// A result and the surface that it was computed on, for maps and single observers while the store is open.
 struct ViewshedWithSurface {
-  std::shared_ptr<Surface> surface;  ///< a coarse one where that of the request was not read as a whole
-  std::optional<Tin> ground;         ///< what ends stand on, where that is not the surface
-  bool whole = true;                 ///< `surface` is that of the request
+  std::shared_ptr<RetrievedSurface> surface;  ///< a coarse one where that of the request was not read as a whole
+  std::optional<Tin> ground;                  ///< what ends stand on, where that is not the surface
+  bool whole = true;                          ///< `surface` is that of the request
   Result result;
 };
 

@@ -22,7 +22,7 @@
 namespace itin::viewshed {
 
 struct IndexRequest {
-  Window area;             ///< where observers are: cells whose centre lies in it; all(): the whole coverage
+  Window area = {};        ///< where observers are: cells whose centre lies in it; all(): the whole coverage
   double cell_size = 100;  ///< metres
   double height = 2;       ///< observers' height above the ground, metres
   double target_height = 0;

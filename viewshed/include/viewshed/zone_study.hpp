@@ -108,8 +108,8 @@ TurbineTable read_turbines(const TurbineFile& file, const std::string& to_crs);
 /// An eye from which the turbines are looked at.
 struct Viewpoint {
   std::size_t number = 0;
-  std::string name;
-  Point2 position;
+  std::string name = {};
+  Point2 position = {};
   double height = 0;  ///< how high the eye is above the ground
   double ground = 0;  ///< filled in by study_zone()
 };

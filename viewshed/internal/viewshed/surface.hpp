@@ -17,7 +17,7 @@
 
 namespace itin::viewshed {
 
-struct Surface {
+struct RetrievedSurface {
   Tin tin;                                 ///< empty where the surface is a lattice, until it is listed
   std::unique_ptr<LatticeReader> lattice;  ///< else null
   Box extent;                              ///< the box of all the data that it is a part of, metres; empty: its own box
@@ -44,19 +44,19 @@ Box extent_of(const Store& store);
 
 /// Retrieves the surface that triangulate() makes, as a lattice if it is one, at full detail and of at most
 /// `most_posts` posts.
-Surface retrieve_surface(const Store& store, const Window& window, const Detail& detail, const ThemeChoice& themes,
-                         std::uint64_t most_posts, Progress& progress);
+RetrievedSurface retrieve_surface(const Store& store, const Window& window, const Detail& detail,
+                                  const ThemeChoice& themes, std::uint64_t most_posts, Progress& progress);
 
 /// Retrieves such a lattice; returns nothing where the surface is none. Heights that are not read now are read later,
 /// while the store is open.
-std::optional<Surface> retrieve_lattice(const Store& store, const Window& window, const Detail& detail,
-                                        const ThemeChoice& themes, LatticeReader::Heights heights,
-                                        std::uint64_t most_posts, Progress& progress);
+std::optional<RetrievedSurface> retrieve_lattice(const Store& store, const Window& window, const Detail& detail,
+                                                 const ThemeChoice& themes, LatticeReader::Heights heights,
+                                                 std::uint64_t most_posts, Progress& progress);
 
 /// Computes as compute() on a Tin does. A lattice takes a tenth of the memory and a third of the time, in modes that
 /// ask for sight lines alone. `ground` may be null. Reads those heights of the lattice that are asked for and have not
 /// been read, so it must not run in several threads at once.
-Result compute(const Surface& surface, const Tin* ground, const Request& request, Progress& progress,
+Result compute(const RetrievedSurface& surface, const Tin* ground, const Request& request, Progress& progress,
                const CellSink& sink = {});
 
 }  // namespace itin::viewshed

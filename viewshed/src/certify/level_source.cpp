@@ -163,7 +163,8 @@ class LevelBySectors final : public LevelSource {
 
 ViewshedWithSurface certify(LevelSource& source, const Request& request, const CellSink& sink, Progress& progress) {
   Result result = *run(source, request, sink, progress);
-  return {std::make_shared<Surface>(Surface{source.coarse(), nullptr, {}}), std::nullopt, false, std::move(result)};
+  return {std::make_shared<RetrievedSurface>(RetrievedSurface{source.coarse(), nullptr, {}}), std::nullopt, false,
+          std::move(result)};
 }
 
 }  // namespace

@@ -27,7 +27,7 @@
 #include "request/request_window.hpp"
 #include "request/void_shadow.hpp"
 #include "run/surface_source.hpp"
-#include "scene/full_surface.hpp"
+#include "scene/exact_scene.hpp"
 #include "scene/reveal.hpp"
 #include "window/retrieval.hpp"
 
@@ -65,7 +65,7 @@ class LatticeSectors final : public SurfaceSource {
   }
 
   /// The surface that maps are drawn over.
-  std::shared_ptr<Surface> coarse() const { return coarse_; }
+  std::shared_ptr<RetrievedSurface> coarse() const { return coarse_; }
 
  private:
   void retrieve_coarse(Result& result, Progress& progress) {
@@ -141,7 +141,7 @@ class LatticeSectors final : public SurfaceSource {
   double observe_over(LatticeReader& reader, const Eye& eye, std::uint32_t observer, const SightSectors& sectors,
                       std::span<const Tile> parts, ViewshedCells& cells) {
     Result& result = cells.result();
-    FullSurface surface(reader.lattice(), request_.earth, result.grid, tiles_);
+    ExactScene surface(reader.lattice(), request_.earth, result.grid, tiles_);
     const double unread = kBytesPerUnreadPost * static_cast<double>(reader.lattice().triangle_count()) / 2;
     const double tiles =
         (static_cast<double>(memory_) - unread) / static_cast<double>(kBytesPerPost * LatticeTin::kCells);
@@ -165,7 +165,7 @@ class LatticeSectors final : public SurfaceSource {
   double share_seen_;       ///< the part of a sector's tiles that is seen, as far as it is known
   SilentProgress reading_;  ///< while a sector is read
   Stopwatch watch_;
-  const std::shared_ptr<Surface> coarse_ = std::make_shared<Surface>();
+  const std::shared_ptr<RetrievedSurface> coarse_ = std::make_shared<RetrievedSurface>();
   RasterGrid tiles_;
   double posts_per_square_metre_ = 0;
   double tile_side_m_ = 0;   ///< the side of the lattice's tiles, as far as it is known

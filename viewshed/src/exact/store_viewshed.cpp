@@ -46,8 +46,8 @@ std::optional<ViewshedWithSurface> compute_over_lattice(const Store& store, cons
   auto surface = retrieve_lattice(store, window_of(request), request.detail, request.themes,
                                   heights_for(request, points), most_posts, call.step(share));
   if (!surface) return std::nullopt;
-  return survey(request, {std::make_shared<Surface>(std::move(*surface)), std::nullopt, true, {}}, watch.lap(), sink,
-                call.step(1));
+  return survey(request, {std::make_shared<RetrievedSurface>(std::move(*surface)), std::nullopt, true, {}}, watch.lap(),
+                sink, call.step(1));
 }
 
 ViewshedWithSurface compute_over_tin(const Store& store, const Request& request, const CellSink& sink,
@@ -55,7 +55,7 @@ ViewshedWithSurface compute_over_tin(const Store& store, const Request& request,
   Stopwatch watch;
   CallProgress call(progress);
   ViewshedWithSurface computed;
-  computed.surface = std::make_shared<Surface>();
+  computed.surface = std::make_shared<RetrievedSurface>();
   Tin& tin = computed.surface->tin;
   const std::uint64_t points = points_about(store, request.detail, box_of_window(store, request));
   const double share = share_of_reading(store, request, points, SurfaceForm::kTriangles);

@@ -27,7 +27,7 @@
 #include "request/void_shadow.hpp"
 #include "run/eye_verdicts.hpp"
 #include "run/surface_source.hpp"
-#include "scene/full_surface.hpp"
+#include "scene/exact_scene.hpp"
 #include "window/retrieval.hpp"
 
 namespace itin::viewshed {
@@ -63,7 +63,7 @@ class TinSegments final : public SurfaceSource {
   }
 
   /// The surface that maps are drawn over.
-  std::shared_ptr<Surface> coarse() const { return coarse_; }
+  std::shared_ptr<RetrievedSurface> coarse() const { return coarse_; }
 
  private:
   std::uint64_t budget() const { return memory_ / bytes_per_point(request_); }
@@ -87,7 +87,7 @@ class TinSegments final : public SurfaceSource {
   }
 
   /// Retrieves the surface over `window`, and the ground over the tiles of the targets, where these stand on it.
-  OwnedSurface retrieve(const Window& window, const std::vector<std::size_t>& tiles, Result& result) {
+  OwnedScene retrieve(const Window& window, const std::vector<std::size_t>& tiles, Result& result) {
     Statistics& statistics = result.statistics;
     Tin tin = triangulated(window, features_ ? request_.themes : ThemeChoice::none(), statistics);
     std::optional<Tin> ground;
@@ -108,7 +108,7 @@ class TinSegments final : public SurfaceSource {
     rim_ = rim_of(envelope.lower, envelope.outline);
     find_voids(envelope.lower.grid, rim_, result);
     ground_.emplace(store_, level_within(store_.metadata(), request_.detail.finest()), envelope.lower.bounds());
-    coarse_ = std::make_shared<Surface>(Surface{envelope.lower, nullptr, {}});
+    coarse_ = std::make_shared<RetrievedSurface>(RetrievedSurface{envelope.lower, nullptr, {}});
     pass_ = make_coarse_pass(way_, std::move(envelope), {request_, *ground_, rim_, tiles_, result});
     result.statistics.scene_seconds += watch_.lap();
   }
@@ -121,7 +121,7 @@ class TinSegments final : public SurfaceSource {
     if (group.last) pass_.reset();
     for (const auto& [tiles, ground] : segments(eye, left.needed)) {
       result.statistics.lines_seconds += watch_.lap();
-      const OwnedSurface segment = retrieve(ground_->window(ground), tiles, result);
+      const OwnedScene segment = retrieve(ground_->window(ground), tiles, result);
       // The edges of a segment's window are no voids, and features never reach beyond the ground.
       const ExactJudge judge(segment.full, {eye, segment.full.view_from(eye), left.shadow});
       if (way_ == CoarseWay::kNothing) {
@@ -135,7 +135,7 @@ class TinSegments final : public SurfaceSource {
   }
 
   /// Observes tiles over the segment with the studies of triangles that the mode needs.
-  void study(Portion portion, const std::vector<std::size_t>& tiles, const OwnedSurface& segment, const TileSet& ground,
+  void study(Portion portion, const std::vector<std::size_t>& tiles, const OwnedScene& segment, const TileSet& ground,
              ViewshedCells& cells) {
     std::optional<Tin> bare;
     if (features_ && needs_bare_lines(request_))
@@ -180,7 +180,7 @@ class TinSegments final : public SurfaceSource {
   std::uint64_t memory_;    ///< bytes, without the rasters
   SilentProgress reading_;  ///< while a segment is read
   Stopwatch watch_;
-  std::shared_ptr<Surface> coarse_;
+  std::shared_ptr<RetrievedSurface> coarse_;
   RasterGrid tiles_;
   std::vector<RimEdge> rim_;  ///< where ground ends
   std::optional<GroundTiles> ground_;

@@ -11,7 +11,7 @@
 #include <viewshed/visibility_index.hpp>
 
 #include "index/index_plan.hpp"
-#include "index/sampled_surface.hpp"
+#include "index/line_tester.hpp"
 #include "index/visibility_sampler.hpp"
 #include "plan/memory.hpp"
 #include "progress/stage.hpp"
@@ -88,8 +88,8 @@ class IndexWork {
 
   void sample_triangles(const CellRectangle& cells, Progress& progress) {
     const auto fit = [&](std::uint64_t points, std::uint64_t lines) {
-      const std::uint64_t ground = has_raised_ ? SampledSurface::bytes(points, 0) : 0;
-      return SampledSurface::bytes(points, lines) + ground <= memory_;
+      const std::uint64_t ground = has_raised_ ? LineTester::bytes(points, 0) : 0;
+      return LineTester::bytes(points, lines) + ground <= memory_;
     };
     const auto effort = [&](const IndexSegment& s) {
       return Effort{(has_raised_ ? 2 : 1) * effort_of_triangles(s.points),
@@ -97,21 +97,21 @@ class IndexWork {
     };
     for_each_segment(plan(cells, fit), effort, progress, [&](const IndexSegment& part, SegmentProgress& of_part) {
       const auto triangulated = [&](const ThemeChoice& themes, double share) {
-        return Surface{reader_.triangles(part.window, themes, of_part.reading(share)), nullptr, {}};
+        return RetrievedSurface{reader_.triangles(part.window, themes, of_part.reading(share)), nullptr, {}};
       };
-      const Surface surface = triangulated(request_.themes, has_raised_ ? 0.5 : 1);
-      std::optional<Surface> bare;
+      const RetrievedSurface surface = triangulated(request_.themes, has_raised_ ? 0.5 : 1);
+      std::optional<RetrievedSurface> bare;
       if (has_raised_) bare = triangulated(ThemeChoice::none(), 1);
       sample(part, surface, bare, of_part);
     });
   }
 
   /// Targets and eyes stand on the bare ground where that is another surface.
-  void sample(const IndexSegment& segment, const Surface& retrieved, const std::optional<Surface>& bare,
-              SegmentProgress& progress) {
+  void sample(const IndexSegment& segment, const RetrievedSurface& retrieved,
+              const std::optional<RetrievedSurface>& bare, SegmentProgress& progress) {
     if (retrieved.triangle_count() == 0) return;
-    const SampledSurface surface(retrieved, request_.earth, lines_of(segment));
-    std::optional<SampledSurface> ground;
+    const LineTester surface(retrieved, request_.earth, lines_of(segment));
+    std::optional<LineTester> ground;
     if (bare) ground.emplace(*bare, request_.earth, 0);
     const VisibilitySampler sampler(surface, ground ? *ground : surface,
                                     {request_.radius, request_.target_height, request_.targets}, request_.nodata);

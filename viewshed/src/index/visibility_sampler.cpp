@@ -45,8 +45,8 @@ struct VisibilitySampler::Target {
   Verdict verdict = Verdict::kVisible;
 };
 
-VisibilitySampler::VisibilitySampler(const SampledSurface& surface, const SampledSurface& ground,
-                                     const Targets& targets, NoData nodata)
+VisibilitySampler::VisibilitySampler(const LineTester& surface, const LineTester& ground, const Targets& targets,
+                                     NoData nodata)
     : surface_(surface), ground_(ground), targets_(targets), rule_(nodata) {
   if (rule_ == NoData::kClear) return;
   rim_ = surface.rim();

@@ -9,7 +9,7 @@
 #include <itin/geometry.hpp>
 #include <viewshed/result.hpp>
 
-#include "index/sampled_surface.hpp"
+#include "index/line_tester.hpp"
 #include "request/void_shadow.hpp"
 
 namespace itin::viewshed {
@@ -30,7 +30,7 @@ class VisibilitySampler {
     unsigned count = 0;
   };
   /// Targets stand on `ground`, which may be `surface` itself. Both must outlive the sampler.
-  VisibilitySampler(const SampledSurface& surface, const SampledSurface& ground, const Targets& targets, NoData nodata);
+  VisibilitySampler(const LineTester& surface, const LineTester& ground, const Targets& targets, NoData nodata);
 
   /// The ground under a place, metres.
   std::optional<double> ground(Point2 place) const;
@@ -47,8 +47,8 @@ class VisibilitySampler {
   std::vector<Target> draw(Point2 eye, std::uint64_t seed) const;
   void judge(const Point3& eye, const VoidShadow& behind_voids, std::span<Target> targets) const;
 
-  const SampledSurface& surface_;
-  const SampledSurface& ground_;
+  const LineTester& surface_;
+  const LineTester& ground_;
   Targets targets_;
   NoData rule_;
   std::vector<RimEdge> rim_;  ///< from south to north, where ground without data matters

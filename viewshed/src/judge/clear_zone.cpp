@@ -89,7 +89,7 @@ struct LoweredLines : LineBundle {
 
 }  // namespace
 
-ClearZone::ClearZone(Surface lower, Surface upper, const Earth& earth, const FresnelCriterion& criterion)
+ClearZone::ClearZone(Pyramid lower, Pyramid upper, const Earth& earth, const FresnelCriterion& criterion)
     : drop_(earth.drop_coefficient() * lower->units().resolution),
       criterion_(criterion),
       lower_(std::move(lower)),

@@ -26,9 +26,9 @@ namespace itin::viewshed {
 
 class ClearZone {
  public:
-  using Surface = std::shared_ptr<const HeightPyramid>;
+  using Pyramid = std::shared_ptr<const HeightPyramid>;
   /// The surface lies between the two, which are Tins, or is `lower` itself: then `upper` is null.
-  ClearZone(Surface lower, Surface upper, const Earth& earth, const FresnelCriterion& criterion);
+  ClearZone(Pyramid lower, Pyramid upper, const Earth& earth, const FresnelCriterion& criterion);
 
   /// Returns one bit per line; the closer together the lines' ends, the faster. Over the surface itself a zone is
   /// either certainly cut or certainly clear. May be called from any number of threads.
@@ -50,7 +50,7 @@ class ClearZone {
 
   double drop_;  ///< grid units per squared grid unit
   FresnelCriterion criterion_;
-  Surface lower_, upper_;
+  Pyramid lower_, upper_;
 };
 
 }  // namespace itin::viewshed

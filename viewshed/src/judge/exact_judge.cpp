@@ -2,10 +2,10 @@
 
 namespace itin::viewshed {
 
-ExactJudge::ExactJudge(const FullSurface& surface, std::vector<EyeView> views)
+ExactJudge::ExactJudge(const ExactScene& surface, std::vector<EyeView> views)
     : surface_(surface), views_(std::move(views)) {}
 
-ExactJudge::ExactJudge(const FullSurface& surface, EyeView view)
+ExactJudge::ExactJudge(const ExactScene& surface, EyeView view)
     : ExactJudge(surface, make_views(1, [&](std::size_t) { return std::move(view); })) {}
 
 std::unique_ptr<ExactJudge::ExactWork> ExactJudge::begin_exactly(std::size_t tile) const {

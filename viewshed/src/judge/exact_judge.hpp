@@ -15,7 +15,7 @@
 
 #include "judge/tile_judge.hpp"
 #include "request/void_shadow.hpp"
-#include "scene/full_surface.hpp"
+#include "scene/exact_scene.hpp"
 
 namespace itin::viewshed {
 
@@ -29,42 +29,42 @@ struct EyeView {
 class ExactJudge final : public TileJudge {
  public:
   /// The surface must outlive it.
-  ExactJudge(const FullSurface& surface, std::vector<EyeView> views);
+  ExactJudge(const ExactScene& surface, std::vector<EyeView> views);
   /// Serves one eye.
-  ExactJudge(const FullSurface& surface, EyeView view);
+  ExactJudge(const ExactScene& surface, EyeView view);
 
   /// Also holds what modes ask about a tile's ground and its lines.
   class ExactWork final : public Work {
    public:
-    ExactWork(const ExactJudge& judge, std::unique_ptr<FullSurface::TileCells> of)
+    ExactWork(const ExactJudge& judge, std::unique_ptr<ExactScene::TileCells> of)
         : cells(*of), judge_(judge), cells_(std::move(of)) {}
 
     std::uint64_t judge(std::size_t eye, TileValues<Verdict>& values) override;
     TileTargets targets() override { return {cells.centres, cells.targets, cells.targets}; }
-    const FullSurface& surface() const { return judge_.surface_; }
+    const ExactScene& surface() const { return judge_.surface_; }
     const EyeView& view(std::size_t eye) const { return judge_.views_[eye]; }
 
-    FullSurface::TileCells& cells;
+    ExactScene::TileCells& cells;
 
    private:
     const ExactJudge& judge_;
-    std::unique_ptr<FullSurface::TileCells> cells_;
+    std::unique_ptr<ExactScene::TileCells> cells_;
   };
 
   std::unique_ptr<Work> begin(std::size_t tile) const override { return begin_exactly(tile); }
   std::unique_ptr<ExactWork> begin_exactly(std::size_t tile) const;
   /// Begins a tile where only cells in these parts are asked about.
   std::unique_ptr<ExactWork> begin_exactly(const Tile& tile, std::span<const Tile> parts) const;
-  /// Calls FullSurface::hides() for one of the eyes.
+  /// Calls ExactScene::hides() for one of the eyes.
   bool hides(std::size_t eye, const Tile& tile) const {
     return surface_.hides(views_[eye].eye, views_[eye].view, tile);
   }
   const Eye& eye(std::size_t number) const override { return views_[number].eye; }
   std::size_t eye_count() const { return views_.size(); }
-  const FullSurface& surface() const { return surface_; }
+  const ExactScene& surface() const { return surface_; }
 
  private:
-  const FullSurface& surface_;
+  const ExactScene& surface_;
   const std::vector<EyeView> views_;
 };
 

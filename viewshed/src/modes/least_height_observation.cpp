@@ -20,7 +20,7 @@ bool LeastHeightObservation::open(const CellView& view) const {
 }
 
 std::uint64_t LeastHeightObservation::observe(const TileView& tile) {
-  FullSurface::TileCells& cells = tile.cells();
+  ExactScene::TileCells& cells = tile.cells();
   cells.targets.fill(kNoSurface);
   const auto ends = std::make_unique<Ends>();
   std::uint64_t lines = 0;
@@ -37,7 +37,7 @@ std::uint64_t LeastHeightObservation::observe(const TileView& tile) {
 /// Sets where the cell's line may end, and returns whether it needs one.
 bool LeastHeightObservation::raise(const TileView& tile, const CellView& view, Ends& ends) {
   const Eye& eye = tile.eye();
-  FullSurface::TileCells& cells = tile.cells();
+  ExactScene::TileCells& cells = tile.cells();
   if (eye.view.contains(view.dx, view.dy, view.dz, kSky) == false) return false;
   verdicts().add(view.cell, Verdict::kHidden);
   const double resolution = tile.resolution(), ground = cells.ground[view.cell];
@@ -56,7 +56,7 @@ bool LeastHeightObservation::raise(const TileView& tile, const CellView& view, E
 }
 
 void LeastHeightObservation::record(const TileView& tile, const CellView& view, const Ends& ends) {
-  const FullSurface::TileCells& cells = tile.cells();
+  const ExactScene::TileCells& cells = tile.cells();
   const Point3 highest = cells.target(view.cell);
   const bool over_missing = tile.crosses_void(highest.x, highest.y);
   if (over_missing && tile.from().shadow->shaded() == Verdict::kHidden) return;

@@ -123,7 +123,7 @@ std::uint64_t Observation::hide(const Tile& tile, std::span<const Tile> parts) {
 }
 
 std::uint64_t Observation::observe(const TileView& tile) {
-  const FullSurface::TileCells& cells = tile.cells();
+  const ExactScene::TileCells& cells = tile.cells();
   const Eye& eye = tile.eye();
   if (cells.unread) {
     const MapView view_of_eye{eye.position, eye.view};

@@ -22,7 +22,7 @@
 #include "modes/triangle_studies.hpp"
 #include "request/cells_in_view.hpp"
 #include "request/eye.hpp"
-#include "scene/full_surface.hpp"
+#include "scene/exact_scene.hpp"
 
 namespace itin::viewshed {
 
@@ -46,7 +46,7 @@ struct TileView {
   const Eye& eye() const { return from().eye; }
   /// Tells whether the line from the eye to a place, grid units, crosses ground without data.
   bool crosses_void(double x, double y) const { return from().shadow && from().shadow->holds(x, y); }
-  FullSurface::TileCells& cells() const { return work.cells; }
+  ExactScene::TileCells& cells() const { return work.cells; }
   double resolution() const { return work.surface().units().resolution; }
 
   /// Calls visit(view) for every cell that has ground; the views are of the ground.

@@ -10,7 +10,7 @@
 #include <viewshed/held_surface.hpp>
 #include <viewshed/surface.hpp>
 
-#include "exact/surface_in_memory.hpp"
+#include "exact/prepared_surface.hpp"
 #include "modes/feature_names.hpp"
 #include "plan/memory.hpp"
 #include "plan/planned_result.hpp"
@@ -101,7 +101,7 @@ class HeldSurface::Impl {
                                    area_.xmin, area_.ymin, area_.xmax, area_.ymax),
                        "radius");
     CallProgress call(progress);
-    const SurfaceInMemory over = surface_for(request, call);
+    const PreparedSurface over = surface_for(request, call);
     Result result = viewshed::compute(over, request, call, sink);
     name_features(store_, result, call);
     call.finish();
@@ -131,8 +131,8 @@ class HeldSurface::Impl {
                        "memory_bytes");
   }
 
-  SurfaceInMemory surface_for(const Request& request, CallProgress& call) const {
-    SurfaceInMemory over{.bare = bare_ ? &bare_->tin : nullptr, .extent = extent_of(store_)};
+  PreparedSurface surface_for(const Request& request, CallProgress& call) const {
+    PreparedSurface over{.bare = bare_ ? &bare_->tin : nullptr, .extent = extent_of(store_)};
     if (posts_ && !needs_triangles(request) && !casts_rays(request)) {
       over.lattice = &posts_->reader->lattice(), over.heights = posts_->heights, over.ground = &posts_->ground;
       return over;

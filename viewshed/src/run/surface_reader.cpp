@@ -6,16 +6,16 @@
 
 namespace itin::viewshed {
 
-Surface SurfaceReader::surface(const Window& window, const ThemeChoice& themes, std::uint64_t most_posts,
-                               Progress& progress) {
+RetrievedSurface SurfaceReader::surface(const Window& window, const ThemeChoice& themes, std::uint64_t most_posts,
+                                        Progress& progress) {
   Stopwatch watch;
-  Surface surface = retrieve_surface(store_, window, detail_, themes, most_posts, progress);
+  RetrievedSurface surface = retrieve_surface(store_, window, detail_, themes, most_posts, progress);
   statistics_.add_retrieval(surface.statistics(), surface.triangle_count(), watch.lap());
   return surface;
 }
 
-std::optional<Surface> SurfaceReader::lattice(const Window& window, const ThemeChoice& themes, std::uint64_t most_posts,
-                                              Progress& progress) {
+std::optional<RetrievedSurface> SurfaceReader::lattice(const Window& window, const ThemeChoice& themes,
+                                                       std::uint64_t most_posts, Progress& progress) {
   Stopwatch watch;
   auto lattice = retrieve_lattice(store_, window, detail_, themes, LatticeReader::Heights::kAll, most_posts, progress);
   if (lattice) statistics_.add_retrieval(lattice->statistics(), lattice->triangle_count(), 0);

@@ -22,10 +22,11 @@ class SurfaceReader {
       : store_(store), detail_(detail), statistics_(statistics) {}
 
   /// As retrieve_surface().
-  Surface surface(const Window& window, const ThemeChoice& themes, std::uint64_t most_posts, Progress& progress);
+  RetrievedSurface surface(const Window& window, const ThemeChoice& themes, std::uint64_t most_posts,
+                           Progress& progress);
   /// As retrieve_lattice(), with all heights. Reading what turns out to be no lattice counts as time alone.
-  std::optional<Surface> lattice(const Window& window, const ThemeChoice& themes, std::uint64_t most_posts,
-                                 Progress& progress);
+  std::optional<RetrievedSurface> lattice(const Window& window, const ThemeChoice& themes, std::uint64_t most_posts,
+                                          Progress& progress);
   /// As triangulate().
   Tin triangles(const Window& window, const ThemeChoice& themes, Progress& progress);
 

@@ -35,7 +35,7 @@ bool unread(const LatticeTin::Tile& tile) {
   return tile.ground != LatticeTin::Ground::kNone && !tile.heights;
 }
 
-void read(const Tiles& tiles, LatticeReader& reader, FullSurface& surface, Progress& progress) {
+void read(const Tiles& tiles, LatticeReader& reader, ExactScene& surface, Progress& progress) {
   if (tiles.empty()) return;
   reader.read(tiles, progress);
   surface.add(tiles);
@@ -43,7 +43,7 @@ void read(const Tiles& tiles, LatticeReader& reader, FullSurface& surface, Progr
 
 }  // namespace
 
-Revealed reveal(const Eye& eye, LatticeReader& reader, FullSurface& surface, std::uint64_t most_tiles,
+Revealed reveal(const Eye& eye, LatticeReader& reader, ExactScene& surface, std::uint64_t most_tiles,
                 Progress& progress) {
   const LatticeTin& lattice = reader.lattice();
   RadialSweep::View view = surface.begin_view(eye);
@@ -98,7 +98,7 @@ bool all_read(const LatticeReader& reader) {
   return std::none_of(reader.lattice().tiles.begin(), reader.lattice().tiles.end(), unread);
 }
 
-void reveal_place(Point2 position, LatticeReader& reader, FullSurface& surface, Progress& progress) {
+void reveal_place(Point2 position, LatticeReader& reader, ExactScene& surface, Progress& progress) {
   const LatticeTin& lattice = reader.lattice();
   const double column = (easting_in_units(lattice.grid, position.x) - lattice.west) / lattice.spacing,
                row = (lattice.north - northing_in_units(lattice.grid, position.y)) / lattice.spacing;

@@ -16,7 +16,7 @@
 #include <itin/progress.hpp>
 
 #include "request/eye.hpp"
-#include "scene/full_surface.hpp"
+#include "scene/exact_scene.hpp"
 #include "scene/sweep/radial_sweep.hpp"
 
 namespace itin::viewshed {
@@ -28,7 +28,7 @@ struct Revealed {
 };
 /// Reads what the eye may see; `surface` is the reader's. Cost: the tiles, and the view. Ends early where it would have
 /// to read more than `most_tiles`.
-Revealed reveal(const Eye& eye, LatticeReader& reader, FullSurface& surface, std::uint64_t most_tiles,
+Revealed reveal(const Eye& eye, LatticeReader& reader, ExactScene& surface, std::uint64_t most_tiles,
                 Progress& progress);
 
 /// Tells which heights to read at once of about `posts` posts. It is all where it matters how high ground is that
@@ -41,6 +41,6 @@ bool asks_for_all_heights(const Request& request);
 bool all_read(const LatticeReader& reader);
 
 /// Reads what lies about a position in metres.
-void reveal_place(Point2 position, LatticeReader& reader, FullSurface& surface, Progress& progress);
+void reveal_place(Point2 position, LatticeReader& reader, ExactScene& surface, Progress& progress);
 
 }  // namespace itin::viewshed

@@ -45,7 +45,7 @@ bool may_tell_open_lines(const Store& store, const ZoneRequest& request) {
 /// Marks the open lines from one tile, to one turbine after another.
 class OpenLines::TileMarker {
  public:
-  TileMarker(const OpenLines& lines, const FullSurface& ground, std::size_t tile, Visibility& open)
+  TileMarker(const OpenLines& lines, const ExactScene& ground, std::size_t tile, Visibility& open)
       : lines_(lines),
         place_(ground.begin(tile)),
         height_(lines.zone_.request.observer_height / lines.units_.resolution),
@@ -125,7 +125,7 @@ class OpenLines::TileMarker {
   }
 
   const OpenLines& lines_;
-  const std::unique_ptr<FullSurface::TileCells> place_;
+  const std::unique_ptr<ExactScene::TileCells> place_;
   double height_;  ///< how high eyes are above the ground, grid units
   Visibility& open_;
   std::size_t turbine_ = 0;
@@ -181,7 +181,7 @@ void OpenLines::roof_tiles() {
   pyramid_.emplace(roofs_);
 }
 
-std::optional<Window> OpenLines::mark(const FullSurface& ground, std::span<const std::size_t> tiles, Visibility& open,
+std::optional<Window> OpenLines::mark(const ExactScene& ground, std::span<const std::size_t> tiles, Visibility& open,
                                       Progress& progress) const {
   std::vector<TileSet> needed(tiles.size());
   for_each_step(tiles.size(), "open lines", progress, [&](std::size_t i) {

@@ -22,7 +22,7 @@
 #include "bounds/envelope_bounds.hpp"
 #include "bounds/height_pyramid.hpp"
 #include "plan/ground_tiles.hpp"
-#include "scene/full_surface.hpp"
+#include "scene/exact_scene.hpp"
 #include "scene/sweep/horizon_view.hpp"
 
 namespace itin::viewshed {
@@ -40,7 +40,7 @@ class OpenLines {
   /// Sets the bits in `open.turbines` of all lines from the cells of these tiles that are left open. Returns the ground
   /// where features may hide them; nothing where no line is left open. Eyes stand on `ground`, whose grid is the
   /// zone's. Throws Cancelled.
-  std::optional<Window> mark(const FullSurface& ground, std::span<const std::size_t> tiles, Visibility& open,
+  std::optional<Window> mark(const ExactScene& ground, std::span<const std::size_t> tiles, Visibility& open,
                              Progress& progress) const;
 
   const RetrievalStatistics& retrieval() const { return retrieval_; }

@@ -20,7 +20,7 @@ Eye eye_of_radar(const Grid& units, std::optional<double> ground_m, const ZoneRe
 }  // namespace
 
 struct RadarSurvey::PartView {
-  const FullSurface& ground;
+  const ExactScene& ground;
   const RadialSweep::View& view;
   const std::optional<VoidShadow>& shadow;  ///< nothing where no line crosses ground without data
 
@@ -32,7 +32,7 @@ RadarSurvey::RadarSurvey(const Grid& units, std::optional<double> ground_m, Zone
   zone.radar->ground_m = *ground_m;
 }
 
-void RadarSurvey::run(const FullSurface& ground, const ZonePart& part, Stage& stage) {
+void RadarSurvey::run(const ExactScene& ground, const ZonePart& part, Stage& stage) {
   if (part.radar_tiles.empty() && part.radar_turbines.empty()) return;
   const RadialSweep::View view = ground.view_from(eye_);
   std::optional<VoidShadow> shadow;

@@ -11,7 +11,7 @@
 #include "progress/stage.hpp"
 #include "request/eye.hpp"
 #include "request/void_shadow.hpp"
-#include "scene/full_surface.hpp"
+#include "scene/exact_scene.hpp"
 #include "turbines/zone_parts.hpp"
 
 namespace itin::viewshed {
@@ -24,7 +24,7 @@ class RadarSurvey {
 
   /// Enters the least visible heights over the part's radar_tiles, and what the radar sees of its radar_turbines. Every
   /// tile is a step.
-  void run(const FullSurface& ground, const ZonePart& part, Stage& stage);
+  void run(const ExactScene& ground, const ZonePart& part, Stage& stage);
 
  private:
   struct PartView;

@@ -26,7 +26,7 @@ std::vector<RimEdge> rim_about(const Turbine& turbine, const Grid& units, const 
 
 }  // namespace
 
-TurbineShadows shadows_of_turbines(const FullSurface& ground, const Zone& zone) {
+TurbineShadows shadows_of_turbines(const ExactScene& ground, const Zone& zone) {
   TurbineShadows shadows(zone.request.turbines.size());
   if (!zone.crosses_voids) return shadows;
   parallel_for(shadows.size(), [&](std::size_t k) {

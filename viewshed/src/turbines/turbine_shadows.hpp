@@ -11,7 +11,7 @@
 #include <viewshed/turbines.hpp>
 
 #include "request/void_shadow.hpp"
-#include "scene/full_surface.hpp"
+#include "scene/exact_scene.hpp"
 
 namespace itin::viewshed {
 
@@ -20,7 +20,7 @@ using TurbineShadows = std::vector<std::optional<VoidShadow>>;
 
 /// Finds the shadows of all turbines. The ground may be that of a part of the zone (turbines/zone_parts.hpp); the
 /// shadows then hold for the lines of that part.
-TurbineShadows shadows_of_turbines(const FullSurface& ground, const Zone& zone);
+TurbineShadows shadows_of_turbines(const ExactScene& ground, const Zone& zone);
 
 /// Returns about the memory that the shadows of turbines take over ground with this rim; 0 where there are none.
 std::uint64_t bytes_of_shadows(const std::vector<Turbine>& turbines, const Grid& units,

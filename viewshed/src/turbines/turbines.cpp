@@ -13,7 +13,7 @@
 #include "progress/stopwatch.hpp"
 #include "run/segments.hpp"
 #include "run/surface_reader.hpp"
-#include "scene/full_surface.hpp"
+#include "scene/exact_scene.hpp"
 #include "scene/sweep/radial_sweep.hpp"
 #include "turbines/open_lines.hpp"
 #include "turbines/radar_survey.hpp"
@@ -39,20 +39,19 @@ class ZoneWork {
 
   /// The surface with features, which screens.
   struct Screen {
-    const FullSurface& surface;
+    const ExactScene& surface;
     bool open_alone = false;  ///< whether the surface may cover only the ground beneath open lines (open_lines.hpp)
   };
 
   /// Surveys a part. There is no screen where the part has no turbines to look for, or nothing screens them.
-  void survey(const FullSurface& ground, const std::optional<Screen>& screen, const ZonePart& part,
-              Progress& progress) {
+  void survey(const ExactScene& ground, const std::optional<Screen>& screen, const ZonePart& part, Progress& progress) {
     Stopwatch watch;
     Stage stage("sight lines", (screen ? 2 : 1) * part.tiles.size() + part.radar_tiles.size(), progress);
     if (!part.tiles.empty()) {
       const ZoneSurvey survey(ground, zone_);
       // Features never reach beyond the ground, and the edges of a window of open lines are no voids.
       const TurbineShadows shadows = shadows_of_turbines(ground, zone_);
-      const auto observe = [&](const FullSurface& over, bool open_alone, Visibility& visibility) {
+      const auto observe = [&](const ExactScene& over, bool open_alone, Visibility& visibility) {
         zone_.statistics.lines += survey.run({over.sweep(), shadows, open_alone}, part.tiles, visibility, stage);
       };
       observe(ground, false, zone_.bare);
@@ -77,7 +76,7 @@ class PartReader {
         reader_(store, zone.request.detail, zone.statistics) {}
 
   /// Reads the ground of the whole zone, where it is a lattice and the memory holds it.
-  std::unique_ptr<OwnedSurface> lattice(Progress& progress) {
+  std::unique_ptr<OwnedScene> lattice(Progress& progress) {
     std::uint64_t most_posts = kAnyLattice;
     if (const auto memory = zone_.request.memory_bytes)
       most_posts = (*memory - std::min(*memory, bytes_beside_surfaces(zone_))) / kBytesPerPost;
@@ -85,24 +84,24 @@ class PartReader {
     return lattice ? owned(std::move(*lattice)) : nullptr;
   }
 
-  std::unique_ptr<OwnedSurface> ground(const ZonePart& part, Progress& progress) {
+  std::unique_ptr<OwnedScene> ground(const ZonePart& part, Progress& progress) {
     return read(part.window, ThemeChoice::none(), progress);
   }
 
   /// What was read to screen a part.
   struct OwnedScreen {
-    std::unique_ptr<OwnedSurface> surface;  ///< null where no features had to be read
+    std::unique_ptr<OwnedScene> surface;  ///< null where no features had to be read
     bool open_alone = false;
 
     /// Returns the screen for the lines over a part; nothing where no features were asked for.
-    std::optional<ZoneWork::Screen> over(const FullSurface& ground) const {
+    std::optional<ZoneWork::Screen> over(const ExactScene& ground) const {
       if (surface) return ZoneWork::Screen{surface->full, open_alone};
       return open_alone ? std::optional(ZoneWork::Screen{ground, true}) : std::nullopt;
     }
   };
   /// Reads the surface with features: all of the part, or only where features may rise into lines that are left open.
   /// In the latter case, marks these lines.
-  OwnedScreen screen(const ZonePart& part, const FullSurface& ground, Progress& progress) {
+  OwnedScreen screen(const ZonePart& part, const ExactScene& ground, Progress& progress) {
     const ThemeChoice& themes = *zone_.request.themes;
     if (!may_tell_open_lines(store_, zone_.request)) return {read(part.window, themes, progress), false};
     CallProgress call(progress);
@@ -112,20 +111,20 @@ class PartReader {
 
  private:
   /// Marks the open lines. Returns the ground that they need.
-  std::optional<Window> open_lines(const ZonePart& part, const FullSurface& ground, CallProgress& call) {
+  std::optional<Window> open_lines(const ZonePart& part, const ExactScene& ground, CallProgress& call) {
     const OpenLines open(store_, zone_, part.window, call.step(kEnclosing));
     zone_.statistics.retrieval += open.retrieval();
     return open.mark(ground, part.tiles, *zone_.screened, call.step(kMarking));
   }
 
-  std::unique_ptr<OwnedSurface> read(const Window& window, const ThemeChoice& themes, Progress& progress) {
+  std::unique_ptr<OwnedScene> read(const Window& window, const ThemeChoice& themes, Progress& progress) {
     return owned(reader_.surface(window, themes, kAnyLattice, progress));
   }
 
-  std::unique_ptr<OwnedSurface> owned(Surface surface) {
+  std::unique_ptr<OwnedScene> owned(RetrievedSurface surface) {
     Stopwatch watch;
     auto owned =
-        std::make_unique<OwnedSurface>(std::move(surface), std::nullopt, zone_.request.earth, zone_.grid, tiles_);
+        std::make_unique<OwnedScene>(std::move(surface), std::nullopt, zone_.request.earth, zone_.grid, tiles_);
     zone_.statistics.scene_seconds += watch.lap();
     return owned;
   }
@@ -160,8 +159,8 @@ Zone survey_turbines(const Tin& ground, const Tin* screened, const ZoneRequest& 
   Zone zone = lay_out(request, ground, height, screened != nullptr);
   ZoneWork work(ground.grid, height, zone);
   const RasterGrid tiles = grid_of_tiles(zone.grid);
-  const FullSurface bare(ground, nullptr, request.earth, zone.grid, tiles);
-  std::optional<FullSurface> screen;
+  const ExactScene bare(ground, nullptr, request.earth, zone.grid, tiles);
+  std::optional<ExactScene> screen;
   if (screened != nullptr) screen.emplace(*screened, nullptr, request.earth, zone.grid, tiles);
   const ZonePart whole = whole_zone(zone);
   work.survey(bare, screen ? std::optional(ZoneWork::Screen{*screen}) : std::nullopt, whole, progress);

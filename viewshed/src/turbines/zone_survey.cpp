@@ -19,7 +19,7 @@ namespace itin::viewshed {
 
 /// Holds what is known of a tile's cells so far.
 struct ZoneSurvey::TileSightings {
-  TileSightings(const FullSurface& surface, std::size_t number, std::size_t words)
+  TileSightings(const ExactScene& surface, std::size_t number, std::size_t words)
       : place(surface.begin(number)), tile(place->tile), centres(place->centres), ground(place->ground), seen(words) {
     hubs.fill(kCountOutside), tips.fill(kCountOutside);
     open_hubs.fill(0), open_tips.fill(0);
@@ -28,7 +28,7 @@ struct ZoneSurvey::TileSightings {
     open.fill(true);
     for (auto& word : seen) word.fill(0);
   }
-  const std::unique_ptr<FullSurface::TileCells> place;  ///< its targets are the eyes, as seen from the current turbine
+  const std::unique_ptr<ExactScene::TileCells> place;  ///< its targets are the eyes, as seen from the current turbine
   const Tile& tile;
   const TileCentres& centres;
   const TileValues<double>& ground;  ///< grid units
@@ -42,7 +42,7 @@ struct ZoneSurvey::TileSightings {
   std::uint64_t lines = 0;
 };
 
-ZoneSurvey::ZoneSurvey(const FullSurface& ground, const Zone& zone) : ground_(ground), zone_(zone) {
+ZoneSurvey::ZoneSurvey(const ExactScene& ground, const Zone& zone) : ground_(ground), zone_(zone) {
   const Grid& units = ground.units();
   const double per_metre = 1 / units.resolution;
   for (std::size_t k = 0; k < zone.request.turbines.size(); ++k) {

@@ -11,7 +11,7 @@
 
 #include "line/cell_tiles.hpp"
 #include "progress/stage.hpp"
-#include "scene/full_surface.hpp"
+#include "scene/exact_scene.hpp"
 #include "scene/sweep/radial_sweep.hpp"
 #include "turbines/turbine_shadows.hpp"
 
@@ -21,7 +21,7 @@ class ZoneSurvey {
  public:
   /// Prepares the survey. `zone` has its request, grid and ground; eyes stand on `ground`, whose grid is the zone's.
   /// Both must outlive the survey.
-  ZoneSurvey(const FullSurface& ground, const Zone& zone);
+  ZoneSurvey(const ExactScene& ground, const Zone& zone);
 
   /// The surface that hides, and the shadows of voids behind which each turbine is hidden or undecided.
   struct Screen {
@@ -57,7 +57,7 @@ class ZoneSurvey {
   void store_horizon(const TileSightings& work, std::size_t from_cell, std::size_t to_cell, Point2 eye,
                      Visibility& result, std::vector<Arc>& arcs) const;
 
-  const FullSurface& ground_;
+  const ExactScene& ground_;
   const Zone& zone_;
   std::vector<Axis> axes_;
 };

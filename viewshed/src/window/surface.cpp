@@ -12,16 +12,16 @@ Box extent_of(const Store& store) {
   return store.metadata().grid.box(store.metadata().bounds);
 }
 
-std::optional<Surface> retrieve_lattice(const Store& store, const Window& window, const Detail& detail,
-                                        const ThemeChoice& themes, LatticeReader::Heights heights,
-                                        std::uint64_t most_posts, Progress& progress) {
+std::optional<RetrievedSurface> retrieve_lattice(const Store& store, const Window& window, const Detail& detail,
+                                                 const ThemeChoice& themes, LatticeReader::Heights heights,
+                                                 std::uint64_t most_posts, Progress& progress) {
   if (level_within(store.metadata(), detail.coarsest()) != 0) return std::nullopt;
   auto lattice = LatticeReader::open(store, window, themes, heights, most_posts, progress);
-  return lattice ? std::optional(Surface{{}, std::move(lattice), extent_of(store)}) : std::nullopt;
+  return lattice ? std::optional(RetrievedSurface{{}, std::move(lattice), extent_of(store)}) : std::nullopt;
 }
 
-Surface retrieve_surface(const Store& store, const Window& window, const Detail& detail, const ThemeChoice& themes,
-                         std::uint64_t most_posts, Progress& progress) {
+RetrievedSurface retrieve_surface(const Store& store, const Window& window, const Detail& detail,
+                                  const ThemeChoice& themes, std::uint64_t most_posts, Progress& progress) {
   if (auto lattice =
           retrieve_lattice(store, window, detail, themes, LatticeReader::Heights::kAll, most_posts, progress))
     return std::move(*lattice);

@@ -7,10 +7,10 @@
 #include "judge/bin_judge.hpp"
 #include "line/set_bits.hpp"
 #include "progress/stage.hpp"
-#include "siting/coverage/binned_surface.hpp"
 #include "siting/coverage/group_survey.hpp"
 #include "siting/coverage/judge_tiles.hpp"
 #include "siting/coverage/point_blocks.hpp"
+#include "siting/coverage/survey_bins.hpp"
 
 namespace itin::viewshed {
 
@@ -18,7 +18,7 @@ namespace {
 
 class BinnedSurvey final : public GroupSurvey {
  public:
-  BinnedSurvey(const SiteSurvey& survey, BinnedSurface surface)
+  BinnedSurvey(const SiteSurvey& survey, SurveyBins surface)
       : survey_(survey),
         surface_(std::move(surface)),
         walk_(surface_.bins, survey.earth.drop_coefficient() * units().resolution) {}
@@ -70,7 +70,7 @@ class BinnedSurvey final : public GroupSurvey {
   }
 
   const SiteSurvey& survey_;
-  BinnedSurface surface_;
+  SurveyBins surface_;
   BinWalk walk_;
 };
 

@@ -34,7 +34,7 @@ class EnvelopeCells final : public GroupSurvey {
 
 class ExactCells final : public GroupSurvey {
  public:
-  ExactCells(const SiteSurvey& survey, Surface surface, std::optional<Tin> bare_ground, bool rays)
+  ExactCells(const SiteSurvey& survey, RetrievedSurface surface, std::optional<Tin> bare_ground, bool rays)
       : survey_(survey),
         tiles_(grid_of_tiles(*survey.targets.grid)),
         surface_(std::move(surface), std::move(bare_ground), survey.earth, *survey.targets.grid, tiles_, rays) {
@@ -45,7 +45,7 @@ class ExactCells final : public GroupSurvey {
 
   std::vector<CoverageBounds> judge(const SitesToJudge& sites, Progress& progress,
                                     Statistics& statistics) const override {
-    const FullSurface& surface = surface_.full;
+    const ExactScene& surface = surface_.full;
     const std::vector<Eye> eyes = eyes_of(surface.units(), survey_, sites);
     const ExactJudge judge(surface, make_views(eyes.size(), [&](std::size_t i) {
                              EyeView view{eyes[i], surface.view_from(eyes[i])};
@@ -61,7 +61,7 @@ class ExactCells final : public GroupSurvey {
  private:
   const SiteSurvey& survey_;
   RasterGrid tiles_;
-  OwnedSurface surface_;
+  OwnedScene surface_;
   std::optional<ClearZone> zone_;
 };
 
@@ -72,7 +72,7 @@ std::unique_ptr<GroupSurvey> survey_cells(const SiteSurvey& survey, const Reques
   return std::make_unique<EnvelopeCells>(survey, request, std::move(envelope), zones);
 }
 
-std::unique_ptr<GroupSurvey> survey_cells_exactly(const SiteSurvey& survey, Surface surface,
+std::unique_ptr<GroupSurvey> survey_cells_exactly(const SiteSurvey& survey, RetrievedSurface surface,
                                                   std::optional<Tin> bare_ground, bool rays) {
   return std::make_unique<ExactCells>(survey, std::move(surface), std::move(bare_ground), rays);
 }

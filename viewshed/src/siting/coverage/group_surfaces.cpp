@@ -76,9 +76,9 @@ std::unique_ptr<GroupSurvey> GroupSurfaces::exact_cells(const std::vector<std::s
   const bool reads_two = themed && !survey_.targets.on_surface;
   // Fresnel zones are tested against single triangles, so that no lattice is read.
   const std::uint64_t most_posts = survey_.fresnel || stages_.casts_rays() ? 0 : kAnyLattice;
-  Surface surface = whole_lattice_ ? std::move(*std::exchange(whole_lattice_, std::nullopt))
-                                   : reader.surface(window, themed ? survey_.themes : ThemeChoice::none(), most_posts,
-                                                    call.step(reads_two ? 0.5 : 1));
+  RetrievedSurface surface = whole_lattice_ ? std::move(*std::exchange(whole_lattice_, std::nullopt))
+                                            : reader.surface(window, themed ? survey_.themes : ThemeChoice::none(),
+                                                             most_posts, call.step(reads_two ? 0.5 : 1));
   std::optional<Tin> bare_ground;
   if (reads_two) bare_ground = reader.triangles(window, ThemeChoice::none(), call.step(1));
   Stopwatch watch;

@@ -50,8 +50,8 @@ class GroupSurfaces {
   const SiteSurvey& survey_;
   const SurveyStages& stages_;
   Statistics& statistics_;
-  double raise_ = 0;                      ///< metres by which targets on features are raised above the bare ground
-  std::optional<Surface> whole_lattice_;  ///< until a survey takes it
+  double raise_ = 0;  ///< metres by which targets on features are raised above the bare ground
+  std::optional<RetrievedSurface> whole_lattice_;      ///< until a survey takes it
   std::array<std::unique_ptr<GroupSurvey>, 2> whole_;  ///< bare, and with the themes
 };
 

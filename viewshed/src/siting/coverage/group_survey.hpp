@@ -40,7 +40,7 @@ std::unique_ptr<GroupSurvey> survey_cells(const SiteSurvey& survey, const Reques
                                           bool zones);
 /// Returns an exact survey of cells over `surface`, which hides, and over the bare ground on which the cells stand
 /// where that is another surface. Rays decide if wanted; then the surface is a Tin.
-std::unique_ptr<GroupSurvey> survey_cells_exactly(const SiteSurvey& survey, Surface surface,
+std::unique_ptr<GroupSurvey> survey_cells_exactly(const SiteSurvey& survey, RetrievedSurface surface,
                                                   std::optional<Tin> bare_ground, bool rays);
 /// Returns a survey of points, which is exact over an envelope of level 0.
 std::unique_ptr<GroupSurvey> survey_points(const SiteSurvey& survey, const Request& request, Envelope envelope,

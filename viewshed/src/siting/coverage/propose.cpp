@@ -56,7 +56,7 @@ bool is_raised(const Tin& tin, std::uint32_t vertex) {
 
 /// Returns the vertices of the ground that nothing stands on, without vertices beside features where `tin` is the
 /// surface itself.
-std::vector<Post> posts_on_ground(const Tin& tin, const SampledSurface* surface) {
+std::vector<Post> posts_on_ground(const Tin& tin, const LineTester* surface) {
   std::vector<bool> beside(tin.vertices.size());
   for (const Triangle& t : tin.triangles) {
     if (std::none_of(t.begin(), t.end(), [&](std::uint32_t v) { return is_raised(tin, v); })) continue;
@@ -85,7 +85,7 @@ bool is_roof(const Tin& tin, const Triangle& t, const std::vector<ThemeInfo>& th
 }
 
 /// Adds the middles of the triangles of roofs, rounded to the grid.
-void add_roofs(const Store& store, const Tin& tin, const SampledSurface& surface, const SampledSurface& ground,
+void add_roofs(const Store& store, const Tin& tin, const LineTester& surface, const LineTester& ground,
                std::vector<Post>& posts) {
   const Grid& units = tin.grid;
   for (const Triangle& t : tin.triangles) {
@@ -109,14 +109,14 @@ class Proposer {
  public:
   /// Prepares the proposals. `surface` hides; `ground` is the ground under the features of the surface, or null where
   /// it has none.
-  Proposer(const Store& store, const Surface& surface, const Surface* ground, const Window& area,
+  Proposer(const Store& store, const RetrievedSurface& surface, const RetrievedSurface* ground, const Window& area,
            const ProposalRequest& request)
       : area_(area),
         request_(request),
         surface_(surface, request.earth, kPoints * kTargets),
         squares_(RasterGrid::aligned(area.bounds(), request.spacing)) {
     if (ground != nullptr) ground_.emplace(*ground, request.earth, 0);
-    const SampledSurface& bare = ground_ ? *ground_ : surface_;
+    const LineTester& bare = ground_ ? *ground_ : surface_;
     sampler_.emplace(surface_, request.targets_on_surface ? surface_ : bare,
                      VisibilitySampler::Targets{request.radius, request.target_height, kTargets}, NoData::kClear);
     if (ground != nullptr && !request.on_surface) {
@@ -179,8 +179,8 @@ class Proposer {
 
   const Window& area_;
   const ProposalRequest& request_;
-  SampledSurface surface_;
-  std::optional<SampledSurface> ground_;
+  LineTester surface_;
+  std::optional<LineTester> ground_;
   std::optional<VisibilitySampler> sampler_;
   RasterGrid squares_;
   std::vector<Post> posts_;
@@ -199,11 +199,11 @@ std::vector<Proposal> propose_sites(const Store& store, const Window& area, cons
   const Detail detail = detail_of(store.metadata(), finest_level_of(store, box, kPoints));
   CallProgress call(progress);
   const Window window = Window::box(box);
-  const Surface ground{triangulate(store, window, detail, call.step(0.3)), nullptr, {}};
+  const RetrievedSurface ground{triangulate(store, window, detail, call.step(0.3)), nullptr, {}};
   if (ground.tin.triangles.empty()) throw InputError("the search area holds no ground", "search_area");
-  std::optional<Surface> raised;
+  std::optional<RetrievedSurface> raised;
   if (request.themes.includes_raised(store.metadata().themes))
-    raised = Surface{triangulate(store, window, detail, call.step(0.4), request.themes), nullptr, {}};
+    raised = RetrievedSurface{triangulate(store, window, detail, call.step(0.4), request.themes), nullptr, {}};
   std::vector<Proposal> proposals =
       Proposer(store, raised ? *raised : ground, raised ? &ground : nullptr, area, request).run(call.step(1));
   call.finish();

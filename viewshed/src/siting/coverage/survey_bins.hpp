@@ -13,7 +13,7 @@
 
 namespace itin::viewshed {
 
-struct BinnedSurface {
+struct SurveyBins {
   SurfaceBins bins;
   /// The ground's height under each cell of the targets' grid, row by row, or under each point; grid units, kNoSurface
   /// where there is no ground.
@@ -22,7 +22,7 @@ struct BinnedSurface {
 
 /// Bins the surface within the radius of any site. `bytes` is the memory for the bins and for what is read at once; the
 /// bins are as narrow as it allows, but no narrower than half a metre. Throws as triangulate() does.
-BinnedSurface bin_surface(const Store& store, const SiteSurvey& survey, std::uint64_t bytes, Statistics& statistics,
-                          Progress& progress);
+SurveyBins bin_surface(const Store& store, const SiteSurvey& survey, std::uint64_t bytes, Statistics& statistics,
+                       Progress& progress);
 
 }  // namespace itin::viewshed

@@ -13,7 +13,7 @@
 
 namespace itin::viewshed {
 
-struct SurfaceInMemory {
+struct PreparedSurface {
   // One of these two is given.
   const Tin* tin = nullptr;
   const LatticeTin* lattice = nullptr;
@@ -30,6 +30,6 @@ struct SurfaceInMemory {
 };
 
 /// Computes a viewshed over the surface. Safe for concurrent use where there is no reader.
-Result compute(const SurfaceInMemory& over, const Request& request, Progress& progress, const CellSink& sink = {});
+Result compute(const PreparedSurface& over, const Request& request, Progress& progress, const CellSink& sink = {});
 
 }  // namespace itin::viewshed

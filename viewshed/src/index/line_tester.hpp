@@ -1,7 +1,7 @@
 // A surface for single lines in great number: how high it is, and which lines it hides, exact whatever else is known
 // of it.
 //
-//   const SampledSurface surface(retrieved, earth, lines_expected);
+//   const LineTester surface(retrieved, earth, lines_expected);
 //   const unsigned hidden = surface.hidden(lines);   // one bit per line, as SightLine has it
 #pragma once
 
@@ -20,10 +20,10 @@ namespace itin::viewshed {
 
 /// Every triangle that may rise above a line is asked (HeightPyramid). Where a Tin is asked about very many lines, rays
 /// find these triangles in less time (Scene).
-class SampledSurface {
+class LineTester {
  public:
   /// The surface must outlive it and have all its heights; about `lines` lines will be tested. Throws std::bad_alloc.
-  SampledSurface(const Surface& surface, const Earth& earth, std::uint64_t lines);
+  LineTester(const RetrievedSurface& surface, const Earth& earth, std::uint64_t lines);
   /// About how many bytes a Tin of `points` points takes. A lattice takes kBytesPerPost per post.
   static std::uint64_t bytes(std::uint64_t points, std::uint64_t lines);
 
@@ -39,7 +39,7 @@ class SampledSurface {
  private:
   bool hidden(const Point3& from, const Point3& to) const;
 
-  const Surface& surface_;
+  const RetrievedSurface& surface_;
   double drop_;     ///< grid units of drop per squared grid unit
   double grazing_;  ///< grid units
   HeightPyramid pyramid_;

@@ -1,4 +1,4 @@
-#include "siting/coverage/binned_surface.hpp"
+#include "siting/coverage/survey_bins.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -34,7 +34,7 @@ class SurfaceBinner {
                                                             kNoSurface)},
         tiles_(binned_.bins.tiles()) {}
 
-  BinnedSurface run(Progress& progress) && {
+  SurveyBins run(Progress& progress) && {
     const auto fits = [&](const CellRectangle& piece) {
       return piece.count() == 1 || store_.points_about(0, box_of(piece)) <= most_points_;
     };
@@ -97,14 +97,14 @@ class SurfaceBinner {
   const SiteSurvey& survey_;
   std::uint64_t most_points_;  ///< the most points that are read at once
   Statistics& statistics_;
-  BinnedSurface binned_;
+  SurveyBins binned_;
   RasterGrid tiles_;  ///< its cells are tiles of bins
 };
 
 }  // namespace
 
-BinnedSurface bin_surface(const Store& store, const SiteSurvey& survey, std::uint64_t bytes, Statistics& statistics,
-                          Progress& progress) {
+SurveyBins bin_surface(const Store& store, const SiteSurvey& survey, std::uint64_t bytes, Statistics& statistics,
+                       Progress& progress) {
   const std::uint64_t ground =
       sizeof(double) * (survey.targets.grid ? survey.targets.grid->cell_count() : survey.targets.points.size());
   return SurfaceBinner(store, survey, bytes - std::min(bytes / 2, ground), statistics).run(progress);

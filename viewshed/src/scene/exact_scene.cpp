@@ -1,4 +1,4 @@
-#include "scene/full_surface.hpp"
+#include "scene/exact_scene.hpp"
 
 #include <algorithm>
 #include <array>
@@ -17,16 +17,16 @@
 
 namespace itin::viewshed {
 
-FullSurface::FullSurface(const Tin& surface, const Tin* bare_ground, const Earth& earth, const RasterGrid& grid,
-                         const RasterGrid& tiles)
-    : FullSurface(std::make_shared<BinnedHeights>(surface, grid.cell_area()), &surface, bare_ground, nullptr, earth,
-                  grid, tiles) {}
+ExactScene::ExactScene(const Tin& surface, const Tin* bare_ground, const Earth& earth, const RasterGrid& grid,
+                       const RasterGrid& tiles)
+    : ExactScene(std::make_shared<BinnedHeights>(surface, grid.cell_area()), &surface, bare_ground, nullptr, earth,
+                 grid, tiles) {}
 
-FullSurface::FullSurface(const LatticeTin& surface, const Earth& earth, const RasterGrid& grid, const RasterGrid& tiles)
-    : FullSurface(std::make_shared<BinnedHeights>(surface), nullptr, nullptr, nullptr, earth, grid, tiles) {}
+ExactScene::ExactScene(const LatticeTin& surface, const Earth& earth, const RasterGrid& grid, const RasterGrid& tiles)
+    : ExactScene(std::make_shared<BinnedHeights>(surface), nullptr, nullptr, nullptr, earth, grid, tiles) {}
 
-FullSurface::FullSurface(std::shared_ptr<BinnedHeights> heights, const Tin* surface, const Tin* bare_ground,
-                         const KeptGround* kept, const Earth& earth, const RasterGrid& grid, const RasterGrid& tiles)
+ExactScene::ExactScene(std::shared_ptr<BinnedHeights> heights, const Tin* surface, const Tin* bare_ground,
+                       const KeptGround* kept, const Earth& earth, const RasterGrid& grid, const RasterGrid& tiles)
     : surface_(surface),
       targets_on_(bare_ground != nullptr ? bare_ground : surface),
       kept_(kept),
@@ -40,14 +40,14 @@ FullSurface::FullSurface(std::shared_ptr<BinnedHeights> heights, const Tin* surf
   if (bare_ground != nullptr || small || !heights_->partition()) of_tiles_.emplace(*targets_on_, tiles);
 }
 
-std::vector<BinBox> FullSurface::boxes_of_tiles() const {
+std::vector<BinBox> ExactScene::boxes_of_tiles() const {
   std::vector<BinBox> boxes(tiles_.cell_count());
   for (std::size_t i = 0; i < boxes.size(); ++i)
     boxes[i] = heights_->in_bins(box_of_centres(grid_, tile_at(grid_, tiles_, i)));
   return boxes;
 }
 
-RadialSweep::View FullSurface::view_of_cells(const Eye& eye, const Progress& progress) const {
+RadialSweep::View ExactScene::view_of_cells(const Eye& eye, const Progress& progress) const {
   if (rays_) return view_from(eye);
   RadialSweep::Axis axis = axis_of(eye);
   double farthest = 0;
@@ -65,18 +65,18 @@ RadialSweep::View FullSurface::view_of_cells(const Eye& eye, const Progress& pro
   return view;
 }
 
-std::optional<double> FullSurface::height(Point2 position) const {
+std::optional<double> ExactScene::height(Point2 position) const {
   const auto height =
       heights_->height_at({easting_in_units(units(), position.x), northing_in_units(units(), position.y)});
   return height ? std::optional(*height * units().resolution) : std::nullopt;
 }
 
-std::unique_ptr<FullSurface::TileCells> FullSurface::begin(std::size_t tile) const {
+std::unique_ptr<ExactScene::TileCells> ExactScene::begin(std::size_t tile) const {
   const Tile whole = tile_at(grid_, tiles_, tile);
   return begin(whole, {&whole, 1});
 }
 
-std::unique_ptr<FullSurface::TileCells> FullSurface::begin(const Tile& tile, std::span<const Tile> parts) const {
+std::unique_ptr<ExactScene::TileCells> ExactScene::begin(const Tile& tile, std::span<const Tile> parts) const {
   auto work = std::make_unique<TileCells>(units(), grid_, tile);
   if (kept_ != nullptr) {
     kept_->find(grid_, tile, work->centres, work->ground);
@@ -90,8 +90,8 @@ std::unique_ptr<FullSurface::TileCells> FullSurface::begin(const Tile& tile, std
 }
 
 /// Lists the triangles that may hold cells of a tile, ascending; `gathered` is memory for those of several tiles.
-std::span<const std::uint32_t> FullSurface::triangles_about(const Tile& tile,
-                                                            std::vector<std::uint32_t>& gathered) const {
+std::span<const std::uint32_t> ExactScene::triangles_about(const Tile& tile,
+                                                           std::vector<std::uint32_t>& gathered) const {
   const auto number = [](std::int64_t cell) { return cell / Tile::kSide; };
   if (tile.step == 1) return of_tiles_->triangles(tiles_.index({number(tile.column), number(tile.row)}));
   const std::int64_t east = number(tile.column + (tile.columns - 1) * tile.step),
@@ -106,7 +106,7 @@ std::span<const std::uint32_t> FullSurface::triangles_about(const Tile& tile,
   return gathered;
 }
 
-bool FullSurface::hides(const Eye& eye, const RadialSweep::View& view, const Tile& tile) const {
+bool ExactScene::hides(const Eye& eye, const RadialSweep::View& view, const Tile& tile) const {
   // Targets on the ground below another surface may not lie below its bounds.
   if (targets_on_ != surface_ || rays_) return false;
   const Box centres = box_of_centres(grid_, tile);
@@ -116,8 +116,8 @@ bool FullSurface::hides(const Eye& eye, const RadialSweep::View& view, const Til
   return highest && view.hides(box, eye.target(*highest * units().resolution) / units().resolution);
 }
 
-std::uint64_t FullSurface::judge(const Eye& eye, const RadialSweep::View& view, TileValues<Verdict>& values,
-                                 TileCells& work) const {
+std::uint64_t ExactScene::judge(const Eye& eye, const RadialSweep::View& view, TileValues<Verdict>& values,
+                                TileCells& work) const {
   raise_targets(eye, values, work);
   if (rays_) {
     cast_rays_to_targets(eye, work);
@@ -135,7 +135,7 @@ std::uint64_t FullSurface::judge(const Eye& eye, const RadialSweep::View& view, 
 
 /// Sets `work.seen` as RadialSweep::decide() does: to the eye's height for a target that is seen, and to NaN where it
 /// is hidden.
-void FullSurface::cast_rays_to_targets(const Eye& eye, TileCells& work) const {
+void ExactScene::cast_rays_to_targets(const Eye& eye, TileCells& work) const {
   const auto rows = static_cast<std::size_t>(work.tile.rows), columns = static_cast<std::size_t>(work.tile.columns);
   SightLines lines;
   lines.start_at(eye.units);
@@ -159,12 +159,12 @@ void FullSurface::cast_rays_to_targets(const Eye& eye, TileCells& work) const {
   }
 }
 
-void FullSurface::cast_rays(const Earth& earth) {
+void ExactScene::cast_rays(const Earth& earth) {
   ITIN_PRECONDITION(surface_ != nullptr);
   rays_ = std::make_unique<const Scene>(*surface_, earth);
 }
 
-double FullSurface::raise_from(const RadialSweep::View& view, Point2 position, double lowest, double highest) const {
+double ExactScene::raise_from(const RadialSweep::View& view, Point2 position, double lowest, double highest) const {
   const RasterGrid around({position.x - 0.5, position.y + 0.5}, 1, 1, 1, 1);
   const auto work = std::make_unique<TileCells>(units(), around, Tile{0, 0, 1, 1});
   work->centres.x[0] = easting_in_units(units(), position.x);
@@ -174,7 +174,7 @@ double FullSurface::raise_from(const RadialSweep::View& view, Point2 position, d
   return work->seen[0];
 }
 
-void FullSurface::find_ground(std::span<const Tile> parts, TileCells& work) const {
+void ExactScene::find_ground(std::span<const Tile> parts, TileCells& work) const {
   const TileCentres& at = work.centres;
   work.ground.fill(kNoSurface);
   work.unread = true;
@@ -197,7 +197,7 @@ void FullSurface::find_ground(std::span<const Tile> parts, TileCells& work) cons
 }
 
 /// Computes where undecided cells have their targets, and decides the cells that need no line.
-void FullSurface::raise_targets(const Eye& eye, TileValues<Verdict>& values, TileCells& work) const {
+void ExactScene::raise_targets(const Eye& eye, TileValues<Verdict>& values, TileCells& work) const {
   const double resolution = units().resolution, metre = 1 / resolution, grazing = kGrazing / resolution;
   work.targets.fill(kNoSurface);
   for_each_offset(eye, grid_, work.tile, work.centres, [&](std::size_t cell, const Point2& offset) {

@@ -2,7 +2,7 @@
 // decides the sight lines to cells, with the same answer: the sweep about the eye (sweep/radial_sweep.hpp), or rays
 // (rays/scene.hpp).
 //
-//   FullSurface surface(tin, nullptr, request.earth, grid, tiles);
+//   ExactScene surface(tin, nullptr, request.earth, grid, tiles);
 //   surface.cast_rays(request.earth);   // or not
 //   const auto work = surface.begin(tile);
 //   const auto view = surface.view_from(eye);
@@ -34,19 +34,19 @@
 
 namespace itin::viewshed {
 
-class FullSurface {
+class ExactScene {
  public:
   /// `surface` hides; targets stand on it, or on `bare_ground` where that is given. `tiles` are the tiles of `grid`.
   /// All must outlive this object.
-  FullSurface(const Tin& surface, const Tin* bare_ground, const Earth& earth, const RasterGrid& grid,
-              const RasterGrid& tiles);
-  FullSurface(const LatticeTin& surface, const Earth& earth, const RasterGrid& grid, const RasterGrid& tiles);
+  ExactScene(const Tin& surface, const Tin* bare_ground, const Earth& earth, const RasterGrid& grid,
+             const RasterGrid& tiles);
+  ExactScene(const LatticeTin& surface, const Earth& earth, const RasterGrid& grid, const RasterGrid& tiles);
   /// Uses heights that have been binned before, and are shared; `surface` is null where they are a lattice's. `kept` is
   /// the ground that targets stand on, where it is kept, or else null.
-  FullSurface(std::shared_ptr<BinnedHeights> heights, const Tin* surface, const Tin* bare_ground,
-              const KeptGround* kept, const Earth& earth, const RasterGrid& grid, const RasterGrid& tiles);
-  FullSurface(const FullSurface&) = delete;
-  FullSurface& operator=(const FullSurface&) = delete;
+  ExactScene(std::shared_ptr<BinnedHeights> heights, const Tin* surface, const Tin* bare_ground, const KeptGround* kept,
+             const Earth& earth, const RasterGrid& grid, const RasterGrid& tiles);
+  ExactScene(const ExactScene&) = delete;
+  ExactScene& operator=(const ExactScene&) = delete;
 
   /// Lets rays decide the lines to cells from now on. Precondition: the surface is a Tin. Throws std::bad_alloc.
   void cast_rays(const Earth& earth);
@@ -129,21 +129,21 @@ class FullSurface {
   std::unique_ptr<const Scene> rays_;
 };
 
-/// A FullSurface together with the surface that it is made of.
-struct OwnedSurface {
+/// A ExactScene together with the surface that it is made of.
+struct OwnedScene {
   /// Rays decide the lines to cells if wanted: then the surface must be a Tin.
-  OwnedSurface(Surface of, std::optional<Tin> bare_ground, const Earth& earth, const RasterGrid& grid,
-               const RasterGrid& tiles, bool rays = false)
+  OwnedScene(RetrievedSurface of, std::optional<Tin> bare_ground, const Earth& earth, const RasterGrid& grid,
+             const RasterGrid& tiles, bool rays = false)
       : surface(std::move(of)),
         ground(std::move(bare_ground)),
-        full(surface.lattice ? FullSurface(surface.lattice->lattice(), earth, grid, tiles)
-                             : FullSurface(surface.tin, ground ? &*ground : nullptr, earth, grid, tiles)) {
+        full(surface.lattice ? ExactScene(surface.lattice->lattice(), earth, grid, tiles)
+                             : ExactScene(surface.tin, ground ? &*ground : nullptr, earth, grid, tiles)) {
     if (rays) full.cast_rays(earth);
   }
 
-  const Surface surface;
+  const RetrievedSurface surface;
   const std::optional<Tin> ground;  ///< none where the surface is a lattice
-  FullSurface full;
+  ExactScene full;
 };
 
 }  // namespace itin::viewshed

@@ -1,4 +1,4 @@
-#include "index/sampled_surface.hpp"
+#include "index/line_tester.hpp"
 
 #include <itin/grazing.hpp>
 
@@ -19,29 +19,29 @@ bool casts_rays(std::uint64_t triangles, std::uint64_t lines) {
   return lines > kLinesPerTriangle * triangles;
 }
 
-HeightPyramid pyramid_over(const Surface& surface) {
+HeightPyramid pyramid_over(const RetrievedSurface& surface) {
   return surface.lattice ? HeightPyramid(surface.lattice->lattice()) : HeightPyramid(surface.tin);
 }
 
 }  // namespace
 
-SampledSurface::SampledSurface(const Surface& surface, const Earth& earth, std::uint64_t lines)
+LineTester::LineTester(const RetrievedSurface& surface, const Earth& earth, std::uint64_t lines)
     : surface_(surface), pyramid_(pyramid_over(surface_)) {
   drop_ = earth.drop_coefficient() * units().resolution;
   grazing_ = kGrazing / units().resolution;
   if (!surface_.lattice && casts_rays(surface_.tin.triangles.size(), lines)) rays_.emplace(surface_.tin, earth);
 }
 
-std::uint64_t SampledSurface::bytes(std::uint64_t points, std::uint64_t lines) {
+std::uint64_t LineTester::bytes(std::uint64_t points, std::uint64_t lines) {
   constexpr std::uint64_t kTin = 300;
   return points * (casts_rays(2 * points, lines) ? kTin + kBytesPerPointOfRays : kTin);
 }
 
-std::vector<RimEdge> SampledSurface::rim() const {
+std::vector<RimEdge> LineTester::rim() const {
   return surface_.lattice ? surface_.lattice->lattice().rim() : rim_of(surface_.tin, boundary_edges(surface_.tin));
 }
 
-unsigned SampledSurface::hidden(const SightLines& lines) const {
+unsigned LineTester::hidden(const SightLines& lines) const {
   if (rays_) return rays_->hidden(lines);
   unsigned result = 0;
   for_each_bit(lines.active, [&](unsigned i) {
@@ -51,7 +51,7 @@ unsigned SampledSurface::hidden(const SightLines& lines) const {
   return result;
 }
 
-bool SampledSurface::hidden(const Point3& from, const Point3& to) const {
+bool LineTester::hidden(const Point3& from, const Point3& to) const {
   const SightLine line(from, to, drop_, grazing_);
   LineBundle bundle(line);
   bool hidden = false;

@@ -1,4 +1,4 @@
-#include "exact/surface_in_memory.hpp"
+#include "exact/prepared_surface.hpp"
 
 #include <algorithm>
 #include <optional>
@@ -14,7 +14,7 @@
 #include "request/request.hpp"
 #include "request/void_shadow.hpp"
 #include "run/surface_source.hpp"
-#include "scene/full_surface.hpp"
+#include "scene/exact_scene.hpp"
 #include "scene/reveal.hpp"
 
 namespace itin::viewshed {
@@ -24,7 +24,7 @@ namespace {
 class SurfaceAtOnce final : public SurfaceSource {
  public:
   /// `over` must outlive it.
-  explicit SurfaceAtOnce(const SurfaceInMemory& over) : over_(over) {}
+  explicit SurfaceAtOnce(const PreparedSurface& over) : over_(over) {}
 
   std::vector<Eye> begin(Result& result, CallProgress& call) override {
     Stopwatch watch;
@@ -102,9 +102,9 @@ class SurfaceAtOnce final : public SurfaceSource {
     return revealed_.empty() ? surface_->view_of_cells(eye, progress) : std::move(revealed_[number]);
   }
 
-  const SurfaceInMemory& over_;
+  const PreparedSurface& over_;
   RasterGrid tiles_;
-  std::optional<FullSurface> surface_;
+  std::optional<ExactScene> surface_;
   std::optional<TriangleFinders> finders_, bare_finders_;  ///< where `over_` has none
   std::optional<TriangleStudies> studies_;
   std::vector<RadialSweep::View> revealed_;  ///< each eye's, where not all heights have been read; else none
@@ -112,7 +112,7 @@ class SurfaceAtOnce final : public SurfaceSource {
 
 }  // namespace
 
-Result compute(const SurfaceInMemory& over, const Request& request, Progress& progress, const CellSink& sink) {
+Result compute(const PreparedSurface& over, const Request& request, Progress& progress, const CellSink& sink) {
   validate(request);
   SurfaceAtOnce source(over);
   CallProgress call(progress);
@@ -122,16 +122,16 @@ Result compute(const SurfaceInMemory& over, const Request& request, Progress& pr
 }
 
 Result compute(const Tin& tin, const Request& request, Progress& progress) {
-  return compute(SurfaceInMemory{.tin = &tin, .extent = tin.bounds()}, request, progress);
+  return compute(PreparedSurface{.tin = &tin, .extent = tin.bounds()}, request, progress);
 }
 
 Result compute(const Tin& tin, const Tin& ground, const Request& request, Progress& progress) {
-  return compute(SurfaceInMemory{.tin = &tin, .bare = &ground, .extent = tin.bounds()}, request, progress);
+  return compute(PreparedSurface{.tin = &tin, .bare = &ground, .extent = tin.bounds()}, request, progress);
 }
 
-Result compute(const Surface& surface, const Tin* ground, const Request& request, Progress& progress,
+Result compute(const RetrievedSurface& surface, const Tin* ground, const Request& request, Progress& progress,
                const CellSink& sink) {
-  SurfaceInMemory over{.bare = ground, .extent = surface.extent};
+  PreparedSurface over{.bare = ground, .extent = surface.extent};
   if (surface.lattice) {
     over.reader = surface.lattice.get(), over.lattice = &surface.lattice->lattice();
   } else {
