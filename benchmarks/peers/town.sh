@@ -8,21 +8,8 @@
 #   NO_PRECISE=1 benchmarks/peers/town.sh     leaves out the precise viewsheds
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/measure.sh"
-require_tools python3 gdal_translate jq
-
-readonly peers=$root/benchmarks/peers delft=$data/ahn3-bgt-delft
-[ -f "$work/delft/delft.itin" ] || ITIN_PROGRAM=$itin "$peers/delft.sh" "$work/delft"
+source "$(dirname "${BASH_SOURCE[0]}")/town_stores.sh"
 "$peers/town.py" places "$delft" 1 1 80 >"$work/delft/places.csv"
-
-mkdir -p "$work/town"
-if [ ! -f "$work/town/town.itin" ]; then
-  gdal_translate -q -a_srs EPSG:28992 -a_ullr 0 1036 1132 0 "$root/scripts/demo-data/alexandria-dtm.tif" \
-    "$work/town/ground.tif"
-  "$peers/town.py" footprints "$delft" 4 4 >"$work/town/footprints.geojson"
-  measure "import of the town's ground" "$itin" import --quiet "$work/town/town.itin" "$work/town/ground.tif"
-  measure "and of its 2,560 buildings" "$itin" import --quiet "$work/town/town.itin" "$work/town/footprints.geojson" \
-    --kind buildings --height-field h --crs EPSG:28992
-fi
 "$peers/town.py" places "$delft" 4 4 200 >"$work/town/places.csv"
 
 sited() {  # sited TOWN WHAT MEMORY OPTION...: the choice in $work/TOWN/MEMORY

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <itin/call_progress.hpp>
 #include <itin/document.hpp>
 #include <itin/store.hpp>
 #include <itin/store_scale.hpp>
@@ -32,8 +33,9 @@ class PremisesVerb final : public Verb {
   Result execute(Progress& progress) override {
     viewshed::require_premises_folder(options_.directory, options_.policy.overwrite);
     const Store store(options_.store, cache_within(options_.memory_bytes()));
+    CallProgress call(progress);
     const viewshed::PremisesSurvey survey =
-        viewshed::survey_premises(store, options_.complete_request(store.metadata()), progress);
+        viewshed::survey_premises(store, options_.complete_request(store.metadata()), call.step(0.8));
     Result result;
     result.warnings = survey.warnings;
     options_.warn_of_light(result.warnings);
@@ -42,7 +44,8 @@ class PremisesVerb final : public Verb {
     viewshed::PremisesFileOptions files;
     files.manifest = [&](const std::vector<viewshed::PlanFile>& written) { return manifest(written, result); };
     files.overwrite = options_.policy.overwrite;
-    viewshed::write_premises(options_.directory, store, survey, files, progress);
+    viewshed::write_premises(options_.directory, store, survey, files, call.step(1));
+    call.finish();
     result.text = text(survey);
     return result;
   }

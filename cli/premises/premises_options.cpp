@@ -5,6 +5,7 @@
 #include <itin/error.hpp>
 #include <itin/site_list.hpp>
 
+#include "options/mast_file.hpp"
 #include "options/off_the_data.hpp"
 #include "options/taken_heights.hpp"
 #include "options/wave_options.hpp"
@@ -26,16 +27,7 @@ void PremisesOptions::declare(CLI::App& app) {
 
 void PremisesOptions::declare_masts(CLI::App& app) {
   begin_group(app, "Masts");
-  reads(app.add_option("--masts", masts_.path, "Masts from a vector file, or from CSV with columns x,y or lon,lat")
-            ->type_name("FILE")
-            ->required());
-  app.add_option("--layer", masts_.layer, "The layer of that file")->type_name("NAME");
-  app.add_option("--where", masts_.where, "Only masts that this SQL condition holds for")->type_name("SQL");
-  app.add_option("--name-field", masts_.name_field, "The field that holds names (default: name, or one like it)")
-      ->type_name("FIELD");
-  app.add_option("--height-field", masts_.height_field,
-                 "The field that holds each mast's height (default: height, unless --mast-height is given)")
-      ->type_name("FIELD");
+  declare_mast_file(app, {"--masts", "Masts", "name, or one like it"}, masts_)->required();
   app.add_option("--mast-height", mast_height_text_, "Height of masts without one of their own (default: 20)")
       ->type_name("METRES");
   app.add_option("--observer-on", observer_on_,
@@ -47,14 +39,11 @@ void PremisesOptions::declare_masts(CLI::App& app) {
 
 void PremisesOptions::declare_antennas(CLI::App& app) {
   begin_group(app, "Antennas on buildings");
-  app.add_option("--spacing", spacing_text_, "Distance between the places along a wall and on a roof (default: 1)")
+  antennas_.declare(app, "--spacing");
+  app.add_option("--setback", setback_text_,
+                 "Tell of each place on the roofs the least pole that is served, and the least that sees the street, "
+                 "which lies this far before the walls (roofs.csv)")
       ->type_name("METRES");
-  app.add_option("--reveal", reveal_text_, "How far before its wall an antenna is (default: 0.3)")->type_name("METRES");
-  app.add_option("--storey", storey_text_,
-                 "Antennas on walls are at multiples of this height above the ground (default: 3)")
-      ->type_name("METRES");
-  app.add_option("--pole", pole_text_, "Heights of antennas above the roof, the least first (default: 0,5)")
-      ->type_name("H[,H...]");
   app.add_option("--frequency", frequency_text_,
                  "Serve only what is in sight with its first Fresnel zone clear at this frequency: GHz, or 7500MHz")
       ->type_name("GHZ");
@@ -86,13 +75,9 @@ void PremisesOptions::validate() {
 }
 
 void PremisesOptions::validate_antennas() {
-  const auto take = [](const char* option, const std::string& text, double& value) {
-    if (!text.empty()) value = parse_number(option, text, Range::kPositive);
-  };
-  take("--spacing", spacing_text_, request_.spacing);
-  take("--reveal", reveal_text_, request_.reveal);
-  take("--storey", storey_text_, request_.storey);
-  if (!pole_text_.empty()) request_.poles = parse_heights("--pole", pole_text_, Range::kNotNegative);
+  antennas_.validate();
+  static_cast<viewshed::AntennaPlaces&>(request_) = antennas_.places();
+  if (!setback_text_.empty()) request_.setback = parse_number("--setback", setback_text_, Range::kPositive);
   require_frequency_of_zone(fresnel_text_, !frequency_text_.empty());
   if (frequency_text_.empty()) return;
   request_.frequency_ghz = parse_frequency(frequency_text_);
@@ -139,10 +124,8 @@ Document PremisesOptions::parameters() const {
   p["mast_height_m"] = request_.mast_height;
   p["observer_on"] = observer_on_;
   p["radius_m"] = request_.radius;
-  p["spacing_m"] = request_.spacing;
-  p["reveal_m"] = request_.reveal;
-  p["storey_m"] = request_.storey;
-  p["poles_m"] = request_.poles;
+  p.update(antennas_.parameters());
+  if (request_.setback) p["setback_m"] = *request_.setback;
   if (request_.frequency_ghz) p["frequency_ghz"] = *request_.frequency_ghz, p["fresnel"] = request_.fresnel;
   p.update(themes_.parameters());
   p["nodata"] = nodata_.text();

@@ -10,6 +10,7 @@
 #include <itin/sites.hpp>
 #include <viewshed/premises.hpp>
 
+#include "options/antenna_options.hpp"
 #include "options/earth_options.hpp"
 #include "options/in_crs.hpp"
 #include "options/memory_option.hpp"
@@ -47,6 +48,7 @@ class PremisesOptions {
 
   viewshed::PremisesRequest request_;
   SiteQuery masts_;
+  AntennaOptions antennas_;
   InCrs in_crs_;
   ThemeOptions themes_;
   EarthOptions earth_;
@@ -54,7 +56,7 @@ class PremisesOptions {
   MemoryOption memory_;
   bool took_heights_ = false;  ///< whether heights come from the usual field, for which the call did not ask
   std::string mast_height_text_, observer_on_ = "ground", radius_text_;
-  std::string spacing_text_, reveal_text_, storey_text_, pole_text_, frequency_text_, fresnel_text_;
+  std::string setback_text_, frequency_text_, fresnel_text_;
 };
 
 }  // namespace itin::cli

@@ -68,6 +68,7 @@ constexpr std::array kNames{
     Names{"scale", "--sheet-scale"},
     Names{"sea_area", "--sea-area"},
     Names{"sea_level", "--sea-level"},
+    Names{"setback", "--setback"},
     Names{"spacing", "--spacing"},
     Names{"stay", "--stay"},
     Names{"storey", "--storey"},

@@ -8,12 +8,14 @@
 #include <itin/raster_values.hpp>
 #include <itin/site_list.hpp>
 
+#include "options/mast_file.hpp"
 #include "options/radius_preset.hpp"
 #include "options/taken_heights.hpp"
 #include "options/wave_options.hpp"
 #include "output/store_document.hpp"
 #include "program/call_files.hpp"
 #include "program/help.hpp"
+#include "program/unusable_options.hpp"
 
 namespace itin::cli {
 
@@ -31,6 +33,7 @@ void SiteOptions::declare(CLI::App& app) {
   declare_candidates(app);
   placement.declare(app);
   declare_demand(app);
+  declare_antennas(app);
   declare_choice(app);
   declare_outputs(app);
   declare_work(app);
@@ -38,16 +41,7 @@ void SiteOptions::declare(CLI::App& app) {
 
 void SiteOptions::declare_candidates(CLI::App& app) {
   begin_group(app, "Candidates");
-  reads(app.add_option("--candidates", candidates.path,
-                       "Candidates from a vector file, or from CSV with columns x,y or lon,lat")
-            ->type_name("FILE"));
-  app.add_option("--layer", candidates.layer, "The layer of that file")->type_name("NAME");
-  app.add_option("--where", candidates.where, "Only candidates that this SQL condition holds for")->type_name("SQL");
-  app.add_option("--name-field", candidates.name_field, "The field that holds names (default: the row's number from 0)")
-      ->type_name("FIELD");
-  app.add_option("--height-field", candidates.height_field,
-                 "The field that holds each mast's height (default: height, unless --mast-height is given)")
-      ->type_name("FIELD");
+  declare_mast_file(app, {"--candidates", "Candidates", "the row's number from 0"}, candidates);
   app.add_option("--cost-field", cost_field, "The field that holds each place's cost (default: no costs)")
       ->type_name("FIELD");
   reads(app.add_option("--search-area", search_area,
@@ -70,10 +64,10 @@ void SiteOptions::declare_candidates(CLI::App& app) {
 void SiteOptions::declare_demand(CLI::App& app) {
   begin_group(app, "Demand");
   reads(app.add_option("--demand", demand,
-                       "What is to be served: cells (the default), which are those within the radius of a candidate, a "
-                       "raster of weights, or "
-                       "a vector file of points")
-            ->type_name("cells|FILE"));
+                       "What is to be served: cells (the default), which are those within the radius of a candidate, "
+                       "premises (the buildings of --themes, on their walls and roofs), a raster of weights, or a "
+                       "vector file of points")
+            ->type_name("cells|premises|FILE"));
   app.add_option("--weight-field", weight_field, "The field of the points that holds weights (default: 1 each)")
       ->type_name("FIELD");
   app.add_option("--target-height", target_height_text_,
@@ -93,6 +87,11 @@ void SiteOptions::declare_demand(CLI::App& app) {
       ->type_name("METRES");
   app.add_option("--cell", cell_text_, "Size of the cells of the demand and of the rasters (default: 50)")
       ->type_name("METRES");
+}
+
+void SiteOptions::declare_antennas(CLI::App& app) {
+  begin_group(app, "Antennas, with --demand premises");
+  antennas.declare(app, "--place-spacing");
 }
 
 void SiteOptions::declare_choice(CLI::App& app) {
@@ -216,7 +215,15 @@ void SiteOptions::validate_demand() {
   if (cell.value_or(0) > request.radius)
     throw InputError(fmt::format("--cell '{}': larger than the radius; give a smaller one", cell_text_));
   request.cell_size = cell.value_or(request.cell_size);
-  if (demand == "cells" && !weight_field.empty())
+  if (demand == "premises") {
+    if (placement.given()) throw InputError("--turbines are not placed for --demand premises: give cells or points");
+    antennas.validate();
+    request.demand.premises = antennas.places();
+  } else {
+    require_not_given(*app_, {"--place-spacing", "--reveal", "--storey", "--pole"},
+                      "works only with --demand premises");
+  }
+  if (!reads_demand() && !weight_field.empty())
     throw InputError("--weight-field works only with points: give them by --demand FILE");
 }
 
@@ -251,7 +258,7 @@ void SiteOptions::take_fields(std::vector<std::string>& warnings) {
 }
 
 void SiteOptions::take_demand_heights(std::vector<std::string>& warnings) {
-  if (demand == "cells" || is_raster(demand)) return;
+  if (!reads_demand() || is_raster(demand)) return;
   SiteQuery points;
   points.path = demand;
   take_heights(points, LayerFields(points), {target_height_text_.empty() ? "" : "--target-height", "", {weight_field}},
@@ -309,6 +316,7 @@ Document SiteOptions::parameters() const {
   if (!cost_field.empty()) p["cost_field"] = cost_field;
   p["observer_on"] = observer_on_;
   p["demand"] = demand;
+  if (demand == "premises") p["antennas"] = antennas.parameters();
   p["target_height_m"] = request.demand.height;
   if (!demand_height_field.empty()) p["demand_height_field"] = demand_height_field;
   p["target_on"] = target_on_;

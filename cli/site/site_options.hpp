@@ -11,6 +11,7 @@
 #include <itin/sites.hpp>
 #include <viewshed/site_plan.hpp>
 
+#include "options/antenna_options.hpp"
 #include "options/earth_options.hpp"
 #include "options/engine_option.hpp"
 #include "options/in_crs.hpp"
@@ -54,6 +55,9 @@ class SiteOptions {
   PlacementOptions placement;
   InCrs in_crs;
   std::string demand = "cells";
+  /// Tells whether the demand is in a file.
+  bool reads_demand() const { return demand != "cells" && demand != "premises"; }
+  AntennaOptions antennas;
   std::string weight_field;
   std::string demand_height_field;  ///< the field of the demand's points that holds heights; empty: there is none
   std::string existing, existing_height_field, forbidden;
@@ -69,6 +73,7 @@ class SiteOptions {
  private:
   void declare_candidates(CLI::App& app);
   void declare_demand(CLI::App& app);
+  void declare_antennas(CLI::App& app);
   void declare_choice(CLI::App& app);
   void declare_outputs(CLI::App& app);
   void declare_work(CLI::App& app);

@@ -121,7 +121,7 @@ class RequestFiles {
 
   void read_demand() {
     viewshed::SiteDemand& demand = request_.demand;
-    if (options_.demand == "cells") return;
+    if (!options_.reads_demand()) return;
     if (is_raster(options_.demand)) {
       RasterValues weights = read_raster_values(options_.demand, crs_);
       demand.source = options_.demand;

@@ -94,3 +94,5 @@ itin site garth.itin --search-area 'POLYGON((309500 183500,314500 183500,314500 
 printf 'name,x,y,height\nchurch,321790,4297662,18\nmill,321900,4297850,12\n' >masts.csv
 itin premises town.itin --masts masts.csv --radius 250 --pole 0,3 -o premises --json >premises.json
 itin premises town.itin --masts masts.csv --radius 200 --spacing 2 --frequency 5.8 --effective-earth 4/3 -o radio-premises
+itin premises town.itin --masts masts.csv --radius 120 --spacing 4 --setback 5 -o roofs
+itin site town.itin --candidates masts.csv --name-field name --demand premises --place-spacing 3 --count 1 --radius 120 --cell 5 -o homes --json >homes.json

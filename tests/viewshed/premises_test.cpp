@@ -1,7 +1,10 @@
 // Which mast serves which building: worked out by hand, against lines of sight by themselves, and against every
 // triangle for every place.
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <mutex>
+#include <numbers>
 #include <random>
 
 #include <gtest/gtest.h>
@@ -15,9 +18,13 @@
 #include "support/alexandria.hpp"
 #include "support/exact_line_of_sight.hpp"
 #include "support/houses.hpp"
+#include "support/impatient.hpp"
 #include "support/raster_file.hpp"
 #include "support/seed.hpp"
 #include "support/temporary_directory.hpp"
+#include "support/told_progress.hpp"
+#include "workflows/premises/output/facade_meshes.hpp"
+#include "workflows/premises/premises_segments.hpp"
 
 namespace itin::viewshed {
 namespace {
@@ -39,6 +46,54 @@ class PremisesSurveys : public testing::Test {
 
   PremisesSurvey survey(PremisesRequest request) {
     return survey_premises(Store(store_), std::move(request), progress_);
+  }
+
+  /// Ground of 1,400 m by 1,400 m with posts 2 m apart, a house in its middle, and eight masts about it.
+  PremisesRequest build_plain() {
+    test::write_raster(directory_.file("t.tif"), {300000, 201400, 2, 701, 701, 27700},
+                       [](int column, int row) { return 50 + 3 * std::sin(0.05 * column) * std::cos(0.03 * row); });
+    ImportOptions terrain;
+    terrain.sources = {directory_.file("t.tif")};
+    import_terrain(store_, terrain, progress_);
+    test::import_houses(store_, directory_.file("h.geojson"),
+                        {test::box(300690, 200690, 300710, 200705, 9), test::box(300900, 200690, 300912, 200700, 14)});
+    PremisesRequest request;
+    for (int i = 0; i < 8; ++i) {
+      const double turn = 2 * std::numbers::pi * i / 8;
+      request.masts.places.push_back(
+          mast(std::to_string(i), 300700 + 600 * std::cos(turn), 200700 + 600 * std::sin(turn), 6));
+    }
+    return request;
+  }
+
+  static void expect_same(const PremisesSurvey& one, const PremisesSurvey& other) {
+    ASSERT_EQ(other.premises.size(), one.premises.size());
+    for (std::size_t i = 0; i < one.premises.size(); ++i) {
+      const Premises &a = one.premises[i], &b = other.premises[i];
+      EXPECT_EQ(a.best, b.best);
+      EXPECT_EQ(a.roof_places, b.roof_places);
+      ASSERT_EQ(a.walls.size(), b.walls.size());
+      for (std::size_t w = 0; w < a.walls.size(); ++w) {
+        EXPECT_EQ(a.walls[w].mast, b.walls[w].mast);
+        EXPECT_EQ(a.walls[w].height_m, b.walls[w].height_m);
+        EXPECT_EQ(a.walls[w].undecided, b.walls[w].undecided);
+      }
+      ASSERT_EQ(a.links.size(), b.links.size());
+      for (std::size_t k = 0; k < a.links.size(); ++k) expect_same(a.links[k], b.links[k]);
+    }
+  }
+
+  static void expect_same(const PremisesLink& a, const PremisesLink& b) {
+    EXPECT_EQ(a.verdict, b.verdict);
+    EXPECT_EQ(a.mast, b.mast);
+    ASSERT_EQ(a.blocker.has_value(), b.blocker.has_value());
+    if (a.blocker) {
+      EXPECT_EQ(a.blocker->feature, b.blocker->feature);
+    }
+    ASSERT_EQ(a.roof.has_value(), b.roof.has_value());
+    if (a.roof) {
+      EXPECT_EQ(a.roof->position, b.roof->position);
+    }
   }
 
   static double nearest_to(Point2 p, const std::vector<WallPlace>& walls) {
@@ -216,6 +271,102 @@ TEST_F(PremisesSurveys, TellWhatHidesAHouseAndItsLeastPole) {
   EXPECT_EQ(less.counts().unserved, 1U);
 }
 
+TEST_F(PremisesSurveys, TellTheLeastPolesOfARoofByHand) {
+  // 20 m by 10 m, 9.5 m high: its eaves, 0.05 m within its outline, hide a street 5 m before its walls.
+  build({test::box(300100, 200100, 300120, 200110, 9.5)});
+  PremisesRequest request;
+  request.masts.places = {mast("west", 300040, 200105, 12), mast("east", 300180, 200105, 6)};
+  request.poles = {0, 4};
+  request.setback = 5;
+  request.earth = Earth::flat();
+  const PremisesSurvey found = survey(request);
+  const Premises& house = found.premises.front();
+  ASSERT_EQ(house.roof.size(), 200U);
+  EXPECT_EQ(house.roof_places, 200U);
+  for (const RoofPlace& place : house.roof) {
+    EXPECT_NEAR(place.roof_m, 59.5, 1e-6);
+    EXPECT_EQ(place.mast, 0U);  // the mast in the west looks down on the roof
+    EXPECT_EQ(place.height_m, 0);
+    const Point2 p = place.position;
+    const double to_wall = std::min({p.x - 300100, 300120 - p.x, p.y - 200100, 200110 - p.y});
+    ASSERT_TRUE(place.street);
+    EXPECT_NEAR(place.street->street.z, 50, 1e-6);
+    EXPECT_NEAR(std::hypot(place.street->street.x - p.x, place.street->street.y - p.y), to_wall + 5, 1e-6);
+    EXPECT_NEAR(place.street->pole_m, 9.5 * (to_wall + 5) / 5.05 - 9.5, 1e-3);
+    ASSERT_TRUE(place.street->edge);
+    EXPECT_EQ(place.street->edge->theme, 1);
+    EXPECT_NEAR(place.street->edge->position.z, 59.5, 1e-3);
+  }
+  request.setback.reset();
+  EXPECT_TRUE(survey(request).premises.front().roof.empty());
+}
+
+TEST_F(PremisesSurveys, SeeTheStreetFromTheLeastPoleAsLinesOfSightDo) {
+  test::import_alexandria(store_);
+  PremisesRequest request;
+  request.masts.places = {mast("c", 321790, 4297662, 18)};
+  request.spacing = 8, request.radius = 150, request.setback = 6;
+  const PremisesSurvey found = survey(request);
+  const Store store(store_);
+  profile::LinkQuery query;
+  query.earth = request.earth, query.themes = request.themes, query.to_on_surface = true;
+  std::size_t hidden = 0;
+  for (const Premises& p : found.premises) {
+    for (const RoofPlace& place : p.roof) {
+      if (!place.street) continue;
+      const auto& [street, pole, edge] = *place.street;
+      const auto verdict = [&](double height) {
+        const profile::Link link{"", {street.x, street.y}, 0, place.position, height};
+        return profile::survey_link(store, link, query).found->verdict;
+      };
+      EXPECT_EQ(verdict(pole + 1e-3), profile::SightVerdict::kVisible) << place.position.x << ',' << place.position.y;
+      if (!edge) continue;
+      ++hidden;
+      EXPECT_EQ(verdict(std::max(0.0, pole - 1e-2)), profile::SightVerdict::kHidden)
+          << place.position.x << ',' << place.position.y;
+    }
+  }
+  EXPECT_GT(hidden, 100U);
+}
+
+TEST_F(PremisesSurveys, StandFacadesOnTheGroundFacingOutward) {
+  // The ground falls from west to east; a garage of 2 m stands before the southern wall.
+  test::write_raster(directory_.file("t.tif"), {300000, 200280, 10, 29, 29, 27700},
+                     [](int column, int) { return 50 - 0.2 * column; });
+  ImportOptions terrain;
+  terrain.sources = {directory_.file("t.tif")};
+  import_terrain(store_, terrain, progress_);
+  test::import_houses(store_, directory_.file("h.geojson"),
+                      {test::box(300100, 200100, 300120, 200110, 9.5), test::box(300104, 200094, 300108, 200100, 2)});
+  PremisesRequest request;
+  request.masts.places = {mast("west", 300040, 200105, 12)};
+  const PremisesSurvey found = survey(request);
+  double area = 0;
+  const std::vector<ColouredMesh> meshes = facade_meshes(found);
+  ASSERT_GE(meshes.size(), 2U);
+  EXPECT_EQ(meshes.front().name, "west: served");
+  EXPECT_EQ(meshes.back().name, "not served");
+  for (const ColouredMesh& mesh : meshes) {
+    for (const auto& [a, b, c] : mesh.triangles) {
+      const double nx = (b.y - a.y) * (c.z - a.z) - (b.z - a.z) * (c.y - a.y),
+                   ny = (b.z - a.z) * (c.x - a.x) - (b.x - a.x) * (c.z - a.z),
+                   nz = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x), length = std::hypot(nx, ny, nz);
+      area += length / 2;
+      EXPECT_NEAR(nz, 0, 1e-9);
+      const Point2 out{(a.x + b.x + c.x) / 3 + 0.2 * nx / length, (a.y + b.y + c.y) / 3 + 0.2 * ny / length};
+      EXPECT_FALSE(out.x > 300100 && out.x < 300120 && out.y > 200100 && out.y < 200110) << out.x << ',' << out.y;
+      const double ground = 50 - 0.02 * (a.x - 300005);
+      const bool before_garage = a.y < 200100.01 && a.x > 300103.9 && a.x < 300108.1;
+      if (!before_garage) {
+        EXPECT_TRUE(std::abs(a.z - ground) < 0.01 || a.z > ground + 8) << a.x << ',' << a.z << " on " << ground;
+      }
+    }
+  }
+  // The roof is level with 9.5 m above its lowest or highest corner.
+  const double top = found.premises[0].walls[0].ground_m + found.premises[0].walls[0].most_m, mean = 50 - 0.02 * 105;
+  EXPECT_NEAR(area, 60 * (top - mean) - 4 * 2, 3);
+}
+
 TEST_F(PremisesSurveys, FindNoWallBetweenHousesThatTouch) {
   build({test::box(300100, 200100, 300110, 200110, 8), test::box(300110, 200100, 300120, 200110, 8),
          test::box(300120, 200100, 300130, 200110, 14)});
@@ -306,28 +457,94 @@ TEST_F(PremisesSurveys, DoNotDependOnTheMemory) {
   request.memory_bytes = 1;
   const PremisesSurvey parts = survey(request);
   EXPECT_NE(parts.statistics.triangles, all.statistics.triangles) << "this is no survey in segments";
-  ASSERT_EQ(parts.premises.size(), all.premises.size());
-  for (std::size_t i = 0; i < all.premises.size(); ++i) {
-    const Premises &a = all.premises[i], &b = parts.premises[i];
-    EXPECT_EQ(a.best, b.best);
-    ASSERT_EQ(a.walls.size(), b.walls.size());
-    for (std::size_t w = 0; w < a.walls.size(); ++w) {
-      EXPECT_EQ(a.walls[w].mast, b.walls[w].mast);
-      EXPECT_EQ(a.walls[w].height_m, b.walls[w].height_m);
-    }
-    ASSERT_EQ(a.links.size(), b.links.size());
-    for (std::size_t k = 0; k < a.links.size(); ++k) {
-      const PremisesLink &of_a = a.links[k], &of_b = b.links[k];
-      EXPECT_EQ(of_a.verdict, of_b.verdict);
-      EXPECT_EQ(of_a.mast, of_b.mast);
-      ASSERT_EQ(of_a.blocker.has_value(), of_b.blocker.has_value());
-      if (of_a.blocker) {
-        EXPECT_EQ(of_a.blocker->feature, of_b.blocker->feature);
-      }
-      if (of_a.roof) {
-        EXPECT_EQ(of_a.roof->position, of_b.roof->position);
-      }
-    }
+  expect_same(all, parts);
+}
+
+TEST_F(PremisesSurveys, ReadTheGroundOfOneMastAfterTheOtherInLittleMemory) {
+  PremisesRequest request = build_plain();
+  const PremisesSurvey all = survey(request);
+  ASSERT_EQ(all.premises.front().links.size(), 8U);
+  request.memory_bytes = 1;
+  std::vector<ReachedBuilding> reached{{0, {300689, 200689, 300711, 200706}, {0, 1, 2, 3, 4, 5, 6, 7}}};
+  const auto segments = premises_segments(Store(store_), request, all.masts, reached, progress_);
+  EXPECT_GE(segments.size(), 3U);
+  std::vector<std::size_t> masts;
+  for (const PremisesSegment& segment : segments) {
+    ASSERT_EQ(segment.buildings.size(), 1U);
+    masts.insert(masts.end(), segment.buildings[0].masts.begin(), segment.buildings[0].masts.end());
+  }
+  EXPECT_EQ(masts, reached.front().masts);
+  expect_same(all, survey(request));
+}
+
+TEST_F(PremisesSurveys, RefuseMemoryThatDoesNotHoldTheGroundOfOneMast) {
+  PremisesRequest request = build_plain();
+  test::import_houses(store_, directory_.file("hall.geojson"), {test::box(300300, 200500, 300680, 200900, 12)});
+  request.spacing = 8;
+  try {
+    std::ignore = survey(request);
+    request.memory_bytes = 1;
+    std::ignore = survey(request);
+    ADD_FAILURE();
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.field(), "memory_bytes");
+    EXPECT_NE(std::string(error.what()).find("the ground between mast 0 and the building at 300299.69,200499.69 takes"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
+TEST_F(PremisesSurveys, TellTheProgressOfTheWholeCall) {
+  test::import_alexandria(store_);
+  PremisesRequest request;
+  request.masts.places = {mast("a", 321590, 4297655, 12), mast("b", 321900, 4297850, 8)};
+  request.radius = 200;
+  for (const std::uint64_t memory : {std::uint64_t{1} << 30, std::uint64_t{1}}) {
+    request.memory_bytes = memory;
+    test::ToldProgress told;
+    std::ignore = survey_premises(Store(store_), request, told);
+    told.expect_whole_call();
+    told.expect_steps_up_to(0.7);
+  }
+}
+
+/// Keeps the longest time between two looks at whether the call is cancelled.
+class Watchful final : public Progress {
+ public:
+  void report(std::string_view, double) override {}
+  bool cancelled() const override {
+    const std::lock_guard lock(mutex_);
+    const auto now = Clock::now();
+    longest_ = std::max(longest_, now - last_);
+    last_ = now;
+    return false;
+  }
+  double longest_seconds() const { return std::chrono::duration<double>(longest_).count(); }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  mutable std::mutex mutex_;
+  mutable Clock::time_point last_ = Clock::now();
+  mutable Clock::duration longest_{};
+};
+
+TEST_F(PremisesSurveys, AreCancelledWithinASecondEvenInOneHall) {
+  build({test::box(300020, 200020, 300260, 200260, 12)});
+  PremisesRequest request;
+  request.masts.places = {mast("a", 300010, 200010, 20), mast("b", 300270, 200010, 16), mast("c", 300270, 200270, 14)};
+  request.spacing = 0.5, request.frequency_ghz = 26, request.earth = Earth::effective_earth(4.0 / 3);
+  Watchful watchful;
+  const auto begin = std::chrono::steady_clock::now();
+  std::ignore = survey_premises(Store(store_), request, watchful);
+  const double whole = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  EXPECT_LT(watchful.longest_seconds(), std::max(0.5, whole / 5)) << "of " << whole << " s";
+
+  request.spacing = 5;
+  test::Impatient patient(1 << 30);
+  std::ignore = survey_premises(Store(store_), request, patient);
+  for (const int looks : {0, 10, patient.asked() / 2, patient.asked() - 1}) {
+    test::Impatient impatient(looks);
+    EXPECT_THROW(std::ignore = survey_premises(Store(store_), request, impatient), Cancelled) << looks;
   }
 }
 
@@ -375,7 +592,9 @@ TEST_F(PremisesSurveys, RefuseWhatMakesNoSense) {
   expect_refused("`themes`: none of them has buildings");
   request.themes = ThemeChoice::all(), request.spacing = 0;
   expect_refused("`spacing`");
-  request.spacing = 1, request.frequency_ghz = 5, request.poles = {0};
+  request.spacing = 1, request.setback = 0;
+  expect_refused("`setback`: give more than 0 m");
+  request.setback.reset(), request.frequency_ghz = 5, request.poles = {0};
   expect_refused("`poles`: with a `frequency_ghz` give a height above 0");
 }
 

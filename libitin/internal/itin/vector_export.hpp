@@ -12,6 +12,7 @@
 #include <vector>
 
 #include <itin/geometry.hpp>
+#include <itin/progress.hpp>
 
 namespace itin {
 
@@ -33,9 +34,9 @@ struct VectorLayer {
 };
 
 /// Writes the layers, and their styles in the table in which QGIS looks for them. Equal calls write equal bytes. Throws
-/// FileError if the file exists and may not be replaced, or cannot be written.
+/// FileError if the file exists and may not be replaced, or cannot be written; Cancelled.
 void write_geopackage(const std::string& path, const std::string& crs_wkt, const std::vector<VectorLayer>& layers,
-                      bool overwrite);
+                      bool overwrite, const Progress& progress = NoProgress());
 
 /// Writes in the CRS, named in the `crs` member of GeoJSON 2008. Throws as write_geopackage() does, and InputError for
 /// a CRS without EPSG code.

@@ -5,10 +5,8 @@
 #include <map>
 #include <vector>
 
-#include <itin/error.hpp>
-
-#include "export/buffered_file.hpp"
 #include "export/export_metadata.hpp"
+#include "export/glb_file.hpp"
 #include "export/step_progress.hpp"
 #include "export/tin_formats.hpp"
 
@@ -16,37 +14,8 @@ namespace itin {
 
 namespace {
 
-// These are named as in the glTF 2.0 specification.
-constexpr int kUnsignedByte = 5121, kUnsignedShort = 5123, kUnsignedInt = 5125, kFloat = 5126;
-constexpr int kArrayBuffer = 34962, kElementArrayBuffer = 34963;
-
 using OrderedJson = nlohmann::ordered_json;
-using Vector = std::array<float, 3>;
-
-/// Turns east, north, up into glTF's axes: y up, right-handed.
-Vector gltf_axes(double east, double north, double up) {
-  return {static_cast<float>(east), static_cast<float>(up), static_cast<float>(-north)};
-}
-
-/// The places of the buffer views in the file's one buffer, in the order in which they are written.
-class Layout {
- public:
-  /// Adds a view and returns its number. Its stride is `element_bytes`, which indices must not state.
-  std::size_t add(std::size_t count, std::size_t element_bytes, int target) {
-    OrderedJson view = {
-        {"buffer", 0}, {"byteOffset", bytes_}, {"byteLength", count * element_bytes}, {"target", target}};
-    if (target == kArrayBuffer) view["byteStride"] = element_bytes;
-    views_.push_back(std::move(view));
-    bytes_ += count * element_bytes;  // all elements are multiples of four bytes, as the format demands of offsets
-    return views_.size() - 1;
-  }
-  std::size_t bytes() const { return bytes_; }
-  const OrderedJson& views() const { return views_; }
-
- private:
-  std::size_t bytes_ = 0;
-  OrderedJson views_ = OrderedJson::array();
-};
+using namespace gltf;
 
 class GlbWriter {
  public:
@@ -65,43 +34,24 @@ class GlbWriter {
   }
 
   void write(const PendingFile& output, Progress& progress) const {
-    Layout layout;
-    std::string json = dumped(document(layout));
-    json.resize((json.size() + 3) / 4 * 4, ' ');
-    const std::size_t total = 12 + 8 + json.size() + (layout.bytes() > 0 ? 8 + layout.bytes() : 0);
-    if (total > std::numeric_limits<std::uint32_t>::max())
-      throw InputError("export: glTF files end at 4 GB; choose a coarser tolerance, a smaller window or .ply");
-
+    GlbLayout layout;
+    const OrderedJson document = this->document(layout);
     BufferedFile file(output);
-    file.write("glTF");
-    file.little_endian(std::uint32_t{2});
-    file.little_endian(static_cast<std::uint32_t>(total));
-    file.little_endian(static_cast<std::uint32_t>(json.size()));
-    file.write("JSON");
-    file.write(json);
-    if (layout.bytes() > 0) {
-      file.little_endian(static_cast<std::uint32_t>(layout.bytes()));
-      file.write(std::string_view("BIN\0", 4));
-      write_buffer(file, progress);
-    }
+    begin_glb(file, document, layout.bytes());
+    write_buffer(file, progress);
     file.close();
   }
 
  private:
-  Vector position(const GridPoint& p) const {
+  GltfVector position(const GridPoint& p) const {
     const double r = tin_.grid.resolution;
     return gltf_axes((p.x - origin_.x) * r, (p.y - origin_.y) * r, (double{1} * p.z - origin_.z) * r);
   }
 
-  OrderedJson document(Layout& layout) const {
-    OrderedJson extras = parsed_metadata(options_.metadata_json);
-    const Point3 o = tin_.grid.point(origin_);
-    extras["origin"] = {o.x, o.y, o.z};
-    extras["axes"] = "x east, y up, z south; metres about origin (easting, northing, up)";
-    extras["crs"] = options_.crs_wkt;
-    OrderedJson scene = {{"extras", std::move(extras)}};
-    OrderedJson document = {{"asset", {{"version", "2.0"}, {"generator", std::string("itin ") + ITIN_VERSION}}},
-                            {"scene", 0}};
+  OrderedJson document(GlbLayout& layout) const {
+    OrderedJson document = begun_glb();
+    OrderedJson scene =
+        empty_glb_scene(parsed_metadata(options_.metadata_json), tin_.grid.point(origin_), options_.crs_wkt);
     if (!tin_.triangles.empty()) {
       scene["nodes"] = {0};
       document["nodes"] = OrderedJson::array({{{"name", "surface"}, {"mesh", 0}}});
@@ -111,10 +61,10 @@ class GlbWriter {
     return document;
   }
 
-  void add_mesh(OrderedJson& document, Layout& layout) const {
+  void add_mesh(OrderedJson& document, GlbLayout& layout) const {
     const std::size_t n = tin_.vertices.size(), m = 3 * tin_.triangles.size();
     // z south is -north: the largest northing is the least z.
-    const Vector low = position({box_.xmin, box_.ymax, zmin_}), high = position({box_.xmax, box_.ymin, zmax_});
+    const GltfVector low = position({box_.xmin, box_.ymax, zmin_}), high = position({box_.xmax, box_.ymin, zmax_});
     document["accessors"] = {
         {{"bufferView", layout.add(n, 12, kArrayBuffer)},
          {"componentType", kFloat},

@@ -26,7 +26,7 @@ void set_geometry(OGRFeature& row, const std::vector<Point3>& points, bool point
   row.SetGeometryDirectly(line.release());
 }
 
-void add(GeoPackage& package, const VectorLayer& layer) {
+void add(GeoPackage& package, const VectorLayer& layer, const Progress& progress) {
   const bool points = layer.shape == VectorLayer::Shape::kPoints;
   OGRLayer& to = package.add_layer(layer.name, points ? wkbPoint25D : wkbLineString25D);
   for (const auto& [name, type] : layer.fields) {
@@ -34,6 +34,7 @@ void add(GeoPackage& package, const VectorLayer& layer) {
     package.add_field(to, name, kTypes[static_cast<int>(type)]);
   }
   for (const VectorLayer::Feature& feature : layer.features) {
+    progress.throw_if_cancelled();
     OGRFeature row(to.GetLayerDefn());
     for (std::size_t i = 0; i < feature.values.size(); ++i) set(row, static_cast<int>(i), feature.values[i]);
     set_geometry(row, feature.points, points);
@@ -51,10 +52,10 @@ void add_styles(GeoPackage& package, const std::vector<VectorLayer>& layers) {
 }  // namespace
 
 void write_geopackage(const std::string& path, const std::string& crs_wkt, const std::vector<VectorLayer>& layers,
-                      bool overwrite) {
+                      bool overwrite, const Progress& progress) {
   PendingFile output(path, overwrite);
   GeoPackage package(output, crs_wkt);
-  for (const VectorLayer& layer : layers) add(package, layer);
+  for (const VectorLayer& layer : layers) add(package, layer, progress);
   add_styles(package, layers);
   package.close();
   output.commit();

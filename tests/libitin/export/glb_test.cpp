@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <itin/mesh_export.hpp>
+
 #include "libitin/export/binary_reader.hpp"
 #include "libitin/export/export_fixture.hpp"
 
@@ -40,12 +42,13 @@ struct Glb {
     const Json& accessor = json.at("accessors").at(accessor_index);
     const Json& view = json.at("bufferViews").at(accessor.at("bufferView").get<std::size_t>());
     const std::size_t element = components * sizeof(T), stride = view.value("byteStride", element);
-    const std::size_t offset = view.at("byteOffset"), length = view.at("byteLength"), count = accessor.at("count");
+    const std::size_t first = accessor.value("byteOffset", std::size_t{0}), length = view.at("byteLength");
+    const std::size_t offset = view.at("byteOffset").get<std::size_t>() + first, count = accessor.at("count");
     EXPECT_EQ(offset % 4, 0u);
     EXPECT_EQ(stride % 4, 0u);
     EXPECT_GE(stride, element);
-    EXPECT_LE(offset + length, binary.size());
-    EXPECT_LE(stride * (count - 1) + element, length);
+    EXPECT_LE(offset - first + length, binary.size());
+    EXPECT_LE(first + stride * (count - 1) + element, length);
     std::vector<T> values;
     for (std::size_t i = 0; i < count; ++i) {
       BinaryReader reader(std::string_view(binary).substr(offset + i * stride, element));
@@ -141,6 +144,38 @@ TEST_F(GlbTest, EmptyTinIsAnEmptyScene) {
   const Glb glb(bytes_of(exported("a.glb")));
   EXPECT_TRUE(glb.binary.empty());
   EXPECT_FALSE(glb.json.contains("meshes"));
+}
+
+TEST(MeshGlb, HasANodeForEachMeshOnTheSideThatItFaces) {
+  const TemporaryDirectory directory;
+  // A wall of 2 m by 3 m that faces south, one that faces west, and nothing.
+  const Point3 a{300000, 200000, 50}, b{300002, 200000, 50}, c{300002, 200000, 53}, d{300000, 200002, 50};
+  const std::vector<ColouredMesh> meshes{{"served", {255, 0, 0}, {{a, b, c}}},
+                                         {"nothing", {}, {}},
+                                         {"hidden", {0, 0, 188}, {{d, a, {300000, 200000, 53}}}}};
+  NoProgress progress;
+  write_meshes(directory.file("a.glb"), "CRS", meshes, false, progress);
+  const Glb glb(bytes_of(directory.file("a.glb")));
+  const Json& scene = glb.json.at("scenes").at(0);
+  EXPECT_EQ(scene.at("extras").at("crs"), "CRS");
+  EXPECT_EQ(scene.at("extras").at("origin"), Json({300001, 200001, 50}));
+  ASSERT_EQ(scene.at("nodes"), Json({0, 1}));
+  EXPECT_EQ(glb.json.at("nodes").at(0).at("name"), "served");
+  EXPECT_EQ(glb.json.at("nodes").at(1).at("name"), "hidden");
+  EXPECT_FALSE(glb.json.at("materials").at(0).contains("doubleSided"));
+  const Json red = glb.json.at("materials").at(0).at("pbrMetallicRoughness").at("baseColorFactor");
+  EXPECT_EQ(red.at(0), 1);
+  const Json blue = glb.json.at("materials").at(1).at("pbrMetallicRoughness").at("baseColorFactor");
+  EXPECT_NEAR(blue.at(2).get<double>(), 0.5, 0.01);  // 188 of 255 in sRGB is half the light
+  EXPECT_EQ(glb.read<float>(0, 3), (std::vector<float>{-1, 0, 1, 1, 0, 1, 1, 3, 1}));
+  EXPECT_EQ(glb.read<float>(1, 3), (std::vector<float>{0, 0, 1, 0, 0, 1, 0, 0, 1}));     // south is +z
+  EXPECT_EQ(glb.read<float>(3, 3), (std::vector<float>{-1, 0, 0, -1, 0, 0, -1, 0, 0}));  // west is -x
+  EXPECT_EQ(glb.json.at("accessors").at(0).at("min"), Json({-1, 0, 1}));
+  EXPECT_EQ(glb.json.at("accessors").at(0).at("max"), Json({1, 3, 1}));
+
+  write_meshes(directory.file("empty.glb"), "CRS", {}, false, progress);
+  EXPECT_FALSE(Glb(bytes_of(directory.file("empty.glb"))).json.contains("meshes"));
+  EXPECT_THROW(write_meshes(directory.file("a.glb"), "CRS", meshes, false, progress), FileError);
 }
 
 }  // namespace

@@ -35,15 +35,14 @@
 
 namespace itin::viewshed {
 
-struct PremisesRequest {
+struct PremisesRequest : AntennaPlaces {
   SitePlaces masts = {};
-  double mast_height = 20;             ///< the height of masts that have none of their own
-  bool masts_on_surface = false;       ///< masts stand on the themes, where these are higher
-  double radius = 1000;                ///< how far a mast serves, horizontally
-  double spacing = 1;                  ///< between places along a wall, and on a roof
-  double reveal = 0.3;                 ///< how far before its wall an antenna is
-  double storey = 3;                   ///< antennas on walls are at multiples of this height above the ground
-  std::vector<double> poles = {0, 5};  ///< heights of antennas above the roof; with a frequency 0 is left out
+  double mast_height = 20;        ///< the height of masts that have none of their own
+  bool masts_on_surface = false;  ///< masts stand on the themes, where these are higher
+  double radius = 1000;           ///< how far a mast serves, horizontally
+  /// How far before its walls the street of a building lies. Where it is given, each place on the roofs is told: its
+  /// least pole that a mast serves, and the least that sees the street past the building's own roof.
+  std::optional<double> setback = {};
   /// With a frequency, GHz, a place is served only if the link leaves `fresnel` of the first Fresnel zone's radius
   /// clear.
   std::optional<double> frequency_ghz = {};
@@ -52,7 +51,8 @@ struct PremisesRequest {
   /// What stands on the ground. The premises are its buildings and terraces.
   ThemeChoice themes = ThemeChoice::all();
   NoData nodata = NoData::kUnknown;
-  std::uint64_t memory_bytes = std::uint64_t{1} << 30;  ///< changes the speed, never the result
+  /// Changes the speed, never the result. Of the ground at most this much is in memory at once, or 64 MB.
+  std::uint64_t memory_bytes = std::uint64_t{1} << 30;
 };
 
 enum class MountedOn : std::uint8_t { kWall, kRoof };
@@ -93,7 +93,7 @@ struct PremisesLink {
 
 /// A stretch of a wall, and the antenna before its middle.
 struct WallPlace {
-  std::vector<Point2> stretch;      ///< along the foot, two points or more
+  std::vector<Point3> stretch;      ///< along the foot, two points or more; the wall looks to the left of it
   Point2 position;                  ///< where the antenna is
   double ground_m = 0;              ///< elevation of the bare ground under the antenna
   double least_m = 0;               ///< where the wall begins above that: above 0 where it rises from a lower roof
@@ -104,12 +104,35 @@ struct WallPlace {
   bool undecided = false;           ///< not served, but ground without data alone leaves that open
 };
 
+/// How a place on a roof sees the street.
+struct StreetSight {
+  Point3 street;      ///< a place of the street before the nearest wall, on the ground
+  double pole_m = 0;  ///< the least pole that sees it
+  /// What hides the street from lower poles: a parapet, a ridge, the eaves, or what stands before the wall.
+  struct Edge {
+    Point3 position;
+    std::uint16_t theme = 0;  ///< from 1; 0: terrain
+  };
+  std::optional<Edge> edge;  ///< nothing where the roof itself sees the street
+};
+
+/// A place on a roof, where poles stand.
+struct RoofPlace {
+  Point2 position;
+  double roof_m = 0;                       ///< its elevation
+  std::optional<std::size_t> mast = {};    ///< the mast that serves it with the least pole; of several the nearest
+  double height_m = 0;                     ///< that pole
+  double distance_m = 0;                   ///< horizontal distance to that mast
+  std::optional<StreetSight> street = {};  ///< nothing where no wall of the building stands on open ground
+};
+
 struct Premises {
   std::uint16_t theme = 0;                ///< from 1
   std::int64_t feature = 0;               ///< as FeatureAt::number
   std::string name, id;                   ///< as FeatureAt has them
   std::vector<std::vector<Point2>> foot;  ///< closed rings
   std::size_t roof_places = 0;            ///< how many places its roof has
+  std::vector<RoofPlace> roof;            ///< these, where the request has a setback
   std::vector<WallPlace> walls;
   std::vector<PremisesLink> links;  ///< one for each mast that has one of the places within its radius, in their order
   /// The link that serves it best: from a wall before from the roof, from the least height, the shortest.
@@ -143,8 +166,8 @@ struct PremisesSurvey {
 };
 
 /// Surveys the buildings. Throws InputError where the request makes no sense, the chosen themes have no building that
-/// stands on the ground, a mast has no ground or ends within a building, or no building is within reach of a mast;
-/// Cancelled, CorruptStore, FileError.
+/// stands on the ground, a mast has no ground or ends within a building, no building is within reach of a mast, or the
+/// memory does not hold the ground between a building and one mast; Cancelled, CorruptStore, FileError.
 PremisesSurvey survey_premises(const Store& store, PremisesRequest request, Progress& progress);
 
 /// The JSON document that `itin premises --json` prints, without the call and its outputs.
@@ -156,9 +179,9 @@ struct PremisesFileOptions {
   bool overwrite = false;
 };
 
-/// Writes premises.csv, links.csv, premises.gpkg and premises.png into a folder, which appears complete or not at all,
-/// and returns what is in it besides premises.json. Files of an earlier survey there are replaced if `overwrite`;
-/// foreign ones are kept. Throws FileError, Cancelled.
+/// Writes premises.csv, links.csv, premises.gpkg, premises.png, facades.glb and, with a setback, roofs.csv into a
+/// folder, which appears complete or not at all, and returns what is in it besides premises.json. Files of an earlier
+/// survey there are replaced if `overwrite`; foreign ones are kept. Throws FileError, Cancelled.
 std::vector<PlanFile> write_premises(const std::string& folder, const Store& store, const PremisesSurvey& survey,
                                      const PremisesFileOptions& options, Progress& progress);
 

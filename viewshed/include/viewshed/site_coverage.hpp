@@ -61,6 +61,9 @@ struct SiteTargets {
   double height = 0;                 ///< metres above the ground
   std::vector<double> heights = {};  ///< one for each point; empty where all have `height`
   bool on_surface = false;           ///< heights are above the surface with the themes instead
+  /// The element of the demand that each point is a place of, ascending from 0: an element is served where one of its
+  /// points is. Empty: each point is an element.
+  std::vector<std::uint32_t> elements = {};
 
   double height_of(std::size_t point) const { return heights.empty() ? height : heights[point]; }
 };
@@ -103,9 +106,12 @@ RasterGrid::Cell cell_of(const RasterGrid& grid, std::size_t element);
 /// Returns those of the targets that have ground under them.
 DemandSet with_ground(const Store& store, const SiteTargets& targets, Progress& progress);
 
-/// Returns all targets within the radius of a site, with or without ground.
+/// Returns the number of elements of a demand of these targets.
+std::size_t element_count(const SiteTargets& targets);
+
+/// Returns all cells or points within the radius of a site, with or without ground.
 DemandSet within_reach(const SiteTargets& targets, Point2 position, double radius);
-/// Returns all targets within the radius of any of the sites.
+/// Returns all cells or points within the radius of any of the sites.
 DemandSet within_reach(const SiteTargets& targets, std::span<const SitePosition> sites, double radius);
 
 /// Returns the most bytes that the bounds on what each site serves take; see SiteSurvey::memory_bytes.
@@ -119,6 +125,7 @@ class SiteCoverage final : public Coverage {
   SiteCoverage(const Store&& store, SiteSurvey survey, Progress& progress) = delete;
   ~SiteCoverage() override;
 
+  /// Bounds on the elements that an option serves.
   const CoverageBounds& bounds(std::size_t option) const override;
   /// Takes each of the options one stage further. Throws as compute_certified() does.
   void refine(std::span<const std::size_t> options) override;
@@ -134,9 +141,10 @@ class SiteCoverage final : public Coverage {
   const CoverageBounds& first_bounds(std::size_t option) const;
   /// Returns the stage in words: "tolerance 4 m", "exact", ...
   std::string stage_name(int stage) const;
-  /// Restores the stage and bounds that an earlier run had found. Precondition: that run was of the same survey.
+  /// Restores the stage and bounds that an earlier run had told on_refined. Precondition: that run was of the same
+  /// survey.
   void restore(std::size_t option, int stage, const CoverageBounds& bounds);
-  /// A function that is called for every option judged, after each stage.
+  /// A function that is called for every option judged, after each stage. Its bounds are on cells or points.
   std::function<void(std::size_t option, int stage, const CoverageBounds& bounds)> on_refined;
 
   const Statistics& statistics() const;

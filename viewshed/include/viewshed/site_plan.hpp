@@ -17,6 +17,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -98,9 +99,20 @@ struct TurbinePlacement {
   double minimised_height() const { return minimised == Minimised::kHubs ? hub_height : tip_height; }
 };
 
-/// What is to be served: points, or the cells of a grid with weights; by default all cells with ground within the
-/// radius of a candidate.
+/// Where antennas may be mounted on buildings: before walls and on roofs (premises.hpp).
+struct AntennaPlaces {
+  double spacing = 1;                  ///< between places along a wall, and on a roof
+  double reveal = 0.3;                 ///< how far before its wall an antenna is
+  double storey = 3;                   ///< antennas on walls are at multiples of this height above the ground
+  std::vector<double> poles = {0, 5};  ///< heights of antennas above the roof; with a frequency 0 is left out
+};
+
+/// What is to be served: points, the cells of a grid with weights, or premises; by default all cells with ground within
+/// the radius of a candidate.
 struct SiteDemand {
+  /// The buildings and terraces of the themes within the radius of a site, 1 each: one is served where a site serves
+  /// an antenna at one of its places.
+  std::optional<AntennaPlaces> premises = {};
   std::optional<SitePlaces> points = {};
   std::optional<RasterGrid> grid = {};
   std::vector<double> weights = {};  ///< one for each cell of the grid; NaN counts as 0
@@ -108,7 +120,7 @@ struct SiteDemand {
   double height = 2;                 ///< metres above what targets stand on, for points without a height and for cells
   bool on_surface = false;           ///< targets stand on the themes
 
-  bool is_cells_in_reach() const { return !points && !grid; }
+  bool is_cells_in_reach() const { return !points && !grid && !premises; }
 };
 
 struct SitePlanRequest {
@@ -260,6 +272,8 @@ struct SiteRasters {
   }
 };
 
+struct PremisesSurvey;
+
 struct SitePlan {
   SitePlanRequest request;  ///< without the points or weights of the demand, which are in `inputs`
   std::string crs_wkt;
@@ -279,6 +293,9 @@ struct SitePlan {
   double undecided = 0;
   ClassShares shares;  ///< what the chosen and the existing sites serve of the demand, or leave undecided
   SiteRasters rasters;
+  /// Where premises are the demand, what those of the chosen and the existing sites that serve any are to each building
+  /// (premises.hpp); else null.
+  std::shared_ptr<const PremisesSurvey> premises;
   std::vector<std::string> warnings;  ///< a line each; "`left_out`" stands for SiteInputs::left_out
   Statistics statistics;
 
@@ -304,8 +321,8 @@ struct SitePlan {
 };
 
 /// Chooses sites. Throws InputError where the request makes no sense, holds no candidate that may be chosen, or takes
-/// more memory than it allows; Error where the choice cannot be made (check_goal()); Cancelled, CorruptStore,
-/// FileError.
+/// more memory than it allows; Error where the choice cannot be made (check_goal()), or no site serves any premises;
+/// Cancelled, CorruptStore, FileError.
 SitePlan plan_sites(const Store& store, SitePlanRequest request, Progress& progress);
 
 /// A file of a plan.

@@ -6,6 +6,9 @@
 
 namespace itin::viewshed {
 
+/// How many buildings are served, how, and how many are not.
+Document counts_document(const PremisesCounts& counts);
+
 /// `crs`, `surface`, `refraction`, `premises` (counts), `masts` (what each reaches, serves and serves best) and
 /// `statistics`.
 Document premises_document(const PremisesSurvey& survey);

@@ -70,8 +70,8 @@ class RingWalk {
 class PlaceFinder {
  public:
   PlaceFinder(const BuildingFoot& foot, const PlacedSurface& surface, const PlacedSurface& ground,
-              const MountRules& rules)
-      : foot_(foot), surface_(surface), ground_(ground), rules_(rules) {}
+              const MountRules& rules, const Progress& progress)
+      : foot_(foot), surface_(surface), ground_(ground), rules_(rules), progress_(progress) {}
 
   MountPlaces find() && {
     for (const std::vector<Point2>& ring : foot_.rings) walk(ring);
@@ -85,21 +85,42 @@ class PlaceFinder {
     if (!(along.length() > 0)) return;
     const double count = std::max(1.0, std::round(along.length() / rules_.spacing)), step = along.length() / count;
     for (double i = 0; i < count; ++i) {
+      progress_.throw_if_cancelled();
       const RingWalk::Step middle = along.at((i + 0.5) * step);
-      auto wall = wall_beside(middle, 1);
-      if (!wall) wall = wall_beside(middle, -1);
-      if (!wall) continue;
-      wall->stretch = along.stretch(i * step, std::min((i + 1) * step, along.length()));
-      places_.walls.push_back(std::move(*wall));
+      for (const double side : {1, -1}) {
+        auto wall = wall_beside(middle, side);
+        if (!wall) continue;
+        std::vector<Point2> stretch = along.stretch(i * step, std::min((i + 1) * step, along.length()));
+        if (side < 0) std::reverse(stretch.begin(), stretch.end());
+        for (const Point2& p : stretch) wall->stretch.push_back({p.x, p.y, foot_at(*wall, p)});
+        add_street(*wall, aside_of(middle, side, rules_.setback.value_or(0)));
+        places_.walls.push_back(std::move(*wall));
+        break;
+      }
     }
   }
 
-  /// Returns the wall that looks to the left of the ring (side 1), or to its right (-1).
+  /// The elevation of a wall's foot at a place of its stretch.
+  double foot_at(const WallPlace& wall, Point2 place) const {
+    if (wall.least_m > 0) return wall.ground_m + wall.least_m;
+    return ground_.height(place).value_or(wall.ground_m);
+  }
+
+  void add_street(const WallPlace& wall, Point2 before) {
+    const Point2 place = in_millimetres(before);
+    if (!rules_.setback || wall.least_m > 0 || rules_.of_buildings[surface_.theme(place)]) return;
+    if (const auto ground = ground_.height(place)) places_.street.push_back({place.x, place.y, *ground});
+  }
+
+  /// The place so far to the left of the ring (side 1), or to its right (-1).
+  static Point2 aside_of(const RingWalk::Step& step, double side, double metres) {
+    return {step.at.x - side * metres * step.direction.y, step.at.y + side * metres * step.direction.x};
+  }
+
+  /// Returns the wall that looks to that side of the ring.
   std::optional<WallPlace> wall_beside(const RingWalk::Step& step, double side) const {
-    const auto aside = [&](double metres) {
-      return Point2{step.at.x - side * metres * step.direction.y, step.at.y + side * metres * step.direction.x};
-    };
-    const Point2 before = in_millimetres(aside(rules_.reveal)), behind = aside(-rules_.wall_offset - kBehindWall);
+    const Point2 before = in_millimetres(aside_of(step, side, rules_.reveal)),
+                 behind = aside_of(step, -side, rules_.wall_offset + kBehindWall);
     if (!hold(foot_.rings, behind)) return std::nullopt;
     const auto top = surface_.height(behind), ground = ground_.height(before), foot = foot_of_wall(before);
     if (!top || !ground || !foot || *top - *foot <= kLeastWall) return std::nullopt;
@@ -127,13 +148,15 @@ class PlaceFinder {
   }
 
   void add_roof(Point2 place) {
+    progress_.throw_if_cancelled();
     if (!hold(foot_.rings, place) || surface_.theme(place) != foot_.theme) return;
-    if (const auto roof = surface_.height(place)) places_.roof.push_back({place, *roof});
+    if (const auto roof = surface_.height(place)) places_.roof.push_back({.position = place, .roof_m = *roof});
   }
 
   const BuildingFoot& foot_;
   const PlacedSurface &surface_, &ground_;
   const MountRules& rules_;
+  const Progress& progress_;
   MountPlaces places_;
 };
 
@@ -150,8 +173,8 @@ std::uint16_t PlacedSurface::theme(Point2 position) const {
 }
 
 MountPlaces mount_places(const BuildingFoot& foot, const PlacedSurface& surface, const PlacedSurface& ground,
-                         const MountRules& rules) {
-  return PlaceFinder(foot, surface, ground, rules).find();
+                         const MountRules& rules, const Progress& progress) {
+  return PlaceFinder(foot, surface, ground, rules, progress).find();
 }
 
 std::vector<double> mount_heights(const WallPlace& wall, double storey) {

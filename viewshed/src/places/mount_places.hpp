@@ -1,6 +1,6 @@
 // Where antennas may be mounted on a building: before its walls and on its roof.
 //
-//   const MountPlaces places = mount_places(foot, surface, ground, {.spacing = 1, .reveal = 0.3});
+//   const MountPlaces places = mount_places(foot, surface, ground, {.spacing = 1, .reveal = 0.3}, progress);
 //
 // A foot is cut into equally long stretches. One of them has a wall where the surface rises by more than kLeastWall
 // from one side to the other, onto the building: so a party wall has none, but where one house is higher, and a wall
@@ -13,6 +13,7 @@
 #include <vector>
 
 #include <itin/building_outlines.hpp>
+#include <itin/progress.hpp>
 #include <itin/tin.hpp>
 #include <viewshed/premises.hpp>
 
@@ -25,7 +26,9 @@ inline constexpr double kLeastWall = 2.5;
 
 /// A surface, and what finds the triangle under a place.
 struct PlacedSurface {
-  explicit PlacedSurface(Tin of) : tin(std::move(of)), pyramid(std::make_shared<const HeightPyramid>(tin)) {}
+  /// Throws Cancelled.
+  PlacedSurface(Tin of, const Progress& progress)
+      : tin(std::move(of)), pyramid(std::make_shared<const HeightPyramid>(tin, progress)) {}
   PlacedSurface(const PlacedSurface&) = delete;
   PlacedSurface& operator=(const PlacedSurface&) = delete;
 
@@ -38,26 +41,22 @@ struct PlacedSurface {
   const std::shared_ptr<const HeightPyramid> pyramid;  ///< finds the triangles of `tin`
 };
 
-/// A place on a roof, where poles stand.
-struct RoofPlace {
-  Point2 position;
-  double roof_m = 0;  ///< its elevation
-};
-
 struct MountPlaces {
   std::vector<WallPlace> walls;
   std::vector<RoofPlace> roof;
+  std::vector<Point3> street;  ///< the places of the street before those walls that stand on open ground
 };
 
 struct MountRules {
   double spacing = 1, reveal = 0.3;
+  std::optional<double> setback = {};   ///< how far before its wall a place of the street is; nothing: there is none
   double wall_offset = 0.05;            ///< how far within the foot walls reach their height
   std::vector<bool> of_buildings = {};  ///< by theme: whether it stands as buildings do
 };
 
-/// Finds the places of a building on `surface`, which stands on the bare `ground`.
+/// Finds the places of a building on `surface`, which stands on the bare `ground`. Throws Cancelled.
 MountPlaces mount_places(const BuildingFoot& foot, const PlacedSurface& surface, const PlacedSurface& ground,
-                         const MountRules& rules);
+                         const MountRules& rules, const Progress& progress);
 
 /// The heights at which an antenna is mounted before a wall: multiples of a storey where the wall is, up to its top. A
 /// wall without any has one height, its top, to a centimetre.

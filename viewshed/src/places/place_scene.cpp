@@ -13,8 +13,8 @@
 
 namespace itin::viewshed {
 
-PlaceScene::PlaceScene(Tin surface, const LinkJudgement& rules)
-    : surface_(std::move(surface)),
+PlaceScene::PlaceScene(Tin surface, const LinkJudgement& rules, const Progress& progress)
+    : surface_(std::move(surface), progress),
       nodata_(rules.nodata),
       rays_(surface_.tin, rules.earth),
       blockers_(surface_.pyramid, rules.earth) {

@@ -2,7 +2,7 @@
 // (scene/rays/scene.hpp), the Fresnel zone by the definition that lines of sight have, ground without data by the
 // request's rule.
 //
-//   const PlaceScene scene(std::move(tin), {.earth = earth});
+//   const PlaceScene scene(std::move(tin), {.earth = earth}, progress);
 //   const PlaceScene::View view = scene.view_from(mast);
 //   const PlaceScene::Verdicts verdicts = scene.judge(view, places);   // up to sixteen
 #pragma once
@@ -38,8 +38,8 @@ struct LinkJudgement {
 /// Safe for concurrent use.
 class PlaceScene {
  public:
-  /// Every line that is judged must lie over the part of the store's ground that `surface` holds.
-  PlaceScene(Tin surface, const LinkJudgement& rules);
+  /// Every line that is judged must lie over the part of the store's ground that `surface` holds. Throws Cancelled.
+  PlaceScene(Tin surface, const LinkJudgement& rules, const Progress& progress);
 
   const PlacedSurface& surface() const { return surface_; }
 

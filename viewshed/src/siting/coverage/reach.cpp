@@ -60,9 +60,14 @@ DemandSet within_reach(const SiteTargets& targets, Point2 position, double radiu
                       : points_in_reach(targets.points, position, radius);
 }
 
+std::size_t element_count(const SiteTargets& targets) {
+  if (targets.grid) return element_count(*targets.grid);
+  return targets.elements.empty() ? targets.points.size() : std::size_t{targets.elements.back()} + 1;
+}
+
 namespace {
 
-std::size_t elements_of(const SiteTargets& targets) {
+std::size_t cells_or_points(const SiteTargets& targets) {
   return targets.grid ? element_count(*targets.grid) : targets.points.size();
 }
 
@@ -76,7 +81,7 @@ DemandSet set_of_words(const std::vector<std::uint64_t>& words) {
 }  // namespace
 
 DemandSet within_reach(const SiteTargets& targets, std::span<const SitePosition> sites, double radius) {
-  std::vector<std::uint64_t> members((elements_of(targets) + 63) / 64);
+  std::vector<std::uint64_t> members((cells_or_points(targets) + 63) / 64);
   for (std::size_t i = 0; i < sites.size(); ++i) {
     if (i > 0 && sites[i].position == sites[i - 1].position) continue;  // another mast at the same place
     const DemandSet of_site = within_reach(targets, sites[i].position, radius);

@@ -15,6 +15,7 @@
 #include "siting/coverage/crossed_voids.hpp"
 #include "siting/coverage/demand_blocks.hpp"
 #include "siting/coverage/group_surfaces.hpp"
+#include "siting/coverage/served_elements.hpp"
 #include "siting/coverage/site_window.hpp"
 #include "siting/coverage/survey_stages.hpp"
 
@@ -66,6 +67,7 @@ class SiteCoverage::Impl {
       const CoverageBounds reach{{}, within_reach(survey_.targets, survey_.positions[i].position, survey_.radius)};
       // Copies reserve no memory for growth: bytes_of_coverage() counts on that.
       states_[i].bounds = states_[i].first = reach;
+      tell_elements(states_[i]);
     });
   }
 
@@ -95,9 +97,17 @@ class SiteCoverage::Impl {
   }
 
   struct State {
-    CoverageBounds bounds, first;
-    int stage = -1;  ///< the last stage judged; -1: none
+    CoverageBounds bounds, first;                          ///< what is known of cells or points
+    CoverageBounds bounds_of_elements, first_of_elements;  ///< these are empty where each point is an element
+    int stage = -1;                                        ///< the last stage judged; -1: none
   };
+  /// What is known of the elements that an option serves.
+  const CoverageBounds& known(std::size_t option) const {
+    return groups_points() ? states_[option].bounds_of_elements : states_[option].bounds;
+  }
+  const CoverageBounds& first_known(std::size_t option) const {
+    return groups_points() ? states_[option].first_of_elements : states_[option].first;
+  }
   const State& state(std::size_t option) const { return states_[option]; }
   const SurveyStages& stages() const { return stages_; }
 
@@ -105,6 +115,7 @@ class SiteCoverage::Impl {
     if (stage == 0) states_[option].first = CoverageBounds(bounds);
     states_[option].bounds = CoverageBounds(bounds);
     states_[option].stage = stage;
+    tell_elements(states_[option]);
   }
 
   void release_surfaces() { surfaces_.release(); }
@@ -114,6 +125,13 @@ class SiteCoverage::Impl {
   std::function<void(std::size_t, int, const CoverageBounds&)>* on_refined = nullptr;
 
  private:
+  bool groups_points() const { return !survey_.targets.elements.empty(); }
+  void tell_elements(State& state) const {
+    if (!groups_points()) return;
+    state.bounds_of_elements = elements_of_points(survey_.targets.elements, state.bounds);
+    state.first_of_elements = elements_of_points(survey_.targets.elements, state.first);
+  }
+
   static bool voids_matter(const Store& store, const SiteSurvey& survey, Progress& progress) {
     if (survey.positions.empty()) throw InputError("no site to look from: give at least one on the data");
     return survey.nodata != NoData::kClear && sites_may_cross_voids(store, survey, progress);
@@ -201,7 +219,7 @@ SiteCoverage::SiteCoverage(const Store& store, SiteSurvey survey, Progress& prog
 SiteCoverage::~SiteCoverage() = default;
 
 const CoverageBounds& SiteCoverage::bounds(std::size_t option) const {
-  return impl_->state(option).bounds;
+  return impl_->known(option);
 }
 void SiteCoverage::refine(std::span<const std::size_t> options) {
   impl_->refine(options);
@@ -219,7 +237,7 @@ int SiteCoverage::last_stage() const {
   return impl_->stages().last_stage();
 }
 const CoverageBounds& SiteCoverage::first_bounds(std::size_t option) const {
-  return impl_->state(option).first;
+  return impl_->first_known(option);
 }
 std::string SiteCoverage::stage_name(int stage) const {
   return impl_->stages().name(stage);

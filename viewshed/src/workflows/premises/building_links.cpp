@@ -6,6 +6,8 @@
 #include <tuple>
 #include <utility>
 
+#include "places/street_sight.hpp"
+
 namespace itin::viewshed {
 
 namespace {
@@ -16,7 +18,7 @@ struct Mount {
   Point2 position;
   double base_m = 0;
   std::vector<double> heights;
-  std::size_t wall = 0;  ///< which of the building's, for a place on one
+  std::size_t place = 0;  ///< which of the building's walls, or of the places on its roof
 };
 
 /// Whether a place is served, and from which of its heights on; otherwise the verdict at the greatest.
@@ -29,10 +31,11 @@ struct MountVerdict {
 /// not served is not served at all.
 class MastLinks {
  public:
-  MastLinks(const PlaceScene& scene, const MastView& mast, const std::vector<Mount>& mounts, double radius)
-      : scene_(scene), mast_(mast), mounts_(mounts), verdicts_(mounts.size()) {
+  MastLinks(const BuildingSurroundings& surroundings, const MastView& mast, const std::vector<Mount>& mounts,
+            const Progress& progress)
+      : scene_(surroundings.scene), mast_(mast), mounts_(mounts), progress_(progress), verdicts_(mounts.size()) {
     for (std::size_t i = 0; i < mounts.size(); ++i)
-      if (distance(i) <= radius) within_.push_back(i);
+      if (distance(i) <= surroundings.request.radius) within_.push_back(i);
   }
 
   bool reaches_any() const { return !within_.empty(); }
@@ -41,7 +44,7 @@ class MastLinks {
     return std::hypot(p.x - m.x, p.y - m.y);
   }
 
-  /// Finds the least height of every place within reach. Returns how many lines that took.
+  /// Finds the least height of every place within reach. Returns how many lines that took. Throws Cancelled.
   std::uint64_t judge() {
     std::vector<std::size_t> open;
     ask(within_, [&](std::size_t i) { return mounts_[i].heights.size() - 1; });
@@ -71,6 +74,7 @@ class MastLinks {
   template <class HeightOf>
   void ask(const std::vector<std::size_t>& places, const HeightOf& height_of) {
     for (std::size_t first = 0; first < places.size(); first += PlaceScene::kAtOnce) {
+      progress_.throw_if_cancelled();
       const auto some = std::span(places).subspan(first, std::min(PlaceScene::kAtOnce, places.size() - first));
       std::array<Point3, PlaceScene::kAtOnce> ends;
       for (std::size_t k = 0; k < some.size(); ++k) {
@@ -91,6 +95,7 @@ class MastLinks {
   const PlaceScene& scene_;
   const MastView& mast_;
   const std::vector<Mount>& mounts_;
+  const Progress& progress_;
   std::vector<MountVerdict> verdicts_;
   std::vector<std::size_t> within_;  ///< places within the radius
   std::uint64_t lines_ = 0;
@@ -104,37 +109,43 @@ void keep_least(std::optional<Mounting>& kept, const Mounting& mounting, const R
 
 class BuildingSurvey {
  public:
-  BuildingSurvey(const BuildingFoot& foot, const PremisesRequest& request, const PlaceScene& scene, MountPlaces places)
-      : request_(request), scene_(scene) {
+  BuildingSurvey(const BuildingFoot& foot, const BuildingSurroundings& surroundings, const Progress& progress,
+                 SurveyedBuilding& found)
+      : foot_(foot), surroundings_(surroundings), progress_(progress), found_(found) {}
+
+  void take(MountPlaces places) {
+    const PremisesRequest& request = surroundings_.request;
     Premises& p = found_.premises;
-    p.theme = foot.theme, p.feature = foot.feature, p.foot = foot.rings;
-    p.walls = std::move(places.walls), p.roof_places = places.roof.size();
-    for (std::size_t i = 0; i < p.walls.size(); ++i)
-      mounts_.push_back(
-          {MountedOn::kWall, p.walls[i].position, p.walls[i].ground_m, mount_heights(p.walls[i], request.storey), i});
-    for (const RoofPlace& place : places.roof)
-      mounts_.push_back({MountedOn::kRoof, place.position, place.roof_m, request.poles, 0});
+    for (std::size_t i = 0; i < places.walls.size(); ++i) {
+      const WallPlace& wall = places.walls[i];
+      mounts_.push_back({MountedOn::kWall, wall.position, wall.ground_m, mount_heights(wall, request.storey), i});
+    }
+    for (std::size_t i = 0; i < places.roof.size(); ++i)
+      mounts_.push_back({MountedOn::kRoof, places.roof[i].position, places.roof[i].roof_m, request.poles, i});
+    if (p.theme != 0) return;  // it was surveyed for other masts
+    p.roof_places = places.roof.size();
+    if (request.setback) look_at_street(places), p.roof = std::move(places.roof);
+    p.walls = std::move(places.walls);
+    p.theme = foot_.theme, p.feature = foot_.feature, p.foot = foot_.rings;
   }
 
-  SurveyedBuilding survey(std::span<const MastView> masts) && {
-    for (const MastView& mast : masts) add(mast);
-    choose_best();
-    return std::move(found_);
-  }
-
- private:
-  void add(const MastView& mast) {
-    MastLinks links(scene_, mast, mounts_, request_.radius);
+  void add(std::size_t number) {
+    const MastView& mast = surroundings_.views[number];
+    MastLinks links(surroundings_, mast, mounts_, progress_);
     if (!links.reaches_any()) return;
     found_.lines += links.judge();
     PremisesLink link;
-    link.mast = mast.number;
+    link.mast = number;
     links.for_each([&](std::size_t i, const MountVerdict& found) {
       if (found.verdict != Verdict::kVisible) return;
       const Mounting mounting = links.mounting(i, found.height);
       keep_least(mounting.on == MountedOn::kWall ? link.wall : link.roof, mounting,
                  [](const Mounting& m) { return std::pair(m.height_m, m.distance_m); });
-      if (mounting.on == MountedOn::kWall) serve(found_.premises.walls[mounts_[i].wall], mounting, mast);
+      if (mounting.on == MountedOn::kWall) {
+        serve(found_.premises.walls[mounts_[i].place], mounting, number);
+      } else if (!found_.premises.roof.empty()) {
+        serve(found_.premises.roof[mounts_[i].place], mounting, number);
+      }
     });
     note_undecided(links);
     std::optional<Point2> within_blocker;
@@ -147,18 +158,27 @@ class BuildingSurvey {
     found_.within_blockers.push_back(within_blocker);
   }
 
-  /// Lets the mast serve a wall where no other does so from a lower height, or from as low and nearer.
-  static void serve(WallPlace& wall, const Mounting& mounting, const MastView& mast) {
+ private:
+  void look_at_street(MountPlaces& places) const {
+    for (RoofPlace& place : places.roof) {
+      progress_.throw_if_cancelled();
+      place.street = street_sight(surroundings_.scene.surface(), surroundings_.request.earth, places.street, place);
+    }
+  }
+
+  /// Lets the mast serve a place where no other does so from a lower height, or from as low and nearer.
+  template <class Place>
+  static void serve(Place& place, const Mounting& mounting, std::size_t mast) {
     const auto rank = std::pair(mounting.height_m, mounting.distance_m);
-    if (wall.mast && std::pair(wall.height_m, wall.distance_m) <= rank) return;
-    wall.mast = mast.number;
-    std::tie(wall.height_m, wall.distance_m) = rank;
+    if (place.mast && std::pair(place.height_m, place.distance_m) <= rank) return;
+    place.mast = mast;
+    std::tie(place.height_m, place.distance_m) = rank;
   }
 
   void note_undecided(const MastLinks& links) {
     links.for_each([&](std::size_t i, const MountVerdict& found) {
       if (mounts_[i].on == MountedOn::kWall && found.verdict == Verdict::kUndecided)
-        found_.premises.walls[mounts_[i].wall].undecided = true;
+        found_.premises.walls[mounts_[i].place].undecided = true;
     });
   }
 
@@ -174,7 +194,8 @@ class BuildingSurvey {
     });
     if (open) return std::nullopt;
     const Mounting& tried = *link.tried;
-    const auto obstacle = scene_.obstacle(mast.view, {tried.position.x, tried.position.y, tried.elevation_m()});
+    const auto obstacle =
+        surroundings_.scene.obstacle(mast.view, {tried.position.x, tried.position.y, tried.elevation_m()});
     if (!obstacle) return std::nullopt;
     link.blocker = LinkBlocker{.theme = obstacle->theme, .name = {}, .position = obstacle->position};
     return obstacle->within;
@@ -186,30 +207,32 @@ class BuildingSurvey {
     return any;
   }
 
-  void choose_best() {
-    Premises& p = found_.premises;
-    const auto rank = [&](std::size_t i) {
-      const PremisesLink& link = p.links[i];
-      const Mounting& m = link.wall ? *link.wall : *link.roof;
-      return std::tuple(m.on, m.height_m, m.distance_m);
-    };
-    for (std::size_t i = 0; i < p.links.size(); ++i)
-      if (p.links[i].verdict == Verdict::kVisible && (!p.best || rank(i) < rank(*p.best))) p.best = i;
-    for (WallPlace& wall : p.walls) wall.undecided = wall.undecided && !wall.mast;
-  }
-
-  const PremisesRequest& request_;
-  const PlaceScene& scene_;
+  const BuildingFoot& foot_;
+  const BuildingSurroundings& surroundings_;
+  const Progress& progress_;
+  SurveyedBuilding& found_;
   std::vector<Mount> mounts_;
-  SurveyedBuilding found_;
 };
 
 }  // namespace
 
-SurveyedBuilding survey_building(const BuildingFoot& foot, const PremisesRequest& request, const MountRules& rules,
-                                 const PlaceScene& scene, const PlacedSurface& ground,
-                                 std::span<const MastView> masts) {
-  return BuildingSurvey(foot, request, scene, mount_places(foot, scene.surface(), ground, rules)).survey(masts);
+void survey_building(const BuildingToSurvey& building, const BuildingSurroundings& surroundings,
+                     const Progress& progress, SurveyedBuilding& found) {
+  const auto& [foot, rules, masts] = building;
+  BuildingSurvey survey(foot, surroundings, progress, found);
+  survey.take(mount_places(foot, surroundings.scene.surface(), surroundings.ground, rules, progress));
+  for (const std::size_t mast : masts) survey.add(mast);
+}
+
+void choose_best(Premises& p) {
+  const auto rank = [&](std::size_t i) {
+    const PremisesLink& link = p.links[i];
+    const Mounting& m = link.wall ? *link.wall : *link.roof;
+    return std::tuple(m.on, m.height_m, m.distance_m);
+  };
+  for (std::size_t i = 0; i < p.links.size(); ++i)
+    if (p.links[i].verdict == Verdict::kVisible && (!p.best || rank(i) < rank(*p.best))) p.best = i;
+  for (WallPlace& wall : p.walls) wall.undecided = wall.undecided && !wall.mast;
 }
 
 }  // namespace itin::viewshed

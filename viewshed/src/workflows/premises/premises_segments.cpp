@@ -3,9 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 #include <tuple>
+#include <utility>
 
-#include <itin/sort_unique.hpp>
+#include <fmt/format.h>
+
+#include <itin/error.hpp>
 
 #include "plan/ground_runs.hpp"
 #include "plan/ground_tiles.hpp"
@@ -19,6 +23,13 @@ namespace {
 /// point of the bare one.
 constexpr std::uint64_t kBytesOfPlacedPoint = kPointsWithFeatures * (kBytesPerSurfacePoint + 300);
 
+/// So little ground is never too much: the program takes as much by itself.
+constexpr std::uint64_t kSmallGround = 64 << 20;
+
+bool holds_ground(const PremisesRequest& request, std::uint64_t points) {
+  return points * kBytesOfPlacedPoint <= std::max(request.memory_bytes, kSmallGround);
+}
+
 /// Puts buildings near each other one after the other: there and back again in strips.
 void sort_in_strips(std::vector<ReachedBuilding>& buildings, double width) {
   const auto order = [&](const ReachedBuilding& b) {
@@ -29,33 +40,93 @@ void sort_in_strips(std::vector<ReachedBuilding>& buildings, double width) {
             [&](const ReachedBuilding& a, const ReachedBuilding& b) { return order(a) < order(b); });
 }
 
-PremisesSegment segment_of(const std::vector<ReachedBuilding>& buildings, const std::vector<std::size_t>& some) {
-  PremisesSegment segment;
-  for (const std::size_t i : some) {
-    segment.buildings.push_back(buildings[i].foot);
-    segment.masts.insert(segment.masts.end(), buildings[i].masts.begin(), buildings[i].masts.end());
+/// The masts of a building, one after the other; or the building alone.
+struct PlannedLink {
+  const ReachedBuilding* building = nullptr;
+  std::optional<std::size_t> mast = {};
+};
+
+std::vector<PlannedLink> links_of(const std::vector<ReachedBuilding>& buildings) {
+  std::vector<PlannedLink> links;
+  for (const ReachedBuilding& building : buildings) {
+    for (const std::size_t mast : building.masts) links.push_back({&building, mast});
+    if (building.masts.empty()) links.push_back({&building});
   }
-  sort_unique(segment.masts);
-  return segment;
+  return links;
 }
 
-void add_ground_under(const ReachedBuilding& building, const GroundTiles& ground, TileSet& tiles) {
-  ground.add_lines({building.box.xmin, building.box.ymin}, building.box, tiles);
-}
+/// Plans the segments of links over tiles of ground.
+class LinkSegments {
+ public:
+  LinkSegments(const Store& store, const PremisesRequest& request, const std::vector<SitePosition>& masts,
+               const Box& all, const Progress& progress)
+      : request_(request), masts_(masts), ground_(store, 0, all), progress_(progress) {}
 
-/// The ground that one building needs.
-TileSet tiles_of(const GroundTiles& ground, const ReachedBuilding& building, const std::vector<SitePosition>& masts) {
-  TileSet tiles(ground.count());
-  add_ground_under(building, ground, tiles);
-  for (const std::size_t mast : building.masts) ground.add_lines(masts[mast].position, building.box, tiles);
-  return tiles;
-}
+  std::vector<PremisesSegment> of(const std::vector<PlannedLink>& links) const {
+    std::vector<std::size_t> numbers(links.size());
+    std::iota(numbers.begin(), numbers.end(), std::size_t{0});
+    const auto needed = [&](std::size_t i) { return tiles_of(links[i]); };
+    const auto fits = [&](const TileSet& tiles) { return holds_ground(request_, ground_.points(tiles)); };
+    std::vector<PremisesSegment> segments;
+    for (const GroundRun& run : ground_runs(numbers, ground_.count(), needed, fits)) {
+      if (!fits(run.ground)) refuse(links[run.pieces.front()], run.ground);
+      segments.push_back(segment_of(links, run));
+    }
+    return segments;
+  }
+
+ private:
+  /// The ground that one link needs.
+  TileSet tiles_of(const PlannedLink& link) const {
+    progress_.throw_if_cancelled();
+    TileSet tiles(ground_.count());
+    add_ground_under(*link.building, tiles);
+    if (link.mast) ground_.add_lines(masts_[*link.mast].position, link.building->box, tiles);
+    return tiles;
+  }
+
+  void add_ground_under(const ReachedBuilding& building, TileSet& tiles) const {
+    ground_.add_lines({building.box.xmin, building.box.ymin}, building.box, tiles);
+  }
+
+  PremisesSegment segment_of(const std::vector<PlannedLink>& links, const GroundRun& run) const {
+    PremisesSegment segment;
+    TileSet about(ground_.count());
+    for (const std::size_t i : run.pieces) {
+      const auto& [building, mast] = links[i];
+      if (segment.buildings.empty() || segment.buildings.back().foot != building->foot) {
+        segment.buildings.push_back({building->foot, {}});
+        add_ground_under(*building, about);
+      }
+      if (mast) segment.buildings.back().masts.push_back(*mast);
+    }
+    segment.surface = ground_.window(run.ground), segment.ground = ground_.window(about);
+    segment.points = ground_.points(run.ground);
+    return segment;
+  }
+
+  [[noreturn]] void refuse(const PlannedLink& link, const TileSet& ground) const {
+    constexpr std::uint64_t kMega = 1 << 20;
+    const Point2 corner{link.building->box.xmin, link.building->box.ymin};
+    throw InputError(
+        fmt::format("the ground {} the building at {:.10g},{:.10g} takes about {} MB, more than the {} MB of memory: "
+                    "give more `memory_bytes`, or a smaller `radius`",
+                    link.mast ? fmt::format("between mast {} and", masts_[*link.mast].name) : "about", corner.x,
+                    corner.y, ground_.points(ground) * kBytesOfPlacedPoint / kMega, request_.memory_bytes / kMega),
+        "memory_bytes");
+  }
+
+  const PremisesRequest& request_;
+  const std::vector<SitePosition>& masts_;
+  const GroundTiles ground_;
+  const Progress& progress_;
+};
 
 }  // namespace
 
 std::vector<PremisesSegment> premises_segments(const Store& store, const PremisesRequest& request,
                                                const std::vector<SitePosition>& masts,
-                                               std::vector<ReachedBuilding> buildings) {
+                                               std::vector<ReachedBuilding> buildings, const Progress& progress) {
   sort_in_strips(buildings, request.radius);
   Box all, about_buildings;
   for (const ReachedBuilding& b : buildings) {
@@ -63,38 +134,19 @@ std::vector<PremisesSegment> premises_segments(const Store& store, const Premise
     for (const std::size_t mast : b.masts) all.extend(masts[mast].position);
   }
   all.extend(about_buildings);
-  std::vector<std::size_t> numbers(buildings.size());
-  std::iota(numbers.begin(), numbers.end(), std::size_t{0});
-  const auto fits = [&](std::uint64_t points) { return points * kBytesOfPlacedPoint <= request.memory_bytes; };
-  if (const std::uint64_t points = store.points_about(0, all); fits(points)) {
-    PremisesSegment segment = segment_of(buildings, numbers);
-    segment.surface = Window::box(all), segment.ground = Window::box(about_buildings), segment.points = points;
-    return {segment};
-  }
-  const GroundTiles ground(store, 0, all);
-  const auto needed = [&](std::size_t i) { return tiles_of(ground, buildings[i], masts); };
-  // The ground of one building has to be held, whatever it takes: then others may share as much and a little more.
-  std::uint64_t greatest = 0;
-  for (const std::size_t i : numbers) greatest = std::max(greatest, ground.points(needed(i)));
-  const auto segment_fits = [&](const TileSet& tiles) {
-    const std::uint64_t points = ground.points(tiles);
-    return fits(points) || points <= greatest + greatest / 4;
-  };
-  std::vector<PremisesSegment> segments;
-  for (const GroundRun& run : ground_runs(numbers, ground.count(), needed, segment_fits)) {
-    PremisesSegment& segment = segments.emplace_back(segment_of(buildings, run.pieces));
-    TileSet about(ground.count());
-    for (const std::size_t i : run.pieces) add_ground_under(buildings[i], ground, about);
-    segment.surface = ground.window(run.ground), segment.ground = ground.window(about);
-    segment.points = ground.points(run.ground);
-  }
-  return segments;
+  const std::uint64_t points = store.points_about(0, all);
+  if (!holds_ground(request, points)) return LinkSegments(store, request, masts, all, progress).of(links_of(buildings));
+  PremisesSegment segment{{}, Window::box(all), Window::box(about_buildings), points};
+  for (ReachedBuilding& b : buildings) segment.buildings.push_back({b.foot, std::move(b.masts)});
+  return {segment};
 }
 
-Effort effort_of(const PremisesSegment& segment) {
-  constexpr double kLinesOfBuilding = 400;
+Effort effort_of_premises(const PremisesSegment& segment) {
+  constexpr double kLinesOfLink = 400;
+  std::size_t links = 0;
+  for (const BuildingLinks& building : segment.buildings) links += building.masts.size();
   return {effort_of_triangles(kPointsWithFeatures * segment.points),
-          effort_of_lines(kLinesOfBuilding * static_cast<double>(segment.buildings.size() * segment.masts.size()))};
+          effort_of_lines(kLinesOfLink * static_cast<double>(links))};
 }
 
 }  // namespace itin::viewshed

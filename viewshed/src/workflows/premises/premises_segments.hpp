@@ -1,6 +1,6 @@
-// Buildings in groups, each with the masts that reach them and the ground on the way, as large as the memory holds.
+// Links of buildings and masts in groups, each with the ground on the way, as large as the memory holds.
 //
-//   for (const PremisesSegment& segment : premises_segments(store, request, masts, reached))
+//   for (const PremisesSegment& segment : premises_segments(store, request, masts, reached, progress))
 //     triangulate(store, segment.surface, ...);
 #pragma once
 
@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <itin/building_outlines.hpp>
+#include <itin/progress.hpp>
 #include <itin/store.hpp>
 #include <itin/window.hpp>
 #include <viewshed/premises.hpp>
@@ -17,27 +18,34 @@
 
 namespace itin::viewshed {
 
-struct PremisesSegment {
-  std::vector<std::size_t> buildings;  ///< their numbers
-  std::vector<std::size_t> masts;      ///< those that reach one of them
-  Window surface = Window::all();      ///< all ground between masts and buildings
-  Window ground = Window::all();       ///< the ground about the buildings
-  std::uint64_t points = 0;            ///< about as many as the bare surface has
-};
-
-/// A building that masts reach.
-struct ReachedBuilding {
-  std::size_t foot = 0;  ///< its number
-  Box box;               ///< about its places
+/// A building and some of the masts that reach it, by their numbers.
+struct BuildingLinks {
+  std::size_t foot = 0;
   std::vector<std::size_t> masts;
 };
 
-/// Divides the buildings, which lie in any order. Segments do not change an answer.
+struct PremisesSegment {
+  std::vector<BuildingLinks> buildings;  ///< each once
+  Window surface = Window::all();        ///< all ground between masts and buildings
+  Window ground = Window::all();         ///< the ground about the buildings
+  std::uint64_t points = 0;              ///< about as many as the bare surface has
+};
+
+/// A building, and the masts that reach it.
+struct ReachedBuilding {
+  std::size_t foot = 0;            ///< its number
+  Box box;                         ///< about its places
+  std::vector<std::size_t> masts;  ///< none where its places alone are looked for
+};
+
+/// Divides the links of the buildings, which lie in any order. Those of one building may come in several segments, its
+/// first masts first. Segments do not change an answer. Throws InputError where the memory does not hold the ground of
+/// a single link, Cancelled.
 std::vector<PremisesSegment> premises_segments(const Store& store, const PremisesRequest& request,
                                                const std::vector<SitePosition>& masts,
-                                               std::vector<ReachedBuilding> buildings);
+                                               std::vector<ReachedBuilding> buildings, const Progress& progress);
 
 /// About how long a segment takes.
-Effort effort_of(const PremisesSegment& segment);
+Effort effort_of_premises(const PremisesSegment& segment);
 
 }  // namespace itin::viewshed

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <itin/building_outlines.hpp>
 #include <itin/call_progress.hpp>
@@ -15,6 +14,7 @@
 #include <itin/feature_at.hpp>
 #include <itin/grazing.hpp>
 #include <itin/parallel.hpp>
+#include <itin/sort_unique.hpp>
 #include <viewshed/premises.hpp>
 
 #include "line/cell_tiles.hpp"
@@ -24,6 +24,7 @@
 #include "run/segments.hpp"
 #include "run/surface_reader.hpp"
 #include "workflows/premises/building_links.hpp"
+#include "workflows/premises/premises_rules.hpp"
 #include "workflows/premises/premises_segments.hpp"
 
 namespace itin::viewshed {
@@ -31,47 +32,15 @@ namespace itin::viewshed {
 namespace {
 
 void require_premises_request(PremisesRequest& request) {
-  constexpr double kLeastSpacing = 0.1;
-  const auto require = [](bool right, const char* field, const char* what) {
-    if (!right) throw InputError(fmt::format("`{}`: {}", field, what), field);
-  };
-  require(!request.masts.places.empty(), "masts", "there is none; give at least one");
-  require(request.radius > 0, "radius", "give more than 0 m");
-  require(request.spacing >= kLeastSpacing, "spacing", "give 0.1 m or more");
-  require(request.reveal > 0, "reveal", "give more than 0 m: an antenna within a wall serves nothing");
-  require(request.storey > 0, "storey", "give more than 0 m");
-  require(!request.poles.empty(), "poles", "give at least one height");
-  std::sort(request.poles.begin(), request.poles.end());
-  require(request.poles.front() >= 0, "poles", "give heights of 0 m or more");
+  if (request.masts.places.empty()) throw InputError("`masts`: there is none; give at least one", "masts");
+  if (!(request.radius > 0)) throw InputError("`radius`: give more than 0 m", "radius");
+  if (!(request.setback.value_or(1) > 0))
+    throw InputError("`setback`: give more than 0 m: the street lies before the walls", "setback");
+  complete_antennas(request, request.frequency_ghz);
   if (!request.frequency_ghz) return;
-  require(*request.frequency_ghz > 0, "frequency_ghz", "give more than 0 GHz");
-  require(request.fresnel > 0 && request.fresnel <= 1, "fresnel", "give more than 0, and 1 at most");
-  // A Fresnel zone that ends on the surface has no clearance at all.
-  std::erase(request.poles, 0);
-  require(!request.poles.empty(), "poles",
-          "with a `frequency_ghz` give a height above 0: no link from the roof is clear");
-}
-
-/// Checks that the chosen buildings stand on the ground. Warns of those of some themes that do not.
-void require_buildings(const StoreMetadata& metadata, const ThemeChoice& themes, std::vector<std::string>& warnings) {
-  const ThemeChoice named = themes.with_ground_lines();
-  std::vector<std::string> flat;
-  bool raised = false;
-  for (const ThemeInfo& theme : metadata.themes) {
-    if (!is_of_buildings(theme) || !named.includes(theme)) continue;
-    raised = raised || theme.is_raised();
-    if (!theme.is_raised()) flat.push_back(theme.name);
-  }
-  constexpr const char* kWhatToDo = "import them again with `height_field` or `height`";
-  if (raised && !flat.empty())
-    warnings.push_back(
-        fmt::format("buildings of {} have no heights and are left out; {}", fmt::join(flat, ", "), kWhatToDo));
-  if (raised) return;
-  if (!flat.empty())
-    throw InputError(fmt::format("`themes`: buildings of {} have no heights; {}", fmt::join(flat, ", "), kWhatToDo),
-                     "themes");
-  throw InputError("`themes`: none of them has buildings; import some with `kind` buildings, or choose their theme",
-                   "themes");
+  if (!(*request.frequency_ghz > 0)) throw InputError("`frequency_ghz`: give more than 0 GHz", "frequency_ghz");
+  if (!(request.fresnel > 0 && request.fresnel <= 1))
+    throw InputError("`fresnel`: give more than 0, and 1 at most", "fresnel");
 }
 
 class PremisesSurveyor {
@@ -86,15 +55,16 @@ class PremisesSurveyor {
   }
 
   PremisesSurvey survey() && {
+    progress_.step(0.02);
     place_masts();
     feet_ = building_feet(store_, survey_.request.themes, survey_.metadata.grid.box(survey_.metadata.bounds));
-    std::vector<ReachedBuilding> reached = reached_buildings();
     found_.resize(feet_.size());
-    const auto segments = premises_segments(store_, survey_.request, survey_.masts, std::move(reached));
-    for_each_segment(segments, effort_of, progress_,
+    const auto segments = premises_segments(store_, survey_.request, survey_.masts, reached_buildings(), progress_);
+    for_each_segment(segments, effort_of_premises, progress_.step(0.97),
                      [&](const PremisesSegment& segment, SegmentProgress& of_segment) { survey(segment, of_segment); });
     name_blockers();
     collect();
+    progress_.finish();
     return std::move(survey_);
   }
 
@@ -132,7 +102,8 @@ class PremisesSurveyor {
     std::vector<ReachedBuilding> reached;
     double nearest = kInfinity;
     for (std::size_t i = 0; i < feet_.size(); ++i) {
-      ReachedBuilding building{i, box_about(feet_[i]), {}};
+      progress_.throw_if_cancelled();
+      ReachedBuilding building{i, box_about(request, feet_[i]), {}};
       for (std::size_t m = 0; m < survey_.masts.size(); ++m) {
         const double squared = squared_distance(survey_.masts[m].position, building.box);
         nearest = std::min(nearest, squared);
@@ -148,50 +119,42 @@ class PremisesSurveyor {
     return reached;
   }
 
-  /// The box about a building and the antennas before its walls.
-  Box box_about(const BuildingFoot& foot) const {
-    Box box;
-    for (const std::vector<Point2>& ring : foot.rings)
-      for (const Point2& p : ring) box.extend(p);
-    const double margin = survey_.request.reveal + 0.01;
-    return {box.xmin - margin, box.ymin - margin, box.xmax + margin, box.ymax + margin};
-  }
-
   void survey(const PremisesSegment& segment, SegmentProgress& progress) {
     SurfaceReader reader(store_, Detail::tolerance(0), survey_.statistics);
     Tin tin = reader.triangles(segment.surface, survey_.request.themes, progress.reading(0.6));
-    const PlacedSurface ground(reader.triangles(segment.ground, ThemeChoice::none(), progress.reading()));
+    const PlacedSurface ground(reader.triangles(segment.ground, ThemeChoice::none(), progress.reading()), progress_);
     Stopwatch watch;
-    const PlaceScene scene(std::move(tin), judgement());
-    std::vector<MastView> masts(segment.masts.size());
-    parallel_for(masts.size(), [&](std::size_t i) {
-      const SitePosition& mast = survey_.masts[segment.masts[i]];
-      const Point3 eye{mast.position.x, mast.position.y, mast.elevation()};
-      masts[i] = {segment.masts[i], &mast, scene.view_from(eye)};
-    });
+    const PlaceScene scene(std::move(tin), judgement(), progress_);
+    const std::vector<MastView> views = views_of(segment, scene);
     survey_.statistics.scene_seconds += watch.lap();
+    const BuildingSurroundings surroundings{survey_.request, scene, ground, views};
     for_each_step(segment.buildings.size(), "sight lines", progress.judging(), [&](std::size_t i) {
-      const BuildingFoot& foot = feet_[segment.buildings[i]];
-      found_[segment.buildings[i]] = survey_building(foot, survey_.request, rules_of(foot), scene, ground, masts);
+      const auto& [foot, masts] = segment.buildings[i];
+      const MountRules rules = mount_rules(survey_.request, survey_.metadata, feet_[foot]);
+      survey_building({feet_[foot], rules, masts}, surroundings, progress_, found_[foot]);
     });
     survey_.statistics.lines_seconds += watch.lap();
+  }
+
+  /// The views of the segment's masts, by the numbers of all.
+  std::vector<MastView> views_of(const PremisesSegment& segment, const PlaceScene& scene) {
+    std::vector<std::size_t> masts;
+    for (const BuildingLinks& building : segment.buildings)
+      masts.insert(masts.end(), building.masts.begin(), building.masts.end());
+    sort_unique(masts);
+    std::vector<MastView> views(survey_.masts.size());
+    parallel_for(masts.size(), [&](std::size_t i) {
+      progress_.throw_if_cancelled();
+      const SitePosition& mast = survey_.masts[masts[i]];
+      views[masts[i]] = {&mast, scene.view_from({mast.position.x, mast.position.y, mast.elevation()})};
+    });
+    return views;
   }
 
   LinkJudgement judgement() const {
     const PremisesRequest& request = survey_.request;
     LinkJudgement rules{request.earth, request.nodata, {}};
     if (request.frequency_ghz) rules.fresnel = {wavelength_m(*request.frequency_ghz), request.fresnel};
-    return rules;
-  }
-
-  MountRules rules_of(const BuildingFoot& foot) const {
-    const std::vector<ThemeInfo>& themes = survey_.metadata.themes;
-    const double usual = std::max(0.05, 2 * survey_.metadata.grid.resolution);
-    MountRules rules{survey_.request.spacing,
-                     survey_.request.reveal,
-                     themes[foot.theme - std::size_t{1}].wall_offset.value_or(usual),
-                     {false}};
-    for (const ThemeInfo& theme : themes) rules.of_buildings.push_back(is_of_buildings(theme));
     return rules;
   }
 
@@ -228,6 +191,7 @@ class PremisesSurveyor {
       Premises& p = found_[i].premises;
       survey_.statistics.lines += found_[i].lines;
       const bool surveyed = p.theme != 0;
+      choose_best(p);
       if (!surveyed) p.theme = feet_[i].theme, p.feature = feet_[i].feature, p.foot = std::move(feet_[i].rings);
       if (surveyed && p.walls.empty() && p.roof_places == 0) {
         ++without_places;
@@ -256,7 +220,7 @@ class PremisesSurveyor {
   }
 
   const Store& store_;
-  Progress& progress_;
+  CallProgress progress_;
   PremisesSurvey survey_;
   std::vector<BuildingFoot> feet_;
   std::vector<SurveyedBuilding> found_;  ///< one for each foot

@@ -35,7 +35,7 @@ DemandSet open_to_missing_ground(const Store& store, SiteSurvey survey, const st
                                  int cover, Progress& progress) {
   survey.nodata = NoData::kClear;
   const std::vector<DemandSet> possible = served_exactly(store, survey, progress);
-  const Demand elements(survey.targets.grid ? element_count(*survey.targets.grid) : survey.targets.points.size());
+  const Demand elements(element_count(survey.targets));
   return difference(served_elements(elements, possible, cover), served_elements(elements, certain, cover));
 }
 
@@ -92,7 +92,7 @@ JointCoverage joint_coverage_on_cells(const Store& store, const SitePlanRequest&
                                       const SiteCoverage& coverage, const Choice& choice, Progress& progress) {
   const std::vector<std::size_t> sites = serving_sites(inputs, choice);
   SiteSurvey survey = survey_of_serving(request, inputs, sites);
-  survey.targets.points.clear(), survey.targets.heights.clear();
+  survey.targets.points.clear(), survey.targets.heights.clear(), survey.targets.elements.clear();
   survey.targets.grid =
       grid_of_reach(store, sites.empty() ? inputs.positions : survey.positions, request.radius, request.cell_size);
   JointCoverage joint{survey.targets, {}, {}};

@@ -24,7 +24,10 @@ void check(const SitePlanRequest& r) {
                "candidates", "give either `candidates` or a `search_area`");
   require_that(r.spacing > 0, "spacing", "`spacing` must be positive");
   require_that(r.turbines || !r.masts.empty(), "masts", "`masts` is empty: give at least one");
-  require_that(!(demand.points && demand.grid), "demand", "the demand is either `points` or a `grid`");
+  require_that(demand.points.has_value() + demand.grid.has_value() + demand.premises.has_value() <= 1, "demand",
+               "the demand is either `points`, a `grid` or `premises`");
+  require_that(!demand.premises || !r.turbines, "demand",
+               "`turbines` are not placed for `premises`: give cells or points");
   require_that(!demand.grid || demand.weights.size() == demand.grid->cell_count(), "weights",
                "`weights` needs `grid` and one value for each cell");
   require_that(r.radius > 0, "radius", "`radius` must be positive");

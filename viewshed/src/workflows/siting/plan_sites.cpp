@@ -11,6 +11,7 @@
 #include "workflows/siting/request_rules.hpp"
 #include "workflows/siting/site_inputs.hpp"
 #include "workflows/siting/site_network.hpp"
+#include "workflows/siting/site_premises.hpp"
 #include "workflows/siting/site_rasters.hpp"
 #include "workflows/siting/visible_heights.hpp"
 
@@ -158,6 +159,7 @@ class SitePlanner {
     const JointCoverage joint = joint_coverage(store_, request, inputs, coverage, plan_.choice, progress_);
     plan_.undecided = plan_.heights ? undecided_heights() : undecided_demand(coverage, joint);
     plan_.shares = demand_shares(request, inputs, joint);
+    if (request.demand.premises) tell_premises(joint);
     plan_.rasters = site_rasters(
         store_, request, inputs, plan_.choice,
         inputs.targets.grid ? joint
@@ -172,6 +174,13 @@ class SitePlanner {
                                                               plan_.surveys.begin(), plan_.surveys.end(), last))});
     }
     plan_.statistics = coverage.statistics();
+  }
+
+  void tell_premises(const JointCoverage& joint) {
+    plan_.premises = survey_of_choice(store_, plan_.request, plan_.inputs, plan_.choice, joint, progress_);
+    for (const std::string& warning : plan_.premises->warnings)
+      if (std::find(plan_.warnings.begin(), plan_.warnings.end(), warning) == plan_.warnings.end())
+        plan_.warnings.push_back(warning);
   }
 
   CoverageSummary summary(const CoverageBounds& bounds) const {

@@ -9,6 +9,7 @@
 
 #include "workflows/siting/request_rules.hpp"
 #include "workflows/siting/site_inputs.hpp"
+#include "workflows/siting/site_premises.hpp"
 
 namespace itin::viewshed {
 
@@ -42,14 +43,22 @@ void sort_by_place(std::vector<PointToServe>& points) {
 
 class DemandOfPlan {
  public:
-  DemandOfPlan(const Store& store, const SitePlanRequest& request, SiteInputs& inputs, Progress& progress)
-      : store_(store), request_(request), given_(request.demand), inputs_(inputs), progress_(progress) {}
+  DemandOfPlan(const Store& store, const SitePlanRequest& request, SiteInputs& inputs,
+               std::vector<std::string>& warnings, Progress& progress)
+      : store_(store),
+        request_(request),
+        given_(request.demand),
+        inputs_(inputs),
+        warnings_(warnings),
+        progress_(progress) {}
 
   void add() {
     inputs_.targets.height = given_.height;
-    inputs_.targets.on_surface = given_.on_surface;
+    inputs_.targets.on_surface = given_.on_surface && !given_.premises;
     if (given_.points) {
       add_points();
+    } else if (given_.premises) {
+      add_premises(store_, request_, inputs_, warnings_, progress_);
     } else if (given_.grid) {
       add_weights();
     } else {
@@ -130,6 +139,7 @@ class DemandOfPlan {
   const SitePlanRequest& request_;
   const SiteDemand& given_;
   SiteInputs& inputs_;
+  std::vector<std::string>& warnings_;
   Progress& progress_;
 };
 
@@ -137,7 +147,7 @@ class DemandOfPlan {
 
 void add_demand(const Store& store, const SitePlanRequest& request, SiteInputs& inputs,
                 std::vector<std::string>& warnings, Progress& progress) {
-  DemandOfPlan(store, request, inputs, progress).add();
+  DemandOfPlan(store, request, inputs, warnings, progress).add();
   if (request.demand.points)
     warnings.insert(warnings.end(), request.demand.points->warnings.begin(), request.demand.points->warnings.end());
 }

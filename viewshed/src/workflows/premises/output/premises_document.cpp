@@ -6,18 +6,21 @@
 
 namespace itin::viewshed {
 
+Document counts_document(const PremisesCounts& counts) {
+  return {{"all", counts.all},
+          {"served", counts.served()},
+          {"on_walls", counts.on_walls},
+          {"on_roofs", counts.on_roofs},
+          {"undecided", counts.undecided},
+          {"unserved", counts.unserved},
+          {"out_of_reach", counts.out_of_reach}};
+}
+
 Document premises_document(const PremisesSurvey& survey) {
-  const PremisesCounts counts = survey.counts();
   Document document{{"crs", crs_identifier(survey.metadata.crs_wkt)},
                     {"surface", surface_document(survey.metadata, Detail::tolerance(0), survey.request.themes)},
                     {"refraction", earth_document(survey.request.earth)}};
-  document["premises"] = {{"all", counts.all},
-                          {"served", counts.served()},
-                          {"on_walls", counts.on_walls},
-                          {"on_roofs", counts.on_roofs},
-                          {"undecided", counts.undecided},
-                          {"unserved", counts.unserved},
-                          {"out_of_reach", counts.out_of_reach}};
+  document["premises"] = counts_document(survey.counts());
   const std::vector<MastService> services = services_of(survey);
   document["masts"] = Document::array();
   for (std::size_t i = 0; i < services.size(); ++i) {

@@ -30,11 +30,17 @@ MapObjects feet_of(const PremisesSurvey& survey, PremisesService service) {
   return lines_of_class(std::move(lines), class_of(service));
 }
 
+std::vector<Point2> in_plan(const std::vector<Point3>& line) {
+  std::vector<Point2> plan;
+  for (const Point3& p : line) plan.push_back({p.x, p.y});
+  return plan;
+}
+
 MapObjects walls_of(const PremisesSurvey& survey, WallService service) {
   profile::SheetLines lines{{}, {}, 0.6, false};
   for (const Premises& p : survey.premises)
     for (const WallPlace& wall : p.walls)
-      if (service_of(wall, survey.request.storey) == service) lines.lines.push_back({wall.stretch, ""});
+      if (service_of(wall, survey.request.storey) == service) lines.lines.push_back({in_plan(wall.stretch), ""});
   return lines_of_class(std::move(lines), class_of(service));
 }
 

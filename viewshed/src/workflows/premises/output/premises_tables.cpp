@@ -1,5 +1,6 @@
 #include "workflows/premises/output/premises_tables.hpp"
 
+#include <cmath>
 #include <iterator>
 
 #include <fmt/format.h>
@@ -29,10 +30,35 @@ constexpr const char* kMountingColumns = "on,x,y,height_m,base_m,elevation_m,dis
 
 std::string blocker_cells(const PremisesSurvey& survey, const LinkBlocker* b) {
   if (b == nullptr) return ",,,,";
-  return fmt::format("{},{},{:.3f},{:.3f},{}", csv_cell(theme_of(*b, survey.metadata)), csv_cell(b->name),
+  return fmt::format("{},{},{:.3f},{:.3f},{}", csv_cell(theme_of(b->theme, survey.metadata)), csv_cell(b->name),
                      b->position.x, b->position.y, b->own ? "yes" : "no");
 }
 constexpr const char* kBlockerColumns = "blocked_by,blocking_feature,blocked_x,blocked_y,blocked_by_itself";
+
+std::string roof_cells(const PremisesSurvey& survey, const RoofPlace& place) {
+  const std::string at = fmt::format("{:.3f},{:.3f},{:.3f}", place.position.x, place.position.y, place.roof_m);
+  if (!place.mast) return at + ",,,";
+  return fmt::format("{},{},{:.10g},{:.3f}", at, csv_cell(survey.masts[*place.mast].name), place.height_m,
+                     place.distance_m);
+}
+constexpr const char* kRoofColumns = "x,y,roof_m,mast,pole_m,distance_m";
+
+/// Without a sign where it is 0.
+double in_whole_millimetres(double metres) {
+  return std::round(metres * 1000) / 1000 + 0.0;
+}
+
+std::string street_cells(const PremisesSurvey& survey, const RoofPlace& place) {
+  if (!place.street) return ",,,,,,";
+  const auto& [street, pole, edge] = *place.street;
+  // Poles are rounded up, so that the street is in sight from what is told.
+  std::string cells = fmt::format("{:.3f},{:.3f},{:.3f},", street.x, street.y, std::ceil(pole * 1000) / 1000);
+  if (!edge) return cells + ",,,";
+  return cells + fmt::format("{},{:.3f},{:.3f},{:.3f}", csv_cell(theme_of(edge->theme, survey.metadata)),
+                             edge->position.x, edge->position.y, in_whole_millimetres(edge->position.z - place.roof_m));
+}
+constexpr const char* kStreetColumns =
+    "street_x,street_y,street_pole_m,hidden_by,hidden_x,hidden_y,hidden_above_roof_m";
 
 template <class T>
 const T* pointer_to(const std::optional<T>& value) {
@@ -88,7 +114,7 @@ VectorLayer layer_of_premises(const PremisesSurvey& survey) {
         {{{at.x, at.y, told.mounting == nullptr ? 0 : told.mounting->elevation_m()}},
          {theme_name(survey, p), p.name, p.id, std::string(class_of(service_of(p)).name),
           std::string(word_of(p.verdict())), mast_name(survey, told.link), height, distance, whole(p.masts_serving()),
-          blocker == nullptr ? std::string() : theme_of(*blocker, survey.metadata),
+          blocker == nullptr ? std::string() : theme_of(blocker->theme, survey.metadata),
           blocker == nullptr ? std::string() : blocker->name}});
   }
   return layer;
@@ -113,7 +139,7 @@ VectorLayer layer_of_facades(const PremisesSurvey& survey) {
       VectorLayer::Feature feature{{},
                                    {p.name, std::string(class_of(service_of(wall, survey.request.storey)).name), mast,
                                     height, wall.most_m, wall.position.x, wall.position.y}};
-      for (const Point2& at : wall.stretch) feature.points.push_back({at.x, at.y, wall.ground_m + wall.most_m});
+      for (const Point3& at : wall.stretch) feature.points.push_back({at.x, at.y, wall.ground_m + wall.most_m});
       layer.features.push_back(std::move(feature));
     }
   }
@@ -201,6 +227,16 @@ std::string premises_links_csv(const PremisesSurvey& survey) {
                      height(link.wall), height(link.roof), mounting_cells(told),
                      blocker_cells(survey, pointer_to(link.blocker)));
     }
+  }
+  return text;
+}
+
+std::string premises_roofs_csv(const PremisesSurvey& survey) {
+  std::string text = fmt::format("theme,name,id,{},{}\n", kRoofColumns, kStreetColumns);
+  for (const Premises& p : survey.premises) {
+    for (const RoofPlace& place : p.roof)
+      fmt::format_to(std::back_inserter(text), "{},{},{},{},{}\n", csv_cell(theme_name(survey, p)), csv_cell(p.name),
+                     csv_cell(p.id), roof_cells(survey, place), street_cells(survey, place));
   }
   return text;
 }

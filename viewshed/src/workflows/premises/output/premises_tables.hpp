@@ -22,6 +22,10 @@ std::string premises_csv(const PremisesSurvey& survey);
 /// A row for each building and mast within reach.
 std::string premises_links_csv(const PremisesSurvey& survey);
 
+/// A row for each place on the roofs: the mast that serves it with the least pole, and the least pole that sees the
+/// street.
+std::string premises_roofs_csv(const PremisesSurvey& survey);
+
 /// The layers premises, facades, links and masts, with their styles.
 std::vector<VectorLayer> premises_layers(const PremisesSurvey& survey);
 

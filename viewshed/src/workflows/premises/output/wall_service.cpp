@@ -42,8 +42,8 @@ const char* word_of(MountedOn on) {
   return on == MountedOn::kWall ? "wall" : "roof";
 }
 
-std::string theme_of(const LinkBlocker& blocker, const StoreMetadata& metadata) {
-  return blocker.theme == 0 ? "terrain" : metadata.themes[blocker.theme - std::size_t{1}].name;
+std::string theme_of(std::uint16_t theme, const StoreMetadata& metadata) {
+  return theme == 0 ? "terrain" : metadata.themes[theme - std::size_t{1}].name;
 }
 
 }  // namespace itin::viewshed

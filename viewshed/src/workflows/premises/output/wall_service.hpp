@@ -47,6 +47,6 @@ const char* word_of(Verdict verdict);
 /// "wall" or "roof".
 const char* word_of(MountedOn on);
 /// The theme, or "terrain".
-std::string theme_of(const LinkBlocker& blocker, const StoreMetadata& metadata);
+std::string theme_of(std::uint16_t theme, const StoreMetadata& metadata);
 
 }  // namespace itin::viewshed

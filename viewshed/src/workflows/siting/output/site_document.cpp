@@ -1,4 +1,5 @@
 #include <itin/coordinates.hpp>
+#include <viewshed/premises_document.hpp>
 #include <viewshed/site_document.hpp>
 
 #include "workflows/siting/output/link_tables.hpp"
@@ -44,6 +45,7 @@ Document site_document(const SitePlan& r, const StoreMetadata& metadata) {
     document[turbines ? "seen_by_existing" : "served_by_existing"] = r.in_metric(r.choice.existing);
   }
   if (r.leaves_open) document["undecided"] = undecided_of(r);
+  if (r.premises) document["premises"] = counts_document(r.premises->counts());
   document["chosen"] = Document::array();
   for (std::size_t i = 0; i < r.choice.chosen.size(); ++i) {
     const ChosenSite& site = r.choice.chosen[i];

@@ -11,6 +11,8 @@
 #include <viewshed/site_maps.hpp>
 #include <viewshed/site_wording.hpp>
 
+#include "workflows/premises/output/premises_map.hpp"
+#include "workflows/premises/output/premises_tables.hpp"
 #include "workflows/siting/output/link_tables.hpp"
 #include "workflows/siting/output/site_tables.hpp"
 
@@ -89,6 +91,16 @@ void write_maps(const std::string& folder, const SitePlan& plan, const Store& st
     write_image(within(folder, maps[i].name + ".png"), images[i], overwrite);
 }
 
+/// Writes which site serves which building, in the words and colours of a survey of premises.
+void write_premises_of_plan(const std::string& folder, const SitePlan& plan, const Store& store, Progress& progress,
+                            bool overwrite) {
+  if (!plan.premises) return;
+  const PremisesSurvey& survey = *plan.premises;
+  write_file(within(folder, "premises.csv"), premises_csv(survey), overwrite);
+  write_geopackage(within(folder, "premises.gpkg"), plan.crs_wkt, premises_layers(survey), overwrite, progress);
+  write_file(within(folder, "premises.png"), premises_map(store, survey, "premises.png", progress), overwrite);
+}
+
 }  // namespace
 
 std::vector<PlanFile> site_plan_files(const std::string& folder, const SitePlanRequest& request) {
@@ -113,6 +125,12 @@ std::vector<PlanFile> site_plan_files(const std::string& folder, const SitePlanR
   }
   files.push_back({"coverage.png", "map of coverage.tif"});
   files.push_back({"redundancy.png", "map of redundancy.tif"});
+  if (request.demand.premises) {
+    files.push_back(
+        {"premises.csv", "a row for each building: which site serves it, where on it and from which height"});
+    files.push_back({"premises.gpkg", "walls, buildings and their links to sites for a GIS, with styles for QGIS"});
+    files.push_back({"premises.png", "map of walls and buildings by how they are served"});
+  }
   if (request.hub) files.push_back({"routes.csv", "the route of every site to the hub, hop by hop"});
   for (PlanFile& file : files) file.path = within(folder, file.path);
   return files;
@@ -127,6 +145,7 @@ std::vector<PlanFile> write_site_plan(const std::string& folder, const SitePlan&
   write_rasters(folder, plan, options);
   write_tables(folder, plan, options.overwrite);
   write_layers(folder, plan, options.overwrite);
+  write_premises_of_plan(folder, plan, store, progress, options.overwrite);
   return files;
 }
 
