@@ -1,0 +1,42 @@
+#include "serve/served_store.hpp"
+
+#include <algorithm>
+#include <sys/stat.h>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <itin/memory_shares.hpp>
+
+namespace itin::cli {
+
+namespace {
+
+constexpr std::size_t kMostSurfaces = 2;
+
+std::string version_of(const std::string& path) {
+  struct stat status {};
+  ::stat(path.c_str(), &status);
+  return fmt::format("{:x}-{:x}-{:x}", status.st_ino, status.st_size, status.st_mtim.tv_sec);
+}
+
+}  // namespace
+
+ServedStore::ServedStore(const std::string& path, std::uint64_t memory_bytes)
+    : store_(path, cache_within(memory_bytes)), memory_bytes_(memory_bytes), version_(version_of(path)) {}
+
+std::shared_ptr<viewshed::PagedSurface> ServedStore::surface(const Detail& detail, const ThemeChoice& themes) {
+  const std::string key = fmt::format("{} {}", detail.coarsest(), fmt::join(themes.names(metadata().themes), ","));
+  const std::lock_guard lock(mutex_);
+  const auto found = std::find_if(kept_.begin(), kept_.end(), [&](const Kept& kept) { return kept.key == key; });
+  if (found != kept_.end()) {
+    kept_.splice(kept_.begin(), kept_, found);
+  } else {
+    const viewshed::ComputeOptions options{.memory_bytes = memory_bytes_ / 4};
+    kept_.push_front({key, std::make_shared<viewshed::PagedSurface>(store_, detail, themes, options)});
+    if (kept_.size() > kMostSurfaces) kept_.pop_back();
+  }
+  return kept_.front().surface;
+}
+
+}  // namespace itin::cli

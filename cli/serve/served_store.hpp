@@ -1,0 +1,46 @@
+// The store that is served, and the surfaces of it that are kept in memory for live views.
+#pragma once
+
+#include <cstdint>
+#include <list>
+#include <memory>
+#include <mutex>
+#include <string>
+
+#include <itin/detail.hpp>
+#include <itin/store.hpp>
+#include <itin/theme.hpp>
+#include <viewshed/held_surface.hpp>
+
+namespace itin::cli {
+
+/// Safe for concurrent use.
+class ServedStore {
+ public:
+  /// Opens the store. Throws as Store does. `memory_bytes` is for blocks, surfaces and the ground of cells.
+  ServedStore(const std::string& path, std::uint64_t memory_bytes);
+
+  const Store& store() const { return store_; }
+  const StoreMetadata& metadata() const { return store_.metadata(); }
+  std::uint64_t memory_bytes() const { return memory_bytes_; }
+  /// A text that is another one for another store, or for a store that has been replaced.
+  const std::string& version() const { return version_; }
+
+  /// The surface at a tolerance with these themes. The two that were asked for last are kept. Throws InputError for
+  /// themes that the store does not have.
+  std::shared_ptr<viewshed::PagedSurface> surface(const Detail& detail, const ThemeChoice& themes);
+
+ private:
+  struct Kept {
+    std::string key;
+    std::shared_ptr<viewshed::PagedSurface> surface;
+  };
+
+  Store store_;
+  std::uint64_t memory_bytes_;
+  std::string version_;
+  std::mutex mutex_;
+  std::list<Kept> kept_;  ///< the one used last first
+};
+
+}  // namespace itin::cli
