@@ -77,7 +77,7 @@ struct Network {
   Seats seats;
 };
 
-std::string header(const http::request<http::string_body>& request, http::field name) {
+std::string header_of(const http::request<http::string_body>& request, http::field name) {
   return std::string(request[name]);
 }
 
@@ -88,10 +88,10 @@ std::optional<HttpRequest> understood(const http::request<http::string_body>& re
   return HttpRequest{std::string(request.method_string()),
                      target->path,
                      target->query,
-                     header(request, http::field::host),
-                     header(request, http::field::origin),
+                     header_of(request, http::field::host),
+                     header_of(request, http::field::origin),
                      std::string(request["X-Itin-Key"]),
-                     header(request, http::field::content_type),
+                     header_of(request, http::field::content_type),
                      request.body()};
 }
 
@@ -360,6 +360,8 @@ class HttpServer::Impl {
       if (error) return accept_later();
       beast::error_code gone;
       const tcp::endpoint client = socket.remote_endpoint(gone);
+      // Tiles are small, and each is wanted at once.
+      socket.set_option(tcp::no_delay(true), gone);
       if (!gone) std::make_shared<Asker>(std::move(socket), network_, network_.seats.take(client.address()))->read();
       accept();
     });

@@ -84,8 +84,7 @@ JobCall job_call(const ServedStore& served, const Document& asked, std::uint64_t
   call.arguments.insert(call.arguments.end(), arguments.begin(), arguments.end());
   call.command = "itin " + command_line(call.arguments);
   if (memory != nullptr) call.arguments.push_back(fmt::format("--memory={}", memory_bytes));
-  if (threads > 0) call.arguments.push_back(fmt::format("--threads={}", threads));
-  call.arguments.insert(call.arguments.end(), {"--json", "--progress=lines"});
+  call.arguments.insert(call.arguments.end(), {fmt::format("--threads={}", threads), "--json", "--progress=lines"});
   return call;
 }
 

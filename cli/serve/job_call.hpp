@@ -19,7 +19,7 @@ struct JobCall {
 /// The verbs that clients may call: those that read nothing but the store.
 std::vector<std::string> job_verbs();
 
-/// Understands {"verb", "options"}. `memory_bytes` and `threads` (0: all) are for the call. Throws InputError for a
+/// Understands {"verb", "options"}. `memory_bytes` and `threads` are for the call. Throws InputError for a
 /// verb or an option that clients may not use, and for what the verb itself refuses before it opens the store.
 JobCall job_call(const ServedStore& served, const Document& asked, std::uint64_t memory_bytes, int threads);
 

@@ -10,7 +10,6 @@
 #include "serve/admission.hpp"
 #include "serve/failure.hpp"
 #include "serve/given_options.hpp"
-#include "serve/live_probe.hpp"
 #include "serve/live_view.hpp"
 #include "serve/los_answer.hpp"
 
@@ -74,7 +73,7 @@ void answering(LiveConnection& to, const std::string& type, const LiveNumber& nu
 }  // namespace
 
 LiveMap::LiveMap(ServedStore& served, std::string key, std::shared_ptr<LiveConnection> connection)
-    : served_(served), key_(std::move(key)), connection_(std::move(connection)) {}
+    : served_(served), probe_(served), key_(std::move(key)), connection_(std::move(connection)) {}
 
 bool LiveMap::take(const std::string& text) {
   const Document message = Document::parse(text, nullptr, false);
@@ -139,8 +138,7 @@ void LiveMap::stop(const LiveNumber& number) {
 void LiveMap::probe(const LiveNumber& number, const Document& message) {
   const Point2 position{number_member(message, "x"), number_member(message, "y")};
   asking_.put(kProbeKey, [this, number, position, options = options_of(number), to = connection_](LatestWork::Run&) {
-    answering(*to, "probe", number,
-              [&] { send_answer(*to, "probe", number, probe_answer(served_, options, position)); });
+    answering(*to, "probe", number, [&] { send_answer(*to, "probe", number, probe_.answer(options, position)); });
   });
 }
 

@@ -10,6 +10,7 @@
 
 #include "serve/http_server.hpp"
 #include "serve/latest_work.hpp"
+#include "serve/live_probe.hpp"
 #include "serve/live_tile.hpp"
 #include "serve/served_store.hpp"
 
@@ -34,6 +35,7 @@ class LiveMap final : public LiveClient {
   const Document& options_of(const LiveNumber& number) const;
 
   ServedStore& served_;
+  LiveProbe probe_;
   std::string key_;
   std::shared_ptr<LiveConnection> connection_;
   bool welcome_ = false;

@@ -27,19 +27,21 @@ struct TileHeader {
 };
 static_assert(sizeof(TileHeader) == kTileHeader && std::is_trivially_copyable_v<TileHeader>);
 
-template <class Value>
-void append(const Value& value, std::string& bytes) {
-  bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+std::size_t padded(std::size_t bytes) {
+  return (bytes + kAlignment - 1) / kAlignment * kAlignment;
 }
 
 /// Appends every cell's value, then zeros up to a multiple of four bytes.
 template <class Value>
 void append_cells(const std::vector<Value>& values, const RasterGrid& grid, const viewshed::DecidedCells& cells,
                   std::string& bytes) {
-  for (std::int64_t row = 0; row < cells.rows; ++row)
-    for (std::int64_t column = 0; column < cells.columns; ++column)
-      append(values[grid.index(cells.at(column, row))], bytes);
-  bytes.resize((bytes.size() + kAlignment - 1) / kAlignment * kAlignment);
+  const std::size_t begin = bytes.size(), count = static_cast<std::size_t>(cells.columns * cells.rows);
+  bytes.resize(begin + padded(count * sizeof(Value)));
+  char* at = bytes.data() + begin;
+  for (std::int64_t row = 0; row < cells.rows; ++row) {
+    for (std::int64_t column = 0; column < cells.columns; ++column, at += sizeof(Value))
+      std::memcpy(at, &values[grid.index(cells.at(column, row))], sizeof(Value));
+  }
 }
 
 /// Calls visit(values) with the values that tiles have of a mode, if any.
@@ -82,7 +84,7 @@ void add_tile(const LiveNumber& number, const viewshed::Result& result, const vi
                     .row = origin.row + static_cast<std::int32_t>(cells.north_west.row),
                     .columns = static_cast<std::uint32_t>(cells.columns),
                     .rows = static_cast<std::uint32_t>(cells.rows)};
-  append(header, bytes);
+  bytes.resize(begin + sizeof header);
   append_cells(result.visible, result.grid, cells, bytes);
   with_values(result.values, [&](const auto& values) { append_cells(values, result.grid, cells, bytes); });
   header.bytes = static_cast<std::uint32_t>(bytes.size() - begin);

@@ -10,8 +10,8 @@ namespace itin::cli {
 
 /// What an answer repeats, so that the client knows what it answers.
 struct LiveNumber {
-  std::uint16_t id = 0;   ///< of a view or a line
-  std::uint32_t seq = 0;  ///< of the message
+  std::uint16_t id = 0;   ///< the number of a view or a line
+  std::uint32_t seq = 0;  ///< the number of the message
 };
 
 /// The place of a grid's north-west cell in the grid of all cells of that size, whose edges are multiples of the size

@@ -144,7 +144,7 @@ void show_view(ServedStore& served, const LiveNumber& number, const Document& op
   wait_for(to, run);
   ShownCells shown(number, to, run);
   const viewshed::Result result =
-      surface->compute(request, run, [&](const auto& decided, const auto& cells) { shown.add(decided, cells); });
+      surface->views.compute(request, run, [&](const auto& decided, const auto& cells) { shown.add(decided, cells); });
   shown.finish(result);
   Document done = done_document(served, number, view, result, std::move(warnings), run);
   done["seconds"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

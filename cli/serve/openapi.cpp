@@ -12,7 +12,7 @@ struct GetPath {
   const char* path;
   const char* summary;
   const char* type;
-  std::initializer_list<const char*> required_options;  ///< of the verb whose options the query has; empty: no query
+  std::initializer_list<const char*> required_options;  ///< those of the verb, where the query has its options
 };
 
 constexpr const char* kJson = "application/json";

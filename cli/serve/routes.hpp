@@ -13,8 +13,7 @@ namespace itin::cli {
 
 class Routes final : public HttpHandler {
  public:
-  /// `served` and `progress`, which ends what is being answered, must outlive the routes. Calls of jobs use `threads`;
-  /// 0: all.
+  /// `served` and `progress`, which ends what is being answered, must outlive the routes. Jobs use `threads`.
   Routes(ServedStore& served, Admission admission, int threads, Progress& progress);
 
   std::optional<HttpResponse> refusal(const HttpRequest& request) const override;

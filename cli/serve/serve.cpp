@@ -1,6 +1,6 @@
 // itin serve: the live map.
 
-#include <cstdlib>
+#include <algorithm>
 #include <iostream>
 #include <spawn.h>
 #include <unistd.h>
@@ -88,7 +88,7 @@ class ServeVerb final : public Verb {
                       place_.host));
     Admission admission(names(), server.port(), random_key());
     const std::string url = admission.url();
-    Routes routes(served, std::move(admission), thread_count(), progress);
+    Routes routes(served, std::move(admission), std::max(1, thread_count() / 2), progress);
     rasters.wait();
     std::cout << url << std::endl;
     if (open_) open_in_browser(url);

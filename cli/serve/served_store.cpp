@@ -22,18 +22,25 @@ std::string version_of(const std::string& path) {
 
 }  // namespace
 
+ServedSurface::ServedSurface(const Store& store, const Detail& detail, const ThemeChoice& themes,
+                             std::uint64_t memory_bytes)
+    : views(store, detail, themes, {.memory_bytes = memory_bytes / 2}),
+      lines(store, detail, themes, section_cache_within(memory_bytes)) {
+  if (themes.includes_raised(store.metadata().themes))
+    bare.emplace(store, detail, ThemeChoice::none(), section_cache_within(memory_bytes));
+}
+
 ServedStore::ServedStore(const std::string& path, std::uint64_t memory_bytes)
     : store_(path, cache_within(memory_bytes)), memory_bytes_(memory_bytes), version_(version_of(path)) {}
 
-std::shared_ptr<viewshed::PagedSurface> ServedStore::surface(const Detail& detail, const ThemeChoice& themes) {
+std::shared_ptr<ServedSurface> ServedStore::surface(const Detail& detail, const ThemeChoice& themes) {
   const std::string key = fmt::format("{} {}", detail.coarsest(), fmt::join(themes.names(metadata().themes), ","));
   const std::lock_guard lock(mutex_);
   const auto found = std::find_if(kept_.begin(), kept_.end(), [&](const Kept& kept) { return kept.key == key; });
   if (found != kept_.end()) {
     kept_.splice(kept_.begin(), kept_, found);
   } else {
-    const viewshed::ComputeOptions options{.memory_bytes = memory_bytes_ / 4};
-    kept_.push_front({key, std::make_shared<viewshed::PagedSurface>(store_, detail, themes, options)});
+    kept_.push_front({key, std::make_shared<ServedSurface>(store_, detail, themes, memory_bytes_ / kMostSurfaces)});
     if (kept_.size() > kMostSurfaces) kept_.pop_back();
   }
   return kept_.front().surface;

@@ -5,14 +5,25 @@
 #include <list>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 
+#include <itin/cross_section.hpp>
 #include <itin/detail.hpp>
 #include <itin/store.hpp>
 #include <itin/theme.hpp>
 #include <viewshed/held_surface.hpp>
 
 namespace itin::cli {
+
+/// A surface of the store, for viewsheds and for single lines. Safe for concurrent use.
+struct ServedSurface {
+  ServedSurface(const Store& store, const Detail& detail, const ThemeChoice& themes, std::uint64_t memory_bytes);
+
+  viewshed::PagedSurface views;
+  SectionSurface lines;
+  std::optional<SectionSurface> bare;  ///< the ground under raised features; nothing where there are none
+};
 
 /// Safe for concurrent use.
 class ServedStore {
@@ -28,12 +39,12 @@ class ServedStore {
 
   /// The surface at a tolerance with these themes. The two that were asked for last are kept. Throws InputError for
   /// themes that the store does not have.
-  std::shared_ptr<viewshed::PagedSurface> surface(const Detail& detail, const ThemeChoice& themes);
+  std::shared_ptr<ServedSurface> surface(const Detail& detail, const ThemeChoice& themes);
 
  private:
   struct Kept {
     std::string key;
-    std::shared_ptr<viewshed::PagedSurface> surface;
+    std::shared_ptr<ServedSurface> surface;
   };
 
   Store store_;

@@ -1,8 +1,10 @@
 // Live views, probes and lines, by WebSocket.
+#include <chrono>
 #include <cmath>
 #include <csignal>
 #include <map>
 #include <set>
+#include <thread>
 
 #include <fmt/format.h>
 #include <gdal_priv.h>
@@ -284,6 +286,20 @@ TEST_F(ServeLive, LivesOnWhenClientsGo) {
   client.send(view(3, {{"observer", "301000,171000,5"}, {"cell", 1}, {"mode", "height"}}));
   client.read_until("begun");
   EXPECT_EQ(server_->end(SIGINT).status, 130);
+}
+
+TEST_F(ServeLive, WaitsForNoSlowClient) {
+  WebSocketClient slow(*server_);
+  WebSocketClient::welcome(slow, *server_);
+  const Json options = {{"observer", "301000,171000,5"}, {"cell", 1}, {"mode", "height"}};
+  for (int id = 0; id < 8; ++id) slow.send({{"type", "view"}, {"id", id}, {"seq", 1}, {"options", options}});
+  std::this_thread::sleep_for(std::chrono::seconds(2));
+  WebSocketClient client(*server_);
+  WebSocketClient::welcome(client, *server_);
+  client.send(view(2, {{"observer", "301000,171000,5"}, {"cell", 50}}));
+  EXPECT_EQ(client.read_until("done").at("seq"), 2);
+  // It gets everything in the end.
+  for (int done = 0; done < 8; ++done) slow.read_until("done");
 }
 
 TEST_F(ServeLive, ProbesAsLinesOfSight) {
