@@ -133,7 +133,9 @@ class Socket : public std::enable_shared_from_this<Socket> {
     if (waiting_.size() == 1) write();
   }
 
+  /// Begins to part; what the client says meanwhile is passed over.
   void close(websocket::close_code code) {
+    if (std::exchange(closing_, true)) return;
     stream_.async_close(code, [self = shared_from_this()](beast::error_code) {});
   }
 
@@ -156,7 +158,7 @@ class Socket : public std::enable_shared_from_this<Socket> {
   void take() {
     const std::string text = beast::buffers_to_string(buffer_.data());
     buffer_.consume(buffer_.size());
-    if (ended_) return;
+    if (closing_) return read();  // to the end of the closing handshake
     if (!stream_.got_text()) {
       close(websocket::close_code::unknown_data);
     } else if (client_->take(text)) {
@@ -164,7 +166,7 @@ class Socket : public std::enable_shared_from_this<Socket> {
     } else {
       close(websocket::close_code::policy_error);
     }
-    read();  // to the end of the closing handshake, too
+    read();
   }
 
   void write() {
@@ -191,7 +193,7 @@ class Socket : public std::enable_shared_from_this<Socket> {
   std::unique_ptr<LiveClient> client_;
   std::deque<Message> waiting_;
   std::shared_ptr<std::atomic<std::size_t>> unsent_;
-  bool heard_ = false, ended_ = false;
+  bool heard_ = false, closing_ = false, ended_ = false;
 };
 
 /// Hands messages over to the thread of the network, which alone keeps the socket alive.

@@ -68,6 +68,21 @@ Document done_document(const ServedStore& served, const LiveNumber& number, cons
   return done;
 }
 
+/// Throws InputError where the cells are more than a live view may have.
+void require_few_cells(const ServedStore& served, const viewshed::Request& request) {
+  if (!request.cell_size) return;
+  const Box data = served.metadata().grid.box(served.metadata().bounds);
+  Box asked;
+  for (const viewshed::Observer& observer : request.observers)
+    asked.extend(intersection(data, request.radius ? square_about(observer.position, *request.radius) : data));
+  const double cells = asked.width() / *request.cell_size * (asked.height() / *request.cell_size);
+  if (cells > static_cast<double>(served.most_cells()))
+    throw InputError(
+        fmt::format("--cell: {:.3g} cells are too many for a live view, which has at most {}; give a larger "
+                    "--cell, a smaller --radius, or the server more --memory",
+                    cells, served.most_cells()));
+}
+
 /// Waits for a client that is far behind, so that no more than one result waits for it.
 void wait_for(const LiveConnection& client, const Progress& progress) {
   while (client.unsent() > kMostUnsent) {
@@ -140,8 +155,10 @@ void show_view(ServedStore& served, const LiveNumber& number, const Document& op
   take_view(options, view);
   std::vector<std::string> warnings;
   const viewshed::Request& request = view.complete(served.metadata(), warnings);
+  require_few_cells(served, request);
   const auto surface = served.surface(request.detail, request.themes);
   wait_for(to, run);
+  const CallPlace place(served.places(), run);
   ShownCells shown(number, to, run);
   const viewshed::Result result =
       surface->views.compute(request, run, [&](const auto& decided, const auto& cells) { shown.add(decided, cells); });

@@ -1,6 +1,7 @@
 #include "serve/served_store.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <sys/stat.h>
 
 #include <fmt/format.h>
@@ -13,6 +14,10 @@ namespace itin::cli {
 namespace {
 
 constexpr std::size_t kMostSurfaces = 2;
+/// The memory that a running call has for each of its cells.
+constexpr std::uint64_t kBytesPerCell = 8;
+constexpr std::uint64_t kPartForCalls = 8;
+constexpr std::chrono::milliseconds kBetweenTries{5};
 
 std::string version_of(const std::string& path) {
   struct stat status {};
@@ -28,6 +33,14 @@ ServedSurface::ServedSurface(const Store& store, const Detail& detail, const The
       lines(store, detail, themes, section_cache_within(memory_bytes)) {
   if (themes.includes_raised(store.metadata().themes))
     bare.emplace(store, detail, ThemeChoice::none(), section_cache_within(memory_bytes));
+}
+
+CallPlace::CallPlace(Places& places, const Progress& progress) : places_(places) {
+  while (!places_.try_acquire_for(kBetweenTries)) progress.throw_if_cancelled();
+}
+
+std::uint64_t ServedStore::most_cells() const {
+  return memory_bytes_ / kPartForCalls / CallPlace::kMost / kBytesPerCell;
 }
 
 ServedStore::ServedStore(const std::string& path, std::uint64_t memory_bytes)

@@ -1,15 +1,18 @@
 // The store that is served, and the surfaces of it that are kept in memory for live views.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <list>
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <semaphore>
 #include <string>
 
 #include <itin/cross_section.hpp>
 #include <itin/detail.hpp>
+#include <itin/progress.hpp>
 #include <itin/store.hpp>
 #include <itin/theme.hpp>
 #include <viewshed/held_surface.hpp>
@@ -25,6 +28,23 @@ struct ServedSurface {
   std::optional<SectionSurface> bare;  ///< the ground under raised features; nothing where there are none
 };
 
+/// A place among the calls that run at once, so that together they stay within the memory. It is given back at the end
+/// of its life.
+class CallPlace {
+ public:
+  static constexpr std::ptrdiff_t kMost = 4;
+  using Places = std::counting_semaphore<kMost>;
+
+  /// Waits for a place. Throws Cancelled.
+  CallPlace(Places& places, const Progress& progress);
+  ~CallPlace() { places_.release(); }
+  CallPlace(const CallPlace&) = delete;
+  CallPlace& operator=(const CallPlace&) = delete;
+
+ private:
+  Places& places_;
+};
+
 /// Safe for concurrent use.
 class ServedStore {
  public:
@@ -34,6 +54,9 @@ class ServedStore {
   const Store& store() const { return store_; }
   const StoreMetadata& metadata() const { return store_.metadata(); }
   std::uint64_t memory_bytes() const { return memory_bytes_; }
+  /// The most cells that a call may have, so that all that run at once take an eighth of the memory.
+  std::uint64_t most_cells() const;
+  CallPlace::Places& places() { return places_; }
   /// A text that is another one for another store, or for a store that has been replaced.
   const std::string& version() const { return version_; }
 
@@ -50,6 +73,7 @@ class ServedStore {
   Store store_;
   std::uint64_t memory_bytes_;
   std::string version_;
+  CallPlace::Places places_{CallPlace::kMost};
   std::mutex mutex_;
   std::list<Kept> kept_;  ///< the one used last first
 };

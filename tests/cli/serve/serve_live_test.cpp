@@ -224,6 +224,7 @@ TEST_F(ServeLive, TellsWhatIsWrongAndGoesOn) {
   expect_view({{"observer", hill}, {"radius", "0"}}, "--radius", "");
   expect_view({{"observer", hill}, {"radius", Json::array({Json::object()})}}, "--radius", "expected a text");
   expect_view({{"observer", hill}, {"cell", 1000000}, {"radius", 500}}, "--cell", "larger than the radius");
+  expect_view({{"observer", hill}, {"cell", 0.05}}, "--cell", "too many for a live view");
   expect_view({{"observer", hill}, {"mode", "which"}}, "--mode", "visible, count, angle, height, probability");
   expect_view({{"observer", hill}, {"mode", "certified"}}, "--mode", "live views have");
   expect_view({{"observer", hill}, {"rings", "100:1"}}, "--rings", "one tolerance");
@@ -291,15 +292,15 @@ TEST_F(ServeLive, LivesOnWhenClientsGo) {
 TEST_F(ServeLive, WaitsForNoSlowClient) {
   WebSocketClient slow(*server_);
   WebSocketClient::welcome(slow, *server_);
-  const Json options = {{"observer", "301000,171000,5"}, {"cell", 1}, {"mode", "height"}};
-  for (int id = 0; id < 8; ++id) slow.send({{"type", "view"}, {"id", id}, {"seq", 1}, {"options", options}});
+  const Json options = {{"observer", "301000,171000,5"}, {"cell", 2}, {"mode", "height"}};
+  for (int id = 0; id < 4; ++id) slow.send({{"type", "view"}, {"id", id}, {"seq", 1}, {"options", options}});
   std::this_thread::sleep_for(std::chrono::seconds(2));
   WebSocketClient client(*server_);
   WebSocketClient::welcome(client, *server_);
   client.send(view(2, {{"observer", "301000,171000,5"}, {"cell", 50}}));
   EXPECT_EQ(client.read_until("done").at("seq"), 2);
   // It gets everything in the end.
-  for (int done = 0; done < 8; ++done) slow.read_until("done");
+  for (int done = 0; done < 4; ++done) slow.read_until("done");
 }
 
 TEST_F(ServeLive, ProbesAsLinesOfSight) {

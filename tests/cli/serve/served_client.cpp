@@ -78,6 +78,10 @@ void ClientSocket::send(std::string_view bytes) {
   }
 }
 
+void ClientSocket::finish() {
+  shutdown(socket_, SHUT_WR);
+}
+
 std::string ClientSocket::read_until(std::string_view end) {
   std::string text;
   for (char c = 0; !text.ends_with(end) && recv(socket_, &c, 1, 0) == 1;) text += c;
@@ -149,7 +153,7 @@ void WebSocketClient::welcome(WebSocketClient& client, const ServedProgram& serv
   client.read_until("welcome");
 }
 
-void WebSocketClient::send(Opcode opcode, const std::string& payload) {
+std::string WebSocketClient::frame_of(Opcode opcode, const std::string& payload) {
   std::string frame(1, static_cast<char>(0x80 | opcode));
   if (payload.size() < 126) {
     frame += static_cast<char>(0x80 | payload.size());
@@ -159,7 +163,7 @@ void WebSocketClient::send(Opcode opcode, const std::string& payload) {
     frame += static_cast<char>(payload.size() & 0xff);
   }
   // The mask is zero, which is a mask.
-  socket_.send(frame + std::string(4, '\0') + payload);
+  return frame + std::string(4, '\0') + payload;
 }
 
 std::optional<WebSocketClient::Frame> WebSocketClient::read() {
@@ -172,6 +176,7 @@ std::optional<WebSocketClient::Frame> WebSocketClient::read() {
     for (const char byte : socket_.read(bytes_of_size)) size = size * 256 + static_cast<unsigned char>(byte);
     Frame frame{head[0] & 0x0f, socket_.read(size)};
     if (frame.opcode != kPing) return frame;
+    send(kPong, frame.payload);
   }
 }
 

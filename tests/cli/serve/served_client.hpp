@@ -27,6 +27,8 @@ class ClientSocket {
   ClientSocket& operator=(const ClientSocket&) = delete;
 
   void send(std::string_view bytes);
+  /// Says that nothing more will be sent.
+  void finish();
   /// Reads until the text that has been read ends so; less where the server closes.
   std::string read_until(std::string_view end);
   /// Reads so many bytes; less where the server closes.
@@ -85,8 +87,10 @@ class WebSocketClient {
   static void welcome(WebSocketClient& client, const ServedProgram& server);
 
   void send(const Json& message) { send(kText, message.dump()); }
-  void send(Opcode opcode, const std::string& payload);
+  void send(Opcode opcode, const std::string& payload) { socket_.send(frame_of(opcode, payload)); }
   void send_raw(std::string_view bytes) { socket_.send(bytes); }
+  void finish() { socket_.finish(); }
+  static std::string frame_of(Opcode opcode, const std::string& payload);
   /// The next frame that is no ping; nothing where the server has hung up.
   std::optional<Frame> read();
   /// The next text message of this type; others go by. Throws where none comes.

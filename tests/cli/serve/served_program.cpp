@@ -9,6 +9,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <gtest/gtest.h>
+
 #include "cli/shell.hpp"
 
 namespace itin::test {
@@ -68,7 +70,9 @@ ServedProgram::ServedProgram(const std::vector<std::string>& arguments) {
 }
 
 ServedProgram::~ServedProgram() {
-  if (process_ != 0) end(SIGTERM);
+  if (process_ == 0) return;
+  const End told = end(SIGTERM);
+  EXPECT_EQ(told.status, 130) << told.errors;
 }
 
 ServedProgram::End ServedProgram::end(int signal) {

@@ -12,7 +12,7 @@ class ServedProgram {
  public:
   /// Starts the program, and waits until it has said where it listens. `arguments` follow `itin serve --port 0`.
   explicit ServedProgram(const std::vector<std::string>& arguments);
-  /// Ends it, if it runs.
+  /// Ends it, if it runs, and expects that it has lived until then.
   ~ServedProgram();
   ServedProgram(const ServedProgram&) = delete;
   ServedProgram& operator=(const ServedProgram&) = delete;
