@@ -133,10 +133,10 @@ class Socket : public std::enable_shared_from_this<Socket> {
     if (waiting_.size() == 1) write();
   }
 
-  /// Begins to part; what the client says meanwhile is passed over.
+  /// Begins to part, which passes over what the client says meanwhile: nothing else may read then.
   void close(websocket::close_code code) {
     if (std::exchange(closing_, true)) return;
-    stream_.async_close(code, [self = shared_from_this()](beast::error_code) {});
+    stream_.async_close(code, [self = shared_from_this()](beast::error_code) { self->end(); });
   }
 
   /// Parts from the client, which ends elsewhere, for it waits for its work.
@@ -158,7 +158,7 @@ class Socket : public std::enable_shared_from_this<Socket> {
   void take() {
     const std::string text = beast::buffers_to_string(buffer_.data());
     buffer_.consume(buffer_.size());
-    if (closing_) return read();  // to the end of the closing handshake
+    if (closing_) return;
     if (!stream_.got_text()) {
       close(websocket::close_code::unknown_data);
     } else if (client_->take(text)) {
@@ -166,7 +166,7 @@ class Socket : public std::enable_shared_from_this<Socket> {
     } else {
       close(websocket::close_code::policy_error);
     }
-    read();
+    if (!closing_) read();
   }
 
   void write() {
