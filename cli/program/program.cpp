@@ -84,6 +84,7 @@ std::vector<std::unique_ptr<Verb>> make_verbs() {
   verbs.push_back(make_los_verb());
   verbs.push_back(make_site_verb());
   verbs.push_back(make_premises_verb());
+  verbs.push_back(make_serve_verb());
   return verbs;
 }
 

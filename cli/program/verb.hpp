@@ -52,5 +52,6 @@ std::unique_ptr<Verb> make_profile_verb();
 std::unique_ptr<Verb> make_los_verb();
 std::unique_ptr<Verb> make_site_verb();
 std::unique_ptr<Verb> make_premises_verb();
+std::unique_ptr<Verb> make_serve_verb();
 
 }  // namespace itin::cli

@@ -2,17 +2,14 @@
 
 #include <filesystem>
 #include <future>
-#include <optional>
 
 #include <fmt/format.h>
 
 #include <itin/beside.hpp>
-#include <itin/coordinates.hpp>
 #include <itin/error.hpp>
 #include <itin/gdal_ready.hpp>
 #include <itin/sources_in.hpp>
 #include <itin/store.hpp>
-#include <itin/store_scale.hpp>
 #include <viewshed/documents.hpp>
 #include <viewshed/exact_cost.hpp>
 #include <viewshed/hidden_eyes.hpp>
@@ -20,25 +17,18 @@
 #include <viewshed/result_raster.hpp>
 #include <viewshed/viewshed.hpp>
 
-#include "options/detail_options.hpp"
-#include "options/earth_options.hpp"
-#include "options/engine_option.hpp"
 #include "options/memory_option.hpp"
-#include "options/nodata_option.hpp"
-#include "options/observer_options.hpp"
 #include "options/sheet_options.hpp"
-#include "options/surface_options.hpp"
 #include "output/store_document.hpp"
 #include "program/call_files.hpp"
-#include "program/field_names.hpp"
 #include "program/help.hpp"
 #include "program/verb.hpp"
 #include "viewshed/feature_raster.hpp"
 #include "viewshed/horizon_output.hpp"
+#include "viewshed/view_options.hpp"
+#include "viewshed/view_warnings.hpp"
 #include "viewshed/viewshed_outputs.hpp"
-#include "viewshed/viewshed_radio.hpp"
 #include "viewshed/viewshed_sheet.hpp"
-#include "viewshed/viewshed_targets.hpp"
 #include "viewshed/viewshed_text.hpp"
 
 namespace itin::cli {
@@ -62,42 +52,12 @@ class ViewshedVerb final : public Verb {
 
   void declare(CLI::App& app) override {
     reads(app.add_option("STORE", store_, "The store")->required());
-    observers_.declare(app);
-    targets_.declare(app);
-    begin_group(app, "What each cell has");
-    app.add_option(
-           "--mode", mode_text_,
-           "One of these:\n"
-           "visible - whether any observer sees it (default)\n"
-           "certified - certainly visible, certainly hidden, or undecided at this tolerance\n"
-           "count - how many observers see it\n"
-           "which - one bit for each observer, in UInt32 bands of 32\n"
-           "nearest - two bands: distance and number of the nearest observer that sees it\n"
-           "angle - elevation angle of the sight line in degrees, the greatest of several observers; at an observer's "
-           "own place -90 or 90, and 0 at the height of its eye\n"
-           "height - the least height above the ground at which a target is seen, metres; no value where none is or is "
-           "known\n"
-           "blocker - two bands: theme and feature of what first hides it from the nearest observer; none where the "
-           "target itself is below the ground, 4294967294 where ground without data comes first\n"
-           "probability - two bands: the probability of being visible under --vertical-error, and 1, 0 or 2 for "
-           "visible, hidden or undecided as the heights are stored")
-        ->type_name("MODE");
-    app.add_option("--vertical-error", sigma_text_, "Standard deviation of heights, for --mode probability")
-        ->type_name("METRES");
-    app.add_option("--error-correlation", correlation_text_,
-                   "L: errors x apart are correlated as exp(-x / L) (default: 0, independent)")
-        ->type_name("METRES");
+    view_.declare_view(app);
     outputs_.declare(app);
     features_.declare(app);
     sheet_.declare_file(app);
     horizon_.declare(app);
-    radio_.declare(app);
-    detail_.declare(app, "the observer");
-    themes_.declare(app);
-    earth_.declare(app);
-    nodata_.declare(app);
-    app.add_flag("--precise", precise_, "Exact for the full surface: the same as --tolerance 0");
-    engine_.declare(app);
+    view_.declare_surface(app);
     memory_.declare(app, kReadInParts);
   }
 
@@ -106,38 +66,15 @@ class ViewshedVerb final : public Verb {
     features_.validate();
     sheet_.validate();
     outputs_.validate(other_outputs());
-    observers_.validate();
-    targets_.validate(observers_, request_);
-    detail_.validate();
-    themes_.validate();
-    request_.themes = themes_.choice();
-    earth_.validate();
-    request_.earth = earth_.earth();
-    request_.engine = engine_.engine();
-    radio_.validate();
-    if (!mode_text_.empty()) parse_mode();
-    if (radio_.is_given()) radio_.complete(request_);
-    request_.nodata = nodata_.rule();
-    validate_vertical_error();
-    validate_precise();
+    view_.validate();
+    compute_options_.memory_bytes = memory_.bytes().value_or(compute_options_.memory_bytes);
   }
 
   Document parameters() const override {
-    Document parameters{{"store", store_}, {"observers", observers_document(request_.observers)}};
-    parameters.update(observers_.parameters());
+    Document parameters{{"store", store_}};
+    parameters.update(view_.observer_parameters());
     parameters.update(horizon_.parameters());
-    parameters["mode"] = mode_name();
-    parameters["precise"] = precise_;
-    parameters.update(targets_.parameters(request_));
-    if (request_.mode == viewshed::Mode::kProbability) {
-      parameters["vertical_error_m"] = request_.vertical_error.sigma;
-      parameters["error_correlation_m"] = request_.vertical_error.correlation_length;
-    }
-    parameters.update(radio_.parameters());
-    parameters["observer_on"] = request_.observers_on_surface ? "surface" : "ground";
-    parameters.update(detail_.parameters());
-    parameters.update(themes_.parameters());
-    parameters["nodata"] = nodata_.text();
+    parameters.update(view_.parameters());
     return parameters;
   }
 
@@ -146,30 +83,22 @@ class ViewshedVerb final : public Verb {
     const Store store(store_, cache_within(compute_options_.memory_bytes));
     const StoreMetadata& metadata = store.metadata();
     Result result;
-    earth_.take_body_of(metadata);
-    request_.earth = earth_.earth();
-    complete_request(metadata, result.warnings);
-    request_.themes.check(metadata.themes);
-    features_.require_themes(metadata, request_.themes);
-    if (!horizon_.paths().empty() && request_.observers.size() > 1)
+    const viewshed::Request& request = view_.complete(metadata, result.warnings);
+    horizon_.read_targets(request, view_.targets(), view_.observers().in_crs(), metadata, result.warnings);
+    request.themes.check(metadata.themes);
+    features_.require_themes(metadata, request.themes);
+    if (!horizon_.paths().empty() && request.observers.size() > 1)
       throw InputError("--horizon is that of one observer; give one");
-    outputs_.prepare(request_);
+    outputs_.prepare(request);
     compute_options_.whole_surface = outputs_.draws_map() || !horizon_.paths().empty();
-    viewshed::ViewshedWithSurface computed = survey(store, request_, progress);
+    viewshed::ViewshedWithSurface computed = survey(store, request, progress);
     const viewshed::MissingGround missing = viewshed::missing_ground(store, computed.result, progress);
-    const std::vector<SourceInfo> sources = sources_in(store, looked_at(computed.result), request_.themes);
-    const ViewshedOutputs::Context context{metadata, certified_, missing, described(sources, metadata)};
-    result.warnings.insert(result.warnings.end(), computed.result.warnings.begin(), computed.result.warnings.end());
-    if (const auto warning = missing.warning("the area looked at")) result.warnings.push_back(in_options(*warning));
-    if (computed.result.cells.in_view() == 0)
-      result.warnings.emplace_back(
-          "no cell has its centre in view of an observer and on ground data: check --cell, --radius and the field of "
-          "view");
-    warn_of_grid(metadata, result.warnings);
-    if (radio_.is_given()) earth_.warn_of_light(result.warnings);
+    const std::vector<SourceInfo> sources = sources_in(store, looked_at(computed.result), request.themes);
+    const ViewshedOutputs::Context context{metadata, view_.certified(), missing, described(sources, metadata)};
+    add_view_warnings(metadata, view_, computed.result, missing, result.warnings);
     // Certified and exact answers are about the full surface.
     viewshed::Request answered = computed.result.request;
-    if (precise_ || certified_) answered.detail = Detail::tolerance(0);
+    if (view_.precise() || view_.certified()) answered.detail = Detail::tolerance(0);
     // The horizon comes before the other files, for it refuses targets that no line reaches.
     const Document targets =
         horizon_.write(store, computed, answered, compute_options_, outputs_.overwrite(), progress, result.warnings);
@@ -180,18 +109,18 @@ class ViewshedVerb final : public Verb {
     if (!answered.observers_on_surface)
       viewshed::warn_of_hidden_eyes(store, {"observer", eyes_of(computed.result), answered.detail, answered.themes},
                                     result.warnings);
-    const Document features = features_.write(store, computed.result.grid, {answered.detail, request_.themes},
-                                              outputs_.overwrite(), progress);
+    const Document features =
+        features_.write(store, computed.result.grid, {answered.detail, request.themes}, outputs_.overwrite(), progress);
     result.document = viewshed::viewshed_document(metadata, computed.result);
     viewshed::add_missing_ground(missing, result.document);
     result.document["sources"] = sources_document(sources);
     result.document["outputs"] = outputs_.paths();
     if (!features.is_null()) result.document["features"] = features;
-    if (request_.mode == viewshed::Mode::kBlocker)
+    if (request.mode == viewshed::Mode::kBlocker)
       result.document["blockers"] = viewshed::blockers_document(store, computed.result);
     if (!targets.empty()) result.document["horizon_targets"] = targets;
     result.text = text(metadata, computed.result, missing);
-    if (!certified_ && viewshed::exact_costs_no_more(store, computed.result.request))
+    if (!view_.certified() && viewshed::exact_costs_no_more(store, computed.result.request))
       result.text += "the exact answer takes no longer over this raster: leave out --tolerance\n";
     return result;
   }
@@ -211,44 +140,8 @@ class ViewshedVerb final : public Verb {
     return paths;
   }
 
-  void parse_mode() {
-    if (radio_.is_given())
-      throw InputError("--frequency judges Fresnel zones, or losses with --loss, and nothing else: leave out --mode");
-    // The modes of radio come last, and have options of their own.
-    const auto modes = viewshed::mode_names().first(viewshed::mode_names().size() - 2);
-    std::vector<std::string_view> choices(modes.begin(), modes.end());
-    choices.emplace_back("certified");  // the name by which certificates tell the visible
-    const std::size_t mode = parse_choice("--mode", mode_text_, choices);
-    certified_ = choices[mode] == "certified";
-    request_.mode = certified_ ? viewshed::Mode::kVisible : static_cast<viewshed::Mode>(mode);
-  }
-  std::string mode_name() const { return viewshed::mode_name(request_.mode, certified_); }
-
-  void validate_vertical_error() {
-    const bool wanted = request_.mode == viewshed::Mode::kProbability;
-    if (wanted != !sigma_text_.empty())
-      throw InputError("--mode probability and --vertical-error METRES need each other; give both");
-    if (!wanted && !correlation_text_.empty()) throw InputError("--error-correlation works only with --vertical-error");
-    viewshed::VerticalError& error = request_.vertical_error;
-    if (wanted) error.sigma = parse_number("--vertical-error", sigma_text_, Range::kPositive);
-    if (!correlation_text_.empty())
-      error.correlation_length = parse_number("--error-correlation", correlation_text_, Range::kNotNegative);
-  }
-
-  void validate_precise() {
-    compute_options_.memory_bytes = memory_.bytes().value_or(compute_options_.memory_bytes);
-    const bool exact = !certified_ && !detail_.has_rings() && !request_detail_given();
-    if (precise_ && certified_)
-      throw InputError(
-          "--precise is exact, and --mode certified says what a tolerance leaves open: give one of the two");
-    if (precise_ && !exact)
-      throw InputError("--precise is exact for the full surface: leave out --tolerance and --rings");
-    precise_ = exact;  // even if it was not asked for by this name
-  }
-  bool request_detail_given() const { return detail_.detail({}).coarsest() > 0; }
-
   viewshed::ViewshedWithSurface survey(const Store& store, const viewshed::Request& request, Progress& progress) const {
-    if (certified_) return viewshed::compute_certified(store, request, compute_options_, progress);
+    if (view_.certified()) return viewshed::compute_certified(store, request, compute_options_, progress);
     return viewshed::compute_with_surface(store, request, compute_options_, progress);
   }
   viewshed::Result compute_for_observer(const Store& store, const viewshed::ViewshedWithSurface& all,
@@ -258,44 +151,23 @@ class ViewshedVerb final : public Verb {
                      : survey(store, request, progress).result;
   }
 
-  /// Completes the request from the store's CRS and the fields of files.
-  void complete_request(const StoreMetadata& metadata, std::vector<std::string>& warnings) {
-    targets_.complete(metadata, request_);
-    request_.observers = observers_.observers(metadata, request_, targets_.height_given(), warnings);
-    if (detail_.has_rings() && request_.observers.size() > 1) {
-      throw InputError("--rings lie about one observer; for several give --tolerance");
-    }
-    request_.detail = detail_.detail(request_.observers.front().position);
-    horizon_.read_targets(request_, targets_, observers_.in_crs(), metadata, warnings);
-  }
-
   std::string text(const StoreMetadata& metadata, const viewshed::Result& result,
                    const viewshed::MissingGround& missing) const {
     std::string text;
     for (const std::string& path : outputs_.paths())
       text += fmt::format("{}: {}\n", path, readable_bytes(std::filesystem::file_size(path)));
-    return text + observers_.text() + targets_.text(request_) + viewshed_text(metadata, result, missing);
+    return text + view_.observers().text() + view_.targets().text(view_.request()) +
+           viewshed_text(metadata, result, missing);
   }
 
-  std::string store_, mode_text_;
+  std::string store_;
+  ViewOptions view_;
   MemoryOption memory_;
-  std::string sigma_text_, correlation_text_;
-  bool certified_ = false, precise_ = false;
   viewshed::ComputeOptions compute_options_;
-  ObserverOptions observers_;
-  ViewshedTargets targets_;
-  DetailOptions detail_;
-  ThemeOptions themes_;
-  EarthOptions earth_;
-  NoDataOption nodata_;
-  EngineOption engine_;
-  ViewshedRadio radio_;
   ViewshedOutputs outputs_;
   SheetOptions sheet_;
   HorizonOutput horizon_;
   FeatureRaster features_;
-
-  viewshed::Request request_;
 };
 
 }  // namespace

@@ -1,0 +1,39 @@
+// What the server answers, by path.
+#pragma once
+
+#include <itin/progress.hpp>
+
+#include "serve/admission.hpp"
+#include "serve/http_server.hpp"
+#include "serve/jobs.hpp"
+#include "serve/served_store.hpp"
+#include "serve/tile_grid.hpp"
+
+namespace itin::cli {
+
+class Routes final : public HttpHandler {
+ public:
+  /// `served` and `progress`, which ends what is being answered, must outlive the routes. Jobs use `threads`.
+  Routes(ServedStore& served, Admission admission, int threads, Progress& progress);
+
+  std::optional<HttpResponse> refusal(const HttpRequest& request) const override;
+  HttpResponse answer(const HttpRequest& request) override;
+  std::unique_ptr<LiveClient> open(std::shared_ptr<LiveConnection> connection) override;
+
+ private:
+  HttpResponse routed(const HttpRequest& request);
+  HttpResponse get(const HttpRequest& request);
+  HttpResponse tile(const std::string& path, bool may_be_kept);
+  HttpResponse start_job(const HttpRequest& request);
+  HttpResponse job(const HttpRequest& request, const std::string& path);
+  HttpResponse job_file(const std::string& id, const std::string& name) const;
+
+  ServedStore& served_;
+  Admission admission_;
+  int threads_;
+  Progress& progress_;
+  TileGrid grid_;
+  Jobs jobs_;
+};
+
+}  // namespace itin::cli
