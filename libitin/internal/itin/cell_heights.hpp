@@ -5,8 +5,12 @@
 
 #include <vector>
 
+#include <itin/detail.hpp>
+#include <itin/progress.hpp>
 #include <itin/raster.hpp>
 #include <itin/store.hpp>
+#include <itin/theme.hpp>
+#include <itin/tin.hpp>
 #include <itin/window.hpp>
 
 namespace itin {
