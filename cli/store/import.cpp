@@ -114,7 +114,7 @@ class ImportVerb final : public Verb {
   void declare_sources(CLI::App& app) {
     begin_group(app, "Sources");
     writes(app.add_option("STORE", store_, "The store, created if there is none")->required());
-    reads(app.add_option("SOURCE", options_.sources, "Rasters, point files, LAS, or layers of lines and polygons")
+    reads(app.add_option("SOURCE", options_.sources, "Rasters, point files, LAS, LAZ, or layers of lines and polygons")
               ->required());
     app.add_option(
            "--kind", kind_,
@@ -210,7 +210,7 @@ class ImportVerb final : public Verb {
   void declare_terrain(CLI::App& app) {
     begin_group(app, "Terrain");
     app.add_option("--band", band_, "The band of rasters that holds heights (default: their only one)")->type_name("N");
-    app.add_option("--class", classes_, "LAS: only these classes (default: all but noise, 7 and 18)")
+    app.add_option("--class", classes_, "LAS and LAZ: only these classes (default: all but noise, 7 and 18)")
         ->type_name("C,C...");
     app.add_option("--max-gap", max_gap_,
                    "Scattered points and contours: no ground across wider gaps (default: 100 times their mean spacing)")

@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <limits>
 #include <numeric>
 #include <optional>
+#include <span>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <itin/cell_heights.hpp>
 #include <itin/coordinates.hpp>
 #include <itin/document.hpp>
 #include <itin/error.hpp>
@@ -28,6 +31,7 @@
 #include "program/help.hpp"
 #include "program/values.hpp"
 #include "program/verb.hpp"
+#include "tin/surface_raster.hpp"
 
 namespace itin::cli {
 
@@ -43,8 +47,11 @@ class TinVerb final : public Verb {
     window_.declare(app);
     begin_group(app, kOutputs);
     writes(
-        app.add_option("-o,--output", output_, "What to write: .ply, .obj, .glb, .gpkg or .geojson; a topology: .json")
+        app.add_option("-o,--output", output_,
+                       "What to write: triangles (.ply, .obj, .glb, .gpkg, .geojson; .2dm, a mesh layer for QGIS), a "
+                       "topology (.json), or the heights of the surface as a raster (.tif)")
             ->type_name("FILE"));
+    surface_.declare(app);
     app.add_option("--topology", topology_, "Write this structure of the triangulation: triangle, vertex or edge")
         ->type_name("KIND");
     app.add_option("--lines", lines_,
@@ -55,7 +62,8 @@ class TinVerb final : public Verb {
     picture_.declare(app, "the surface");
     detail_.declare(app, "the middle of the window (the centre of a disc, the apex of a wedge)");
     themes_.declare(app);
-    memory_.declare(app, "Memory to work in, for example 2G; a window that needs more is refused (default: no limit)");
+    memory_.declare(
+        app, "Memory to work in, for example 2G; a window or a raster that needs more is refused (default: no limit)");
     policy_.declare(app);
   }
 
@@ -72,6 +80,12 @@ class TinVerb final : public Verb {
     if (!lines_.empty() && output_.empty())
       throw InputError("--lines: give --output FILE.gpkg or FILE.geojson with it");
     if (!lines_.empty() && kind_) throw InputError("--lines and --topology write different files: give one of them");
+    surface_.validate(output_);
+    if (names_geotiff(output_) && (kind_ || !lines_.empty() || !picture_.path().empty()))
+      throw InputError(
+          fmt::format("--output '{}': --image, --lines and --topology are about triangles; give them in "
+                      "another call",
+                      output_));
   }
 
   Document parameters() const override {
@@ -84,18 +98,13 @@ class TinVerb final : public Verb {
 
   Result execute(Progress& progress) override {
     for (const std::string& path : outputs()) policy_.require_writable(path);
-    if (kind_) {
-      require_topology_output(output_, policy_.overwrite);
-    } else if (!lines_.empty()) {
-      require_lines_output(output_, policy_.overwrite);
-    } else if (!output_.empty()) {
-      require_tin_output(output_, policy_.overwrite);
-    }
+    require_format();
     const Store store(store_, cache_within(memory_.bytes()));
     const auto [window, centre] = window_.region(store.metadata());
     const Detail detail = detail_.detail(centre);
     const ThemeChoice themes = themes_.choice().with_ground_lines();
     themes.check(store.metadata().themes);
+    if (names_geotiff(output_)) return write_raster_of(store, window, detail, themes, progress);
     const std::vector<std::uint16_t> lines = line_themes(store.metadata(), themes);
     require_memory(points_about(store, window, detail, themes));
     const Tin tin = triangulate(store, window, detail, progress, themes);
@@ -114,11 +123,53 @@ class TinVerb final : public Verb {
   }
 
  private:
+  /// Throws where the output cannot be written in the form that is asked for.
+  void require_format() const {
+    if (kind_) {
+      require_topology_output(output_, policy_.overwrite);
+    } else if (!lines_.empty()) {
+      require_lines_output(output_, policy_.overwrite);
+    } else if (!output_.empty() && !names_geotiff(output_)) {
+      require_tin_output(output_, policy_.overwrite);
+    }
+  }
+
+  Result write_raster_of(const Store& store, const Window& window, const Detail& detail, const ThemeChoice& themes,
+                         Progress& progress) const {
+    const StoreMetadata& metadata = store.metadata();
+    const RasterGrid grid = surface_.grid(metadata, window, window_.no_ground(metadata), memory_.bytes());
+    const CellHeights heights = cell_heights(store, {grid, window}, detail, themes, progress);
+    const Document surface = surface_document(metadata, detail, themes);
+    RasterDescription description;
+    description.crs_wkt = metadata.crs_wkt;
+    description.nodata = std::numeric_limits<double>::quiet_NaN();
+    description.band_name = "elevation of the surface, metres";
+    description.metadata = {{"itin", ITIN_VERSION}, {"surface", json_text(surface)}};
+    description.overwrite = policy_.overwrite;
+    write_raster(output_, grid, std::span<const float>(heights.metres), description, progress);
+    Result result;
+    result.document["crs"] = crs_identifier(metadata.crs_wkt);
+    result.document["surface"] = surface;
+    const std::string cells = describe(grid, heights, result.document);
+    result.document["outputs"] = outputs();
+    result.document["statistics"] = {{"points_read", heights.statistics.points_read},
+                                     {"blocks_read", heights.statistics.blocks_read}};
+    result.text = fmt::format("{}: {}, {}\n{}", output_, cells, readable_bytes(std::filesystem::file_size(output_)),
+                              read_in_words(heights.statistics));
+    warn_of_grid(metadata, result.warnings);
+    return result;
+  }
+
+  static std::string read_in_words(const RetrievalStatistics& read) {
+    return fmt::format("read {} in {}\n", counted(read.points_read, "point"), counted(read.blocks_read, "block"));
+  }
+
   /// The query without the names of files, on which the output must not depend.
   Document query() const {
     Document query = window_.parameters();
     query.update(detail_.parameters());
     query.update(themes_.parameters());
+    query.update(surface_.parameters());
     if (kind_) query["topology"] = topology_;
     if (!lines_.empty()) query["lines"] = lines_;
     return query;
@@ -213,8 +264,7 @@ class TinVerb final : public Verb {
       text += fmt::format("{}: {}, {}, {}\n", path, counted(tin.vertices.size(), "vertex", "vertices"),
                           counted(tin.triangles.size(), "triangle"), readable_bytes(std::filesystem::file_size(path)));
     }
-    return text + fmt::format("read {} in {}\n", counted(tin.statistics.points_read, "point"),
-                              counted(tin.statistics.blocks_read, "block"));
+    return text + read_in_words(tin.statistics);
   }
 
   std::vector<std::string> outputs() const {
@@ -228,6 +278,7 @@ class TinVerb final : public Verb {
   std::vector<std::string> lines_;
   std::optional<std::size_t> joined_;  ///< lines written
   std::optional<TopologyKind> kind_;
+  SurfaceRaster surface_;
   PictureOptions picture_;
   WindowOptions window_;
   DetailOptions detail_;

@@ -6,6 +6,8 @@
 
 #include <itin/document.hpp>
 #include <itin/error.hpp>
+#include <itin/output_file.hpp>
+#include <viewshed/qgis_styles.hpp>
 #include <viewshed/theme_raster.hpp>
 
 #include "output/output_path.hpp"
@@ -29,9 +31,11 @@ RasterClass class_of(int number, const std::string& name) {
 
 void FeatureRaster::declare(CLI::App& app) {
   begin_group(app, kOutputs);
-  writes(app.add_option("--features", path_,
-                        "Also write which of --themes is under each cell's centre, by number, 0 for none (.tif)")
-             ->type_name("FILE"));
+  writes(
+      app.add_option("--features", path_,
+                     "Also write which of --themes is under each cell's centre, by number, 0 for none (.tif), with a "
+                     "QGIS style beside it (.qml)")
+          ->type_name("FILE"));
 }
 
 void FeatureRaster::validate() const {
@@ -77,6 +81,7 @@ Document FeatureRaster::write(const Store& store, const RasterGrid& grid, const 
     found.push_back({{"number", number}, {"theme", theme.name}, {"cells", cells[i + 1]}});
   }
   write_raster(path_, grid, std::span<const std::uint8_t>(values), description);
+  write_file(viewshed::style_beside(path_), viewshed::qgis_style(description.classes), overwrite);
   return found;
 }
 

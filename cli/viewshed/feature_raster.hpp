@@ -20,7 +20,7 @@ class FeatureRaster {
   void declare(CLI::App& app);
   /// Throws InputError.
   void validate() const;
-  /// The file to write, if any.
+  /// The raster to write, if any; its style for QGIS lies beside it.
   std::vector<std::string> paths() const;
 
   /// Throws InputError where a file is asked for, but no chosen theme stands on the ground or a number exceeds a byte.

@@ -90,6 +90,7 @@ class ViewshedVerb final : public Verb {
     if (!horizon_.paths().empty() && request.observers.size() > 1)
       throw InputError("--horizon is that of one observer; give one");
     outputs_.prepare(request);
+    for (const std::string& raster : features_.paths()) outputs_.claim_style(raster);
     compute_options_.whole_surface = outputs_.draws_map() || !horizon_.paths().empty();
     viewshed::ViewshedWithSurface computed = survey(store, request, progress);
     const viewshed::MissingGround missing = viewshed::missing_ground(store, computed.result, progress);

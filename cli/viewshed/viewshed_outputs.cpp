@@ -33,8 +33,8 @@ void ViewshedOutputs::declare(CLI::App& app) {
   writes(
       app.add_option(
              "-o,--output", outputs_,
-             "A raster to write, a GeoTIFF (.tif), with a QGIS style beside it (.qml) where it has no colours of its "
-             "own; or the regions of its classes as polygons, a GeoPackage (.gpkg); may be given again")
+             "A raster to write, a GeoTIFF (.tif), with a QGIS style beside it (.qml) but for the modes angle, height "
+             "and nearest; or the regions of its classes as polygons, a GeoPackage (.gpkg); may be given again")
           ->type_name("FILE")
           ->expected(1)
           ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll));
@@ -70,12 +70,16 @@ void ViewshedOutputs::prepare(const viewshed::Request& request) {
     }
   }
   for (const std::string& path : single_) policy_.claim(path);
-  if (viewshed::qgis_style(request).empty()) return;
+  if (!viewshed::has_qgis_style(request.mode)) return;
   for (const std::string& path : rasters()) {
-    policy_.claim(styles_.emplace_back(viewshed::style_beside(path)));
+    claim_style(path);
     if (folder_ && folder_->made() && fs::path(path).parent_path() == fs::path(each_))
       in_new_folder_.emplace_back(styles_.back());
   }
+}
+
+void ViewshedOutputs::claim_style(const std::string& raster) {
+  policy_.claim(styles_.emplace_back(viewshed::style_beside(raster)));
 }
 
 std::vector<std::string> ViewshedOutputs::rasters() const {

@@ -26,6 +26,9 @@ class ViewshedOutputs {
   /// Throws FileError where something cannot be written. Makes the directory of single observers, which is removed
   /// again unless write_each() completes it.
   void prepare(const viewshed::Request& request);
+  /// Lists the style that is written beside a raster among the outputs. Throws FileError as prepare() does, and
+  /// InputError where the call reads or writes that file already.
+  void claim_style(const std::string& raster);
 
   struct Context {
     const StoreMetadata& metadata;

@@ -46,6 +46,13 @@ class LittleEndian {
     for (std::size_t i = 0; i < sizeof(T); ++i) bytes.at(offset + i) = static_cast<char>(bits >> (8 * i) & 0xff);
   }
   template <class T>
+  static T get(const std::string& bytes, std::size_t offset) {
+    std::uint64_t bits = 0;
+    for (std::size_t i = 0; i < sizeof(T); ++i)
+      bits |= static_cast<std::uint64_t>(static_cast<unsigned char>(bytes.at(offset + i))) << (8 * i);
+    return static_cast<T>(bits);
+  }
+  template <class T>
   static void append(std::string& bytes, T value) {
     bytes.resize(bytes.size() + sizeof(T));
     put(bytes, bytes.size() - sizeof(T), value);

@@ -10,7 +10,7 @@
 The results are those of the command line, to the byte. Positions are in the store's CRS, lengths in metres.
 """
 
-from ._asked import Bounds, Earth, Grid, Observer, Place, Turbine, Verdict, Window
+from ._asked import Bounds, Earth, Grid, Observer, Place, Turbine, TurbinesToPlace, Verdict, Window
 from ._errors import CorruptStore, Error, FileError, InputError
 from ._imports import import_features, import_terrain
 from ._itin import allow_network, set_thread_count, thread_count
@@ -30,7 +30,7 @@ from ._results import (
     WrittenFile,
     ZoneStudy,
 )
-from ._store import HeldSurface, Store
+from ._store import HeldSurface, Store, Surface
 
 __all__ = [
     "Bounds",
@@ -52,9 +52,11 @@ __all__ = [
     "Profile",
     "SitePlan",
     "Store",
+    "Surface",
     "Theme",
     "Tin",
     "Turbine",
+    "TurbinesToPlace",
     "Verdict",
     "Viewshed",
     "Window",

@@ -8,6 +8,8 @@ from dataclasses import dataclass
 from enum import IntEnum
 from typing import Any, Literal, NamedTuple
 
+from numpy.typing import ArrayLike
+
 from . import _itin
 from ._errors import InputError
 
@@ -195,6 +197,32 @@ class Turbine:
     name: str = ""
     farm: str = ""
     radius: float | None = None
+
+
+@dataclass(frozen=True)
+class TurbinesToPlace:
+    """The wind turbines that ``Store.site()`` places where they are seen least. Two of their sizes imply the third.
+
+    Attributes:
+        tip_height: Metres above the ground at their feet, as ``hub_height`` is.
+        hub_height: Metres.
+        rotor_diameter: Metres.
+        minimise: What is to be least: the demand that sees a tip, or a hub; or the visible height of all turbines.
+        spacing: No turbine stands within an ellipse about another: half its axes along and across the wind, metres, and
+            the direction that the wind comes from, degrees.
+        dwellings: Positions, shape (n, 2), that turbines keep ``setback`` metres away from.
+        setback: Metres.
+        farm: The farm's name in tables.
+    """
+
+    tip_height: float | None = None
+    hub_height: float | None = None
+    rotor_diameter: float | None = None
+    minimise: Literal["tips", "hubs", "height"] = "tips"
+    spacing: tuple[float, float, float] | None = None
+    dwellings: ArrayLike | None = None
+    setback: float = 0.0
+    farm: str = "proposed"
 
 
 Window = _itin.Window

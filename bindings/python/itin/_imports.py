@@ -49,7 +49,7 @@ def import_terrain(
 
     Args:
         store: The store's file.
-        sources: Rasters, LAS, point files: one or several.
+        sources: Rasters, LAS, LAZ, point files: one or several.
         crs: The CRS of sources that do not name one; overrides those that do.
         to_crs: The CRS of a new store. By default that of the first source if it is metric, else a UTM zone.
         z_field: The height attribute of point layers and CSV.

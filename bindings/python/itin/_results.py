@@ -270,8 +270,8 @@ class Viewshed(_OverGrid):
     def write(self, path: Path, *, overwrite: bool = False, progress: Progress | None = None) -> None:
         """Writes the bytes that ``itin viewshed -o`` writes.
 
-        A GeoTIFF (.tif), with a QGIS style beside it (.qml) where it has no colours of its own; or the regions of its
-        classes as polygons (.gpkg).
+        A GeoTIFF (.tif), with a QGIS style beside it (.qml) but for the modes angle, height and nearest; or the regions
+        of its classes as polygons (.gpkg).
 
         Raises:
             InputError: Another ending.
@@ -402,6 +402,14 @@ class ZoneStudy(_OverGrid):
     def screened(self) -> dict[str, NDArray[Any]] | None:
         """The same with the features that stand on the ground; None where no theme was asked for."""
         return self._core.visibility(True)
+
+    @property
+    def radar_height_m(self) -> NDArray[np.float32] | None:
+        """The least height above the ground that the radar sees, a view of shape (rows, columns); None without a radar.
+
+        NaN above 1000 m, and where there is no ground.
+        """
+        return self._core.radar_height_m
 
     def write(
         self, folder: Path, *, overwrite: bool = False, progress: Progress | None = None

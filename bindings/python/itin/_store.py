@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, Literal, cast
 
 import numpy as np
@@ -22,6 +22,7 @@ from ._asked import (
     Progress,
     Themes,
     Turbine,
+    TurbinesToPlace,
     Window,
     fields_of,
     given,
@@ -84,6 +85,23 @@ def _observers(observers: ObserverLike | Sequence[ObserverLike]) -> list[dict[st
     return [fields_of(o if isinstance(o, Observer) else Observer(*o)) for o in several]
 
 
+def _rings(
+    rings: Sequence[tuple[float, float]], tolerance: float, observers: Sequence[Mapping[str, Any]]
+) -> dict[str, Any]:
+    """Returns the fields of rings about the one observer."""
+    if not rings:
+        return {}
+    if tolerance != 0:
+        raise InputError("`rings`: they have tolerances of their own; leave out `tolerance`", "rings")
+    if len(observers) != 1:
+        raise InputError("`rings`: they lie about one observer; for several give `tolerance`", "rings")
+    (observer,) = observers
+    return {
+        "centre": (observer["x"], observer["y"]),
+        "rings": [(float(radius), float(limit)) for radius, limit in rings],
+    }
+
+
 def _places(places: Iterable[Place] | None) -> list[dict[str, Any]] | None:
     return None if places is None else [fields_of(place) for place in places]
 
@@ -96,17 +114,11 @@ def _named(places: Iterable[Place] | None) -> list[dict[str, Any]] | None:
     return fields
 
 
-class HeldSurface:
-    """The surface of an area, read once for many viewsheds. Safe in threads."""
+class _InMemory:
+    """A surface that is in memory."""
 
-    def __init__(self, core: _itin.HeldSurface, tolerance: float, themes: Themes) -> None:
-        self._core = core
-        self._surface = _surface(tolerance, themes)
-
-    @property
-    def bytes(self) -> int:
-        """About how much memory it takes."""
-        return self._core.bytes
+    _core: _itin.HeldSurface | _itin.Surface
+    _surface: dict[str, Any]
 
     def viewshed(
         self,
@@ -128,14 +140,54 @@ class HeldSurface:
         mode: Mode = "visible",
         progress: Progress | None = None,
     ) -> Viewshed:
-        """Computes what ``Store.viewshed()`` does, equal to the last bit, at this surface's tolerance and themes.
+        """Computes what ``Store.viewshed()`` does, equal to the last bit, on this surface.
 
         Raises:
-            InputError: Also where sight lines leave the area.
+            InputError: Also where sight lines leave the area that a store's surface is held of.
         """
         fields = given({k: v for k, v in locals().items() if k not in ("self", "observers", "progress")})
         fields["observers"] = _observers(observers)
         return Viewshed(self._core.viewshed(fields | self._surface, progress))
+
+
+class HeldSurface(_InMemory):
+    """The surface of an area, read once for many viewsheds. Safe in threads."""
+
+    _core: _itin.HeldSurface
+
+    def __init__(self, core: _itin.HeldSurface, tolerance: float, themes: Themes) -> None:
+        self._core = core
+        self._surface = _surface(tolerance, themes)
+
+    @property
+    def bytes(self) -> int:
+        """About how much memory it takes."""
+        return self._core.bytes
+
+
+class Surface(_InMemory):
+    """The surface through an array of heights, for viewsheds without a store. Safe in threads.
+
+    Its triangles lie between the centres of the grid's cells, as those of a store of that raster do.
+
+    Args:
+        heights: Metres, shape (rows, columns), from north to south; NaN where there is no ground.
+        grid: The cells.
+        crs: The CRS, as WKT, for what is written; empty where it is not known.
+        resolution: Heights, and distances from the first cell, are rounded to it, metres.
+
+    Raises:
+        InputError: Another shape than the grid's, a resolution that does not suit it, or no ground.
+    """
+
+    _core: _itin.Surface
+
+    def __init__(self, heights: ArrayLike, grid: Grid, *, crs: str = "", resolution: float = 0.01) -> None:
+        array = np.ascontiguousarray(heights, dtype=np.float32)
+        if array.shape != grid.shape:
+            raise InputError(f"`heights`: the shape is {array.shape}, where the grid has {grid.shape}", "heights")
+        self._core = _itin.Surface(array, tuple_of(grid), crs, resolution)
+        self._surface = _surface(0.0, "none")
 
 
 class Store:
@@ -368,6 +420,7 @@ class Store:
         grid: Grid | None = None,
         earth: Earth = Earth(),
         tolerance: float = 0.0,
+        rings: Sequence[tuple[float, float]] = (),
         themes: Themes = "all",
         observers_on_surface: bool = False,
         targets_on_surface: bool = False,
@@ -394,6 +447,8 @@ class Store:
             elevation: The field of view, degrees above the horizontal.
             cell_size: Of the raster's cells. None: a round size for at most 2048 cells on a side.
             grid: The cells, in place of ``cell_size``.
+            rings: Of one observer, radius and tolerance in metres, nearest first, in place of ``tolerance``:
+                ((500, 0), (2000, 1), (10000, 4)). Beyond the last ring its tolerance still holds.
             observers_on_surface: Observers stand on the roofs and tops of ``themes``.
             targets_on_surface: Targets do.
             mode: What each cell has, besides its verdict; see ``Viewshed.values``. ``certified`` says what is certain of
@@ -415,6 +470,7 @@ class Store:
             raise InputError(f"`frequency_ghz`: the mode {mode} needs a frequency", "frequency_ghz")
         fields["observers"] = _observers(observers)
         fields["themes"] = names_of(themes)
+        fields |= _rings(fields.pop("rings"), tolerance, fields["observers"])
         return Viewshed(self._core.viewshed(fields, progress))
 
     def hold(
@@ -444,6 +500,7 @@ class Store:
         search_area: Window | None = None,
         spacing: float = 1000.0,
         masts: Sequence[tuple[float, float]] = ((20.0, 1.0),),
+        turbines: TurbinesToPlace | None = None,
         on_surface: bool = False,
         forbidden: Window | None = None,
         existing: Iterable[Place] | None = None,
@@ -473,6 +530,8 @@ class Store:
             candidates: Where a mast may stand; or None, and candidates are proposed in ``search_area``.
             search_area: Two candidates or so are proposed from the terrain in each square of ``spacing``.
             masts: Heights and costs of masts to choose from, (metres, cost).
+            turbines: Places wind turbines instead, as ``itin site --turbines``: those that are seen least. ``demand`` is
+                then who sees them.
             on_surface: Sites stand on the roofs and tops of ``themes``.
             forbidden: Where no site may stand.
             existing: Sites that serve already.
@@ -496,6 +555,10 @@ class Store:
         fields = given({k: v for k, v in locals().items() if k not in _PLACES and k not in ("self", "progress")})
         fields["themes"] = names_of(themes)
         fields["masts"] = [(float(height), float(cost)) for height, cost in masts]
+        if turbines is not None:
+            fields["turbines"] = fields_of(turbines)
+            if turbines.dwellings is not None:
+                fields["turbines"]["dwellings"] = _numbers(turbines.dwellings)
         fields |= given({"candidates": _named(candidates), "existing": _named(existing), "hub": hub and fields_of(hub)})
         if isinstance(demand, tuple) and len(demand) == 2 and isinstance(demand[0], Grid):
             fields["demand_grid"] = tuple_of(demand[0])
@@ -509,6 +572,11 @@ class Store:
         turbines: Path | Iterable[Turbine],
         *,
         turbine_crs: str = "",
+        viewpoints: Path | Iterable[Place] | None = None,
+        viewpoint_height: float = 2.0,
+        routes: Path | Mapping[str, ArrayLike] | None = None,
+        route_step: float = 100.0,
+        radar: tuple[float, float, float] | None = None,
         radius: float | None = None,
         observer_height: float = 2.0,
         cell_size: float | None = None,
@@ -525,6 +593,11 @@ class Store:
         Args:
             turbines: Turbines, or a file of them as ``itin ztv --turbines`` takes it.
             turbine_crs: The CRS of a file that states none.
+            viewpoints: Places, or a file of them, from which each turbine is looked at.
+            viewpoint_height: Of eyes there, metres above the ground, where a place has none of its own.
+            routes: Roads and paths by name, the corners of each of shape (n, 2); or a file of lines.
+            route_step: The greatest distance between the places along a route that are looked from.
+            radar: (x, y, height above the bare ground): a radar whose horizon is computed; see ``ZoneStudy.radar_height_m``.
             radius: How far turbines are looked for, metres. None: by their tips, or each turbine's own.
             observer_height: Of the eyes above the bare ground.
             cell_size: Metres; 50 where neither it nor ``grid`` is given.
@@ -540,4 +613,12 @@ class Store:
             fields["turbines"] = os.fspath(turbines)
         else:
             fields["turbines"] = [fields_of(t) | given({"radius": t.radius or radius}) for t in turbines]
+        if isinstance(viewpoints, (str, os.PathLike)):
+            fields["viewpoints"] = os.fspath(viewpoints)
+        elif viewpoints is not None:
+            fields["viewpoints"] = _places(viewpoints)
+        if isinstance(routes, (str, os.PathLike)):
+            fields["routes"] = os.fspath(routes)
+        elif routes is not None:
+            fields["routes"] = [(name, _numbers(corners)) for name, corners in routes.items()]
         return ZoneStudy(self._core.ztv(fields, progress))

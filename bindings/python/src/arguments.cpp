@@ -40,6 +40,13 @@ std::vector<Point3> places_of(const Numbers& array, const char* field) {
 }
 
 Detail detail_of(const py::dict& fields) {
+  if (fields.contains("rings")) {
+    const auto centre = fields["centre"].cast<std::pair<double, double>>();
+    std::vector<Ring> rings;
+    for (const auto& [radius, tolerance] : fields["rings"].cast<std::vector<std::pair<double, double>>>())
+      rings.push_back({radius, tolerance});
+    return Detail::rings({centre.first, centre.second}, std::move(rings));
+  }
   double tolerance = 0;
   take(fields, "tolerance", tolerance);
   return Detail::tolerance(tolerance);
@@ -51,7 +58,7 @@ ThemeChoice themes_of(const py::dict& fields) {
   return ThemeChoice::parse(themes);
 }
 
-Earth earth_of(const py::dict& fields, const Store& store) {
+Earth earth_of(const py::dict& fields, const std::string& crs_wkt) {
   Earth earth;
   std::optional<double> radius;
   if (fields.contains("earth")) {
@@ -61,7 +68,7 @@ Earth earth_of(const py::dict& fields, const Store& store) {
     radius = given[2].cast<std::optional<double>>();
     earth.effective_factor = given[3].cast<std::optional<double>>();
   }
-  const CelestialBody body = body_of(store.metadata().crs_wkt);
+  const CelestialBody body = body_of(crs_wkt);
   if (radius || !body.is_earth) earth.radius = radius.value_or(body.mean_radius_m());
   earth.validate();
   return earth;

@@ -34,12 +34,13 @@ void take(const py::dict& fields, const char* name, Value& value) {
 std::vector<Point2> points_of(const Numbers& array, const char* field);
 std::vector<Point3> places_of(const Numbers& array, const char* field);
 
-/// Reads `tolerance` and `themes`, which are "all" by default.
+/// Reads `tolerance`, or `rings` (a list of radius and tolerance) about a `centre`; and `themes`, which are "all" by
+/// default.
 Detail detail_of(const py::dict& fields);
 ThemeChoice themes_of(const py::dict& fields);
 /// Reads `earth`: (curvature, refraction, radius or None, effective factor or None). The radius is by default that of
-/// the body of the store's CRS.
-Earth earth_of(const py::dict& fields, const Store& store);
+/// the body of the CRS (WKT).
+Earth earth_of(const py::dict& fields, const std::string& crs_wkt);
 /// Reads `nodata`: "unknown", "block" or "clear".
 NoData nodata_of(const py::dict& fields);
 /// Reads `polarisation`: "h" by default, or "v".

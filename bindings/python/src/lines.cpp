@@ -97,7 +97,7 @@ profile::StoreLine line_of(const Point3& from, const Point3& to, const py::dict&
 profile::LosQuery query_of(const Store& store, const Point3& from, const Point3& to, const py::dict& fields) {
   profile::LosQuery query;
   query.from_height_m = from.z, query.to_height_m = to.z;
-  query.earth = earth_of(fields, store);
+  query.earth = earth_of(fields, store.metadata().crs_wkt);
   query.radio = radio_of(fields, query.earth);
   query.criteria = criteria_of(fields);
   query.nodata = nodata_of(fields);
@@ -174,7 +174,7 @@ LinkColumns survey(const Store& store, const std::vector<Point3>& from, const st
 
 profile::LinkQuery link_query(const Store& store, const py::dict& fields) {
   profile::LinkQuery query;
-  query.earth = earth_of(fields, store);
+  query.earth = earth_of(fields, store.metadata().crs_wkt);
   query.detail = detail_of(fields);
   query.themes = themes_of(fields);
   query.radio = radio_of(fields, query.earth);

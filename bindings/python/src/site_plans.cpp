@@ -1,11 +1,14 @@
 // Choices of sites.
+#include <array>
 #include <memory>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include <itin/error.hpp>
 #include <viewshed/site_plan.hpp>
+#include <viewshed/zone_study.hpp>
 
 #include "arguments.hpp"
 #include "arrays.hpp"
@@ -62,12 +65,45 @@ std::vector<viewshed::Mast> masts_of(const py::dict& fields) {
   return masts;
 }
 
+/// Turbines to place are a dictionary of their fields; two of their sizes imply the third.
+viewshed::TurbinePlacement placement_of(const py::dict& fields) {
+  viewshed::TurbinePlacement placement;
+  viewshed::TurbineSize size;
+  take(fields, "hub_height", size.hub);
+  take(fields, "rotor_diameter", size.rotor);
+  take(fields, "tip_height", size.tip);
+  if (size.hub.has_value() + size.rotor.has_value() + size.tip.has_value() < 2)
+    throw InputError("`turbines`: give two of hub_height, rotor_diameter and tip_height", "turbines");
+  size.complete();
+  placement.hub_height = *size.hub, placement.rotor_diameter = *size.rotor, placement.tip_height = *size.tip;
+  if (!(placement.rotor_diameter > 0))
+    throw InputError("`turbines`: the tip is no higher than the hub; give rotor_diameter", "turbines");
+  std::string minimised = "tips";
+  take(fields, "minimise", minimised);
+  placement.minimised = static_cast<viewshed::Minimised>(choice_of(minimised, {"tips", "hubs", "height"}, "minimise"));
+  if (fields.contains("spacing")) {
+    const auto spacing = fields["spacing"].cast<std::array<double, 3>>();
+    placement.spacing = viewshed::TurbineSpacing{spacing[0], spacing[1], spacing[2]};
+  }
+  if (fields.contains("dwellings")) {
+    viewshed::SiteDwellings& dwellings = placement.dwellings.emplace();
+    dwellings.source = "dwellings";
+    dwellings.points = points_of(fields["dwellings"].cast<Numbers>(), "dwellings");
+    take(fields, "setback", dwellings.setback);
+  }
+  take(fields, "farm", placement.farm);
+  return placement;
+}
+
 viewshed::SitePlanRequest plan_request_of(const py::dict& fields, const Store& store) {
   viewshed::SitePlanRequest request;
   request.candidates = places_of_list(fields, "candidates");
   if (fields.contains("search_area")) request.search_area = fields["search_area"].cast<Window>();
   take(fields, "spacing", request.spacing);
-  if (fields.contains("masts")) request.masts = masts_of(fields);
+  if (fields.contains("turbines"))
+    request.turbines = placement_of(fields["turbines"].cast<py::dict>());
+  else if (fields.contains("masts"))
+    request.masts = masts_of(fields);
   take(fields, "on_surface", request.on_surface);
   if (fields.contains("forbidden")) request.forbidden = fields["forbidden"].cast<Window>();
   request.existing = places_of_list(fields, "existing");
@@ -83,7 +119,7 @@ viewshed::SitePlanRequest plan_request_of(const py::dict& fields, const Store& s
   take(fields, "cover", request.cover);
   take(fields, "intervisible", request.intervisible);
   if (fields.contains("hub")) request.hub = place_of(fields["hub"].cast<py::dict>());
-  request.earth = earth_of(fields, store);
+  request.earth = earth_of(fields, store.metadata().crs_wkt);
   request.themes = themes_of(fields);
   request.nodata = nodata_of(fields);
   take(fields, "memory_bytes", request.memory_bytes);

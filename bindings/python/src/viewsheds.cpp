@@ -1,12 +1,14 @@
 // Viewsheds over a store, and over surfaces that are held for many of them.
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <itin/file_ending.hpp>
 #include <itin/gdal_ready.hpp>
+#include <itin/tin.hpp>
 #include <viewshed/held_surface.hpp>
 #include <viewshed/missing_ground.hpp>
 #include <viewshed/result_files.hpp>
@@ -25,11 +27,19 @@ namespace {
 
 using viewshed::Request;
 
+/// A result, and what it was computed on: `metadata` is the store's, or that of an array, which has no store.
 struct Viewshed {
   SharedStore store;
+  std::shared_ptr<const StoreMetadata> metadata;
   viewshed::Result result;
   bool certified = false;
 };
+
+std::shared_ptr<Viewshed> viewshed_on(const SharedStore& store, viewshed::Result result, bool certified) {
+  // The metadata live as long as the store.
+  const std::shared_ptr<const StoreMetadata> metadata(store, &store->metadata());
+  return std::make_shared<Viewshed>(Viewshed{store, metadata, std::move(result), certified});
+}
 
 std::optional<viewshed::AngleRange> angles_of(const py::dict& fields, const char* name) {
   if (!fields.contains(name)) return std::nullopt;
@@ -71,7 +81,7 @@ bool take_mode(const py::dict& fields, Request& request) {
 }
 
 /// Returns the request of a call, and whether what is certain is asked for.
-std::pair<Request, bool> request_of(const py::dict& fields, const Store& store) {
+std::pair<Request, bool> request_of(const py::dict& fields, const std::string& crs_wkt) {
   Request request;
   for (const py::handle observer : fields["observers"])
     request.observers.push_back(observer_of(observer.cast<py::dict>()));
@@ -83,7 +93,7 @@ std::pair<Request, bool> request_of(const py::dict& fields, const Store& store) 
   request.elevation = angles_of(fields, "elevation");
   take(fields, "cell_size", request.cell_size);
   if (fields.contains("grid")) request.grid = grid_of(fields["grid"].cast<py::tuple>());
-  request.earth = earth_of(fields, store);
+  request.earth = earth_of(fields, crs_wkt);
   request.detail = detail_of(fields);
   request.themes = themes_of(fields);
   take(fields, "observers_on_surface", request.observers_on_surface);
@@ -97,7 +107,7 @@ std::pair<Request, bool> request_of(const py::dict& fields, const Store& store) 
 }
 
 std::shared_ptr<Viewshed> viewshed_of(const SharedStore& store, const py::dict& fields, const py::object& show) {
-  const auto [request, certified] = request_of(fields, *store);
+  const auto [request, certified] = request_of(fields, store->metadata().crs_wkt);
   viewshed::ComputeOptions options;
   options.whole_surface = false;
   take(fields, "memory_bytes", options.memory_bytes);
@@ -105,7 +115,7 @@ std::shared_ptr<Viewshed> viewshed_of(const SharedStore& store, const py::dict& 
     return certified ? viewshed::compute_certified(*store, request, options, progress).result
                      : viewshed::compute_with_surface(*store, request, options, progress).result;
   });
-  return std::make_shared<Viewshed>(Viewshed{store, std::move(result), certified});
+  return viewshed_on(store, std::move(result), certified);
 }
 
 // A surface that is held.
@@ -128,11 +138,37 @@ std::shared_ptr<Held> hold(const SharedStore& store, const py::tuple& area, cons
 }
 
 std::shared_ptr<Viewshed> viewshed_of_held(const Held& held, const py::dict& fields, const py::object& show) {
-  const auto [request, certified] = request_of(fields, *held.store);
+  const auto [request, certified] = request_of(fields, held.store->metadata().crs_wkt);
   if (certified) throw InputError("`mode`: what is held is decided exactly; give visible", "mode");
   auto result =
       result_of(show, [&, &request = request](Progress& progress) { return held.surface.compute(request, progress); });
-  return std::make_shared<Viewshed>(Viewshed{held.store, std::move(result), false});
+  return viewshed_on(held.store, std::move(result), false);
+}
+
+// A surface through an array of heights.
+
+struct Surface {
+  Tin tin;
+  std::shared_ptr<const StoreMetadata> metadata;
+};
+
+std::shared_ptr<Surface> surface_of_array(const py::array_t<float, py::array::c_style | py::array::forcecast>& heights,
+                                          const py::tuple& grid, const std::string& crs, double resolution) {
+  const std::span<const float> values(heights.data(), static_cast<std::size_t>(heights.size()));
+  const RasterGrid posts = grid_of(grid);
+  StoreMetadata metadata;
+  metadata.crs_wkt = crs;
+  metadata.levels.emplace_back();
+  Tin tin = surface_through(posts, values, resolution);
+  return std::make_shared<Surface>(Surface{std::move(tin), std::make_shared<const StoreMetadata>(std::move(metadata))});
+}
+
+std::shared_ptr<Viewshed> viewshed_of_surface(const Surface& surface, const py::dict& fields, const py::object& show) {
+  const auto [request, certified] = request_of(fields, surface.metadata->crs_wkt);
+  if (certified) throw InputError("`mode`: what is in memory is decided exactly; give visible", "mode");
+  auto result = result_of(
+      show, [&, &request = request](Progress& progress) { return viewshed::compute(surface.tin, request, progress); });
+  return std::make_shared<Viewshed>(Viewshed{nullptr, surface.metadata, std::move(result), false});
 }
 
 // What a viewshed tells.
@@ -192,10 +228,12 @@ void write_viewshed(const Viewshed& v, const std::string& path, bool overwrite, 
   const std::string ending = ending_of(path);
   if (ending != ".tif" && ending != ".tiff" && ending != ".gpkg")
     throw InputError("`path` '" + path + "': a viewshed is written as .tif or .gpkg", "path");
-  const StoreMetadata& metadata = v.store->metadata();
+  const StoreMetadata& metadata = *v.metadata;
   run(show, [&](Progress& progress) {
     if (ending == ".gpkg") {
-      const auto no_data = viewshed::cells_without_ground(*v.store, v.result, progress);
+      // Of an array it is not known which cells an observer looks at.
+      const auto no_data =
+          v.store ? viewshed::cells_without_ground(*v.store, v.result, progress) : std::vector<std::uint8_t>();
       return viewshed::write_polygons(path, v.result, metadata.crs_wkt, overwrite, no_data);
     }
     make_gdal_ready();
@@ -210,15 +248,18 @@ void bind_viewsheds(py::module_& module) {
       .def_property_readonly("verdict", &verdicts_of)
       .def_property_readonly("values", &values_of)
       .def_property_readonly("grid", [](const Viewshed& v) { return tuple_of(v.result.grid); })
-      .def_property_readonly("crs_wkt", [](const Viewshed& v) { return v.store->metadata().crs_wkt; })
+      .def_property_readonly("crs_wkt", [](const Viewshed& v) { return v.metadata->crs_wkt; })
       .def_property_readonly("cells", &cells_of)
       .def_property_readonly("ground_m", [](const Viewshed& v) { return v.result.ground_m; })
       .def_property_readonly("warnings", [](const Viewshed& v) { return v.result.warnings; })
-      .def_property_readonly("json", [](const Viewshed& v) { return viewshed::json_of(v.result, v.store->metadata()); })
+      .def_property_readonly("json", [](const Viewshed& v) { return viewshed::json_of(v.result, *v.metadata); })
       .def("write", &write_viewshed);
   py::class_<Held, std::shared_ptr<Held>>(module, "HeldSurface")
       .def_property_readonly("bytes", [](const Held& held) { return held.surface.bytes(); })
       .def("viewshed", &viewshed_of_held);
+  py::class_<Surface, std::shared_ptr<Surface>>(module, "Surface")
+      .def(py::init(&surface_of_array))
+      .def("viewshed", &viewshed_of_surface);
   store_class(module).def("viewshed", &viewshed_of).def("hold", &hold);
 }
 

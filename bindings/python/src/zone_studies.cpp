@@ -1,4 +1,5 @@
 // Studies of wind farms.
+#include <array>
 #include <memory>
 #include <string>
 #include <utility>
@@ -61,16 +62,55 @@ viewshed::TurbineTable turbines_of(const std::string& path, const py::dict& fiel
   return viewshed::read_turbines(file, store.metadata().crs_wkt);
 }
 
+viewshed::ViewpointTable viewpoints_of(const py::dict& fields, const Store& store) {
+  viewshed::ViewpointTable table;
+  if (!fields.contains("viewpoints")) return table;
+  double height = 2;
+  take(fields, "viewpoint_height", height);
+  const py::object given = fields["viewpoints"];
+  if (py::isinstance<py::str>(given))
+    return viewshed::read_viewpoints({.path = given.cast<std::string>()}, store.metadata().crs_wkt, height);
+  for (const py::handle place : given) {
+    const auto one = place.cast<py::dict>();
+    viewshed::Viewpoint viewpoint;
+    viewpoint.number = ++table.rows, viewpoint.height = height;
+    take(one, "name", viewpoint.name);
+    take(one, "x", viewpoint.position.x), take(one, "y", viewpoint.position.y);
+    take(one, "height", viewpoint.height);
+    table.viewpoints.push_back(viewpoint);
+    table.features.push_back(static_cast<std::int64_t>(table.rows) - 1);
+    table.places.push_back("viewpoint " + std::to_string(table.rows));
+  }
+  return table;
+}
+
+viewshed::RouteTable routes_of(const py::dict& fields, const Store& store) {
+  viewshed::RouteTable table;
+  if (!fields.contains("routes")) return table;
+  const py::object given = fields["routes"];
+  if (py::isinstance<py::str>(given)) return viewshed::read_routes(given.cast<std::string>(), store.metadata().crs_wkt);
+  for (const auto& [name, corners] : given.cast<std::vector<std::pair<std::string, Numbers>>>())
+    table.routes.push_back({name, points_of(corners, "routes")});
+  return table;
+}
+
 viewshed::ZoneStudyRequest study_request_of(const py::dict& fields, const Store& store) {
   viewshed::ZoneStudyRequest request;
   const py::object turbines = fields["turbines"];
   request.turbines = py::isinstance<py::str>(turbines) ? turbines_of(turbines.cast<std::string>(), fields, store)
                                                        : turbines_of(turbines.cast<py::list>());
+  request.viewpoints = viewpoints_of(fields, store);
+  request.routes = routes_of(fields, store);
+  take(fields, "route_step", request.route_step);
   viewshed::ZoneRequest& zone = request.zone;
+  if (fields.contains("radar")) {
+    const auto radar = fields["radar"].cast<std::array<double, 3>>();
+    zone.radar = viewshed::Observer{"radar", {radar[0], radar[1]}, radar[2]};
+  }
   take(fields, "observer_height", zone.observer_height);
   take(fields, "cell_size", zone.cell_size);
   if (fields.contains("grid")) zone.grid = grid_of(fields["grid"].cast<py::tuple>());
-  zone.earth = earth_of(fields, store);
+  zone.earth = earth_of(fields, store.metadata().crs_wkt);
   zone.detail = detail_of(fields);
   zone.themes = themes_of(fields);
   zone.nodata = nodata_of(fields);
@@ -106,6 +146,13 @@ py::object visibility_of(const py::object& self, bool screened) {
   return views;
 }
 
+/// A view of the least height above its ground that the radar sees in each cell; None without a radar.
+py::object radar_of(const py::object& self) {
+  const viewshed::Zone& zone = self.cast<const Study&>().study.zone;
+  if (!zone.radar) return py::none();
+  return view_of(zone.radar->height_m.data(), shape_of(zone.grid), self);
+}
+
 py::list write_study(const Study& s, const std::string& folder, bool overwrite, const py::object& show) {
   viewshed::ZoneStudyFileOptions options;
   options.overwrite = overwrite;
@@ -121,6 +168,7 @@ py::list write_study(const Study& s, const std::string& folder, bool overwrite, 
 void bind_zone_studies(py::module_& module) {
   py::class_<Study, std::shared_ptr<Study>>(module, "ZoneStudy")
       .def("visibility", [](const py::object& self, bool screened) { return visibility_of(self, screened); })
+      .def_property_readonly("radar_height_m", &radar_of)
       .def_property_readonly("grid", [](const Study& s) { return tuple_of(s.study.zone.grid); })
       .def_property_readonly("crs_wkt", [](const Study& s) { return s.study.metadata.crs_wkt; })
       .def_property_readonly("warnings", [](const Study& s) { return s.study.warnings; })

@@ -71,3 +71,50 @@ def test_a_wind_farm_is_the_command_line_s(cardiff: itin.Store, tmp_path: Path) 
         np.testing.assert_array_equal(values, again.bare[name], err_msg=name)
     assert study.screened is None or study.screened.keys() == study.bare.keys()
     assert study.bare["tip_count"].shape == study.grid.shape
+
+
+def test_a_wind_farm_s_viewpoints_routes_and_radar_are_the_command_line_s(cardiff: itin.Store, tmp_path: Path) -> None:
+    (tmp_path / "turbines.csv").write_text("x,y,hub_height,rotor_diameter\n310375,183525,80,90\n312000,185000,80,90\n")
+    (tmp_path / "views.csv").write_text("x,y,name,height\n308000,181000,Bridge,1.6\n314500,187500,Farm,1.6\n")
+    (tmp_path / "route.geojson").write_text(
+        '{"type":"FeatureCollection","crs":{"type":"name","properties":{"name":"EPSG:27700"}},"features":[{"type":"Feature",'
+        '"properties":{"name":"Lane"},"geometry":{"type":"LineString","coordinates":[[308000,181000],[309000,182500]]}}]}'
+    )
+    study = cardiff.ztv(
+        tmp_path / "turbines.csv",
+        cell_size=250,
+        radius=8000,
+        viewpoints=[itin.Place(308000, 181000, "Bridge", 1.6), itin.Place(314500, 187500, "Farm", 1.6)],
+        routes={"Lane": [(308000, 181000), (309000, 182500)]},
+        route_step=200,
+        radar=(310000, 180000, 15),
+    )
+    study.write(tmp_path / "ours")
+    files = ["--turbines", tmp_path / "turbines.csv", "--viewpoints", tmp_path / "views.csv"]
+    files += ["--route", tmp_path / "route.geojson", "--every", "200", "--radar", "310000,180000,15"]
+    run("ztv", cardiff.path, *files, "--radius", "8000", "--cell", "250", "-o", tmp_path / "theirs")
+    tables = sorted(path.name for path in (tmp_path / "theirs").glob("*.csv"))
+    assert any("viewpoint" in name for name in tables) and any("route" in name for name in tables)
+    for name in tables:
+        assert (tmp_path / "ours" / name).read_bytes() == (tmp_path / "theirs" / name).read_bytes(), name
+    assert study.radar_height_m is not None and study.radar_height_m.shape == study.grid.shape
+    assert np.nanmin(study.radar_height_m) == 0
+    assert cardiff.ztv(tmp_path / "turbines.csv", cell_size=500, radius=3000).radar_height_m is None
+
+
+def test_placed_turbines_are_the_command_line_s(cardiff: itin.Store, tmp_path: Path) -> None:
+    plan = cardiff.site(
+        search_area=itin.Window.box(308000, 182000, 312000, 186000),
+        spacing=1000,
+        turbines=itin.TurbinesToPlace(hub_height=80, rotor_diameter=90, spacing=(450, 270, 225)),
+        count=2,
+        radius=5000,
+        cell_size=200,
+    )
+    size = ["--hub-height", "80", "--rotor-diameter", "90", "--rotor-spacing", "5x3", "--wind-from", "225"]
+    area = ["--search-area", "POLYGON((308000 182000,312000 182000,312000 186000,308000 186000,308000 182000))"]
+    options = ["--spacing", "1000", "--count", "2", "--radius", "5000", "--cell", "200"]
+    run("site", cardiff.path, "--turbines", *area, *size, *options, "-o", tmp_path / "theirs")
+    document = json.loads((tmp_path / "theirs" / "site.json").read_text())
+    assert [(site.x, site.y) for site in plan.chosen] == [(site["x"], site["y"]) for site in document["chosen"]]
+    assert plan.value == document["value"]

@@ -1,4 +1,4 @@
-// Import of terrain, from rasters, point files and LAS to a store with its Delaunay pyramid, and of lines.
+// Import of terrain, from rasters, point files, LAS and LAZ to a store with its Delaunay pyramid, and of lines.
 //
 //   ImportOptions options;
 //   options.sources = {"ST17.asc", "ST18.asc"};

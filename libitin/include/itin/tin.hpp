@@ -8,11 +8,14 @@
 #include <array>
 #include <compare>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include <itin/geometry.hpp>
 
 namespace itin {
+
+class RasterGrid;
 
 /// The Morton code of a vertex's grid position: unique in a store, and equal in every query, level and import order.
 using VertexId = std::uint64_t;
@@ -66,5 +69,16 @@ struct Tin {
   /// The smallest box of all vertices, metres.
   Box bounds() const;
 };
+
+/// Returns the surface through heights at the centres of a raster's cells, which are the posts: what triangulate()
+/// gives for all of a store of that raster at tolerance 0, without a store. Heights are metres, row by row; where one
+/// is not finite, there is no post. Heights, and distances from the north-western post, are rounded to the resolution.
+///
+///   const Tin tin = surface_through(grid, heights);
+///   const viewshed::Result result = viewshed::compute(tin, request, progress);
+///
+/// O(n log n). Throws InputError for another number of heights, fewer than 2 columns or rows, a resolution that is not
+/// positive, a raster or heights beyond 2^31 times the resolution, and where there is no triangle.
+Tin surface_through(const RasterGrid& posts, std::span<const float> heights, double resolution = 0.01);
 
 }  // namespace itin

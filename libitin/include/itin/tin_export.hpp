@@ -7,7 +7,7 @@
 // The file name's ending chooses the format. Vertices and triangles keep their order in every format but .glb, where
 // the triangles of the ground come first and then those of each theme that stands on it. Where themes stand on the
 // ground, triangles say which theme they are part of: `ushort theme` in .ply (0 is ground), groups in .obj, a material
-// and a colour per theme in .glb, a property `theme` in .gpkg and .geojson, null on the ground.
+// and a colour per theme in .glb, a property `theme` in .gpkg and .geojson, null on the ground, a material in .2dm.
 //
 // .ply      binary, little-endian. Vertex properties: double x y z; uint id_high id_low, where the VertexId is
 //           id_high * 2^32 + id_low; ushort source. Faces: vertex_indices. Where there are lines, edges: int vertex1
@@ -24,6 +24,9 @@
 // .geojson  polygons with z in the store's CRS, named in the `crs` member of GeoJSON 2008, which GDAL and QGIS follow;
 //           the same properties; then, where there are lines, their edges with properties as in .gpkg. Ids are
 //           integers beyond 2^53: read them with 64 bits.
+// .2dm      text, a mesh layer for QGIS: nodes and triangles, each numbered from 1 in their order. The material of a
+//           triangle is 1 for ground, otherwise 1 plus the number of its theme. No ids and no CRS: it has no place for
+//           them.
 //
 // Coordinates are exact but for .glb: they quantise to the same grid positions as the Tin's.
 #pragma once

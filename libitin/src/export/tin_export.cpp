@@ -21,11 +21,12 @@ struct Format {
   Writer write;
 };
 
-constexpr std::array<Format, 5> kFormats{{{".ply", write_ply},
+constexpr std::array<Format, 6> kFormats{{{".ply", write_ply},
                                           {".obj", write_obj},
                                           {".glb", write_glb},
                                           {".gpkg", write_geopackage},
-                                          {".geojson", write_geojson}}};
+                                          {".geojson", write_geojson},
+                                          {".2dm", write_2dm}}};
 
 Writer writer_for(const std::string& path) {
   const std::string ending = ending_of(path);
@@ -33,8 +34,8 @@ Writer writer_for(const std::string& path) {
       std::find_if(kFormats.begin(), kFormats.end(), [&](const Format& f) { return f.ending == ending; });
   if (format == kFormats.end())
     throw InputError(
-        fmt::format("{}: a triangulation is not written as '{}'; end the name in .ply, .obj, .glb, .gpkg or "
-                    ".geojson",
+        fmt::format("{}: a triangulation is not written as '{}'; end the name in .ply, .obj, .glb, .gpkg, "
+                    ".geojson or .2dm",
                     path, ending));
   return format->write;
 }

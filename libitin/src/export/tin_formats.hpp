@@ -14,6 +14,7 @@ void write_obj(const Tin& tin, const PendingFile& output, const TinExportOptions
 void write_glb(const Tin& tin, const PendingFile& output, const TinExportOptions& options, Progress& progress);
 void write_geopackage(const Tin& tin, const PendingFile& output, const TinExportOptions& options, Progress& progress);
 void write_geojson(const Tin& tin, const PendingFile& output, const TinExportOptions& options, Progress& progress);
+void write_2dm(const Tin& tin, const PendingFile& output, const TinExportOptions& options, Progress& progress);
 void write_topology_json(const Tin& tin, TopologyKind kind, const PendingFile& output, const TinExportOptions& options,
                          Progress& progress);
 

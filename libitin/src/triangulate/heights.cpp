@@ -161,29 +161,4 @@ std::vector<std::optional<double>> heights_at(const Store& store, const std::vec
   return retrieve_heights(store, positions, detail, themes, progress).metres;
 }
 
-std::vector<float> heights_at(const Store& store, const RasterGrid& cells, const Detail& detail,
-                              const ThemeChoice& themes, Progress& progress) {
-  constexpr std::int64_t kSide = 256;  // cells of a tile, which are read together
-  std::vector<float> heights(cells.cell_count(), std::numeric_limits<float>::quiet_NaN());
-  SilentProgress quiet(progress);
-  for (std::int64_t row = 0; row < cells.rows(); row += kSide) {
-    for (std::int64_t column = 0; column < cells.columns(); column += kSide) {
-      std::vector<Point2> centres;
-      std::vector<std::size_t> of_cell;
-      for (std::int64_t r = row; r < std::min(row + kSide, cells.rows()); ++r) {
-        for (std::int64_t c = column; c < std::min(column + kSide, cells.columns()); ++c) {
-          centres.push_back(cells.centre(c, r));
-          of_cell.push_back(cells.index({c, r}));
-        }
-      }
-      const auto found = heights_at(store, centres, detail, themes, quiet);
-      for (std::size_t i = 0; i < found.size(); ++i)
-        if (found[i]) heights[of_cell[i]] = static_cast<float>(*found[i]);
-    }
-    progress.report("heights",
-                    static_cast<double>(std::min(row + kSide, cells.rows())) / static_cast<double>(cells.rows()));
-  }
-  return heights;
-}
-
 }  // namespace itin

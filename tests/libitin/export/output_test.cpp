@@ -19,7 +19,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-constexpr const char* kNames[] = {"a.ply", "a.obj", "a.glb", "a.gpkg", "a.geojson"};
+constexpr const char* kNames[] = {"a.ply", "a.obj", "a.glb", "a.gpkg", "a.geojson", "a.2dm"};
 
 class CancelAtOnce final : public Progress {
  public:
@@ -57,7 +57,7 @@ TEST_F(OutputTest, UnknownEndingsAreNamed) {
     EXPECT_THROW(exported(name), InputError);
     EXPECT_THROW(require_tin_output(directory_.file(name), true), InputError);
   }
-  EXPECT_THAT(message([&] { exported("a.dwg"); }), HasSubstr(".ply, .obj, .glb, .gpkg or .geojson"));
+  EXPECT_THAT(message([&] { exported("a.dwg"); }), HasSubstr(".ply, .obj, .glb, .gpkg, .geojson or .2dm"));
   EXPECT_THAT(directory_.names(), IsEmpty());
 }
 

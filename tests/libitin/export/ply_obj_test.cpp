@@ -2,6 +2,8 @@
 #include <map>
 #include <sstream>
 
+#include <fmt/format.h>
+
 #include "libitin/export/binary_reader.hpp"
 #include "libitin/export/export_fixture.hpp"
 
@@ -12,6 +14,7 @@ using ::testing::HasSubstr;
 
 class PlyTest : public ExportTest {};
 class ObjTest : public ExportTest {};
+class MeshTest : public ExportTest {};
 
 TEST_F(PlyTest, ReadsBackExactly) {
   const std::string bytes = bytes_of(exported("a.ply"));
@@ -73,6 +76,49 @@ TEST_F(ObjTest, ReadsBackExactly) {
   ASSERT_EQ(points.size(), tin_.vertices.size());
   for (std::uint32_t v = 0; v < points.size(); ++v) ASSERT_EQ(points[v], tin_.point(v));
   EXPECT_EQ(triangles, tin_.triangles);
+}
+
+TEST_F(MeshTest, ReadsBackExactly) {
+  std::istringstream text(bytes_of(exported("a.2dm")));
+  std::string first, second;
+  std::getline(text, first), std::getline(text, second);
+  EXPECT_EQ(first, "MESH2D");  // QGIS knows the file by it
+  EXPECT_EQ(second, "NUM_MATERIALS_PER_ELEM 1");
+  std::vector<Point3> points;
+  std::vector<Triangle> triangles;
+  for (std::string line; std::getline(text, line);) {
+    std::istringstream words(line);
+    std::string kind, a, b, c, material, more;
+    std::size_t id = 0;
+    words >> kind >> id >> a >> b >> c;
+    if (kind == "ND") {
+      points.push_back({std::stod(a), std::stod(b), std::stod(c)});
+      EXPECT_EQ(id, points.size());
+    } else {
+      ASSERT_EQ(kind, "E3T");
+      const auto index = [](const std::string& word) { return static_cast<std::uint32_t>(std::stoul(word)) - 1; };
+      triangles.push_back({index(a), index(b), index(c)});
+      EXPECT_EQ(id, triangles.size());
+      EXPECT_TRUE(words >> material && material == "1") << line;
+    }
+    EXPECT_FALSE(words >> more) << line;
+  }
+  ASSERT_EQ(points.size(), tin_.vertices.size());
+  for (std::uint32_t v = 0; v < points.size(); ++v) ASSERT_EQ(points[v], tin_.point(v));
+  EXPECT_EQ(triangles, tin_.triangles);
+}
+
+TEST_F(MeshTest, MaterialsAreThemes) {
+  tin_.raised_theme.assign(tin_.vertices.size(), 0);
+  tin_.raised_theme[tin_.triangles[2][1]] = 3;
+  std::istringstream text(bytes_of(exported("a.2dm")));
+  std::size_t triangle = 0;
+  for (std::string line; std::getline(text, line);) {
+    if (!line.starts_with("E3T")) continue;
+    EXPECT_TRUE(line.ends_with(fmt::format(" {}", tin_.theme(tin_.triangles[triangle]) + 1))) << line;
+    ++triangle;
+  }
+  EXPECT_EQ(triangle, tin_.triangles.size());
 }
 
 }  // namespace

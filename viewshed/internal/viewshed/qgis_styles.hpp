@@ -1,18 +1,25 @@
-// Layer styles, NAME.qml, which QGIS reads from beside a raster: bands of values in colours, where the raster itself
-// can hold no colours.
+// Layer styles, NAME.qml, which QGIS reads from beside a raster: classes by their names, and bands of values, in
+// colours.
 //
-//   if (const std::string style = qgis_style(request); !style.empty()) write_file("seen.qml", style, false);
+//   if (has_qgis_style(result.request.mode)) write_file("seen.qml", qgis_style(result), false);
 #pragma once
 
 #include <string>
+#include <vector>
 
-#include <viewshed/request.hpp>
+#include <itin/raster.hpp>
+#include <viewshed/result.hpp>
 
 namespace itin::viewshed {
 
-/// The style of the counts, probabilities or losses that answer the request. Empty for every other mode: classes have
-/// their colours in the raster.
-std::string qgis_style(const Request& request);
+/// Tells whether rasters of a mode have a style: those of classes, sets, counts, probabilities and losses. Angles,
+/// heights and distances have none, for QGIS shades them from least to greatest by itself.
+bool has_qgis_style(Mode mode);
+/// The style of the raster that write_geotiff() writes of a result; empty where its mode has none. What first hides a
+/// cell and which observers see it have entries for what occurs; of sets, for the commonest, by the first 32 observers.
+std::string qgis_style(const Result& result);
+/// The style of a raster of classes.
+std::string qgis_style(const std::vector<RasterClass>& classes);
 /// The style of the share that write_geotiff() writes of a VisibilityIndex.
 std::string qgis_style_of_shares();
 

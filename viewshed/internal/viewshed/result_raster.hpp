@@ -1,5 +1,5 @@
 // The raster of a viewshed as the command line writes it: with the store's CRS, the surface and the question in its
-// metadata, and with a style for QGIS beside it where it has no colours of its own.
+// metadata, and with a style for QGIS beside it where the mode has one.
 //
 //   write_result_raster("seen.tif", result, store.metadata(), {.certified = false, .overwrite = true}, progress);
 #pragma once
@@ -24,7 +24,7 @@ std::span<const std::string_view> mode_names();
 /// Returns the command line's name of what cells have: "visible", "certified", "count", ...
 std::string mode_name(Mode mode, bool certified);
 
-/// Writes a GeoTIFF at `path` and, where qgis_style() has one, its style at style_beside(path). Throws FileError,
+/// Writes a GeoTIFF at `path` and, where has_qgis_style(), its style at style_beside(path). Throws FileError,
 /// Cancelled.
 void write_result_raster(const std::string& path, const Result& result, const StoreMetadata& metadata,
                          const ResultRasterOptions& options, const Progress& progress);

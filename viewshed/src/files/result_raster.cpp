@@ -42,7 +42,7 @@ void write_result_raster(const std::string& path, const Result& result, const St
                   {"target_on", standing_on(r.targets_on_surface)}},
                  options.overwrite},
                 progress);
-  if (const std::string style = qgis_style(r); !style.empty()) write_file(style_beside(path), style, options.overwrite);
+  if (has_qgis_style(r.mode)) write_file(style_beside(path), qgis_style(result), options.overwrite);
 }
 
 }  // namespace itin::viewshed

@@ -213,7 +213,7 @@ MapImage draw_map(const Tin& tin, const Result& result, const MapOptions& option
   return drawn_map([&](const RasterGrid& pixels) { return heights_at(tin, pixels); }, result, options);
 }
 
-MapImage draw_map(Surface& surface, const Result& result, Progress& progress, const MapOptions& options) {
+MapImage draw_map(RetrievedSurface& surface, const Result& result, Progress& progress, const MapOptions& options) {
   if (!surface.lattice) return draw_map(surface.tin, result, options);
   surface.lattice->read_all(progress);
   const LatticeTin& lattice = surface.lattice->lattice();

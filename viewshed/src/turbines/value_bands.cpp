@@ -140,4 +140,12 @@ std::string class_style(const std::vector<RasterClass>& classes) {
   return class_style(style);
 }
 
+std::string commonest_style(std::vector<StyleClass> commonest_first) {
+  constexpr std::size_t kMostColours = 24;
+  commonest_first.resize(std::min(commonest_first.size(), kMostColours));
+  for (std::size_t i = 0; i < commonest_first.size(); ++i) commonest_first[i].colour = distinct_colour(i);
+  commonest_first.insert(commonest_first.begin(), {0, kNoneSeen, kTransparent});
+  return class_style(commonest_first);
+}
+
 }  // namespace itin::viewshed

@@ -48,5 +48,8 @@ struct StyleClass {
 };
 std::string class_style(const std::vector<StyleClass>& classes);
 std::string class_style(const std::vector<RasterClass>& classes);
+/// Returns a style of classes without colours: the first 24 get colours that are told apart, and 0, which is not among
+/// them, is none.
+std::string commonest_style(std::vector<StyleClass> commonest_first);
 
 }  // namespace itin::viewshed

@@ -168,16 +168,11 @@ void write_differences(const Zone& zone, RasterFolder& folder) {
   }
 }
 
-/// Returns a style that gives the commonest combinations colours that are told apart.
-std::string style_of_commonest(const std::vector<std::uint32_t>& farms, std::vector<Combination> present) {
-  constexpr std::size_t kMostColours = 24;
-  present = commonest_first(std::move(present), cells_by_combination(farms));
-  std::erase_if(present, [](const Combination& c) { return c.farms == 0; });
-  present.resize(std::min(present.size(), kMostColours));
-  std::vector<StyleClass> style{{0, "none", kTransparent}};
-  for (std::size_t i = 0; i < present.size(); ++i)
-    style.push_back({present[i].farms, present[i].name, distinct_colour(i)});
-  return class_style(style);
+std::string style_of_combinations(const std::vector<std::uint32_t>& farms, const std::vector<Combination>& present) {
+  std::vector<StyleClass> classes;
+  for (const Combination& c : commonest_first(present, cells_by_combination(farms)))
+    if (c.farms != 0) classes.push_back({c.farms, c.name});
+  return commonest_style(std::move(classes));
 }
 
 /// Writes the raster of farms. Up to seven farms are classes of a Byte raster, with names and colours; the combinations
@@ -193,7 +188,7 @@ void write_farm_raster(const std::vector<std::uint32_t>& farms, const std::vecto
               "style colours the commonest; 4294967295: no value"
             : "which farms have a tip seen: the number of their combination in farms.csv; the style "
               "colours the commonest; 4294967295: no value";
-    folder.write(name, what + view.remark, farms, with_nodata(kOutsideFarms), style_of_commonest(farms, present));
+    folder.write(name, what + view.remark, farms, with_nodata(kOutsideFarms), style_of_combinations(farms, present));
     return;
   }
   constexpr std::uint8_t kOutsideClass = 255;

@@ -1,19 +1,17 @@
 #include "import/lidar/las_file.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstring>
-#include <filesystem>
-#include <fstream>
-#include <optional>
 #include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
 
-#include <itin/error.hpp>
 #include <itin/precondition.hpp>
+
+#include "base/file_bytes.hpp"
+#include "import/lidar/laz/laz_points.hpp"
 
 namespace itin {
 
@@ -28,54 +26,11 @@ constexpr std::uint16_t kGeoKeyDirectory = 34735;
 constexpr std::uint16_t kWktRecord = 2112;
 constexpr std::uint16_t kLaszipRecord = 22204;
 // Real records are a few kilobytes; a longer one is a damaged length.
-constexpr std::uint64_t kLongestProjectionRecord = std::uint64_t{1} << 20;
+constexpr std::uint64_t kLongestRecord = std::uint64_t{1} << 20;
 
 constexpr std::size_t kReadBytes = std::size_t{1} << 20;
 
-template <class T>
-T load(const char* bytes) {
-  T value;
-  if constexpr (std::endian::native == std::endian::little) {
-    std::memcpy(&value, bytes, sizeof value);
-  } else {
-    std::array<char, sizeof(T)> reversed;
-    std::reverse_copy(bytes, bytes + sizeof value, reversed.begin());
-    std::memcpy(&value, reversed.data(), sizeof value);
-  }
-  return value;
-}
-
-/// The file's bytes by offset, each access checked against its size.
-class Bytes {
- public:
-  explicit Bytes(const std::string& path) : path_(path), in_(path, std::ios::binary) {
-    std::error_code error;
-    size_ = std::filesystem::file_size(path, error);
-    if (error || !in_) throw FileError(path, "cannot be opened for reading");
-  }
-
-  std::uint64_t size() const { return size_; }
-
-  void read(std::uint64_t offset, std::span<char> out, std::string_view what) {
-    if (offset > size_ || out.size() > size_ - offset)
-      fail(offset, fmt::format("the file ends at {} within {}; it is truncated or damaged", size_, what));
-    in_.clear();
-    in_.seekg(static_cast<std::streamoff>(offset));
-    if (!in_.read(out.data(), static_cast<std::streamsize>(out.size())))
-      fail(offset, fmt::format("{} cannot be read", what));
-  }
-
-  [[noreturn]] void fail(std::uint64_t offset, const std::string& what) const {
-    throw FileError(path_, fmt::format("offset {}: {}", offset, what));
-  }
-
- private:
-  const std::string& path_;
-  std::ifstream in_;
-  std::uint64_t size_ = 0;
-};
-
-int minor_version(Bytes& bytes) {
+int minor_version(FileBytes& bytes) {
   std::array<char, 26> start{};
   bytes.read(0, start, "the LAS header");
   if (std::string_view(start.data(), 4) != "LASF") bytes.fail(0, "not a LAS file (no LASF signature)");
@@ -85,33 +40,34 @@ int minor_version(Bytes& bytes) {
   return minor;
 }
 
-LasHeader read_header(Bytes& bytes) {
+LasHeader read_header(FileBytes& bytes) {
   LasHeader header;
   header.minor_version = minor_version(bytes);
   std::array<char, 375> raw{};
   const std::uint16_t size = kHeaderSizes[static_cast<std::size_t>(header.minor_version)];
   bytes.read(0, std::span(raw).first(size), "the LAS header");
 
-  header.prefers_wkt = (load<std::uint16_t>(&raw[6]) & 0x10) != 0;
-  header.header_size = load<std::uint16_t>(&raw[94]);
-  header.point_offset = load<std::uint32_t>(&raw[96]);
-  header.vlr_count = load<std::uint32_t>(&raw[100]);
+  header.prefers_wkt = (little_endian<std::uint16_t>(&raw[6]) & 0x10) != 0;
+  header.header_size = little_endian<std::uint16_t>(&raw[94]);
+  header.point_offset = little_endian<std::uint32_t>(&raw[96]);
+  header.vlr_count = little_endian<std::uint32_t>(&raw[100]);
   // LASzip marks compression in bit 7 (bit 6 of an older variant).
   const auto format = static_cast<unsigned char>(raw[104]);
   header.compressed = (format & 0xc0) != 0;
   header.point_format = format & 0x3f;
-  header.record_length = load<std::uint16_t>(&raw[105]);
-  header.point_count = load<std::uint32_t>(&raw[107]);
+  header.record_length = little_endian<std::uint16_t>(&raw[105]);
+  header.point_count = little_endian<std::uint32_t>(&raw[107]);
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    header.scale[axis] = load<double>(&raw[131 + 8 * axis]);
-    header.offset[axis] = load<double>(&raw[155 + 8 * axis]);
+    header.scale[axis] = little_endian<double>(&raw[131 + 8 * axis]);
+    header.offset[axis] = little_endian<double>(&raw[155 + 8 * axis]);
   }
-  header.bounds = {load<double>(&raw[187]), load<double>(&raw[203]), load<double>(&raw[179]), load<double>(&raw[195])};
+  header.bounds = {little_endian<double>(&raw[187]), little_endian<double>(&raw[203]), little_endian<double>(&raw[179]),
+                   little_endian<double>(&raw[195])};
   if (header.minor_version >= 4) {
-    header.evlr_offset = load<std::uint64_t>(&raw[235]);
-    header.evlr_count = load<std::uint32_t>(&raw[243]);
+    header.evlr_offset = little_endian<std::uint64_t>(&raw[235]);
+    header.evlr_count = little_endian<std::uint32_t>(&raw[243]);
     // Some writers of 1.4 still fill in the legacy count alone.
-    if (const auto count = load<std::uint64_t>(&raw[247]); count != 0) header.point_count = count;
+    if (const auto count = little_endian<std::uint64_t>(&raw[247]); count != 0) header.point_count = count;
   }
   if (header.header_size < size)
     bytes.fail(94,
@@ -119,7 +75,7 @@ LasHeader read_header(Bytes& bytes) {
   return header;
 }
 
-void check_point_layout(const LasHeader& header, const Bytes& bytes) {
+void check_point_layout(const LasHeader& header, const FileBytes& bytes) {
   if (header.point_format >= static_cast<int>(kRecordLengths.size()))
     bytes.fail(104, fmt::format("point format {} is unknown; 0 to 10 are supported", header.point_format));
   const std::uint16_t shortest = kRecordLengths[static_cast<std::size_t>(header.point_format)];
@@ -137,7 +93,7 @@ void check_point_layout(const LasHeader& header, const Bytes& bytes) {
                                bytes.size()));
 }
 
-void check_room(const LasHeader& header, const Bytes& bytes) {
+void check_room(const LasHeader& header, const FileBytes& bytes) {
   if (header.compressed) return;
   const std::uint64_t room = (bytes.size() - header.point_offset) / header.record_length;
   if (header.point_count > room)
@@ -154,15 +110,15 @@ struct Record {
   std::uint64_t payload_size = 0;
 };
 
-Record read_record(Bytes& bytes, std::uint64_t offset, bool extended) {
+Record read_record(FileBytes& bytes, std::uint64_t offset, bool extended) {
   std::array<char, 60> raw{};
   const std::size_t size = extended ? 60 : 54;
   bytes.read(offset, std::span(raw).first(size), "a variable length record");
   Record record;
   record.user.assign(&raw[2], strnlen(&raw[2], 16));
-  record.id = load<std::uint16_t>(&raw[18]);
+  record.id = little_endian<std::uint16_t>(&raw[18]);
   record.payload_offset = offset + size;
-  record.payload_size = extended ? load<std::uint64_t>(&raw[20]) : load<std::uint16_t>(&raw[20]);
+  record.payload_size = extended ? little_endian<std::uint64_t>(&raw[20]) : little_endian<std::uint16_t>(&raw[20]);
   if (record.payload_size > bytes.size() - record.payload_offset)
     bytes.fail(offset + 20, fmt::format("a variable length record of {} bytes runs beyond the end of the file at {}",
                                         record.payload_size, bytes.size()));
@@ -174,30 +130,42 @@ Record read_record(Bytes& bytes, std::uint64_t offset, bool extended) {
 std::map<std::uint16_t, std::uint16_t> geo_keys(std::string_view payload) {
   std::map<std::uint16_t, std::uint16_t> keys;
   if (payload.size() < 8) return keys;
-  const std::size_t stated = load<std::uint16_t>(&payload[6]);
+  const std::size_t stated = little_endian<std::uint16_t>(&payload[6]);
   const std::size_t count = std::min(stated, payload.size() / 8 - 1);
   for (std::size_t i = 1; i <= count; ++i) {
     const char* key = &payload[8 * i];
-    if (load<std::uint16_t>(key + 2) == 0) keys[load<std::uint16_t>(key)] = load<std::uint16_t>(key + 6);
+    if (little_endian<std::uint16_t>(key + 2) == 0)
+      keys[little_endian<std::uint16_t>(key)] = little_endian<std::uint16_t>(key + 6);
   }
   return keys;
 }
 
-void take_record(Bytes& bytes, const Record& record, LasHeader& header, LasProjectionRecords& projection) {
-  if (record.user == "laszip encoded" && record.id == kLaszipRecord) header.compressed = true;
-  if (record.user != "LASF_Projection" || (record.id != kGeoKeyDirectory && record.id != kWktRecord)) return;
-  if (record.payload_size > kLongestProjectionRecord)
-    bytes.fail(record.payload_offset, fmt::format("a projection record of {} bytes is damaged", record.payload_size));
+/// What the reader takes from variable length records.
+struct Records {
+  LasProjectionRecords projection;
+  std::string laszip;  ///< the LASzip record; empty where there is none
+};
+
+void take_record(FileBytes& bytes, const Record& record, Records& records) {
+  const bool laszip = record.user == "laszip encoded" && record.id == kLaszipRecord;
+  const bool projection =
+      record.user == "LASF_Projection" && (record.id == kGeoKeyDirectory || record.id == kWktRecord);
+  if (!laszip && !projection) return;
+  const std::string what = laszip ? "LASzip record" : "projection record";
+  if (record.payload_size > kLongestRecord)
+    bytes.fail(record.payload_offset, fmt::format("a {} of {} bytes is damaged", what, record.payload_size));
   std::string payload(record.payload_size, '\0');
-  bytes.read(record.payload_offset, payload, "a projection record");
-  if (record.id == kWktRecord)
-    projection.wkt = payload.substr(0, payload.find('\0'));
+  bytes.read(record.payload_offset, payload, "a " + what);
+  if (laszip)
+    records.laszip = std::move(payload);
+  else if (record.id == kWktRecord)
+    records.projection.wkt = payload.substr(0, payload.find('\0'));
   else
-    projection.geo_keys = geo_keys(payload);
+    records.projection.geo_keys = geo_keys(payload);
 }
 
-LasProjectionRecords read_projection(Bytes& bytes, LasHeader& header) {
-  LasProjectionRecords projection;
+Records read_records(FileBytes& bytes, const LasHeader& header) {
+  Records records;
   std::uint64_t offset = header.header_size;
   for (std::uint32_t i = 0; i < header.vlr_count; ++i) {
     const Record record = read_record(bytes, offset, false);
@@ -205,15 +173,15 @@ LasProjectionRecords read_projection(Bytes& bytes, LasHeader& header) {
     if (offset > header.point_offset)
       bytes.fail(record.payload_offset, fmt::format("variable length record {} of {} runs into the point data at {}",
                                                     i + 1, header.vlr_count, header.point_offset));
-    take_record(bytes, record, header, projection);
+    take_record(bytes, record, records);
   }
   offset = header.evlr_offset;
   for (std::uint32_t i = 0; i < header.evlr_count; ++i) {
     const Record record = read_record(bytes, offset, true);
     offset = record.payload_offset + record.payload_size;
-    take_record(bytes, record, header, projection);
+    take_record(bytes, record, records);
   }
-  return projection;
+  return records;
 }
 
 /// Decodes records of one file.
@@ -222,15 +190,17 @@ class Decoder {
   explicit Decoder(const LasHeader& header) : header_(header), modern_(header.point_format >= 6) {}
 
   LasPoint operator()(const char* record) const {
-    LasPoint point;
-    point.x = load<std::int32_t>(record) * header_.scale[0] + header_.offset[0];
-    point.y = load<std::int32_t>(record + 4) * header_.scale[1] + header_.offset[1];
-    point.z = load<std::int32_t>(record + 8) * header_.scale[2] + header_.offset[2];
+    LazPoint point{little_endian<std::int32_t>(record), little_endian<std::int32_t>(record + 4),
+                   little_endian<std::int32_t>(record + 8)};
     // Formats 0 to 5 keep class (5 bits) and flags in one byte, later ones in two.
     const auto flags = static_cast<unsigned char>(record[15]);
     point.classification = modern_ ? static_cast<std::uint8_t>(record[16]) : flags & 0x1f;
     point.withheld = (flags & (modern_ ? 0x04 : 0x80)) != 0;
-    return point;
+    return (*this)(point);
+  }
+  LasPoint operator()(const LazPoint& point) const {
+    return {point.x * header_.scale[0] + header_.offset[0], point.y * header_.scale[1] + header_.offset[1],
+            point.z * header_.scale[2] + header_.offset[2], point.classification, point.withheld};
   }
 
  private:
@@ -241,11 +211,14 @@ class Decoder {
 }  // namespace
 
 LasFile::LasFile(std::string path) : path_(std::move(path)) {
-  Bytes bytes(path_);
+  FileBytes bytes(path_);
   file_size_ = bytes.size();
   header_ = read_header(bytes);
   check_point_layout(header_, bytes);
-  projection_ = read_projection(bytes, header_);
+  Records records = read_records(bytes, header_);
+  projection_ = std::move(records.projection);
+  header_.compressed = header_.compressed || !records.laszip.empty();
+  if (header_.compressed) laz_ = laz_layout(path_, records.laszip, {header_.point_format, header_.record_length});
   check_room(header_, bytes);
 }
 
@@ -259,16 +232,33 @@ std::uint64_t LasFile::records_not_promised() const {
 }
 
 LasPoint LasFile::first_point() const {
-  ITIN_PRECONDITION(!header_.compressed && header_.point_count > 0);
-  Bytes bytes(path_);
+  ITIN_PRECONDITION(header_.point_count > 0);
+  FileBytes bytes(path_);
+  // Compressed points begin with the place of their chunk table; the first one is not compressed.
+  constexpr std::uint64_t kTablePlaceBytes = 8;
   std::array<char, 20> record{};
-  bytes.read(header_.point_offset, record, "the first point");
+  bytes.read(header_.point_offset + (laz_ ? kTablePlaceBytes : 0), record, "the first point");
   return Decoder(header_)(record.data());
 }
 
 void LasFile::read(const Sink& sink) const {
-  ITIN_PRECONDITION(!header_.compressed);
-  Bytes bytes(path_);
+  laz_ ? read_compressed(sink) : read_plain(sink);
+}
+
+void LasFile::read_compressed(const Sink& sink) const {
+  const Decoder decode(header_);
+  std::vector<LasPoint> batch;
+  std::uint64_t done = 0;
+  read_laz(path_, *laz_, {header_.point_offset, header_.point_count}, [&](std::span<const LazPoint> points) {
+    batch.clear();
+    for (const LazPoint& point : points) batch.push_back(decode(point));
+    done += points.size();
+    sink(batch, static_cast<double>(done) / static_cast<double>(header_.point_count));
+  });
+}
+
+void LasFile::read_plain(const Sink& sink) const {
+  FileBytes bytes(path_);
   const Decoder decode(header_);
   const std::uint64_t length = header_.record_length;
   const std::uint64_t most = std::max<std::uint64_t>(1, kReadBytes / length);

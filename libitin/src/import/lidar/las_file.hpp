@@ -12,10 +12,13 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 
 #include <itin/geometry.hpp>
+
+#include "import/lidar/laz/laz_layout.hpp"
 
 namespace itin {
 
@@ -51,7 +54,8 @@ class LasFile {
  public:
   using Sink = std::function<void(std::span<const LasPoint> points, double fraction)>;
 
-  /// Reads header and projection records. Throws FileError.
+  /// Reads the header and the records that matter. Throws FileError, also for points compressed in a way that is not
+  /// read, see laz_layout().
   explicit LasFile(std::string path);
 
   const std::string& path() const { return path_; }
@@ -61,16 +65,20 @@ class LasFile {
   /// The number of records between the points that the header promises and whatever follows them; 0 unless the header's
   /// count is wrong.
   std::uint64_t records_not_promised() const;
-  /// Reads the first point, without its attributes. Precondition: not compressed, and at least one point.
+  /// Reads the first point, without its attributes. Precondition: at least one point.
   LasPoint first_point() const;
-  /// Reads all points in the file's order. Precondition: not compressed. Throws FileError, and what the sink throws.
+  /// Reads all points in the file's order. Throws FileError, and what the sink throws.
   void read(const Sink& sink) const;
 
  private:
+  void read_plain(const Sink& sink) const;
+  void read_compressed(const Sink& sink) const;
+
   std::string path_;
   std::uint64_t file_size_ = 0;
   LasHeader header_;
   LasProjectionRecords projection_;
+  std::optional<LazLayout> laz_;  ///< if the points are compressed
 };
 
 }  // namespace itin

@@ -9,7 +9,6 @@
 
 #include "import/lidar/las_file.hpp"
 #include "import/lidar/las_projection.hpp"
-#include "import/lidar/laz_points.hpp"
 
 namespace itin {
 
@@ -29,28 +28,11 @@ Classes kept_classes(const std::string& path, const std::vector<int>& classes) {
   return kept;
 }
 
-void read_points(const LasFile& file, const LasFile::Sink& sink) {
-#ifdef ITIN_HAVE_PDAL
-  if (file.header().compressed) return read_laz(file, sink);
-#endif
-  file.read(sink);
-}
-
-void refuse_unreadable([[maybe_unused]] const LasFile& file) {
-#ifndef ITIN_HAVE_PDAL
-  if (file.header().compressed)
-    throw FileError(file.path(),
-                    "compressed (LAZ), which this build cannot read; convert it with `las2las -i in.laz -o out.las` or "
-                    "`pdal translate in.laz out.las`");
-#endif
-}
-
 class LasReader final : public PointReader {
  public:
   LasReader(const std::string& path, const ImportOptions& options)
       : file_(path), projection_(las_projection(file_)), kept_(kept_classes(path, options.classes)) {
     if (file_.header().point_count == 0) throw FileError(path, "holds no points");
-    refuse_unreadable(file_);
     extent_ = find_extent();
     centre_ = {extent_.xmin + extent_.width() / 2, extent_.ymin + extent_.height() / 2};
   }
@@ -81,7 +63,7 @@ class LasReader final : public PointReader {
       }
       sink(batch, fraction);
     };
-    read_points(file_, take);
+    file_.read(take);
     return filtered;
   }
 
@@ -91,12 +73,8 @@ class LasReader final : public PointReader {
   Box find_extent() const {
     const Box& claimed = file_.header().bounds;
     const bool finite = std::isfinite(claimed.width()) && std::isfinite(claimed.height()) && !claimed.empty();
-    if (!file_.header().compressed) {
-      const LasPoint first = file_.first_point();
-      if (!finite || !claimed.contains({first.x, first.y})) return {first.x, first.y, first.x, first.y};
-    } else if (!finite) {
-      throw FileError(file_.path(), "offset 179: the header's bounding box makes no sense");
-    }
+    const LasPoint first = file_.first_point();
+    if (!finite || !claimed.contains({first.x, first.y})) return {first.x, first.y, first.x, first.y};
     return claimed;
   }
 

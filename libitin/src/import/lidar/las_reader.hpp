@@ -10,9 +10,8 @@
 
 namespace itin {
 
-/// Opens a reader of the points of options.classes (by default all but noise, 7 and 18), without withheld ones. LAZ
-/// needs a build with PDAL. Throws FileError (not LAS, damaged, LAZ without PDAL), InputError (a class outside 0 to
-/// 255).
+/// Opens a reader of the points of options.classes (by default all but noise, 7 and 18), without withheld ones.
+/// Throws FileError (not LAS, damaged, or LAZ that is not read), InputError (a class outside 0 to 255).
 std::unique_ptr<PointReader> open_las_reader(const std::string& path, const ImportOptions& options);
 
 }  // namespace itin

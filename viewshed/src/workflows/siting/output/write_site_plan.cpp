@@ -1,6 +1,9 @@
 // The files of a plan: tables, layers, rasters and maps in one folder.
 
 #include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -11,6 +14,7 @@
 #include <viewshed/site_maps.hpp>
 #include <viewshed/site_wording.hpp>
 
+#include "turbines/value_bands.hpp"
 #include "workflows/premises/output/premises_map.hpp"
 #include "workflows/premises/output/premises_tables.hpp"
 #include "workflows/siting/output/link_tables.hpp"
@@ -30,36 +34,70 @@ void require_free(const std::vector<PlanFile>& files) {
     if (std::filesystem::exists(file.path)) throw FileError(file.path, "exists already; `overwrite` replaces it");
 }
 
-void write_rasters(const std::string& folder, const SitePlan& r, const SitePlanFileOptions& options) {
-  const SiteRasters& rasters = r.rasters;
-  const SiteWording wording = wording_of(r.request);
-  const bool turbines = r.request.turbines.has_value();
+RasterDescription description_of(const SitePlan& plan, const SitePlanFileOptions& options) {
   RasterDescription description;
-  description.crs_wkt = r.crs_wkt;
+  description.crs_wkt = plan.crs_wkt;
   description.overwrite = options.overwrite;
   description.metadata = options.metadata;
+  return description;
+}
+
+/// Writes a raster of the plan, NAME.tif, and its style for QGIS, NAME.qml.
+template <class T>
+void write_styled(const std::string& folder, const std::string& name, const SitePlan& plan,
+                  const std::vector<T>& values, const RasterDescription& description, const std::string& style) {
+  write_raster(within(folder, name + ".tif"), plan.rasters.grid, std::span<const T>(values), description);
+  write_file(within(folder, name + ".qml"), style, description.overwrite);
+}
+
+void write_coverage(const std::string& folder, const SitePlan& plan, RasterDescription description) {
+  const SiteWording wording = wording_of(plan.request);
+  const bool turbines = plan.request.turbines.has_value();
+  description.band_name = turbines ? "seen" : "served";
+  description.nodata = 255;
+  description.classes = {{0, turbines ? wording.unserved : "not served", {225, 225, 225}},
+                         {1, turbines ? wording.served : "served", {0, 114, 178}}};
+  if (plan.leaves_open) description.classes.push_back({2, "undecided", {230, 159, 0}});
+  const std::string style = class_style(description.classes);
+  description.classes.push_back({255, "beyond the radius, or no data", kTransparent});
   std::vector<std::uint8_t> served;
-  for (const Verdict verdict : rasters.served) served.push_back(static_cast<std::uint8_t>(verdict));
-  RasterDescription classes = description;
-  classes.band_name = turbines ? "seen" : "served";
-  classes.nodata = 255;
-  classes.classes = {{0, turbines ? wording.unserved : "not served", {225, 225, 225}},
-                     {1, turbines ? wording.served : "served", {0, 114, 178}},
-                     {255, "beyond the radius, or no data", kTransparent}};
-  if (r.leaves_open) classes.classes.insert(classes.classes.end() - 1, {2, "undecided", {230, 159, 0}});
-  write_raster(within(folder, "coverage.tif"), rasters.grid, std::span<const std::uint8_t>(served), classes);
+  for (const Verdict verdict : plan.rasters.served) served.push_back(static_cast<std::uint8_t>(verdict));
+  write_styled(folder, "coverage", plan, served, description, style);
+}
+
+void write_redundancy(const std::string& folder, const SitePlan& plan, RasterDescription description) {
   description.nodata = SiteRasters::kOutside;
-  description.band_name = wording.count;
-  write_raster(within(folder, "redundancy.tif"), rasters.grid, std::span<const std::uint16_t>(rasters.redundancy),
-               description);
-  description.band_name = wording.nearest;
-  for (std::size_t i = 0; i < r.choice.chosen.size(); ++i)
-    description.metadata.emplace_back(fmt::format("site_{}", i + 1), r.place_of(r.choice.chosen[i]).name);
-  for (std::size_t i = 0; i < r.inputs.existing(); ++i)
-    description.metadata.emplace_back(fmt::format("site_{}", r.choice.chosen.size() + i + 1),
-                                      "existing " + r.inputs.positions[r.inputs.options.size() + i].name);
-  write_raster(within(folder, "best-server.tif"), rasters.grid, std::span<const std::uint16_t>(rasters.best_server),
-               description);
+  description.band_name = wording_of(plan.request).count;
+  const std::size_t sites = plan.choice.chosen.size() + plan.inputs.existing();
+  write_styled(folder, "redundancy", plan, plan.rasters.redundancy, description, banded_style(count_bands(sites)));
+}
+
+/// Returns the names of the sites in the order of SiteRasters.
+std::vector<std::string> site_names(const SitePlan& plan) {
+  std::vector<std::string> names;
+  for (const ChosenSite& site : plan.choice.chosen) names.push_back(plan.place_of(site).name);
+  for (std::size_t i = 0; i < plan.inputs.existing(); ++i)
+    names.push_back("existing " + plan.inputs.positions[plan.inputs.options.size() + i].name);
+  return names;
+}
+
+void write_best_server(const std::string& folder, const SitePlan& plan, RasterDescription description) {
+  description.nodata = SiteRasters::kOutside;
+  description.band_name = wording_of(plan.request).nearest;
+  std::vector<StyleClass> style{{0, kNoneSeen, kTransparent}};
+  for (const std::string& name : site_names(plan)) {
+    const std::size_t number = style.size();
+    description.metadata.emplace_back(fmt::format("site_{}", number), name);
+    style.push_back({static_cast<std::int64_t>(number), name, distinct_colour(number - 1)});
+  }
+  write_styled(folder, "best-server", plan, plan.rasters.best_server, description, class_style(style));
+}
+
+void write_rasters(const std::string& folder, const SitePlan& plan, const SitePlanFileOptions& options) {
+  const RasterDescription description = description_of(plan, options);
+  write_coverage(folder, plan, description);
+  write_redundancy(folder, plan, description);
+  write_best_server(folder, plan, description);
 }
 
 void write_tables(const std::string& folder, const SitePlan& plan, bool overwrite) {
@@ -123,6 +161,8 @@ std::vector<PlanFile> site_plan_files(const std::string& folder, const SitePlanR
              {"redundancy.tif", "how many of them serve a cell"},
              {"best-server.tif", "the nearest site that serves a cell"}};
   }
+  for (const char* raster : {"coverage", "redundancy", "best-server"})
+    files.push_back({fmt::format("{}.qml", raster), fmt::format("style of {}.tif for QGIS", raster)});
   files.push_back({"coverage.png", "map of coverage.tif"});
   files.push_back({"redundancy.png", "map of redundancy.tif"});
   if (request.demand.premises) {
