@@ -1,0 +1,52 @@
+// The panel of the line of sight: its verdict, its facts and its profile, tied to the map both ways.
+
+import { ProfileChart } from "./profile_chart.js";
+import { lineFacts, verdictWords } from "./line_words.js";
+import { followSightLine } from "./sight_line.js";
+import { element, make } from "../panel/elements.js";
+
+/** @typedef {import("../state/scene.js").Scene} Scene */
+
+const NEAR_PIXELS = 14;
+
+/** How far along a line a place lies, and how far beside it. @param {{x: number, y: number}} from
+ * @param {{x: number, y: number}} to @param {number[]} place */
+function alongLine(from, to, [x, y]) {
+  const length = Math.hypot(to.x - from.x, to.y - from.y), east = (to.x - from.x) / length, north = (to.y - from.y) / length;
+  const along = (x - from.x) * east + (y - from.y) * north;
+  return { share: along / length, beside: Math.abs((x - from.x) * north - (y - from.y) * east) };
+}
+
+/**
+ * @param {Scene} scene @param {import("../server/live_connection.js").LiveConnection} connection
+ * @param {import("../vendor/ol.js").OlMap} map @param {import("../map/line_layer.js").LineLayer} layer @param {MediaQueryList} dark
+ */
+export function makeLinePanel(scene, connection, map, layer, dark) {
+  const panel = element("line"), verdict = element("line-verdict"), facts = element("line-facts");
+  const chart = new ProfileChart(element("profile"), dark, (place) => layer.mark(place));
+  let length = 0;
+  element("line-close").addEventListener("click", () => scene.change({ target: null }));
+  followSightLine(scene, connection, (line, error) => {
+    panel.hidden = line === null && error === "";
+    length = line?.distance_m ?? 0;
+    verdict.textContent = line ? `${scene.mast?.name}: ${verdictWords(line).replace(/^./, (letter) => letter.toLowerCase())}` : error;
+    verdict.dataset.verdict = line?.verdict ?? "";
+    facts.replaceChildren(...(line ? lineFacts(line) : []).map(factElement));
+    chart.show(line, scene.mast?.hue ?? 0);
+    if (!line) layer.mark(null);
+  });
+  map.on("pointermove", ({ coordinate }) => {
+    const { target } = scene.state, mast = scene.mast;
+    if (!mast || !target || length === 0) return;
+    const { share, beside } = alongLine(mast, target, coordinate);
+    const near = share >= 0 && share <= 1 && beside < NEAR_PIXELS * (map.getView().getResolution() ?? 1);
+    chart.point(near ? share * length : null);
+  });
+}
+
+/** @param {[string, string]} fact */
+function factElement([name, value]) {
+  const group = make("div");
+  group.append(make("dt", "", name), make("dd", "", value));
+  return group;
+}

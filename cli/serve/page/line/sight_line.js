@@ -1,0 +1,57 @@
+// The line of sight from the mast selected to the target: asked for anew as either moves.
+
+import { observerOf } from "../seen/live_views.js";
+
+/** @typedef {import("../state/scene.js").Scene} Scene */
+/** @typedef {import("../server/live_connection.js").LiveConnection} LiveConnection */
+/**
+ * @typedef {object} Profile
+ * @property {number[]} distance_m @property {number[]} surface_m @property {(number | null)[]} ground_m
+ * @property {number[]} x @property {number[]} y @property {number[]} ray_m @property {number[]} curvature_m
+ * @property {(number | null)[]} fresnel_m
+ */
+/** @typedef {{name: string, from_alone_m: number | null, to_alone_m: number | null}} RequiredHeights */
+/** @typedef {{from_m: number, to_m: number, depth_m: number, theme: string, feature: string | null}} Obstruction */
+/** @typedef {{ground_m: number, height_m: number, lon: number, lat: number, azimuth_grid_deg: number, azimuth_true_deg: number | null}} LineEnd */
+/**
+ * @typedef {object} SightLine
+ * @property {"visible" | "hidden" | "undecided"} verdict
+ * @property {number} distance_m @property {number | null} clearance_m
+ * @property {LineEnd} from @property {LineEnd} to
+ * @property {Obstruction[]} obstructions
+ * @property {RequiredHeights[]} required_heights
+ * @property {{fresnel_fraction: number | null, losses_db?: {ld: number, free_space: number}} | null} [radio]
+ * @property {Profile} profile
+ */
+
+// Those options of a viewshed that a single line has, too.
+const SHARED = ["themes", "tolerance", "nodata", "curvature", "refraction", "earth-radius", "effective-earth", "frequency",
+  "polarisation", "over-sea", "target-on", "observer-on"];
+const LINE = 1;
+
+/** @param {import("../state/scene.js").SceneState} state */
+export const optionsOfLines = ({ options }) => Object.fromEntries(Object.entries(options).filter(([name]) => SHARED.includes(name)));
+
+/**
+ * @param {Scene} scene @param {LiveConnection} connection
+ * @param {(line: SightLine | null, error: string) => void} take  Gets each answer, or null where there is no line.
+ */
+export function followSightLine(scene, connection, take) {
+  let asked = "", seq = 0;
+  const ask = () => {
+    const { target, options } = scene.state, mast = scene.mast;
+    const wanted = mast && target && { ...optionsOfLines(scene.state), from: observerOf(mast), to: `${target.x},${target.y},${options["target-height"] ?? 0}` };
+    const text = JSON.stringify(wanted);
+    if (text === asked) return;
+    asked = text;
+    if (wanted) connection.send({ type: "line", id: LINE, seq: ++seq, options: wanted });
+    else take(null, "");
+  };
+  connection.on("welcome", () => {
+    asked = "";
+    ask();
+  });
+  connection.on("line", (message) => asked !== "null" && take(/** @type {any} */ (message), ""));
+  connection.on("error", (message) => message.of === "line" && message.seq === seq && take(null, message.error));
+  scene.on(["masts", "selected", "target", "options"], ask);
+}

@@ -1,0 +1,59 @@
+// Contour lines of a tile of heights, by marching squares: in each square between four pixels straight lines between
+// its sides.
+
+/** @typedef {import("./height_tiles.js").HeightTile} HeightTile */
+/** @typedef {(x0: number, y0: number, x1: number, y1: number) => void} TakePiece  Gets pieces, in pixels of the tile. */
+
+const EVERY_FIFTH = 5, PIXELS_APART = 0.6, ROUND = [1, 2, 5];
+
+/** A round interval for tiles of this resolution, so that lines stay apart on slopes. @param {number} resolution */
+export function contourInterval(resolution) {
+  const wanted = Math.max(0.5, resolution * PIXELS_APART), power = 10 ** Math.floor(Math.log10(wanted));
+  return power * (ROUND.find((step) => step * power >= wanted) ?? 10);
+}
+
+/** @param {CanvasRenderingContext2D} pen @param {HeightTile} tile @param {number} size @param {number} resolution
+ * @param {boolean} dark */
+export function drawContours(pen, tile, size, resolution, dark) {
+  const interval = contourInterval(resolution), thin = new Path2D(), bold = new Path2D();
+  eachPiece(tile, size, interval, (level) => (Math.round(level / interval) % EVERY_FIFTH === 0 ? bold : thin));
+  pen.strokeStyle = dark ? "rgb(214 176 130)" : "rgb(140 92 44)";
+  pen.globalAlpha = 0.55;
+  pen.lineWidth = 0.7;
+  pen.stroke(thin);
+  pen.globalAlpha = 0.85;
+  pen.lineWidth = 1.2;
+  pen.stroke(bold);
+}
+
+/** @param {HeightTile} tile @param {number} size @param {number} interval @param {(level: number) => Path2D} pathOf */
+function eachPiece({ heights, width }, size, interval, pathOf) {
+  const border = (width - size) / 2;
+  for (let y = -1; y < size; ++y) {
+    for (let x = -1; x < size; ++x) {
+      const at = (y + border) * width + x + border;
+      const corners = [heights[at], heights[at + 1], heights[at + width + 1], heights[at + width]];
+      const low = Math.min(...corners), high = Math.max(...corners);
+      if (!(high > low)) continue;
+      for (let level = (Math.floor(low / interval) + 1) * interval; level <= high; level += interval) {
+        drawPieces(pathOf(level), corners, level, x + 0.5, y + 0.5);
+      }
+    }
+  }
+}
+
+/** Draws between the sides of a square that the level crosses. @param {Path2D} path @param {number[]} corners clockwise
+ * from the north-west @param {number} level @param {number} x @param {number} y */
+function drawPieces(path, corners, level, x, y) {
+  const crossings = [];
+  for (let side = 0; side < 4; ++side) {
+    const from = corners[side], to = corners[(side + 1) % 4];
+    if (from < level === to < level) continue;
+    const t = (level - from) / (to - from);
+    crossings.push([[x + t, y], [x + 1, y + t], [x + 1 - t, y + 1], [x, y + 1 - t]][side]);
+  }
+  for (let i = 0; i + 1 < crossings.length; i += 2) {
+    path.moveTo(crossings[i][0], crossings[i][1]);
+    path.lineTo(crossings[i + 1][0], crossings[i + 1][1]);
+  }
+}

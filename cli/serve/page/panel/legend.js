@@ -1,0 +1,71 @@
+// What the colours on the map mean, and how much of the ground has them.
+
+import { element, make } from "./elements.js";
+import { areaText, shareText } from "./words.js";
+import { CUT, UNDECIDED, VERDICT } from "../seen/seen_cells.js";
+import { HUES, SHARED, UNDECIDED_COLOUR, cssColour, hueCss, meanColour, rampColour } from "../seen/palette.js";
+import { sourcesOf } from "../seen/shown.js";
+import { tally } from "../seen/tally.js";
+import { className, valueModeOf } from "../seen/values.js";
+
+/** @typedef {import("../state/scene.js").Scene} Scene */
+/** @typedef {import("../seen/live_views.js").LiveViews} LiveViews */
+/** @typedef {import("../seen/picture.js").Source} Source */
+/** @typedef {[colour: string, text: string, opacity?: number]} Entry */
+
+/** @param {Scene} scene @param {LiveViews} views */
+export function makeLegend(scene, views) {
+  const list = element("legend-list"), title = element("legend-title"), sum = element("legend-sum");
+  const draw = () => {
+    const sources = sourcesOf(scene, views), mode = valueModeOf(scene.state.options);
+    element("legend").hidden = sources.length === 0;
+    title.textContent = mode?.title ?? "In sight";
+    list.replaceChildren(...(mode ? valueEntries(mode) : verdictEntries(scene, sources)).map(entryElement));
+    sum.textContent = sources.length > 1 && views.settled && !mode ? sumText(scene, sources) : "";
+  };
+  views.onChange(draw);
+  scene.on(["show", "selected"], draw);
+}
+
+/** @param {import("../seen/values.js").ValueMode} mode @returns {Entry[]} */
+function valueEntries(mode) {
+  const count = mode.limits.length + 1;
+  return Array.from({ length: count }, (_, i) => [cssColour(rampColour(i, count)), className(mode, i), 0.8]);
+}
+
+/** @param {Scene} scene @param {Source[]} sources @returns {Entry[]} */
+function verdictEntries(scene, sources) {
+  const { masts, show, selected, options } = scene.state, single = sources.length === 1, chosen = scene.mast;
+  /** @type {Entry[]} */
+  const entries = [];
+  if (show === "difference" && !single && chosen) {
+    const others = masts.filter((mast) => mast.id !== selected).map((mast) => HUES[mast.hue]);
+    entries.push([hueCss(chosen.hue), `only from ${chosen.name}`], [cssColour(SHARED), "from others, too"], [cssColour(meanColour(others)), "only from others", 0.35]);
+  } else {
+    for (const mast of masts.filter((some) => show !== "alone" || some.id === selected)) entries.push([hueCss(mast.hue), `from ${mast.name}`]);
+    if (!single) entries.push([cssColour(meanColour(sources.map(({ hue }) => HUES[hue]))), "from several", 0.9]);
+  }
+  if (options.frequency || holds(sources, CUT)) entries.push([hueCss(sources.at(0)?.hue ?? 0), "paler: Fresnel zone cut", 0.3]);
+  if (holds(sources, UNDECIDED)) entries.push([cssColour(UNDECIDED_COLOUR), "undecided: ground without data"]);
+  return entries;
+}
+
+/** Whether any mast has a cell of this verdict. @param {Source[]} sources @param {number} verdict */
+const holds = (sources, verdict) => sources.some(({ cells }) => cells.step === 1 && cells.codes.some((code) => (code & VERDICT) === verdict));
+
+/** @param {Entry} entry */
+function entryElement([colour, text, opacity = 0.65]) {
+  const item = make("li"), swatch = make("span", "swatch");
+  swatch.style.setProperty("--colour", colour);
+  swatch.style.setProperty("--opacity", String(opacity));
+  item.append(swatch, text);
+  return item;
+}
+
+/** @param {Scene} scene @param {Source[]} sources */
+function sumText(scene, sources) {
+  const { any, all, onlySelected, looked, area } = tally(sources);
+  const part = (/** @type {number} */ cells) => `${areaText(cells * area)} (${shareText(cells, looked)})`;
+  if (scene.state.show === "difference") return `${scene.mast?.name} alone adds ${part(onlySelected)}.`;
+  return `From any ${part(any)}, from all ${part(all)}.`;
+}

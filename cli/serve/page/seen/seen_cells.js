@@ -1,0 +1,62 @@
+// What is known of the cells that one mast looks at, as bytes: the verdict, and whether it is only that of a cell near by.
+
+/** @typedef {import("../server/tile_message.js").Tile} Tile */
+/** @typedef {{seq: number, cell_m: number, column: number, row: number, columns: number, rows: number, kind: number,
+ *    ground_m: number[]}} Begun  The server's word on the cells that tiles will be about. */
+
+export const HIDDEN = 0, VISIBLE = 1, UNDECIDED = 2, CUT = 3, OUTSIDE = 4, UNKNOWN = 5;
+export const VERDICT = 7;   // the bits of a code that have the verdict
+export const NEAREST = 8;   // the bit that says: no verdict of its own yet, the nearest cell's is shown
+
+const SERVERS_OUTSIDE = 255;
+
+export class SeenCells {
+  /** @param {Begun} begun */
+  constructor(begun) {
+    this.seq = begun.seq;
+    this.cell = begun.cell_m;
+    this.column = begun.column;
+    this.row = begun.row;
+    this.columns = begun.columns;
+    this.rows = begun.rows;
+    this.ground = begun.ground_m?.[0] ?? NaN;
+    this.step = 9;
+    this.codes = new Uint8Array(this.columns * this.rows).fill(UNKNOWN);
+    this.values = begun.kind === 0 ? null : new Float32Array(this.columns * this.rows).fill(NaN);
+  }
+
+  /** Puts the tile's cells in their places, and around each the cells that it stands for until nearer ones are known.
+   * @param {Tile} tile */
+  take(tile) {
+    this.step = tile.step;
+    const half = (tile.step - 1) / 2;
+    for (let j = 0, at = 0; j < tile.rows; ++j) {
+      const row = tile.row + j * tile.step - this.row;
+      for (let i = 0; i < tile.columns; ++i, ++at) {
+        const column = tile.column + i * tile.step - this.column;
+        const verdict = tile.verdicts[at] === SERVERS_OUTSIDE ? OUTSIDE : tile.verdicts[at];
+        const value = tile.values ? tile.values[at] : NaN;
+        if (half > 0) this.#fill(column - half, row - half, tile.step, verdict | NEAREST, value);
+        this.#fill(column, row, 1, verdict, value);
+      }
+    }
+  }
+
+  /** Fills a square of cells, as far as it lies in the grid.
+   * @param {number} column @param {number} row @param {number} size @param {number} code @param {number} value */
+  #fill(column, row, size, code, value) {
+    const from = Math.max(0, column), to = Math.min(this.columns, column + size);
+    if (from >= to) return;
+    for (let r = Math.max(0, row); r < Math.min(this.rows, row + size); ++r) {
+      const at = r * this.columns;
+      this.codes.fill(code, at + from, at + to);
+      this.values?.fill(value, at + from, at + to);
+    }
+  }
+
+  /** The place in `codes` and `values` of the cell at a point, or -1. @param {number} x @param {number} y */
+  at(x, y) {
+    const column = Math.floor(x / this.cell) - this.column, row = Math.floor(-y / this.cell) - this.row;
+    return column < 0 || row < 0 || column >= this.columns || row >= this.rows ? -1 : row * this.columns + column;
+  }
+}
