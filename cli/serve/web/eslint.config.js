@@ -5,8 +5,8 @@ const browser = ["document", "window", "location", "history", "localStorage", "n
   "URLSearchParams", "WebSocket", "ImageData", "Path2D", "ResizeObserver", "HTMLElement", "HTMLInputElement",
   "HTMLSelectElement", "HTMLButtonElement", "HTMLCanvasElement", "HTMLDialogElement", "HTMLFormElement", "HTMLDetailsElement",
   "FormData", "Event", "KeyboardEvent", "EventTarget", "AbortController", "requestAnimationFrame", "devicePixelRatio", "setTimeout",
-  "clearTimeout", "getComputedStyle", "performance", "console"];
-const node = ["process", "console", "URL", "Buffer", "setTimeout", "fetch"];
+  "clearTimeout", "getComputedStyle", "getSelection", "performance", "console"];
+const node = ["process", "console", "URL", "setTimeout"];
 const globals = (/** @type {string[]} */ names) => Object.fromEntries(names.map((name) => [name, "readonly"]));
 
 export default [
@@ -16,9 +16,10 @@ export default [
     rules: {
       "eqeqeq": "error", "no-var": "error", "prefer-const": "error", "curly": ["error", "multi-line"], "no-shadow": "error",
       "no-implicit-globals": "error", "no-unused-expressions": "error", "max-lines": ["error", 400],
-      "max-lines-per-function": ["error", 50], "max-params": ["error", 5],
+      "max-lines-per-function": ["error", 60], "max-params": ["error", 5],
     },
   },
   { files: ["cli/serve/page/**/*.js"], languageOptions: { globals: globals(browser) } },
-  { files: ["tests/live/**/*.js", "cli/serve/web/*.js"], languageOptions: { globals: globals([...node, "document", "window"]) } },
+  // What a test evaluates runs in the page.
+  { files: ["tests/live/*.mjs", "cli/serve/web/*.js"], languageOptions: { globals: globals([...node, ...browser]) } },
 ];

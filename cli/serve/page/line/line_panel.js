@@ -7,7 +7,7 @@ import { element, make } from "../panel/elements.js";
 
 /** @typedef {import("../state/scene.js").Scene} Scene */
 
-const NEAR_PIXELS = 14;
+const NEAR_PIXELS = 14, MARGIN_PIXELS = 24;
 
 /** How far along a line a place lies, and how far beside it. @param {{x: number, y: number}} from
  * @param {{x: number, y: number}} to @param {number[]} place */
@@ -27,7 +27,7 @@ export function makeLinePanel(scene, connection, map, layer, dark) {
   let length = 0;
   element("line-close").addEventListener("click", () => scene.change({ target: null }));
   followSightLine(scene, connection, (line, error) => {
-    panel.hidden = line === null && error === "";
+    keepingPlace(map, scene, () => (panel.hidden = line === null && error === ""));
     length = line?.distance_m ?? 0;
     verdict.textContent = line ? `${scene.mast?.name}: ${verdictWords(line).replace(/^./, (letter) => letter.toLowerCase())}` : error;
     verdict.dataset.verdict = line?.verdict ?? "";
@@ -42,6 +42,18 @@ export function makeLinePanel(scene, connection, map, layer, dark) {
     const near = share >= 0 && share <= 1 && beside < NEAR_PIXELS * (map.getView().getResolution() ?? 1);
     chart.point(near ? share * length : null);
   });
+}
+
+/** Lets the map change its height without moving what it shows, but where that would hide the target.
+ * @param {import("../vendor/ol.js").OlMap} map @param {Scene} scene @param {() => void} change */
+function keepingPlace(map, scene, change) {
+  const before = map.getSize()?.[1] ?? 0, view = map.getView(), { target } = scene.state;
+  change();
+  map.updateSize();
+  const height = map.getSize()?.[1] ?? before, centre = view.getCenter(), resolution = view.getResolution();
+  if (height === before || !centre || !resolution) return;
+  const north = centre[1] + ((before - height) / 2) * resolution, lowest = north - (height / 2 - MARGIN_PIXELS) * resolution;
+  view.setCenter([centre[0], target && target.y < lowest ? north - (lowest - target.y) : north]);
 }
 
 /** @param {[string, string]} fact */

@@ -2,7 +2,7 @@
 // its sides.
 
 /** @typedef {import("./height_tiles.js").HeightTile} HeightTile */
-/** @typedef {(x0: number, y0: number, x1: number, y1: number) => void} TakePiece  Gets pieces, in pixels of the tile. */
+/** @typedef {{level: number, x0: number, y0: number, x1: number, y1: number}} Piece  In pixels of the tile. */
 
 const EVERY_FIFTH = 5, PIXELS_APART = 0.6, ROUND = [1, 2, 5];
 
@@ -16,7 +16,11 @@ export function contourInterval(resolution) {
  * @param {boolean} dark */
 export function drawContours(pen, tile, size, resolution, dark) {
   const interval = contourInterval(resolution), thin = new Path2D(), bold = new Path2D();
-  eachPiece(tile, size, interval, (level) => (Math.round(level / interval) % EVERY_FIFTH === 0 ? bold : thin));
+  for (const { level, x0, y0, x1, y1 } of contourPieces(tile, size, interval)) {
+    const path = Math.round(level / interval) % EVERY_FIFTH === 0 ? bold : thin;
+    path.moveTo(x0, y0);
+    path.lineTo(x1, y1);
+  }
   pen.strokeStyle = dark ? "rgb(214 176 130)" : "rgb(140 92 44)";
   pen.globalAlpha = 0.55;
   pen.lineWidth = 0.7;
@@ -26,9 +30,9 @@ export function drawContours(pen, tile, size, resolution, dark) {
   pen.stroke(bold);
 }
 
-/** @param {HeightTile} tile @param {number} size @param {number} interval @param {(level: number) => Path2D} pathOf */
-function eachPiece({ heights, width }, size, interval, pathOf) {
-  const border = (width - size) / 2;
+/** @param {HeightTile} tile @param {number} size @param {number} interval @returns {Piece[]} */
+export function contourPieces({ heights, width }, size, interval) {
+  const border = (width - size) / 2, pieces = /** @type {Piece[]} */ ([]);
   for (let y = -1; y < size; ++y) {
     for (let x = -1; x < size; ++x) {
       const at = (y + border) * width + x + border;
@@ -36,15 +40,16 @@ function eachPiece({ heights, width }, size, interval, pathOf) {
       const low = Math.min(...corners), high = Math.max(...corners);
       if (!(high > low)) continue;
       for (let level = (Math.floor(low / interval) + 1) * interval; level <= high; level += interval) {
-        drawPieces(pathOf(level), corners, level, x + 0.5, y + 0.5);
+        pieces.push(...piecesOf(corners, level, x + 0.5, y + 0.5));
       }
     }
   }
+  return pieces;
 }
 
-/** Draws between the sides of a square that the level crosses. @param {Path2D} path @param {number[]} corners clockwise
- * from the north-west @param {number} level @param {number} x @param {number} y */
-function drawPieces(path, corners, level, x, y) {
+/** The pieces between the sides of a square that the level crosses. @param {number[]} corners clockwise from the
+ * north-west @param {number} level @param {number} x @param {number} y @returns {Piece[]} */
+function piecesOf(corners, level, x, y) {
   const crossings = [];
   for (let side = 0; side < 4; ++side) {
     const from = corners[side], to = corners[(side + 1) % 4];
@@ -52,8 +57,9 @@ function drawPieces(path, corners, level, x, y) {
     const t = (level - from) / (to - from);
     crossings.push([[x + t, y], [x + 1, y + t], [x + 1 - t, y + 1], [x, y + 1 - t]][side]);
   }
+  const pieces = [];
   for (let i = 0; i + 1 < crossings.length; i += 2) {
-    path.moveTo(crossings[i][0], crossings[i][1]);
-    path.lineTo(crossings[i + 1][0], crossings[i + 1][1]);
+    pieces.push({ level, x0: crossings[i][0], y0: crossings[i][1], x1: crossings[i + 1][0], y1: crossings[i + 1][1] });
   }
+  return pieces;
 }

@@ -1,6 +1,9 @@
 // What the map draws under what masts see: relief, contours, outlines of themes. These change no answer.
 
 import { element, make } from "./elements.js";
+import { metresText } from "./words.js";
+import { contourInterval } from "../map/contours.js";
+import { tileGridOf } from "../map/relief_layer.js";
 
 /** @typedef {import("../state/scene.js").Scene} Scene */
 /** @typedef {import("../state/scene.js").Layers} Layers */
@@ -19,6 +22,11 @@ export function makeLayersForm(scene, info) {
     label.append(input, `Outlines: ${name}`);
     element("drawn-themes").append(label);
     return { name, input };
+  });
+  const grid = tileGridOf(info);
+  scene.on(["view"], () => {
+    const z = grid.getZForResolution(scene.state.view?.resolution ?? Infinity);
+    element("contour-interval").textContent = `every ${metresText(contourInterval(info.tiles.resolutions[z]))}`;
   });
   scene.on(["layers"], () => {
     const { layers } = scene.state;

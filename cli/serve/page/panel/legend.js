@@ -40,10 +40,10 @@ function verdictEntries(scene, sources) {
   const entries = [];
   if (show === "difference" && !single && chosen) {
     const others = masts.filter((mast) => mast.id !== selected).map((mast) => HUES[mast.hue]);
-    entries.push([hueCss(chosen.hue), `only from ${chosen.name}`], [cssColour(SHARED), "from others, too"], [cssColour(meanColour(others)), "only from others", 0.35]);
+    entries.push([hueCss(chosen.hue), `only from ${chosen.name}`], [cssColour(SHARED), "from others, too"], [cssColour(others[0]), "pale: only from others", 0.3]);
   } else {
     for (const mast of masts.filter((some) => show !== "alone" || some.id === selected)) entries.push([hueCss(mast.hue), `from ${mast.name}`]);
-    if (!single) entries.push([cssColour(meanColour(sources.map(({ hue }) => HUES[hue]))), "from several", 0.9]);
+    if (!single) entries.push([cssColour(meanColour(sources.map(({ hue }) => HUES[hue]))), "mixed: from several", 0.9]);
   }
   if (options.frequency || holds(sources, CUT)) entries.push([hueCss(sources.at(0)?.hue ?? 0), "paler: Fresnel zone cut", 0.3]);
   if (holds(sources, UNDECIDED)) entries.push([cssColour(UNDECIDED_COLOUR), "undecided: ground without data"]);

@@ -1,11 +1,11 @@
 // What is under the cursor: asked of the server for the mast selected, looked up in the cells for the others.
 
 import { element, make } from "./elements.js";
-import { azimuthText, distanceText, metresText, placeText } from "./words.js";
+import { azimuthText, distanceText, metresText, numberText, placeText } from "./words.js";
 import { CUT, NEAREST, VERDICT, VISIBLE } from "../seen/seen_cells.js";
 import { hueCss } from "../seen/palette.js";
 import { letterOf } from "../map/mast_markers.js";
-import { VALUE_MODES, valueModeOf } from "../seen/values.js";
+import { valueModeOf, withUnit } from "../seen/values.js";
 
 /** @typedef {import("../state/scene.js").Scene} Scene */
 /** @typedef {import("../seen/live_views.js").LiveViews} LiveViews */
@@ -21,6 +21,7 @@ export class Readout {
   #facts = make("dl");
   /** @type {number[] | null} */
   #place = null;
+  #pixel = [0, 0];
   #seq = 0;
   #waiting = false;
 
@@ -31,21 +32,29 @@ export class Readout {
     this.views = views;
     this.connection = connection;
     this.#box.append(this.#verdict, this.#masts, this.#facts);
-    map.on("pointermove", (event) => this.#moved(event.dragging ? null : event.coordinate, event.pixel, map.getSize() ?? [0, 0]));
-    map.on("click", (event) => this.#moved(event.coordinate, event.pixel, map.getSize() ?? [0, 0]));
-    map.getViewport().addEventListener("pointerleave", () => this.#moved(null, [0, 0], [0, 0]));
+    map.on("pointermove", ({ coordinate, pixel, dragging }) => this.#moved(dragging ? null : coordinate, pixel));
+    // Markers are above the viewport: to enter one leaves the map.
+    map.getViewport().addEventListener("pointerleave", () => this.#moved(null, [0, 0]));
+    map.getOverlayContainerStopEvent().addEventListener("pointerover", () => this.#moved(null, [0, 0]));
     connection.on("probe", (message) => message.seq === this.#seq && this.#show(message));
     views.onChange(() => this.#ask());
     scene.on(["selected"], () => this.#ask());
   }
 
-  /** @param {number[] | null} place @param {number[]} pixel @param {number[]} size */
-  #moved(place, pixel, size) {
+  /** @param {number[] | null} place @param {number[]} pixel */
+  #moved(place, pixel) {
     this.#place = this.scene.mast && !this.scene.state.placing ? place : null;
+    this.#pixel = pixel;
     if (!this.#place) this.#box.hidden = true;
-    const left = pixel[0] + BESIDE + this.#box.offsetWidth > size[0], up = pixel[1] + BESIDE + this.#box.offsetHeight > size[1];
-    this.#box.style.translate = `${pixel[0] + (left ? -BESIDE - this.#box.offsetWidth : BESIDE)}px ${pixel[1] + (up ? -BESIDE - this.#box.offsetHeight : BESIDE)}px`;
+    this.#putBeside();
     this.#ask();
+  }
+
+  /** Puts the box beside the pointer, on that side where the map has room for it. */
+  #putBeside() {
+    const { offsetWidth, offsetHeight } = this.#box, map = /** @type {HTMLElement} */ (this.#box.parentElement);
+    const [x, y] = this.#pixel, left = x + BESIDE + offsetWidth > map.clientWidth, up = y + BESIDE + offsetHeight > map.clientHeight;
+    this.#box.style.translate = `${x + (left ? -BESIDE - offsetWidth : BESIDE)}px ${Math.max(0, y + (up ? -BESIDE - offsetHeight : BESIDE))}px`;
   }
 
   /** Asks once for each picture at most. */
@@ -71,6 +80,7 @@ export class Readout {
     this.#facts.replaceChildren(...factsOf(probe, place, this.#valueAt(place)).flatMap(([name, value]) => [make("dt", "", name), make("dd", "", value)]));
     this.#masts.replaceChildren(...this.scene.state.masts.filter((other) => other.id !== mast.id).map((other) => this.#chip(other, place)));
     this.#masts.hidden = this.scene.state.masts.length < 2;
+    this.#putBeside();
   }
 
   /** Whether another mast sees the cell. @param {import("../state/scene.js").Mast} mast @param {number[]} place */
@@ -81,12 +91,11 @@ export class Readout {
     return chip;
   }
 
-  /** The value of the cell, in modes with values. @param {number[]} place @returns {string} */
+  /** The value of the cell, in modes with values. @param {number[]} place @returns {[string, string][]} */
   #valueAt([x, y]) {
     const mode = valueModeOf(this.scene.state.options), cells = this.views.of(this.scene.mast?.id ?? NEVER_SENT)?.cells, at = cells?.at(x, y) ?? NEVER_SENT;
     const value = at < 0 || (cells?.codes[at] ?? 0) & NEAREST ? NaN : (cells?.values?.[at] ?? NaN);
-    if (!mode || Number.isNaN(value)) return "";
-    return mode === VALUE_MODES.height ? metresText(value) : `${value.toFixed(2).replace("-", "−")}${mode.unit === "°" ? "" : " "}${mode.unit}`;
+    return mode && !Number.isNaN(value) ? [[mode.short, withUnit(numberText(value, 2), mode.unit)]] : [];
   }
 }
 
@@ -97,7 +106,7 @@ function verdictOf({ verdict, lacks_m }) {
   return lacks_m > 0 ? `hidden, ${metresText(lacks_m)} short` : "hidden";
 }
 
-/** @param {Message} probe @param {number[]} place @param {string} value @returns {[string, string][]} */
+/** @param {Message} probe @param {number[]} place @param {[string, string][]} value @returns {[string, string][]} */
 function factsOf(probe, [x, y], value) {
   const both = (/** @type {number} */ grid, /** @type {number | null} */ true_north) => `${azimuthText(grid)} grid${true_north === null ? "" : `, ${azimuthText(true_north)} true`}`;
   /** @type {[string, string][]} */
@@ -105,6 +114,5 @@ function factsOf(probe, [x, y], value) {
   if (probe.ground_m !== null) facts.push(["Ground", metresText(probe.ground_m)]);
   if (probe.surface_m !== null && probe.surface_m !== probe.ground_m) facts.push(["Surface", metresText(probe.surface_m)]);
   if (probe.blocker) facts.push(["Hidden by", `${probe.blocker.what === "terrain" ? "the ground" : probe.blocker.what}, ${distanceText(probe.blocker.distance_m)} from the mast`]);
-  if (value) facts.push(["Value", value]);
-  return [...facts, ["At", placeText(x, y)]];
+  return [...facts, ...value, ["At", placeText(x, y)]];
 }

@@ -32,8 +32,13 @@ const fileName = (masts) => (masts.length === 1 ? masts[0].name : "masts").toLow
 export function makeResults(scene, views, key) {
   const copy = element("copy"), said = element("results-said"), command = element("command"), section = element("results");
   copy.addEventListener("click", async () => {
-    await navigator.clipboard.writeText(commandOf(scene, views));
-    said.textContent = "Copied.";
+    try {
+      await navigator.clipboard.writeText(commandOf(scene, views));
+      said.textContent = "Copied.";
+    } catch {  // some browsers only let pages of this machine copy
+      getSelection()?.selectAllChildren(command);
+      said.textContent = "The command is selected: copy it with Ctrl+C.";
+    }
   });
   const download = new Download(new Jobs(key));
   for (const button of section.querySelectorAll("button[data-ending]")) {

@@ -18,6 +18,7 @@ export const azimuthText = (degrees) => `${numberText(degrees, 1).padStart(5, "0
 
 /** @param {number} square_metres */
 export function areaText(square_metres) {
+  if (square_metres === 0) return "nothing";
   if (square_metres < 1e4) return `${numberText(square_metres)} m²`;
   if (square_metres < 1e6) return `${numberText(square_metres / 1e4, 1)} ha`;
   return `${numberText(square_metres / 1e6, square_metres < 1e8 ? 1 : 0)} km²`;

@@ -1,6 +1,6 @@
 // What cells look like: each cell has a class by what the masts shown say of it together, each class a colour.
 
-import { CUT, NEAREST, UNDECIDED, UNKNOWN, VERDICT, VISIBLE } from "./seen_cells.js";
+import { CUT, NEAREST, UNDECIDED, VERDICT, VISIBLE } from "./seen_cells.js";
 import { HUES, SHARED, UNDECIDED_COLOUR, meanColour, rampColour } from "./palette.js";
 import { classOf } from "./values.js";
 
@@ -11,40 +11,52 @@ import { classOf } from "./values.js";
 /**
  * @typedef {object} Picture
  * @property {Float32Array} colours  Four for each class, red, green and blue times opacity, and opacity; all from 0 to 1.
- * @property {(row: number, column: number, classes: Uint16Array, nearest: Uint8Array) => void} classify
- *   Writes the classes of cells of a row from a column on, and which of them have the verdict of a cell near by.
+ * @property {(row: number, column: number, classes: Uint16Array) => void} classify
+ *   Adds to the classes of cells of a row from a column on.
  */
+
+/** The bit of a class that says that the verdict is that of a cell near by. */
+export const WAITING = 1 << 15;
+/** The bits of a class that choose its colour. */
+export const COLOUR = WAITING - 1;
 
 // The class of a cell by verdicts: a bit for each mast that sees it, and these.
 const CLEAR = 1 << 8, OPEN = 1 << 9, CLASSES = 1 << 10;
 const FAINT = 0.2, SINGLE = 0.55, SEVERAL = 0.68, CUT_SHARE = 0.45;
 
-/** Calls `take(i, k)` for each cell `i` of the row from `column` on which has place `k` in the source's arrays.
- * @param {SeenCells} cells @param {number} row @param {number} column @param {number} count
- * @param {(i: number, k: number) => void} take */
-function eachIn(cells, row, column, count, take) {
+/** The cells of a row from `column` on that a source has: the first and the one after the last, counted from `column`,
+ * and what is added for their places in the source's arrays. @param {SeenCells} cells @param {number} row
+ * @param {number} column @param {number} count @returns {[from: number, to: number, shift: number]} */
+function shareOfRow(cells, row, column, count) {
   const r = row - cells.row;
-  if (r < 0 || r >= cells.rows) return;
+  if (r < 0 || r >= cells.rows) return [0, 0, 0];
   const from = Math.max(0, cells.column - column), to = Math.min(count, cells.column + cells.columns - column);
-  const shift = r * cells.columns + column - cells.column;
-  for (let i = from; i < to; ++i) take(i, i + shift);
+  return [from, to, r * cells.columns + column - cells.column];
+}
+
+/** What each code of a cell of the mast with this bit adds to its class. @param {number} bit @returns {Uint16Array} */
+function classesOfCodes(bit) {
+  const classes = new Uint16Array(VERDICT + NEAREST + 1);
+  for (const near of [0, NEAREST]) {
+    const waiting = near ? WAITING : 0;
+    classes[VISIBLE | near] = (1 << bit) | CLEAR | waiting;
+    classes[CUT | near] = (1 << bit) | waiting;
+    classes[UNDECIDED | near] = OPEN | waiting;
+  }
+  return classes;
 }
 
 /** Verdicts of one mast or several. @param {Source[]} sources @param {boolean} difference @returns {Picture} */
 export function verdictPicture(sources, difference) {
+  const tables = sources.map((_, bit) => classesOfCodes(bit));
   return {
     colours: difference ? differenceColours(sources) : togetherColours(sources),
-    classify(row, column, classes, nearest) {
-      sources.forEach(({ cells }, bit) => {
-        const { codes } = cells;
-        eachIn(cells, row, column, classes.length, (i, k) => {
-          const verdict = codes[k] & VERDICT;
-          if (verdict === VISIBLE) classes[i] |= (1 << bit) | CLEAR;
-          else if (verdict === CUT) classes[i] |= 1 << bit;
-          else if (verdict === UNDECIDED) classes[i] |= OPEN;
-          if (codes[k] & NEAREST || verdict === UNKNOWN) nearest[i] = 1;
-        });
-      });
+    classify(row, column, classes) {
+      for (let bit = 0; bit < sources.length; ++bit) {
+        const { codes } = sources[bit].cells, table = tables[bit];
+        const [from, to, shift] = shareOfRow(sources[bit].cells, row, column, classes.length);
+        for (let i = from; i < to; ++i) classes[i] |= table[codes[i + shift]];
+      }
     },
   };
 }
@@ -55,19 +67,20 @@ export function valuePicture(sources, mode) {
   for (let i = 0; i <= mode.limits.length; ++i) put(colours, i + 1, rampColour(i, mode.limits.length + 1), 0.7);
   return {
     colours,
-    classify(row, column, classes, nearest) {
+    classify(row, column, classes) {
       for (const { cells } of sources) {
-        const { codes, values } = cells;
-        eachIn(cells, row, column, classes.length, (i, k) => {
-          if (codes[k] & NEAREST) nearest[i] = 1;
-          if (!values || Number.isNaN(values[k])) return;
-          const found = classOf(mode, values[k]) + 1;
-          classes[i] = classes[i] === 0 ? found : Math.min(classes[i], found);
-        });
+        const { codes, values } = cells, [from, to, shift] = shareOfRow(cells, row, column, classes.length);
+        for (let i = from; values && i < to; ++i) {
+          const value = values[i + shift];
+          if (!Number.isNaN(value)) classes[i] = better(classes[i], (classOf(mode, value) + 1) | (codes[i + shift] & NEAREST ? WAITING : 0));
+        }
       }
     },
   };
 }
+
+/** The better of two classes, of which 0 is none. @param {number} one @param {number} other */
+const better = (one, other) => (one === 0 || (other & COLOUR) < (one & COLOUR) ? other : one);
 
 /** @param {Float32Array} colours @param {number} at @param {Rgb} rgb @param {number} opacity */
 function put(colours, at, rgb, opacity) {

@@ -10,6 +10,9 @@ export const NEAREST = 8;   // the bit that says: no verdict of its own yet, the
 
 const SERVERS_OUTSIDE = 255;
 
+/** @param {number} verdict as the server sends it */
+const codeOf = (verdict) => (verdict === SERVERS_OUTSIDE ? OUTSIDE : verdict);
+
 export class SeenCells {
   /** @param {Begun} begun */
   constructor(begun) {
@@ -29,15 +32,22 @@ export class SeenCells {
    * @param {Tile} tile */
   take(tile) {
     this.step = tile.step;
-    const half = (tile.step - 1) / 2;
-    for (let j = 0, at = 0; j < tile.rows; ++j) {
-      const row = tile.row + j * tile.step - this.row;
-      for (let i = 0; i < tile.columns; ++i, ++at) {
-        const column = tile.column + i * tile.step - this.column;
-        const verdict = tile.verdicts[at] === SERVERS_OUTSIDE ? OUTSIDE : tile.verdicts[at];
-        const value = tile.values ? tile.values[at] : NaN;
-        if (half > 0) this.#fill(column - half, row - half, tile.step, verdict | NEAREST, value);
-        this.#fill(column, row, 1, verdict, value);
+    if (tile.step > 1) this.#takeSquares(tile);
+    for (let j = 0, from = 0; j < tile.rows; ++j) {
+      let to = (tile.row + j * tile.step - this.row) * this.columns + tile.column - this.column;
+      for (let i = 0; i < tile.columns; ++i, ++from, to += tile.step) {
+        this.codes[to] = codeOf(tile.verdicts[from]);
+        if (this.values && tile.values) this.values[to] = tile.values[from];
+      }
+    }
+  }
+
+  /** @param {Tile} tile */
+  #takeSquares({ step, column, row, columns, rows, verdicts, values }) {
+    const half = (step - 1) / 2, west = column - this.column - half, north = row - this.row - half;
+    for (let j = 0, at = 0; j < rows; ++j) {
+      for (let i = 0; i < columns; ++i, ++at) {
+        this.#fill(west + i * step, north + j * step, step, codeOf(verdicts[at]) | NEAREST, values ? values[at] : NaN);
       }
     }
   }
@@ -46,11 +56,9 @@ export class SeenCells {
    * @param {number} column @param {number} row @param {number} size @param {number} code @param {number} value */
   #fill(column, row, size, code, value) {
     const from = Math.max(0, column), to = Math.min(this.columns, column + size);
-    if (from >= to) return;
     for (let r = Math.max(0, row); r < Math.min(this.rows, row + size); ++r) {
-      const at = r * this.columns;
-      this.codes.fill(code, at + from, at + to);
-      this.values?.fill(value, at + from, at + to);
+      this.codes.fill(code, r * this.columns + from, r * this.columns + to);
+      this.values?.fill(value, r * this.columns + from, r * this.columns + to);
     }
   }
 

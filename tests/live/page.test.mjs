@@ -1,0 +1,304 @@
+// The page of `itin serve` in a real browser, as a planner uses it.
+import assert from "node:assert/strict";
+import { execSync } from "node:child_process";
+import { mkdirSync, readFileSync, readdirSync } from "node:fs";
+import { dirname, join } from "node:path";
+import { after, before, test } from "node:test";
+
+import { axeSource, itin, keepPicture, launchBrowser, makeStores, openPage, serve } from "./served_map.mjs";
+
+const MIDDLE = { x: 760, y: 330 };
+let stores, hills, town, browser;
+
+before(async () => {
+  stores = makeStores();
+  [hills, town, browser] = await Promise.all([serve(stores.folder, "hills.itin"), serve(stores.folder, "town.itin"), launchBrowser()]);
+});
+
+after(async () => {
+  await browser?.close();
+  await Promise.all([hills?.stop(), town?.stop()]);
+  stores?.remove();
+});
+
+const text = (page, selector) => page.$eval(selector, (found) => found.textContent);
+const value = (page, selector) => page.$eval(selector, (found) => found.value);
+const mastAt = async (page) => ({ x: Number(await value(page, ".mast.selected .field-x input")), y: Number(await value(page, ".mast.selected .field-y input")), h: Number(await value(page, ".mast.selected .field-height input")) });
+const observer = ({ x, y, h }) => `${x},${y},${h}`;
+
+/** Waits until every mast's cells are all decided. */
+const settled = (page) => page.waitForFunction(() => document.querySelector(".mast") && !document.querySelector(".mast.working"), { timeout: 15000 });
+
+async function setField(page, selector, text_of_it) {
+  await page.$eval(selector, (input, to) => {
+    input.closest("details")?.setAttribute("open", "");
+    input.value = to;
+    input.dispatchEvent(new Event("change", { bubbles: true }));
+  }, text_of_it);
+}
+
+/** The page with one mast in the middle of the map. */
+async function pageWithMast(server = hills, options = {}) {
+  const page = await openPage(browser, server.address, options);
+  await page.mouse.click(MIDDLE.x, MIDDLE.y);
+  await settled(page);
+  return page;
+}
+
+async function closed(page) {
+  assert.deepEqual(page.troubles, []);
+  await page.close();
+}
+
+/** What the command line counts for the mast selected. */
+const counted = (mast, ...options) => JSON.parse(itin(["viewshed", "hills.itin", "--observer", observer(mast), "--target-height", "2", "--radius", "10000", "--cell", "50", ...options, "-o", "count.tif", "--overwrite", "--json"], stores.folder)).cells;
+
+async function assertSummary(page, mast) {
+  const { visible, hidden, undecided } = counted(mast), share = ((100 * visible) / (visible + hidden + undecided)).toFixed(1);
+  assert.match(await text(page, ".mast.selected .mast-summary"), new RegExp(` ${share.replace(".", "\\.")} %$`));
+}
+
+test("a click drops a mast, a drag and arrow keys move it, and the map follows", async () => {
+  const page = await pageWithMast(), dropped = await mastAt(page);
+  await assertSummary(page, dropped);
+  await keepPicture(page, "mast");
+
+  const resolution = Number(new URLSearchParams(new URL(page.url()).hash.slice(1)).get("at").split(",")[2]);
+  await page.mouse.move(MIDDLE.x, MIDDLE.y);
+  await page.mouse.down();
+  for (let step = 1; step <= 10; ++step) await page.mouse.move(MIDDLE.x - 4 * step, MIDDLE.y + 3 * step);
+  await page.mouse.up();
+  await settled(page);
+  const dragged = await mastAt(page);
+  assert(Math.abs(dragged.x - dropped.x + 40 * resolution) <= 10 && Math.abs(dragged.y - dropped.y + 30 * resolution) <= 10);
+  await assertSummary(page, dragged);
+
+  await page.keyboard.press("ArrowRight");
+  await page.keyboard.down("Shift");
+  await page.keyboard.press("ArrowUp");
+  await page.keyboard.up("Shift");
+  await settled(page);
+  assert.deepEqual(await mastAt(page), { ...dragged, x: dragged.x + 50, y: dragged.y + 500 });
+  await assertSummary(page, await mastAt(page));
+
+  await setField(page, ".mast.selected .field-height input", "45.5");
+  await settled(page);
+  await assertSummary(page, { ...dragged, x: dragged.x + 50, y: dragged.y + 500, h: 45.5 });
+  await closed(page);
+});
+
+/** The document of `itin los` from the mast to what the page's address has as target. */
+function lineTo(mast, page) {
+  const target = new URLSearchParams(new URL(page.url()).hash.slice(1)).get("target");
+  return JSON.parse(itin(["los", "hills.itin", "--from", observer(mast), "--to", `${target},2`, "--json"], stores.folder));
+}
+
+test("the readout says what is under the cursor, and a click shows the line of sight", async () => {
+  const page = await pageWithMast(), mast = await mastAt(page), words = { visible: /: visible/, hidden: /: hidden/, undecided: /: undecided/ };
+  await page.mouse.move(MIDDLE.x + 90, MIDDLE.y - 60, { steps: 3 });
+  await page.waitForSelector("#readout:not([hidden])");
+  await page.waitForFunction(() => document.querySelector("#readout dl")?.textContent.includes("true"));
+  const readout = await text(page, "#readout");
+
+  await page.mouse.click(MIDDLE.x + 90, MIDDLE.y - 60);
+  await page.waitForSelector("#line:not([hidden])");
+  await page.waitForFunction(() => location.hash.includes("target"));
+  const line = lineTo(mast, page);
+  assert.match(await text(page, ".readout-verdict"), words[line.verdict]);
+  assert.match(readout, new RegExp(`Distance${(line.distance_m / 1000).toFixed(2).replace(".", "\\.")} km`));
+  assert.match(readout, new RegExp(`${line.from.azimuth_grid_deg.toFixed(1).padStart(5, "0")}° grid, ${line.from.azimuth_true_deg.toFixed(1).padStart(5, "0")}° true`));
+  assert.match(await text(page, "#line-verdict"), line.verdict === "visible" ? /in sight/ : /hidden by/);
+  await keepPicture(page, "line");
+  await closed(page);
+});
+
+test("hovering ties the profile and the map", async () => {
+  const page = await pageWithMast();
+  await page.mouse.click(MIDDLE.x + 200, MIDDLE.y);
+  await page.waitForSelector("#profile canvas");
+  await new Promise((resume) => setTimeout(resume, 500));  // the map has shrunk, for the profile to have room
+  const marker = await page.$eval(".marker", (found) => { const box = found.getBoundingClientRect(); return { x: box.x + box.width / 2, y: box.y + box.height / 2 }; });
+  const middle = { x: marker.x + 100, y: marker.y }, around = { clip: { x: middle.x - 12, y: middle.y - 12, width: 24, height: 24 } };
+  const without = await page.screenshot(around);
+  const plot = await page.$eval(".u-over", (found) => { const box = found.getBoundingClientRect(); return { x: box.x, y: box.y, width: box.width, height: box.height }; });
+  await page.mouse.move(plot.x + plot.width / 2, plot.y + plot.height / 2, { steps: 2 });
+  await page.waitForFunction(() => true);
+  await new Promise((resume) => setTimeout(resume, 200));
+  assert.notDeepEqual(await page.screenshot(around), without);
+
+  await page.mouse.move(middle.x, middle.y + 3, { steps: 2 });
+  await new Promise((resume) => setTimeout(resume, 200));
+  const cursor = await page.$eval(".u-cursor-x", (found) => found.getBoundingClientRect().x);
+  assert(Math.abs(cursor - plot.x - plot.width / 2) < 0.03 * plot.width, `the cursor is at ${cursor}`);
+  await page.keyboard.press("Escape");
+  await page.waitForSelector("#line[hidden]");
+  await closed(page);
+});
+
+test("several masts are shown together, alone and as a difference", async () => {
+  const page = await pageWithMast();
+  await page.mouse.click(MIDDLE.x + 60, MIDDLE.y + 40, { button: "right" });
+  await page.waitForFunction(() => document.querySelectorAll(".mast").length === 2);
+  await settled(page);
+  const seen = async () => ((await page.waitForFunction(() => document.querySelector("#legend-sum").textContent !== "")), text(page, "#legend-sum"));
+  const masts = (await text(page, "#command")).match(/--observer (\S+ \S+)/)[1].split(" ");
+  const both = JSON.parse(itin(["viewshed", "hills.itin", "--observer", ...masts, "--target-height", "2", "--radius", "10000", "--cell", "50", "-o", "both.tif", "--json"], stores.folder)).cells;
+  const share = (100 * both.visible) / (both.visible + both.hidden + both.undecided);
+  assert.match(await seen(), new RegExp(`^From any .*\\(${share.toFixed(1).replace(".", "\\.")} %\\), from all`));
+  const pictures = [await keepPicture(page, "together")];
+  for (const show of ["alone", "difference"]) {
+    await page.$eval(`#show input[value=${show}]`, (input) => input.click());
+    await new Promise((resume) => setTimeout(resume, 200));
+    pictures.push(await keepPicture(page, show));
+    assert.notDeepEqual(pictures.at(-1), pictures.at(-2));
+  }
+  assert.match(await seen(), /^Mast B alone adds /);
+  await page.$eval("#masts .mast:first-child .mast-head", (head) => head.click());
+  assert.match(await text(page, "#legend-list"), /only from Mast A/);
+  await closed(page);
+});
+
+test("modes with values have classes in the legend, and each place its value", async () => {
+  const page = await pageWithMast();
+  for (const [mode, words] of [["height", /up to 2 m.*over 100 m/s], ["angle", /over 2°/], ["loss", /up to 1 dB/]]) {
+    await page.select("select[name=mode]", mode);
+    await page.waitForFunction((title) => document.querySelector("#legend-list").textContent.includes(title), {}, { height: "100 m", angle: "2°", loss: "dB" }[mode]);
+    await settled(page);
+    assert.match(await text(page, "#legend-list"), words);
+    await keepPicture(page, mode);
+  }
+  await closed(page);
+});
+
+test("a reload from the address shows the same, and the key is not in it", async () => {
+  const page = await pageWithMast();
+  await page.mouse.click(MIDDLE.x + 90, MIDDLE.y - 60);
+  await setField(page, "[name=effective-earth]", "4/3");
+  await settled(page);
+  await page.waitForFunction(() => location.hash.includes("effective-earth=4/3") && location.hash.includes("target="));
+  const address = page.url(), mast = await mastAt(page), said = await text(page, "#line-verdict");
+  assert.doesNotMatch(address, /key=/);
+  await closed(page);
+  const again = await openPage(browser, address);
+  await settled(again);
+  await again.waitForSelector("#line:not([hidden])");
+  assert.deepEqual(await mastAt(again), mast);
+  assert.equal(await value(again, "[name=effective-earth]"), "4/3");
+  assert.equal(await text(again, "#line-verdict"), said);
+  await again.waitForFunction((before_it) => location.href === before_it, {}, address);
+  await closed(again);
+});
+
+/** Runs a command of the page in the folder of the stores. */
+function runCommand(command, output) {
+  mkdirSync(join(stores.folder, "by-hand"), { recursive: true });
+  const program = process.env.ITIN_PROGRAM ?? "build/test/bin/itin";
+  execSync(`${command.replace(/ (-o|--output) \S+/, "")} -o by-hand/${output} --quiet`, { cwd: stores.folder, env: { ...process.env, PATH: `${dirname(program)}:${process.env.PATH}` }, stdio: "ignore" });
+  return readFileSync(join(stores.folder, "by-hand", output));
+}
+
+async function downloaded(folder, name) {
+  for (let tries = 0; tries < 100; ++tries) {
+    if (readdirSync(folder).includes(name)) return readFileSync(join(folder, name));
+    await new Promise((resume) => setTimeout(resume, 100));
+  }
+  throw new Error(`no ${name} in ${readdirSync(folder)}`);
+}
+
+test("what is downloaded is the bytes of the command line that is copied", async () => {
+  const page = await pageWithMast(), folder = join(stores.folder, "downloads"), client = await page.createCDPSession();
+  await client.send("Browser.setDownloadBehavior", { behavior: "allow", downloadPath: folder });
+  await browser.defaultBrowserContext().overridePermissions(new URL(hills.address).origin, ["clipboard-read", "clipboard-write"]);
+  mkdirSync(folder);
+  await page.$eval("#copy", (button) => button.click());
+  await page.waitForFunction(() => document.querySelector("#results-said").textContent === "Copied.");
+  const command = await page.evaluate(() => navigator.clipboard.readText());
+  assert.equal(command, await text(page, "#command"));
+  await page.$eval("[data-ending=tif]", (button) => button.click());
+  assert.deepEqual(await downloaded(folder, "mast-a.tif"), runCommand(command, "mast-a.tif"));
+  await page.waitForFunction(() => document.querySelector("#results-said").textContent.startsWith("Saved"));
+  await page.$eval("[data-ending=png]", (button) => button.click());
+  assert.equal((await downloaded(folder, "mast-a.png")).subarray(1, 4).toString(), "PNG");
+  await closed(page);
+});
+
+test("places are typed as the command line takes them, and what it cannot read is said in its words", async () => {
+  const page = await openPage(browser, hills.address), add = async (place) => {
+    await page.$eval("#place", (input, to) => (input.value = to), place);
+    await page.$eval("#place-form button", (button) => button.click());
+  };
+  await add("ST 10375 83525");
+  await settled(page);
+  assert.deepEqual(await mastAt(page), { x: 310375, y: 183525, h: 20 });
+  await add("nowhere");
+  await page.waitForFunction(() => document.querySelector("#place-problem").textContent.includes("nowhere"));
+  page.troubles.length = 0;  // the browser notes the answer 400
+  await setField(page, "[name=radius]", "far");
+  await page.waitForFunction(() => document.querySelector(".mast-summary.problem")?.textContent.includes("far"));
+  assert.equal(await page.$eval("[name=radius]", (input) => input.getAttribute("aria-invalid")), "true");
+  await setField(page, "[name=radius]", "5000");
+  await settled(page);
+  assert.match(await text(page, ".mast-summary"), /^sees /);
+  await closed(page);
+});
+
+test("layers change the picture under the masts, and houses are drawn where they are", async () => {
+  const page = await pageWithMast(town), shown = async () => ((await new Promise((resume) => setTimeout(resume, 700))), page.screenshot({ clip: { x: 320, y: 0, width: 700, height: 600 } }));
+  let last = await shown();
+  await keepPicture(page, "town");
+  const changes = [["#contours", "click"], ["#relief", "slope"], ["#relief", "none"], ["#drawn-themes input", "click"]];
+  for (const [selector, to] of changes) {
+    await page.$eval(selector, (field, action) => {
+      if (action === "click") field.click();
+      else Object.assign(field, { value: action }).dispatchEvent(new Event("change", { bubbles: true }));
+    }, to);
+    const now = await shown();
+    assert.notDeepEqual(now, last, `${selector} ${to}`);
+    last = now;
+  }
+  const share = async () => (await text(page, ".mast-summary")).match(/([\d.]+) %$/)[1], with_houses = await share();
+  await page.$eval("#theme-boxes input", (input) => input.click());
+  await settled(page);
+  assert(Number(await share()) > Number(with_houses));
+  assert.match(page.url(), /themes=none|draw=/);
+  await closed(page);
+});
+
+/** Findings of axe that keep people out. */
+async function findings(page) {
+  await page.evaluate(axeSource);
+  const { violations } = await page.evaluate(() => window.axe.run());
+  return violations.filter(({ impact }) => ["serious", "critical"].includes(impact)).map(({ id, nodes }) => `${id}: ${nodes.map(({ target }) => target).join(", ")}`);
+}
+
+for (const dark of [false, true]) {
+  test(`${dark ? "dark" : "light"}: axe finds nothing serious, on a wide screen and on a phone`, async () => {
+    const page = await pageWithMast(hills, { dark });
+    await page.mouse.click(MIDDLE.x + 90, MIDDLE.y - 60);
+    await page.mouse.click(MIDDLE.x + 60, MIDDLE.y + 40, { button: "right" });
+    await page.$$eval("details", (all) => all.forEach((some) => (some.open = true)));
+    await settled(page);
+    await page.waitForSelector("#profile canvas");
+    assert.deepEqual(await findings(page), []);
+    await keepPicture(page, dark ? "dark" : "light");
+
+    await page.setViewport({ width: 390, height: 800, isMobile: true, hasTouch: true });
+    await page.waitForSelector("#sheet-button");
+    assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), 390);
+    await keepPicture(page, dark ? "phone-dark" : "phone");
+    await page.$eval("#sheet-button", (button) => button.click());
+    assert.equal(await page.$eval("#sheet-button", (button) => button.getAttribute("aria-expanded")), "true");
+    assert.deepEqual(await findings(page), []);
+    await keepPicture(page, dark ? "phone-sheet-dark" : "phone-sheet");
+    const background = await page.evaluate(() => getComputedStyle(document.body).backgroundColor.match(/\d+/g).map(Number));
+    assert(dark ? background[0] < 60 : background[0] > 200);
+    await closed(page);
+  });
+}
+
+test("without the key the page says where to find it", async () => {
+  const context = await browser.createBrowserContext(), page = await context.newPage();
+  await page.goto(new URL(hills.address).origin);
+  await page.waitForFunction(() => document.querySelector("#status").textContent.includes("itin serve printed"));
+  await context.close();
+});

@@ -1,0 +1,78 @@
+// The map as a planner has it: the program serves a store, and Chromium opens the address that it prints.
+import { execFileSync, spawn } from "node:child_process";
+import { mkdirSync, mkdtempSync, rmSync } from "node:fs";
+import { createRequire } from "node:module";
+import { createServer } from "node:net";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+
+const packages = createRequire(new URL("../../build/web/package.json", import.meta.url));
+const puppeteer = packages("puppeteer-core");
+export const axeSource = packages("axe-core").source;
+
+const program = process.env.ITIN_PROGRAM ?? new URL("../../build/test/bin/itin", import.meta.url).pathname;
+const data = new URL("../../scripts/demo-data/", import.meta.url).pathname;
+const pictures = new URL("../../build/live/", import.meta.url).pathname;
+const BROWSERS = ["/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome"];
+
+/** Runs the program and returns what it prints. */
+export const itin = (options, cwd) => execFileSync(program, options, { cwd, encoding: "utf8", stdio: ["ignore", "pipe", "ignore"] });
+
+/** Imports the demonstration's stores into a folder of its own: hills, and a town with houses. */
+export function makeStores() {
+  const folder = mkdtempSync(join(tmpdir(), "itin-live-"));
+  itin(["import", "hills.itin", join(data, "cardiff.tif")], folder);
+  itin(["import", "town.itin", join(data, "alexandria-dtm.tif")], folder);
+  itin(["import", "town.itin", join(data, "alexandria-buildings.geojson"), "--kind", "buildings", "--height-field", "HEIGHT"], folder);
+  return { folder, remove: () => rmSync(folder, { recursive: true }) };
+}
+
+function freePort() {
+  return new Promise((resolve) => {
+    const server = createServer().listen(0, "127.0.0.1", () => {
+      const { port } = server.address();
+      server.close(() => resolve(port));
+    });
+  });
+}
+
+/** Serves a store of the folder until it is stopped. */
+export async function serve(folder, store) {
+  const child = spawn(program, ["serve", store, "--port", String(await freePort())], { cwd: folder, stdio: ["ignore", "pipe", "pipe"] });
+  const address = await new Promise((resolve, reject) => {
+    let said = "";
+    const listen = (chunk) => {
+      said += chunk;
+      const found = said.match(/http:\S+#key=\S+/);
+      if (found) resolve(found[0]);
+    };
+    child.stdout.on("data", listen);
+    child.stderr.on("data", listen);
+    child.on("exit", () => reject(new Error(`itin serve ended: ${said}`)));
+  });
+  const ended = new Promise((resolve) => child.on("exit", resolve));
+  return { address, stop: () => (child.kill("SIGINT"), ended) };
+}
+
+export const launchBrowser = () => puppeteer.launch({ executablePath: process.env.ITIN_CHROMIUM ?? BROWSERS[0], headless: true, args: ["--no-sandbox", "--disable-gpu", "--force-device-scale-factor=1"] });
+
+/** Opens an address, and notes errors of the page and requests to other places than the server. */
+export async function openPage(browser, address, { width = 1200, height = 800, dark = false } = {}) {
+  const page = await browser.newPage(), origin = new URL(address).origin, troubles = [];
+  page.on("pageerror", (problem) => troubles.push(problem.message));
+  page.on("request", (request) => {
+    if (!/^(data|blob):/.test(request.url()) && new URL(request.url()).origin !== origin) troubles.push(`request to ${request.url()}`);
+  });
+  page.on("console", (message) => message.type() === "error" && troubles.push(message.text()));
+  await page.setViewport({ width, height, isMobile: width < 600, hasTouch: width < 600 });
+  await page.emulateMediaFeatures([{ name: "prefers-color-scheme", value: dark ? "dark" : "light" }]);
+  await page.goto(address);
+  await page.waitForSelector("#map .ol-layer canvas");
+  return Object.assign(page, { troubles });
+}
+
+/** Keeps a picture of the page in build/live, to be looked at. */
+export async function keepPicture(page, name) {
+  mkdirSync(pictures, { recursive: true });
+  return page.screenshot({ path: join(pictures, `${name}.png`) });
+}
