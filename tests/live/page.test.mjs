@@ -26,6 +26,17 @@ const value = (page, selector) => page.$eval(selector, (found) => found.value);
 const mastAt = async (page) => ({ x: Number(await value(page, ".mast.selected .field-x input")), y: Number(await value(page, ".mast.selected .field-y input")), h: Number(await value(page, ".mast.selected .field-height input")) });
 const observer = ({ x, y, h }) => `${x},${y},${h}`;
 
+const pause = (milliseconds) => new Promise((resume) => setTimeout(resume, milliseconds));
+
+/** Waits until something holds, for five seconds at most. */
+async function until(holds, what) {
+  for (let tries = 0; tries < 50; ++tries) {
+    if (await holds()) return;
+    await pause(100);
+  }
+  assert.fail(`in vain: ${what}`);
+}
+
 /** Waits until every mast's cells are all decided. */
 const settled = (page) => page.waitForFunction(() => document.querySelector(".mast") && !document.querySelector(".mast.working"), { timeout: 15000 });
 
@@ -102,7 +113,7 @@ test("the readout says what is under the cursor, and a click shows the line of s
 
   await page.mouse.click(MIDDLE.x + 90, MIDDLE.y - 60);
   await page.waitForSelector("#line:not([hidden])");
-  await page.waitForFunction(() => location.hash.includes("target"));
+  await page.waitForFunction(() => location.hash.includes("&target="));
   const line = lineTo(mast, page);
   assert.match(await text(page, ".readout-verdict"), words[line.verdict]);
   assert.match(readout, new RegExp(`Distance${(line.distance_m / 1000).toFixed(2).replace(".", "\\.")} km`));
@@ -112,24 +123,31 @@ test("the readout says what is under the cursor, and a click shows the line of s
   await closed(page);
 });
 
+async function boxOf(page, selector) {
+  return page.$eval(selector, (found) => {
+    const { x, y, width, height } = found.getBoundingClientRect();
+    return { x, y, width, height };
+  });
+}
+
+async function middleOf(page, selector) {
+  const { x, y, width, height } = await boxOf(page, selector);
+  return { x: x + width / 2, y: y + height / 2 };
+}
+
 test("hovering ties the profile and the map", async () => {
   const page = await pageWithMast();
   await page.mouse.click(MIDDLE.x + 200, MIDDLE.y);
   await page.waitForSelector("#profile canvas");
-  await new Promise((resume) => setTimeout(resume, 500));  // the map has shrunk, for the profile to have room
-  const marker = await page.$eval(".marker", (found) => { const box = found.getBoundingClientRect(); return { x: box.x + box.width / 2, y: box.y + box.height / 2 }; });
+  await page.mouse.move(MIDDLE.x + 200, MIDDLE.y + 90);  // away from the line
+  await pause(500);
+  const marker = await middleOf(page, ".marker");
   const middle = { x: marker.x + 100, y: marker.y }, around = { clip: { x: middle.x - 12, y: middle.y - 12, width: 24, height: 24 } };
-  const without = await page.screenshot(around);
-  const plot = await page.$eval(".u-over", (found) => { const box = found.getBoundingClientRect(); return { x: box.x, y: box.y, width: box.width, height: box.height }; });
+  const without = await page.screenshot(around), plot = await boxOf(page, ".u-over");
   await page.mouse.move(plot.x + plot.width / 2, plot.y + plot.height / 2, { steps: 2 });
-  await page.waitForFunction(() => true);
-  await new Promise((resume) => setTimeout(resume, 200));
-  assert.notDeepEqual(await page.screenshot(around), without);
-
+  await until(async () => Buffer.compare(await page.screenshot(around), without) !== 0, "the map marks the place");
   await page.mouse.move(middle.x, middle.y + 3, { steps: 2 });
-  await new Promise((resume) => setTimeout(resume, 200));
-  const cursor = await page.$eval(".u-cursor-x", (found) => found.getBoundingClientRect().x);
-  assert(Math.abs(cursor - plot.x - plot.width / 2) < 0.03 * plot.width, `the cursor is at ${cursor}`);
+  await until(async () => Math.abs((await boxOf(page, ".u-cursor-x")).x - plot.x - plot.width / 2) < 0.03 * plot.width, "the profile's cursor follows");
   await page.keyboard.press("Escape");
   await page.waitForSelector("#line[hidden]");
   await closed(page);
@@ -148,7 +166,7 @@ test("several masts are shown together, alone and as a difference", async () => 
   const pictures = [await keepPicture(page, "together")];
   for (const show of ["alone", "difference"]) {
     await page.$eval(`#show input[value=${show}]`, (input) => input.click());
-    await new Promise((resume) => setTimeout(resume, 200));
+    await pause(200);
     pictures.push(await keepPicture(page, show));
     assert.notDeepEqual(pictures.at(-1), pictures.at(-2));
   }
@@ -175,7 +193,7 @@ test("a reload from the address shows the same, and the key is not in it", async
   await page.mouse.click(MIDDLE.x + 90, MIDDLE.y - 60);
   await setField(page, "[name=effective-earth]", "4/3");
   await settled(page);
-  await page.waitForFunction(() => location.hash.includes("effective-earth=4/3") && location.hash.includes("target="));
+  await page.waitForFunction(() => location.hash.includes("effective-earth=4/3") && location.hash.includes("&target="));
   const address = page.url(), mast = await mastAt(page), said = await text(page, "#line-verdict");
   assert.doesNotMatch(address, /key=/);
   await closed(page);
@@ -200,7 +218,7 @@ function runCommand(command, output) {
 async function downloaded(folder, name) {
   for (let tries = 0; tries < 100; ++tries) {
     if (readdirSync(folder).includes(name)) return readFileSync(join(folder, name));
-    await new Promise((resume) => setTimeout(resume, 100));
+    await pause(100);
   }
   throw new Error(`no ${name} in ${readdirSync(folder)}`);
 }
@@ -208,10 +226,11 @@ async function downloaded(folder, name) {
 test("what is downloaded is the bytes of the command line that is copied", async () => {
   const page = await pageWithMast(), folder = join(stores.folder, "downloads"), client = await page.createCDPSession();
   await client.send("Browser.setDownloadBehavior", { behavior: "allow", downloadPath: folder });
-  await browser.defaultBrowserContext().overridePermissions(new URL(hills.address).origin, ["clipboard-read", "clipboard-write"]);
+  await browser.defaultBrowserContext().overridePermissions(new URL(hills.address).origin, ["clipboard-read", "clipboard-write", "clipboard-sanitized-write"]);
   mkdirSync(folder);
-  await page.$eval("#copy", (button) => button.click());
-  await page.waitForFunction(() => document.querySelector("#results-said").textContent === "Copied.");
+  await page.bringToFront();
+  await page.click("#copy");
+ await page.waitForFunction(() => document.querySelector("#results-said").textContent === "Copied.");
   const command = await page.evaluate(() => navigator.clipboard.readText());
   assert.equal(command, await text(page, "#command"));
   await page.$eval("[data-ending=tif]", (button) => button.click());
@@ -243,7 +262,7 @@ test("places are typed as the command line takes them, and what it cannot read i
 });
 
 test("layers change the picture under the masts, and houses are drawn where they are", async () => {
-  const page = await pageWithMast(town), shown = async () => ((await new Promise((resume) => setTimeout(resume, 700))), page.screenshot({ clip: { x: 320, y: 0, width: 700, height: 600 } }));
+  const page = await pageWithMast(town), shown = async () => ((await pause(700)), page.screenshot({ clip: { x: 320, y: 0, width: 700, height: 600 } }));
   let last = await shown();
   await keepPicture(page, "town");
   const changes = [["#contours", "click"], ["#relief", "slope"], ["#relief", "none"], ["#drawn-themes input", "click"]];

@@ -17,6 +17,7 @@ import { makeTargetMarker } from "./map/target_marker.js";
 import { drawThemes } from "./map/theme_layer.js";
 import { VerdictLayer } from "./map/verdict_layer.js";
 import { makeLinePanel } from "./line/line_panel.js";
+import { showStore } from "./panel/about.js";
 import { element } from "./panel/elements.js";
 import { makeLayersForm } from "./panel/layers_form.js";
 import { makeLegend } from "./panel/legend.js";
@@ -28,13 +29,6 @@ import { makeResults } from "./panel/results.js";
 import { makeSheet } from "./panel/sheet.js";
 import { makeShowForm } from "./panel/show_form.js";
 import { makeStatus } from "./panel/status.js";
-
-/** @param {import("./server/api.js").Info} info */
-function showStore(info) {
-  document.title = `${info.store} · itin`;
-  element("store").textContent = info.store;
-  element("crs").textContent = [info.crs_name, info.crs].filter(Boolean).join(", ");
-}
 
 /** Keeps the address true to the scene, some time after the last change. @param {Scene} scene */
 function keepAddress(scene) {
@@ -48,6 +42,7 @@ function keepAddress(scene) {
 async function start() {
   const { key, rest } = takeKey(), info = await askInfo(), dark = matchMedia("(prefers-color-scheme: dark)");
   const scene = new Scene(readAddress(rest, firstState(info))), connection = new LiveConnection(key);
+  element("line").hidden = !scene.mast || !scene.state.target;  // before the map is made, which has the room that is left
   const views = new LiveViews(scene, connection), tiles = new HeightTiles(info), map = makeMap(element("map"), info, scene);
   const verdicts = new VerdictLayer(), lines = new LineLayer(scene), projection = projectionOf(info);
   const showVerdicts = () => verdicts.show(shownOf(scene, views));

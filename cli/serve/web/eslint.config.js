@@ -6,7 +6,7 @@ const browser = ["document", "window", "location", "history", "localStorage", "n
   "HTMLSelectElement", "HTMLButtonElement", "HTMLCanvasElement", "HTMLDialogElement", "HTMLFormElement", "HTMLDetailsElement",
   "FormData", "Event", "KeyboardEvent", "EventTarget", "AbortController", "requestAnimationFrame", "devicePixelRatio", "setTimeout",
   "clearTimeout", "getComputedStyle", "getSelection", "performance", "console"];
-const node = ["process", "console", "URL", "setTimeout"];
+const node = ["process", "Buffer", "console", "URL", "setTimeout"];
 const globals = (/** @type {string[]} */ names) => Object.fromEntries(names.map((name) => [name, "readonly"]));
 
 export default [

@@ -16,7 +16,7 @@ export function makeMap(element, info, scene) {
   const map = new OlMap({
     target: element,
     controls: defaultControls({ attribution: false, rotate: false }).extend([new ScaleLine({ minWidth: 90 })]),
-    interactions: defaultInteractions({ altShiftDragRotate: false, pinchRotate: false }),
+    interactions: defaultInteractions({ altShiftDragRotate: false, pinchRotate: false, doubleClickZoom: false }),
     view: new View({
       projection: projectionOf(info),
       center: view ? [view.x, view.y] : [(west + east) / 2, (south + north) / 2],

@@ -25,7 +25,7 @@ export class MastMarkers {
 
   /** @param {number} id */
   focus(id) {
-    this.#markers.get(id)?.getElement()?.focus();
+    this.#markers.get(id)?.getElement()?.focus({ preventScroll: true });
   }
 
   #follow() {

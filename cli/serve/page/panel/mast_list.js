@@ -64,6 +64,7 @@ class MastRow {
   #name = make("span", "mast-name");
   #summary = make("span", "mast-summary");
   #fields = make("div", "mast-fields");
+  #notes = make("p", "quiet");
   /** @type {Record<string, HTMLInputElement>} */
   #inputs = {};
 
@@ -76,7 +77,7 @@ class MastRow {
     for (const [name, label] of [["x", "Easting"], ["y", "Northing"], ["height", "Height"]]) {
       this.#field(name, label, "m", (value) => Number.isFinite(Number(value)) && value.trim() !== "" && scene.changeMast(id, { [name]: Number(value) }));
     }
-    this.#fields.append(actionsOf(climb, () => scene.removeMast(id)));
+    this.#fields.append(actionsOf(climb, () => scene.removeMast(id)), this.#notes);
     this.item.append(this.#head, this.#fields);
   }
 
@@ -106,6 +107,7 @@ class MastRow {
   summarise(view) {
     this.#summary.classList.toggle("problem", Boolean(view?.error));
     this.#summary.textContent = view?.error || (view?.done ? summaryOf(view.done) : this.#summary.textContent);
+    this.#notes.textContent = view?.done ? notesOn(view.done) : "";
     this.item.classList.toggle("working", !view?.done && !view?.error);
   }
 }
@@ -114,6 +116,12 @@ class MastRow {
 function summaryOf({ cells, area_m2 }) {
   const looked = cells.visible + cells.hidden + (cells.undecided ?? 0);
   return `sees ${areaText(area_m2.visible)}, ${shareText(cells.visible, looked)}`;
+}
+
+/** What the planner should know of the answer. @param {import("../server/live_connection.js").Message} done */
+function notesOn({ warnings, share_without_data }) {
+  const gap = share_without_data > 0.001 ? [`${shareText(share_without_data, 1)} of what it looks at has no data.`] : [];
+  return [...gap, ...(warnings ?? [])].join(" ");
 }
 
 /** @param {() => void} climb @param {() => void} remove */
