@@ -252,6 +252,7 @@ test("contours of a plane are straight, evenly spaced, and end at the hole", () 
     for (const x of [x0, x1]) assert(Math.abs(x - (level / 5 - 0.5)) < 1e-6);
   }
   assert.deepEqual([...levels].sort((a, b) => a - b), [10, 20, 30, 40]);
-  assert.equal(contourInterval(50), 50);
-  assert.equal(contourInterval(1), 1);
+  assert.equal(contourInterval(50, 50), 50);
+  assert.equal(contourInterval(1, 1), 1);
+  assert.equal(contourInterval(1, 50), 10);
 });

@@ -8,6 +8,7 @@ import { takeKey } from "./state/key.js";
 import { Scene } from "./state/scene.js";
 import { LiveViews } from "./seen/live_views.js";
 import { shownOf } from "./seen/shown.js";
+import { ContourLayer } from "./map/contour_layer.js";
 import { HeightTiles } from "./map/height_tiles.js";
 import { LineLayer } from "./map/line_layer.js";
 import { makeMap, projectionOf } from "./map/map.js";
@@ -49,6 +50,7 @@ async function start() {
 
   showStore(info);
   map.addLayer(makeReliefLayer(info, scene, tiles, dark, projection));
+  map.addLayer(new ContourLayer(scene, tiles, dark));
   map.addLayer(verdicts);
   drawThemes(map, info, scene);
   map.addLayer(lines);

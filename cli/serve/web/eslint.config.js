@@ -16,6 +16,7 @@ export default [
     rules: {
       "eqeqeq": "error", "no-var": "error", "prefer-const": "error", "curly": ["error", "multi-line"], "no-shadow": "error",
       "no-implicit-globals": "error", "no-unused-expressions": "error", "max-lines": ["error", 400],
+      "no-unused-vars": ["error", { "argsIgnorePattern": "^_", "caughtErrors": "none" }],
       "max-lines-per-function": ["error", 60], "max-params": ["error", 5],
     },
   },

@@ -4,30 +4,13 @@
 /** @typedef {import("./height_tiles.js").HeightTile} HeightTile */
 /** @typedef {{level: number, x0: number, y0: number, x1: number, y1: number}} Piece  In pixels of the tile. */
 
-const EVERY_FIFTH = 5, PIXELS_APART = 0.6, ROUND = [1, 2, 5];
+const PIXELS_APART = 0.6, ENLARGED = 4, ROUND = [1, 2, 5];
 
-/** A round interval for tiles of this resolution, so that lines stay apart on slopes. @param {number} resolution */
-export function contourInterval(resolution) {
-  const wanted = Math.max(0.5, resolution * PIXELS_APART), power = 10 ** Math.floor(Math.log10(wanted));
+/** A round interval for a map of this resolution, so that lines stay apart on slopes; of pixels enlarged no more than
+ * `ENLARGED` times, so that a tile has no more lines than are worth it. @param {number} resolution @param {number} finest */
+export function contourInterval(resolution, finest) {
+  const wanted = Math.max(0.5, PIXELS_APART * Math.max(resolution, finest / ENLARGED)), power = 10 ** Math.floor(Math.log10(wanted));
   return power * (ROUND.find((step) => step * power >= wanted) ?? 10);
-}
-
-/** @param {CanvasRenderingContext2D} pen @param {HeightTile} tile @param {number} size @param {number} resolution
- * @param {boolean} dark */
-export function drawContours(pen, tile, size, resolution, dark) {
-  const interval = contourInterval(resolution), thin = new Path2D(), bold = new Path2D();
-  for (const { level, x0, y0, x1, y1 } of contourPieces(tile, size, interval)) {
-    const path = Math.round(level / interval) % EVERY_FIFTH === 0 ? bold : thin;
-    path.moveTo(x0, y0);
-    path.lineTo(x1, y1);
-  }
-  pen.strokeStyle = dark ? "rgb(214 176 130)" : "rgb(140 92 44)";
-  pen.globalAlpha = 0.55;
-  pen.lineWidth = 0.7;
-  pen.stroke(thin);
-  pen.globalAlpha = 0.85;
-  pen.lineWidth = 1.2;
-  pen.stroke(bold);
 }
 
 /** @param {HeightTile} tile @param {number} size @param {number} interval @returns {Piece[]} */

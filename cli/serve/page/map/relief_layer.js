@@ -1,7 +1,6 @@
-// The layer of the ground: tiles of heights, drawn here as hillshade, slope or plain paper, with contours if wanted.
+// The layer of the ground: tiles of heights, drawn here as hillshade, slope or plain paper.
 
 import { ImageTileSource, TileGrid, TileLayer } from "../vendor/ol.js";
-import { drawContours } from "./contours.js";
 import { relief } from "./shade.js";
 
 /** @typedef {import("../state/scene.js").Scene} Scene */
@@ -22,17 +21,15 @@ export function makeReliefLayer(info, scene, tiles, dark, projection) {
     const tile = await tiles.get(z, x, y), { layers } = scene.state;
     if (!tile) return canvas;
     pen.putImageData(relief(tile, tiles.size, tiles.resolutions[z], { relief: layers.relief, dark: dark.matches }), 0, 0);
-    if (layers.contours) drawContours(pen, tile, tiles.size, tiles.resolutions[z], dark.matches);
     return canvas;
   };
   const source = new ImageTileSource({ loader, tileGrid: tileGridOf(info), projection, wrapX: false, transition: 0 });
   const layer = new TileLayer({ source });
   dark.addEventListener("change", () => source.refresh());
-  let drawn = "";
+  let drawn = scene.state.layers.relief;
   scene.on(["layers"], () => {
-    const wanted = `${scene.state.layers.relief} ${scene.state.layers.contours}`;
-    if (drawn !== wanted) source.refresh();
-    drawn = wanted;
+    if (drawn !== scene.state.layers.relief) source.refresh();
+    drawn = scene.state.layers.relief;
   });
   return layer;
 }

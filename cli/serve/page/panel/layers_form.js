@@ -3,7 +3,6 @@
 import { element, make } from "./elements.js";
 import { metresText } from "./words.js";
 import { contourInterval } from "../map/contours.js";
-import { tileGridOf } from "../map/relief_layer.js";
 
 /** @typedef {import("../state/scene.js").Scene} Scene */
 /** @typedef {import("../state/scene.js").Layers} Layers */
@@ -23,10 +22,9 @@ export function makeLayersForm(scene, info) {
     element("drawn-themes").append(label);
     return { name, input };
   });
-  const grid = tileGridOf(info);
   scene.on(["view"], () => {
-    const z = grid.getZForResolution(scene.state.view?.resolution ?? Infinity);
-    element("contour-interval").textContent = `every ${metresText(contourInterval(info.tiles.resolutions[z]))}`;
+    const { view } = scene.state;
+    element("contour-interval").textContent = view ? `every ${metresText(contourInterval(view.resolution, info.tiles.resolutions.at(-1) ?? 1))}` : "";
   });
   scene.on(["layers"], () => {
     const { layers } = scene.state;

@@ -4,6 +4,7 @@ import { element, make } from "./elements.js";
 import { areaText, shareText } from "./words.js";
 import { CUT, UNDECIDED, VERDICT } from "../seen/seen_cells.js";
 import { HUES, SHARED, UNDECIDED_COLOUR, cssColour, hueCss, meanColour, rampColour } from "../seen/palette.js";
+import { SLOPE_COLOURS, SLOPE_LIMITS } from "../map/shade.js";
 import { sourcesOf } from "../seen/shown.js";
 import { tally } from "../seen/tally.js";
 import { className, valueModeOf } from "../seen/values.js";
@@ -15,16 +16,25 @@ import { className, valueModeOf } from "../seen/values.js";
 
 /** @param {Scene} scene @param {LiveViews} views */
 export function makeLegend(scene, views) {
-  const list = element("legend-list"), title = element("legend-title"), sum = element("legend-sum");
+  const list = element("legend-list"), title = element("legend-title"), sum = element("legend-sum"), slopes = element("slopes");
   const draw = () => {
     const sources = sourcesOf(scene, views), mode = valueModeOf(scene.state.options);
-    element("legend").hidden = sources.length === 0;
-    title.textContent = mode?.title ?? "In sight";
-    list.replaceChildren(...(mode ? valueEntries(mode) : verdictEntries(scene, sources)).map(entryElement));
+    const sloped = scene.state.layers.relief === "slope";
+    element("legend").hidden = sources.length === 0 && !sloped;
+    slopes.hidden = !sloped;
+    title.textContent = sources.length === 0 ? "" : (mode?.title ?? "In sight");
+    list.replaceChildren(...(sources.length === 0 ? [] : mode ? valueEntries(mode) : verdictEntries(scene, sources)).map(entryElement));
     sum.textContent = sources.length > 1 && views.settled && !mode ? sumText(scene, sources) : "";
   };
+  element("slope-list").replaceChildren(...slopeEntries().map(entryElement));
   views.onChange(draw);
-  scene.on(["show", "selected"], draw);
+  scene.on(["show", "selected", "layers"], draw);
+}
+
+/** @returns {Entry[]} */
+function slopeEntries() {
+  const bounds = [0, ...SLOPE_LIMITS];
+  return SLOPE_COLOURS.map((colour, i) => [cssColour(colour), i < SLOPE_LIMITS.length ? `${bounds[i]}° to ${bounds[i + 1]}°` : `over ${bounds[i]}°`, 1]);
 }
 
 /** @param {import("../seen/values.js").ValueMode} mode @returns {Entry[]} */
