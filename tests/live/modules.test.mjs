@@ -206,7 +206,7 @@ test("classes of values have limits, names and the best first", () => {
   assert.equal(className(VALUE_MODES.angle, 5), "−0.5° to −1°");
 });
 
-const INFO = { bounds: [300000, 170000, 340000, 210000], data_spacing_m: 50, tiles: { themes: ["buildings"] } };
+const INFO = { bounds: { xmin: 300000, ymin: 170000, xmax: 340000, ymax: 210000 }, data_spacing_m: 50, tiles: { themes: ["buildings"] } };
 
 test("the address says the whole scene", () => {
   const state = {
@@ -222,7 +222,7 @@ test("the address says the whole scene", () => {
 
 test("the page opens with round options that suit the data", () => {
   assert.deepEqual(firstState(INFO).options, { radius: "10000", cell: "50", "target-height": "2" });
-  assert.deepEqual(firstState({ ...INFO, bounds: [0, 0, 460, 420], data_spacing_m: null }).options, { radius: "200", cell: "1", "target-height": "2" });
+  assert.deepEqual(firstState({ ...INFO, bounds: { xmin: 0, ymin: 0, xmax: 460, ymax: 420 }, data_spacing_m: null }).options, { radius: "200", cell: "1", "target-height": "2" });
 });
 
 test("what is dragged comes to rest on round coordinates", () => {

@@ -113,6 +113,7 @@ test("the readout says what is under the cursor, and a click shows the line of s
 
   await page.mouse.click(MIDDLE.x + 90, MIDDLE.y - 60);
   await page.waitForSelector("#line:not([hidden])");
+  await page.waitForSelector("#line[aria-busy=false]");
   await page.waitForFunction(() => location.hash.includes("&target="));
   const line = lineTo(mast, page);
   assert.match(await text(page, ".readout-verdict"), words[line.verdict]);
@@ -159,7 +160,7 @@ test("several masts are shown together, alone and as a difference", async () => 
   await page.waitForFunction(() => document.querySelectorAll(".mast").length === 2);
   await settled(page);
   const seen = async () => ((await page.waitForFunction(() => document.querySelector("#legend-sum").textContent !== "")), text(page, "#legend-sum"));
-  const masts = (await text(page, "#command")).match(/--observer (\S+ \S+)/)[1].split(" ");
+  const masts = [...(await text(page, "#command")).matchAll(/--observer=(\S+)/g)].map((found) => found[1]);
   const both = JSON.parse(itin(["viewshed", "hills.itin", "--observer", ...masts, "--target-height", "2", "--radius", "10000", "--cell", "50", "-o", "both.tif", "--json"], stores.folder)).cells;
   const share = (100 * both.visible) / (both.visible + both.hidden + both.undecided);
   assert.match(await seen(), new RegExp(`^From any .*\\(${share.toFixed(1).replace(".", "\\.")} %\\), from all`));
@@ -194,12 +195,13 @@ test("a reload from the address shows the same, and the key is not in it", async
   await setField(page, "[name=effective-earth]", "4/3");
   await settled(page);
   await page.waitForFunction(() => location.hash.includes("effective-earth=4/3") && location.hash.includes("&target="));
+  await page.waitForSelector("#line[aria-busy=false]");
   const address = page.url(), mast = await mastAt(page), said = await text(page, "#line-verdict");
   assert.doesNotMatch(address, /key=/);
   await closed(page);
   const again = await openPage(browser, address);
   await settled(again);
-  await again.waitForSelector("#line:not([hidden])");
+  await again.waitForSelector("#line[aria-busy=false]");
   assert.deepEqual(await mastAt(again), mast);
   assert.equal(await value(again, "[name=effective-earth]"), "4/3");
   assert.equal(await text(again, "#line-verdict"), said);
@@ -262,7 +264,7 @@ test("places are typed as the command line takes them, and what it cannot read i
 });
 
 test("layers change the picture under the masts, and houses are drawn where they are", async () => {
-  const page = await pageWithMast(town), shown = async () => ((await pause(700)), page.screenshot({ clip: { x: 320, y: 0, width: 700, height: 600 } }));
+  const page = await pageWithMast(town), shown = async () => ((await pause(300)), (await page.waitForNetworkIdle()), page.screenshot({ clip: { x: 320, y: 0, width: 700, height: 600 } }));
   let last = await shown();
   await keepPicture(page, "town");
   const changes = [["#contours", "click"], ["#relief", "slope"], ["#relief", "none"], ["#drawn-themes input", "click"]];

@@ -26,7 +26,8 @@ export function makeLinePanel(scene, connection, map, layer, dark) {
   const chart = new ProfileChart(element("profile"), dark, (place) => layer.mark(place));
   let length = 0;
   element("line-close").addEventListener("click", () => scene.change({ target: null }));
-  followSightLine(scene, connection, (line, error) => {
+  followSightLine(scene, connection, () => (panel.ariaBusy = "true"), (line, error, newest) => {
+    panel.ariaBusy = String(!newest);
     keepingPlace(map, scene, () => (panel.hidden = line === null && error === ""));
     length = line?.distance_m ?? 0;
     verdict.textContent = line ? `${scene.mast?.name}: ${verdictWords(line).replace(/^./, (letter) => letter.toLowerCase())}` : error;

@@ -13,7 +13,7 @@ export function verdictWords(line) {
   if (line.verdict === "undecided") return "Undecided: ground without data lies on the line";
   const worst = line.obstructions.reduce((most, some) => (some.depth_m > most.depth_m ? some : most), line.obstructions[0]);
   if (!worst) return "Hidden";
-  return `Hidden by ${obstacleText(worst)}, ${metresText(worst.depth_m)} above the line ${distanceText(worst.from_m)} away`;
+  return `Hidden by ${obstacleText(worst)}, ${metresText(worst.depth_m)} above the line ${distanceText(worst.peak_at_m)} away`;
 }
 
 /** What else a planner asks of a line. @param {SightLine} line @returns {[string, string][]} */

@@ -12,7 +12,8 @@ const GROUND = 1, SURFACE = 2, RAY = 3, LOW = 4, HIGH = 5;
 /** @param {Profile} profile @returns {(number | null)[][]} distance in km, then the series in the order of the numbers above */
 function seriesOf({ distance_m, ground_m, surface_m, ray_m, curvature_m, fresnel_m }) {
   const over = (/** @type {(number | null)[]} */ heights) => heights.map((height, i) => (height === null ? null : height + curvature_m[i]));
-  const zone = (/** @type {number} */ side) => fresnel_m.map((radius, i) => (radius === null ? null : ray_m[i] + curvature_m[i] + side * radius));
+  const radii = fresnel_m ?? ray_m.map(() => null);
+  const zone = (/** @type {number} */ side) => radii.map((radius, i) => (radius === null ? null : ray_m[i] + curvature_m[i] + side * radius));
   return [distance_m.map((metres) => metres / 1000), over(ground_m), over(surface_m), over(ray_m), zone(-1), zone(1)];
 }
 

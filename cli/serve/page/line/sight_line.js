@@ -8,10 +8,10 @@ import { observerOf } from "../seen/live_views.js";
  * @typedef {object} Profile
  * @property {number[]} distance_m @property {number[]} surface_m @property {(number | null)[]} ground_m
  * @property {number[]} x @property {number[]} y @property {number[]} ray_m @property {number[]} curvature_m
- * @property {(number | null)[]} fresnel_m
+ * @property {(number | null)[] | null} fresnel_m  Null without a frequency.
  */
 /** @typedef {{name: string, from_alone_m: number | null, to_alone_m: number | null}} RequiredHeights */
-/** @typedef {{from_m: number, to_m: number, depth_m: number, theme: string, feature: string | null}} Obstruction */
+/** @typedef {{from_m: number, to_m: number, peak_at_m: number, depth_m: number, theme: string, feature: string | null}} Obstruction */
 /** @typedef {{ground_m: number, height_m: number, lon: number, lat: number, azimuth_grid_deg: number, azimuth_true_deg: number | null}} LineEnd */
 /**
  * @typedef {object} SightLine
@@ -34,9 +34,11 @@ export const optionsOfLines = ({ options }) => Object.fromEntries(Object.entries
 
 /**
  * @param {Scene} scene @param {LiveConnection} connection
- * @param {(line: SightLine | null, error: string) => void} take  Gets each answer, or null where there is no line.
+ * @param {() => void} asks  Called when a newer line is asked for.
+ * @param {(line: SightLine | null, error: string, newest: boolean) => void} take  Gets each answer, or null where there
+ *   is no line, and whether it is to what was asked last.
  */
-export function followSightLine(scene, connection, take) {
+export function followSightLine(scene, connection, asks, take) {
   let asked = "", seq = 0;
   const ask = () => {
     const { target, options } = scene.state, mast = scene.mast;
@@ -44,14 +46,15 @@ export function followSightLine(scene, connection, take) {
     const text = JSON.stringify(wanted);
     if (text === asked) return;
     asked = text;
-    if (wanted) connection.send({ type: "line", id: LINE, seq: ++seq, options: wanted });
-    else take(null, "");
+    if (!wanted) return take(null, "", true);
+    asks();
+    connection.send({ type: "line", id: LINE, seq: ++seq, options: wanted });
   };
   connection.on("welcome", () => {
     asked = "";
     ask();
   });
-  connection.on("line", (message) => asked !== "null" && take(/** @type {any} */ (message), ""));
-  connection.on("error", (message) => message.of === "line" && message.seq === seq && take(null, message.error));
+  connection.on("line", (message) => asked !== "null" && take(/** @type {any} */ (message), "", message.seq === seq));
+  connection.on("error", (message) => message.of === "line" && message.seq === seq && take(null, message.error, true));
   scene.on(["masts", "selected", "target", "options"], ask);
 }

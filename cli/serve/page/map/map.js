@@ -6,11 +6,14 @@ import { OlMap, Projection, ScaleLine, View, defaultControls, defaultInteraction
 /** @typedef {import("../state/scene.js").Scene} Scene */
 
 /** @param {Info} info */
-export const projectionOf = (info) => new Projection({ code: "itin:store", units: "m", extent: info.bounds });
+export const projectionOf = (info) => new Projection({ code: "itin:store", units: "m", extent: extentOf(info) });
+
+/** @param {Info} info */
+const extentOf = ({ bounds: { xmin, ymin, xmax, ymax } }) => [xmin, ymin, xmax, ymax];
 
 /** @param {HTMLElement} element @param {Info} info @param {Scene} scene */
 export function makeMap(element, info, scene) {
-  const [west, south, east, north] = info.bounds, finest = info.tiles.resolutions.at(-1) ?? 1;
+  const [west, south, east, north] = extentOf(info), finest = info.tiles.resolutions.at(-1) ?? 1;
   const margin = 0.5 * Math.max(east - west, north - south);
   const { view } = scene.state;
   const map = new OlMap({
@@ -28,7 +31,7 @@ export function makeMap(element, info, scene) {
       showFullExtent: true,
     }),
   });
-  if (!view) map.getView().fit(info.bounds, { padding: [24, 24, 24, 24] });
+  if (!view) map.getView().fit(extentOf(info), { padding: [24, 24, 24, 24] });
   map.on("moveend", () => keepView(map, scene));
   return map;
 }

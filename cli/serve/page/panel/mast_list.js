@@ -107,7 +107,7 @@ class MastRow {
   summarise(view) {
     this.#summary.classList.toggle("problem", Boolean(view?.error));
     this.#summary.textContent = view?.error || (view?.done ? summaryOf(view.done) : this.#summary.textContent);
-    this.#notes.textContent = view?.done ? notesOn(view.done) : "";
+    this.#notes.textContent = (view?.done?.warnings ?? []).join(". ");
     this.item.classList.toggle("working", !view?.done && !view?.error);
   }
 }
@@ -116,12 +116,6 @@ class MastRow {
 function summaryOf({ cells, area_m2 }) {
   const looked = cells.visible + cells.hidden + (cells.undecided ?? 0);
   return `sees ${areaText(area_m2.visible)}, ${shareText(cells.visible, looked)}`;
-}
-
-/** What the planner should know of the answer. @param {import("../server/live_connection.js").Message} done */
-function notesOn({ warnings, share_without_data }) {
-  const gap = share_without_data > 0.001 ? [`${shareText(share_without_data, 1)} of what it looks at has no data.`] : [];
-  return [...gap, ...(warnings ?? [])].join(" ");
 }
 
 /** @param {() => void} climb @param {() => void} remove */

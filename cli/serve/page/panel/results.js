@@ -21,8 +21,8 @@ function mastsMeant(scene) {
 
 /** The command of one mast, which the server has told, with the observers of all. @param {Scene} scene @param {LiveViews} views */
 export function commandOf(scene, views) {
-  const masts = mastsMeant(scene), first = masts[0], command = first && views.of(first.id)?.done?.command;
-  return command ? command.replace(observerOf(first), masts.map(observerOf).join(" ")) : "";
+  const masts = mastsMeant(scene), command = masts[0] && views.of(masts[0].id)?.done?.command;
+  return command ? command.replace(/--observer=\S+/, masts.map((mast) => `--observer=${observerOf(mast)}`).join(" ")) : "";
 }
 
 /** A name for files, of letters and figures. @param {Mast[]} masts */

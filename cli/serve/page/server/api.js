@@ -4,7 +4,7 @@
  * @typedef {object} Info
  * @property {string} store @property {string} version @property {string} itin
  * @property {string} crs @property {string} crs_name
- * @property {[number, number, number, number]} bounds
+ * @property {{xmin: number, ymin: number, xmax: number, ymax: number}} bounds
  * @property {number | null} data_spacing_m
  * @property {{name: string, kind: string, features: number}[]} themes
  * @property {string[]} modes

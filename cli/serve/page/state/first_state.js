@@ -13,8 +13,8 @@ function roundUp(value) {
 
 /** @param {Info} info @returns {SceneState} */
 export function firstState(info) {
-  const [west, south, east, north] = info.bounds;
-  const radius = Math.min(MOST_RADIUS, roundUp(Math.min(east - west, north - south) / 4));
+  const { xmin, ymin, xmax, ymax } = info.bounds;
+  const radius = Math.min(MOST_RADIUS, roundUp(Math.min(xmax - xmin, ymax - ymin) / 4));
   const cell = roundUp(Math.max(info.data_spacing_m ?? 0, (2 * radius) / CELLS_ACROSS));
   return {
     masts: [],
