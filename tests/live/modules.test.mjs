@@ -19,6 +19,7 @@ const { tally } = await module("seen/tally");
 const { HUES } = await module("seen/palette");
 const { VALUE_MODES, classOf, className } = await module("seen/values");
 const { addressOf, readAddress } = await module("state/address");
+const { letterOf } = await module("state/mast_letter");
 const { firstState } = await module("state/first_state");
 const { relief } = await module("map/shade");
 const { contourInterval, contourPieces } = await module("map/contours");
@@ -228,6 +229,10 @@ test("the page opens with round options that suit the data", () => {
 test("what is dragged comes to rest on round coordinates", () => {
   assert.deepEqual(roundedPlace({ x: 318000.37, y: -4.51 }, 50), { x: 318000, y: -5 });
   assert.deepEqual(roundedPlace({ x: 318000.37, y: 4.512 }, 1), { x: 318000.4, y: 4.5 });
+});
+
+test("a marker has what tells a mast from others", () => {
+  assert.deepEqual(["Mast B", "Site 12", "Garth Hill", "ridge", ""].map((name) => letterOf({ name })), ["B", "12", "G", "R", ""]);
 });
 
 /** A tile of a plane that rises to the east, with a hole. */

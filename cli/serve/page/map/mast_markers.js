@@ -3,14 +3,13 @@
 import { Overlay } from "../vendor/ol.js";
 import { hueCss } from "../seen/palette.js";
 import { metresText } from "../panel/words.js";
+import { letterOf } from "../state/mast_letter.js";
 import { follow } from "./dragging.js";
 
 /** @typedef {import("../state/scene.js").Scene} Scene */
 /** @typedef {import("../state/scene.js").Mast} Mast */
 /** @typedef {import("../vendor/ol.js").OlMap} OlMap */
 
-/** One letter or figure for the marker. @param {Mast} mast */
-export const letterOf = (mast) => mast.name.trim().slice(-1) || "•";
 
 export class MastMarkers {
   /** @type {Map<number, Overlay>} */

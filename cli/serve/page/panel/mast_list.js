@@ -3,7 +3,7 @@
 import { element, make } from "./elements.js";
 import { areaText, shareText } from "./words.js";
 import { hueCss } from "../seen/palette.js";
-import { letterOf } from "../map/mast_markers.js";
+import { letterOf } from "../state/mast_letter.js";
 
 /** @typedef {import("../state/scene.js").Scene} Scene */
 /** @typedef {import("../state/scene.js").Mast} Mast */

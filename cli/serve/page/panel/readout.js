@@ -4,7 +4,7 @@ import { element, make } from "./elements.js";
 import { azimuthText, distanceText, metresText, numberText, placeText } from "./words.js";
 import { CUT, NEAREST, VERDICT, VISIBLE } from "../seen/seen_cells.js";
 import { hueCss } from "../seen/palette.js";
-import { letterOf } from "../map/mast_markers.js";
+import { letterOf } from "../state/mast_letter.js";
 import { valueModeOf, withUnit } from "../seen/values.js";
 
 /** @typedef {import("../state/scene.js").Scene} Scene */
