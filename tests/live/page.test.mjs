@@ -179,6 +179,7 @@ test("several masts are shown together, alone and as a difference", async () => 
 
 test("modes with values have classes in the legend, and each place its value", async () => {
   const page = await pageWithMast();
+  await setField(page, "[name=cell]", "200");
   for (const [mode, words] of [["height", /up to 2 m.*over 100 m/s], ["angle", /over 2°/], ["loss", /up to 1 dB/]]) {
     await page.select("select[name=mode]", mode);
     await page.waitForFunction((title) => document.querySelector("#legend-list").textContent.includes(title), {}, { height: "100 m", angle: "2°", loss: "dB" }[mode]);
