@@ -37,8 +37,11 @@ async function until(holds, what) {
   assert.fail(`in vain: ${what}`);
 }
 
+/** Waits until the page has drawn what it knows. */
+const drawn = (page) => page.evaluate(() => new Promise((resume) => requestAnimationFrame(() => requestAnimationFrame(resume))));
+
 /** Waits until every mast's cells are all decided. */
-const settled = (page) => page.waitForFunction(() => document.querySelector(".mast") && !document.querySelector(".mast.working"), { timeout: 15000 });
+const settled = async (page) => ((await drawn(page)), page.waitForFunction(() => document.querySelector(".mast") && !document.querySelector(".mast.working"), { timeout: 15000 }));
 
 async function setField(page, selector, text_of_it) {
   await page.$eval(selector, (input, to) => {
@@ -95,6 +98,39 @@ test("a click drops a mast, a drag and arrow keys move it, and the map follows",
   await setField(page, ".mast.selected .field-height input", "45.5");
   await settled(page);
   await assertSummary(page, { ...dragged, x: dragged.x + 50, y: dragged.y + 500, h: 45.5 });
+  await closed(page);
+});
+
+test("the keyboard alone places, moves and removes masts", async () => {
+  const page = await openPage(browser, hills.address);
+  await page.focus("#map");
+  await page.keyboard.press("Enter");
+  await settled(page);
+  const placed = await mastAt(page);
+  assert.equal(await page.evaluate(() => document.activeElement.className), "marker");
+  await page.keyboard.press("ArrowDown");
+  await settled(page);
+  assert.deepEqual(await mastAt(page), { ...placed, y: placed.y - 50 });
+  await page.keyboard.press("Delete");
+  await page.waitForFunction(() => !document.querySelector(".mast"));
+  assert.match(await text(page, "#hint"), /Click the map/);
+  await closed(page);
+});
+
+const groundAt = ({ x, y }) => JSON.parse(itin(["los", "hills.itin", "--from", `${x},${y}`, "--to", `${x},${y}`, "--json"], stores.folder)).from.ground_m;
+
+test("a mast goes up to the highest ground near by", async () => {
+  const page = await pageWithMast(), before_it = await mastAt(page);
+  await page.$eval(".mast.selected .actions button", (button) => button.click());
+  await page.waitForFunction((x) => document.querySelector(".mast.selected .field-x input").value !== String(x), {}, before_it.x);
+  await settled(page);
+  const top = await mastAt(page), around = [];
+  assert(Math.hypot(top.x - before_it.x, top.y - before_it.y) <= 500);
+  for (let i = 0; i < 16; ++i) {
+    const at = { x: before_it.x + 60 * ((i % 4) - 1.5) * 2, y: before_it.y + 60 * (Math.floor(i / 4) - 1.5) * 2 };
+    around.push(groundAt(at));
+  }
+  assert(groundAt(top) > groundAt(before_it) && groundAt(top) >= Math.max(...around));
   await closed(page);
 });
 
@@ -317,6 +353,17 @@ for (const dark of [false, true]) {
     await closed(page);
   });
 }
+
+test("the page says when the server has gone, and when another has come", async () => {
+  const first = await serve(stores.folder, "town.itin"), page = await openPage(browser, first.address);
+  const says = (words) => page.waitForFunction((wanted) => document.querySelector("#status").textContent.includes(wanted), {}, words);
+  await first.stop();
+  await says("does not answer");
+  const second = await serve(stores.folder, "town.itin", new URL(first.address).port);
+  await says("an earlier start");
+  await page.close();
+  await second.stop();
+});
 
 test("without the key the page says where to find it", async () => {
   const context = await browser.createBrowserContext(), page = await context.newPage();

@@ -36,8 +36,8 @@ function freePort() {
 }
 
 /** Serves a store of the folder until it is stopped. */
-export async function serve(folder, store) {
-  const child = spawn(program, ["serve", store, "--port", String(await freePort())], { cwd: folder, stdio: ["ignore", "pipe", "pipe"] });
+export async function serve(folder, store, port) {
+  const child = spawn(program, ["serve", store, "--port", String(port ?? (await freePort()))], { cwd: folder, stdio: ["ignore", "pipe", "pipe"] });
   const address = await new Promise((resolve, reject) => {
     let said = "";
     const listen = (chunk) => {

@@ -2,7 +2,7 @@
 
 import { element, make } from "./elements.js";
 import { areaText, shareText } from "./words.js";
-import { CUT, UNDECIDED, VERDICT } from "../seen/seen_cells.js";
+import { CUT, UNDECIDED } from "../seen/seen_cells.js";
 import { HUES, SHARED, UNDECIDED_COLOUR, cssColour, hueCss, meanColour, rampColour } from "../seen/palette.js";
 import { SLOPE_COLOURS, SLOPE_LIMITS } from "../map/shade.js";
 import { sourcesOf } from "../seen/shown.js";
@@ -61,7 +61,7 @@ function verdictEntries(scene, sources) {
 }
 
 /** Whether any mast has a cell of this verdict. @param {Source[]} sources @param {number} verdict */
-const holds = (sources, verdict) => sources.some(({ cells }) => cells.step === 1 && cells.codes.some((code) => (code & VERDICT) === verdict));
+const holds = (sources, verdict) => sources.some(({ cells }) => cells.verdicts & (1 << verdict));
 
 /** @param {Entry} entry */
 function entryElement([colour, text, opacity = 0.65]) {

@@ -16,6 +16,7 @@ export function makeOptionsForm(scene, info, views) {
   form.addEventListener("submit", (event) => event.preventDefault());
   form.addEventListener("change", ({ target }) => {
     if (!(target instanceof HTMLInputElement || target instanceof HTMLSelectElement) || !target.name) return;
+    if (!target.checkValidity()) return target.setAttribute("aria-invalid", "true");
     if (target.name === MODE) setMode(scene, target.value);
     else setOption(scene, target.name, target.value.trim());
   });

@@ -24,6 +24,7 @@ export class SeenCells {
     this.rows = begun.rows;
     this.ground = begun.ground_m?.[0] ?? NaN;
     this.step = 9;
+    this.verdicts = 0;  // a bit for each verdict that has come
     this.codes = new Uint8Array(this.columns * this.rows).fill(UNKNOWN);
     this.values = begun.kind === 0 ? null : new Float32Array(this.columns * this.rows).fill(NaN);
   }
@@ -36,7 +37,9 @@ export class SeenCells {
     for (let j = 0, from = 0; j < tile.rows; ++j) {
       let to = (tile.row + j * tile.step - this.row) * this.columns + tile.column - this.column;
       for (let i = 0; i < tile.columns; ++i, ++from, to += tile.step) {
-        this.codes[to] = codeOf(tile.verdicts[from]);
+        const code = codeOf(tile.verdicts[from]);
+        this.codes[to] = code;
+        this.verdicts |= 1 << code;
         if (this.values && tile.values) this.values[to] = tile.values[from];
       }
     }
