@@ -1,18 +1,39 @@
 // The page of `itin serve` in a real browser, as a planner uses it.
 import assert from "node:assert/strict";
-import { execSync } from "node:child_process";
-import { mkdirSync, readFileSync, readdirSync } from "node:fs";
-import { dirname, join } from "node:path";
+import { mkdirSync } from "node:fs";
+import { join } from "node:path";
 import { after, before, test } from "node:test";
 
-import { axeSource, itin, keepPicture, launchBrowser, makeStores, openPage, serve } from "./served_map.mjs";
+import {
+  axeFindings,
+  boxOf,
+  closed,
+  downloaded,
+  mastAt,
+  middleOf,
+  observer,
+  pause,
+  setField,
+  settled,
+  text,
+  until,
+  value,
+} from "./planner.mjs";
+import { itin, keepPicture, launchBrowser, makeStores, openPage, runLine, serve } from "./served_map.mjs";
 
 const MIDDLE = { x: 760, y: 330 };
-let stores, hills, town, browser;
+let stores;
+let hills;
+let town;
+let browser;
 
 before(async () => {
   stores = makeStores();
-  [hills, town, browser] = await Promise.all([serve(stores.folder, "hills.itin"), serve(stores.folder, "town.itin"), launchBrowser()]);
+  [hills, town, browser] = await Promise.all([
+    serve(stores.folder, "hills.itin"),
+    serve(stores.folder, "town.itin"),
+    launchBrowser(),
+  ]);
 });
 
 after(async () => {
@@ -20,36 +41,6 @@ after(async () => {
   await Promise.all([hills?.stop(), town?.stop()]);
   stores?.remove();
 });
-
-const text = (page, selector) => page.$eval(selector, (found) => found.textContent);
-const value = (page, selector) => page.$eval(selector, (found) => found.value);
-const mastAt = async (page) => ({ x: Number(await value(page, ".mast.selected .field-x input")), y: Number(await value(page, ".mast.selected .field-y input")), h: Number(await value(page, ".mast.selected .field-height input")) });
-const observer = ({ x, y, h }) => `${x},${y},${h}`;
-
-const pause = (milliseconds) => new Promise((resume) => setTimeout(resume, milliseconds));
-
-/** Waits until something holds, for five seconds at most. */
-async function until(holds, what) {
-  for (let tries = 0; tries < 50; ++tries) {
-    if (await holds()) return;
-    await pause(100);
-  }
-  assert.fail(`in vain: ${what}`);
-}
-
-/** Waits until the page has drawn what it knows. */
-const drawn = (page) => page.evaluate(() => new Promise((resume) => requestAnimationFrame(() => requestAnimationFrame(resume))));
-
-/** Waits until every mast's cells are all decided. */
-const settled = async (page) => ((await drawn(page)), page.waitForFunction(() => document.querySelector(".mast") && !document.querySelector(".mast.working"), { timeout: 15000 }));
-
-async function setField(page, selector, text_of_it) {
-  await page.$eval(selector, (input, to) => {
-    input.closest("details")?.setAttribute("open", "");
-    input.value = to;
-    input.dispatchEvent(new Event("change", { bubbles: true }));
-  }, text_of_it);
-}
 
 /** The page with one mast in the middle of the map. */
 async function pageWithMast(server = hills, options = {}) {
@@ -59,21 +50,21 @@ async function pageWithMast(server = hills, options = {}) {
   return page;
 }
 
-async function closed(page) {
-  assert.deepEqual(page.troubles, []);
-  await page.close();
+/** What the command line counts of what observers see. */
+function counted(...observers) {
+  const options = `--observer ${observers.join(" ")} --target-height 2 --radius 10000 --cell 50 -o count.tif --overwrite`;
+  return JSON.parse(itin(`viewshed hills.itin ${options} --json`, stores.folder)).cells;
 }
 
-/** What the command line counts for the mast selected. */
-const counted = (mast, ...options) => JSON.parse(itin(["viewshed", "hills.itin", "--observer", observer(mast), "--target-height", "2", "--radius", "10000", "--cell", "50", ...options, "-o", "count.tif", "--overwrite", "--json"], stores.folder)).cells;
-
 async function assertSummary(page, mast) {
-  const { visible, hidden, undecided } = counted(mast), share = ((100 * visible) / (visible + hidden + undecided)).toFixed(1);
+  const { visible, hidden, undecided } = counted(observer(mast));
+  const share = ((100 * visible) / (visible + hidden + undecided)).toFixed(1);
   assert.match(await text(page, ".mast.selected .mast-summary"), new RegExp(` ${share.replace(".", "\\.")} %$`));
 }
 
 test("a click drops a mast, a drag and arrow keys move it, and the map follows", async () => {
-  const page = await pageWithMast(), dropped = await mastAt(page);
+  const page = await pageWithMast();
+  const dropped = await mastAt(page);
   await assertSummary(page, dropped);
   await keepPicture(page, "mast");
 
@@ -84,7 +75,9 @@ test("a click drops a mast, a drag and arrow keys move it, and the map follows",
   await page.mouse.up();
   await settled(page);
   const dragged = await mastAt(page);
-  assert(Math.abs(dragged.x - dropped.x + 40 * resolution) <= 10 && Math.abs(dragged.y - dropped.y + 30 * resolution) <= 10);
+  assert(
+    Math.abs(dragged.x - dropped.x + 40 * resolution) <= 10 && Math.abs(dragged.y - dropped.y + 30 * resolution) <= 10,
+  );
   await assertSummary(page, dragged);
 
   await page.keyboard.press("ArrowRight");
@@ -117,31 +110,40 @@ test("the keyboard alone places, moves and removes masts", async () => {
   await closed(page);
 });
 
-const groundAt = ({ x, y }) => JSON.parse(itin(["los", "hills.itin", "--from", `${x},${y}`, "--to", `${x},${y}`, "--json"], stores.folder)).from.ground_m;
+const groundAt = ({ x, y }) =>
+  JSON.parse(itin(`los hills.itin --from ${x},${y} --to ${x},${y} --json`, stores.folder)).from.ground_m;
 
 test("a mast goes up to the highest ground near by", async () => {
-  const page = await pageWithMast(), before_it = await mastAt(page);
+  const page = await pageWithMast();
+  const dropped = await mastAt(page);
   await page.$eval(".mast.selected .actions button", (button) => button.click());
-  await page.waitForFunction((x) => document.querySelector(".mast.selected .field-x input").value !== String(x), {}, before_it.x);
+  await page.waitForFunction(
+    (x) => document.querySelector(".mast.selected .field-x input").value !== String(x),
+    {},
+    dropped.x,
+  );
   await settled(page);
-  const top = await mastAt(page), around = [];
-  assert(Math.hypot(top.x - before_it.x, top.y - before_it.y) <= 500);
+  const top = await mastAt(page);
+  const around = [];
+  assert(Math.hypot(top.x - dropped.x, top.y - dropped.y) <= 500);
   for (let i = 0; i < 16; ++i) {
-    const at = { x: before_it.x + 60 * ((i % 4) - 1.5) * 2, y: before_it.y + 60 * (Math.floor(i / 4) - 1.5) * 2 };
+    const at = { x: dropped.x + 60 * ((i % 4) - 1.5) * 2, y: dropped.y + 60 * (Math.floor(i / 4) - 1.5) * 2 };
     around.push(groundAt(at));
   }
-  assert(groundAt(top) > groundAt(before_it) && groundAt(top) >= Math.max(...around));
+  assert(groundAt(top) > groundAt(dropped) && groundAt(top) >= Math.max(...around));
   await closed(page);
 });
 
 /** The document of `itin los` from the mast to what the page's address has as target. */
 function lineTo(mast, page) {
   const target = new URLSearchParams(new URL(page.url()).hash.slice(1)).get("target");
-  return JSON.parse(itin(["los", "hills.itin", "--from", observer(mast), "--to", `${target},2`, "--json"], stores.folder));
+  return JSON.parse(itin(`los hills.itin --from ${observer(mast)} --to ${target},2 --json`, stores.folder));
 }
 
 test("the readout says what is under the cursor, and a click shows the line of sight", async () => {
-  const page = await pageWithMast(), mast = await mastAt(page), words = { visible: /: visible/, hidden: /: hidden/, undecided: /: undecided/ };
+  const page = await pageWithMast();
+  const mast = await mastAt(page);
+  const words = { visible: /: visible/, hidden: /: hidden/, undecided: /: undecided/ };
   await page.mouse.move(MIDDLE.x + 90, MIDDLE.y - 60, { steps: 3 });
   await page.waitForSelector("#readout:not([hidden])");
   await page.waitForFunction(() => document.querySelector("#readout dl")?.textContent.includes("true"));
@@ -154,37 +156,33 @@ test("the readout says what is under the cursor, and a click shows the line of s
   const line = lineTo(mast, page);
   assert.match(await text(page, ".readout-verdict"), words[line.verdict]);
   assert.match(readout, new RegExp(`Distance${(line.distance_m / 1000).toFixed(2).replace(".", "\\.")} km`));
-  assert.match(readout, new RegExp(`${line.from.azimuth_grid_deg.toFixed(1).padStart(5, "0")}° grid, ${line.from.azimuth_true_deg.toFixed(1).padStart(5, "0")}° true`));
+  const [grid, north] = [line.from.azimuth_grid_deg, line.from.azimuth_true_deg].map((azimuth) =>
+    azimuth.toFixed(1).padStart(5, "0"),
+  );
+  assert.ok(readout.includes(`Azimuth${grid}° grid, ${north}° true`), readout);
   assert.match(await text(page, "#line-verdict"), line.verdict === "visible" ? /in sight/ : /hidden by/);
   await keepPicture(page, "line");
   await closed(page);
 });
 
-async function boxOf(page, selector) {
-  return page.$eval(selector, (found) => {
-    const { x, y, width, height } = found.getBoundingClientRect();
-    return { x, y, width, height };
-  });
-}
-
-async function middleOf(page, selector) {
-  const { x, y, width, height } = await boxOf(page, selector);
-  return { x: x + width / 2, y: y + height / 2 };
-}
-
 test("hovering ties the profile and the map", async () => {
   const page = await pageWithMast();
   await page.mouse.click(MIDDLE.x + 200, MIDDLE.y);
   await page.waitForSelector("#profile canvas");
-  await page.mouse.move(MIDDLE.x + 200, MIDDLE.y + 90);  // away from the line
+  await page.mouse.move(MIDDLE.x + 200, MIDDLE.y + 90); // away from the line
   await pause(500);
   const marker = await middleOf(page, ".marker");
-  const middle = { x: marker.x + 100, y: marker.y }, around = { clip: { x: middle.x - 12, y: middle.y - 12, width: 24, height: 24 } };
-  const without = await page.screenshot(around), plot = await boxOf(page, ".u-over");
+  const middle = { x: marker.x + 100, y: marker.y };
+  const around = { clip: { x: middle.x - 12, y: middle.y - 12, width: 24, height: 24 } };
+  const without = await page.screenshot(around);
+  const plot = await boxOf(page, ".u-over");
   await page.mouse.move(plot.x + plot.width / 2, plot.y + plot.height / 2, { steps: 2 });
   await until(async () => Buffer.compare(await page.screenshot(around), without) !== 0, "the map marks the place");
   await page.mouse.move(middle.x, middle.y + 3, { steps: 2 });
-  await until(async () => Math.abs((await boxOf(page, ".u-cursor-x")).x - plot.x - plot.width / 2) < 0.03 * plot.width, "the profile's cursor follows");
+  await until(
+    async () => Math.abs((await boxOf(page, ".u-cursor-x")).x - plot.x - plot.width / 2) < 0.03 * plot.width,
+    "the profile's cursor follows",
+  );
   await page.keyboard.press("Escape");
   await page.waitForSelector("#line[hidden]");
   await closed(page);
@@ -195,9 +193,12 @@ test("several masts are shown together, alone and as a difference", async () => 
   await page.mouse.click(MIDDLE.x + 60, MIDDLE.y + 40, { button: "right" });
   await page.waitForFunction(() => document.querySelectorAll(".mast").length === 2);
   await settled(page);
-  const seen = async () => ((await page.waitForFunction(() => document.querySelector("#legend-sum").textContent !== "")), text(page, "#legend-sum"));
+  const seen = async () => (
+    await page.waitForFunction(() => document.querySelector("#legend-sum").textContent !== ""),
+    text(page, "#legend-sum")
+  );
   const masts = [...(await text(page, "#command")).matchAll(/--observer=(\S+)/g)].map((found) => found[1]);
-  const both = JSON.parse(itin(["viewshed", "hills.itin", "--observer", ...masts, "--target-height", "2", "--radius", "10000", "--cell", "50", "-o", "both.tif", "--json"], stores.folder)).cells;
+  const both = counted(...masts);
   const share = (100 * both.visible) / (both.visible + both.hidden + both.undecided);
   assert.match(await seen(), new RegExp(`^From any .*\\(${share.toFixed(1).replace(".", "\\.")} %\\), from all`));
   const pictures = [await keepPicture(page, "together")];
@@ -216,9 +217,17 @@ test("several masts are shown together, alone and as a difference", async () => 
 test("modes with values have classes in the legend, and each place its value", async () => {
   const page = await pageWithMast();
   await setField(page, "[name=cell]", "200");
-  for (const [mode, words] of [["height", /up to 2 m.*over 100 m/s], ["angle", /over 2°/], ["loss", /up to 1 dB/]]) {
+  for (const [mode, words] of [
+    ["height", /up to 2 m.*over 100 m/s],
+    ["angle", /over 2°/],
+    ["loss", /up to 1 dB/],
+  ]) {
     await page.select("select[name=mode]", mode);
-    await page.waitForFunction((title) => document.querySelector("#legend-list").textContent.includes(title), {}, { height: "100 m", angle: "2°", loss: "dB" }[mode]);
+    await page.waitForFunction(
+      (title) => document.querySelector("#legend-list").textContent.includes(title),
+      {},
+      { height: "100 m", angle: "2°", loss: "dB" }[mode],
+    );
     await settled(page);
     assert.match(await text(page, "#legend-list"), words);
     await keepPicture(page, mode);
@@ -233,7 +242,9 @@ test("a reload from the address shows the same, and the key is not in it", async
   await settled(page);
   await page.waitForFunction(() => location.hash.includes("effective-earth=4/3") && location.hash.includes("&target="));
   await page.waitForSelector("#line[aria-busy=false]");
-  const address = page.url(), mast = await mastAt(page), said = await text(page, "#line-verdict");
+  const address = page.url();
+  const mast = await mastAt(page);
+  const said = await text(page, "#line-verdict");
   assert.doesNotMatch(address, /key=/);
   await closed(page);
   const again = await openPage(browser, address);
@@ -242,38 +253,30 @@ test("a reload from the address shows the same, and the key is not in it", async
   assert.deepEqual(await mastAt(again), mast);
   assert.equal(await value(again, "[name=effective-earth]"), "4/3");
   assert.equal(await text(again, "#line-verdict"), said);
-  await again.waitForFunction((before_it) => location.href === before_it, {}, address);
+  await again.waitForFunction((dropped) => location.href === dropped, {}, address);
   await closed(again);
 });
 
-/** Runs a command of the page in the folder of the stores. */
-function runCommand(command, output) {
-  mkdirSync(join(stores.folder, "by-hand"), { recursive: true });
-  const program = process.env.ITIN_PROGRAM ?? "build/test/bin/itin";
-  execSync(`${command.replace(/ (-o|--output) \S+/, "")} -o by-hand/${output} --quiet`, { cwd: stores.folder, env: { ...process.env, PATH: `${dirname(program)}:${process.env.PATH}` }, stdio: "ignore" });
-  return readFileSync(join(stores.folder, "by-hand", output));
-}
-
-async function downloaded(folder, name) {
-  for (let tries = 0; tries < 100; ++tries) {
-    if (readdirSync(folder).includes(name)) return readFileSync(join(folder, name));
-    await pause(100);
-  }
-  throw new Error(`no ${name} in ${readdirSync(folder)}`);
-}
-
 test("what is downloaded is the bytes of the command line that is copied", async () => {
-  const page = await pageWithMast(), folder = join(stores.folder, "downloads"), client = await page.createCDPSession();
+  const page = await pageWithMast();
+  const folder = join(stores.folder, "downloads");
+  const client = await page.createCDPSession();
   await client.send("Browser.setDownloadBehavior", { behavior: "allow", downloadPath: folder });
-  await browser.defaultBrowserContext().overridePermissions(new URL(hills.address).origin, ["clipboard-read", "clipboard-write", "clipboard-sanitized-write"]);
+  await browser
+    .defaultBrowserContext()
+    .overridePermissions(new URL(hills.address).origin, [
+      "clipboard-read",
+      "clipboard-write",
+      "clipboard-sanitized-write",
+    ]);
   mkdirSync(folder);
   await page.bringToFront();
   await page.click("#copy");
- await page.waitForFunction(() => document.querySelector("#results-said").textContent === "Copied.");
+  await page.waitForFunction(() => document.querySelector("#results-said").textContent === "Copied.");
   const command = await page.evaluate(() => navigator.clipboard.readText());
   assert.equal(command, await text(page, "#command"));
   await page.$eval("[data-ending=tif]", (button) => button.click());
-  assert.deepEqual(await downloaded(folder, "mast-a.tif"), runCommand(command, "mast-a.tif"));
+  assert.deepEqual(await downloaded(folder, "mast-a.tif"), runLine(command, stores.folder, "by-hand.tif"));
   await page.waitForFunction(() => document.querySelector("#results-said").textContent.startsWith("Saved"));
   await page.$eval("[data-ending=png]", (button) => button.click());
   assert.equal((await downloaded(folder, "mast-a.png")).subarray(1, 4).toString(), "PNG");
@@ -281,7 +284,8 @@ test("what is downloaded is the bytes of the command line that is copied", async
 });
 
 test("places are typed as the command line takes them, and what it cannot read is said in its words", async () => {
-  const page = await openPage(browser, hills.address), add = async (place) => {
+  const page = await openPage(browser, hills.address);
+  const add = async (place) => {
     await page.$eval("#place", (input, to) => (input.value = to), place);
     await page.$eval("#place-form button", (button) => button.click());
   };
@@ -290,7 +294,7 @@ test("places are typed as the command line takes them, and what it cannot read i
   assert.deepEqual(await mastAt(page), { x: 310375, y: 183525, h: 20 });
   await add("nowhere");
   await page.waitForFunction(() => document.querySelector("#place-problem").textContent.includes("nowhere"));
-  page.troubles.length = 0;  // the browser notes the answer 400
+  page.troubles.length = 0; // the browser notes the answer 400
   await setField(page, "[name=radius]", "far");
   await page.waitForFunction(() => document.querySelector(".mast-summary.problem")?.textContent.includes("far"));
   assert.equal(await page.$eval("[name=radius]", (input) => input.getAttribute("aria-invalid")), "true");
@@ -301,33 +305,41 @@ test("places are typed as the command line takes them, and what it cannot read i
 });
 
 test("layers change the picture under the masts, and houses are drawn where they are", async () => {
-  const page = await pageWithMast(town), shown = async () => ((await pause(300)), (await page.waitForNetworkIdle()), page.screenshot({ clip: { x: 320, y: 0, width: 700, height: 600 } }));
+  const page = await pageWithMast(town);
+  const shown = async () => (
+    await pause(300),
+    await page.waitForNetworkIdle(),
+    page.screenshot({ clip: { x: 320, y: 0, width: 700, height: 600 } })
+  );
   let last = await shown();
   await keepPicture(page, "town");
-  const changes = [["#contours", "click"], ["#relief", "slope"], ["#relief", "none"], ["#drawn-themes input", "click"]];
+  const changes = [
+    ["#contours", "click"],
+    ["#relief", "slope"],
+    ["#relief", "none"],
+    ["#drawn-themes input", "click"],
+  ];
   for (const [selector, to] of changes) {
-    await page.$eval(selector, (field, action) => {
-      if (action === "click") field.click();
-      else Object.assign(field, { value: action }).dispatchEvent(new Event("change", { bubbles: true }));
-    }, to);
+    await page.$eval(
+      selector,
+      (field, action) => {
+        if (action === "click") field.click();
+        else Object.assign(field, { value: action }).dispatchEvent(new Event("change", { bubbles: true }));
+      },
+      to,
+    );
     const now = await shown();
     assert.notDeepEqual(now, last, `${selector} ${to}`);
     last = now;
   }
-  const share = async () => (await text(page, ".mast-summary")).match(/([\d.]+) %$/)[1], with_houses = await share();
+  const share = async () => (await text(page, ".mast-summary")).match(/([\d.]+) %$/)[1];
+  const withHouses = await share();
   await page.$eval("#theme-boxes input", (input) => input.click());
   await settled(page);
-  assert(Number(await share()) > Number(with_houses));
+  assert(Number(await share()) > Number(withHouses));
   assert.match(page.url(), /themes=none|draw=/);
   await closed(page);
 });
-
-/** Findings of axe that keep people out. */
-async function findings(page) {
-  await page.evaluate(axeSource);
-  const { violations } = await page.evaluate(() => window.axe.run());
-  return violations.filter(({ impact }) => ["serious", "critical"].includes(impact)).map(({ id, nodes }) => `${id}: ${nodes.map(({ target }) => target).join(", ")}`);
-}
 
 for (const dark of [false, true]) {
   test(`${dark ? "dark" : "light"}: axe finds nothing serious, on a wide screen and on a phone`, async () => {
@@ -337,7 +349,7 @@ for (const dark of [false, true]) {
     await page.$$eval("details", (all) => all.forEach((some) => (some.open = true)));
     await settled(page);
     await page.waitForSelector("#profile canvas");
-    assert.deepEqual(await findings(page), []);
+    assert.deepEqual(await axeFindings(page), []);
     await keepPicture(page, dark ? "dark" : "light");
 
     await page.setViewport({ width: 390, height: 800, isMobile: true, hasTouch: true });
@@ -346,17 +358,21 @@ for (const dark of [false, true]) {
     await keepPicture(page, dark ? "phone-dark" : "phone");
     await page.$eval("#sheet-button", (button) => button.click());
     assert.equal(await page.$eval("#sheet-button", (button) => button.getAttribute("aria-expanded")), "true");
-    assert.deepEqual(await findings(page), []);
+    assert.deepEqual(await axeFindings(page), []);
     await keepPicture(page, dark ? "phone-sheet-dark" : "phone-sheet");
-    const background = await page.evaluate(() => getComputedStyle(document.body).backgroundColor.match(/\d+/g).map(Number));
+    const background = await page.evaluate(() =>
+      getComputedStyle(document.body).backgroundColor.match(/\d+/g).map(Number),
+    );
     assert(dark ? background[0] < 60 : background[0] > 200);
     await closed(page);
   });
 }
 
 test("the page says when the server has gone, and when another has come", async () => {
-  const first = await serve(stores.folder, "town.itin"), page = await openPage(browser, first.address);
-  const says = (words) => page.waitForFunction((wanted) => document.querySelector("#status").textContent.includes(wanted), {}, words);
+  const first = await serve(stores.folder, "town.itin");
+  const page = await openPage(browser, first.address);
+  const says = (words) =>
+    page.waitForFunction((wanted) => document.querySelector("#status").textContent.includes(wanted), {}, words);
   await first.stop();
   await says("does not answer");
   const second = await serve(stores.folder, "town.itin", new URL(first.address).port);
@@ -366,7 +382,8 @@ test("the page says when the server has gone, and when another has come", async 
 });
 
 test("without the key the page says where to find it", async () => {
-  const context = await browser.createBrowserContext(), page = await context.newPage();
+  const context = await browser.createBrowserContext();
+  const page = await context.newPage();
   await page.goto(new URL(hills.address).origin);
   await page.waitForFunction(() => document.querySelector("#status").textContent.includes("itin serve printed"));
   await context.close();

@@ -1,10 +1,10 @@
 // The map as a planner has it: the program serves a store, and Chromium opens the address that it prints.
-import { execFileSync, spawn } from "node:child_process";
-import { mkdirSync, mkdtempSync, rmSync } from "node:fs";
+import { execFileSync, execSync, spawn } from "node:child_process";
+import { mkdirSync, mkdtempSync, readFileSync, rmSync } from "node:fs";
 import { createRequire } from "node:module";
 import { createServer } from "node:net";
 import { tmpdir } from "node:os";
-import { join } from "node:path";
+import { dirname, join } from "node:path";
 
 const packages = createRequire(new URL("../../build/web/package.json", import.meta.url));
 const puppeteer = packages("puppeteer-core");
@@ -14,15 +14,23 @@ const program = process.env.ITIN_PROGRAM ?? new URL("../../build/test/bin/itin",
 const data = new URL("../../scripts/demo-data/", import.meta.url).pathname;
 const pictures = new URL("../../build/live/", import.meta.url).pathname;
 
-/** Runs the program and returns what it prints. */
-export const itin = (options, cwd) => execFileSync(program, options, { cwd, encoding: "utf8", stdio: ["ignore", "pipe", "ignore"] });
+/** Runs the program with options that have no spaces, in a folder, and returns what it prints. */
+export const itin = (options, folder) =>
+  execFileSync(program, options.split(" "), { cwd: folder, encoding: "utf8", stdio: ["ignore", "pipe", "ignore"] });
+
+/** Runs a line that someone copied into a shell, in a folder, and returns the file that it writes. */
+export function runLine(line, folder, output) {
+  const env = { ...process.env, PATH: `${dirname(program)}:${process.env.PATH}` };
+  execSync(`${line.replace(/ -o \S+/, "")} -o ${output}`, { cwd: folder, env, stdio: "ignore" });
+  return readFileSync(join(folder, output));
+}
 
 /** Imports the demonstration's stores into a folder of its own: hills, and a town with houses. */
 export function makeStores() {
   const folder = mkdtempSync(join(tmpdir(), "itin-live-"));
-  itin(["import", "hills.itin", join(data, "cardiff.tif")], folder);
-  itin(["import", "town.itin", join(data, "alexandria-dtm.tif")], folder);
-  itin(["import", "town.itin", join(data, "alexandria-buildings.geojson"), "--kind", "buildings", "--height-field", "HEIGHT"], folder);
+  itin(`import hills.itin ${data}cardiff.tif`, folder);
+  itin(`import town.itin ${data}alexandria-dtm.tif`, folder);
+  itin(`import town.itin ${data}alexandria-buildings.geojson --kind buildings --height-field HEIGHT`, folder);
   return { folder, remove: () => rmSync(folder, { recursive: true }) };
 }
 
@@ -37,7 +45,10 @@ function freePort() {
 
 /** Serves a store of the folder until it is stopped. */
 export async function serve(folder, store, port) {
-  const child = spawn(program, ["serve", store, "--port", String(port ?? (await freePort()))], { cwd: folder, stdio: ["ignore", "pipe", "pipe"] });
+  const child = spawn(program, ["serve", store, "--port", String(port ?? (await freePort()))], {
+    cwd: folder,
+    stdio: ["ignore", "pipe", "pipe"],
+  });
   const address = await new Promise((resolve, reject) => {
     let said = "";
     const listen = (chunk) => {
@@ -53,14 +64,23 @@ export async function serve(folder, store, port) {
   return { address, stop: () => (child.kill("SIGINT"), ended) };
 }
 
-export const launchBrowser = () => puppeteer.launch({ executablePath: process.env.ITIN_CHROMIUM ?? "/usr/bin/chromium", headless: true, args: ["--no-sandbox", "--disable-gpu", "--force-device-scale-factor=1"] });
+export const launchBrowser = () =>
+  puppeteer.launch({
+    executablePath: process.env.ITIN_CHROMIUM ?? "/usr/bin/chromium",
+    headless: true,
+    args: ["--no-sandbox", "--disable-gpu", "--force-device-scale-factor=1"],
+  });
 
 /** Opens an address, and notes errors of the page and requests to other places than the server. */
 export async function openPage(browser, address, { width = 1200, height = 800, dark = false } = {}) {
-  const page = await browser.newPage(), origin = new URL(address).origin, troubles = [];
+  const page = await browser.newPage();
+  const origin = new URL(address).origin;
+  const troubles = [];
   page.on("pageerror", (problem) => troubles.push(problem.message));
   page.on("request", (request) => {
-    if (!/^(data|blob):/.test(request.url()) && new URL(request.url()).origin !== origin) troubles.push(`request to ${request.url()}`);
+    if (!/^(data|blob):/.test(request.url()) && new URL(request.url()).origin !== origin) {
+      troubles.push(`request to ${request.url()}`);
+    }
   });
   page.on("console", (message) => message.type() === "error" && troubles.push(message.text()));
   await page.setViewport({ width, height, isMobile: width < 600, hasTouch: width < 600 });

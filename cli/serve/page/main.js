@@ -41,11 +41,19 @@ function keepAddress(scene) {
 }
 
 async function start() {
-  const { key, rest } = takeKey(), info = await askInfo(), dark = matchMedia("(prefers-color-scheme: dark)");
-  const scene = new Scene(readAddress(rest, firstState(info))), connection = new LiveConnection(key);
-  element("line").hidden = !scene.mast || !scene.state.target;  // before the map is made, which has the room that is left
-  const views = new LiveViews(scene, connection), tiles = new HeightTiles(info), map = makeMap(element("map"), info, scene);
-  const verdicts = new VerdictLayer(), lines = new LineLayer(scene), projection = projectionOf(info);
+  const { key, rest } = takeKey();
+  const info = await askInfo();
+  const dark = matchMedia("(prefers-color-scheme: dark)");
+  const scene = new Scene(readAddress(rest, firstState(info)));
+  const connection = new LiveConnection(key);
+  // Before the map is made, which has the room that is left.
+  element("line").hidden = !scene.mast || !scene.state.target;
+  const views = new LiveViews(scene, connection);
+  const tiles = new HeightTiles(info);
+  const map = makeMap(element("map"), info, scene);
+  const verdicts = new VerdictLayer();
+  const lines = new LineLayer(scene);
+  const projection = projectionOf(info);
   const showVerdicts = () => verdicts.show(shownOf(scene, views));
 
   showStore(info);

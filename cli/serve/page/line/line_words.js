@@ -1,36 +1,44 @@
 // What the line of sight comes to, in words.
 
-import { azimuthText, distanceText, metresText, numberText } from "../panel/words.js";
+import { azimuthsText, distanceText, metresText, numberText } from "../panel/words.js";
 
 /** @typedef {import("./sight_line.js").SightLine} SightLine */
 
 /** @param {{theme: string, feature?: string | null}} what */
-export const obstacleText = ({ theme, feature }) => (theme === "terrain" ? "the ground" : [theme, feature].filter(Boolean).join(", "));
+export const obstacleText = ({ theme, feature }) =>
+  theme === "terrain" ? "the ground" : [theme, feature].filter(Boolean).join(", ");
 
 /** @param {SightLine} line @returns {string} */
 export function verdictWords(line) {
   if (line.verdict === "visible") return "In sight";
   if (line.verdict === "undecided") return "Undecided: ground without data lies on the line";
-  const worst = line.obstructions.reduce((most, some) => (some.depth_m > most.depth_m ? some : most), line.obstructions[0]);
+  const worst = line.obstructions.reduce(
+    (most, some) => (some.depth_m > most.depth_m ? some : most),
+    line.obstructions[0],
+  );
   if (!worst) return "Hidden";
-  return `Hidden by ${obstacleText(worst)}, ${metresText(worst.depth_m)} above the line ${distanceText(worst.peak_at_m)} away`;
+  const where = `${metresText(worst.depth_m)} above the line ${distanceText(worst.peak_at_m)} away`;
+  return `Hidden by ${obstacleText(worst)}, ${where}`;
 }
 
 /** What else a planner asks of a line. @param {SightLine} line @returns {[string, string][]} */
 export function lineFacts(line) {
-  const { from, to, radio } = line, needed = line.required_heights?.[0];
+  const { from, to, radio } = line;
+  const needed = line.required_heights?.[0];
   /** @type {[string, string][]} */
   const facts = [
     ["Distance", distanceText(line.distance_m)],
-    ["Azimuth", `${azimuthText(from.azimuth_grid_deg)} grid${from.azimuth_true_deg === null ? "" : `, ${azimuthText(from.azimuth_true_deg)} true`}`],
-    ["Back", `${azimuthText(to.azimuth_grid_deg)} grid${to.azimuth_true_deg === null ? "" : `, ${azimuthText(to.azimuth_true_deg)} true`}`],
+    ["Azimuth", azimuthsText(from.azimuth_grid_deg, from.azimuth_true_deg)],
+    ["Back", azimuthsText(to.azimuth_grid_deg, to.azimuth_true_deg)],
   ];
   if (line.clearance_m !== null) facts.push(["Least clearance", metresText(line.clearance_m)]);
   if (line.verdict === "hidden" && needed) {
     if (needed.from_alone_m !== null) facts.push(["Mast needed", metresText(needed.from_alone_m)]);
     if (needed.to_alone_m !== null) facts.push(["Target needed", metresText(needed.to_alone_m)]);
   }
-  if (radio?.fresnel_fraction !== null && radio?.fresnel_fraction !== undefined) facts.push(["Fresnel zone", `${numberText(radio.fresnel_fraction, 2)} F1 clear`]);
+  if (radio?.fresnel_fraction !== null && radio?.fresnel_fraction !== undefined) {
+    facts.push(["Fresnel zone", `${numberText(radio.fresnel_fraction, 2)} F1 clear`]);
+  }
   if (radio?.losses_db) facts.push(["Diffraction loss", `${numberText(radio.losses_db.ld, 1)} dB`]);
   if (Number.isFinite(to.lat)) facts.push(["Target at", `${numberText(to.lat, 5)}, ${numberText(to.lon, 5)}`]);
   return facts;

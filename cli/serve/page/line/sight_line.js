@@ -11,8 +11,14 @@ import { observerOf } from "../seen/live_views.js";
  * @property {(number | null)[] | null} fresnel_m  Null without a frequency.
  */
 /** @typedef {{name: string, from_alone_m: number | null, to_alone_m: number | null}} RequiredHeights */
-/** @typedef {{from_m: number, to_m: number, peak_at_m: number, depth_m: number, theme: string, feature: string | null}} Obstruction */
-/** @typedef {{ground_m: number, height_m: number, lon: number, lat: number, azimuth_grid_deg: number, azimuth_true_deg: number | null}} LineEnd */
+/**
+ * @typedef {{from_m: number, to_m: number, peak_at_m: number, depth_m: number, theme: string, feature: string | null}}
+ *   Obstruction
+ */
+/**
+ * @typedef {{ground_m: number, height_m: number, lon: number, lat: number, azimuth_grid_deg: number, azimuth_true_deg:
+ *   number | null}} LineEnd
+ */
 /**
  * @typedef {object} SightLine
  * @property {"visible" | "hidden" | "undecided"} verdict
@@ -25,12 +31,25 @@ import { observerOf } from "../seen/live_views.js";
  */
 
 // Those options of a viewshed that a single line has, too.
-const SHARED = ["themes", "tolerance", "nodata", "curvature", "refraction", "earth-radius", "effective-earth", "frequency",
-  "polarisation", "over-sea", "target-on", "observer-on"];
+const SHARED = [
+  "themes",
+  "tolerance",
+  "nodata",
+  "curvature",
+  "refraction",
+  "earth-radius",
+  "effective-earth",
+  "frequency",
+  "polarisation",
+  "over-sea",
+  "target-on",
+  "observer-on",
+];
 const LINE = 1;
 
 /** @param {import("../state/scene.js").SceneState} state */
-export const optionsOfLines = ({ options }) => Object.fromEntries(Object.entries(options).filter(([name]) => SHARED.includes(name)));
+export const optionsOfLines = ({ options }) =>
+  Object.fromEntries(Object.entries(options).filter(([name]) => SHARED.includes(name)));
 
 /**
  * @param {Scene} scene @param {LiveConnection} connection
@@ -39,10 +58,17 @@ export const optionsOfLines = ({ options }) => Object.fromEntries(Object.entries
  *   is no line, and whether it is to what was asked last.
  */
 export function followSightLine(scene, connection, asks, take) {
-  let asked = "", seq = 0;
+  let asked = "";
+  let seq = 0;
   const ask = () => {
-    const { target, options } = scene.state, mast = scene.mast;
-    const wanted = mast && target && { ...optionsOfLines(scene.state), from: observerOf(mast), to: `${target.x},${target.y},${options["target-height"] ?? 0}` };
+    const { target, options } = scene.state;
+    const mast = scene.mast;
+    const wanted = mast &&
+      target && {
+        ...optionsOfLines(scene.state),
+        from: observerOf(mast),
+        to: `${target.x},${target.y},${options["target-height"] ?? 0}`,
+      };
     const text = JSON.stringify(wanted);
     if (text === asked) return;
     asked = text;

@@ -26,13 +26,20 @@ export class ContourLayer extends PathLayer {
 
   /** @param {number[]} place @param {string} variant */
   async load([z, x, y], variant) {
-    const tile = await this.tiles.get(z, x, y), interval = Number(variant), pixel = this.tiles.resolutions[z];
-    const thin = new Path2D(), bold = new Path2D(), line = this.dark.matches ? "rgb(224 190 146 / 0.7)" : "rgb(140 92 44 / 0.75)";
+    const tile = await this.tiles.get(z, x, y);
+    const interval = Number(variant);
+    const pixel = this.tiles.resolutions[z];
+    const thin = new Path2D();
+    const bold = new Path2D();
+    const line = this.dark.matches ? "rgb(224 190 146 / 0.7)" : "rgb(140 92 44 / 0.75)";
     for (const { level, x0, y0, x1, y1 } of tile ? contourPieces(tile, this.tiles.size, interval) : []) {
       const path = Math.round(level / interval) % BOLD === 0 ? bold : thin;
       path.moveTo(x0 * pixel, y0 * pixel);
       path.lineTo(x1 * pixel, y1 * pixel);
     }
-    return [{ path: thin, line, width: 0.6 }, { path: bold, line, width: 1.3 }];
+    return [
+      { path: thin, line, width: 0.6 },
+      { path: bold, line, width: 1.3 },
+    ];
   }
 }

@@ -9,12 +9,23 @@
  * @property {() => void} remove   Called for the key Delete.
  */
 
-const ARROWS = /** @type {Record<string, [number, number]>} */ ({ ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] });
-const FAST = 10;  // cells with Shift
+const ARROWS = /** @type {Record<string, [number, number]>} */ ({
+  ArrowLeft: [-1, 0],
+  ArrowRight: [1, 0],
+  ArrowUp: [0, 1],
+  ArrowDown: [0, -1],
+});
+const FAST = 10; // cells with Shift
 
-/** Rounds to a tenth of a cell or less, to the next power of ten. @param {Place} place @param {number} cell @returns {Place} */
+/**
+ * Rounds to a tenth of a cell or less, to the next power of ten.
+ * @param {Place} place
+ * @param {number} cell
+ * @returns {Place}
+ */
 export function roundedPlace({ x, y }, cell) {
-  const digits = Math.max(0, 1 - Math.floor(Math.log10(cell))), step = 10 ** Math.floor(Math.log10(cell / 10));
+  const digits = Math.max(0, 1 - Math.floor(Math.log10(cell)));
+  const step = 10 ** Math.floor(Math.log10(cell / 10));
   const rounded = (/** @type {number} */ value) => Number((Math.round(value / step) * step).toFixed(digits));
   return { x: rounded(x), y: rounded(y) };
 }
@@ -24,7 +35,8 @@ export function follow(map, button, movable) {
   button.addEventListener("pointerdown", (event) => drag(map, button, movable, event));
   button.addEventListener("keydown", (event) => {
     if (event.key === "Delete") return movable.remove();
-    const arrow = ARROWS[event.key], place = movable.place();
+    const arrow = ARROWS[event.key];
+    const place = movable.place();
     if (!arrow || !place) return;
     event.preventDefault();
     event.stopPropagation();
@@ -33,15 +45,28 @@ export function follow(map, button, movable) {
   });
 }
 
-/** @param {import("../vendor/ol.js").OlMap} map @param {HTMLElement} button @param {Movable} movable @param {PointerEvent} event */
+/**
+ * @param {import("../vendor/ol.js").OlMap} map
+ * @param {HTMLElement} button
+ * @param {Movable} movable
+ * @param {PointerEvent} event
+ */
 function drag(map, button, movable, event) {
   const from = movable.place();
   if (event.button !== 0 || !from) return;
-  const start = map.getEventCoordinate(event), ended = new AbortController(), { signal } = ended;
+  const start = map.getEventCoordinate(event);
+  const ended = new AbortController();
+  const { signal } = ended;
   button.setPointerCapture(event.pointerId);
-  button.addEventListener("pointermove", (to) => {
-    const [x, y] = map.getEventCoordinate(to);
-    if (x !== start[0] || y !== start[1]) movable.move(roundedPlace({ x: from.x + x - start[0], y: from.y + y - start[1] }, movable.cell()));
-  }, { signal });
+  button.addEventListener(
+    "pointermove",
+    (to) => {
+      const [x, y] = map.getEventCoordinate(to);
+      if (x !== start[0] || y !== start[1]) {
+        movable.move(roundedPlace({ x: from.x + x - start[0], y: from.y + y - start[1] }, movable.cell()));
+      }
+    },
+    { signal },
+  );
   for (const end of ["pointerup", "pointercancel"]) button.addEventListener(end, () => ended.abort(), { signal });
 }

@@ -1,7 +1,10 @@
 // Tiles of the ground's heights, as the server sends them and kept for a while.
 
 /** @typedef {import("../server/api.js").Info} Info */
-/** @typedef {{heights: Float32Array, width: number}} HeightTile  Rows from the north-west, with a border of pixels around. */
+/**
+ * @typedef {{heights: Float32Array, width: number}} HeightTile  Rows from the north-west, with a border of pixels
+ *   around.
+ */
 
 const MOST_TILES = 400;
 
@@ -22,7 +25,7 @@ export class HeightTiles {
     const name = `${z}/${x}/${y}`;
     const kept = this.#tiles.get(name) ?? this.#load(name);
     this.#tiles.delete(name);
-    this.#tiles.set(name, kept);  // the last used are last
+    this.#tiles.set(name, kept); // the last used are last
     if (this.#tiles.size > MOST_TILES) this.#tiles.delete([...this.#tiles.keys()][0]);
     return kept;
   }
@@ -43,9 +46,13 @@ export class HeightTiles {
   /** The highest of the finest tiles' ground within a distance of a place.
    * @param {number} x @param {number} y @param {number} within @returns {Promise<{x: number, y: number} | null>} */
   async highest(x, y, within) {
-    const z = this.resolutions.length - 1, r = this.resolutions[z], [west, north] = this.info.tiles.origin;
-    let best = null, height = -Infinity;
-    const column = (/** @type {number} */ e) => Math.floor((e - west) / r), row = (/** @type {number} */ n) => Math.floor((north - n) / r);
+    const z = this.resolutions.length - 1;
+    const r = this.resolutions[z];
+    const [west, north] = this.info.tiles.origin;
+    let best = null;
+    let height = -Infinity;
+    const column = (/** @type {number} */ e) => Math.floor((e - west) / r);
+    const row = (/** @type {number} */ n) => Math.floor((north - n) / r);
     for (let j = row(y + within); j <= row(y - within); ++j) {
       for (let i = column(x - within); i <= column(x + within); ++i) {
         const at = { x: west + (i + 0.5) * r, y: north - (j + 0.5) * r };
@@ -59,7 +66,9 @@ export class HeightTiles {
 
   /** @param {number} z @param {number} column @param {number} row @returns {Promise<number>} */
   async #pixel(z, column, row) {
-    const x = Math.floor(column / this.size), y = Math.floor(row / this.size), tile = await this.get(z, x, y);
+    const x = Math.floor(column / this.size);
+    const y = Math.floor(row / this.size);
+    const tile = await this.get(z, x, y);
     if (!tile) return NaN;
     return tile.heights[(row - y * this.size + this.border) * tile.width + column - x * this.size + this.border];
   }

@@ -19,10 +19,15 @@ export class LineLayer extends VectorLayer {
   /** @param {Scene} scene */
   constructor(scene) {
     super({ source: new VectorSource() });
-    this.#point.setStyle((_, resolution) => new Style({
-      geometry: () => new Circle(/** @type {any} */ (this.#point.get("at")) ?? [0, 0], POINT_PIXELS * resolution),
-      fill: new Fill({ color: "#fff" }), stroke: new Stroke({ color: "#222", width: 2 }), zIndex: 2,
-    }));
+    this.#point.setStyle(
+      (_, resolution) =>
+        new Style({
+          geometry: () => new Circle(/** @type {any} */ (this.#point.get("at")) ?? [0, 0], POINT_PIXELS * resolution),
+          fill: new Fill({ color: "#fff" }),
+          stroke: new Stroke({ color: "#222", width: 2 }),
+          zIndex: 2,
+        }),
+    );
     scene.on(["masts", "selected", "target", "options"], () => this.#draw(scene));
   }
 
@@ -34,18 +39,26 @@ export class LineLayer extends VectorLayer {
 
   /** @param {Scene} scene */
   #draw(scene) {
-    const { masts, selected, target, options } = scene.state, source = /** @type {VectorSource} */ (this.getSource());
+    const { masts, selected, target, options } = scene.state;
+    const source = /** @type {VectorSource} */ (this.getSource());
     source.clear(true);
     const radius = Number(options.radius);
     for (const mast of masts) {
       if (!(radius > 0)) break;
       const circle = new Feature(new Circle(at(mast), radius));
-      circle.setStyle(new Style({ stroke: new Stroke({ color: hueCss(mast.hue), width: mast.id === selected ? 2 : 1, lineDash: [6, 5] }) }));
+      circle.setStyle(
+        new Style({
+          stroke: new Stroke({ color: hueCss(mast.hue), width: mast.id === selected ? 2 : 1, lineDash: [6, 5] }),
+        }),
+      );
       source.addFeature(circle);
     }
     if (scene.mast && target) {
       const line = new Feature(new LineString([at(scene.mast), at(target)]));
-      line.setStyle([new Style({ stroke: CASING }), new Style({ stroke: new Stroke({ color: hueCss(scene.mast.hue), width: 2.5 }) })]);
+      line.setStyle([
+        new Style({ stroke: CASING }),
+        new Style({ stroke: new Stroke({ color: hueCss(scene.mast.hue), width: 2.5 }) }),
+      ]);
       source.addFeature(line);
     }
     source.addFeature(this.#point);

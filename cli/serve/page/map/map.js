@@ -13,7 +13,8 @@ const extentOf = ({ bounds: { xmin, ymin, xmax, ymax } }) => [xmin, ymin, xmax, 
 
 /** @param {HTMLElement} element @param {Info} info @param {Scene} scene */
 export function makeMap(element, info, scene) {
-  const [west, south, east, north] = extentOf(info), finest = info.tiles.resolutions.at(-1) ?? 1;
+  const [west, south, east, north] = extentOf(info);
+  const finest = info.tiles.resolutions.at(-1) ?? 1;
   const margin = 0.5 * Math.max(east - west, north - south);
   const { view } = scene.state;
   const map = new OlMap({
@@ -38,7 +39,8 @@ export function makeMap(element, info, scene) {
 
 /** @param {OlMap} map @param {Scene} scene */
 function keepView(map, scene) {
-  const centre = map.getView().getCenter(), resolution = map.getView().getResolution();
+  const centre = map.getView().getCenter();
+  const resolution = map.getView().getResolution();
   if (!centre || !resolution) return;
   const round = (/** @type {number} */ n) => Number(n.toPrecision(8));
   scene.change({ view: { x: round(centre[0]), y: round(centre[1]), resolution: round(resolution) } });

@@ -10,7 +10,6 @@ import { follow } from "./dragging.js";
 /** @typedef {import("../state/scene.js").Mast} Mast */
 /** @typedef {import("../vendor/ol.js").OlMap} OlMap */
 
-
 export class MastMarkers {
   /** @type {Map<number, Overlay>} */
   #markers = new Map();
@@ -43,7 +42,10 @@ export class MastMarkers {
     const button = /** @type {HTMLElement} */ (marker.getElement());
     button.textContent = letterOf(mast);
     button.style.setProperty("--hue", hueCss(mast.hue));
-    button.setAttribute("aria-label", `${mast.name}, ${metresText(mast.height)} high. Arrow keys move it, with Shift ten times as far.`);
+    button.setAttribute(
+      "aria-label",
+      `${mast.name}, ${metresText(mast.height)} high. Arrow keys move it, with Shift ten times as far.`,
+    );
     button.setAttribute("aria-pressed", String(mast.id === this.scene.state.selected));
     marker.setPosition([mast.x, mast.y]);
   }

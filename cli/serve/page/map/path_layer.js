@@ -42,18 +42,31 @@ export class PathLayer extends Layer {
   /** @param {FrameState | null} frame @returns {HTMLElement} */
   render(frame) {
     if (!frame?.extent) return this.#canvas;
-    const { size, pixelRatio, viewState } = frame, variant = this.variant(viewState.resolution);
+    const { size, pixelRatio, viewState } = frame;
+    const variant = this.variant(viewState.resolution);
     this.#canvas.width = Math.round(size[0] * pixelRatio);
     this.#canvas.height = Math.round(size[1] * pixelRatio);
-    this.grid.forEachTileCoord(frame.extent, this.grid.getZForResolution(viewState.resolution), (/** @type {TileCoordinate} */ tile) => this.#draw([...tile], variant, frame));
+    this.grid.forEachTileCoord(
+      frame.extent,
+      this.grid.getZForResolution(viewState.resolution),
+      (/** @type {TileCoordinate} */ tile) => this.#draw([...tile], variant, frame),
+    );
     return this.#canvas;
   }
 
   /** @param {TileCoordinate} tile @param {string} variant @param {FrameState} frame */
   #draw(tile, variant, { pixelRatio, viewState }) {
-    const [west, south, east, north] = this.grid.getTileCoordExtent(tile), scale = pixelRatio / viewState.resolution;
+    const [west, south, east, north] = this.grid.getTileCoordExtent(tile);
+    const scale = pixelRatio / viewState.resolution;
     const pen = /** @type {CanvasRenderingContext2D} */ (this.#canvas.getContext("2d"));
-    pen.setTransform(scale, 0, 0, scale, this.#canvas.width / 2 + (west - viewState.center[0]) * scale, this.#canvas.height / 2 - (north - viewState.center[1]) * scale);
+    pen.setTransform(
+      scale,
+      0,
+      0,
+      scale,
+      this.#canvas.width / 2 + (west - viewState.center[0]) * scale,
+      this.#canvas.height / 2 - (north - viewState.center[1]) * scale,
+    );
     pen.save();
     pen.beginPath();
     pen.rect(0, 0, east - west, north - south);
@@ -72,13 +85,17 @@ export class PathLayer extends Layer {
 
   /** @param {TileCoordinate} tile @param {string} variant @returns {Drawing[]} */
   #drawings(tile, variant) {
-    const name = `${tile.join("/")} ${variant}`, kept = this.#tiles.get(name);
+    const name = `${tile.join("/")} ${variant}`;
+    const kept = this.#tiles.get(name);
     if (kept) return kept;
     this.#tiles.set(name, []);
-    this.load(tile, variant).then((drawings) => {
-      this.#tiles.set(name, drawings);
-      this.changed();
-    }, () => this.#tiles.delete(name));
+    this.load(tile, variant).then(
+      (drawings) => {
+        this.#tiles.set(name, drawings);
+        this.changed();
+      },
+      () => this.#tiles.delete(name),
+    );
     return [];
   }
 }

@@ -8,7 +8,8 @@ import { relief } from "./shade.js";
 /** @typedef {import("./height_tiles.js").HeightTiles} HeightTiles */
 
 /** @param {Info} info */
-export const tileGridOf = ({ tiles }) => new TileGrid({ origin: tiles.origin, resolutions: tiles.resolutions, tileSize: tiles.size });
+export const tileGridOf = ({ tiles }) =>
+  new TileGrid({ origin: tiles.origin, resolutions: tiles.resolutions, tileSize: tiles.size });
 
 /**
  * @param {Info} info @param {Scene} scene @param {HeightTiles} tiles @param {MediaQueryList} dark
@@ -16,11 +17,17 @@ export const tileGridOf = ({ tiles }) => new TileGrid({ origin: tiles.origin, re
  */
 export function makeReliefLayer(info, scene, tiles, dark, projection) {
   const loader = async (/** @type {number} */ z, /** @type {number} */ x, /** @type {number} */ y) => {
-    const canvas = document.createElement("canvas"), pen = /** @type {CanvasRenderingContext2D} */ (canvas.getContext("2d"));
+    const canvas = document.createElement("canvas");
+    const pen = /** @type {CanvasRenderingContext2D} */ (canvas.getContext("2d"));
     canvas.width = canvas.height = tiles.size;
-    const tile = await tiles.get(z, x, y), { layers } = scene.state;
+    const tile = await tiles.get(z, x, y);
+    const { layers } = scene.state;
     if (!tile) return canvas;
-    pen.putImageData(relief(tile, tiles.size, tiles.resolutions[z], { relief: layers.relief, dark: dark.matches }), 0, 0);
+    pen.putImageData(
+      relief(tile, tiles.size, tiles.resolutions[z], { relief: layers.relief, dark: dark.matches }),
+      0,
+      0,
+    );
     return canvas;
   };
   const source = new ImageTileSource({ loader, tileGrid: tileGridOf(info), projection, wrapX: false, transition: 0 });

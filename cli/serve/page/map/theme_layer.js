@@ -18,13 +18,15 @@ export class ThemeLayer extends PathLayer {
   constructor(info, name) {
     super(tileGridOf(info));
     this.name = name;
-    this.address = (/** @type {number[]} */ tile) => `/tiles/theme/${encodeURIComponent(name)}/${tile.join("/")}?v=${encodeURIComponent(info.version)}`;
+    this.address = (/** @type {number[]} */ tile) =>
+      `/tiles/theme/${encodeURIComponent(name)}/${tile.join("/")}?v=${encodeURIComponent(info.version)}`;
     this.colours = COLOURS[info.themes.find((theme) => theme.name === name)?.kind ?? ""] ?? OTHER;
   }
 
   /** @param {number[]} tile */
   async load(tile) {
-    const answer = await fetch(this.address(tile)), { rings } = answer.status === 200 ? await answer.json() : { rings: [] };
+    const answer = await fetch(this.address(tile));
+    const { rings } = answer.status === 200 ? await answer.json() : { rings: [] };
     const [west, , , north] = this.grid.getTileCoordExtent(tile);
     return [{ path: pathOf(rings, west, north), ...this.colours, width: 1 }];
   }
@@ -46,5 +48,7 @@ function pathOf(rings, west, north) {
 export function drawThemes(map, info, scene) {
   const layers = info.tiles.themes.map((name) => new ThemeLayer(info, name));
   layers.forEach((layer) => map.addLayer(layer));
-  scene.on(["layers"], () => layers.forEach((layer) => layer.setVisible(scene.state.layers.themes.includes(layer.name))));
+  scene.on(["layers"], () =>
+    layers.forEach((layer) => layer.setVisible(scene.state.layers.themes.includes(layer.name))),
+  );
 }

@@ -7,7 +7,7 @@ import { paintMosaic } from "../seen/mosaic.js";
 /** @typedef {{picture: Picture, cell: number} | null} Shown */
 /** @typedef {import("../seen/mosaic.js").CellWindow & {factor: number}} MosaicWindow */
 
-const MARGIN = 0.25;  // of the map's width around it, so that a short move of the map needs no new mosaic
+const MARGIN = 0.25; // of the map's width around it, so that a short move of the map needs no new mosaic
 
 /** Cells to a side of a pixel of the mosaic, which is not much smaller than the screen's. @param {number} resolution
  * @param {number} cell */
@@ -15,17 +15,31 @@ const factorFor = (resolution, cell) => Math.max(1, Math.round(resolution / cell
 
 /** @param {number[]} extent @param {number} resolution @param {number} cell @returns {MosaicWindow} */
 function windowFor(extent, resolution, cell) {
-  const factor = factorFor(resolution, cell), side = factor * cell;
-  const dx = MARGIN * (extent[2] - extent[0]), dy = MARGIN * (extent[3] - extent[1]);
-  const column = Math.floor((extent[0] - dx) / side), row = Math.floor((-extent[3] - dy) / side);
-  const right = Math.ceil((extent[2] + dx) / side), bottom = Math.ceil((-extent[1] + dy) / side);
-  return { column: column * factor, row: row * factor, columns: (right - column) * factor, rows: (bottom - row) * factor, factor };
+  const factor = factorFor(resolution, cell);
+  const side = factor * cell;
+  const dx = MARGIN * (extent[2] - extent[0]);
+  const dy = MARGIN * (extent[3] - extent[1]);
+  const column = Math.floor((extent[0] - dx) / side);
+  const row = Math.floor((-extent[3] - dy) / side);
+  const right = Math.ceil((extent[2] + dx) / side);
+  const bottom = Math.ceil((-extent[1] + dy) / side);
+  return {
+    column: column * factor,
+    row: row * factor,
+    columns: (right - column) * factor,
+    rows: (bottom - row) * factor,
+    factor,
+  };
 }
 
 /** @param {MosaicWindow} at @param {number[]} extent @param {number} cell */
 function holds(at, extent, cell) {
-  return at.column * cell <= extent[0] && (at.column + at.columns) * cell >= extent[2] &&
-    at.row * cell <= -extent[3] && (at.row + at.rows) * cell >= -extent[1];
+  return (
+    at.column * cell <= extent[0] &&
+    (at.column + at.columns) * cell >= extent[2] &&
+    at.row * cell <= -extent[3] &&
+    (at.row + at.rows) * cell >= -extent[1]
+  );
 }
 
 export class VerdictLayer extends Layer {
@@ -55,16 +69,23 @@ export class VerdictLayer extends Layer {
   /** @param {import("ol/Map.js").FrameState | null} frame @returns {HTMLElement} */
   render(frame) {
     if (!frame) return this.#canvas;
-    const { size, pixelRatio, viewState, extent } = frame, canvas = this.#canvas;
+    const { size, pixelRatio, viewState, extent } = frame;
+    const canvas = this.#canvas;
     canvas.width = Math.round(size[0] * pixelRatio);
     canvas.height = Math.round(size[1] * pixelRatio);
     if (!this.#shown || !extent) return canvas;
-    const at = this.#paint(extent, viewState.resolution, this.#shown), { cell } = this.#shown;
-    const scale = pixelRatio / viewState.resolution, pen = /** @type {CanvasRenderingContext2D} */ (canvas.getContext("2d"));
+    const at = this.#paint(extent, viewState.resolution, this.#shown);
+    const { cell } = this.#shown;
+    const scale = pixelRatio / viewState.resolution;
+    const pen = /** @type {CanvasRenderingContext2D} */ (canvas.getContext("2d"));
     pen.imageSmoothingEnabled = at.factor > 1;
-    pen.drawImage(this.#mosaic,
-      canvas.width / 2 + (at.column * cell - viewState.center[0]) * scale, canvas.height / 2 + (at.row * cell + viewState.center[1]) * scale,
-      at.columns * cell * scale, at.rows * cell * scale);
+    pen.drawImage(
+      this.#mosaic,
+      canvas.width / 2 + (at.column * cell - viewState.center[0]) * scale,
+      canvas.height / 2 + (at.row * cell + viewState.center[1]) * scale,
+      at.columns * cell * scale,
+      at.rows * cell * scale,
+    );
     return canvas;
   }
 
@@ -73,7 +94,8 @@ export class VerdictLayer extends Layer {
   #paint(extent, resolution, { picture, cell }) {
     const kept = this.#window;
     if (kept && kept.factor === factorFor(resolution, cell) && holds(kept, extent, cell)) return kept;
-    const at = windowFor(extent, resolution, cell), image = paintMosaic(picture, at, at.factor);
+    const at = windowFor(extent, resolution, cell);
+    const image = paintMosaic(picture, at, at.factor);
     this.#mosaic.width = image.width;
     this.#mosaic.height = image.height;
     /** @type {CanvasRenderingContext2D} */ (this.#mosaic.getContext("2d")).putImageData(image, 0, 0);

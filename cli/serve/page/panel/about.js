@@ -15,9 +15,13 @@ export function showStore(info) {
 
 /** @param {Info} info @returns {[string, string][]} */
 function factsOf({ bounds: { xmin, ymin, xmax, ymax }, data_spacing_m, themes, itin }) {
-  const facts = /** @type {[string, string][]} */ ([["Extent", `${distanceText(xmax - xmin)} by ${distanceText(ymax - ymin)}`]]);
+  const facts = /** @type {[string, string][]} */ ([
+    ["Extent", `${distanceText(xmax - xmin)} by ${distanceText(ymax - ymin)}`],
+  ]);
   if (data_spacing_m !== null) facts.push(["Terrain", `a height every ${metresText(data_spacing_m)}`]);
-  for (const { name, features } of themes) facts.push([name, `${numberText(features)} ${features === 1 ? "feature" : "features"}`]);
+  for (const { name, features } of themes) {
+    facts.push([name, `${numberText(features)} ${features === 1 ? "feature" : "features"}`]);
+  }
   if (themes.length === 0) facts.push(["Features", "none: buildings and trees do not hide"]);
   return [...facts, ["itin", itin]];
 }

@@ -16,14 +16,20 @@ import { className, valueModeOf } from "../seen/values.js";
 
 /** @param {Scene} scene @param {LiveViews} views */
 export function makeLegend(scene, views) {
-  const list = element("legend-list"), title = element("legend-title"), sum = element("legend-sum"), slopes = element("slopes");
+  const list = element("legend-list");
+  const title = element("legend-title");
+  const sum = element("legend-sum");
+  const slopes = element("slopes");
   const draw = () => {
-    const sources = sourcesOf(scene, views), mode = valueModeOf(scene.state.options);
+    const sources = sourcesOf(scene, views);
+    const mode = valueModeOf(scene.state.options);
     const sloped = scene.state.layers.relief === "slope";
     element("legend").hidden = sources.length === 0 && !sloped;
     slopes.hidden = !sloped;
     title.textContent = sources.length === 0 ? "" : (mode?.title ?? "In sight");
-    list.replaceChildren(...(sources.length === 0 ? [] : mode ? valueEntries(mode) : verdictEntries(scene, sources)).map(entryElement));
+    list.replaceChildren(
+      ...(sources.length === 0 ? [] : mode ? valueEntries(mode) : verdictEntries(scene, sources)).map(entryElement),
+    );
     sum.textContent = sources.length > 1 && views.settled && !mode ? sumText(scene, sources) : "";
   };
   element("slope-list").replaceChildren(...slopeEntries().map(entryElement));
@@ -34,7 +40,11 @@ export function makeLegend(scene, views) {
 /** @returns {Entry[]} */
 function slopeEntries() {
   const bounds = [0, ...SLOPE_LIMITS];
-  return SLOPE_COLOURS.map((colour, i) => [cssColour(colour), i < SLOPE_LIMITS.length ? `${bounds[i]}° to ${bounds[i + 1]}°` : `over ${bounds[i]}°`, 1]);
+  return SLOPE_COLOURS.map((colour, i) => [
+    cssColour(colour),
+    i < SLOPE_LIMITS.length ? `${bounds[i]}° to ${bounds[i + 1]}°` : `over ${bounds[i]}°`,
+    1,
+  ]);
 }
 
 /** @param {import("../seen/values.js").ValueMode} mode @returns {Entry[]} */
@@ -45,17 +55,27 @@ function valueEntries(mode) {
 
 /** @param {Scene} scene @param {Source[]} sources @returns {Entry[]} */
 function verdictEntries(scene, sources) {
-  const { masts, show, selected, options } = scene.state, single = sources.length === 1, chosen = scene.mast;
+  const { masts, show, selected, options } = scene.state;
+  const single = sources.length === 1;
+  const chosen = scene.mast;
   /** @type {Entry[]} */
   const entries = [];
   if (show === "difference" && !single && chosen) {
     const others = masts.filter((mast) => mast.id !== selected).map((mast) => HUES[mast.hue]);
-    entries.push([hueCss(chosen.hue), `only from ${chosen.name}`], [cssColour(SHARED), "from others, too"], [cssColour(others[0]), "pale: only from others", 0.3]);
+    entries.push(
+      [hueCss(chosen.hue), `only from ${chosen.name}`],
+      [cssColour(SHARED), "from others, too"],
+      [cssColour(others[0]), "pale: only from others", 0.3],
+    );
   } else {
-    for (const mast of masts.filter((some) => show !== "alone" || some.id === selected)) entries.push([hueCss(mast.hue), `from ${mast.name}`]);
+    for (const mast of masts.filter((some) => show !== "alone" || some.id === selected)) {
+      entries.push([hueCss(mast.hue), `from ${mast.name}`]);
+    }
     if (!single) entries.push([cssColour(meanColour(sources.map(({ hue }) => HUES[hue]))), "mixed: from several", 0.9]);
   }
-  if (options.frequency || holds(sources, CUT)) entries.push([hueCss(sources.at(0)?.hue ?? 0), "paler: Fresnel zone cut", 0.3]);
+  if (options.frequency || holds(sources, CUT)) {
+    entries.push([hueCss(sources.at(0)?.hue ?? 0), "paler: Fresnel zone cut", 0.3]);
+  }
   if (holds(sources, UNDECIDED)) entries.push([cssColour(UNDECIDED_COLOUR), "undecided: ground without data"]);
   return entries;
 }
@@ -65,7 +85,8 @@ const holds = (sources, verdict) => sources.some(({ cells }) => cells.verdicts &
 
 /** @param {Entry} entry */
 function entryElement([colour, text, opacity = 0.65]) {
-  const item = make("li"), swatch = make("span", "swatch");
+  const item = make("li");
+  const swatch = make("span", "swatch");
   swatch.style.setProperty("--colour", colour);
   swatch.style.setProperty("--opacity", String(opacity));
   item.append(swatch, text);

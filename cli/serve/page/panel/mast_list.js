@@ -10,7 +10,7 @@ import { letterOf } from "../state/mast_letter.js";
 /** @typedef {import("../seen/live_views.js").LiveViews} LiveViews */
 /** @typedef {import("../map/height_tiles.js").HeightTiles} HeightTiles */
 
-const NEAR_BY = 10;  // cells: how far the highest ground near by may be
+const NEAR_BY = 10; // cells: how far the highest ground near by may be
 
 export class MastList {
   #list = element("masts");
@@ -51,7 +51,8 @@ export class MastList {
 
   /** Moves the mast up to the highest ground near by. @param {number} id */
   async #climb(id) {
-    const mast = this.scene.state.masts.find((some) => some.id === id), cell = Number(this.scene.state.options.cell) || 10;
+    const mast = this.scene.state.masts.find((some) => some.id === id);
+    const cell = Number(this.scene.state.options.cell) || 10;
     const top = mast && (await this.tiles.highest(mast.x, mast.y, NEAR_BY * cell));
     if (top) this.scene.changeMast(id, top);
   }
@@ -73,17 +74,36 @@ class MastRow {
     this.#head.type = "button";
     this.#head.append(this.#dot, this.#name, this.#summary);
     this.#head.addEventListener("click", () => scene.change({ selected: id }));
-    this.#field("name", "Name", "", (value) => value.trim() !== "" && scene.changeMast(id, { name: value.replaceAll(",", " ") }));
-    for (const [name, label] of [["x", "Easting"], ["y", "Northing"], ["height", "Height"]]) {
-      this.#field(name, label, "m", (value) => Number.isFinite(Number(value)) && value.trim() !== "" && scene.changeMast(id, { [name]: Number(value) }));
+    this.#field(
+      "name",
+      "Name",
+      "",
+      (value) => value.trim() !== "" && scene.changeMast(id, { name: value.replaceAll(",", " ") }),
+    );
+    for (const [name, label] of [
+      ["x", "Easting"],
+      ["y", "Northing"],
+      ["height", "Height"],
+    ]) {
+      this.#field(
+        name,
+        label,
+        "m",
+        (value) =>
+          Number.isFinite(Number(value)) && value.trim() !== "" && scene.changeMast(id, { [name]: Number(value) }),
+      );
     }
-    this.#fields.append(actionsOf(climb, () => scene.removeMast(id)), this.#notes);
+    this.#fields.append(
+      actionsOf(climb, () => scene.removeMast(id)),
+      this.#notes,
+    );
     this.item.append(this.#head, this.#fields);
   }
 
   /** @param {string} name @param {string} label @param {string} unit @param {(value: string) => void} change */
   #field(name, label, unit, change) {
-    const box = make("label", `field field-${name}`), input = make("input");
+    const box = make("label", `field field-${name}`);
+    const input = make("input");
     input.inputMode = name === "name" ? "text" : "decimal";
     input.autocomplete = "off";
     input.addEventListener("change", () => change(input.value));
@@ -100,7 +120,9 @@ class MastRow {
     this.#fields.hidden = !selected;
     this.#dot.textContent = letterOf(mast);
     this.#name.textContent = mast.name;
-    for (const name of /** @type {const} */ (["name", "x", "y", "height"])) this.#inputs[name].value = String(mast[name]);
+    for (const name of /** @type {const} */ (["name", "x", "y", "height"])) {
+      this.#inputs[name].value = String(mast[name]);
+    }
   }
 
   /** @param {import("../seen/live_views.js").MastView | undefined} view */
@@ -120,7 +142,9 @@ function summaryOf({ cells, area_m2 }) {
 
 /** @param {() => void} climb @param {() => void} remove */
 function actionsOf(climb, remove) {
-  const actions = make("div", "actions"), up = make("button", "", "To the top near by"), away = make("button", "", "Remove");
+  const actions = make("div", "actions");
+  const up = make("button", "", "To the top near by");
+  const away = make("button", "", "Remove");
   up.type = away.type = "button";
   up.title = `Moves the mast to the highest ground within ${NEAR_BY} cells`;
   up.addEventListener("click", climb);

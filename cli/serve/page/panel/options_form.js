@@ -8,7 +8,8 @@ import { element } from "./elements.js";
 
 // Options that contradict each other: to set one clears the others.
 const INSTEAD = [["refraction", "effective-earth"]];
-const MODE = "mode", LOSS = "loss";
+const MODE = "mode";
+const LOSS = "loss";
 
 /** @param {Scene} scene @param {Info} info @param {LiveViews} views */
 export function makeOptionsForm(scene, info, views) {
@@ -33,7 +34,11 @@ function setOption(scene, name, value) {
   scene.setOption(name, value);
 }
 
-/** A loss is an option of its own on the command line, and wants a frequency. @param {Scene} scene @param {string} mode */
+/**
+ * A loss is an option of its own on the command line, and wants a frequency.
+ * @param {Scene} scene
+ * @param {string} mode
+ */
 function setMode(scene, mode) {
   /** @type {Record<string, string>} */
   const options = { ...scene.state.options, [MODE]: mode };
@@ -50,25 +55,39 @@ function setMode(scene, mode) {
 function fillIn(form, options) {
   for (const field of form.elements) {
     if (!(field instanceof HTMLInputElement || field instanceof HTMLSelectElement) || !field.name) continue;
-    field.value = field.name === MODE ? (options[LOSS] ? LOSS : (options[MODE] ?? "visible")) : (options[field.name] ?? "");
+    field.value =
+      field.name === MODE ? (options[LOSS] ? LOSS : (options[MODE] ?? "visible")) : (options[field.name] ?? "");
   }
   element("vertical-error").hidden = options[MODE] !== "probability";
 }
 
-/** Marks the field that the server found wrong. @param {HTMLFormElement} form @param {Scene} scene @param {LiveViews} views */
+/**
+ * Marks the field that the server found wrong.
+ * @param {HTMLFormElement} form
+ * @param {Scene} scene
+ * @param {LiveViews} views
+ */
 function showProblems(form, scene, views) {
   const wrong = scene.state.masts.map((mast) => views.of(mast.id)).find((view) => view?.error);
   for (const field of form.elements) {
-    if (field instanceof HTMLInputElement) field.setAttribute("aria-invalid", String(Boolean(wrong) && wrong?.field === `--${field.name}`));
+    if (field instanceof HTMLInputElement) {
+      field.setAttribute("aria-invalid", String(Boolean(wrong) && wrong?.field === `--${field.name}`));
+    }
   }
 }
 
-/** A box for each theme that hides: all is the default, and none has a name of its own. @param {Scene} scene @param {Info} info */
+/**
+ * A box for each theme that hides: all is the default, and none has a name of its own.
+ * @param {Scene} scene
+ * @param {Info} info
+ */
 function makeThemeBoxes(scene, info) {
-  const box = element("theme-boxes"), names = info.themes.map((theme) => theme.name);
+  const box = element("theme-boxes");
+  const names = info.themes.map((theme) => theme.name);
   element("surface").hidden = names.length === 0;
   const inputs = names.map((name) => {
-    const label = document.createElement("label"), input = document.createElement("input");
+    const label = document.createElement("label");
+    const input = document.createElement("input");
     label.className = "check";
     input.type = "checkbox";
     label.append(input, name);

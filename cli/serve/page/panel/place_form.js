@@ -10,8 +10,10 @@ import { MOST_MASTS } from "../state/scene.js";
 
 /** @param {Scene} scene @param {OlMap} map @param {(id: number) => void} focusMast */
 export function makePlaceForm(scene, map, focusMast) {
-  const form = /** @type {HTMLFormElement} */ (element("place-form")), input = /** @type {HTMLInputElement} */ (element("place"));
-  const problem = element("place-problem"), button = /** @type {HTMLButtonElement} */ (element("place-button"));
+  const form = /** @type {HTMLFormElement} */ (element("place-form"));
+  const input = /** @type {HTMLInputElement} */ (element("place"));
+  const problem = element("place-problem");
+  const button = /** @type {HTMLButtonElement} */ (element("place-button"));
   button.addEventListener("click", () => scene.change({ placing: !scene.state.placing }));
   form.addEventListener("submit", async (event) => {
     event.preventDefault();

@@ -1,7 +1,7 @@
 // What is under the cursor: asked of the server for the mast selected, looked up in the cells for the others.
 
 import { element, make } from "./elements.js";
-import { azimuthText, distanceText, metresText, numberText, placeText } from "./words.js";
+import { azimuthsText, distanceText, metresText, numberText, placeText } from "./words.js";
 import { CUT, NEAREST, VERDICT, VISIBLE } from "../seen/seen_cells.js";
 import { hueCss } from "../seen/palette.js";
 import { letterOf } from "../state/mast_letter.js";
@@ -11,7 +11,7 @@ import { valueModeOf, withUnit } from "../seen/values.js";
 /** @typedef {import("../seen/live_views.js").LiveViews} LiveViews */
 /** @typedef {import("../server/live_connection.js").Message} Message */
 
-const BESIDE = 18;  // pixels between the pointer and the readout
+const BESIDE = 18; // pixels between the pointer and the readout
 const NEVER_SENT = -1;
 
 export class Readout {
@@ -52,9 +52,12 @@ export class Readout {
 
   /** Puts the box beside the pointer, on that side where the map has room for it. */
   #putBeside() {
-    const { offsetWidth, offsetHeight } = this.#box, map = /** @type {HTMLElement} */ (this.#box.parentElement);
-    const [x, y] = this.#pixel, left = x + BESIDE + offsetWidth > map.clientWidth, up = y + BESIDE + offsetHeight > map.clientHeight;
-    this.#box.style.translate = `${x + (left ? -BESIDE - offsetWidth : BESIDE)}px ${Math.max(0, y + (up ? -BESIDE - offsetHeight : BESIDE))}px`;
+    const { offsetWidth, offsetHeight } = this.#box;
+    const { clientWidth, clientHeight } = /** @type {HTMLElement} */ (this.#box.parentElement);
+    const [x, y] = this.#pixel;
+    const left = x + BESIDE + offsetWidth > clientWidth ? x - BESIDE - offsetWidth : x + BESIDE;
+    const top = y + BESIDE + offsetHeight > clientHeight ? y - BESIDE - offsetHeight : y + BESIDE;
+    this.#box.style.translate = `${left}px ${Math.max(0, top)}px`;
   }
 
   /** Asks once for each picture at most. */
@@ -72,28 +75,41 @@ export class Readout {
 
   /** @param {Message} probe */
   #show(probe) {
-    const mast = this.scene.mast, place = this.#place;
+    const mast = this.scene.mast;
+    const place = this.#place;
     if (!mast || !place) return;
     this.#box.hidden = false;
     this.#verdict.textContent = `${mast.name}: ${verdictOf(probe)}`;
     this.#verdict.style.setProperty("--hue", hueCss(mast.hue));
-    this.#facts.replaceChildren(...factsOf(probe, place, this.#valueAt(place)).flatMap(([name, value]) => [make("dt", "", name), make("dd", "", value)]));
-    this.#masts.replaceChildren(...this.scene.state.masts.filter((other) => other.id !== mast.id).map((other) => this.#chip(other, place)));
+    this.#facts.replaceChildren(
+      ...factsOf(probe, place, this.#valueAt(place)).flatMap(([name, value]) => [
+        make("dt", "", name),
+        make("dd", "", value),
+      ]),
+    );
+    this.#masts.replaceChildren(
+      ...this.scene.state.masts.filter((other) => other.id !== mast.id).map((other) => this.#chip(other, place)),
+    );
     this.#masts.hidden = this.scene.state.masts.length < 2;
     this.#putBeside();
   }
 
   /** Whether another mast sees the cell. @param {import("../state/scene.js").Mast} mast @param {number[]} place */
   #chip(mast, place) {
-    const cells = this.views.of(mast.id)?.cells, at = cells ? cells.at(place[0], place[1]) : NEVER_SENT, verdict = at < 0 ? NEVER_SENT : (cells?.codes[at] ?? 0) & VERDICT;
-    const sees = verdict === VISIBLE || verdict === CUT, chip = make("span", sees ? "chip sees" : "chip", `${letterOf(mast)} ${sees ? "sees it" : "does not"}`);
+    const cells = this.views.of(mast.id)?.cells;
+    const at = cells ? cells.at(place[0], place[1]) : NEVER_SENT;
+    const verdict = at < 0 ? NEVER_SENT : (cells?.codes[at] ?? 0) & VERDICT;
+    const sees = verdict === VISIBLE || verdict === CUT;
+    const chip = make("span", sees ? "chip sees" : "chip", `${letterOf(mast)} ${sees ? "sees it" : "does not"}`);
     chip.style.setProperty("--hue", hueCss(mast.hue));
     return chip;
   }
 
   /** The value of the cell, in modes with values. @param {number[]} place @returns {[string, string][]} */
   #valueAt([x, y]) {
-    const mode = valueModeOf(this.scene.state.options), cells = this.views.of(this.scene.mast?.id ?? NEVER_SENT)?.cells, at = cells?.at(x, y) ?? NEVER_SENT;
+    const mode = valueModeOf(this.scene.state.options);
+    const cells = this.views.of(this.scene.mast?.id ?? NEVER_SENT)?.cells;
+    const at = cells?.at(x, y) ?? NEVER_SENT;
     const value = at < 0 || (cells?.codes[at] ?? 0) & NEAREST ? NaN : (cells?.values?.[at] ?? NaN);
     return mode && !Number.isNaN(value) ? [[mode.short, withUnit(numberText(value, 2), mode.unit)]] : [];
   }
@@ -108,11 +124,20 @@ function verdictOf({ verdict, lacks_m }) {
 
 /** @param {Message} probe @param {number[]} place @param {[string, string][]} value @returns {[string, string][]} */
 function factsOf(probe, [x, y], value) {
-  const both = (/** @type {number} */ grid, /** @type {number | null} */ true_north) => `${azimuthText(grid)} grid${true_north === null ? "" : `, ${azimuthText(true_north)} true`}`;
   /** @type {[string, string][]} */
-  const facts = [["Distance", distanceText(probe.distance_m)], ["Azimuth", both(probe.azimuth_deg, probe.azimuth_true_deg)], ["Back", both(probe.back_azimuth_deg, probe.back_azimuth_true_deg)]];
+  const facts = [
+    ["Distance", distanceText(probe.distance_m)],
+    ["Azimuth", azimuthsText(probe.azimuth_deg, probe.azimuth_true_deg)],
+    ["Back", azimuthsText(probe.back_azimuth_deg, probe.back_azimuth_true_deg)],
+  ];
   if (probe.ground_m !== null) facts.push(["Ground", metresText(probe.ground_m)]);
-  if (probe.surface_m !== null && probe.surface_m !== probe.ground_m) facts.push(["Surface", metresText(probe.surface_m)]);
-  if (probe.blocker) facts.push(["Hidden by", `${probe.blocker.what === "terrain" ? "the ground" : probe.blocker.what}, ${distanceText(probe.blocker.distance_m)} from the mast`]);
+  if (probe.surface_m !== null && probe.surface_m !== probe.ground_m) {
+    facts.push(["Surface", metresText(probe.surface_m)]);
+  }
+  if (probe.blocker) facts.push(["Hidden by", blockerText(probe.blocker)]);
   return [...facts, ...value, ["At", placeText(x, y)]];
 }
+
+/** @param {{what: string, distance_m: number}} blocker */
+const blockerText = ({ what, distance_m }) =>
+  `${what === "terrain" ? "the ground" : what}, ${distanceText(distance_m)} from the mast`;

@@ -13,29 +13,48 @@ import { observerOf } from "../seen/live_views.js";
 const OUTPUTS = { tif: "output", gpkg: "output", png: "image", pdf: "sheet" };
 const LOOK_EVERY = 300;
 
-/** Together they are one call with all observers; else the mast selected is meant. @param {Scene} scene @returns {Mast[]} */
+/**
+ * Together they are one call with all observers; else the mast selected is meant.
+ * @param {Scene} scene
+ * @returns {Mast[]}
+ */
 function mastsMeant(scene) {
   if (scene.state.show === "together") return scene.state.masts;
   return scene.mast ? [scene.mast] : [];
 }
 
-/** The command of one mast, which the server has told, with the observers of all. @param {Scene} scene @param {LiveViews} views */
+/**
+ * The command of one mast, which the server has told, with the observers of all.
+ * @param {Scene} scene
+ * @param {LiveViews} views
+ */
 export function commandOf(scene, views) {
-  const masts = mastsMeant(scene), command = masts[0] && views.of(masts[0].id)?.done?.command;
-  return command ? command.replace(/--observer=\S+/, masts.map((mast) => `--observer=${observerOf(mast)}`).join(" ")) : "";
+  const masts = mastsMeant(scene);
+  const command = masts[0] && views.of(masts[0].id)?.done?.command;
+  return command
+    ? command.replace(/--observer=\S+/, masts.map((mast) => `--observer=${observerOf(mast)}`).join(" "))
+    : "";
 }
 
 /** A name for files, of letters and figures. @param {Mast[]} masts */
-const fileName = (masts) => (masts.length === 1 ? masts[0].name : "masts").toLowerCase().replace(/[^a-z0-9]+/g, "-").replace(/^-+|-+$/g, "") || "mast";
+const fileName = (masts) =>
+  (masts.length === 1 ? masts[0].name : "masts")
+    .toLowerCase()
+    .replace(/[^a-z0-9]+/g, "-")
+    .replace(/^-+|-+$/g, "") || "mast";
 
 /** @param {Scene} scene @param {LiveViews} views @param {string} key */
 export function makeResults(scene, views, key) {
-  const copy = element("copy"), said = element("results-said"), command = element("command"), section = element("results");
+  const copy = element("copy");
+  const said = element("results-said");
+  const command = element("command");
+  const section = element("results");
   copy.addEventListener("click", async () => {
     try {
       await navigator.clipboard.writeText(commandOf(scene, views));
       said.textContent = "Copied.";
-    } catch {  // some browsers only let pages of this machine copy
+    } catch {
+      // some browsers only let pages of this machine copy
       getSelection()?.selectAllChildren(command);
       said.textContent = "The command is selected: copy it with Ctrl+C.";
     }
@@ -43,8 +62,13 @@ export function makeResults(scene, views, key) {
   const download = new Download(new Jobs(key));
   for (const button of section.querySelectorAll("button[data-ending]")) {
     button.addEventListener("click", () => {
-      const masts = mastsMeant(scene), ending = button.getAttribute("data-ending") ?? "tif";
-      download.start({ ...scene.state.options, observer: masts.map(observerOf), [OUTPUTS[ending]]: `${fileName(masts)}.${ending}` });
+      const masts = mastsMeant(scene);
+      const ending = button.getAttribute("data-ending") ?? "tif";
+      download.start({
+        ...scene.state.options,
+        observer: masts.map(observerOf),
+        [OUTPUTS[ending]]: `${fileName(masts)}.${ending}`,
+      });
     });
   }
   const show = () => {

@@ -3,7 +3,8 @@
 import { element } from "./elements.js";
 
 export function makeSheet() {
-  const button = element("sheet-button"), column = element("column");
+  const button = element("sheet-button");
+  const column = element("column");
   button.addEventListener("click", () => {
     const open = column.classList.toggle("open");
     button.setAttribute("aria-expanded", String(open));

@@ -7,6 +7,8 @@ import { element } from "./elements.js";
 /** @param {Scene} scene */
 export function makeShowForm(scene) {
   const inputs = /** @type {HTMLInputElement[]} */ ([...element("show").querySelectorAll("input")]);
-  for (const input of inputs) input.addEventListener("change", () => scene.change({ show: /** @type {any} */ (input.value) }));
+  for (const input of inputs) {
+    input.addEventListener("change", () => scene.change({ show: /** @type {any} */ (input.value) }));
+  }
   scene.on(["show"], () => inputs.forEach((input) => (input.checked = input.value === scene.state.show)));
 }

@@ -21,7 +21,8 @@ export function makeStatus(scene, connection, views) {
     const found = scene.state.masts.map((mast) => views.of(mast.id));
     const steps = found.filter((view) => view?.cells && !view.done).map((view) => view?.cells?.step ?? 1);
     const reading = found.some((view) => view && !view.cells && !view.error) ? "Reading the ground …" : "";
-    line.textContent = trouble || (steps.length > 0 ? (SHARES[Math.max(...steps)] ?? "Deciding the last cells …") : reading);
+    line.textContent =
+      trouble || (steps.length > 0 ? (SHARES[Math.max(...steps)] ?? "Deciding the last cells …") : reading);
     line.classList.toggle("problem", trouble !== "");
     line.hidden = line.textContent === "";
   };

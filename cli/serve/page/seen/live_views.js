@@ -34,9 +34,13 @@ export class LiveViews {
     this.scene = scene;
     this.connection = connection;
     connection.onTile = (tile) => this.#takeTile(tile);
-    connection.on("begun", (message) => this.#answered(message, (view) => (view.begun = new SeenCells(/** @type {any} */ (message)))));
+    connection.on("begun", (message) =>
+      this.#answered(message, (view) => (view.begun = new SeenCells(/** @type {any} */ (message)))),
+    );
     connection.on("done", (message) => this.#answered(message, (view) => (view.done = message)));
-    connection.on("error", (message) => this.#answered(message, (view) => Object.assign(view, { error: message.error, field: message.field ?? "" })));
+    connection.on("error", (message) =>
+      this.#answered(message, (view) => Object.assign(view, { error: message.error, field: message.field ?? "" })),
+    );
     connection.on("welcome", () => this.#askAnew());
     scene.on(["masts", "options"], () => this.#follow());
   }
@@ -78,20 +82,38 @@ export class LiveViews {
 
   /** Sends what the server does not know yet of this mast. @param {Mast} mast */
   #ask(mast) {
-    const options = JSON.stringify(this.scene.state.options), observer = observerOf(mast), id = mast.id;
+    const options = JSON.stringify(this.scene.state.options);
+    const observer = observerOf(mast);
+    const id = mast.id;
     const known = this.#views.get(id);
     if (known?.options === options && known.observer === observer) return;
     const seq = ++this.#seq;
     if (known?.options === options) this.connection.send({ type: "move", id, seq, observer });
     else this.connection.send({ type: "view", id, seq, options: { ...this.scene.state.options, observer } });
-    this.#views.set(id, { options, observer, seq, begun: known?.begun ?? null, cells: known?.cells ?? null, done: null, error: "", field: "" });
+    this.#views.set(id, {
+      options,
+      observer,
+      seq,
+      begun: known?.begun ?? null,
+      cells: known?.cells ?? null,
+      done: null,
+      error: "",
+      field: "",
+    });
   }
 
   /** Takes an answer to what the mast was asked last; a view that began before still shows, as the newest there is.
    * @param {Message} message @param {(view: MastView) => void} take */
   #answered(message, take) {
     const view = this.#views.get(message.id ?? -1);
-    if (!view || (message.type !== "begun" && message.seq !== view.seq) || (message.of ?? "view") === "probe" || message.of === "line") return;
+    if (
+      !view ||
+      (message.type !== "begun" && message.seq !== view.seq) ||
+      (message.of ?? "view") === "probe" ||
+      message.of === "line"
+    ) {
+      return;
+    }
     take(view);
     if (view.error) view.cells = null;
     this.#tell();

@@ -6,7 +6,8 @@ import { COLOUR, WAITING } from "./picture.js";
 /** @typedef {import("./picture.js").Picture} Picture */
 /** @typedef {{column: number, row: number, columns: number, rows: number}} CellWindow */
 
-const STRIPE = 3, STRIPED_SHARE = 0.45;
+const STRIPE = 3;
+const STRIPED_SHARE = 0.45;
 
 /**
  * @param {Picture} picture @param {CellWindow} at  whose columns and rows are multiples of `factor`
@@ -14,8 +15,12 @@ const STRIPE = 3, STRIPED_SHARE = 0.45;
  * @returns {ImageData}
  */
 export function paintMosaic(picture, at, factor) {
-  const width = at.columns / factor, height = at.rows / factor, image = new ImageData(width, height);
-  const classes = new Uint16Array(at.columns), sums = new Float32Array(4 * width), waiting = new Uint8Array(width);
+  const width = at.columns / factor;
+  const height = at.rows / factor;
+  const image = new ImageData(width, height);
+  const classes = new Uint16Array(at.columns);
+  const sums = new Float32Array(4 * width);
+  const waiting = new Uint8Array(width);
   for (let y = 0; y < height; ++y) {
     sums.fill(0);
     waiting.fill(0);
@@ -35,7 +40,8 @@ function addLine(classes, colours, factor, sums, waiting) {
   for (let pixel = 0, i = 0; i < classes.length; ++pixel) {
     for (const end = i + factor; i < end; ++i) {
       if (classes[i] === 0) continue;
-      const from = 4 * (classes[i] & COLOUR), to = 4 * pixel;
+      const from = 4 * (classes[i] & COLOUR);
+      const to = 4 * pixel;
       sums[to] += colours[from];
       sums[to + 1] += colours[from + 1];
       sums[to + 2] += colours[from + 2];
@@ -45,7 +51,13 @@ function addLine(classes, colours, factor, sums, waiting) {
   }
 }
 
-/** @param {ImageData} image @param {number} y @param {Float32Array} sums @param {Uint8Array} waiting @param {number} cells */
+/**
+ * @param {ImageData} image
+ * @param {number} y
+ * @param {Float32Array} sums
+ * @param {Uint8Array} waiting
+ * @param {number} cells
+ */
 function putPixels({ data, width }, y, sums, waiting, cells) {
   for (let x = 0, at = 4 * y * width; x < width; ++x, at += 4) {
     const opacity = sums[4 * x + 3];

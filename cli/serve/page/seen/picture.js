@@ -10,7 +10,8 @@ import { classOf } from "./values.js";
 /** @typedef {{cells: SeenCells, hue: number, selected: boolean}} Source  What one mast sees. */
 /**
  * @typedef {object} Picture
- * @property {Float32Array} colours  Four for each class, red, green and blue times opacity, and opacity; all from 0 to 1.
+ * @property {Float32Array} colours  Four for each class, red, green and blue times opacity, and opacity; all from 0
+ *   to 1.
  * @property {(row: number, column: number, classes: Uint16Array) => void} classify
  *   Adds to the classes of cells of a row from a column on.
  */
@@ -21,8 +22,13 @@ export const WAITING = 1 << 15;
 export const COLOUR = WAITING - 1;
 
 // The class of a cell by verdicts: a bit for each mast that sees it, and these.
-const CLEAR = 1 << 8, OPEN = 1 << 9, CLASSES = 1 << 10;
-const FAINT = 0.2, SINGLE = 0.55, SEVERAL = 0.68, CUT_SHARE = 0.45;
+const CLEAR = 1 << 8;
+const OPEN = 1 << 9;
+const CLASSES = 1 << 10;
+const FAINT = 0.2;
+const SINGLE = 0.55;
+const SEVERAL = 0.68;
+const CUT_SHARE = 0.45;
 
 /** The cells of a row from `column` on that a source has: the first and the one after the last, counted from `column`,
  * and what is added for their places in the source's arrays. @param {SeenCells} cells @param {number} row
@@ -30,7 +36,8 @@ const FAINT = 0.2, SINGLE = 0.55, SEVERAL = 0.68, CUT_SHARE = 0.45;
 function shareOfRow(cells, row, column, count) {
   const r = row - cells.row;
   if (r < 0 || r >= cells.rows) return [0, 0, 0];
-  const from = Math.max(0, cells.column - column), to = Math.min(count, cells.column + cells.columns - column);
+  const from = Math.max(0, cells.column - column);
+  const to = Math.min(count, cells.column + cells.columns - column);
   return [from, to, r * cells.columns + column - cells.column];
 }
 
@@ -53,7 +60,8 @@ export function verdictPicture(sources, difference) {
     colours: difference ? differenceColours(sources) : togetherColours(sources),
     classify(row, column, classes) {
       for (let bit = 0; bit < sources.length; ++bit) {
-        const { codes } = sources[bit].cells, table = tables[bit];
+        const { codes } = sources[bit].cells;
+        const table = tables[bit];
         const [from, to, shift] = shareOfRow(sources[bit].cells, row, column, classes.length);
         for (let i = from; i < to; ++i) classes[i] |= table[codes[i + shift]];
       }
@@ -61,7 +69,12 @@ export function verdictPicture(sources, difference) {
   };
 }
 
-/** The best value of several masts, or the value of one. @param {Source[]} sources @param {ValueMode} mode @returns {Picture} */
+/**
+ * The best value of several masts, or the value of one.
+ * @param {Source[]} sources
+ * @param {ValueMode} mode
+ * @returns {Picture}
+ */
 export function valuePicture(sources, mode) {
   const colours = new Float32Array(4 * (mode.limits.length + 2));
   for (let i = 0; i <= mode.limits.length; ++i) put(colours, i + 1, rampColour(i, mode.limits.length + 1), 0.7);
@@ -69,10 +82,13 @@ export function valuePicture(sources, mode) {
     colours,
     classify(row, column, classes) {
       for (const { cells } of sources) {
-        const { codes, values } = cells, [from, to, shift] = shareOfRow(cells, row, column, classes.length);
+        const { codes, values } = cells;
+        const [from, to, shift] = shareOfRow(cells, row, column, classes.length);
         for (let i = from; values && i < to; ++i) {
           const value = values[i + shift];
-          if (!Number.isNaN(value)) classes[i] = better(classes[i], (classOf(mode, value) + 1) | (codes[i + shift] & NEAREST ? WAITING : 0));
+          if (!Number.isNaN(value)) {
+            classes[i] = better(classes[i], (classOf(mode, value) + 1) | (codes[i + shift] & NEAREST ? WAITING : 0));
+          }
         }
       }
     },

@@ -13,7 +13,9 @@ export function sourcesOf(scene, views) {
   const { masts, show, selected } = scene.state;
   const sources = masts.flatMap((mast) => {
     const cells = views.of(mast.id)?.cells;
-    return cells && (show !== "alone" || mast.id === selected) ? [{ cells, hue: mast.hue, selected: mast.id === selected }] : [];
+    return cells && (show !== "alone" || mast.id === selected)
+      ? [{ cells, hue: mast.hue, selected: mast.id === selected }]
+      : [];
   });
   const cell = (sources.find((source) => source.selected) ?? sources[0])?.cells.cell;
   return sources.filter((source) => source.cells.cell === cell);
@@ -21,7 +23,8 @@ export function sourcesOf(scene, views) {
 
 /** @param {Scene} scene @param {LiveViews} views */
 export function shownOf(scene, views) {
-  const sources = sourcesOf(scene, views), mode = valueModeOf(scene.state.options);
+  const sources = sourcesOf(scene, views);
+  const mode = valueModeOf(scene.state.options);
   if (sources.length === 0) return null;
   const picture = mode ? valuePicture(sources, mode) : verdictPicture(sources, scene.state.show === "difference");
   return { picture, cell: sources[0].cells.cell };

@@ -11,9 +11,27 @@
 
 /** @type {Record<string, ValueMode>} */
 export const VALUE_MODES = {
-  height: { short: "Seen from", title: "Height from which it is seen", unit: "m", limits: [2, 5, 10, 20, 50, 100], best: "least" },
-  angle: { short: "Angle", title: "Angle of sight above the level", unit: "°", limits: [2, 1, 0.5, 0, -0.5, -1, -2], best: "greatest" },
-  probability: { short: "Probability", title: "Probability of being seen", unit: "", limits: [0.95, 0.8, 0.6, 0.4, 0.2, 0.05], best: "greatest" },
+  height: {
+    short: "Seen from",
+    title: "Height from which it is seen",
+    unit: "m",
+    limits: [2, 5, 10, 20, 50, 100],
+    best: "least",
+  },
+  angle: {
+    short: "Angle",
+    title: "Angle of sight above the level",
+    unit: "°",
+    limits: [2, 1, 0.5, 0, -0.5, -1, -2],
+    best: "greatest",
+  },
+  probability: {
+    short: "Probability",
+    title: "Probability of being seen",
+    unit: "",
+    limits: [0.95, 0.8, 0.6, 0.4, 0.2, 0.05],
+    best: "greatest",
+  },
   loss: { short: "Loss", title: "Loss by diffraction", unit: "dB", limits: [1, 3, 6, 10, 20, 30], best: "least" },
 };
 
@@ -33,7 +51,8 @@ export const withUnit = (number, unit) => `${number}${unit && unit !== "°" ? " 
 
 /** What class `at` is called. @param {ValueMode} mode @param {number} at */
 export function className(mode, at) {
-  const { limits, unit, best } = mode, text = (/** @type {number} */ limit) => withUnit(String(limit).replace("-", "−"), unit);
+  const { limits, unit, best } = mode;
+  const text = (/** @type {number} */ limit) => withUnit(String(limit).replace("-", "−"), unit);
   if (at === 0) return `${best === "least" ? "up to" : "over"} ${text(limits[0])}`;
   if (at === limits.length) return `${best === "least" ? "over" : "under"} ${text(limits[at - 1])}`;
   return `${text(limits[at - 1])} to ${text(limits[at])}`;

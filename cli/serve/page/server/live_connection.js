@@ -6,7 +6,9 @@ import { readTiles } from "./tile_message.js";
 /** @typedef {{type: string, id?: number, seq?: number, [field: string]: any}} Message */
 /** @typedef {"connecting" | "live" | "lost" | "refused"} LineState */
 
-const WRONG_KEY = 1008, FIRST_WAIT = 250, LONGEST_WAIT = 4000;
+const WRONG_KEY = 1008;
+const FIRST_WAIT = 250;
+const LONGEST_WAIT = 4000;
 
 export class LiveConnection {
   /** @type {Map<string, ((message: Message) => void)[]>} */
@@ -40,7 +42,8 @@ export class LiveConnection {
     const socket = new WebSocket(`${location.protocol === "https:" ? "wss" : "ws"}://${location.host}/live`);
     socket.binaryType = "arraybuffer";
     socket.onopen = () => socket.send(JSON.stringify({ type: "hello", key: this.key }));
-    socket.onmessage = ({ data }) => (typeof data === "string" ? this.#take(JSON.parse(data)) : readTiles(data).forEach(this.onTile));
+    socket.onmessage = ({ data }) =>
+      typeof data === "string" ? this.#take(JSON.parse(data)) : readTiles(data).forEach(this.onTile);
     socket.onclose = ({ code, reason }) => this.#closed(code, reason);
     this.#socket = socket;
   }

@@ -8,12 +8,15 @@
  * @property {Uint16Array | Float32Array | null} values
  */
 
-const HEADER = 32, UINT16 = 1, FLOAT32 = 2;
+const HEADER = 32;
+const UINT16 = 1;
+const FLOAT32 = 2;
 const padded = (/** @type {number} */ bytes) => (bytes + 3) & ~3;
 
 /** @param {ArrayBuffer} message @returns {Tile[]} */
 export function readTiles(message) {
-  const tiles = [], view = new DataView(message);
+  const tiles = [];
+  const view = new DataView(message);
   for (let at = 0; at + HEADER <= message.byteLength; at += view.getUint32(at, true)) {
     tiles.push(readTile(message, view, at));
     if (view.getUint32(at, true) < HEADER) break;
@@ -23,7 +26,9 @@ export function readTiles(message) {
 
 /** @param {ArrayBuffer} message @param {DataView} view @param {number} at @returns {Tile} */
 function readTile(message, view, at) {
-  const columns = view.getUint32(at + 20, true), rows = view.getUint32(at + 24, true), cells = columns * rows;
+  const columns = view.getUint32(at + 20, true);
+  const rows = view.getUint32(at + 24, true);
+  const cells = columns * rows;
   return {
     seq: view.getUint32(at + 4, true),
     id: view.getUint16(at + 8, true),

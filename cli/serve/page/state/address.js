@@ -48,8 +48,11 @@ function readMast(text, id) {
 export function readAddress(text, state) {
   const fields = new URLSearchParams(text);
   const masts = fields.getAll("mast").slice(0, 8).flatMap(readMast);
-  const at = numbers(fields.get("at") ?? "", 3), target = numbers(fields.get("target") ?? "", 2);
-  const show = fields.get("show") ?? "", relief = fields.get("relief") ?? "", draw = fields.get("draw");
+  const at = numbers(fields.get("at") ?? "", 3);
+  const target = numbers(fields.get("target") ?? "", 2);
+  const show = fields.get("show") ?? "";
+  const relief = fields.get("relief") ?? "";
+  const draw = fields.get("draw");
   const options = [...fields].filter(([name]) => !OF_THE_PAGE.includes(name));
   return {
     ...state,

@@ -3,7 +3,9 @@
 /** @typedef {import("../server/api.js").Info} Info */
 /** @typedef {import("./scene.js").SceneState} SceneState */
 
-const MOST_RADIUS = 10000, CELLS_ACROSS = 500, ROUND = [1, 2, 2.5, 5, 10];
+const MOST_RADIUS = 10000;
+const CELLS_ACROSS = 500;
+const ROUND = [1, 2, 2.5, 5, 10];
 
 /** The next round number from here up. @param {number} value */
 function roundUp(value) {

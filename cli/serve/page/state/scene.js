@@ -11,7 +11,8 @@
  * @property {number | null} selected  The id of a mast.
  * @property {Show} show
  * @property {Place | null} target     The far end of the line of sight from the selected mast.
- * @property {Record<string, string>} options  Options of `itin viewshed` by their names, as the command line takes them.
+ * @property {Record<string, string>} options  Options of `itin viewshed` by their names, as the command line takes
+ *   them.
  * @property {Layers} layers
  * @property {{x: number, y: number, resolution: number} | null} view  The middle of the map, and metres a pixel.
  * @property {boolean} placing         Whether the next click on the map places a mast.
