@@ -51,8 +51,8 @@ async function pageWithMast(server = hills, options = {}) {
 }
 
 /** What the command line counts of what observers see. */
-function counted(...observers) {
-  const options = `--observer ${observers.join(" ")} --target-height 2 --radius 10000 --cell 50 -o count.tif --overwrite`;
+function counted(observers, more = "") {
+  const options = `--observer ${observers}${more} --target-height 2 --radius 10000 --cell 50 -o count.tif --overwrite`;
   return JSON.parse(itin(`viewshed hills.itin ${options} --json`, stores.folder)).cells;
 }
 
@@ -198,7 +198,7 @@ test("several masts are shown together, alone and as a difference", async () => 
     text(page, "#legend-sum")
   );
   const masts = [...(await text(page, "#command")).matchAll(/--observer=(\S+)/g)].map((found) => found[1]);
-  const both = counted(...masts);
+  const both = counted(masts.join(" "));
   const share = (100 * both.visible) / (both.visible + both.hidden + both.undecided);
   assert.match(await seen(), new RegExp(`^From any .*\\(${share.toFixed(1).replace(".", "\\.")} %\\), from all`));
   const pictures = [await keepPicture(page, "together")];
@@ -211,6 +211,21 @@ test("several masts are shown together, alone and as a difference", async () => 
   assert.match(await seen(), /^Mast B alone adds /);
   await page.$eval("#masts .mast:first-child .mast-head", (head) => head.click());
   assert.match(await text(page, "#legend-list"), /only from Mast A/);
+  await closed(page);
+});
+
+test("with a frequency the Fresnel zone counts, on the map and along the line", async () => {
+  const page = await pageWithMast();
+  await setField(page, "[name=frequency]", "5.8");
+  await settled(page);
+  const cells = counted(observer(await mastAt(page)), " --frequency 5.8");
+  const share = (100 * cells.visible) / (cells.visible + cells.hidden + cells.undecided + cells.zone_cut);
+  assert.ok((await text(page, ".mast-summary")).endsWith(` ${share.toFixed(1)} %`));
+  assert.match(await text(page, "#legend-list"), /paler: Fresnel zone cut/);
+  await page.mouse.click(MIDDLE.x + 90, MIDDLE.y - 60);
+  await page.waitForSelector("#line[aria-busy=false]");
+  assert.match(await text(page, "#line-facts"), /F1 clear.*dB free space/);
+  await keepPicture(page, "fresnel");
   await closed(page);
 });
 
@@ -280,6 +295,19 @@ test("what is downloaded is the bytes of the command line that is copied", async
   await page.waitForFunction(() => document.querySelector("#results-said").textContent.startsWith("Saved"));
   await page.$eval("[data-ending=png]", (button) => button.click());
   assert.equal((await downloaded(folder, "mast-a.png")).subarray(1, 4).toString(), "PNG");
+  await closed(page);
+});
+
+test("a file that takes too long is cancelled", async () => {
+  const page = await pageWithMast();
+  await setField(page, "[name=cell]", "10");
+  await settled(page);
+  await page.$eval("[data-ending=pdf]", (button) => button.click());
+  await page.waitForSelector("#job:not([hidden])");
+  await pause(300);
+  await page.$eval("#job-cancel", (button) => button.click());
+  await page.waitForSelector("#job[hidden]");
+  assert.equal(await text(page, "#results-said"), "");
   await closed(page);
 });
 

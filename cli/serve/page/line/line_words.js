@@ -21,6 +21,14 @@ export function verdictWords(line) {
   return `Hidden by ${obstacleText(worst)}, ${where}`;
 }
 
+/** @param {{clearance_m: number, distance_m: number}} tightest */
+const tightestText = ({ clearance_m, distance_m }) =>
+  `${metresText(clearance_m)} over the surface, ${distanceText(distance_m)} away`;
+
+/** @param {{ld: number, free_space: number}} losses */
+const lossText = ({ ld, free_space }) =>
+  `${numberText(free_space, 1)} dB free space, ${numberText(ld, 1)} dB diffraction`;
+
 /** What else a planner asks of a line. @param {SightLine} line @returns {[string, string][]} */
 export function lineFacts(line) {
   const { from, to, radio } = line;
@@ -31,7 +39,7 @@ export function lineFacts(line) {
     ["Azimuth", azimuthsText(from.azimuth_grid_deg, from.azimuth_true_deg)],
     ["Back", azimuthsText(to.azimuth_grid_deg, to.azimuth_true_deg)],
   ];
-  if (line.clearance_m !== null) facts.push(["Least clearance", metresText(line.clearance_m)]);
+  if (line.tightest) facts.push(["Tightest", tightestText(line.tightest)]);
   if (line.verdict === "hidden" && needed) {
     if (needed.from_alone_m !== null) facts.push(["Mast needed", metresText(needed.from_alone_m)]);
     if (needed.to_alone_m !== null) facts.push(["Target needed", metresText(needed.to_alone_m)]);
@@ -39,7 +47,7 @@ export function lineFacts(line) {
   if (radio?.fresnel_fraction !== null && radio?.fresnel_fraction !== undefined) {
     facts.push(["Fresnel zone", `${numberText(radio.fresnel_fraction, 2)} F1 clear`]);
   }
-  if (radio?.losses_db) facts.push(["Diffraction loss", `${numberText(radio.losses_db.ld, 1)} dB`]);
+  if (radio?.losses_db) facts.push(["Loss", lossText(radio.losses_db)]);
   if (Number.isFinite(to.lat)) facts.push(["Target at", `${numberText(to.lat, 5)}, ${numberText(to.lon, 5)}`]);
   return facts;
 }

@@ -22,7 +22,8 @@ import { observerOf } from "../seen/live_views.js";
 /**
  * @typedef {object} SightLine
  * @property {"visible" | "hidden" | "undecided"} verdict
- * @property {number} distance_m @property {number | null} clearance_m
+ * @property {number} distance_m
+ * @property {{distance_m: number, clearance_m: number} | null} tightest
  * @property {LineEnd} from @property {LineEnd} to
  * @property {Obstruction[]} obstructions
  * @property {RequiredHeights[]} required_heights

@@ -129,15 +129,22 @@ class MastRow {
   summarise(view) {
     this.#summary.classList.toggle("problem", Boolean(view?.error));
     this.#summary.textContent = view?.error || (view?.done ? summaryOf(view.done) : this.#summary.textContent);
-    this.#notes.textContent = (view?.done?.warnings ?? []).join(". ");
+    this.#notes.textContent = view?.done ? notesOf(view.done) : "";
     this.item.classList.toggle("working", !view?.done && !view?.error);
   }
 }
 
 /** @param {import("../server/live_connection.js").Message} done */
 function summaryOf({ cells, area_m2 }) {
-  const looked = cells.visible + cells.hidden + (cells.undecided ?? 0);
-  return `sees ${areaText(area_m2.visible)}, ${shareText(cells.visible, looked)}`;
+  const looked = cells.visible + cells.hidden + cells.undecided + (cells.zone_cut ?? 0);
+  const what = cells.zone_cut === undefined ? "sees" : "zone clear";
+  return `${what} ${areaText(area_m2.visible)}, ${shareText(cells.visible, looked)}`;
+}
+
+/** What else the planner should know of the answer. @param {import("../server/live_connection.js").Message} done */
+function notesOf({ area_m2, warnings }) {
+  const cut = area_m2.zone_cut ? [`${areaText(area_m2.zone_cut)} more are in sight with the Fresnel zone cut`] : [];
+  return [...cut, ...warnings].map((note) => `${note}.`).join(" ");
 }
 
 /** @param {() => void} climb @param {() => void} remove */

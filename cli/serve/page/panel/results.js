@@ -87,11 +87,15 @@ class Download {
   #bar = /** @type {HTMLProgressElement} */ (element("job-bar"));
   #said = element("results-said");
   #url = "";
+  #cancelled = false;
 
   /** @param {Jobs} jobs */
   constructor(jobs) {
     this.jobs = jobs;
-    element("job-cancel").addEventListener("click", () => this.jobs.cancel(this.#url).catch(() => {}));
+    element("job-cancel").addEventListener("click", () => {
+      this.#cancelled = true;
+      this.jobs.cancel(this.#url).catch((problem) => (this.#said.textContent = problem.message));
+    });
   }
 
   /** @param {import("../server/api.js").Options} options */
@@ -99,6 +103,7 @@ class Download {
     if (!this.#box.hidden) return;
     this.#said.textContent = "";
     this.#box.hidden = false;
+    this.#cancelled = false;
     try {
       this.#url = await this.jobs.start("viewshed", options);
       await this.#wait();
@@ -109,13 +114,12 @@ class Download {
   }
 
   async #wait() {
-    for (;;) {
+    while (!this.#cancelled) {
       const job = await this.jobs.look(this.#url);
       this.#bar.value = job.share ?? 0;
       this.#bar.title = job.stage ?? "";
       if (job.state === "done") return this.#save(job.files);
       if (job.state === "failed") throw new Error(job.error ?? "it could not be done");
-      if (job.state === "cancelled") return;
       await new Promise((resume) => setTimeout(resume, LOOK_EVERY));
     }
   }

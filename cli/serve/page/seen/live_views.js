@@ -18,6 +18,9 @@ import { SeenCells } from "./seen_cells.js";
  * @property {string} field            The option that is at fault, with its dashes, where one is.
  */
 
+// What else errors are about, under ids of its own.
+const OF_OTHERS = ["probe", "line"];
+
 /** The observer as the command line takes it. @param {Mast} mast */
 export const observerOf = (mast) => `${mast.x},${mast.y},${mast.height}`;
 
@@ -102,18 +105,15 @@ export class LiveViews {
     });
   }
 
-  /** Takes an answer to what the mast was asked last; a view that began before still shows, as the newest there is.
-   * @param {Message} message @param {(view: MastView) => void} take */
+  /**
+   * Takes an answer to what the mast was asked last; a view that began before still shows, as the newest there is.
+   * @param {Message} message
+   * @param {(view: MastView) => void} take
+   */
   #answered(message, take) {
     const view = this.#views.get(message.id ?? -1);
-    if (
-      !view ||
-      (message.type !== "begun" && message.seq !== view.seq) ||
-      (message.of ?? "view") === "probe" ||
-      message.of === "line"
-    ) {
-      return;
-    }
+    const newest = message.seq === view?.seq || message.type === "begun";
+    if (!view || !newest || OF_OTHERS.includes(message.of)) return;
     take(view);
     if (view.error) view.cells = null;
     this.#tell();
