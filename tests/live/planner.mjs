@@ -3,7 +3,10 @@ import assert from "node:assert/strict";
 import { readFileSync, readdirSync } from "node:fs";
 import { join } from "node:path";
 
-import { axeSource } from "./served_map.mjs";
+import { axeSource, itin, openPage, world } from "./served_map.mjs";
+
+/** The middle of the map, in pixels of the page. */
+export const MIDDLE = { x: 760, y: 330 };
 
 export const text = (page, selector) => page.$eval(selector, (found) => found.textContent);
 export const value = (page, selector) => page.$eval(selector, (found) => found.value);
@@ -83,4 +86,18 @@ export async function axeFindings(page) {
   return violations
     .filter(({ impact }) => ["serious", "critical"].includes(impact))
     .map(({ id, nodes }) => `${id}: ${nodes.map(({ target }) => target).join(", ")}`);
+}
+
+/** The page with one mast in the middle of the map. */
+export async function pageWithMast(server = world.hills, options = {}) {
+  const page = await openPage(world.browser, server.address, options);
+  await page.mouse.click(MIDDLE.x, MIDDLE.y);
+  await settled(page);
+  return page;
+}
+
+/** What the command line counts of what observers see. */
+export function counted(observers, more = "") {
+  const options = `--observer ${observers}${more} --target-height 2 --radius 10000 --cell 50 -o count.tif --overwrite`;
+  return JSON.parse(itin(`viewshed hills.itin ${options} --json`, world.folder)).cells;
 }

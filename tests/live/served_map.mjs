@@ -25,13 +25,23 @@ export function runLine(line, folder, output) {
   return readFileSync(join(folder, output));
 }
 
-/** Imports the demonstration's stores into a folder of its own: hills, and a town with houses. */
-export function makeStores() {
+/** What tests share: a folder with the demonstration's hills and a town with houses, a server of each, a browser. */
+export const world = {};
+
+export async function startWorld() {
   const folder = mkdtempSync(join(tmpdir(), "itin-live-"));
   itin(`import hills.itin ${data}cardiff.tif`, folder);
   itin(`import town.itin ${data}alexandria-dtm.tif`, folder);
   itin(`import town.itin ${data}alexandria-buildings.geojson --kind buildings --height-field HEIGHT`, folder);
-  return { folder, remove: () => rmSync(folder, { recursive: true }) };
+  const started = [serve(folder, "hills.itin"), serve(folder, "town.itin"), launchBrowser()];
+  const [hills, town, browser] = await Promise.all(started);
+  Object.assign(world, { folder, hills, town, browser });
+}
+
+export async function stopWorld() {
+  await world.browser?.close();
+  await Promise.all([world.hills?.stop(), world.town?.stop()]);
+  if (world.folder) rmSync(world.folder, { recursive: true });
 }
 
 function freePort() {
@@ -64,7 +74,7 @@ export async function serve(folder, store, port) {
   return { address, stop: () => (child.kill("SIGINT"), ended) };
 }
 
-export const launchBrowser = () =>
+const launchBrowser = () =>
   puppeteer.launch({
     executablePath: process.env.ITIN_CHROMIUM ?? "/usr/bin/chromium",
     headless: true,
