@@ -73,6 +73,23 @@ test("hovering ties the profile and the map", async () => {
   await closed(page);
 });
 
+test("a line goes from mast to mast, and follows both", async () => {
+  const page = await pageWithMast();
+  const first = await mastAt(page);
+  await page.mouse.click(MIDDLE.x + 60, MIDDLE.y + 40, { button: "right" });
+  await settled(page);
+  const second = await mastAt(page);
+  await page.select(".mast.selected select", "0");
+  await page.waitForSelector("#line[aria-busy=false]:not([hidden])");
+  const line = JSON.parse(
+    itin(`los hills.itin --from ${observer(second)} --to ${observer(first)} --json`, world.folder),
+  );
+  assert.match(await text(page, "#line-verdict"), line.verdict === "visible" ? /^Mast B to Mast A: in/ : /: hidden by/);
+  assert.ok((await text(page, "#line-facts")).includes(`${(line.distance_m / 1000).toFixed(2)} km`));
+  await page.waitForFunction(() => location.hash.includes("&target=mast:0"));
+  await closed(page);
+});
+
 test("with a frequency the Fresnel zone counts, on the map and along the line", async () => {
   const page = await pageWithMast();
   await setField(page, "[name=frequency]", "5.8");

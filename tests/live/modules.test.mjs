@@ -20,6 +20,7 @@ const { HUES } = await module("seen/palette");
 const { VALUE_MODES, classOf, className } = await module("seen/values");
 const { addressOf, readAddress } = await module("state/address");
 const { letterOf } = await module("state/mast_letter");
+const { Scene } = await module("state/scene");
 const { firstState } = await module("state/first_state");
 const { relief } = await module("map/shade");
 const { contourInterval, contourPieces } = await module("map/contours");
@@ -297,8 +298,32 @@ test("the address says the whole scene", () => {
     view: { x: 1, y: 2, resolution: 33.5 },
   };
   assert.deepEqual(readAddress(addressOf(state), firstState(INFO)), state);
+  const tied = { ...state, target: { mast: 0 } };
+  assert.deepEqual(readAddress(addressOf(tied), firstState(INFO)), tied);
+  assert.equal(readAddress("mast=1,2,3,4&target=mast:5", firstState(INFO)).target, null);
   assert.deepEqual(readAddress("", firstState(INFO)), firstState(INFO));
   assert.deepEqual(readAddress("mast=nonsense&selected=9&show=x&at=1,2&relief=7&radius=5", firstState(INFO)).masts, []);
+});
+
+test("a line to a mast follows it, and ends with it", () => {
+  const scene = new Scene(firstState(INFO));
+  scene.addMast({ x: 1, y: 2 });
+  scene.addMast({ x: 3, y: 4 });
+  scene.change({ selected: 0, target: { mast: 1 } });
+  scene.changeMast(1, { x: 5, height: 30 });
+  assert.deepEqual([scene.farEnd.x, scene.farEnd.y, scene.farEnd.height, scene.farEnd.name], [5, 4, 30, "Mast B"]);
+  scene.removeMast(1);
+  assert.equal(scene.state.target, null);
+  scene.change({ target: { x: 7, y: 8 } });
+  assert.deepEqual(scene.farEnd, { x: 7, y: 8, height: "2", name: "" });
+  scene.addMast({ x: 3, y: 4 });
+  assert.deepEqual(
+    scene.state.masts.map(({ id, hue, name }) => [id, hue, name]),
+    [
+      [0, 0, "Mast A"],
+      [1, 1, "Mast B"],
+    ],
+  );
 });
 
 test("the page opens with round options that suit the data", () => {

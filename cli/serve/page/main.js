@@ -47,7 +47,7 @@ async function start() {
   const scene = new Scene(readAddress(rest, firstState(info)));
   const connection = new LiveConnection(key);
   // Before the map is made, which has the room that is left.
-  element("line").hidden = !scene.mast || !scene.state.target;
+  element("line").hidden = !scene.farEnd;
   const views = new LiveViews(scene, connection);
   const tiles = new HeightTiles(info);
   const map = makeMap(element("map"), info, scene);

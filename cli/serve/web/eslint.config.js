@@ -17,6 +17,7 @@ const browser = [
   "Path2D",
   "ResizeObserver",
   "HTMLElement",
+  "Option",
   "HTMLInputElement",
   "HTMLSelectElement",
   "HTMLButtonElement",

@@ -42,7 +42,7 @@ export function makeLinePanel(scene, connection, map, layer, dark) {
       keepingPlace(map, scene, () => (panel.hidden = line === null && error === ""));
       length = line?.distance_m ?? 0;
       verdict.textContent = line
-        ? `${scene.mast?.name}: ${verdictWords(line).replace(/^./, (letter) => letter.toLowerCase())}`
+        ? `${[scene.mast?.name, scene.farEnd?.name].filter(Boolean).join(" to ")}: ${verdictWords(line).replace(/^./, (letter) => letter.toLowerCase())}`
         : error;
       verdict.dataset.verdict = line?.verdict ?? "";
       facts.replaceChildren(...(line ? lineFacts(line) : []).map(factElement));
@@ -51,10 +51,10 @@ export function makeLinePanel(scene, connection, map, layer, dark) {
     },
   );
   map.on("pointermove", ({ coordinate }) => {
-    const { target } = scene.state;
     const mast = scene.mast;
-    if (!mast || !target || length === 0) return;
-    const { share, beside } = alongLine(mast, target, coordinate);
+    const end = scene.farEnd;
+    if (!mast || !end || length === 0) return;
+    const { share, beside } = alongLine(mast, end, coordinate);
     const near = share >= 0 && share <= 1 && beside < NEAR_PIXELS * (map.getView().getResolution() ?? 1);
     chart.point(near ? share * length : null);
   });
@@ -65,7 +65,7 @@ export function makeLinePanel(scene, connection, map, layer, dark) {
 function keepingPlace(map, scene, change) {
   const before = map.getSize()?.[1] ?? 0;
   const view = map.getView();
-  const { target } = scene.state;
+  const end = scene.farEnd;
   change();
   map.updateSize();
   const height = map.getSize()?.[1] ?? before;
@@ -74,7 +74,7 @@ function keepingPlace(map, scene, change) {
   if (height === before || !centre || !resolution) return;
   const north = centre[1] + ((before - height) / 2) * resolution;
   const lowest = north - (height / 2 - MARGIN_PIXELS) * resolution;
-  view.setCenter([centre[0], target && target.y < lowest ? north - (lowest - target.y) : north]);
+  view.setCenter([centre[0], end && end.y < lowest ? north - (lowest - end.y) : north]);
 }
 
 /** @param {[string, string]} fact */

@@ -48,9 +48,11 @@ const SHARED = [
 ];
 const LINE = 1;
 
-/** @param {import("../state/scene.js").SceneState} state */
-export const optionsOfLines = ({ options }) =>
-  Object.fromEntries(Object.entries(options).filter(([name]) => SHARED.includes(name)));
+/** Both ends of a line between masts stand as masts do. @param {Scene} scene @param {{name: string}} end */
+function optionsOf({ state: { options } }, end) {
+  const shared = Object.fromEntries(Object.entries(options).filter(([name]) => SHARED.includes(name)));
+  return end.name ? { ...shared, "target-on": options["observer-on"] ?? "ground" } : shared;
+}
 
 /**
  * @param {Scene} scene @param {LiveConnection} connection
@@ -62,14 +64,10 @@ export function followSightLine(scene, connection, asks, take) {
   let asked = "";
   let seq = 0;
   const ask = () => {
-    const { target, options } = scene.state;
     const mast = scene.mast;
+    const end = scene.farEnd;
     const wanted = mast &&
-      target && {
-        ...optionsOfLines(scene.state),
-        from: observerOf(mast),
-        to: `${target.x},${target.y},${options["target-height"] ?? 0}`,
-      };
+      end && { ...optionsOf(scene, end), from: observerOf(mast), to: `${end.x},${end.y},${end.height}` };
     const text = JSON.stringify(wanted);
     if (text === asked) return;
     asked = text;

@@ -39,7 +39,8 @@ export class LineLayer extends VectorLayer {
 
   /** @param {Scene} scene */
   #draw(scene) {
-    const { masts, selected, target, options } = scene.state;
+    const { masts, selected, options } = scene.state;
+    const end = scene.farEnd;
     const source = /** @type {VectorSource} */ (this.getSource());
     source.clear(true);
     const radius = Number(options.radius);
@@ -53,8 +54,8 @@ export class LineLayer extends VectorLayer {
       );
       source.addFeature(circle);
     }
-    if (scene.mast && target) {
-      const line = new Feature(new LineString([at(scene.mast), at(target)]));
+    if (scene.mast && end) {
+      const line = new Feature(new LineString([at(scene.mast), at(end)]));
       line.setStyle([
         new Style({ stroke: CASING }),
         new Style({ stroke: new Stroke({ color: hueCss(scene.mast.hue), width: 2.5 }) }),

@@ -14,13 +14,13 @@ export function makeTargetMarker(map, scene) {
   const marker = new Overlay({ element: button, positioning: "center-center", stopEvent: true });
   map.addOverlay(marker);
   follow(map, button, {
-    place: () => scene.state.target,
+    place: () => scene.farEnd,
     cell: () => Number(scene.state.options.cell) || 1,
     move: (target) => scene.change({ target }),
     remove: () => scene.change({ target: null }),
   });
-  scene.on(["target", "masts"], () => {
-    const { target } = scene.state;
-    marker.setPosition(target && scene.mast ? [target.x, target.y] : undefined);
+  scene.on(["target", "masts", "selected"], () => {
+    const end = scene.farEnd;
+    marker.setPosition(end && !end.name ? [end.x, end.y] : undefined);
   });
 }

@@ -6,6 +6,7 @@
 
 /** @typedef {import("./scene.js").SceneState} SceneState */
 /** @typedef {import("./scene.js").Mast} Mast */
+/** @typedef {import("./scene.js").Target} Target */
 
 const OF_THE_PAGE = ["mast", "selected", "show", "target", "relief", "contours", "draw", "at"];
 const SHOWS = ["together", "alone", "difference"];
@@ -18,13 +19,13 @@ export function addressOf(state) {
   const selected = state.masts.findIndex((mast) => mast.id === state.selected);
   if (selected > 0) fields.set("selected", String(selected));
   if (state.show !== "together") fields.set("show", state.show);
-  if (state.target) fields.set("target", `${state.target.x},${state.target.y}`);
+  if (state.target) fields.set("target", targetText(state.target, state.masts));
   for (const [name, value] of Object.entries(state.options)) fields.set(name, value);
   if (state.layers.relief !== "shade") fields.set("relief", state.layers.relief);
   if (state.layers.contours) fields.set("contours", "on");
   fields.set("draw", state.layers.themes.join(","));
   if (state.view) fields.set("at", [state.view.x, state.view.y, state.view.resolution].join(","));
-  return fields.toString().replaceAll("%2C", ",").replaceAll("%2F", "/");
+  return fields.toString().replaceAll("%2C", ",").replaceAll("%2F", "/").replaceAll("%3A", ":");
 }
 
 /** @param {string} text @param {number} count @returns {number[] | null} that many numbers, or null */
@@ -42,6 +43,21 @@ function readMast(text, id) {
 }
 
 /**
+ * A place, or `mast:1` for the second mast.
+ * @param {Target} target
+ * @param {Mast[]} masts
+ */
+const targetText = (target, masts) =>
+  "mast" in target ? `mast:${masts.findIndex(({ id }) => id === target.mast)}` : `${target.x},${target.y}`;
+
+/** @param {string} text @param {Mast[]} masts @returns {Target | null} */
+function readTarget(text, masts) {
+  const mast = masts[Number(text.match(/^mast:(\d)$/)?.[1] ?? -1)];
+  const place = numbers(text, 2);
+  return mast ? { mast: mast.id } : place && { x: place[0], y: place[1] };
+}
+
+/**
  * Reads what the address says, and leaves the rest of the state as it is.
  * @param {string} text @param {SceneState} state @returns {SceneState}
  */
@@ -49,7 +65,6 @@ export function readAddress(text, state) {
   const fields = new URLSearchParams(text);
   const masts = fields.getAll("mast").slice(0, 8).flatMap(readMast);
   const at = numbers(fields.get("at") ?? "", 3);
-  const target = numbers(fields.get("target") ?? "", 2);
   const show = fields.get("show") ?? "";
   const relief = fields.get("relief") ?? "";
   const draw = fields.get("draw");
@@ -59,7 +74,7 @@ export function readAddress(text, state) {
     masts,
     selected: masts[Number(fields.get("selected"))]?.id ?? masts[0]?.id ?? null,
     show: SHOWS.includes(show) ? /** @type {SceneState["show"]} */ (show) : state.show,
-    target: target && { x: target[0], y: target[1] },
+    target: readTarget(fields.get("target") ?? "", masts),
     options: fields.size > 0 ? Object.fromEntries(options) : state.options,
     layers: {
       relief: RELIEFS.includes(relief) ? /** @type {SceneState["layers"]["relief"]} */ (relief) : state.layers.relief,

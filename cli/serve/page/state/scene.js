@@ -3,6 +3,7 @@
 /** @typedef {{x: number, y: number}} Place  Metres in the store's CRS. */
 /** @typedef {Place & {id: number, name: string, hue: number, height: number}} Mast
  *    `id` tells masts and their views apart, 0 to 7; `hue` is a place in the palette; `height` is above the ground. */
+/** @typedef {Place | {mast: number}} Target  A place with a target on it, or another mast by its id. */
 /** @typedef {"together" | "alone" | "difference"} Show */
 /** @typedef {{relief: "shade" | "slope" | "none", contours: boolean, themes: string[]}} Layers */
 /**
@@ -10,7 +11,7 @@
  * @property {Mast[]} masts
  * @property {number | null} selected  The id of a mast.
  * @property {Show} show
- * @property {Place | null} target     The far end of the line of sight from the selected mast.
+ * @property {Target | null} target    The far end of the line of sight from the selected mast.
  * @property {Record<string, string>} options  Options of `itin viewshed` by their names, as the command line takes
  *   them.
  * @property {Layers} layers
@@ -49,6 +50,15 @@ export class Scene {
     return this.state.masts.find((mast) => mast.id === this.state.selected) ?? null;
   }
 
+  /** The far end of the line of sight: where it is, how high, and its name if it is a mast.
+   * @returns {Place & {height: number | string, name: string} | null} */
+  get farEnd() {
+    const { target, masts, selected, options } = this.state;
+    if (!target || !this.mast) return null;
+    if (!("mast" in target)) return { ...target, height: options["target-height"] ?? 0, name: "" };
+    return masts.find(({ id }) => id === target.mast && id !== selected) ?? null;
+  }
+
   /** Adds a mast as high as the one selected, and selects it. @param {Place} place */
   addMast(place) {
     const { masts } = this.state;
@@ -68,7 +78,9 @@ export class Scene {
   removeMast(id) {
     const masts = this.state.masts.filter((mast) => mast.id !== id);
     const selected = this.state.selected === id ? (masts[0]?.id ?? null) : this.state.selected;
-    this.change({ masts, selected, ...(masts.length === 0 ? { target: null } : {}) });
+    const { target } = this.state;
+    const lost = masts.length === 0 || (target !== null && "mast" in target && target.mast === id);
+    this.change({ masts, selected, ...(lost ? { target: null } : {}) });
   }
 
   /** An empty value leaves the command line's default. @param {string} name @param {string} value */
