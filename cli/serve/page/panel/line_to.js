@@ -13,7 +13,7 @@ export class LineTo {
 
   /** @param {(target: Target | null) => void} choose */
   constructor(choose) {
-    this.box.append(make("span", "", "Line of sight to"), this.#select);
+    this.box.append(make("span", "", "Line to"), this.#select);
     this.#select.addEventListener("change", () => {
       const { value } = this.#select;
       choose(value === NO_MAST ? null : { mast: Number(value) });
