@@ -30,7 +30,7 @@ test("the readout says what is under the cursor, and a click shows the line of s
   const mast = await mastAt(page);
   const words = { visible: /: visible/, hidden: /: hidden/, undecided: /: undecided/ };
   await page.mouse.move(MIDDLE.x + 90, MIDDLE.y - 60, { steps: 3 });
-  await page.waitForSelector("#readout:not([hidden])");
+  await page.waitForSelector("#readout", { visible: true });
   await page.waitForFunction(() => document.querySelector("#readout dl")?.textContent.includes("true"));
   const readout = await text(page, "#readout");
 
