@@ -124,6 +124,13 @@ test("places are typed as the command line takes them, and what it cannot read i
   await setField(page, "[name=radius]", "far");
   await page.waitForFunction(() => document.querySelector(".mast-summary.problem")?.textContent.includes("far"));
   assert.equal(await page.$eval("[name=radius]", (input) => input.getAttribute("aria-invalid")), "true");
+  await setField(page, "[name=radius]", "50000");
+  await setField(page, "[name=cell]", "1");
+  await page.waitForFunction(() =>
+    document.querySelector(".mast-summary.problem")?.textContent.includes("20 m or more"),
+  );
+  await keepPicture(page, "too-many-cells");
+  await setField(page, "[name=cell]", "50");
   await setField(page, "[name=radius]", "5000");
   await settled(page);
   assert.match(await text(page, ".mast-summary"), /^sees /);

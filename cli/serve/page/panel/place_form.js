@@ -23,7 +23,7 @@ export function makePlaceForm(scene, map) {
       showPlace(map, place);
       input.value = "";
     } catch (error) {
-      problem.textContent = error instanceof Error ? error.message : String(error);
+      problem.textContent = String(error instanceof Error ? error.message : error).replace(/^--from /, "");
     }
   });
   scene.on(["placing", "masts"], () => {

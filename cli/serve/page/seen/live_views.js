@@ -18,11 +18,20 @@ import { SeenCells } from "./seen_cells.js";
  * @property {string} field            The option that is at fault, with its dashes, where one is.
  */
 
+const MOST_CELLS = 25e6;
 // What else errors are about, under ids of its own.
 const OF_OTHERS = ["probe", "line"];
 
 /** The observer as the command line takes it. @param {Mast} mast */
 export const observerOf = (mast) => `${mast.x},${mast.y},${mast.height}`;
+
+/** Says that a view has more cells than a browser holds, or nothing. @param {Record<string, string>} options */
+function tooManyCells({ radius, cell }) {
+  const cells = (2 * Number(radius)) ** 2 / Number(cell) ** 2;
+  if (!(cells > MOST_CELLS)) return "";
+  const least = Math.ceil((20 * Number(radius)) / Math.sqrt(MOST_CELLS)) / 10;
+  return `the map shows ${MOST_CELLS / 1e6} million cells at most: take a cell of ${least} m or more, or a smaller radius`;
+}
 
 export class LiveViews {
   /** @type {Map<number, MastView>} */
@@ -91,17 +100,19 @@ export class LiveViews {
     const known = this.#views.get(id);
     if (known?.options === options && known.observer === observer) return;
     const seq = ++this.#seq;
-    if (known?.options === options) this.connection.send({ type: "move", id, seq, observer });
+    const tooMany = tooManyCells(this.scene.state.options);
+    if (tooMany) this.connection.send({ type: "stop", id });
+    else if (known?.options === options) this.connection.send({ type: "move", id, seq, observer });
     else this.connection.send({ type: "view", id, seq, options: { ...this.scene.state.options, observer } });
     this.#views.set(id, {
       options,
       observer,
       seq,
       begun: known?.begun ?? null,
-      cells: known?.cells ?? null,
+      cells: tooMany ? null : (known?.cells ?? null),
       done: null,
-      error: "",
-      field: "",
+      error: tooMany,
+      field: tooMany ? "--cell" : "",
     });
   }
 
