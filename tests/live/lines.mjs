@@ -100,7 +100,7 @@ test("with a frequency the Fresnel zone counts, on the map and along the line", 
   assert.match(await text(page, "#legend-list"), /paler: Fresnel zone cut/);
   await page.mouse.click(MIDDLE.x + 90, MIDDLE.y - 60);
   await page.waitForSelector("#line[aria-busy=false]");
-  assert.match(await text(page, "#line-facts"), /F1 clear.*dB free space/);
+  assert.match(await text(page, "#line-facts"), /least clearance .* F1.*dB free space/);
   await keepPicture(page, "fresnel");
   await closed(page);
 });

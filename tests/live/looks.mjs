@@ -75,7 +75,9 @@ for (const dark of [false, true]) {
     await keepPicture(page, dark ? "dark" : "light");
 
     await page.setViewport({ width: 390, height: 800, isMobile: true, hasTouch: true });
-    await page.waitForSelector("#sheet-button");
+    // Chromium loads the page anew when it becomes a phone's.
+    await page.waitForSelector("#line[aria-busy=false]:not([hidden])");
+    await settled(page);
     assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), 390);
     await keepPicture(page, dark ? "phone-dark" : "phone");
     await page.$eval("#sheet-button", (button) => button.click());

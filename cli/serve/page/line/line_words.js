@@ -45,7 +45,7 @@ export function lineFacts(line) {
     if (needed.to_alone_m !== null) facts.push(["Target needed", metresText(needed.to_alone_m)]);
   }
   if (radio?.fresnel_fraction !== null && radio?.fresnel_fraction !== undefined) {
-    facts.push(["Fresnel zone", `${numberText(radio.fresnel_fraction, 2)} F1 clear`]);
+    facts.push(["Fresnel zone", `least clearance ${numberText(radio.fresnel_fraction, 2)} F1`]);
   }
   if (radio?.losses_db) facts.push(["Loss", lossText(radio.losses_db)]);
   if (Number.isFinite(to.lat)) facts.push(["Target at", `${numberText(to.lat, 5)}, ${numberText(to.lon, 5)}`]);

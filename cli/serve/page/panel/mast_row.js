@@ -98,7 +98,7 @@ function summaryOf({ cells, area_m2 }) {
 /** What else the planner should know of the answer. @param {import("../server/live_connection.js").Message} done */
 function notesOf({ area_m2, warnings }) {
   const cut = area_m2.zone_cut ? [`${areaText(area_m2.zone_cut)} more are in sight with the Fresnel zone cut`] : [];
-  return [...cut, ...warnings].map((note) => `${note}.`).join(" ");
+  return [...cut, ...warnings].map((note) => `${note.slice(0, 1).toUpperCase()}${note.slice(1)}.`).join(" ");
 }
 
 /** @param {() => void} climb @param {() => void} remove */
