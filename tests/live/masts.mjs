@@ -59,6 +59,22 @@ test("the keyboard alone places, moves and removes masts", async () => {
   await closed(page);
 });
 
+test("a finger places and drags a mast on a phone", async () => {
+  const page = await openPage(world.browser, world.hills.address, { width: 390 });
+  await page.touchscreen.tap(195, 300);
+  await settled(page);
+  const placed = await mastAt(page);
+  await page.touchscreen.touchStart(195, 300);
+  for (let step = 1; step <= 8; ++step) await page.touchscreen.touchMove(195 + 5 * step, 300);
+  await page.touchscreen.touchEnd();
+  await settled(page);
+  const dragged = await mastAt(page);
+  assert.ok(dragged.x > placed.x + 1000 && Math.abs(dragged.y - placed.y) <= 5, JSON.stringify({ placed, dragged }));
+  await page.touchscreen.tap(195, 200);
+  await page.waitForSelector("#line[aria-busy=false]:not([hidden])");
+  await closed(page);
+});
+
 const groundAt = ({ x, y }) =>
   JSON.parse(itin(`los hills.itin --from ${x},${y} --to ${x},${y} --json`, world.folder)).from.ground_m;
 
