@@ -45,7 +45,7 @@ const fileName = (masts) =>
 
 /** @param {Scene} scene @param {LiveViews} views @param {string} key */
 export function makeResults(scene, views, key) {
-  const copy = element("copy");
+  const copy = /** @type {HTMLButtonElement} */ (element("copy"));
   const said = element("results-said");
   const command = element("command");
   const section = element("results");
@@ -75,6 +75,7 @@ export function makeResults(scene, views, key) {
     const masts = mastsMeant(scene);
     section.hidden = scene.state.masts.length === 0;
     command.textContent = commandOf(scene, views);
+    copy.disabled = command.textContent === "";
     element("results-of").textContent = masts.length === 1 ? masts[0].name : "what any of the masts sees";
   };
   views.onChange(show);
