@@ -91,8 +91,8 @@ test("a mast goes up to the highest ground near by", async () => {
   const top = await mastAt(page);
   const around = [];
   assert(Math.hypot(top.x - dropped.x, top.y - dropped.y) <= 500);
-  for (let i = 0; i < 16; ++i) {
-    const at = { x: dropped.x + 60 * ((i % 4) - 1.5) * 2, y: dropped.y + 60 * (Math.floor(i / 4) - 1.5) * 2 };
+  for (let i = 0; i < 9; ++i) {
+    const at = { x: dropped.x + 60 * ((i % 3) - 1) * 3, y: dropped.y + 60 * (Math.floor(i / 3) - 1) * 3 };
     around.push(groundAt(at));
   }
   assert(groundAt(top) > groundAt(dropped) && groundAt(top) >= Math.max(...around));

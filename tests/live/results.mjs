@@ -57,7 +57,7 @@ test("what is downloaded is the bytes of the command line that is copied", async
 
 test("a file that takes too long is cancelled", async () => {
   const page = await pageWithMast();
-  await setField(page, "[name=cell]", "10");
+  await setField(page, "[name=cell]", "25");
   await settled(page);
   await page.$eval("[data-ending=pdf]", (button) => button.click());
   await page.waitForSelector("#job:not([hidden])");
