@@ -1,0 +1,102 @@
+// What the colours on the map mean, and how much of the ground has them.
+
+import { element, make } from "./elements.js";
+import { areaText, shareText } from "./words.js";
+import { CUT, UNDECIDED } from "../seen/seen_cells.js";
+import { HUES, SHARED, UNDECIDED_COLOUR, cssColour, hueCss, meanColour, rampColour } from "../seen/palette.js";
+import { SLOPE_COLOURS, SLOPE_LIMITS } from "../map/shade.js";
+import { sourcesOf } from "../seen/shown.js";
+import { tally } from "../seen/tally.js";
+import { className, valueModeOf } from "../seen/values.js";
+
+/** @typedef {import("../state/scene.js").Scene} Scene */
+/** @typedef {import("../seen/live_views.js").LiveViews} LiveViews */
+/** @typedef {import("../seen/picture.js").Source} Source */
+/** @typedef {[colour: string, text: string, opacity?: number]} Entry */
+
+/** @param {Scene} scene @param {LiveViews} views */
+export function makeLegend(scene, views) {
+  const list = element("legend-list");
+  const title = element("legend-title");
+  const sum = element("legend-sum");
+  const slopes = element("slopes");
+  const draw = () => {
+    const sources = sourcesOf(scene, views);
+    const mode = valueModeOf(scene.state.options);
+    const sloped = scene.state.layers.relief === "slope";
+    element("legend").hidden = sources.length === 0 && !sloped;
+    slopes.hidden = !sloped;
+    title.textContent = sources.length === 0 ? "" : (mode?.title ?? "In sight");
+    list.replaceChildren(
+      ...(sources.length === 0 ? [] : mode ? valueEntries(mode) : verdictEntries(scene, sources)).map(entryElement),
+    );
+    sum.textContent = sources.length > 1 && views.settled && !mode ? sumText(scene, sources) : "";
+  };
+  element("slope-list").replaceChildren(...slopeEntries().map(entryElement));
+  views.onChange(draw);
+  scene.on(["show", "selected", "layers"], draw);
+}
+
+/** @returns {Entry[]} */
+function slopeEntries() {
+  const bounds = [0, ...SLOPE_LIMITS];
+  return SLOPE_COLOURS.map((colour, i) => [
+    cssColour(colour),
+    i < SLOPE_LIMITS.length ? `${bounds[i]}° to ${bounds[i + 1]}°` : `over ${bounds[i]}°`,
+    1,
+  ]);
+}
+
+/** @param {import("../seen/values.js").ValueMode} mode @returns {Entry[]} */
+function valueEntries(mode) {
+  const count = mode.limits.length + 1;
+  return Array.from({ length: count }, (_, i) => [cssColour(rampColour(i, count)), className(mode, i), 0.8]);
+}
+
+/** @param {Scene} scene @param {Source[]} sources @returns {Entry[]} */
+function verdictEntries(scene, sources) {
+  const { masts, show, selected, options } = scene.state;
+  const single = sources.length === 1;
+  const chosen = scene.mast;
+  /** @type {Entry[]} */
+  const entries = [];
+  if (show === "difference" && !single && chosen) {
+    const others = masts.filter((mast) => mast.id !== selected).map((mast) => HUES[mast.hue]);
+    entries.push(
+      [hueCss(chosen.hue), `only from ${chosen.name}`],
+      [cssColour(SHARED), "from others, too"],
+      [cssColour(others[0]), "pale: only from others", 0.3],
+    );
+  } else {
+    for (const mast of masts.filter((some) => show !== "alone" || some.id === selected)) {
+      entries.push([hueCss(mast.hue), `from ${mast.name}`]);
+    }
+    if (!single) entries.push([cssColour(meanColour(sources.map(({ hue }) => HUES[hue]))), "mixed: from several", 0.9]);
+  }
+  if (options.frequency || holds(sources, CUT)) {
+    entries.push([hueCss(sources.at(0)?.hue ?? 0), "paler: Fresnel zone cut", 0.3]);
+  }
+  if (holds(sources, UNDECIDED)) entries.push([cssColour(UNDECIDED_COLOUR), "undecided: ground without data"]);
+  return entries;
+}
+
+/** Whether any mast has a cell of this verdict. @param {Source[]} sources @param {number} verdict */
+const holds = (sources, verdict) => sources.some(({ cells }) => cells.verdicts & (1 << verdict));
+
+/** @param {Entry} entry */
+function entryElement([colour, text, opacity = 0.65]) {
+  const item = make("li");
+  const swatch = make("span", "swatch");
+  swatch.style.setProperty("--colour", colour);
+  swatch.style.setProperty("--opacity", String(opacity));
+  item.append(swatch, text);
+  return item;
+}
+
+/** @param {Scene} scene @param {Source[]} sources */
+function sumText(scene, sources) {
+  const { any, all, onlySelected, looked, area } = tally(sources);
+  const part = (/** @type {number} */ cells) => `${areaText(cells * area)} (${shareText(cells, looked)})`;
+  if (scene.state.show === "difference") return `${scene.mast?.name} alone adds ${part(onlySelected)}.`;
+  return `From any ${part(any)}, from all ${part(all)}.`;
+}

@@ -1,0 +1,105 @@
+// The fields of options: each field's name is the name of an option of the command line, an empty field its default.
+
+import { element } from "./elements.js";
+
+/** @typedef {import("../state/scene.js").Scene} Scene */
+/** @typedef {import("../server/api.js").Info} Info */
+/** @typedef {import("../seen/live_views.js").LiveViews} LiveViews */
+
+// Options that contradict each other: to set one clears the others.
+const INSTEAD = [["refraction", "effective-earth"]];
+const MODE = "mode";
+const LOSS = "loss";
+
+/** @param {Scene} scene @param {Info} info @param {LiveViews} views */
+export function makeOptionsForm(scene, info, views) {
+  const form = /** @type {HTMLFormElement} */ (element("options"));
+  form.addEventListener("submit", (event) => event.preventDefault());
+  form.addEventListener("change", ({ target }) => {
+    if (!(target instanceof HTMLInputElement || target instanceof HTMLSelectElement) || !target.name) return;
+    if (!target.checkValidity()) return target.setAttribute("aria-invalid", "true");
+    if (target.name === MODE) setMode(scene, target.value);
+    else setOption(scene, target.name, target.value.trim());
+  });
+  makeThemeBoxes(scene, info);
+  scene.on(["options"], () => fillIn(form, scene.state.options));
+  views.onChange(() => showProblems(form, scene, views));
+}
+
+/** @param {Scene} scene @param {string} name @param {string} value */
+function setOption(scene, name, value) {
+  for (const group of INSTEAD.filter((some) => some.includes(name) && value !== "")) {
+    for (const other of group.filter((some) => some !== name)) scene.setOption(other, "");
+  }
+  scene.setOption(name, value);
+}
+
+/**
+ * A loss is an option of its own on the command line, and wants a frequency.
+ * @param {Scene} scene
+ * @param {string} mode
+ */
+function setMode(scene, mode) {
+  /** @type {Record<string, string>} */
+  const options = { ...scene.state.options, [MODE]: mode };
+  delete options[LOSS];
+  if (mode === LOSS) {
+    delete options[MODE];
+    Object.assign(options, { [LOSS]: "true", frequency: options.frequency ?? "5.8" });
+  }
+  if (mode === "probability") options["vertical-error"] ??= "1";
+  scene.change({ options });
+}
+
+/** @param {HTMLFormElement} form @param {Record<string, string>} options */
+function fillIn(form, options) {
+  for (const field of form.elements) {
+    if (!(field instanceof HTMLInputElement || field instanceof HTMLSelectElement) || !field.name) continue;
+    field.value =
+      field.name === MODE ? (options[LOSS] ? LOSS : (options[MODE] ?? "visible")) : (options[field.name] ?? "");
+  }
+  element("vertical-error").hidden = options[MODE] !== "probability";
+}
+
+/**
+ * Marks the field that the server found wrong.
+ * @param {HTMLFormElement} form
+ * @param {Scene} scene
+ * @param {LiveViews} views
+ */
+function showProblems(form, scene, views) {
+  const wrong = scene.state.masts.map((mast) => views.of(mast.id)).find((view) => view?.error);
+  for (const field of form.elements) {
+    if (field instanceof HTMLInputElement) {
+      field.setAttribute("aria-invalid", String(Boolean(wrong) && wrong?.field === `--${field.name}`));
+    }
+  }
+}
+
+/**
+ * A box for each theme that hides: all is the default, and none has a name of its own.
+ * @param {Scene} scene
+ * @param {Info} info
+ */
+function makeThemeBoxes(scene, info) {
+  const box = element("theme-boxes");
+  const names = info.themes.map((theme) => theme.name);
+  element("surface").hidden = names.length === 0;
+  const inputs = names.map((name) => {
+    const label = document.createElement("label");
+    const input = document.createElement("input");
+    label.className = "check";
+    input.type = "checkbox";
+    label.append(input, name);
+    box.append(label);
+    return input;
+  });
+  box.addEventListener("change", () => {
+    const chosen = names.filter((_, i) => inputs[i].checked);
+    scene.setOption("themes", chosen.length === names.length ? "" : chosen.length === 0 ? "none" : chosen.join(","));
+  });
+  scene.on(["options"], () => {
+    const { themes = "all" } = scene.state.options;
+    inputs.forEach((input, i) => (input.checked = themes === "all" || themes.split(",").includes(names[i])));
+  });
+}

@@ -1,0 +1,41 @@
+// The button and the field that say where the next mast goes.
+
+import { element } from "./elements.js";
+import { askPlace } from "../server/api.js";
+import { MOST_MASTS } from "../state/scene.js";
+
+/** @typedef {import("../state/scene.js").Scene} Scene */
+/** @typedef {import("../vendor/ol.js").OlMap} OlMap */
+
+/** @param {Scene} scene @param {OlMap} map */
+export function makePlaceForm(scene, map) {
+  const form = /** @type {HTMLFormElement} */ (element("place-form"));
+  const input = /** @type {HTMLInputElement} */ (element("place"));
+  const problem = element("place-problem");
+  const button = /** @type {HTMLButtonElement} */ (element("place-button"));
+  button.addEventListener("click", () => scene.change({ placing: !scene.state.placing }));
+  form.addEventListener("submit", async (event) => {
+    event.preventDefault();
+    problem.textContent = "";
+    try {
+      const place = await askPlace(input.value);
+      scene.addMast(place);
+      showPlace(map, place);
+      input.value = "";
+    } catch (error) {
+      problem.textContent = String(error instanceof Error ? error.message : error).replace(/^--from /, "");
+    }
+  });
+  scene.on(["placing", "masts"], () => {
+    const { placing, masts } = scene.state;
+    button.setAttribute("aria-pressed", String(placing));
+    button.disabled = masts.length >= MOST_MASTS;
+    element("map").classList.toggle("placing", placing || masts.length === 0);
+  });
+}
+
+/** Brings a place into view. @param {OlMap} map @param {{x: number, y: number}} place */
+function showPlace(map, { x, y }) {
+  const [west, south, east, north] = map.getView().calculateExtent();
+  if (x < west || x > east || y < south || y > north) map.getView().animate({ center: [x, y], duration: 200 });
+}

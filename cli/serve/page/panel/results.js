@@ -1,0 +1,138 @@
+// What the planner takes along: the command that writes the same bytes, and files that this command writes, made by the
+// server in a process of its own.
+
+import { element } from "./elements.js";
+import { Jobs } from "../server/api.js";
+import { observerOf } from "../seen/live_views.js";
+
+/** @typedef {import("../state/scene.js").Scene} Scene */
+/** @typedef {import("../state/scene.js").Mast} Mast */
+/** @typedef {import("../seen/live_views.js").LiveViews} LiveViews */
+
+/** The option that writes a file of this ending. @type {Record<string, string>} */
+const OUTPUTS = { tif: "output", gpkg: "output", png: "image", pdf: "sheet" };
+const LOOK_EVERY = 300;
+
+/**
+ * Together they are one call with all observers; else the mast selected is meant.
+ * @param {Scene} scene
+ * @returns {Mast[]}
+ */
+function mastsMeant(scene) {
+  if (scene.state.show === "together") return scene.state.masts;
+  return scene.mast ? [scene.mast] : [];
+}
+
+/**
+ * The command of one mast, which the server has told, with the observers of all.
+ * @param {Scene} scene
+ * @param {LiveViews} views
+ */
+export function commandOf(scene, views) {
+  const masts = mastsMeant(scene);
+  const command = masts[0] && views.of(masts[0].id)?.done?.command;
+  return command
+    ? command.replace(/--observer=\S+/, masts.map((mast) => `--observer=${observerOf(mast)}`).join(" "))
+    : "";
+}
+
+/** A name for files, of letters and figures. @param {Mast[]} masts */
+const fileName = (masts) =>
+  (masts.length === 1 ? masts[0].name : "masts")
+    .toLowerCase()
+    .replace(/[^a-z0-9]+/g, "-")
+    .replace(/^-+|-+$/g, "") || "mast";
+
+/** @param {Scene} scene @param {LiveViews} views @param {string} key */
+export function makeResults(scene, views, key) {
+  const copy = /** @type {HTMLButtonElement} */ (element("copy"));
+  const said = element("results-said");
+  const command = element("command");
+  const section = element("results");
+  copy.addEventListener("click", async () => {
+    try {
+      await navigator.clipboard.writeText(commandOf(scene, views));
+      said.textContent = "Copied.";
+    } catch {
+      // some browsers only let pages of this machine copy
+      getSelection()?.selectAllChildren(command);
+      said.textContent = "The command is selected: copy it with Ctrl+C.";
+    }
+  });
+  const download = new Download(new Jobs(key));
+  for (const button of section.querySelectorAll("button[data-ending]")) {
+    button.addEventListener("click", () => {
+      const masts = mastsMeant(scene);
+      const ending = button.getAttribute("data-ending") ?? "tif";
+      download.start({
+        ...scene.state.options,
+        observer: masts.map(observerOf),
+        [OUTPUTS[ending]]: `${fileName(masts)}.${ending}`,
+      });
+    });
+  }
+  const show = () => {
+    const masts = mastsMeant(scene);
+    section.hidden = scene.state.masts.length === 0;
+    command.textContent = commandOf(scene, views);
+    copy.disabled = command.textContent === "";
+    element("results-of").textContent = masts.length === 1 ? masts[0].name : "what any of the masts sees";
+  };
+  views.onChange(show);
+  scene.on(["masts", "selected", "show"], show);
+}
+
+/** One file that is being made; a second one waits until the first is there. */
+class Download {
+  #box = element("job");
+  #bar = /** @type {HTMLProgressElement} */ (element("job-bar"));
+  #said = element("results-said");
+  #url = "";
+  #cancelled = false;
+
+  /** @param {Jobs} jobs */
+  constructor(jobs) {
+    this.jobs = jobs;
+    element("job-cancel").addEventListener("click", () => {
+      this.#cancelled = true;
+      this.jobs.cancel(this.#url).catch((problem) => (this.#said.textContent = problem.message));
+    });
+  }
+
+  /** @param {import("../server/api.js").Options} options */
+  async start(options) {
+    if (!this.#box.hidden) return;
+    this.#said.textContent = "";
+    this.#box.hidden = false;
+    this.#cancelled = false;
+    try {
+      this.#url = await this.jobs.start("viewshed", options);
+      await this.#wait();
+    } catch (problem) {
+      this.#said.textContent = problem instanceof Error ? problem.message : String(problem);
+    }
+    this.#box.hidden = true;
+  }
+
+  async #wait() {
+    while (!this.#cancelled) {
+      const job = await this.jobs.look(this.#url);
+      this.#bar.value = job.share ?? 0;
+      this.#bar.title = job.stage ?? "";
+      if (job.state === "done") return this.#save(job.files);
+      if (job.state === "failed") throw new Error(job.error ?? "it could not be done");
+      await new Promise((resume) => setTimeout(resume, LOOK_EVERY));
+    }
+  }
+
+  /** @param {{name: string, url: string}[]} files */
+  #save(files) {
+    for (const { name, url } of files) {
+      const link = document.createElement("a");
+      link.href = url;
+      link.download = name;
+      link.click();
+    }
+    this.#said.textContent = `Saved ${files.map(({ name }) => name).join(", ")}.`;
+  }
+}

@@ -1,0 +1,34 @@
+// How far the map is, and what is wrong: one line over the map.
+
+import { element } from "./elements.js";
+
+/** @typedef {import("../server/live_connection.js").LiveConnection} LiveConnection */
+/** @typedef {import("../seen/live_views.js").LiveViews} LiveViews */
+
+const SHARES = /** @type {Record<number, string>} */ ({ 9: "1 in 81 decided", 3: "1 in 9 decided" });
+const LINE_WORDS = {
+  connecting: "",
+  live: "",
+  lost: "The server does not answer. Trying again …",
+  refused: "This address is of an earlier start of the server. Open the address that itin serve printed.",
+};
+
+/** @param {import("../state/scene.js").Scene} scene @param {LiveConnection} connection @param {LiveViews} views */
+export function makeStatus(scene, connection, views) {
+  const line = element("status");
+  let trouble = "";
+  const show = () => {
+    const found = scene.state.masts.map((mast) => views.of(mast.id));
+    const steps = found.filter((view) => view?.cells && !view.done).map((view) => view?.cells?.step ?? 1);
+    const reading = found.some((view) => view && !view.cells && !view.error) ? "Reading the ground …" : "";
+    line.textContent =
+      trouble || (steps.length > 0 ? (SHARES[Math.max(...steps)] ?? "Deciding the last cells …") : reading);
+    line.classList.toggle("problem", trouble !== "");
+    line.hidden = line.textContent === "";
+  };
+  connection.onState = (state) => {
+    trouble = LINE_WORDS[state];
+    show();
+  };
+  views.onChange(show);
+}

@@ -1,0 +1,86 @@
+// The scene as text in the page's address, so that a reload, a bookmark or a link shows the same again.
+//
+//   #mast=310375,183525,20,Mast%20A&selected=0&radius=10000&cell=50&show=together&at=310375,183525,25
+//
+// What is not about the page itself is an option of the command line under its own name.
+
+/** @typedef {import("./scene.js").SceneState} SceneState */
+/** @typedef {import("./scene.js").Mast} Mast */
+/** @typedef {import("./scene.js").Target} Target */
+
+const OF_THE_PAGE = ["mast", "selected", "show", "target", "relief", "contours", "draw", "at"];
+const SHOWS = ["together", "alone", "difference"];
+const RELIEFS = ["shade", "slope", "none"];
+
+/** @param {SceneState} state @returns {string} */
+export function addressOf(state) {
+  const fields = new URLSearchParams();
+  for (const { x, y, height, hue, name } of state.masts) fields.append("mast", [x, y, height, hue, name].join(","));
+  const selected = state.masts.findIndex((mast) => mast.id === state.selected);
+  if (selected > 0) fields.set("selected", String(selected));
+  if (state.show !== "together") fields.set("show", state.show);
+  if (state.target) fields.set("target", targetText(state.target, state.masts));
+  for (const [name, value] of Object.entries(state.options)) fields.set(name, value);
+  if (state.layers.relief !== "shade") fields.set("relief", state.layers.relief);
+  if (state.layers.contours) fields.set("contours", "on");
+  fields.set("draw", state.layers.themes.join(","));
+  if (state.view) fields.set("at", [state.view.x, state.view.y, state.view.resolution].join(","));
+  return fields.toString().replaceAll("%2C", ",").replaceAll("%2F", "/").replaceAll("%3A", ":");
+}
+
+/** @param {string} text @param {number} count @returns {number[] | null} that many numbers, or null */
+function numbers(text, count) {
+  const values = text.split(",", count).map(Number);
+  return values.length === count && values.every(Number.isFinite) ? values : null;
+}
+
+/** @param {string} text @param {number} id @returns {Mast[]} the mast, or none where the text is not one */
+function readMast(text, id) {
+  const values = numbers(text, 4);
+  if (!values) return [];
+  const [x, y, height, hue] = values;
+  return [{ id, hue: Math.abs(Math.trunc(hue)) % 8, x, y, height, name: text.split(",").slice(4).join(",") }];
+}
+
+/**
+ * A place, or `mast:1` for the second mast.
+ * @param {Target} target
+ * @param {Mast[]} masts
+ */
+const targetText = (target, masts) =>
+  "mast" in target ? `mast:${masts.findIndex(({ id }) => id === target.mast)}` : `${target.x},${target.y}`;
+
+/** @param {string} text @param {Mast[]} masts @returns {Target | null} */
+function readTarget(text, masts) {
+  const mast = masts[Number(text.match(/^mast:(\d)$/)?.[1] ?? -1)];
+  const place = numbers(text, 2);
+  return mast ? { mast: mast.id } : place && { x: place[0], y: place[1] };
+}
+
+/**
+ * Reads what the address says, and leaves the rest of the state as it is.
+ * @param {string} text @param {SceneState} state @returns {SceneState}
+ */
+export function readAddress(text, state) {
+  const fields = new URLSearchParams(text);
+  const masts = fields.getAll("mast").slice(0, 8).flatMap(readMast);
+  const at = numbers(fields.get("at") ?? "", 3);
+  const show = fields.get("show") ?? "";
+  const relief = fields.get("relief") ?? "";
+  const draw = fields.get("draw");
+  const options = [...fields].filter(([name]) => !OF_THE_PAGE.includes(name));
+  return {
+    ...state,
+    masts,
+    selected: masts[Number(fields.get("selected"))]?.id ?? masts[0]?.id ?? null,
+    show: SHOWS.includes(show) ? /** @type {SceneState["show"]} */ (show) : state.show,
+    target: readTarget(fields.get("target") ?? "", masts),
+    options: fields.size > 0 ? Object.fromEntries(options) : state.options,
+    layers: {
+      relief: RELIEFS.includes(relief) ? /** @type {SceneState["layers"]["relief"]} */ (relief) : state.layers.relief,
+      contours: fields.has("contours"),
+      themes: draw === null ? state.layers.themes : draw.split(",").filter((name) => name !== ""),
+    },
+    view: at && at[2] > 0 ? { x: at[0], y: at[1], resolution: at[2] } : state.view,
+  };
+}

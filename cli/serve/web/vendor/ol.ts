@@ -1,0 +1,22 @@
+// What the page takes of OpenLayers. esbuild makes page/vendor/ol.js of this, and TypeScript takes it for that file's types.
+export { default as OlMap } from "ol/Map.js";
+export { default as View } from "ol/View.js";
+export { default as Feature } from "ol/Feature.js";
+export { default as Projection } from "ol/proj/Projection.js";
+export { addProjection } from "ol/proj.js";
+export { default as Layer } from "ol/layer/Layer.js";
+export { default as TileLayer } from "ol/layer/Tile.js";
+export { default as VectorLayer } from "ol/layer/Vector.js";
+export { default as ImageTileSource } from "ol/source/ImageTile.js";
+export { default as VectorSource } from "ol/source/Vector.js";
+export { default as TileGrid } from "ol/tilegrid/TileGrid.js";
+export { default as LineString } from "ol/geom/LineString.js";
+export { default as Polygon } from "ol/geom/Polygon.js";
+export { default as Circle } from "ol/geom/Circle.js";
+export { default as Style } from "ol/style/Style.js";
+export { default as Fill } from "ol/style/Fill.js";
+export { default as Stroke } from "ol/style/Stroke.js";
+export { defaults as defaultInteractions } from "ol/interaction/defaults.js";
+export { defaults as defaultControls } from "ol/control/defaults.js";
+export { default as ScaleLine } from "ol/control/ScaleLine.js";
+export { default as Overlay } from "ol/Overlay.js";

@@ -1,0 +1,11 @@
+// The page of `itin serve` in a real browser, as a planner uses it: all tests on two servers and one browser.
+import { after, before } from "node:test";
+
+import "./lines.mjs";
+import "./looks.mjs";
+import "./masts.mjs";
+import "./results.mjs";
+import { startWorld, stopWorld } from "./served_map.mjs";
+
+before(startWorld);
+after(stopWorld);

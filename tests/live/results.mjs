@@ -1,0 +1,90 @@
+// Tests of what outlives the page: its address, the command, files; and of a server that goes.
+import assert from "node:assert/strict";
+import { mkdirSync } from "node:fs";
+import { join } from "node:path";
+import { test } from "node:test";
+
+import { closed, downloaded, mastAt, pageWithMast, pause, setField, settled, text, value, MIDDLE } from "./planner.mjs";
+import { openPage, runLine, serve, world } from "./served_map.mjs";
+
+test("a reload from the address shows the same, and the key is not in it", async () => {
+  const page = await pageWithMast();
+  await page.mouse.click(MIDDLE.x + 90, MIDDLE.y - 60);
+  await setField(page, "[name=effective-earth]", "4/3");
+  await settled(page);
+  await page.waitForFunction(() => location.hash.includes("effective-earth=4/3") && location.hash.includes("&target="));
+  await page.waitForSelector("#line[aria-busy=false]");
+  const address = page.url();
+  const mast = await mastAt(page);
+  const said = await text(page, "#line-verdict");
+  assert.doesNotMatch(address, /key=/);
+  await closed(page);
+  const again = await openPage(world.browser, address);
+  await settled(again);
+  await again.waitForSelector("#line[aria-busy=false]");
+  assert.deepEqual(await mastAt(again), mast);
+  assert.equal(await value(again, "[name=effective-earth]"), "4/3");
+  assert.equal(await text(again, "#line-verdict"), said);
+  await again.waitForFunction((dropped) => location.href === dropped, {}, address);
+  await closed(again);
+});
+
+test("what is downloaded is the bytes of the command line that is copied", async () => {
+  const page = await pageWithMast();
+  const folder = join(world.folder, "downloads");
+  const client = await page.createCDPSession();
+  await client.send("Browser.setDownloadBehavior", { behavior: "allow", downloadPath: folder });
+  await world.browser
+    .defaultBrowserContext()
+    .overridePermissions(new URL(world.hills.address).origin, [
+      "clipboard-read",
+      "clipboard-write",
+      "clipboard-sanitized-write",
+    ]);
+  mkdirSync(folder);
+  await page.bringToFront();
+  await page.click("#copy");
+  await page.waitForFunction(() => document.querySelector("#results-said").textContent === "Copied.");
+  const command = await page.evaluate(() => navigator.clipboard.readText());
+  assert.equal(command, await text(page, "#command"));
+  await page.$eval("[data-ending=tif]", (button) => button.click());
+  assert.deepEqual(await downloaded(folder, "mast-a.tif"), runLine(command, world.folder, "by-hand.tif"));
+  await page.waitForFunction(() => document.querySelector("#results-said").textContent.startsWith("Saved"));
+  await page.$eval("[data-ending=png]", (button) => button.click());
+  assert.equal((await downloaded(folder, "mast-a.png")).subarray(1, 4).toString(), "PNG");
+  await closed(page);
+});
+
+test("a file that takes too long is cancelled", async () => {
+  const page = await pageWithMast();
+  await setField(page, "[name=cell]", "25");
+  await settled(page);
+  await page.$eval("[data-ending=pdf]", (button) => button.click());
+  await page.waitForSelector("#job:not([hidden])");
+  await pause(300);
+  await page.$eval("#job-cancel", (button) => button.click());
+  await page.waitForSelector("#job[hidden]");
+  assert.equal(await text(page, "#results-said"), "");
+  await closed(page);
+});
+
+test("the page says when the server has gone, and when another has come", async () => {
+  const first = await serve(world.folder, "town.itin");
+  const page = await openPage(world.browser, first.address);
+  const says = (words) =>
+    page.waitForFunction((wanted) => document.querySelector("#status").textContent.includes(wanted), {}, words);
+  await first.stop();
+  await says("does not answer");
+  const second = await serve(world.folder, "town.itin", new URL(first.address).port);
+  await says("an earlier start");
+  await page.close();
+  await second.stop();
+});
+
+test("without the key the page says where to find it", async () => {
+  const context = await world.browser.createBrowserContext();
+  const page = await context.newPage();
+  await page.goto(new URL(world.hills.address).origin);
+  await page.waitForFunction(() => document.querySelector("#status").textContent.includes("itin serve printed"));
+  await context.close();
+});
