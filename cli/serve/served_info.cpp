@@ -34,6 +34,7 @@ Document served_info(const ServedStore& served, const TileGrid& grid) {
   info.update(info_document(served.store(), StatedHeights(metadata)));
   info["data_spacing_m"] = spacing ? Document(*spacing) : Document(nullptr);
   info["memory_bytes"] = served.memory_bytes();
+  info["most_cells"] = served.most_cells();
   info["modes"] = live_modes();
   info["verbs"] = job_verbs();
   info["tiles"] = tiles_document(metadata, grid);

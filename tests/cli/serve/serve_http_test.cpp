@@ -138,6 +138,7 @@ TEST_F(ServeHttp, TellsWhatTheStoreHolds) {
     EXPECT_EQ(info.at(name), printed.at(name)) << name;
   EXPECT_EQ(info.at("store"), "hill.itin");
   EXPECT_EQ(info.at("data_spacing_m"), 50);
+  EXPECT_EQ(info.at("most_cells"), 2048 * 2048);
   EXPECT_EQ(info.at("modes"), Json({"visible", "count", "angle", "height", "probability"}));
   EXPECT_EQ(info.at("tiles").at("resolutions"), Json({16.0}));
   EXPECT_EQ(info.at("tiles").at("themes"), Json::array());
