@@ -5,6 +5,7 @@
 #include <numeric>
 #include <optional>
 #include <tuple>
+#include <unordered_map>
 #include <utility>
 
 #include <fmt/format.h>
@@ -46,12 +47,22 @@ struct PlannedLink {
   std::optional<std::size_t> mast = {};
 };
 
-std::vector<PlannedLink> links_of(const std::vector<ReachedBuilding>& buildings) {
+/// Puts the links of one mast after those of another, each mast's by azimuth: so neighbours share most of their ground.
+std::vector<PlannedLink> links_of(const std::vector<ReachedBuilding>& buildings,
+                                  const std::vector<SitePosition>& masts) {
   std::vector<PlannedLink> links;
   for (const ReachedBuilding& building : buildings) {
     for (const std::size_t mast : building.masts) links.push_back({&building, mast});
     if (building.masts.empty()) links.push_back({&building});
   }
+  const auto order = [&](const PlannedLink& link) {
+    if (!link.mast) return std::pair(std::size_t{0}, 0.0);
+    const Point2 from = masts[*link.mast].position;
+    const Box& to = link.building->box;
+    return std::pair(*link.mast, std::atan2((to.ymin + to.ymax) / 2 - from.y, (to.xmin + to.xmax) / 2 - from.x));
+  };
+  std::stable_sort(links.begin(), links.end(),
+                   [&](const PlannedLink& a, const PlannedLink& b) { return order(a) < order(b); });
   return links;
 }
 
@@ -92,13 +103,12 @@ class LinkSegments {
   PremisesSegment segment_of(const std::vector<PlannedLink>& links, const GroundRun& run) const {
     PremisesSegment segment;
     TileSet about(ground_.count());
+    std::unordered_map<std::size_t, std::size_t> numbers;  // where each building is in the segment
     for (const std::size_t i : run.pieces) {
       const auto& [building, mast] = links[i];
-      if (segment.buildings.empty() || segment.buildings.back().foot != building->foot) {
-        segment.buildings.push_back({building->foot, {}});
-        add_ground_under(*building, about);
-      }
-      if (mast) segment.buildings.back().masts.push_back(*mast);
+      const auto [at, is_new] = numbers.try_emplace(building->foot, segment.buildings.size());
+      if (is_new) segment.buildings.push_back({building->foot, {}}), add_ground_under(*building, about);
+      if (mast) segment.buildings[at->second].masts.push_back(*mast);
     }
     segment.surface = ground_.window(run.ground), segment.ground = ground_.window(about);
     segment.points = ground_.points(run.ground);
@@ -135,7 +145,8 @@ std::vector<PremisesSegment> premises_segments(const Store& store, const Premise
   }
   all.extend(about_buildings);
   const std::uint64_t points = store.points_about(0, all);
-  if (!holds_ground(request, points)) return LinkSegments(store, request, masts, all, progress).of(links_of(buildings));
+  if (!holds_ground(request, points))
+    return LinkSegments(store, request, masts, all, progress).of(links_of(buildings, masts));
   PremisesSegment segment{{}, Window::box(all), Window::box(about_buildings), points};
   for (ReachedBuilding& b : buildings) segment.buildings.push_back({b.foot, std::move(b.masts)});
   return {segment};
