@@ -221,7 +221,7 @@ TEST_F(SitePlans, WriteWhatTheyList) {
   const SitePlan made = plan(asked);
   const std::string folder = file("sites");
   const std::vector<PlanFile> written = write_site_plan(folder, made, *store_, progress_);
-  EXPECT_EQ(written.size(), 10U);
+  EXPECT_EQ(written.size(), 13U);
   for (const PlanFile& one : written) EXPECT_TRUE(std::filesystem::is_regular_file(one.path)) << one.path;
   std::size_t found = 0;
   for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(folder)) ++found;
