@@ -113,7 +113,8 @@ TEST_P(OwnFiles, AreNeverWrittenOver) {
 }
 
 std::vector<std::string> verbs() {
-  return {"import", "info", "check", "tin", "viewshed", "visibility", "ztv", "profile", "los", "site", "premises", "serve"};
+  return {"import", "info",    "check", "tin",  "viewshed", "visibility",
+          "ztv",    "profile", "los",   "site", "premises", "serve"};
 }
 
 INSTANTIATE_TEST_SUITE_P(Verbs, OwnFiles, ::testing::ValuesIn(verbs()), [](const auto& verb) { return verb.param; });

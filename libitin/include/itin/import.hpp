@@ -82,9 +82,9 @@ struct ImportOptions {
   std::optional<double> sea_level = {};
   std::string sea_area = {};  ///< polygons, as text or a file: the sea fills missing ground within all of them, and
                               ///< nowhere else
-  bool replace = false;  ///< these sources take the place of others that are no finer in their coverage
-  bool stay = false;     ///< import_lines() of contours, breaklines and water: they stay within the coverage of sources
-                         ///< that replace others
+  bool replace = false;       ///< these sources take the place of others that are no finer in their coverage
+  bool stay = false;          ///< import_lines() of contours, breaklines and water: they stay within the coverage of
+                              ///< sources that replace others
   std::vector<double> tolerances = {};  ///< metres; default: those of 0.5,1,2,4,8,16,32 that are no less than the
                                         ///< resolution. An existing store keeps its own.
   double resolution = 0.01;             ///< metres; an existing store keeps its own

@@ -101,7 +101,7 @@ LazLayout laz_layout(const std::string& path, std::span<const char> record, cons
     layout.record_length += item.size;
     if (!(layout.layered ? take_layered(item, layout) : take_plain(item, layout)))
       refuse_laz(path, fmt::format("compressed (LAZ) with a part {} of version {} in each point, which is not read",
-                               static_cast<int>(item.part), item.version));
+                                   static_cast<int>(item.part), item.version));
   }
   const Part first = layout.layered ? Part::kModernPoint : Part::kPoint;
   const bool fits = items.front().part == first && layout.layered == (point.format >= 6) &&
