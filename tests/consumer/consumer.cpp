@@ -10,7 +10,7 @@
 
 int main() {
   // The module that draws is found beside the libraries.
-  const itin::viewshed::MapImage image{2, 1, {255, 0, 0, 0, 0, 255}, {}};
+  const itin::viewshed::MapImage image{2, 1, {255, 0, 0, 0, 0, 255}};
   itin::viewshed::write_image("map.png", image, true);
   try {
     const itin::Store store("no such store.itin");

@@ -98,7 +98,7 @@ TEST(MapImage, GrowsWithItsLegend) {
     options.sources.push_back("a survey of the ground with a long name, number " + std::to_string(i));
   const MapImage full = draw_map(s.tin, s.result, options);
   EXPECT_EQ(full.width, brief.width);
-  EXPECT_GT(full.height, brief.height + 400);
+  EXPECT_GT(full.height, brief.height + 150);
 }
 
 TEST(MapImage, RefusesSizesOutOfRange) {

@@ -187,8 +187,12 @@ void MapFrame::draw_grid(const std::string& crs_wkt) {
     drawing_.polyline(std::array{Point2{frame.xmax, py}, Point2{frame.xmax - tick, py}}, fine);
     Lettering turned = outside;
     turned.rotation_deg = 90;
-    drawing_.text({frame.xmin - 3, py}, label(y), turned);
-    drawing_.text({frame.xmax + 3 + 0.75 * outside.size, py}, label(y), turned);
+    // At a corner the label would run into that of the easting.
+    const double half = drawing_.text_width(label(y), outside) / 2;
+    if (py - half >= frame.ymin && py + half <= frame.ymax) {
+      drawing_.text({frame.xmin - 3, py}, label(y), turned);
+      drawing_.text({frame.xmax + 3 + 0.75 * outside.size, py}, label(y), turned);
+    }
     for (double x = first(ground_.xmin); x <= ground_.xmax; x += step) {
       const Point2 p = at({x, y});
       drawing_.polyline(std::array{Point2{p.x - arm, p.y}, Point2{p.x + arm, p.y}}, fine);

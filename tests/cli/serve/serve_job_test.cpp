@@ -53,7 +53,7 @@ TEST_F(ServeJobs, WriteTheBytesOfTheCommandLine) {
   ASSERT_EQ(job.at("state"), "done") << job;
   EXPECT_EQ(job.at("share"), 1);
   EXPECT_EQ(job.at("error"), nullptr);
-  ASSERT_EQ(job.at("files").size(), 1u) << job;
+  ASSERT_EQ(job.at("files").size(), 2u) << job;  // the raster and its style
   const Outcome outcome = shell_.run(job.at("command").get<std::string>() + " --json");
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   const Json printed = Json::parse(outcome.out);

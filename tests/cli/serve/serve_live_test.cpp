@@ -102,7 +102,7 @@ class ServeLive : public ServedHill {
     ASSERT_EQ(done.at("type"), "done") << done;
     EXPECT_EQ(done.at("seq"), 7);
     for (const int step : {9, 3, 1}) EXPECT_GT(seen.tiles(step), 0) << step;
-    const Outcome outcome = shell_.run("rm -f viewshed.tif; " + done.at("command").get<std::string>() + " --json");
+    const Outcome outcome = shell_.run("rm -f viewshed.*; " + done.at("command").get<std::string>() + " --json");
     ASSERT_EQ(outcome.status, 0) << outcome.err;
     const Json printed = Json::parse(outcome.out);
     for (const char* name : {"cells", "area_m2", "share_without_data", "warnings", "grid"})

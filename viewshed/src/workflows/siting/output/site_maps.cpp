@@ -37,10 +37,10 @@ std::string subtitle_of_plan(const SitePlanRequest& request) {
   const double kilometres = request.radius / 1000;
   if (request.turbines)
     return fmt::format("{} {:g} m above the ground, eyes {:g} m, within {:g} km",
-                       request.turbines->minimised == Minimised::kHubs ? "hubs" : "blade tips",
+                       request.turbines->minimised == Minimised::kHubs ? "Hubs" : "Blade tips",
                        request.turbines->minimised_height(), request.demand.height, kilometres);
   return fmt::format(
-      "radius {:g} km, targets {:g} m up{}{}", kilometres, request.demand.height,
+      "Radius {:g} km, targets {:g} m up{}{}", kilometres, request.demand.height,
       request.frequency_ghz ? fmt::format(", {:g} F1 clear at {:g} GHz", request.fresnel, *request.frequency_ghz) : "",
       request.cover > 1 ? fmt::format(", by at least {} sites", request.cover) : "");
 }
