@@ -16,6 +16,7 @@
 #include "los/los_case.hpp"
 #include "los/los_links.hpp"
 #include "los/los_people.hpp"
+#include "los/los_query.hpp"
 #include "los/los_reports.hpp"
 #include "los/los_store.hpp"
 #include "options/earth_options.hpp"
@@ -67,10 +68,7 @@ class LosVerb final : public Verb {
     } else {
       validate_line();
     }
-    set_earth();
-    query_.criteria = radio_.criteria();
-    query_.object = radio_.object();
-    query_.day = people_.day();
+    query_ = query_of(earth_, radio_, people_);
   }
 
   Document parameters() const override {
@@ -150,15 +148,10 @@ class LosVerb final : public Verb {
     return one;
   }
 
-  void set_earth() {
-    query_.earth = earth_.earth();
-    query_.radio = radio_.radio(query_.earth);
-  }
-
   LosCase run_store() {
     const Store store(store_, cache_within(line_.memory_bytes()));
     earth_.take_body_of(store.metadata());
-    set_earth();
+    query_ = query_of(earth_, radio_, people_);
     LosCase one = los_case(store, line_.run(store, query_), header());
     warn_of_grid(store.metadata(), one.result.warnings);
     warn_of_date(one.result);
@@ -169,7 +162,7 @@ class LosVerb final : public Verb {
     for (const std::string& output : links_.outputs()) policy_.require_writable(output);
     const Store store(store_, cache_within(line_.memory_bytes()));
     earth_.take_body_of(store.metadata());
-    set_earth();
+    query_ = query_of(earth_, radio_, people_);
     profile::LinkTable table = links_.table(store, line_);
     std::vector<LosReports::Job> jobs = reports_.jobs(table.links, policy_);
     const profile::LinkSurvey survey =

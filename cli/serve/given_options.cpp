@@ -1,6 +1,7 @@
 #include "serve/given_options.hpp"
 
 #include <algorithm>
+#include <filesystem>
 
 #include <fmt/format.h>
 
@@ -8,6 +9,7 @@
 
 #include "program/call_error.hpp"
 #include "program/call_files.hpp"
+#include "serve/served_store.hpp"
 
 namespace itin::cli {
 
@@ -72,6 +74,11 @@ std::vector<std::string> arguments_of(const HttpQuery& query) {
     require_option_name(name);
     add_argument(name, value, arguments);
   }
+  return arguments;
+}
+
+std::vector<std::string> call_of(const ServedStore& served, std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), std::filesystem::absolute(served.store().path()).string());
   return arguments;
 }
 

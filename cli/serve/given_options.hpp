@@ -19,10 +19,15 @@
 
 namespace itin::cli {
 
+class ServedStore;
+
 /// An object of names without dashes, and texts, numbers, true for flags, or lists of these for options that may be
 /// given again. Throws InputError.
 std::vector<std::string> arguments_of(const Document& options);
 std::vector<std::string> arguments_of(const HttpQuery& query);
+
+/// The arguments of a verb's call over the served store: STORE, and these.
+std::vector<std::string> call_of(const ServedStore& served, std::vector<std::string> arguments);
 
 /// Gives an app's options their values. Throws InputError, as the program does for a wrong call.
 void take_arguments(CLI::App& app, const std::vector<std::string>& arguments);

@@ -7,7 +7,8 @@
 #include <itin/building_outlines.hpp>
 #include <itin/document.hpp>
 #include <itin/raster.hpp>
-#include <itin/triangulate.hpp>
+#include <itin/silent_progress.hpp>
+#include <viewshed/relief.hpp>
 
 namespace itin::cli {
 
@@ -22,9 +23,9 @@ double resolution_of(const TileGrid& grid, const TileAddress& tile) {
   return grid.resolutions[static_cast<std::size_t>(tile.zoom)];
 }
 
-Detail detail_of(const StoreMetadata& metadata, double resolution) {
+double tolerance_of(const StoreMetadata& metadata, double resolution) {
   const double spacing = least_spacing(metadata).value_or(resolution);
-  return Detail::tolerance(resolution <= spacing ? 0 : kToleranceOfPixel * resolution);
+  return resolution <= spacing ? 0 : kToleranceOfPixel * resolution;
 }
 
 /// Centimetres are less than a pixel.
@@ -41,8 +42,9 @@ std::optional<std::string> height_tile(const ServedStore& served, const TileGrid
   const double pixel = resolution_of(grid, tile);
   const int side = kTilePixels + 2 * kTileBorder;
   const RasterGrid pixels({box->xmin - kTileBorder * pixel, box->ymax + kTileBorder * pixel}, pixel, pixel, side, side);
+  SilentProgress quiet(progress);
   const std::vector<float> heights =
-      heights_at(served.store(), pixels, detail_of(served.metadata(), pixel), ThemeChoice::none(), progress);
+      viewshed::ground_heights(served.store(), pixels, tolerance_of(served.metadata(), pixel), quiet);
   std::string bytes(heights.size() * sizeof(float), '\0');
   std::memcpy(bytes.data(), heights.data(), bytes.size());
   return bytes;

@@ -1,7 +1,6 @@
 #include "serve/job_call.hpp"
 
 #include <algorithm>
-#include <filesystem>
 #include <memory>
 #include <utility>
 
@@ -68,11 +67,9 @@ JobCall job_call(const ServedStore& served, const Document& asked, std::uint64_t
     throw InputError("send {\"verb\": NAME, \"options\": {...}}");
   JobCall call{asked["verb"].get<std::string>(), {}, {}};
   const std::unique_ptr<Verb> verb = make_job_verb(call.verb);
-  const std::vector<std::string> options = arguments_of(asked.value("options", Document::object()));
   CLI::App app;
   verb->declare(app);
-  std::vector<std::string> arguments{std::filesystem::absolute(served.store().path()).string()};
-  arguments.insert(arguments.end(), options.begin(), options.end());
+  const std::vector<std::string> arguments = call_of(served, arguments_of(asked.value("options", Document::object())));
   take_arguments(app, arguments);
   require_own_files(app);
   CLI::Option* const memory = app.get_option_no_throw("--memory");

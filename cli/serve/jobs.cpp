@@ -102,9 +102,7 @@ bool Jobs::remove(const std::string& id) {
   // What runs is removed once it has ended.
   if (job->process != nullptr) job->process->terminate();
   if (job->state != State::running) {
-    std::error_code ignored;
-    fs::remove_all(folder_of(*job), ignored);
-    fs::remove(document_of(*job), ignored);
+    remove_files(*job);
     jobs_.remove(job);
   }
   job->state = State::cancelled;
@@ -130,6 +128,12 @@ fs::path Jobs::folder_of(const Job& job) const {
 }
 fs::path Jobs::document_of(const Job& job) const {
   return fs::path(folder_->path()) / (job.id + ".json");
+}
+
+void Jobs::remove_files(const Job& job) const {
+  std::error_code ignored;
+  fs::remove_all(folder_of(job), ignored);
+  fs::remove(document_of(job), ignored);
 }
 
 void Jobs::work() {
@@ -196,9 +200,7 @@ void Jobs::forget_old_jobs() {
     const State state = (*job)->state;
     if (state == State::queued || state == State::running) continue;
     if (state != State::cancelled && ++ended <= kMostEnded) continue;
-    std::error_code ignored;
-    fs::remove_all(folder_of(**job), ignored);
-    fs::remove(document_of(**job), ignored);
+    remove_files(**job);
     job = jobs_.erase(job);
   }
 }

@@ -58,6 +58,7 @@ class Jobs {
   Document files_of(const Job& job) const;
   std::filesystem::path folder_of(const Job& job) const;
   std::filesystem::path document_of(const Job& job) const;
+  void remove_files(const Job& job) const;
   void make_folder();
 
   mutable std::mutex mutex_;

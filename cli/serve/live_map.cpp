@@ -54,7 +54,7 @@ std::string text_member(const Document& message, const char* name) {
 }
 
 void send_answer(LiveConnection& to, const char* type, const LiveNumber& number, const Document& answer) {
-  Document document{{"type", type}, {"id", number.id}, {"seq", number.seq}};
+  Document document = numbered(type, number);
   document.update(answer);
   to.send_text(json_text(document));
 }

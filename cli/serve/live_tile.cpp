@@ -61,6 +61,10 @@ std::int32_t cell_number(double number) {
 
 }  // namespace
 
+Document numbered(const char* type, const LiveNumber& number) {
+  return {{"type", type}, {"id", number.id}, {"seq", number.seq}};
+}
+
 CellOrigin cell_origin(const RasterGrid& grid) {
   const Point2 corner = grid.north_west();
   return {cell_number(corner.x / grid.cell_width()), cell_number(-corner.y / grid.cell_height())};

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <string>
 
+#include <itin/document.hpp>
 #include <viewshed/viewshed.hpp>
 
 namespace itin::cli {
@@ -13,6 +14,8 @@ struct LiveNumber {
   std::uint16_t id = 0;   ///< the number of a view or a line
   std::uint32_t seq = 0;  ///< the number of the message
 };
+/// Begins an answer of a type.
+Document numbered(const char* type, const LiveNumber& number);
 
 /// The place of a grid's north-west cell in the grid of all cells of that size, whose edges are multiples of the size
 /// and whose rows run southwards from northing 0. Throws InputError where its numbers are too large.

@@ -28,10 +28,6 @@ bool is_live(viewshed::Mode mode) {
   return mode != viewshed::Mode::kWhich && mode != viewshed::Mode::kNearest && mode != viewshed::Mode::kBlocker;
 }
 
-Document numbered(const char* type, const LiveNumber& number) {
-  return {{"type", type}, {"id", number.id}, {"seq", number.seq}};
-}
-
 Document begun_document(const LiveNumber& number, const viewshed::Result& result) {
   const CellOrigin origin = cell_origin(result.grid);
   Document begun = numbered("begun", number);

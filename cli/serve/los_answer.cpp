@@ -1,6 +1,5 @@
 #include "serve/los_answer.hpp"
 
-#include <filesystem>
 #include <memory>
 #include <optional>
 
@@ -8,6 +7,7 @@
 
 #include "los/los_case.hpp"
 #include "los/los_people.hpp"
+#include "los/los_query.hpp"
 #include "los/los_store.hpp"
 #include "options/earth_options.hpp"
 #include "options/radio_options.hpp"
@@ -40,12 +40,7 @@ class LineOptions {
 
   LosCase over(const Store& store) {
     earth_.take_body_of(store.metadata());
-    profile::LosQuery query;
-    query.earth = earth_.earth();
-    query.radio = radio_.radio(query.earth);
-    query.criteria = radio_.criteria();
-    query.object = radio_.object();
-    query.day = people_.day();
+    const profile::LosQuery query = query_of(earth_, radio_, people_);
     LosCase one = los_case(store, line_.run(store, query), {"", people_.facts()});
     warn_of_grid(store.metadata(), one.result.warnings);
     if (query.radio) earth_.warn_of_light(one.result.warnings);
@@ -73,9 +68,7 @@ Document profile_answer(const ServedStore& served, const std::vector<std::string
   const std::unique_ptr<Verb> verb = make_profile_verb();
   CLI::App app;
   verb->declare(app);
-  std::vector<std::string> call{std::filesystem::absolute(served.store().path()).string()};
-  call.insert(call.end(), arguments.begin(), arguments.end());
-  take_arguments(app, call);
+  take_arguments(app, call_of(served, arguments));
   refuse_files(app);
   verb->validate();
   Result result = verb->execute(progress);

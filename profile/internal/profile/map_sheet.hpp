@@ -82,7 +82,6 @@ struct TitleBlock {
   std::string statement;                                   ///< what the result takes into account and what it does not
   std::vector<std::pair<std::string, std::string>> facts;  ///< name, value
   std::vector<std::string> sources;                        ///< where the data comes from, with licences
-  std::string made_by;
 };
 
 struct MapSheet {

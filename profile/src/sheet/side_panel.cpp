@@ -213,7 +213,7 @@ void SidePanel::draw_foot() {
   const double u = paper_.type;
   const double y = paper_.panel.ymax;
   const Lettering small{.size = 6.3 * u, .colour = kFaint}, plain{.size = 8.5 * u, .colour = kInk, .bold = true};
-  drawing_.text({left_, y - 5 * u}, drawing_.fitted(t.made_by, right_ - left_, small), small);
+  drawing_.text({left_, y - 5 * u}, drawing_.fitted("Drawn by itin " ITIN_VERSION, right_ - left_, small), small);
   if (!has_date()) return;
   drawing_.polyline(std::array{Point2{paper_.panel.xmin, y - 36 * u}, Point2{paper_.panel.xmax, y - 36 * u}},
                     {kInk, 0.4 * u, {}});

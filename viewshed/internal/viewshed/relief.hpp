@@ -21,6 +21,11 @@ struct Relief {
 /// The shade of level ground.
 inline constexpr double kLevelShade = 0.643;
 
+/// Returns the heights of the ground at the pixels, metres; NaN where there is none. They are those of the coarsest
+/// level within the tolerance, or of a coarser one that has at most about 1.5 million points there. Throws what
+/// triangulate() throws.
+std::vector<float> ground_heights(const Store& store, const RasterGrid& pixels, double tolerance, Progress& progress);
+
 /// Reads the coarsest level that cannot be told from the full terrain at the size of a pixel, at most about 1.5 million
 /// points. Throws what triangulate() throws.
 Relief relief(const Store& store, const RasterGrid& pixels, Progress& progress);

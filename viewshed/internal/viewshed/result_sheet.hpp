@@ -44,7 +44,7 @@ struct ResultSheet {
   std::string heading;                  ///< the heading over the map's keys
   std::function<bool(Point2)> studied;  ///< whether a place is part of the study; elsewhere the relief is faded
   std::vector<MapObjects> objects;      ///< over the cells, the lowest first
-  profile::TitleBlock title;            ///< without the parts that every sheet has: coordinates, project, date, maker
+  profile::TitleBlock title;            ///< without the parts that every sheet has: coordinates, project, date
   MissingOnSheet missing = {};
   std::string outside = {};  ///< the legend's name for faded ground; empty: none
 };

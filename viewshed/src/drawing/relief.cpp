@@ -26,19 +26,18 @@ std::optional<std::vector<float>> heights_from_posts(const Store& store, const R
   return reader ? std::optional(heights_at(reader->lattice(), pixels)) : std::nullopt;
 }
 
-std::vector<float> heights_of(const Store& store, const RasterGrid& pixels, Progress& progress) {
-  constexpr double kTellable = 0.1;  ///< what is smaller cannot be told, in widths of a pixel
+}  // namespace
+
+std::vector<float> ground_heights(const Store& store, const RasterGrid& pixels, double tolerance, Progress& progress) {
   const Box box = pixels.bounds();
-  const int fine = level_within(store.metadata(), kTellable * pixels.cell_width());
-  const int level = finest_level_of(store, box, kMostReliefPoints, fine);
+  const int level = finest_level_of(store, box, kMostReliefPoints, level_within(store.metadata(), tolerance));
   if (auto heights = heights_from_posts(store, pixels, store.points_about(level, box), progress)) return *heights;
   return heights_at(triangulate(store, Window::box(box), detail_of(store.metadata(), level), progress), pixels);
 }
 
-}  // namespace
-
 Relief relief(const Store& store, const RasterGrid& pixels, Progress& progress) {
-  Relief result{pixels, heights_of(store, pixels, progress), {}};
+  constexpr double kTellable = 0.1;  ///< what is smaller cannot be told, in widths of a pixel
+  Relief result{pixels, ground_heights(store, pixels, kTellable * pixels.cell_width(), progress), {}};
   result.shades = hillshade(result.heights_m, pixels);
   return result;
 }

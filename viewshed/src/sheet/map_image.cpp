@@ -170,7 +170,6 @@ profile::TitleBlock title_of(const Result& result, const MapOptions& options) {
   title.facts.emplace_back("Earth", result.request.earth.convention());
   if (!options.beyond_text.empty()) title.facts.emplace_back("Beyond the ground data", options.beyond_text);
   title.sources = options.sources;
-  title.made_by = "Drawn by itin " ITIN_VERSION;
   return title;
 }
 

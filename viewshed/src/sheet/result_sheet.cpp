@@ -198,7 +198,6 @@ profile::MapSheet map_sheet(const Store& store, const ResultSheet& content, cons
   sheet.title.facts.emplace_back("Coordinates", crs_title(store.metadata().crs_wkt));
   if (!choice.basemap.empty()) sheet.title.facts.push_back(basemap_fact(choice.basemap));
   sheet.title.project = choice.project, sheet.title.date = choice.date;
-  sheet.title.made_by = "Drawn by itin " ITIN_VERSION;
   return sheet;
 }
 
