@@ -15,7 +15,7 @@
 #include "huge_store/fractal_levels.hpp"
 #include "huge_store/square.hpp"
 #include "import/source/source_context.hpp"
-#include "store/lattice_sort.hpp"
+#include "store/radix_sort.hpp"
 #include "store/store_writer.hpp"
 
 namespace itin::huge {
@@ -27,7 +27,23 @@ constexpr std::int64_t kTilePosts = 1 << 17;
 /// Tiles in memory at a time, and as many that are being written.
 constexpr std::size_t kTilesAtOnce = 128;
 
+/// Stages from this one on have few enough posts to be stored a second time.
+constexpr int kFirstCopiedStage = 2;
+
 using Leaves = std::vector<EncodedLeaf>;
+
+/// A post and its coarsest level.
+struct Post {
+  GridPoint point;
+  std::uint8_t level = 0;
+};
+
+/// Returns the first level that is stored a second time.
+int fine_levels(const std::vector<FractalLevel>& levels) {
+  std::size_t level = 1;
+  while (level < levels.size() && levels[level].stage < kFirstCopiedStage) ++level;
+  return static_cast<int>(level);
+}
 
 class FractalWriter {
  public:
@@ -35,9 +51,9 @@ class FractalWriter {
                 const std::vector<FractalLevel>& levels)
       : writer_(writer), square_(square), fractal_(fractal), levels_(levels), deviation_(square, fractal, levels) {}
 
-  /// Writes a level; the finest must come first.
+  /// Writes the ground, and then a level after the other.
   void write_level(int number, Progress& progress) {
-    const FractalLevel& level = levels_[static_cast<std::size_t>(number)];
+    const FractalLevel& level = level_at(number);
     std::vector<Cell> tiles;
     for_each_leaf(level, square_, Cell{}, kTilePosts, [&](const Cell& cell) { tiles.push_back(cell); });
     const std::string stage = fmt::format("writing level {}", number);
@@ -67,32 +83,53 @@ class FractalWriter {
     // The full surface comes first.
     if (number == 0) deviation_.find(tile, heights);
     Leaves leaves;
-    for_each_leaf(level, square_, tile, kLeafCapacity,
+    for_each_leaf(level, square_, tile, number == 0 ? kGroundCapacity : kLeafCapacity,
                   [&](const Cell& cell) { leaves.push_back(encoded(number, level, cell, heights)); });
     return leaves;
   }
 
+  /// The ground has all posts of the finest stage.
+  const FractalLevel& level_at(int number) const {
+    static constexpr FractalLevel kGround{};
+    return number == 0 ? kGround : levels_[static_cast<std::size_t>(number)];
+  }
+
+  /// Returns the coarsest level that has a post of the finest stage.
+  std::uint8_t level_of(std::int32_t column, std::int32_t row) const {
+    std::size_t level = 0;
+    while (level + 1 < levels_.size() && ((column | row) & ((1 << levels_[level + 1].stage) - 1)) == 0) ++level;
+    return static_cast<std::uint8_t>(level);
+  }
+
   EncodedLeaf encoded(int number, const FractalLevel& level, const Cell& cell, const Posts& heights) const {
     const PostBox box = square_.within(cell, level.stage);
-    std::vector<GridPoint> points;
-    points.reserve(kLeafCapacity);
+    std::vector<Post> posts;
+    posts.reserve(kGroundCapacity);
     for (std::int32_t row = box.rows.first; row <= box.rows.last; ++row) {
       for (std::int32_t column = box.columns.first; column <= box.columns.last; ++column) {
         if (level.keeps(column, row))
-          points.push_back(square_.post(level.stage, column, row, *heights.at(column, row)));
+          posts.push_back({square_.post(level.stage, column, row, *heights.at(column, row)), level_of(column, row)});
       }
     }
-    const std::uint64_t spacing = std::uint64_t{Square::kSpacing} << level.stage;
-    sort_along_curve(cell, spacing, spacing, points);
+    radix_sort(posts, 2 * cell.log2_side, [&](const Post& p) { return code_of(p.point) - cell.code; });
+    std::vector<GridPoint> points;
+    std::vector<std::uint8_t> of_posts;
+    for (const Post& p : posts) points.push_back(p.point), of_posts.push_back(p.level);
     const std::vector<std::uint16_t> sources(points.size(), 0);
+    if (number == 0) return encode_ground(cell, points, sources, of_posts);
     const HeightBounds bounds = deviation_.over(cell, number);
-    return encode_leaf(number, cell, points, sources, bounds.lo, bounds.hi);
+    return number < fine_levels(levels_) ? bare_leaf(number, cell, points, bounds.lo, bounds.hi)
+                                         : encode_leaf(number, cell, points, sources, bounds.lo, bounds.hi);
   }
 
   void write(const std::vector<Leaves>& tiles) {
     for (const Leaves& leaves : tiles) {
       for (const EncodedLeaf& encoded : leaves) {
-        writer_.add_leaf(encoded);
+        if (encoded.leaf.level > 0) {
+          writer_.add_leaf(encoded);
+          continue;
+        }
+        writer_.add_ground(encoded);
         if (encoded.leaf.points == 0) continue;
         report_.posts += encoded.leaf.points;
         report_.lowest = std::min(report_.lowest, encoded.leaf.zmin * Square::kGrid.resolution);
@@ -149,6 +186,7 @@ FractalStoreReport write_fractal_store(const std::string& path, const FractalSto
   const Square square(side_m);
   const Fractal fractal(options.seed);
   StoreWriter writer(path, parse_crs(Square::kCrs, Square::kCrs).wkt, Square::kGrid, tolerances);
+  writer.set_fine_levels(fine_levels(levels));
   FractalWriter fractal_writer(writer, square, fractal, levels);
   for (std::size_t k = 0; k < levels.size(); ++k) fractal_writer.write_level(static_cast<int>(k), progress);
   writer.add_segments(outline(square.ground()));

@@ -65,7 +65,7 @@ double leaves_on(const Store& store, const std::vector<Line>& lines) {
       const double t = static_cast<double>(i) / steps;
       const GridPoint p = grid.quantise({a.x + t * (b.x - a.x), a.y + t * (b.y - a.y), 0});
       leaves.clear();
-      store.points().leaves(0, {p.x, p.y, p.x, p.y}, leaves);
+      store.points().leaves({}, {p.x, p.y, p.x, p.y}, leaves);
       for (const Leaf& leaf : leaves) keys.insert(leaf.key);
     }
     met += keys.size();

@@ -63,9 +63,10 @@ struct StoreMetadata {
   int format_version = 0;
   std::string crs_wkt;
   Grid grid;
-  GridBox bounds;                   ///< the box about all vertices
-  std::optional<GridScale> scale;   ///< over the bounds; nothing where the CRS does not tell, and in older stores
-  std::vector<LevelInfo> levels;    ///< level 0 (tolerance 0) first, then coarser and coarser
+  GridBox bounds;                  ///< the box about all vertices
+  std::optional<GridScale> scale;  ///< over the bounds; nothing where the CRS does not tell, and in older stores
+  std::vector<LevelInfo> levels;   ///< level 0 (tolerance 0) first, then coarser and coarser
+  int fine_levels = 1;  ///< the first level whose vertices are stored a second time, to be read by themselves
   std::vector<SourceInfo> sources;  ///< also the import history, in order
   std::vector<ThemeInfo> themes;    ///< the themes of the terrain first, then by name
   std::vector<ThemePart> parts;     ///< the parts of raised themes, in the themes' order, then the finest first

@@ -69,7 +69,7 @@ void LatticeSheet::add(const Leaf& leaf, const Block& block, const Selection& se
              last_row = static_cast<std::uint32_t>(rows_);
   for (std::size_t k = 0; k < block.points.size(); ++k) {
     const GridPoint& p = block.points[k];
-    if (!box_.contains(p.x, p.y) || !selection.selects(level_of(leaf, block, k), p.x, p.y)) continue;
+    if (!box_.contains(p.x, p.y) || !selection.selects(leaf, level_of(leaf, block, k), p.x, p.y)) continue;
     const std::uint32_t east = static_cast<std::uint32_t>(p.x) - west, north = static_cast<std::uint32_t>(p.y) - south;
     const std::uint32_t column = east / side, row = north / side;
     const bool is_post = column <= last_column && row <= last_row && column * side == east && row * side == north;
@@ -131,10 +131,13 @@ std::optional<LatticeCell> cell_about(const GridBox& box, const PointIndex& inde
   std::map<LatticeCell, std::size_t> votes;
   for (const Leaf& leaf : leaves) {
     const auto block = index.unordered_block(leaf);
-    const std::span samples = std::span(block->points).first(std::min(kSamples, block->points.size()));
     PostSpacing posts;
-    for (const GridPoint& p : samples) posts.add(p);
-    if (posts.found()) votes[cell_at_origin(posts)] += samples.size();
+    std::size_t samples = 0;
+    for (std::size_t k = 0; k < block->points.size() && samples < kSamples; ++k) {
+      const GridPoint& p = block->points[k];
+      if (selection.selects(leaf, level_of(leaf, *block, k), p.x, p.y)) posts.add(p), ++samples;
+    }
+    if (posts.found()) votes[cell_at_origin(posts)] += samples;
   }
   const auto most =
       std::max_element(votes.begin(), votes.end(), [](const auto& a, const auto& b) { return a.second < b.second; });

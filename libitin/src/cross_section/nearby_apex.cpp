@@ -68,7 +68,7 @@ void NearbyApex::load(const Leaf& leaf) {
   for (std::size_t k = 0; k < block->points.size(); ++k) {
     const GridPoint& p = block->points[k];
     if (!box_.contains(p.x, p.y)) continue;
-    if (!selection_.selects(level_of(leaf, *block, k), p.x, p.y)) continue;
+    if (!selection_.selects(leaf, level_of(leaf, *block, k), p.x, p.y)) continue;
     std::uint32_t& first = first_[bin(p.x, p.y)];
     next_.push_back(first);
     first = static_cast<std::uint32_t>(points_.size());

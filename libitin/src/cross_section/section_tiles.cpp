@@ -107,7 +107,7 @@ bool SectionTiles::is_small(const Cell& cell) {
   selected_leaves(index_, selection_, box, leaves);
   double points = 0;
   for (const Leaf& leaf : leaves) {
-    points += leaf.points * std::min(1.0, std::ldexp(1.0, 2 * (cell.log2_side - leaf.cell.log2_side)));
+    points += leaf.asked * std::min(1.0, std::ldexp(1.0, 2 * (cell.log2_side - leaf.cell.log2_side)));
   }
   const std::lock_guard lock(sizes_);
   return small_[tile_key(cell)] = points <= kPointsPerSectionTile;

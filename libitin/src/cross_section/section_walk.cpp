@@ -264,7 +264,7 @@ double spacing_at(const PointIndex& index, const Selection& selection, const Gri
   std::vector<Leaf> leaves;
   selected_leaves(index, selection, box, leaves);
   double density = 0;
-  for (const Leaf& leaf : leaves) density += leaf.points * std::ldexp(1.0, -2 * leaf.cell.log2_side);
+  for (const Leaf& leaf : leaves) density += leaf.asked * std::ldexp(1.0, -2 * leaf.cell.log2_side);
   return grid.resolution * (density > 0 ? std::max(1 / std::sqrt(density), 1.0) : 64);
 }
 
@@ -292,7 +292,7 @@ CrossedEdge find_edge_on(const PointIndex& index, const Selection& selection, co
       statistics.blocks_read += 1;
       for (std::size_t k = 0; k < block->points.size(); ++k) {
         const GridPoint& p = block->points[k];
-        if (box.contains(p.x, p.y) && selection.selects(level_of(leaf, *block, k), p.x, p.y))
+        if (box.contains(p.x, p.y) && selection.selects(leaf, level_of(leaf, *block, k), p.x, p.y))
           neighbours.consider({p, block->theme(k)});
       }
     }

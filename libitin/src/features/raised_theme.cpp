@@ -175,7 +175,7 @@ class ThemeRaiser {
 
   std::uint64_t points_in(const GridBox& box) const {
     std::vector<Leaf> leaves;
-    ground_.points().leaves(0, box, leaves);
+    ground_.points().leaves({}, box, leaves);
     return std::accumulate(leaves.begin(), leaves.end(), std::uint64_t{0},
                            [](std::uint64_t sum, const Leaf& leaf) { return sum + leaf.points; });
   }

@@ -16,7 +16,7 @@ void add_surface(const Store& store, PointIntake& intake, LineCollection& lines,
                  Progress& progress) {
   const std::size_t inferred = imported_sources(&store).size();
   std::vector<Leaf> leaves;
-  store.points().leaves(0, store.points().bounds(), leaves);
+  store.points().leaves({}, store.points().bounds(), leaves);
   std::vector<RawPoint> points;
   for (std::size_t i = 0; i < leaves.size(); ++i) {
     progress.throw_if_cancelled();

@@ -99,7 +99,7 @@ std::uint64_t LatticeCover::lacks(const PlaceBox& places) const {
 
 void LatticeCover::fill(const PlaceBox& places) {
   for_each_word(places, [](Posts* posts, std::uint32_t row, Word mask) {
-    std::atomic_ref((*posts)[row]).fetch_or(mask, std::memory_order_relaxed);
+    if (posts != nullptr) std::atomic_ref((*posts)[row]).fetch_or(mask, std::memory_order_relaxed);
   });
 }
 

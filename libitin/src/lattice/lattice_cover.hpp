@@ -45,7 +45,7 @@ class LatticeCover {
   /// Returns how many of these places have no post yet; 0 where some of them are out of reach. Neither this nor fill()
   /// is safe while posts are added to the same places.
   std::uint64_t lacks(const PlaceBox& places) const;
-  /// Adds posts at all of these places. Precondition: they are within reach.
+  /// Adds posts at all of these places that are within reach.
   void fill(const PlaceBox& places);
   /// Tells whether a point between posts, to the south-east of this place, may lie in the circle about a known cell.
   bool near_known(std::uint32_t column, std::uint32_t row) const;

@@ -1,11 +1,9 @@
 #include <algorithm>
 #include <atomic>
-#include <bit>
 #include <cmath>
 #include <numeric>
 #include <optional>
 #include <span>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -16,6 +14,7 @@
 #include <itin/sort_unique.hpp>
 
 #include "lattice/lattice_cover.hpp"
+#include "lattice/post_sheet.hpp"
 #include "triangulate/grid_window.hpp"
 #include "triangulate/raised_index.hpp"
 #include "triangulate/selection.hpp"
@@ -31,9 +30,8 @@ constexpr std::uint64_t kEmptiest = 4, kEmptiestWithoutHeights = 64;
 /// The number of the fullest leaves that the lattice is found by.
 constexpr std::size_t kSamples = 8;
 constexpr std::size_t kLeavesPerTask = 64;
-/// The widest leaf, in posts, that bounds the height of a tile. Wider leaves say little about it, so their posts are
-/// read instead.
-constexpr std::int64_t kWidestToBound = LatticeTin::kSide / 2;
+/// The widest leaf, in posts, that bounds the height of a tile. Wider leaves have few posts, so these are read instead.
+constexpr std::int64_t kWidestToBound = LatticeTin::kSide;
 
 }  // namespace
 
@@ -62,20 +60,13 @@ class LatticeReader::Work {
  private:
   std::vector<Leaf> leaves_within(double margin) const { return leaves_about(index_, selection_, window_, margin); }
   bool read_posts(Heights heights, Progress& progress);
-  /// Leaves whose posts are placed together: one, or all small ones of a square.
-  using Group = std::span<const Leaf>;
-  bool place_all(const std::vector<Group>& groups, std::size_t begin, std::size_t end, Heights heights,
-                 Progress& progress);
   bool place(const Leaf& leaf, Heights heights);
-  bool place_square(Group leaves);
+  bool place_unread(const Leaf& leaf);
   bool on_lattice(const Leaf& leaf) const;
   bool bounded() const;
-  int log2_square() const { return std::bit_width(static_cast<std::uint64_t>(kWidestToBound * lattice_.spacing)) - 1; }
-  Cell square_of(const Leaf& leaf) const {
-    const int log2_side = log2_square();
-    return {leaf.cell.code >> 2 * log2_side << 2 * log2_side, log2_side};
+  bool bounds_well(const Leaf& leaf) const {
+    return std::int64_t{1} << leaf.cell.log2_side <= kWidestToBound * lattice_.spacing;
   }
-  bool bounds_well(const Leaf& leaf) const { return leaf.cell.log2_side <= log2_square(); }
   void rise(std::uint32_t tile, std::int32_t z) {
     const std::atomic_ref<std::int32_t> highest(highest_[tile]);
     for (std::int32_t now = highest; now < z && !highest.compare_exchange_weak(now, z);) continue;
@@ -86,6 +77,9 @@ class LatticeReader::Work {
   void for_each_tile(const Leaf& leaf, const Visit& visit) const;
   void list_leaves_of_tiles();
   void read_leaves(std::span<const std::uint32_t> leaves, Progress& progress);
+  std::optional<PostSheet> sheet_of(const Leaf& leaf) const;
+  void set_heights(const PostSheet& sheet);
+  void set_heights(std::uint32_t tile, const PostSheet& sheet);
 
   void begin_reading(std::uint32_t tile) {
     lattice_.make_heights(tile);
@@ -167,42 +161,34 @@ bool LatticeReader::Work::read_posts(Heights heights, Progress& progress) {
     lattice_.statistics += {leaf.points, 1};
     lattice_.lowest = std::min(lattice_.lowest, leaf.zmin), lattice_.highest = std::max(lattice_.highest, leaf.zmax);
   }
-  const auto alone = [&](const Leaf& leaf) { return heights == Heights::kAll || !bounds_well(leaf); };
-  const auto squares = std::stable_partition(leaves_.begin(), leaves_.end(), alone);
-  std::sort(squares, leaves_.end(), [](const Leaf& a, const Leaf& b) {
-    return std::tie(a.cell.code, a.level) < std::tie(b.cell.code, b.level);
-  });
-  std::vector<Group> groups;
-  for (auto leaf = leaves_.begin(); leaf != squares; ++leaf) groups.emplace_back(leaf, 1);
-  const std::size_t single = groups.size();
-  for (auto first = squares; first != leaves_.end();) {
-    const auto end =
-        std::find_if_not(first, leaves_.end(), [&](const Leaf& leaf) { return square_of(leaf) == square_of(*first); });
-    groups.emplace_back(first, end);
-    first = end;
-  }
-  return place_all(groups, 0, single, heights, progress) && place_all(groups, single, groups.size(), heights, progress);
-}
-
-/// Places the groups from `begin` to `end`.
-bool LatticeReader::Work::place_all(const std::vector<Group>& groups, std::size_t begin, std::size_t end,
-                                    Heights heights, Progress& progress) {
   std::atomic<bool> odd = false;
-  std::atomic<std::size_t> done = begin;
-  parallel_for((end - begin + kLeavesPerTask - 1) / kLeavesPerTask, [&](std::size_t task) {
+  std::atomic<std::size_t> done = 0;
+  parallel_for((leaves_.size() + kLeavesPerTask - 1) / kLeavesPerTask, [&](std::size_t task) {
     progress.throw_if_cancelled();
-    const std::size_t first = begin + task * kLeavesPerTask, last = std::min(end, first + kLeavesPerTask);
+    const std::size_t first = task * kLeavesPerTask, last = std::min(leaves_.size(), first + kLeavesPerTask);
     for (std::size_t i = first; i < last && !odd; ++i) {
-      const Leaf& leaf = groups[i].front();
-      const bool square = heights == Heights::kNone && bounds_well(leaf);
-      if (!(square ? place_square(groups[i]) : place(leaf, heights))) odd = true;
+      const bool unread = heights == Heights::kNone && bounds_well(leaves_[i]);
+      if (!(unread ? place_unread(leaves_[i]) : place(leaves_[i], heights))) odd = true;
     }
-    progress.report("reading", static_cast<double>(done += last - first) / static_cast<double>(groups.size()));
+    progress.report("reading", static_cast<double>(done += last - first) / static_cast<double>(leaves_.size()));
   });
   return !odd;
 }
 
+/// Returns the leaf's heights as a rectangle of posts; nothing where they are none, or lie off the lattice.
+std::optional<PostSheet> LatticeReader::Work::sheet_of(const Leaf& leaf) const {
+  std::optional<PostHeights> posts = index_.posts_once(leaf);
+  return posts ? PostSheet::of(std::move(*posts), lattice_) : std::nullopt;
+}
+
 bool LatticeReader::Work::place(const Leaf& leaf, Heights heights) {
+  if (heights == Heights::kAll) {
+    if (const auto sheet = sheet_of(leaf)) {
+      cover_->fill(sheet->places);
+      set_heights(*sheet);
+      return true;
+    }
+  }
   const auto block = heights == Heights::kNone ? index_.unordered_block(leaf) : index_.block_once(leaf);
   return for_each_post(*block, [&](const PointPlace& place, std::int32_t z) {
     if (heights == Heights::kAll) {
@@ -213,23 +199,16 @@ bool LatticeReader::Work::place(const Leaf& leaf, Heights heights) {
   });
 }
 
-/// Places the posts of a square's leaves, after all wider leaves. If all of them lie on the lattice, and are as many as
-/// the places left in the square, they fill these places and need not be read.
-bool LatticeReader::Work::place_square(Group leaves) {
-  std::uint64_t posts = 0;
-  for (const Leaf& leaf : leaves) {
-    posts += leaf.points;
-    for_each_tile(leaf, [&](std::uint32_t tile) { rise(tile, leaf.zmax); });
-  }
-  const auto places = places_of(lattice_, square_of(leaves.front()).box());
-  if (places && cover_->lacks(*places) == posts &&
-      std::all_of(leaves.begin(), leaves.end(), [&](const Leaf& leaf) { return on_lattice(leaf); })) {
+/// Places the posts of a leaf whose heights are not asked for. If all of them lie on the lattice, and are as many as
+/// the places in the leaf's cell, they fill these places and need not be read.
+bool LatticeReader::Work::place_unread(const Leaf& leaf) {
+  for_each_tile(leaf, [&](std::uint32_t tile) { rise(tile, leaf.zmax); });
+  const auto places = places_of(lattice_, leaf.cell.box());
+  if (places && cover_->lacks(*places) == leaf.points && on_lattice(leaf)) {
     cover_->fill(*places);
     return true;
   }
-  return std::all_of(leaves.begin(), leaves.end(), [&](const Leaf& leaf) {
-    return for_each_post(*index_.plan_once(leaf), [](const PointPlace&, std::int32_t) {});
-  });
+  return for_each_post(*index_.plan_once(leaf), [](const PointPlace&, std::int32_t) {});
 }
 
 /// Tells whether all of a leaf's points lie on the lattice, as far as that is known without reading them.
@@ -316,12 +295,41 @@ void LatticeReader::Work::read(std::span<const std::uint32_t> tiles, Progress& p
   }
 }
 
+/// Sets the heights of a rectangle of posts in the tiles that are being read.
+void LatticeReader::Work::set_heights(const PostSheet& sheet) {
+  const auto [west, north, east, south] = sheet.places;
+  const auto before = [](std::uint32_t place) { return place > 0 ? (place - 1) / LatticeTin::kSide : 0; };
+  for (std::uint32_t row = before(north); row <= std::min(south / LatticeTin::kSide, lattice_.tile_rows() - 1); ++row)
+    for (std::uint32_t column = before(west); column <= std::min(east / LatticeTin::kSide, lattice_.tile_columns() - 1);
+         ++column) {
+      const std::uint32_t tile = row * lattice_.tile_columns() + column;
+      if (being_read_[tile]) set_heights(tile, sheet);
+    }
+}
+
+void LatticeReader::Work::set_heights(std::uint32_t tile, const PostSheet& sheet) {
+  const std::uint32_t first_column = tile % lattice_.tile_columns() * LatticeTin::kSide,
+                      first_row = tile / lattice_.tile_columns() * LatticeTin::kSide;
+  const PlaceBox& places = sheet.places;
+  const std::uint32_t west = std::max(places.west, first_column),
+                      east = std::min(places.east, first_column + LatticeTin::kSide),
+                      north = std::max(places.north, first_row),
+                      south = std::min(places.south, first_row + LatticeTin::kSide);
+  for (std::uint32_t row = north; row <= south; ++row)
+    std::copy_n(sheet.row(row) + (west - places.west), east - west + 1,
+                lattice_.tiles[tile].heights->data() + (row - first_row) * LatticeTin::kPosts + (west - first_column));
+}
+
 /// Reads leaves into the tiles that are being read.
 void LatticeReader::Work::read_leaves(std::span<const std::uint32_t> leaves, Progress& progress) {
   parallel_for((leaves.size() + kLeavesPerTask - 1) / kLeavesPerTask, [&](std::size_t task) {
     progress.throw_if_cancelled();
     for (std::size_t i = task * kLeavesPerTask; i < std::min(leaves.size(), (task + 1) * kLeavesPerTask); ++i) {
       const Leaf& leaf = leaves_[leaves[i]];
+      if (const auto sheet = sheet_of(leaf)) {
+        set_heights(*sheet);
+        continue;
+      }
       // Wide leaves are read again and again, so they are cached.
       const auto block = bounds_well(leaf) ? index_.block_once(leaf) : index_.unordered_block(leaf);
       for (const GridPoint& p : block->points) {

@@ -24,7 +24,7 @@ class IndexWithRaises final : public PointIndex {
   IndexWithRaises(const PointIndex& base, const RaisedLevels& raised) : base_(base), raised_(raised) {
     for (const auto& [code, level] : raised) {
       const std::int32_t x = morton_x(code), y = morton_y(code);
-      base.leaves(0, {x, y, x, y}, leaves_);
+      base.leaves({}, {x, y, x, y}, leaves_);
     }
     std::sort(leaves_.begin(), leaves_.end(), before);
     const auto same = [](const Leaf& a, const Leaf& b) { return a.cell == b.cell; };
@@ -33,9 +33,9 @@ class IndexWithRaises final : public PointIndex {
 
   int level_count() const override { return base_.level_count(); }
   GridBox bounds() const override { return base_.bounds(); }
-  void leaves(int finest, const GridBox& box, std::vector<Leaf>& out) const override {
+  void leaves(const LevelRange& asked, const GridBox& box, std::vector<Leaf>& out) const override {
     const auto first = static_cast<std::ptrdiff_t>(out.size());
-    base_.leaves(finest, box, out);
+    base_.leaves(asked, box, out);
     out.erase(std::remove_if(out.begin() + first, out.end(), [&](const Leaf& leaf) { return any_raised(leaf); }),
               out.end());
     // Leaves with raised points may hold points of this level only now.

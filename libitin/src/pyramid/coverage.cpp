@@ -48,7 +48,7 @@ double fringe(const GridBox& box, std::size_t points) {
 std::vector<SelectedVertex> points_in(const PointIndex& index, const GridBox& box) {
   std::vector<SelectedVertex> points;
   std::vector<Leaf> leaves;
-  index.leaves(0, box, leaves);
+  index.leaves({}, box, leaves);
   for (const Leaf& leaf : leaves) {
     const auto block = index.block(leaf);
     for (std::size_t k = 0; k < block->points.size(); ++k) {

@@ -1,7 +1,8 @@
-// Writes one level's quadtree into a store.
+// Writes one level's quadtree into a store: that of the ground, with the points of all levels, or that of the points of
+// one level.
 //
 //   LevelWriter level(index, bounds, k, writer);
-//   for (const RawPoint& p : points_of_level_k) level.add(p);   // in Morton order
+//   for (const RawPoint& p : points) level.add(p);   // in Morton order; of all levels where k is 0, else of level k
 //   level.finish();
 #pragma once
 
@@ -38,6 +39,7 @@ class LevelWriter {
   StoreWriter& writer_;
   std::vector<GridPoint> points_;
   std::vector<std::uint16_t> sources_;
+  std::vector<std::uint8_t> levels_;
   std::uint32_t leaf_ = 0;
   LeafCutter<std::function<void(const Cell&, std::uint32_t)>> cutter_;
 };

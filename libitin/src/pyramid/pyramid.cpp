@@ -181,6 +181,9 @@ class PyramidBuild {
   }
 
  private:
+  /// Vertices that are stored a second time are at most one in this many. Where a level has more of all vertices,
+  /// reading all of them takes little longer than reading its own, which lie apart.
+  static constexpr std::uint64_t kPointsPerCopy = 8;
   /// About the share that a step takes of the time that is left.
   static constexpr double kGroundAlone = 0.8, kGroundBesideSea = 0.4, kGroundUnderLines = 0.2, kLines = 0.1,
                           kProposal = 0.7, kCertificates = 0.85;
@@ -289,6 +292,14 @@ class PyramidBuild {
         *index_, whole_units_, sea_, [&](const auto& shortcuts) { return restore(shortcuts); }, progress_);
   }
 
+  /// Returns the first level whose vertices are stored a second time: the finest that has few enough.
+  int fine_levels() const {
+    const std::uint64_t most = index_->selected_points(0) / kPointsPerCopy;
+    int level = 1;
+    while (level < levels_ && index_->selected_points(level) > most) ++level;
+    return level;
+  }
+
   /// Step 7: writes points and bounds, level by level.
   void write_ground(LeafBounds bounds) {
     for (std::uint32_t leaf = 0; leaf < index_->ranges().size(); ++leaf) {
@@ -298,15 +309,16 @@ class PyramidBuild {
     const std::vector<CoveredPoint>& covered = imported().covered();
     const double steps = static_cast<double>(tiles_.size() * static_cast<std::size_t>(levels_));
     std::size_t done = 0;
+    writer_.set_fine_levels(fine_levels());
     for (int k = 0; k < levels_; ++k) {
       LevelWriter level(*index_, bounds, k, writer_);
       for (const CurveRange& tile : tiles_) {
         progress_.throw_if_cancelled();
         for (RawPoint p : index_->read(tile)) {
-          if (p.level != k) continue;
+          if (p.level == kDropped || (k > 0 && p.level != k)) continue;
           p.source = own_source(p, covered);
           level.add(p);
-          report_.vertices_of_source[p.source] += 1;
+          if (k == 0) report_.vertices_of_source[p.source] += 1;
         }
         progress_.report("writing", static_cast<double>(++done) / steps);
       }

@@ -15,9 +15,9 @@ SourceIndex::SourceIndex(const WorkingIndex& base, const Sources& sources)
   }
 }
 
-void SourceIndex::leaves(int finest, const GridBox& box, std::vector<Leaf>& out) const {
+void SourceIndex::leaves(const LevelRange& asked, const GridBox& box, std::vector<Leaf>& out) const {
   const auto first = static_cast<std::ptrdiff_t>(out.size());
-  base_.leaves(finest, box, out);
+  base_.leaves(asked, box, out);
   out.erase(std::remove_if(out.begin() + first, out.end(), [&](const Leaf& leaf) { return points_[leaf.key] == 0; }),
             out.end());
   for (auto leaf = out.begin() + first; leaf != out.end(); ++leaf) leaf->points = points_[leaf->key];

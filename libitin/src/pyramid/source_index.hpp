@@ -32,7 +32,7 @@ class SourceIndex final : public PointIndex {
 
   int level_count() const override { return base_.level_count(); }
   GridBox bounds() const override { return bounds_; }
-  void leaves(int finest, const GridBox& box, std::vector<Leaf>& out) const override;
+  void leaves(const LevelRange& asked, const GridBox& box, std::vector<Leaf>& out) const override;
   std::shared_ptr<const Block> block(const Leaf& leaf) const override;
   void segments(const GridBox&, std::vector<Segment>&) const override {}
 

@@ -44,7 +44,7 @@ std::optional<WholeLattice> WholeLattice::about(const PointIndex& index, const G
   if (box.empty()) return std::nullopt;
   WholeLattice lattice;
   std::vector<Leaf> leaves;
-  index.leaves(0, box, leaves);
+  index.leaves({}, box, leaves);
   const GridBox all = index.bounds();
   if (!lattice.find_steps(index, leaves) || !lattice.find_extent(box, all)) return std::nullopt;
   // The circle about a square reaches less than a step beyond it.
@@ -94,7 +94,7 @@ bool WholeLattice::is_crossed(const PointIndex& index, const GridBox& near, cons
 bool WholeLattice::read(const PointIndex& index, const GridBox& near) {
   heights_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), kMissing);
   std::vector<Leaf> leaves;
-  index.leaves(0, near, leaves);
+  index.leaves({}, near, leaves);
   for (const Leaf& leaf : leaves) {
     const auto block = index.block(leaf);
     for (const GridPoint& p : block->points) {

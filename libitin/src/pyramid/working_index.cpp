@@ -112,7 +112,8 @@ void WorkingIndex::visit_those_at(const std::vector<std::uint32_t>& leaves, cons
   }
 }
 
-void WorkingIndex::leaves(int finest, const GridBox& box, std::vector<Leaf>& out) const {
+void WorkingIndex::leaves(const LevelRange& asked, const GridBox& box, std::vector<Leaf>& out) const {
+  const int finest = asked.finest;
   std::vector<std::uint32_t> found;
   if (finest == 0) {
     leaves_at(box, found);
@@ -122,7 +123,7 @@ void WorkingIndex::leaves(int finest, const GridBox& box, std::vector<Leaf>& out
   for (const std::uint32_t i : found) {
     const CurveRange& range = ranges_[i];
     Leaf leaf;
-    leaf.points = selected(i, finest);
+    leaf.points = leaf.asked = selected(i, finest);
     if (leaf.points == 0 || !range.cell.box().meets(box)) continue;
     leaf.cell = range.cell;
     leaf.level = level_count_ - 1;

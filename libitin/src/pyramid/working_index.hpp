@@ -38,7 +38,7 @@ class WorkingIndex final : public PointIndex {
 
   int level_count() const override { return level_count_; }
   GridBox bounds() const override { return bounds_; }
-  void leaves(int finest, const GridBox& box, std::vector<Leaf>& out) const override;
+  void leaves(const LevelRange& asked, const GridBox& box, std::vector<Leaf>& out) const override;
   std::shared_ptr<const Block> block(const Leaf& leaf) const override;
   void segments(const GridBox& box, std::vector<Segment>& out) const override;
 

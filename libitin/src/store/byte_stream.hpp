@@ -1,6 +1,7 @@
 // Bytes of directory chunks, edge blocks and block headers: little-endian base-128 integers.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <stdexcept>
@@ -36,6 +37,13 @@ class ByteReader {
     const std::uint8_t b = bytes_.front();
     bytes_ = bytes_.subspan(1);
     return b;
+  }
+  /// Reads this many bytes.
+  std::span<const std::uint8_t> bytes(std::size_t count) {
+    if (bytes_.size() < count) throw DecodeError("ends too early");
+    const std::span<const std::uint8_t> read = bytes_.first(count);
+    bytes_ = bytes_.subspan(count);
+    return read;
   }
   std::uint64_t varint() {
     std::uint64_t v = 0;

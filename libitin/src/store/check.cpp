@@ -1,7 +1,10 @@
 // Reads all of a store and names what is damaged, never stopping at the first.
 
 #include <algorithm>
+#include <array>
 #include <vector>
+
+#include <xxhash.h>
 
 #include <itin/box_of.hpp>
 #include <itin/error.hpp>
@@ -31,7 +34,7 @@ class Inspection {
     inspect_features();
     for (const auto& [tree, chunks] : file_.chunks()) inspect_tree(tree, chunks);
     inspect_footprints();
-    if (file_.rows().version() >= format::kFirstVersionThatSetsAside) guarded([&] { inspect_set_aside(); });
+    guarded([&] { inspect_set_aside(); });
     compare_keys(BlobKind::Directory, chunk_keys_);
     compare_keys(BlobKind::Block, block_keys_);
     compare_totals();
@@ -76,13 +79,15 @@ class Inspection {
 
   void inspect_leaves(int tree, const DirectoryChunk& chunk) {
     for (const Leaf& leaf : chunk) {
-      if (leaf.points > 0) block_keys_.push_back(leaf.key);
+      const bool counts_only = tree != format::kGroundTree && tree < file_.metadata().fine_levels;
+      if (leaf.points > 0 && !counts_only) block_keys_.push_back(leaf.key);
       if (format::is_edge_tree(tree)) {
         guarded([&] { inspect_edges(leaf); });
         continue;
       }
       if (!holds_certificate(leaf)) damage_.push_back({format::place("directory", leaf.key), "has no certificate"});
-      if (leaf.points > 0) guarded([&] { inspect_block(leaf); });
+      if (counts_only) own_trees_[static_cast<std::size_t>(tree)].vertices += leaf.points;
+      if (leaf.points > 0 && !counts_only) guarded([&] { inspect_block(leaf); });
     }
   }
 
@@ -99,9 +104,36 @@ class Inspection {
       vertices += mask ? 0 : 1;
       foreign |= !mask && (of_part ? source & ~format::kOnOutline : source) >= sources;
     }
-    vertices_[static_cast<std::size_t>(leaf.level)] += vertices;
+    if (leaf.level < format::kMaxLevels)
+      count_levels(leaf, block);
+    else
+      vertices_[static_cast<std::size_t>(leaf.level)] += vertices;
     if (file_.has_clusters(format::theme_of(leaf.level))) file_.read_clusters(leaf, extents_of(block.points));
     if (foreign) damage_.push_back({format::place("block", leaf.key), kForeignSource});
+  }
+
+  /// Vertices by number, with a sum that tells apart sets of them, in whatever order they come.
+  struct Counted {
+    std::uint64_t vertices = 0, sum = 0;
+    void add(const GridPoint& p, std::uint16_t source) {
+      const std::array<std::uint64_t, 2> words{code_of(p),
+                                               std::uint64_t{static_cast<std::uint32_t>(p.z)} << 16 | source};
+      ++vertices, sum += XXH3_64bits(words.data(), sizeof words);
+    }
+    friend bool operator==(const Counted&, const Counted&) = default;
+  };
+
+  /// Counts the ground's vertices by level, and those that have a second place by that, too.
+  void count_levels(const Leaf& leaf, const Block& block) {
+    for (std::size_t k = 0; k < block.points.size(); ++k) {
+      const std::size_t level = level_of(leaf, block, k);
+      const bool second = leaf.level != format::kGroundTree;
+      if (level >= levels_.size())
+        throw CorruptStore(file_.rows().path(), format::place("block", leaf.key), "has an unknown level");
+      if (!second) ++vertices_[level];
+      if (static_cast<int>(level) >= file_.metadata().fine_levels)
+        (second ? own_trees_ : levels_)[level].add(block.points[k], block.sources[k]);
+    }
   }
 
   void inspect_edges(const Leaf& leaf) {
@@ -205,8 +237,11 @@ class Inspection {
     std::uint64_t sum = 0;
     for (std::size_t level = 0; level < metadata.levels.size(); ++level) {
       sum += vertices_[level];
-      if (vertices_[level] == metadata.levels[level].vertices) continue;
-      damage_.push_back({"metadata", "level " + std::to_string(level) + " has another number of vertices"});
+      if (vertices_[level] != metadata.levels[level].vertices)
+        damage_.push_back({"metadata", "level " + std::to_string(level) + " has another number of vertices"});
+      const bool fine = static_cast<int>(level) < metadata.fine_levels;
+      if (level > 0 && (fine ? own_trees_[level].vertices != vertices_[level] : own_trees_[level] != levels_[level]))
+        damage_.push_back({"metadata", "level " + std::to_string(level) + " has other vertices in its own tree"});
     }
     for (std::size_t theme = 1; theme <= metadata.themes.size(); ++theme) {
       sum += vertices_[static_cast<std::size_t>(format::vertex_tree(static_cast<int>(theme)))];
@@ -231,7 +266,9 @@ class Inspection {
   std::uint64_t total_ = 0, done_ = 0;
   std::vector<std::uint64_t> chunk_keys_, block_keys_;
   std::vector<std::uint64_t> vertices_ = std::vector<std::uint64_t>(format::kFirstEdgeTree);  ///< by tree
-  std::vector<std::uint64_t> segments_ = std::vector<std::uint64_t>(format::kLastTree);       ///< by theme
+  std::vector<Counted> levels_ = std::vector<Counted>(file_.metadata().levels.size());     ///< as the ground has them
+  std::vector<Counted> own_trees_ = std::vector<Counted>(file_.metadata().levels.size());  ///< as their trees have them
+  std::vector<std::uint64_t> segments_ = std::vector<std::uint64_t>(format::kLastTree);    ///< by theme
   std::vector<std::uint64_t> features_ =
       std::vector<std::uint64_t>(format::kMaxThemes + 1);  ///< number of features with records, by theme
   GridBox bounds_;

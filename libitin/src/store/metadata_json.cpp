@@ -121,17 +121,12 @@ StoreMetadata read_document(const json& j) {
   for (const json& level : j.at("levels")) {
     metadata.levels.push_back(level_from_json(level, metadata.grid.resolution));
   }
+  metadata.fine_levels = j.at("fine_levels").get<int>();
   for (const json& source : j.at("sources")) metadata.sources.push_back(source_from_json(source));
-  // Version 1 had no themes.
-  if (j.contains("themes")) {
-    for (const json& theme : j.at("themes")) metadata.themes.push_back(theme_from_json(theme));
-  }
-  // Version 2 had no raised themes.
-  if (j.contains("parts")) {
-    for (const json& part : j.at("parts"))
-      metadata.parts.push_back(
-          {part.at("theme").get<std::uint16_t>(), part.at("coarsest").get<int>(), part.value("clusters", false)});
-  }
+  for (const json& theme : j.at("themes")) metadata.themes.push_back(theme_from_json(theme));
+  for (const json& part : j.at("parts"))
+    metadata.parts.push_back(
+        {part.at("theme").get<std::uint16_t>(), part.at("coarsest").get<int>(), part.value("clusters", false)});
   metadata.has_foundations = j.value("foundations", false);
   metadata.vertices = j.at("vertices").get<std::uint64_t>();
   return metadata;
@@ -151,6 +146,7 @@ std::string metadata_to_json(const StoreMetadata& metadata) {
   for (const LevelInfo& level : metadata.levels) {
     j["levels"].push_back(level_to_json(level, metadata.grid.resolution));
   }
+  j["fine_levels"] = metadata.fine_levels;
   j["sources"] = ordered_json::array();
   for (const SourceInfo& source : metadata.sources) j["sources"].push_back(source_to_json(source));
   j["themes"] = ordered_json::array();
@@ -170,6 +166,7 @@ StoreMetadata metadata_from_json(const std::string& text) {
   try {
     const StoreMetadata metadata = read_document(json::parse(text));
     if (metadata.levels.empty() || metadata.levels.size() > format::kMaxLevels || !(metadata.grid.resolution > 0) ||
+        metadata.fine_levels < 1 || static_cast<std::size_t>(metadata.fine_levels) > metadata.levels.size() ||
         metadata.themes.size() + metadata.parts.size() > format::kMaxThemes ||
         !std::all_of(metadata.parts.begin(), metadata.parts.end(), [&](const ThemePart& part) {
           return part.theme >= 1 && part.theme <= metadata.themes.size() && part.coarsest >= 0 &&

@@ -18,9 +18,13 @@
 
 namespace itin {
 
-/// A leaf of a point quadtree. In a store there is one tree per level, and a leaf's points all have the leaf's level.
-/// In the importer's single tree, `level` is the coarsest that any of its points may have; Block::levels has each
-/// point's level, and `points` counts the points that were asked for.
+/// A range of levels, both ends included.
+struct LevelRange {
+  int finest = 0, coarsest = 0;
+};
+
+/// A leaf of a point quadtree. `level` is the coarsest that any of its points may have: that of all of them where
+/// Block::levels is empty. In the importer's tree, `points` counts the points that were asked for.
 struct Leaf {
   Cell cell;
   int level = 0;
@@ -31,6 +35,9 @@ struct Leaf {
   std::int32_t hi = 0;
   std::uint64_t key = 0;    ///< the index's own key, different for each leaf
   std::uint16_t theme = 0;  ///< the theme of the vertices, 0 for terrain; a theme's vertices are present at every level
+  LevelRange serves{0, 0xff};  ///< the leaf has what is there where one of these levels is asked for; elsewhere, other
+                               ///< leaves have the same points
+  std::uint32_t asked = 0;     ///< about how many points have a level that was asked for
 };
 
 /// A leaf's points.
@@ -59,6 +66,13 @@ struct BlockLattice {
   std::uint32_t points = 0;  ///< number of its places with a point
   std::int32_t x = 0, y = 0;
   std::int64_t step_x = 1, step_y = 1;
+};
+
+/// The heights of a leaf whose points have all places of their lattice.
+struct PostHeights {
+  BlockLattice lattice;
+  std::uint32_t columns = 0, rows = 0;
+  std::vector<std::int32_t> heights;  ///< grid units, row by row from the lattice's first place
 };
 
 /// Returns the level of a leaf's point k.
@@ -98,9 +112,9 @@ class PointIndex {
   /// The box of all points.
   virtual GridBox bounds() const = 0;
 
-  /// Appends every non-empty leaf, of all themes, that meets `box` and may hold a point of level `finest` or coarser,
-  /// each once.
-  virtual void leaves(int finest, const GridBox& box, std::vector<Leaf>& out) const = 0;
+  /// Appends every non-empty leaf, of all themes, that meets `box` and has points where a level of `asked` is asked
+  /// for, each leaf once.
+  virtual void leaves(const LevelRange& asked, const GridBox& box, std::vector<Leaf>& out) const = 0;
   virtual std::shared_ptr<const Block> block(const Leaf& leaf) const = 0;
   /// Returns what block() does, its points in any order.
   virtual std::shared_ptr<const Block> unordered_block(const Leaf& leaf) const { return block(leaf); }
@@ -111,6 +125,8 @@ class PointIndex {
 
   /// Returns the lattice that the leaf's points lie on, where it is known without reading them.
   virtual std::optional<BlockLattice> lattice_of(const Leaf&) const { return std::nullopt; }
+  /// Returns the heights of a leaf whose points have all places of their lattice, where the index keeps them so.
+  virtual std::optional<PostHeights> posts_once(const Leaf&) const { return std::nullopt; }
 
   /// Appends every segment that meets `box`, of the coverage and of all themes, at all levels, and perhaps others
   /// nearby. A segment may come twice.

@@ -169,7 +169,6 @@ std::vector<std::uint8_t> encode_set_aside(const SetAsideList& list) {
 }
 
 SetAsideList set_aside_list(const StoreRows& rows) {
-  if (rows.version() < format::kFirstVersionThatSetsAside) return {};
   return decoded(rows, BlobKind::Directory, format::kSetAsideListKey, decode_set_aside_list);
 }
 

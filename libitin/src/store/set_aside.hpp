@@ -55,7 +55,7 @@ std::vector<std::uint8_t> encode_set_aside(const Cell& cell, std::span<const Gri
 std::vector<std::uint8_t> encode_set_aside(std::span<const ImportedSegment> imported, std::span<const Segment> made);
 std::vector<std::uint8_t> encode_set_aside(const SetAsideList& list);
 
-/// These return nothing for a store of a format before 4, which kept nothing. Throw CorruptStore.
+/// These throw CorruptStore.
 SetAsideList set_aside_list(const StoreRows& rows);
 Block set_aside_points(const StoreRows& rows, std::uint32_t block);
 SetAsideLines set_aside_lines(const StoreRows& rows, std::uint16_t theme, std::uint32_t block);

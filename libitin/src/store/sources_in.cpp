@@ -22,7 +22,7 @@ std::vector<SourceInfo> sources_in(const Store& store, const Box& box, const The
   const GridBox within = metadata.grid.enclosing(box);
   if (metadata.sources.size() == 1 && within.meets(metadata.bounds)) return metadata.sources;
   std::vector<Leaf> leaves;
-  store.points().leaves(0, within, leaves);
+  store.points().leaves({}, within, leaves);
   std::vector<bool> found(metadata.sources.size());
   std::size_t left = found.size();
   for (const Leaf& leaf : leaves) {

@@ -35,8 +35,6 @@ std::uint64_t cache_key(BlobKind kind, std::uint64_t key) {
 StoreFile::StoreFile(const std::string& path, const StoreOptions& options) : rows_(path), cache_(options.cache_bytes) {
   metadata_ = read_metadata(rows_);
   metadata_.format_version = rows_.version();
-  // A store of this version has foundations, whatever its metadata say.
-  metadata_.has_foundations |= rows_.version() == static_cast<int>(format::kVersionWithFoundations);
   chunks_ = decoded(rows_, BlobKind::Directory, format::kChunkListKey,
                     [](const auto& bytes) { return decode_chunk_list(bytes); });
 }
@@ -54,6 +52,8 @@ Block StoreFile::read_block(const Leaf& leaf, BlockOrder order) const {
     if (block.points.size() != leaf.points || low->z != leaf.zmin || high->z != leaf.zmax) {
       throw DecodeError("does not agree with its directory");
     }
+    if (format::tree_of(leaf.key) == format::kGroundTree && block.levels.empty())
+      block.levels.assign(block.points.size(), 0);
     return block;
   });
 }
@@ -143,9 +143,33 @@ void StoreFile::for_each_leaf(int tree, const GridBox& box, const Visit& visit, 
   }
 }
 
-void StoreFile::leaves(int finest, const GridBox& box, std::vector<Leaf>& out) const {
-  for (int level = std::max(finest, 0); level < level_count(); ++level) {
-    for_each_leaf(level, box, [&](const Leaf& leaf) {
+/// Returns the share of the full surface's vertices that a level has.
+double StoreFile::share_of(int level) const {
+  double all = 0, there = 0;
+  for (int k = 0; k < level_count(); ++k) {
+    const auto vertices = static_cast<double>(metadata_.levels[static_cast<std::size_t>(k)].vertices);
+    all += vertices;
+    if (k >= level) there += vertices;
+  }
+  return all > 0 ? there / all : 1;
+}
+
+void StoreFile::leaves(const LevelRange& asked, const GridBox& box, std::vector<Leaf>& out) const {
+  if (asked.finest < metadata_.fine_levels) {
+    const double share = share_of(asked.finest);
+    for_each_leaf(format::kGroundTree, box, [&](Leaf leaf) {
+      if (leaf.points == 0) return;
+      leaf.level = level_count() - 1;
+      leaf.serves = {0, metadata_.fine_levels - 1};
+      leaf.asked = static_cast<std::uint32_t>(std::ceil(leaf.points * share));
+      out.push_back(leaf);
+    });
+  }
+  for (int level = std::max(asked.finest, metadata_.fine_levels); level < level_count(); ++level) {
+    if (asked.coarsest < metadata_.fine_levels) break;
+    for_each_leaf(level, box, [&](Leaf leaf) {
+      leaf.serves = {metadata_.fine_levels, level_count()};
+      leaf.asked = leaf.points;
       if (leaf.points > 0) out.push_back(leaf);
     });
   }
@@ -153,6 +177,7 @@ void StoreFile::leaves(int finest, const GridBox& box, std::vector<Leaf>& out) c
     if (format::is_edge_tree(tree->first)) break;
     for_each_leaf(tree->first, box, [&](Leaf leaf) {
       leaf.level = level_count() - 1;
+      leaf.asked = leaf.points;
       leaf.theme = format::theme_of(tree->first);
       if (leaf.points > 0) out.push_back(leaf);
     });
@@ -198,6 +223,14 @@ std::optional<BlockLattice> StoreFile::lattice_of(const Leaf& leaf) const {
     const BlockLattice lattice = decode_lattice(leaf.cell, items_of(leaf.key, bytes));
     if (lattice.points != leaf.points) throw DecodeError("does not agree with its directory");
     return lattice;
+  });
+}
+
+std::optional<PostHeights> StoreFile::posts_once(const Leaf& leaf) const {
+  return decoded(rows_, BlobKind::Block, leaf.key, [&](const auto& bytes) {
+    std::optional<PostHeights> posts = decode_posts(leaf.cell, items_of(leaf.key, bytes));
+    if (posts && posts->lattice.points != leaf.points) throw DecodeError("does not agree with its directory");
+    return posts;
   });
 }
 
@@ -275,7 +308,8 @@ std::uint64_t StoreFile::points_about(int level, const Box& box) const {
   require_level(level, level_count());
   const GridBox units = metadata_.grid.enclosing(box);
   double points = 0;
-  for (int k = level; k < level_count(); ++k) {
+  // The tree of the ground has all levels; the others have one each.
+  for (int k = level; k < (level == 0 ? 1 : level_count()); ++k) {
     const auto add_leaf = [&](const Leaf& leaf) {
       const GridBox there = intersection(leaf.cell.box(), metadata_.bounds);
       if (leaf.points > 0) points += leaf.points * positions_of(intersection(there, units)) / positions_of(there);

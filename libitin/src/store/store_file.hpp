@@ -29,12 +29,13 @@ class StoreFile final : public PointIndex {
 
   int level_count() const override { return static_cast<int>(metadata_.levels.size()); }
   GridBox bounds() const override { return metadata_.bounds; }
-  void leaves(int finest, const GridBox& box, std::vector<Leaf>& out) const override;
+  void leaves(const LevelRange& asked, const GridBox& box, std::vector<Leaf>& out) const override;
   std::shared_ptr<const Block> block(const Leaf& leaf) const override;
   std::shared_ptr<const Block> unordered_block(const Leaf& leaf) const override;
   std::shared_ptr<const Block> block_once(const Leaf& leaf) const override;
   std::shared_ptr<const Block> plan_once(const Leaf& leaf) const override;
   std::optional<BlockLattice> lattice_of(const Leaf& leaf) const override;
+  std::optional<PostHeights> posts_once(const Leaf& leaf) const override;
   void segments(const GridBox& box, std::vector<Segment>& out) const override;
 
   /// Appends every leaf of one tree that meets the box, empty ones too, along the curve.
@@ -83,6 +84,7 @@ class StoreFile final : public PointIndex {
   template <typename Visit, typename Skip = decltype(kSkipNone)>
   void for_each_leaf(int tree, const GridBox& box, const Visit& visit, const Skip& skip = kSkipNone) const;
   std::shared_ptr<const Block> block(const Leaf& leaf, BlockOrder order) const;
+  double share_of(int level) const;
   bool has_segment_features(std::uint16_t theme) const;
   std::shared_ptr<const DirectoryChunk> chunk(int tree, const ChunkEntry& entry) const;
   std::span<const std::uint8_t> items_of(std::uint64_t key, std::span<const std::uint8_t> bytes) const;

@@ -11,21 +11,8 @@
 namespace itin::format {
 
 inline constexpr std::uint32_t kApplicationId = 0x4954494e;  // "ITIN"
-/// The version of stores with features that some levels leave out; these stores know their clusters.
-inline constexpr std::uint32_t kVersionWithClusters = 9;
-inline constexpr std::uint32_t kVersion = kVersionWithClusters;  ///< the newest
-/// The version of other stores with buildings on flat foundations; older versions do not say how deep features cut.
-inline constexpr std::uint32_t kVersionWithFoundations = 8;
-/// The version of other stores with lines that make room for ground that replaces others.
-inline constexpr std::uint32_t kVersionWithRoom = 7;
-/// The version of other stores that keep ids, names or attributes of features.
-inline constexpr std::uint32_t kVersionWithFeatures = 6;
-/// The version of other stores with a theme of terraces, or rasters of heights that stand.
-inline constexpr std::uint32_t kVersionWithTerraces = 5;
-/// The version of all other stores: readers of that version read them.
-inline constexpr std::uint32_t kPlainVersion = 4;
-/// Earlier versions do not keep the points and lines that their surfaces left out.
-inline constexpr int kFirstVersionThatSetsAside = 4;
+/// The only version that is written and read. No release wrote an earlier one.
+inline constexpr std::uint32_t kVersion = 10;
 inline constexpr int kPageSize = 16384;
 
 inline constexpr const char* kSchema =
@@ -33,8 +20,10 @@ inline constexpr const char* kSchema =
     "CREATE TABLE directory(key INTEGER PRIMARY KEY, data BLOB NOT NULL);"
     "CREATE TABLE block(key INTEGER PRIMARY KEY, data BLOB NOT NULL);";
 
-/// Quadtrees are numbered: a level's points by the level, a theme's own vertices from kMaxLevels, its edges from
-/// kFirstEdgeTree. Theme 0 is the coverage outline, which has no vertices of its own.
+/// Quadtrees are numbered: the ground with all of its vertices is 0, a coarser level's points have the level's number,
+/// a theme's own vertices are numbered from kMaxLevels, its edges from kFirstEdgeTree. Theme 0 is the coverage outline,
+/// which has no vertices of its own.
+inline constexpr int kGroundTree = 0;
 inline constexpr int kMaxLevels = 64;
 inline constexpr int kFirstEdgeTree = 1024;
 inline constexpr int kLastTree = 2046;

@@ -51,13 +51,15 @@ int checked_version(const std::string& path, std::uint64_t file_bytes) {
   }
   const std::uint32_t version = big_endian(header, 60);
   if (version > format::kVersion) {
-    throw StoreFormatError(path, fmt::format("has store format {}, this itin reads up to {}; use a newer itin", version,
-                                             format::kVersion));
-  }
-  if (version == 2) {
-    throw StoreFormatError(path, "has store format 2, which no release of itin wrote; import its sources again");
+    throw StoreFormatError(path, fmt::format("has store format {}, this itin reads format {}; use a newer itin",
+                                             version, format::kVersion));
   }
   if (version == 0) throw CorruptStore(path, "header", "has no format version; restore a copy or import again");
+  if (version < format::kVersion) {
+    throw StoreFormatError(path, fmt::format("has store format {}, which this itin reads no more; import its sources "
+                                             "again",
+                                             version));
+  }
   const std::uint32_t raw_page = std::uint32_t{header[16]} << 8 | header[17];
   const std::uint64_t page_bytes = raw_page == 1 ? 65536 : raw_page;
   const std::uint64_t expected = big_endian(header, 28) * page_bytes;

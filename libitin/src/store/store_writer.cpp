@@ -20,7 +20,7 @@
 
 namespace itin {
 
-static_assert(kLeafCapacity <= kMaxBlockPoints);
+static_assert(kGroundCapacity <= kMaxBlockPoints);
 
 namespace {
 
@@ -54,16 +54,10 @@ StoreWriter::StoreWriter(std::unique_ptr<ReplacementFile> file, const std::strin
   for (const double t : tolerances) metadata_.levels.push_back({t, lateral_tolerance(t), 0, {}});
   database_.execute("PRAGMA page_size=" + std::to_string(format::kPageSize) + ";PRAGMA encoding='UTF-8';");
   database_.execute("PRAGMA application_id=" + std::to_string(format::kApplicationId) +
-                    ";PRAGMA user_version=" + std::to_string(version_) + ";");
+                    ";PRAGMA user_version=" + std::to_string(format::kVersion) + ";");
   database_.execute(std::string("BEGIN;") + format::kSchema);
   insert_block_ = database_.prepare("INSERT INTO block(key, data) VALUES(?, ?)");
   insert_chunk_ = database_.prepare("INSERT INTO directory(key, data) VALUES(?, ?)");
-}
-
-void StoreWriter::require_version(std::uint32_t version) {
-  if (version <= version_) return;
-  version_ = version;
-  database_.execute("PRAGMA user_version=" + std::to_string(version_));
 }
 
 void StoreWriter::insert(Statement& statement, BlobKind kind, std::uint64_t key, std::span<const std::uint8_t> bytes) {
@@ -82,7 +76,7 @@ void StoreWriter::append(const Leaf& leaf, std::span<const std::uint8_t> block) 
   if (!chunk_.empty() && (!same_tree || chunk_.size() == format::kChunkLeaves)) flush_chunk();
   chunk_.push_back(leaf);
   last_ = leaf, has_last_ = true;
-  if (leaf.points > 0) insert(*insert_block_, BlobKind::Block, leaf.key, block);
+  if (!block.empty()) insert(*insert_block_, BlobKind::Block, leaf.key, block);
 }
 
 void StoreWriter::flush_chunk() {
@@ -97,24 +91,42 @@ void StoreWriter::widen(LevelInfo& level, std::int32_t lo, std::int32_t hi) cons
   level.certified_error.hi = std::max(level.certified_error.hi, hi * metadata_.grid.resolution);
 }
 
+void StoreWriter::set_fine_levels(int levels) {
+  if (has_last_ || levels < 1 || static_cast<std::size_t>(levels) > metadata_.levels.size())
+    throw std::invalid_argument("not a number of fine levels");
+  metadata_.fine_levels = levels;
+}
+
+void StoreWriter::add_ground(const Cell& cell, std::span<const GridPoint> points,
+                             std::span<const std::uint16_t> sources, std::span<const std::uint8_t> levels) {
+  // The encoder takes more points, and does not check that there are as many of each.
+  if (points.size() > kGroundCapacity || points.size() != sources.size() || points.size() != levels.size())
+    throw std::invalid_argument("not a leaf of this store");
+  add_ground(encode_ground(cell, points, sources, levels));
+}
+
+void StoreWriter::add_ground(const EncodedLeaf& encoded) {
+  for (std::size_t k = 0; k < encoded.vertices_of_level.size(); ++k) {
+    if (k >= metadata_.levels.size()) throw std::invalid_argument("not a leaf of this store");
+    metadata_.levels[k].vertices += encoded.vertices_of_level[k];
+  }
+  add_points(encoded);
+}
+
 void StoreWriter::add_leaf(int level, const Cell& cell, std::span<const GridPoint> points,
                            std::span<const std::uint16_t> sources, std::int32_t lo, std::int32_t hi) {
-  // The encoder takes more points, and does not check that there are as many sources.
   if (points.size() > kLeafCapacity || points.size() != sources.size())
     throw std::invalid_argument("not a leaf of this store");
-  add_leaf(encode_leaf(level, cell, points, sources, lo, hi));
+  const bool read_by_itself = level >= metadata_.fine_levels;
+  add_leaf(read_by_itself ? encode_leaf(level, cell, points, sources, lo, hi) : bare_leaf(level, cell, points, lo, hi));
 }
 
 void StoreWriter::add_leaf(const EncodedLeaf& encoded) {
   const Leaf& leaf = encoded.leaf;
-  if (leaf.level < 0 || static_cast<std::size_t>(leaf.level) >= metadata_.levels.size() ||
-      leaf.points > kLeafCapacity) {
+  if (leaf.level < 1 || static_cast<std::size_t>(leaf.level) >= metadata_.levels.size() || leaf.points > kLeafCapacity)
     throw std::invalid_argument("not a leaf of this store");
-  }
-  LevelInfo& info = metadata_.levels[static_cast<std::size_t>(leaf.level)];
-  info.vertices += leaf.points;
-  widen(info, leaf.lo, leaf.hi);
-  add_points(encoded);
+  widen(metadata_.levels[static_cast<std::size_t>(leaf.level)], leaf.lo, leaf.hi);
+  append(leaf, encoded.block);
 }
 
 void StoreWriter::add_points(const EncodedLeaf& encoded) {
@@ -145,7 +157,6 @@ void StoreWriter::add_segments(const std::vector<Segment>& segments, std::span<c
   std::map<std::uint16_t, std::vector<Segment>> by_theme;
   for (const Segment& s : segments) by_theme[s.theme].push_back(s);
   for (const SegmentFeature& f : features) with_features_.insert(f.segment.theme);
-  if (!with_features_.empty()) require_version(format::kVersionWithFeatures);
   for (auto& [theme, of_theme] : by_theme) {
     const auto of_part = clusters.find(theme);
     add_edges(theme, std::move(of_theme), features, of_part == clusters.end() ? PartClusters() : of_part->second);
@@ -155,7 +166,7 @@ void StoreWriter::add_segments(const std::vector<Segment>& segments, std::span<c
 void StoreWriter::add_part_vertices(std::uint16_t part, std::span<const GridPoint> points,
                                     std::span<const std::uint16_t> sources, std::span<const FeatureReach> reaches,
                                     const PartClusters& clusters) {
-  if (!clusters.empty()) require_version(format::kVersionWithClusters), with_clusters_.insert(part);
+  if (!clusters.empty()) with_clusters_.insert(part);
   if (part == kCoverage || part > format::kMaxThemes || points.size() != sources.size()) {
     throw std::invalid_argument("not a part of a theme");
   }
@@ -185,10 +196,8 @@ std::uint32_t StoreWriter::add_footprints(std::uint16_t theme, std::span<const S
   std::uint32_t blocks = 0;
   for (; !footprints.empty(); ++blocks) {
     const auto some = footprints.first(std::min(footprints.size(), kFootprintsInBlock));
-    if (std::any_of(some.begin(), some.end(), [](const StoredFootprint& f) { return f.feature.cells.has_value(); }))
-      require_version(format::kVersionWithTerraces);
-    if (std::any_of(some.begin(), some.end(), [](const StoredFootprint& f) { return f.feature.flat_foundation; }))
-      require_version(format::kVersionWithFoundations), metadata_.has_foundations = true;
+    metadata_.has_foundations |=
+        std::any_of(some.begin(), some.end(), [](const StoredFootprint& f) { return f.feature.flat_foundation; });
     insert(*insert_block_, BlobKind::Block, format::footprint_key(theme, blocks), encode_footprints(some));
     footprints = footprints.subspan(some.size());
   }
@@ -196,7 +205,6 @@ std::uint32_t StoreWriter::add_footprints(std::uint16_t theme, std::span<const S
 }
 
 std::uint32_t StoreWriter::add_features(std::uint16_t theme, std::span<const FeatureRecord> records) {
-  if (!records.empty()) require_version(format::kVersionWithFeatures);
   std::uint32_t blocks = 0;
   for (; !records.empty(); ++blocks) {
     const auto some = records.first(std::min(records.size(), kFeaturesInBlock));
@@ -252,15 +260,6 @@ void StoreWriter::commit(std::vector<SourceInfo> sources, std::vector<ThemeInfo>
   insert(*insert_chunk_, BlobKind::Directory, format::kChunkListKey, encode_chunk_list(chunks_));
   metadata_.sources = std::move(sources);
   metadata_.themes = std::move(themes);
-  if (std::any_of(metadata_.themes.begin(), metadata_.themes.end(),
-                  [](const ThemeInfo& t) { return t.kind == ThemeKind::Terraces; }))
-    require_version(format::kVersionWithTerraces);
-  // Older programs would add to such stores as though no line made room.
-  const auto any_source = [&](bool SourceInfo::*does) {
-    return std::any_of(metadata_.sources.begin(), metadata_.sources.end(), [&](const auto& s) { return s.*does; });
-  };
-  if (any_source(&SourceInfo::makes_room) && any_source(&SourceInfo::replaces))
-    require_version(format::kVersionWithRoom);
   for (const std::uint16_t theme : with_features_)
     metadata_.themes.at(theme - std::size_t{1}).segments_have_features = true;
   metadata_.parts = std::move(parts);

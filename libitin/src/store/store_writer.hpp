@@ -1,7 +1,8 @@
 // Writes a whole store, leaf by leaf, into a temporary file beside the target; commit() puts it in place at once.
 //
 //   StoreWriter writer(path, crs_wkt, grid, tolerances);
-//   for each level, finest first: for each leaf in Morton order: writer.add_leaf(...);
+//   for each leaf of the ground in Morton order: writer.add_ground(...);
+//   for each level from 1 on: for each leaf in Morton order: writer.add_leaf(...);
 //   for each theme with vertices of its own, ascending: writer.add_theme_vertices(...);
 //   for each part of a raised theme, ascending: writer.add_part_vertices(...);
 //   writer.add_segments(segments);
@@ -57,12 +58,20 @@ class StoreWriter {
   StoreWriter(const StoreWriter&) = delete;
   StoreWriter& operator=(const StoreWriter&) = delete;
 
-  /// Adds one leaf of one level's tree. Leaves come in ascending order of (level, cell.code), `points` in Morton order,
-  /// possibly none (an empty cell over ground still has its certificate); lo and hi are in grid units.
-  /// `leaf.points/zmin/zmax/key` are derived from the points.
+  /// Sets the first level whose vertices are stored a second time, to be read by themselves: 1 unless it is set. Goes
+  /// before all leaves.
+  void set_fine_levels(int levels);
+  /// Adds a leaf of the ground: all vertices of the full surface in a cell, in Morton order, possibly none, each with
+  /// its coarsest level. Leaves come in ascending order of cell.code, before those of levels.
+  void add_ground(const Cell& cell, std::span<const GridPoint> points, std::span<const std::uint16_t> sources,
+                  std::span<const std::uint8_t> levels);
+  /// Adds one leaf of the tree of a level from 1 on, with the vertices whose coarsest level this is. Leaves come in
+  /// ascending order of (level, cell.code), `points` in Morton order, possibly none (an empty cell over ground still
+  /// has its certificate); lo and hi are in grid units. Points of fine levels are counted only.
   void add_leaf(int level, const Cell& cell, std::span<const GridPoint> points, std::span<const std::uint16_t> sources,
                 std::int32_t lo, std::int32_t hi);
-  /// Adds a leaf that is encoded already.
+  /// These add a leaf that is encoded already.
+  void add_ground(const EncodedLeaf& leaf);
   void add_leaf(const EncodedLeaf& leaf);
   /// Adds the vertices that are not part of the full surface, but of this theme's lines on it; in Morton order.
   void add_theme_vertices(std::uint16_t theme, std::span<const GridPoint> points,
@@ -94,7 +103,6 @@ class StoreWriter {
   void add_points(const EncodedLeaf& encoded);
   void add_edges(std::uint16_t theme, std::vector<Segment> segments, std::span<const SegmentFeature> features,
                  const PartClusters& clusters);
-  void require_version(std::uint32_t version);
   void append(const Leaf& leaf, std::span<const std::uint8_t> block);
   void flush_chunk();
   void insert(Statement& statement, BlobKind kind, std::uint64_t key, std::span<const std::uint8_t> bytes);
@@ -108,7 +116,6 @@ class StoreWriter {
   DirectoryChunk chunk_;
   ChunkList chunks_;
   SetAsideList set_aside_;
-  std::uint32_t version_ = format::kPlainVersion;
   std::set<std::uint16_t> with_features_;  ///< themes whose segments know their features
   std::set<std::uint16_t> with_clusters_;  ///< parts
   Leaf last_;                              ///< the last leaf added; only its tree and cell matter
@@ -117,5 +124,8 @@ class StoreWriter {
 
 /// The most points in a leaf of a store's quadtree.
 inline constexpr std::uint32_t kLeafCapacity = 512;
+/// The most points in a leaf of the ground. Posts of a raster are read many at once, and larger blocks take fewer
+/// bytes.
+inline constexpr std::uint32_t kGroundCapacity = 2048;
 
 }  // namespace itin

@@ -200,7 +200,7 @@ void ApexSearch::search_leaf(const Leaf& leaf, Search& search) {
         !search.frame.inside(search.reach, c.x, c.y) || orientation(a, b, c) <= 0)
       continue;
     const std::uint8_t level = level_of(leaf, *block, k);
-    if (!selection_.selects(level, c.x, c.y)) continue;
+    if (!selection_.selects(leaf, level, c.x, c.y)) continue;
     if (search.best ? in_circle_perturbed(a, b, search.best->position(), c) < 0
                     : search.beyond != nullptr && in_circle_perturbed(b, a, *search.beyond, c) < 0) {
       continue;
@@ -253,7 +253,7 @@ std::optional<SelectedVertex> ApexSearch::inside(Position a, Position b, Positio
       if (!box.contains(p.x, p.y) || known_.contains(p.x, p.y)) continue;
       const double distance = squared_gap(near, {p.x, p.y, p.x, p.y});
       const std::uint8_t level = level_of(*leaf, *block, k);
-      if (distance >= least || !holds(p) || !selection_.selects(level, p.x, p.y)) continue;
+      if (distance >= least || !holds(p) || !selection_.selects(*leaf, level, p.x, p.y)) continue;
       nearest = SelectedVertex{point, block->sources[k], level, block->theme(k)};
       least = distance;
     }
@@ -282,7 +282,8 @@ std::optional<SelectedVertex> ApexSearch::at(Position p) {
     if (found == block->points.end()) continue;
     const auto k = static_cast<std::size_t>(found - block->points.begin());
     const std::uint8_t level = level_of(leaf, *block, k);
-    if (selection_.selects(level, p.x, p.y)) return SelectedVertex{*found, block->sources[k], level, block->theme(k)};
+    if (selection_.selects(leaf, level, p.x, p.y))
+      return SelectedVertex{*found, block->sources[k], level, block->theme(k)};
   }
   return std::nullopt;
 }

@@ -35,7 +35,7 @@ RaisedIndex::RaisedIndex(const Store& store, const Selection& selection)
 /// Returns the ascending codes of the places where vertices of rank `below` make way.
 std::vector<std::uint64_t> RaisedIndex::masks(const GridBox& box, int below) const {
   std::vector<Leaf> leaves;
-  base_.leaves(base_.level_count(), box, leaves);
+  base_.leaves({base_.level_count(), base_.level_count()}, box, leaves);
   std::vector<std::uint64_t> codes;
   for (const Leaf& leaf : leaves) {
     if (!is_part(leaf.theme) || rank(leaf.theme) == kNotThere || rank(leaf.theme) >= below) continue;

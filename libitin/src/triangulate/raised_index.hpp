@@ -27,7 +27,9 @@ class RaisedIndex final : public PointIndex {
 
   int level_count() const override { return base_.level_count(); }
   GridBox bounds() const override { return base_.bounds(); }
-  void leaves(int finest, const GridBox& box, std::vector<Leaf>& out) const override { base_.leaves(finest, box, out); }
+  void leaves(const LevelRange& asked, const GridBox& box, std::vector<Leaf>& out) const override {
+    base_.leaves(asked, box, out);
+  }
   std::shared_ptr<const Block> block(const Leaf& leaf) const override;
   std::shared_ptr<const Block> unordered_block(const Leaf& leaf) const override {
     return any_ ? block(leaf) : base_.unordered_block(leaf);
@@ -40,6 +42,9 @@ class RaisedIndex final : public PointIndex {
   }
   std::optional<BlockLattice> lattice_of(const Leaf& leaf) const override {
     return any_ ? std::nullopt : base_.lattice_of(leaf);
+  }
+  std::optional<PostHeights> posts_once(const Leaf& leaf) const override {
+    return any_ ? std::nullopt : base_.posts_once(leaf);
   }
   void segments(const GridBox& box, std::vector<Segment>& out) const override;
 

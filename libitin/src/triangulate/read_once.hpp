@@ -16,7 +16,9 @@ class ReadOnce final : public PointIndex {
 
   int level_count() const override { return base_.level_count(); }
   GridBox bounds() const override { return base_.bounds(); }
-  void leaves(int finest, const GridBox& box, std::vector<Leaf>& out) const override { base_.leaves(finest, box, out); }
+  void leaves(const LevelRange& asked, const GridBox& box, std::vector<Leaf>& out) const override {
+    base_.leaves(asked, box, out);
+  }
   std::shared_ptr<const Block> block(const Leaf& leaf) const override { return blocks_.read(leaf); }
   std::shared_ptr<const Block> unordered_block(const Leaf& leaf) const override { return blocks_.read_unordered(leaf); }
   void segments(const GridBox& box, std::vector<Segment>& out) const override { base_.segments(box, out); }

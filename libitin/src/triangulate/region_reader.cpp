@@ -37,7 +37,7 @@ std::vector<Leaf> RegionReader::leaves_in(const GridBox& box) const {
 
 double RegionReader::points_of(const std::vector<Leaf>& leaves, const GridBox& box) {
   return std::accumulate(leaves.begin(), leaves.end(), 0.0, [&](double sum, const Leaf& leaf) {
-    return sum + leaf.points * area(intersection(leaf.cell.box(), box)) / area(leaf.cell.box());
+    return sum + leaf.asked * area(intersection(leaf.cell.box(), box)) / area(leaf.cell.box());
   });
 }
 
@@ -79,7 +79,7 @@ void RegionReader::read_block(const Leaf& leaf, const GridBox& box, std::vector<
     const GridPoint& p = block->points[k];
     if (!box.contains(p.x, p.y)) continue;
     const std::uint8_t level = level_of(leaf, *block, k);
-    if (selection_.selects(level, p.x, p.y))
+    if (selection_.selects(leaf, level, p.x, p.y))
       found.push_back({code_of(p), {p, block->sources[k], level, block->theme(k)}});
   }
 }

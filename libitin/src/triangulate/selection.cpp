@@ -48,6 +48,12 @@ int Selection::finest_in(const GridBox& box) const {
   return level_at(std::clamp<std::int64_t>(x_, box.xmin, box.xmax), std::clamp<std::int64_t>(y_, box.ymin, box.ymax));
 }
 
+LevelRange Selection::levels_in(const GridBox& box) const {
+  const std::int64_t x = x_ - box.xmin > box.xmax - x_ ? box.xmin : box.xmax,
+                     y = y_ - box.ymin > box.ymax - y_ ? box.ymin : box.ymax;
+  return {finest_in(box), level_at(x, y)};
+}
+
 void Selection::leave_out(std::uint16_t theme) {
   if (theme >= left_out_.size()) left_out_.resize(theme + std::size_t{1});
   left_out_[theme] = true;
@@ -85,10 +91,13 @@ Selection selection_of(const StoreMetadata& metadata, const Detail& detail, cons
 
 void selected_leaves(const PointIndex& index, const Selection& selection, const GridBox& box, std::vector<Leaf>& out) {
   const auto first = static_cast<std::ptrdiff_t>(out.size());
-  index.leaves(selection.finest_in(box), box, out);
-  out.erase(std::remove_if(out.begin() + first, out.end(),
-                           [&](const Leaf& leaf) { return leaf.theme != 0 && !selection.includes(leaf.theme); }),
-            out.end());
+  index.leaves(selection.levels_in(box), box, out);
+  const auto is_needless = [&](const Leaf& leaf) {
+    if (leaf.theme != 0) return !selection.includes(leaf.theme);
+    const LevelRange asked = selection.levels_in(intersection(leaf.cell.box(), box));
+    return leaf.level < asked.finest || asked.coarsest < leaf.serves.finest || leaf.serves.coarsest < asked.finest;
+  };
+  out.erase(std::remove_if(out.begin() + first, out.end(), is_needless), out.end());
 }
 
 }  // namespace itin

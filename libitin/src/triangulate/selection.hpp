@@ -29,12 +29,20 @@ class Selection {
   /// These are the levels asked for at the centre and beyond the last ring.
   int finest() const { return finest_; }
   int coarsest() const { return coarsest_; }
-  /// Returns the least level that may be selected in `box` (not empty).
+  /// Returns the least level that is asked for in `box` (not empty).
   int finest_in(const GridBox& box) const;
+  /// Returns the levels that are asked for in `box` (not empty).
+  LevelRange levels_in(const GridBox& box) const;
   /// Tells whether a vertex of this level is part of the surface: its level is at least the one asked for at (x, y).
   bool selects(int level, std::int32_t x, std::int32_t y) const {
     if (level >= coarsest_) return true;
     return level >= finest_ && level >= level_at(x, y);
+  }
+  /// Tells whether a leaf's vertex of this level is part of the surface, and the leaf is the one to take it from.
+  bool selects(const Leaf& leaf, int level, std::int32_t x, std::int32_t y) const {
+    if (leaf.serves.finest <= finest_ && coarsest_ <= leaf.serves.coarsest) return selects(level, x, y);
+    const int asked = level_at(x, y);
+    return level >= asked && leaf.serves.finest <= asked && asked <= leaf.serves.coarsest;
   }
   /// Tells whether a segment is a constraint: its theme is chosen, and it is part of its line at every level asked for
   /// about it. Where a line leaves one ring for the next, no segment may be a constraint; elsewhere the line's segments

@@ -30,7 +30,7 @@ void leave_out_finer(const Selection& selection, std::vector<Leaf>& leaves) {
 
 std::uint64_t points_of(const std::vector<Leaf>& leaves) {
   return std::accumulate(leaves.begin(), leaves.end(), std::uint64_t{0},
-                         [](std::uint64_t sum, const Leaf& leaf) { return sum + leaf.points; });
+                         [](std::uint64_t sum, const Leaf& leaf) { return sum + leaf.asked; });
 }
 
 /// Cuts a window into cells that cover it.
@@ -59,7 +59,7 @@ class TilePlan {
       const Cell& leaf = leaves_[i].cell;
       if (!cell.contains(leaf) && !leaf.contains(cell)) continue;
       inside.push_back(i);
-      points += leaves_[i].points * std::min(1.0, std::ldexp(1.0, 2 * (cell.log2_side - leaf.log2_side)));
+      points += leaves_[i].asked * std::min(1.0, std::ldexp(1.0, 2 * (cell.log2_side - leaf.log2_side)));
     }
     if (points <= per_tile_ || cell.log2_side == 0) {
       cells_.push_back(cell);

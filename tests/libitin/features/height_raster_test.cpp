@@ -122,7 +122,6 @@ TEST_F(HeightRaster, StandsAsThePrismsOfItsCells) {
     EXPECT_EQ(report.refused, 0U);
 
     const Store store(path("s.itin"));
-    EXPECT_EQ(store.metadata().format_version, 9);
     test::expect_sound(store);
     const Tin raised = triangulate(store, Window::all(), Detail::tolerance(0), progress_, ThemeChoice::all());
     const TerrainHeights high(raised);

@@ -100,7 +100,7 @@ std::set<TriangleCorners> global(const Store& store, const Detail& detail, const
     return a.name != b.name && comes_before(a, b);
   };
   std::vector<Leaf> leaves;
-  store.points().leaves(0, store.points().bounds(), leaves);
+  store.points().leaves({}, store.points().bounds(), leaves);
   std::map<Position, std::set<std::uint16_t>> masks;
   for (const Leaf& leaf : leaves) {
     if (leaf.theme <= themes || !there(leaf.theme)) continue;

@@ -136,7 +136,6 @@ TEST_F(RingFeatures, HaveEachHouseAsItsFootprintsSay) {
   raise("s.itin", ThemeKind::Buildings, "houses", houses);
   const Store store(path("s.itin"));
   test::expect_sound(store);
-  EXPECT_EQ(store.metadata().format_version, 9);
   const std::vector<std::size_t> first = clusters_of(houses);
   std::vector<Box> boxes(houses.size());
   for (std::size_t i = 0; i < houses.size(); ++i) {

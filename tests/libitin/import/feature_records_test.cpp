@@ -24,7 +24,6 @@ TEST_F(FeatureRecords, ComeWithAttributesOrWithNone) {
   import("hill.itin", lanes);
   {
     const Store store(path("hill.itin"));
-    EXPECT_EQ(store.metadata().format_version, 6);
     EXPECT_EQ(store.metadata().themes[0].fields,
               (std::vector<AttributeField>{
                   {"ref", AttributeType::text}, {"rank", AttributeType::whole}, {"length", AttributeType::number}}));
@@ -56,7 +55,6 @@ TEST_F(FeatureRecords, ComeWithAttributesOrWithNone) {
   lanes.attributes.emplace();
   import("bare.itin", lanes);
   const Store bare(path("bare.itin"));
-  EXPECT_EQ(bare.metadata().format_version, 4);
   EXPECT_EQ(bare.metadata().themes[0].feature_blocks, 0U);
   const Edges unnamed = edges_of(bare, Window::all(), Detail::tolerance(0));
   EXPECT_FALSE(unnamed.empty());

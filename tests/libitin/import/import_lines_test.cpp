@@ -50,7 +50,7 @@ Content content(const Store& store, const Detail& detail, const ThemeChoice& cho
   const auto chosen = [&](std::uint16_t theme) { return theme == 0 || choice.includes(metadata.themes[theme - 1u]); };
   Content result;
   std::vector<Leaf> leaves;
-  store.points().leaves(0, store.points().bounds(), leaves);
+  store.points().leaves({}, store.points().bounds(), leaves);
   std::set<GridPoint> points;
   for (const Leaf& leaf : leaves) {
     if (!chosen(leaf.theme)) continue;

@@ -27,7 +27,7 @@ LevelByCode selected(const LevelByCode& all, int finest) {
 LevelByCode read(const WorkingIndex& index, int finest) {
   LevelByCode result;
   std::vector<Leaf> leaves;
-  index.leaves(finest, kAllOfIt, leaves);
+  index.leaves({finest, finest}, kAllOfIt, leaves);
   for (const Leaf& leaf : leaves) {
     const auto block = index.block(leaf);
     std::uint32_t points = 0;

@@ -1,6 +1,7 @@
 #include "store/block_codec.hpp"
 
 #include <limits>
+#include <map>
 #include <random>
 
 #include <gtest/gtest.h>
@@ -16,13 +17,36 @@ namespace {
 
 using test::Scatter;
 
+/// The block's points with their levels, whatever their order.
+std::map<std::uint64_t, std::pair<std::int32_t, std::uint8_t>> by_code(const Block& block) {
+  std::map<std::uint64_t, std::pair<std::int32_t, std::uint8_t>> points;
+  for (std::size_t k = 0; k < block.points.size(); ++k)
+    points[code_of(block.points[k])] = {block.points[k].z, block.levels.empty() ? std::uint8_t{0} : block.levels[k]};
+  return points;
+}
+
 void expect_round_trip(const Cell& cell, const std::vector<GridPoint>& points,
-                       const std::vector<std::uint16_t>& sources) {
-  const auto bytes = encode_block(cell, points, sources);
+                       const std::vector<std::uint16_t>& sources, const std::vector<std::uint8_t>& levels = {}) {
+  const auto bytes = encode_block(cell, points, sources, levels);
   const Block block = decode_block(cell, bytes);
   EXPECT_EQ(block.points, points);
   EXPECT_EQ(test::each_of(block.sources), sources);
-  EXPECT_TRUE(block.levels.empty());
+  EXPECT_EQ(block.levels, levels);
+  EXPECT_EQ(by_code(decode_block(cell, bytes, BlockOrder::kAny)), by_code(block));
+  Block plan = decode_plan(cell, bytes);
+  std::sort(plan.points.begin(), plan.points.end(),
+            [](const GridPoint& a, const GridPoint& b) { return code_of(a) < code_of(b); });
+  ASSERT_EQ(plan.points.size(), points.size());
+  for (std::size_t k = 0; k < points.size(); ++k)
+    EXPECT_EQ(std::pair(plan.points[k].x, plan.points[k].y), std::pair(points[k].x, points[k].y));
+  if (const auto posts = decode_posts(cell, bytes)) {
+    ASSERT_EQ(std::size_t{posts->columns} * posts->rows, points.size());
+    for (const GridPoint& p : points) {
+      const std::int64_t column = (p.x - posts->lattice.x) / posts->lattice.step_x,
+                         row = (p.y - posts->lattice.y) / posts->lattice.step_y;
+      EXPECT_EQ(posts->heights[static_cast<std::size_t>(row * posts->columns + column)], p.z);
+    }
+  }
 }
 
 class BlockCodecScatter : public testing::TestWithParam<Scatter> {};
@@ -38,6 +62,39 @@ TEST_P(BlockCodecScatter, RoundTrip) {
       for (std::size_t i = 0; i < points.size(); ++i) sources.push_back(random() % 7 ? 3 : random() & 0xffff);
       SCOPED_TRACE(testing::Message() << "side 2^" << log2_side << ", " << points.size() << " points");
       expect_round_trip(cell, points, sources);
+      std::vector<std::uint8_t> levels;
+      for (std::size_t i = 0; i < points.size(); ++i)
+        levels.push_back(static_cast<std::uint8_t>(random() % 20 == 0 ? 63 : random() % 5));
+      levels[0] = 1;
+      expect_round_trip(cell, points, sources, levels);
+    }
+  }
+}
+
+TEST(BlockCodec, FullLatticesRoundTrip) {
+  std::mt19937_64 random(test::seed());
+  for (const int step : {1, 3, 64, 700}) {
+    for (const auto& [columns, rows] : {std::pair{1, 2}, std::pair{2, 1}, std::pair{13, 13}, std::pair{60, 17}}) {
+      const Cell cell{morton(-65536, 65536), 16};
+      std::vector<GridPoint> points;
+      for (int row = 0; row < rows; ++row)
+        for (int column = 0; column < columns; ++column)
+          points.push_back({-65536 + 11 + step * column, 65536 + 5 + step * row,
+                            static_cast<std::int32_t>(20 * (random() % 100)) - 30 * row});
+      points = test::in_curve_order(points);
+      std::vector<std::uint8_t> levels;
+      for (std::size_t i = 0; i < points.size(); ++i) levels.push_back(static_cast<std::uint8_t>(1 + random() % 7));
+      const std::vector<std::uint16_t> sources(points.size(), 3);
+      expect_round_trip(cell, points, sources);
+      expect_round_trip(cell, points, sources, levels);
+      ASSERT_TRUE(decode_posts(cell, encode_block(cell, points, sources, levels)).has_value());
+      // One post less, within, and it is no full lattice.
+      if (columns < 3 || rows < 3) continue;
+      const auto inner = std::find_if(points.begin(), points.end(), [&](const GridPoint& p) {
+        return p.x == -65536 + 11 + step && p.y == 65536 + 5 + step;
+      });
+      points.erase(inner);
+      EXPECT_FALSE(decode_posts(cell, encode_block(cell, points, std::vector<std::uint16_t>(points.size(), 3))));
     }
   }
 }
@@ -132,6 +189,7 @@ void expect_error_or_valid(const Cell& cell, const std::vector<std::uint8_t>& by
     const Block block = decode_block(cell, bytes);
     ASSERT_FALSE(block.points.empty());
     ASSERT_EQ(block.sources.size(), block.points.size());
+    ASSERT_TRUE(block.levels.empty() || block.levels.size() == block.points.size());
     for (std::size_t i = 0; i < block.points.size(); ++i) {
       const std::uint64_t code = morton(block.points[i].x, block.points[i].y);
       ASSERT_TRUE(cell.box().contains(block.points[i].x, block.points[i].y));
@@ -148,13 +206,36 @@ TEST(BlockCodec, DamagedBytesNeverBreakThePromises) {
   for (const Scatter how : {Scatter::Uniform, Scatter::Lattice, Scatter::SparseLattice, Scatter::Clustered}) {
     const Cell cell{morton(0, 0), 16};
     const auto points = test::scatter(how, cell, 200, random);
-    const auto sound = encode_block(cell, points, std::vector<std::uint16_t>(points.size(), 1));
+    std::vector<std::uint8_t> levels(points.size(), 2);
+    const auto sound = encode_block(cell, points, std::vector<std::uint16_t>(points.size(), 1), levels);
     for (int i = 0; i < 5000; ++i) {
       auto bytes = sound;
       const std::size_t reach = i % 2 ? bytes.size() : std::min<std::size_t>(bytes.size(), 24);
       for (std::size_t n = 1 + random() % 3; n > 0; --n) bytes[random() % reach] = static_cast<std::uint8_t>(random());
       if (i % 5 == 0) bytes.resize(random() % bytes.size());
       expect_error_or_valid(cell, bytes);
+    }
+  }
+}
+
+TEST(BlockCodec, DamagedFullLatticesNeverBreakThePromises) {
+  std::mt19937_64 random(test::seed());
+  const Cell cell{morton(0, 0), 16};
+  std::vector<GridPoint> points;
+  for (int y = 0; y < 20; ++y)
+    for (int x = 0; x < 20; ++x)
+      points.push_back({100 + 3000 * x, 70 + 3000 * y, static_cast<std::int32_t>(random() % 500)});
+  points = test::in_curve_order(points);
+  const auto sound = encode_block(cell, points, std::vector<std::uint16_t>(400, 1), std::vector<std::uint8_t>(400, 1));
+  for (int i = 0; i < 20000; ++i) {
+    auto bytes = sound;
+    const std::size_t reach = i % 2 ? bytes.size() : std::size_t{24};
+    for (std::size_t n = 1 + random() % 3; n > 0; --n) bytes[random() % reach] = static_cast<std::uint8_t>(random());
+    if (i % 5 == 0) bytes.resize(random() % bytes.size());
+    expect_error_or_valid(cell, bytes);
+    try {
+      decode_posts(cell, bytes);
+    } catch (const DecodeError&) {
     }
   }
 }

@@ -176,7 +176,7 @@ class ClusteredStore : public testing::Test {
     points = test::in_curve_order(points);
     std::vector<ThemeInfo> themes{{"sheds", ThemeKind::Buildings, kSheds, points.size(), segments.size()}};
     StoreWriter writer(path_, "", given.grid, given.tolerances);
-    for (const auto& l : given.leaves) writer.add_leaf(l.level, l.cell, l.points, l.sources, l.lo, l.hi);
+    given.add_leaves(writer);
     const std::vector<std::uint16_t> sources(points.size(), 0);
     writer.add_part_vertices(kPart, points, sources, {}, clustered ? clusters : PartClusters());
     std::map<std::uint16_t, PartClusters> of_parts;
@@ -224,7 +224,6 @@ class ClusteredStore : public testing::Test {
 
 TEST_F(ClusteredStore, HasWhatTheFinestLevelAboutEachBoxHas) {
   EXPECT_THAT(damaged_places(), testing::IsEmpty());
-  EXPECT_EQ(Store(path_).metadata().format_version, 9);
   EXPECT_TRUE(Store(path_).metadata().parts.at(0).has_clusters);
   for (const double radius : {1.0, 30.0, 200.0, 1000.0}) {
     std::set<int> expected;
@@ -237,9 +236,8 @@ TEST_F(ClusteredStore, HasWhatTheFinestLevelAboutEachBoxHas) {
   }
 }
 
-TEST_F(ClusteredStore, OfAnOlderVersionHasAllOfThemWithEveryRing) {
+TEST_F(ClusteredStore, WithoutClustersHasAllOfItsShedsWithEveryRing) {
   write(false);
-  EXPECT_EQ(Store(path_).metadata().format_version, 4);
   EXPECT_EQ(sheds(1).first.size(), std::size_t{kSheds});
   EXPECT_EQ(sheds(1).second.size(), std::size_t{kSheds});
 }

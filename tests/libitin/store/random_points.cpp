@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <functional>
 #include <iterator>
 #include <map>
 
@@ -63,50 +62,79 @@ std::vector<GridPoint> scatter(Scatter how, const Cell& cell, std::size_t count,
   return in_curve_order(std::move(points));
 }
 
+namespace {
+
+/// A vertex of the full surface with its coarsest level.
+struct GivenVertex {
+  GridPoint point;
+  std::uint16_t source = 0;
+  std::uint8_t level = 0;
+};
+
+std::vector<GivenVertex> random_vertices(const Cell& ground, std::size_t count, int levels, std::mt19937_64& random) {
+  std::map<std::uint64_t, GivenVertex> by_code;
+  std::uint16_t source = 0;
+  for (int level = levels - 1; level >= 0; --level) {
+    for (const Scatter how : {Scatter::Uniform, Scatter::Clustered, Scatter::Lattice}) {
+      for (const GridPoint& p : scatter(how, ground, count / 3 >> level, random)) {
+        if (random() % 10 == 0) source = static_cast<std::uint16_t>(random() % 3);
+        by_code.emplace(morton(p.x, p.y), GivenVertex{p, source, static_cast<std::uint8_t>(level)});
+      }
+    }
+  }
+  std::vector<GivenVertex> vertices;
+  for (const auto& [code, vertex] : by_code) vertices.push_back(vertex);
+  return vertices;
+}
+
+/// Cuts vertices in curve order into leaves of at most this many, some of them without any.
+void cut(const Cell& cell, int level, std::span<const GivenVertex> in, std::size_t most, std::mt19937_64& random,
+         std::vector<GivenLeaf>& leaves) {
+  if (in.size() > most && cell.log2_side > 4) {
+    for (int i = 0; i < 4; ++i) {
+      const auto end = std::find_if(in.begin(), in.end(), [&](const GivenVertex& v) {
+        return morton(v.point.x, v.point.y) >= cell.child(i).end();
+      });
+      const auto part = in.first(static_cast<std::size_t>(end - in.begin()));
+      cut(cell.child(i), level, part, most, random, leaves);
+      in = in.subspan(part.size());
+    }
+    return;
+  }
+  if (in.empty() && random() % 3 == 0) return;  // no ground here
+  GivenLeaf& leaf = leaves.emplace_back();
+  leaf.level = level, leaf.cell = cell;
+  for (const GivenVertex& v : in) {
+    leaf.points.push_back(v.point);
+    leaf.sources.push_back(v.source);
+    if (level == 0) leaf.levels.push_back(v.level);
+  }
+  if (level == 0) return;
+  leaf.lo = -static_cast<std::int32_t>(random() % (100U << level));
+  leaf.hi = static_cast<std::int32_t>(random() % (100U << level));
+  // Where a level has no points the surfaces need not meet.
+  if (leaf.points.empty() && random() % 2 == 0) leaf.hi = leaf.lo;
+}
+
+}  // namespace
+
 GivenStore random_store(std::uint64_t seed, std::size_t count, int levels) {
   std::mt19937_64 random(seed);
   GivenStore store;
   for (int level = 0; level < levels; ++level) store.tolerances.push_back(level == 0 ? 0 : 0.5 * (1 << level));
   // An odd place, so that the tree's great divides cross the data.
   const Cell ground{morton(-131072, 0), 17};
+  const std::vector<GivenVertex> vertices = random_vertices(ground, count, levels, random);
+  cut(ground, 0, vertices, kGroundCapacity / 8, random, store.leaves);
+  for (int level = 1; level < levels; ++level) {
+    std::vector<GivenVertex> own;
+    std::copy_if(vertices.begin(), vertices.end(), std::back_inserter(own),
+                 [&](const GivenVertex& v) { return v.level == level; });
+    cut(ground, level, own, kLeafCapacity / 4, random, store.leaves);
+  }
   const auto uniform = [&](std::int64_t low, std::int64_t high) {
     return std::uniform_int_distribution<std::int64_t>(low, high)(random);
   };
-  for (int level = 0; level < levels; ++level) {
-    std::vector<GridPoint> points;
-    for (const Scatter how : {Scatter::Uniform, Scatter::Clustered, Scatter::Lattice}) {
-      const auto part = scatter(how, ground, count / 3 >> level, random);
-      points.insert(points.end(), part.begin(), part.end());
-    }
-    points = in_curve_order(std::move(points));
-    const std::function<void(const Cell&, std::span<const GridPoint>)> split = [&](const Cell& cell,
-                                                                                   std::span<const GridPoint> in) {
-      if (in.size() > kLeafCapacity / 4 && cell.log2_side > 4) {
-        for (int i = 0; i < 4; ++i) {
-          const auto end = std::find_if(in.begin(), in.end(),
-                                        [&](const GridPoint& p) { return morton(p.x, p.y) >= cell.child(i).end(); });
-          const auto part = in.first(static_cast<std::size_t>(end - in.begin()));
-          split(cell.child(i), part);
-          in = in.subspan(part.size());
-        }
-        return;
-      }
-      if (in.empty() && uniform(0, 2) == 0) return;  // no ground here
-      GivenLeaf leaf{level, cell, {in.begin(), in.end()}, {}, 0, 0};
-      for (std::size_t i = 0; i < in.size(); ++i) {
-        leaf.sources.push_back(i > 0 && uniform(0, 9) > 0 ? leaf.sources.back()
-                                                          : static_cast<std::uint16_t>(uniform(0, 2)));
-      }
-      if (level > 0) {
-        leaf.lo = static_cast<std::int32_t>(-uniform(0, 100 << level));
-        leaf.hi = static_cast<std::int32_t>(uniform(0, 100 << level));
-        // Where a level has no points the surfaces need not meet.
-        if (leaf.points.empty() && uniform(0, 1) == 0) leaf.hi = leaf.lo;
-      }
-      store.leaves.push_back(std::move(leaf));
-    };
-    split(ground, points);
-  }
   for (std::size_t i = 0; i < count / 10; ++i) {
     const auto x = static_cast<std::int32_t>(uniform(-131072, -1)), y = static_cast<std::int32_t>(uniform(0, 131071));
     const std::int64_t reach = i % 50 == 0 ? 100000 : 2000;
@@ -116,11 +144,21 @@ GivenStore random_store(std::uint64_t seed, std::size_t count, int levels) {
   return store;
 }
 
+void GivenStore::add_leaves(StoreWriter& writer, std::size_t most) const {
+  writer.set_fine_levels(fine_levels);
+  for (std::size_t i = 0; i < std::min(most, leaves.size()); ++i) {
+    const GivenLeaf& leaf = leaves[i];
+    if (leaf.level == 0) {
+      writer.add_ground(leaf.cell, leaf.points, leaf.sources, leaf.levels);
+    } else {
+      writer.add_leaf(leaf.level, leaf.cell, leaf.points, leaf.sources, leaf.lo, leaf.hi);
+    }
+  }
+}
+
 void GivenStore::write(const std::string& path) const {
   StoreWriter writer(path, "LOCAL_CS[\"test\"]", grid, tolerances);
-  for (const GivenLeaf& leaf : leaves) {
-    writer.add_leaf(leaf.level, leaf.cell, leaf.points, leaf.sources, leaf.lo, leaf.hi);
-  }
+  add_leaves(writer);
   writer.add_segments(segments);
   std::vector<SourceInfo> sources(3);
   sources[1].path = "b.tif";

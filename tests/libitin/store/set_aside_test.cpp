@@ -35,7 +35,7 @@ class SetAside : public testing::Test {
     std::sort(lines_.made.begin(), lines_.made.end());
     const test::GivenStore given = test::random_store(1, 600);
     StoreWriter writer(path_, "", given.grid, given.tolerances);
-    for (const auto& l : given.leaves) writer.add_leaf(l.level, l.cell, l.points, l.sources, l.lo, l.hi);
+    given.add_leaves(writer);
     writer.add_segments(given.segments);
     writer.set_aside(Cell{0, 30}, std::span(&point_, 1), std::span(&source_, 1));
     writer.set_aside(2, lines_);

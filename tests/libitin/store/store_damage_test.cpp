@@ -36,7 +36,7 @@ Contents read_all(const std::string& path) {
   Contents all;
   all.crs = store.metadata().crs_wkt;
   std::vector<Leaf> leaves;
-  store.points().leaves(0, store.points().bounds(), leaves);
+  store.points().leaves({}, store.points().bounds(), leaves);
   for (const Leaf& leaf : leaves) {
     const auto block = store.points().block(leaf);
     all.points.insert(all.points.end(), block->points.begin(), block->points.end());
@@ -138,9 +138,14 @@ TEST_F(StoreDamage, NewerFormat) {
   expect_message<StoreFormatError>("store format " + newer);
 }
 
+TEST_F(StoreDamage, OlderFormat) {
+  execute("PRAGMA user_version=9");
+  expect_message<StoreFormatError>("has store format 9, which this itin reads no more; import its sources again");
+}
+
 TEST_F(StoreDamage, ForeignContentsUnderOurApplicationId) {
   std::filesystem::remove(path_);
-  execute("PRAGMA application_id=0x4954494e; PRAGMA user_version=1; CREATE TABLE t(a)");
+  execute("PRAGMA application_id=0x4954494e; PRAGMA user_version=10; CREATE TABLE t(a)");
   expect_message<CorruptStore>("schema");
 }
 

@@ -28,29 +28,37 @@ class StoreTest : public testing::Test {
     return {x, y, x + uniform(0, reach), y + uniform(0, reach)};
   }
 
-  std::vector<const GivenLeaf*> expected_leaves(int finest, const GridBox& box) const {
+  /// The ground serves fine levels, and each other level has a tree of its own.
+  std::vector<const GivenLeaf*> expected_leaves(const LevelRange& asked, const GridBox& box) const {
     std::vector<const GivenLeaf*> out;
     for (const GivenLeaf& leaf : given_.leaves) {
-      if (leaf.level >= finest && !leaf.points.empty() && leaf.cell.box().meets(box)) out.push_back(&leaf);
+      const bool wanted = leaf.level == 0 ? asked.finest < given_.fine_levels
+                                          : leaf.level >= std::max(asked.finest, given_.fine_levels) &&
+                                                asked.coarsest >= given_.fine_levels;
+      if (wanted && !leaf.points.empty() && leaf.cell.box().meets(box)) out.push_back(&leaf);
     }
     return out;
   }
 
-  void expect_leaves(const PointIndex& index, int finest, const GridBox& box) const {
+  void expect_leaves(const PointIndex& index, const LevelRange& asked, const GridBox& box) const {
     std::vector<Leaf> found;
-    index.leaves(finest, box, found);
-    const auto expected = expected_leaves(finest, box);
+    index.leaves(asked, box, found);
+    const auto expected = expected_leaves(asked, box);
     ASSERT_EQ(found.size(), expected.size());
     for (std::size_t i = 0; i < found.size(); ++i) {
       const GivenLeaf& leaf = *expected[i];
       ASSERT_EQ(found[i].cell, leaf.cell);
-      ASSERT_EQ(found[i].level, leaf.level);
+      ASSERT_EQ(found[i].level, leaf.level == 0 ? 3 : leaf.level);
+      ASSERT_EQ(found[i].serves.finest, leaf.level == 0 ? 0 : given_.fine_levels);
+      ASSERT_GE(found[i].serves.coarsest, leaf.level == 0 ? given_.fine_levels - 1 : 3);
+      ASSERT_LE(found[i].asked, found[i].points);
       ASSERT_EQ(found[i].points, leaf.points.size());
       ASSERT_EQ(found[i].lo, leaf.lo);
       ASSERT_EQ(found[i].hi, leaf.hi);
       const auto block = index.block(found[i]);
       ASSERT_EQ(block->points, leaf.points);
       ASSERT_EQ(test::each_of(block->sources), leaf.sources);
+      ASSERT_EQ(block->levels, leaf.levels);
       for (const GridPoint& p : leaf.points) ASSERT_TRUE(p.z >= found[i].zmin && p.z <= found[i].zmax);
     }
   }
@@ -64,7 +72,8 @@ class StoreTest : public testing::Test {
 TEST_F(StoreTest, MetadataIsWhatWasWritten) {
   const Store store(path_);
   const StoreMetadata& m = store.metadata();
-  EXPECT_EQ(m.format_version, 4);
+  EXPECT_EQ(m.format_version, 10);
+  EXPECT_EQ(m.fine_levels, given_.fine_levels);
   EXPECT_EQ(m.crs_wkt, "LOCAL_CS[\"test\"]");
   EXPECT_EQ(m.grid, given_.grid);
   EXPECT_FALSE(m.scale);
@@ -78,8 +87,8 @@ TEST_F(StoreTest, MetadataIsWhatWasWritten) {
     std::uint64_t count = 0;
     std::int32_t lo = 0, hi = 0;
     for (const GivenLeaf& leaf : given_.leaves) {
+      count += static_cast<std::uint64_t>(std::count(leaf.levels.begin(), leaf.levels.end(), level));
       if (leaf.level != static_cast<int>(level)) continue;
-      count += leaf.points.size();
       lo = std::min(lo, leaf.lo), hi = std::max(hi, leaf.hi);
       for (const GridPoint& p : leaf.points) bounds.extend(p.x, p.y);
     }
@@ -97,10 +106,13 @@ TEST_F(StoreTest, MetadataIsWhatWasWritten) {
 TEST_F(StoreTest, LeavesAndBlocksAreThoseOfAScan) {
   const Store store(path_);
   std::mt19937_64 random(seed_);
-  for (int i = 0; i < 300; ++i) expect_leaves(store.points(), static_cast<int>(random() % 4), random_box(random));
+  for (int i = 0; i < 300; ++i) {
+    const int finest = static_cast<int>(random() % 4), coarsest = std::min(3, finest + static_cast<int>(random() % 3));
+    expect_leaves(store.points(), {finest, coarsest}, random_box(random));
+  }
   constexpr std::int32_t far = 2000000000;
-  expect_leaves(store.points(), 0, {-far, -far, far, far});
-  expect_leaves(store.points(), 0, {});
+  expect_leaves(store.points(), {}, {-far, -far, far, far});
+  expect_leaves(store.points(), {}, {});
 }
 
 TEST_F(StoreTest, SegmentsAreThoseOfAScan) {
@@ -171,7 +183,8 @@ TEST_F(StoreTest, PointsAboutAreTheSharesOfTheCellsMet) {
       for (const GivenLeaf& leaf : given_.leaves) {
         const GridBox there = intersection(leaf.cell.box(), store.metadata().bounds),
                       shared = intersection(there, grid_box);
-        if (leaf.level < level || leaf.points.empty() || shared.empty()) continue;
+        const bool counts = level == 0 ? leaf.level == 0 : leaf.level >= level;
+        if (!counts || leaf.points.empty() || shared.empty()) continue;
         const auto positions = [](const GridBox& b) {
           return (double{1} * b.xmax - b.xmin + 1) * (double{1} * b.ymax - b.ymin + 1);
         };
@@ -193,7 +206,7 @@ TEST_F(StoreTest, ThreadsShareATinyCache) {
     for (std::uint64_t t = 0; t < 4; ++t) {
       threads.emplace_back([&, t] {
         std::mt19937_64 random(seed_ + t % 2);  // two threads each ask the same
-        for (int i = 0; i < 60; ++i) expect_leaves(store.points(), 0, random_box(random));
+        for (int i = 0; i < 60; ++i) expect_leaves(store.points(), {}, random_box(random));
       });
     }
     for (auto& t : threads) t.join();
@@ -214,7 +227,7 @@ TEST_F(StoreTest, SameContentSameBytes) {
 TEST_F(StoreTest, MovedStoreGoesOn) {
   Store first(path_);
   Store second(std::move(first));
-  expect_leaves(second.points(), 0, {-2000, 0, 20000, 20000});
+  expect_leaves(second.points(), {}, {-2000, 0, 20000, 20000});
 }
 
 }  // namespace

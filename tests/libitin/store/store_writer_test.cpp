@@ -45,7 +45,7 @@ class StoreWriterTest : public testing::Test {
     EXPECT_EQ(files(), 1u);
   }
   static void add_all(StoreWriter& writer, const test::GivenStore& given) {
-    for (const auto& l : given.leaves) writer.add_leaf(l.level, l.cell, l.points, l.sources, l.lo, l.hi);
+    given.add_leaves(writer);
     writer.add_segments(given.segments);
   }
 
@@ -105,10 +105,7 @@ TEST_F(StoreWriterTest, KilledWriter) {
     const pid_t child = fork();
     if (child == 0) {
       StoreWriter writer(path_, "", new_.grid, new_.tolerances);
-      for (std::size_t i = 0; i < leaves; ++i) {
-        const auto& l = new_.leaves[i];
-        writer.add_leaf(l.level, l.cell, l.points, l.sources, l.lo, l.hi);
-      }
+      new_.add_leaves(writer, leaves);
       std::raise(SIGKILL);
     }
     int status = 0;
@@ -162,8 +159,13 @@ TEST_F(StoreWriterTest, LeavesOutOfOrderAreRefused) {
   const std::uint16_t source = 0;
   const std::span<const GridPoint> points(&p, 1);
   const std::span<const std::uint16_t> sources(&source, 1);
+  EXPECT_THROW(writer.set_fine_levels(0), std::invalid_argument);
+  EXPECT_THROW(writer.set_fine_levels(3), std::invalid_argument);
+  EXPECT_THROW(writer.add_ground({morton(0, 0), 5}, points, sources, {}), std::invalid_argument);
   writer.add_leaf(1, {morton(0, 0), 5}, points, sources, 0, 0);
+  EXPECT_THROW(writer.set_fine_levels(1), std::invalid_argument);
   EXPECT_THROW(writer.add_leaf(1, {morton(0, 0), 4}, {}, {}, 0, 0), std::invalid_argument);
+  EXPECT_THROW(writer.add_ground({morton(64, 64), 4}, {}, {}, {}), std::invalid_argument);
   EXPECT_THROW(writer.add_leaf(0, {morton(64, 64), 4}, {}, {}, 0, 0), std::invalid_argument);
   EXPECT_THROW(writer.add_leaf(1, {morton(64, 64), 3}, {}, {}, 0, 0), std::invalid_argument);
   EXPECT_THROW(writer.add_leaf(2, {morton(64, 64), 4}, {}, {}, 0, 0), std::invalid_argument);

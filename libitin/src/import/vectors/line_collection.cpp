@@ -87,7 +87,6 @@ void LineCollection::take_themes(const StoreMetadata& metadata) {
   for (const ThemeInfo& theme : metadata.themes) themes_.push_back({.info = theme, .raised = theme.is_raised()});
   for (const SourceInfo& source : metadata.sources) theme_of_source_.push_back(source.theme);
   find_first_sources(metadata.sources);
-  keeps_set_aside_ = metadata.format_version >= format::kFirstVersionThatSetsAside;
 }
 
 void LineCollection::find_first_sources(const std::vector<SourceInfo>& sources) {
@@ -125,14 +124,9 @@ void LineCollection::take_segments(const Store& store) {
 bool LineCollection::take_vertex(const GridPoint& p, std::uint16_t source, bool of_terrain) {
   const std::uint64_t code = code_of(p);
   const auto end = of_terrain ? ends_.find(code) : ends_.end();
-  if (theme_of_source_[source].empty()) {
-    // Formats that set nothing aside have vertices of lines under the source of a post they cover.
-    if (end != ends_.end()) vertices_.try_emplace(code, Vertex{p.z, themes_[end->second].first_source});
-    return false;
-  }
+  if (theme_of_source_[source].empty()) return false;
   // A vertex whose lines have left the ground is taken with these lines where they are taken as they were imported.
-  const bool comes_with_lines = as_ == LinesAs::imported && keeps_set_aside_;
-  if (of_terrain && end == ends_.end() && !comes_with_lines) return false;
+  if (of_terrain && end == ends_.end() && as_ != LinesAs::imported) return false;
   vertices_.try_emplace(code, Vertex{p.z, source});
   return true;
 }

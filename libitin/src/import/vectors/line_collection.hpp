@@ -134,7 +134,6 @@ class LineCollection {
   std::uint64_t line_vertices_ = 0, feature_vertices_ = 0, record_bytes_ = 0;  ///< counts so far
   std::vector<CollectedTheme> themes_;
   std::vector<OwnPart> parts_;
-  bool keeps_set_aside_ = true;                            ///< whether the store keeps what is set aside
   std::vector<std::string> theme_of_source_;               ///< by the store's source; empty for points
   std::vector<Segment> stored_;                            ///< the store's lines on the ground
   std::vector<SegmentFeature> stored_features_;            ///< the features of these lines, ascending
