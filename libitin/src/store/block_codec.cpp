@@ -315,6 +315,22 @@ void read_points(ByteReader& in, const Cell& cell, const BlockHeader& header, Bl
   require_end(bits);
 }
 
+/// Leaves out the points of levels below `finest`.
+void leave_out_finer(int finest, Block& block) {
+  std::size_t kept = 0;
+  PointSources sources;
+  for (std::size_t i = 0; i < block.levels.size(); ++i) {
+    if (block.levels[i] < finest) continue;
+    block.points[kept] = block.points[i];
+    block.levels[kept] = block.levels[i];
+    sources.add(block.sources[i]);
+    ++kept;
+  }
+  block.points.resize(kept);
+  block.levels.resize(kept);
+  block.sources = std::move(sources);
+}
+
 void sort_along_curve(const Cell& cell, const CellLattice& lattice, Block& block) {
   // All codes already differ without the low bits, which the lattice's steps leave free.
   const int low_bits = 2 * (std::bit_width(std::min(lattice.step_x, lattice.step_y)) - 1);
@@ -373,7 +389,7 @@ std::optional<PostHeights> decode_posts(const Cell& cell, std::span<const std::u
   return posts;
 }
 
-Block decode_block(const Cell& cell, std::span<const std::uint8_t> bytes, BlockOrder order) {
+Block decode_block(const Cell& cell, std::span<const std::uint8_t> bytes, BlockOrder order, int finest) {
   ByteReader in(bytes);
   const BlockHeader header = read_header(in, cell);
   Block block;
@@ -384,10 +400,14 @@ Block decode_block(const Cell& cell, std::span<const std::uint8_t> bytes, BlockO
     read_points(in, cell, header, block);
   }
   block.in_order = header.layout == PointLayout::kScattered;
-  if (!block.in_order && order == BlockOrder::kMorton) {
+  // Sources are in curve order. Where all are the same, the points that are left out need not be sorted.
+  const bool early = finest > 0 && block.sources.are_one();
+  if (early) leave_out_finer(finest, block);
+  if (!block.in_order && (order == BlockOrder::kMorton || (finest > 0 && !early))) {
     sort_along_curve(cell, header.lattice, block);
     block.in_order = true;
   }
+  if (finest > 0 && !early) leave_out_finer(finest, block);
   return block;
 }
 

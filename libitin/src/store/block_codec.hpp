@@ -21,8 +21,10 @@ std::vector<std::uint8_t> encode_block(const Cell& cell, std::span<const GridPoi
 /// The order of a decoded block's points: strictly ascending by Morton code, as everywhere else, or as they are coded.
 enum class BlockOrder : std::uint8_t { kMorton, kAny };
 
-/// Returns, whatever the bytes, a block of `cell` that has no position twice, or throws DecodeError.
-Block decode_block(const Cell& cell, std::span<const std::uint8_t> bytes, BlockOrder order = BlockOrder::kMorton);
+/// Returns, whatever the bytes, a block of `cell` that has no position twice, or throws DecodeError. Points of levels
+/// below `finest` are left out; the block may then have none.
+Block decode_block(const Cell& cell, std::span<const std::uint8_t> bytes, BlockOrder order = BlockOrder::kMorton,
+                   int finest = 0);
 
 /// Returns the block's points at height 0, without sources and levels, in any order. Throws DecodeError for damage in
 /// the bytes that it reads.

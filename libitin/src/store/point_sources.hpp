@@ -15,6 +15,8 @@ class PointSources {
  public:
   std::size_t size() const { return size_; }
   std::uint16_t operator[](std::size_t k) const { return of_each_.empty() ? of_all_ : of_each_[k]; }
+  /// Tells whether all points have the same source.
+  bool are_one() const { return of_each_.empty(); }
   /// Adds the source of the next points.
   void add(std::uint16_t source, std::size_t points = 1) {
     if (size_ == 0) of_all_ = source;

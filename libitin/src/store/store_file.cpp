@@ -45,6 +45,7 @@ DirectoryChunk StoreFile::read_chunk(int tree, const ChunkEntry& entry) const {
 }
 
 Block StoreFile::read_block(const Leaf& leaf, BlockOrder order) const {
+  if (is_part_of_ground(leaf)) return read_ground(leaf, order);
   return decoded(rows_, BlobKind::Block, leaf.key, [&](const auto& bytes) {
     Block block = decode_block(leaf.cell, items_of(leaf.key, bytes), order);
     const auto [low, high] = std::minmax_element(block.points.begin(), block.points.end(),
@@ -55,6 +56,19 @@ Block StoreFile::read_block(const Leaf& leaf, BlockOrder order) const {
     if (format::tree_of(leaf.key) == format::kGroundTree && block.levels.empty())
       block.levels.assign(block.points.size(), 0);
     return block;
+  });
+}
+
+/// Tells whether the leaf has those of the ground's vertices alone that are of the level of its key, or coarser.
+bool StoreFile::is_part_of_ground(const Leaf& leaf) const {
+  const int tree = format::tree_of(leaf.key);
+  return tree != format::kGroundTree && tree < metadata_.fine_levels;
+}
+
+Block StoreFile::read_ground(const Leaf& leaf, BlockOrder order) const {
+  return decoded(rows_, BlobKind::Block, format::key(format::kGroundTree, leaf.cell.code), [&](const auto& bytes) {
+    if (decode_lattice(leaf.cell, bytes).points != leaf.points) throw DecodeError("does not agree with its directory");
+    return decode_block(leaf.cell, bytes, order, format::tree_of(leaf.key));
   });
 }
 
@@ -159,8 +173,10 @@ void StoreFile::leaves(const LevelRange& asked, const GridBox& box, std::vector<
     const double share = share_of(asked.finest);
     for_each_leaf(format::kGroundTree, box, [&](Leaf leaf) {
       if (leaf.points == 0) return;
+      // Where one level is asked for everywhere, finer vertices are left out at once.
+      if (asked.finest == asked.coarsest) leaf.key = format::key(asked.finest, leaf.cell.code);
       leaf.level = level_count() - 1;
-      leaf.serves = {0, metadata_.fine_levels - 1};
+      leaf.serves = {asked.finest == asked.coarsest ? asked.finest : 0, metadata_.fine_levels - 1};
       leaf.asked = static_cast<std::uint32_t>(std::ceil(leaf.points * share));
       out.push_back(leaf);
     });
@@ -211,6 +227,7 @@ std::shared_ptr<const Block> StoreFile::block_once(const Leaf& leaf) const {
 }
 
 std::shared_ptr<const Block> StoreFile::plan_once(const Leaf& leaf) const {
+  if (is_part_of_ground(leaf)) return block_once(leaf);
   return decoded(rows_, BlobKind::Block, leaf.key, [&](const auto& bytes) {
     auto block = std::make_shared<const Block>(decode_plan(leaf.cell, items_of(leaf.key, bytes)));
     if (block->points.size() != leaf.points) throw DecodeError("does not agree with its directory");
@@ -219,6 +236,7 @@ std::shared_ptr<const Block> StoreFile::plan_once(const Leaf& leaf) const {
 }
 
 std::optional<BlockLattice> StoreFile::lattice_of(const Leaf& leaf) const {
+  if (is_part_of_ground(leaf)) return std::nullopt;
   return decoded(rows_, BlobKind::Block, leaf.key, [&](const auto& bytes) {
     const BlockLattice lattice = decode_lattice(leaf.cell, items_of(leaf.key, bytes));
     if (lattice.points != leaf.points) throw DecodeError("does not agree with its directory");
@@ -227,6 +245,7 @@ std::optional<BlockLattice> StoreFile::lattice_of(const Leaf& leaf) const {
 }
 
 std::optional<PostHeights> StoreFile::posts_once(const Leaf& leaf) const {
+  if (is_part_of_ground(leaf)) return std::nullopt;
   return decoded(rows_, BlobKind::Block, leaf.key, [&](const auto& bytes) {
     std::optional<PostHeights> posts = decode_posts(leaf.cell, items_of(leaf.key, bytes));
     if (posts && posts->lattice.points != leaf.points) throw DecodeError("does not agree with its directory");

@@ -85,6 +85,8 @@ class StoreFile final : public PointIndex {
   void for_each_leaf(int tree, const GridBox& box, const Visit& visit, const Skip& skip = kSkipNone) const;
   std::shared_ptr<const Block> block(const Leaf& leaf, BlockOrder order) const;
   double share_of(int level) const;
+  bool is_part_of_ground(const Leaf& leaf) const;
+  Block read_ground(const Leaf& leaf, BlockOrder order) const;
   bool has_segment_features(std::uint16_t theme) const;
   std::shared_ptr<const DirectoryChunk> chunk(int tree, const ChunkEntry& entry) const;
   std::span<const std::uint8_t> items_of(std::uint64_t key, std::span<const std::uint8_t> bytes) const;

@@ -118,7 +118,7 @@ std::set<TriangleCorners> global(const Store& store, const Detail& detail, const
       const GridPoint& p = block->points[k];
       if (!present[k]) continue;
       if (leaf.theme > themes && block->sources[k] == format::kMask) continue;
-      if (leaf.theme == 0 && !selection.selects(leaf.level, p.x, p.y)) continue;
+      if (leaf.theme == 0 && !selection.selects(level_of(leaf, *block, k), p.x, p.y)) continue;
       const auto mask = masks.find({p.x, p.y});
       if (mask != masks.end() && std::any_of(mask->second.begin(), mask->second.end(), [&](std::uint16_t part) {
             return part != leaf.theme && gives_way(leaf.theme, part);

@@ -54,8 +54,10 @@ Content content(const Store& store, const Detail& detail, const ThemeChoice& cho
   std::set<GridPoint> points;
   for (const Leaf& leaf : leaves) {
     if (!chosen(leaf.theme)) continue;
-    for (const GridPoint& p : store.points().block(leaf)->points) {
-      if (selection.selects(leaf.level, p.x, p.y)) points.insert(p);
+    const auto block = store.points().block(leaf);
+    for (std::size_t k = 0; k < block->points.size(); ++k) {
+      const GridPoint& p = block->points[k];
+      if (selection.selects(level_of(leaf, *block, k), p.x, p.y)) points.insert(p);
     }
   }
   result.points.assign(points.begin(), points.end());

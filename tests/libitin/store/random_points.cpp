@@ -121,6 +121,7 @@ void cut(const Cell& cell, int level, std::span<const GivenVertex> in, std::size
 GivenStore random_store(std::uint64_t seed, std::size_t count, int levels) {
   std::mt19937_64 random(seed);
   GivenStore store;
+  store.fine_levels = std::min(2, levels);
   for (int level = 0; level < levels; ++level) store.tolerances.push_back(level == 0 ? 0 : 0.5 * (1 << level));
   // An odd place, so that the tree's great divides cross the data.
   const Cell ground{morton(-131072, 0), 17};

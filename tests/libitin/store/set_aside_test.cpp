@@ -89,12 +89,5 @@ TEST_F(SetAside, CheckFindsWhatIsDamagedOrMissing) {
   EXPECT_EQ(damaged_places(), std::vector<std::string>{"directory 2045/0000000000000"});
 }
 
-TEST_F(SetAside, NothingIsOfAnOlderFormat) {
-  execute("DELETE FROM directory WHERE key = " + std::to_string(std::uint64_t{2045} << 52) +
-          "; DELETE FROM block WHERE key >= " + std::to_string(std::uint64_t{2045} << 52) + "; PRAGMA user_version=3");
-  EXPECT_THAT(damaged_places(), testing::IsEmpty());
-  EXPECT_EQ(set_aside_list(file_of(Store(path_)).rows()).point_blocks, 0u);
-}
-
 }  // namespace
 }  // namespace itin
