@@ -31,7 +31,7 @@ def blocks_of(page: Path) -> list[str]:
 PAGES = [page for page in [SOURCE / "README.md", *sorted((SOURCE / "docs").rglob("*.md"))] if blocks_of(page)]
 
 
-@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
+@pytest.mark.parametrize("page", PAGES, ids=[page.stem for page in PAGES])
 def test_the_blocks_of_a_page_run_one_after_the_other(folder: Path, page: Path) -> None:
     for module in ("rasterio", "xarray"):
         pytest.importorskip(module)
