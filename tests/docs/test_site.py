@@ -8,6 +8,7 @@ import subprocess
 from pathlib import Path
 
 import check
+import options_whole
 import pytest
 import stage
 from conftest import PROGRAM, SOURCE
@@ -57,3 +58,10 @@ def test_the_site_is_built_and_sound() -> None:
         [SOURCE / "scripts" / "docs"], env={**os.environ, "ITIN_PROGRAM": str(PROGRAM)}, capture_output=True, text=True, check=False
     )
     assert done.returncode == 0, done.stdout + done.stderr
+
+
+def test_options_in_calls_stay_whole() -> None:
+    call = '<div class="language-sh highlight"><code>itin<span class="w"> </span>tin<span class="w"> </span>--all -o</code></div>'
+    whole = options_whole.on_page_content(call)
+    assert '<span class="whole">--all</span>' in whole and '<span class="whole">-o</span>' in whole
+    assert options_whole.on_page_content("<p>a --all</p>") == "<p>a --all</p>"
