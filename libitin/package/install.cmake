@@ -1,5 +1,7 @@
 # find_package(itin COMPONENTS itin viewshed profile) gives itin::itin, viewshed::viewshed and profile::profile.
+# What is installed is of the component `program`, `development` or `python`; packages/packages.cmake makes a package of each.
 include(CMakePackageConfigHelpers)
+set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME development)
 
 set(ITIN_PACKAGE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/itin)
 foreach(library IN ITEMS itin profile viewshed)
@@ -15,7 +17,7 @@ foreach(folder IN ITEMS libitin viewshed profile)
   install(DIRECTORY ${folder}/include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 endforeach()
 if(ITIN_BUILD_PROGRAM)
-  install(TARGETS itin_cli)
+  install(TARGETS itin_cli COMPONENT program)
 endif()
 
 get_directory_property(ITIN_EMBREE_MAJOR DIRECTORY viewshed DEFINITION ITIN_EMBREE_MAJOR)

@@ -23,14 +23,24 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path
 
 
-def test_the_blocks_of_the_guide_run_one_after_the_other(folder: Path) -> None:
+def blocks_of(page: Path) -> list[str]:
+    blocks: list[str] = re.findall(r"```python\n(.*?)```", page.read_text(), re.DOTALL)
+    return blocks
+
+
+PAGES = [page for page in [SOURCE / "README.md", *sorted((SOURCE / "docs").rglob("*.md"))] if blocks_of(page)]
+
+
+@pytest.mark.parametrize("page", PAGES, ids=[page.stem for page in PAGES])
+def test_the_blocks_of_a_page_run_one_after_the_other(folder: Path, page: Path) -> None:
     for module in ("rasterio", "xarray"):
         pytest.importorskip(module)
-    blocks = re.findall(r"```python\n(.*?)```", (SOURCE / "docs" / "python.md").read_text(), re.DOTALL)
-    assert len(blocks) > 5
     names: dict[str, object] = {}
-    for block in blocks:
-        exec(compile(block, "docs/python.md", "exec"), names)  # noqa: S102
+    for block in blocks_of(page):
+        exec(compile(block, str(page), "exec"), names)  # noqa: S102
+    if page.stem != "python":
+        return
+    assert len(blocks_of(page)) > 5
     for made in ("seen.tif", "judged.csv", "masts/sites.csv", "zone/tip-count.tif"):
         assert (folder / made).exists(), made
 
