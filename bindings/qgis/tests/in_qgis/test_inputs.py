@@ -123,6 +123,24 @@ def test_filter_and_edits_count(qgis: Qgis, cardiff: Path, tmp_path: Path, file_
     file_layer.rollBack()
 
 
+def test_saved_edits_of_an_open_layer_count(qgis: Qgis, cardiff: Path, tmp_path: Path, file_layer: Any) -> None:
+    assert sum(1 for _ in file_layer.getFeatures()) == 3
+    assert file_layer.startEditing()
+    file_layer.deleteFeature(next(f.id() for f in file_layer.getFeatures() if f["name"] == "East"))
+    assert file_layer.commitChanges()
+    made = counts(qgis, cardiff, tmp_path / "o.tif", file_layer)
+    assert same_cells(made, by_program(cardiff, tmp_path, [SITES[0], SITES[2]]))
+
+
+def test_names_may_have_blanks_and_accents(qgis: Qgis, cardiff: Path, expected: Path, tmp_path: Path) -> None:
+    folder = tmp_path / "Pen-y-bont, Tŷ'n \"y\" coed é"
+    folder.mkdir()
+    (folder / "môr.itin").symlink_to(cardiff)
+    layer = memory_layer()
+    layer.setName("Mastiau (tŷ)")
+    assert same_cells(counts(qgis, folder / "môr.itin", folder / "allan %1.tif", layer), expected)
+
+
 def test_file_of_several_layers_where_the_program_takes_one(qgis: Qgis, cardiff: Path, tmp_path: Path, file_layer: Any) -> None:
     values = {"STORE": str(cardiff), "CANDIDATES": file_layer, "EXISTING": file_layer, "COUNT": 1, "RADIUS": 3000, "CELL": 200}
     qgis.run("sitemasts", {**values, "OUTPUT": str(tmp_path / "masts")})

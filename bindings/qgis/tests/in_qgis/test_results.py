@@ -67,6 +67,16 @@ def test_zones_are_a_group_with_styles(qgis: Qgis, cardiff: Path, folder: Path, 
     assert [child.name() for child in group.children() if child.isVisible()] == ["tip-count"]
 
 
+def test_results_may_be_temporary(qgis: Qgis, cardiff: Path, folder: Path) -> None:
+    values = {"STORE": str(cardiff), "TURBINES": str(folder / "turbines.gpkg"), "RADIUS": 3000, "CELL": 200}
+    made = qgis.load("ztv", {**values, "OUTPUT": "TEMPORARY_OUTPUT"})
+    assert (Path(made["OUTPUT"]) / "tip-count.tif").exists()
+    made = qgis.load("viewshed", {"STORE": str(cardiff), "OBSERVER": GARTH, "CELL": 200, "OUTPUT": "TEMPORARY_OUTPUT"})
+    assert Path(made["OUTPUT"]).exists()
+    layer = next(layer for layer in layers_of(qgis) if layer.source() == made["OUTPUT"])
+    assert isinstance(layer.renderer(), QgsPalettedRasterRenderer)
+
+
 def test_results_may_be_left_unloaded(qgis: Qgis, cardiff: Path, folder: Path, tmp_path: Path) -> None:
     values = {"STORE": str(cardiff), "TURBINES": str(folder / "turbines.gpkg"), "RADIUS": 3000, "CELL": 200}
     qgis.load("ztv", {**values, "LOAD_RESULTS": False, "OUTPUT": str(tmp_path / "ztv")})
