@@ -82,7 +82,7 @@ Document option_document(const CLI::Option& option) {
 Document verb_document(const CLI::App& verb) {
   Document groups = Document::array();
   for (const std::string& group : verb.get_groups()) {
-    if (group.empty()) continue;  // hidden options, which are refused with a remedy
+    if (group.empty()) continue;  // what a verb only knows in order to refuse it
     Document options = Document::array();
     for (const CLI::Option* option : verb.get_options([&](const CLI::Option* o) { return o->get_group() == group; }))
       options.push_back(option_document(*option));

@@ -91,7 +91,7 @@ class LineOfSight(Task):
         Number("TO_HEIGHT", "Height of the second end", default=2, unit="m"),
         *_RADIO,
         shared.TOLERANCE,
-        shared.THEMES,
+        *shared.STANDING,
         FileOutput(
             "OUTPUT", "Line of sight", "--report", required=True, shown=True, filter="GeoPackages (*.gpkg)"
         ),
@@ -146,7 +146,7 @@ class Links(Task):
         ),
         *_RADIO,
         shared.TOLERANCE,
-        shared.THEMES,
+        *shared.STANDING,
         VectorOutput("OUTPUT", "Links", "--output", required=True),
         FileOutput("TABLE", "Table of links", "--output", filter="CSV files (*.csv)"),
         FileOutput(
@@ -189,7 +189,7 @@ class Profile(Task):
             default="0",
             help="0: every stored point",
         ),
-        shared.THEMES,
+        *shared.STANDING,
         FileOutput("OUTPUT", "Profile", "--output", required=True, shown=True, filter="GeoJSON (*.geojson)"),
         FileOutput(
             "CHART",

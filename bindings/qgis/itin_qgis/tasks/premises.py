@@ -28,7 +28,7 @@ class Premises(Task):
         Number("FREQUENCY", "Frequency [GHz]", "--frequency", unit="GHz", minimum=0, help="Left blank: light"),
         shared.FRESNEL,
         shared.EFFECTIVE_EARTH,
-        shared.THEMES,
+        *shared.STANDING,
         FolderOutput(
             "OUTPUT",
             "Folder of results",

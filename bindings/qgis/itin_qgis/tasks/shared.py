@@ -29,6 +29,8 @@ THEMES = Text(
     "THEMES", "Themes that stand on the ground", "--themes", default="all",
     help="all, none, or names with commas between them, as buildings,vegetation",
 )
+STANDING: tuple[Parameter, ...] = (THEMES,)
+"""What of all that stands on the ground counts: what each verb with themes has."""
 NODATA = Choice(
     "NODATA", "What ground without data does to sight lines", "--nodata", choices=("unknown", "block", "clear"),
     default="unknown", advanced=True, help="unknown: undecided unless known ground hides; block: hides; clear: lets pass",

@@ -42,7 +42,7 @@ DEMAND: tuple[Parameter, ...] = (
     Field("WEIGHT_FIELD", "Field of the points' weights", "--weight-field", of="DEMAND_POINTS", advanced=True),
     Number("TARGET_HEIGHT", "Height of targets", "--target-height", unit="m", help="Left blank: the field height, or 2"),
     Number("CELL", "Size of the cells", "--cell", default=50, unit="m", minimum=0),
-    shared.THEMES,
+    *shared.STANDING,
 )
 
 CHOICE: tuple[Parameter, ...] = (

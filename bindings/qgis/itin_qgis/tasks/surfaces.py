@@ -25,7 +25,7 @@ class SurfaceRaster(OfWindow):
         shared.LIKE,
         shared.TOLERANCE,
         shared.RINGS,
-        shared.THEMES,
+        *shared.STANDING,
         RasterOutput("OUTPUT", "Heights of the surface", "--output", required=True),
         *shared.running("no limit"),
     )
@@ -48,7 +48,7 @@ class SurfaceMesh(OfWindow):
         *WINDOW,
         shared.TOLERANCE,
         shared.RINGS,
-        shared.THEMES,
+        *shared.STANDING,
         Text(
             "LINES",
             "Lines of these themes, in place of triangles",

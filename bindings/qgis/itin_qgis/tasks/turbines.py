@@ -50,7 +50,7 @@ class Ztv(Task):
         Number("CELL", "Size of the cells", "--cell", default=50, unit="m", minimum=0),
         Number("OBSERVER_HEIGHT", "Height of eyes", "--observer-height", default=2, unit="m"),
         shared.TOLERANCE,
-        shared.THEMES,
+        *shared.STANDING,
         Layer("VIEWPOINTS", "Layer of viewpoints, for tables and wirelines", "--viewpoints", geometry="point"),
         FolderOutput(
             "OUTPUT",

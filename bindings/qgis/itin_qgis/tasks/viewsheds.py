@@ -80,7 +80,7 @@ _FIELD_OF_VIEW: tuple[Parameter, ...] = (
     shared.TARGET_ON,
     shared.LIKE,
 )
-_DETAIL: tuple[Parameter, ...] = (shared.TOLERANCE, shared.THEMES)
+_DETAIL: tuple[Parameter, ...] = (shared.TOLERANCE, *shared.STANDING)
 _MORE_DETAIL: tuple[Parameter, ...] = (shared.RINGS, shared.NODATA, *shared.EARTH, shared.ENGINE)
 _FILES: tuple[Parameter, ...] = (
     VectorOutput("POLYGONS", "The same as polygons", "--output"),
