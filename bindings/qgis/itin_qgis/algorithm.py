@@ -21,7 +21,7 @@ from qgis.PyQt.QtGui import QIcon
 from . import results, settings
 from .definitions import definition_of
 from .program.find import NoProgram, find_program
-from .program.progress import Caution, Progress, Said, text_of
+from .program.progress import Caution, Progress, Said
 from .program.run import Cancelled, Failed, run
 from .tasks.parameters import FileOutput, FolderOutput, NewStore, Output, RasterOutput, VectorOutput
 from .tasks.task import LOAD, Task
@@ -63,7 +63,7 @@ class ItinAlgorithm(QgsProcessingAlgorithm):
         return settings.icon()
 
     def shortHelpString(self) -> str:  # noqa: N802
-        return self._task.summary
+        return f"<p>{self._task.summary}</p><p>Guide: docs/{self._task.guide} of itin</p>"
 
     def tags(self) -> list[str]:
         return ["itin", self._task.verb]
@@ -136,8 +136,8 @@ def _call(arguments: list[str], feedback: QgsProcessingFeedback) -> str:
         nonlocal stage
         if isinstance(said, Progress):
             feedback.setProgress(100 * said.share)
-            if stage != (stage := text_of(said)):
-                feedback.setProgressText(stage)
+            if stage != (stage := said.stage):
+                feedback.setProgressText(stage)  # a line of the log each
         elif isinstance(said, Caution):
             feedback.pushWarning(said.text)
         else:

@@ -53,12 +53,3 @@ def read_line(line: str) -> Said | Error:
     if line.startswith(_ERROR):
         return Error(line[len(_ERROR) :])
     return Remark(line)
-
-
-def text_of(progress: Progress) -> str:
-    """Returns what the bar of progress is to say."""
-    if not progress.seconds_left:
-        return progress.stage
-    minutes, seconds = divmod(progress.seconds_left, 60)
-    left = f"{minutes} min {seconds} s" if minutes else f"{seconds} s"
-    return f"{progress.stage}, {left} left"

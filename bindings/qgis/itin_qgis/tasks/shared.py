@@ -96,7 +96,6 @@ PAPER_MAPS = (
     *_OF_MAPS,
 )
 
-FREQUENCY_HELP = "In GHz. Left blank: light"
 FRESNEL = Number(
     "FRESNEL", "Share of the first Fresnel zone that must be clear", "--fresnel", default=0.6, minimum=0, maximum=1
 )

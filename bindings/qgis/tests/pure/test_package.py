@@ -92,6 +92,7 @@ def test_guide_names_every_algorithm() -> None:
     for task in TASKS:
         assert f"**{task.title}**" in text, task.title
         assert f"`itin:{task.name}`" in text, task.name
+        assert f"]({task.guide}" in text and (GUIDE.parent / task.guide).exists()
 
 
 def test_guide_names_parameters_as_dialogs_do() -> None:

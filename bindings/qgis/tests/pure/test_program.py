@@ -10,7 +10,7 @@ import pytest
 from conftest import PROGRAM, SOURCE
 
 from itin_qgis.program.find import NoProgram, find_program, version_of
-from itin_qgis.program.progress import Caution, Error, Progress, Remark, read_line, text_of
+from itin_qgis.program.progress import Caution, Error, Progress, Remark, read_line
 from itin_qgis.program.run import Cancelled, Failed, run
 
 
@@ -52,8 +52,6 @@ def test_lines_are_told_apart() -> None:
     assert read_line("itin: warning: half") == Caution("half")
     assert read_line("itin: error: no store") == Error("no store")
     assert read_line('{"stage":') == Remark('{"stage":')
-    assert text_of(Progress("writing", 0.5, None)) == "writing"
-    assert text_of(Progress("writing", 0.5, 75)) == "writing, 1 min 15 s left"
 
 
 def test_pieces_become_lines(tmp_path: Path) -> None:
