@@ -58,10 +58,10 @@ class Finish(QgsProcessingLayerPostProcessorInterface):
 
 
 def _style(layer: QgsMapLayer) -> None:
-    """Gives a layer the style beside its file, or the default style within it."""
-    beside = os.path.splitext(layer.source())[0] + ".qml"
-    if os.path.exists(beside):
-        layer.loadNamedStyle(beside)
+    """Gives a raster the style beside its file, and any other layer the default style within it."""
+    name, ending = os.path.splitext(layer.source())
+    if ending == ".tif" and os.path.exists(f"{name}.qml"):
+        layer.loadNamedStyle(f"{name}.qml")
     else:
         layer.loadDefaultStyle()
     layer.triggerRepaint()

@@ -16,7 +16,7 @@ def layers_of(qgis: Qgis) -> list[QgsMapLayer]:
 
 def test_viewshed_has_its_colours(qgis: Qgis, cardiff: Path, tmp_path: Path) -> None:
     values = {"STORE": str(cardiff), "OBSERVER": GARTH, "RADIUS": 3000, "CELL": 100, "OUTPUT": str(tmp_path / "v.tif")}
-    qgis.load("viewshed", {**values, "POLYGONS": str(tmp_path / "p.gpkg")})
+    qgis.load("viewshed", {**values, "POLYGONS": str(tmp_path / "v.gpkg")})
     raster = next(layer for layer in layers_of(qgis) if layer.source().endswith(".tif"))
     renderer = raster.renderer()
     assert isinstance(renderer, QgsPalettedRasterRenderer)
