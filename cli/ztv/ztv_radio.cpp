@@ -18,7 +18,7 @@ void ZtvRadioOptions::declare(CLI::App& app) {
                "--links", links_path_,
                "Radio links that rotors must stay clear of: a table id,x1,y1,h1,x2,y2,h2 (.csv), or a file of lines")
             ->type_name("FILE"));
-  app.add_option("--frequency", frequency_text_, "Frequency of the radio links, GHz, or 7500MHz")->type_name("GHz");
+  app.add_option("--frequency", frequency_text_, "Frequency of the radio links, GHz, or 7500MHz")->type_name("GHZ");
   app.add_option("--radar", radar_text_, "A radar, h metres above the bare ground, whose radar horizon is computed")
       ->type_name("x,y,h");
 }

@@ -1,0 +1,176 @@
+"""Wind turbines: where they are seen from, and where they are seen least."""
+
+from __future__ import annotations
+
+from . import shared
+from .parameters import (
+    Choice,
+    Field,
+    File,
+    Flag,
+    FolderOutput,
+    Layer,
+    Number,
+    Point,
+    Text,
+)
+from .sites import CANDIDATES, CHOICE, DEMAND, SITES_LAYERS
+from .task import Task
+
+TURBINES = "Wind turbines"
+
+
+class Ztv(Task):
+    """Zones of theoretical visibility."""
+
+    name = "ztv"
+    title = "Zone of theoretical visibility"
+    group = TURBINES
+    verb = "ztv"
+    guide = "turbines.md"
+    summary = (
+        "Fills a folder with what is certainly seen of wind turbines: hub and tip counts, visible heights, angles, "
+        "combinations of farms, areas, and for viewpoints tables and wirelines. The turbines have the fields "
+        "hub_height and rotor_diameter, or tip_height; farm; name."
+    )
+    parameters = (
+        shared.STORE,
+        Layer("TURBINES", "Layer of turbines", "--turbines", geometry="point", required=True, layer_option="--layer"),
+        Number("HUB_HEIGHT", "Hub height of those that give none", "--hub-height", unit="m", minimum=0),
+        Number("ROTOR_DIAMETER", "Rotor diameter of those that give none", "--rotor-diameter", unit="m", minimum=0),
+        Number("TIP_HEIGHT", "Tip height of those that give none", "--tip-height", unit="m", minimum=0),
+        Number(
+            "RADIUS",
+            "Radius about each turbine",
+            "--radius",
+            unit="m",
+            minimum=0,
+            help="Left blank: by its tip height, 15 to 45 km",
+        ),
+        Number("CELL", "Size of the cells", "--cell", default=50, unit="m", minimum=0),
+        Number("OBSERVER_HEIGHT", "Height of eyes", "--observer-height", default=2, unit="m"),
+        shared.TOLERANCE,
+        *shared.STANDING,
+        Layer("VIEWPOINTS", "Layer of viewpoints, for tables and wirelines", "--viewpoints", geometry="point"),
+        FolderOutput(
+            "OUTPUT",
+            "Folder of results",
+            "--output",
+            required=True,
+            layers=("hub-count.gpkg", "tip-count.gpkg", "tip-count*.tif", "hub-count*.tif", "visible-height*.tif"),
+            seen=("tip-count.tif",),
+        ),
+        shared.OVERWRITE,
+        shared.LOAD_RESULTS,
+        Layer("ROUTE", "Layer of roads or paths", "--route", geometry="line", advanced=True),
+        Number("EVERY", "Distance between places along them", "--every", default=100, unit="m", advanced=True),
+        Layer(
+            "LINKS",
+            "Radio links that rotors must stay clear of",
+            "--links",
+            geometry="line or table",
+            advanced=True,
+        ),
+        Number("FREQUENCY", "Frequency of these links [GHz]", "--frequency", unit="GHz", minimum=0, advanced=True),
+        Point("RADAR", "Radar", "--radar", height="RADAR_HEIGHT", advanced=True),
+        Number("RADAR_HEIGHT", "Height of the radar above the ground", unit="m", advanced=True),
+        Field("NAME_FIELD", "Field of names", "--name-field", of="TURBINES", advanced=True),
+        Field("HUB_HEIGHT_FIELD", "Field of hub heights", "--hub-height-field", of="TURBINES", advanced=True),
+        Field(
+            "ROTOR_DIAMETER_FIELD",
+            "Field of rotor diameters",
+            "--rotor-diameter-field",
+            of="TURBINES",
+            advanced=True,
+        ),
+        Field("TIP_HEIGHT_FIELD", "Field of tip heights", "--tip-height-field", of="TURBINES", advanced=True),
+        Field("FARM_FIELD", "Field of farms", "--farm-field", of="TURBINES", advanced=True),
+        Text("FARM", "Farm of those that give none", "--farm", advanced=True),
+        Text("BANDS", "Numbers of turbines in bands of maps, as 1,5,10", "--bands", advanced=True),
+        File("RADIUS_PRESET", "Radii by tip height", "--radius-preset", filter="JSON (*.json)", advanced=True),
+        Number(
+            "WIRELINE_FIELD",
+            "Least width of a wireline [degrees]",
+            "--wireline-field",
+            default=53.5,
+            unit="deg",
+            advanced=True,
+        ),
+        Number(
+            "WIRELINE_BEARING",
+            "Bearing of every wireline's middle [degrees]",
+            "--wireline-bearing",
+            unit="deg",
+            advanced=True,
+        ),
+        Flag("WIRELINE_HIDDEN", "Draw hidden parts dashed in wirelines", "--wireline-hidden", advanced=True),
+        Text(
+            "WIRELINE_BLADES",
+            "Blades are turned from upright by degrees, or random",
+            "--wireline-blades",
+            default="0",
+            advanced=True,
+        ),
+        Text("WIRELINE_PAIRS", "Sheets in pairs: this farm alone above", "--wireline-pairs", advanced=True),
+        Text("WIRELINES", "Wirelines from these viewpoints only", "--wirelines", advanced=True),
+        Flag("NO_WIRELINES", "Tables of viewpoints, without wirelines", "--no-wirelines", advanced=True),
+        shared.LIKE,
+        shared.NODATA,
+        *shared.EARTH,
+        *shared.PAPER_MAPS,
+        *shared.running("no limit"),
+    )
+
+
+class SiteTurbines(Task):
+    """Where turbines are seen least."""
+
+    name = "siteturbines"
+    title = "Place wind turbines where they are seen least"
+    group = TURBINES
+    verb = "site"
+    guide = "turbines.md"
+    summary = (
+        "Chooses places for wind turbines, out of a layer of candidates or an area, so that the demand sees least of "
+        "them, with a bound on the best there is. Keeps away from dwellings and from each other."
+    )
+    words = ("--turbines",)
+    parameters = (
+        shared.STORE,
+        *CANDIDATES,
+        Number("HUB_HEIGHT", "Hub height", "--hub-height", unit="m", minimum=0),
+        Number("ROTOR_DIAMETER", "Rotor diameter", "--rotor-diameter", unit="m", minimum=0),
+        Number("TIP_HEIGHT", "Tip height, in place of these", "--tip-height", unit="m", minimum=0),
+        Number("COUNT", "How many turbines to place", "--count", minimum=1, whole=True),
+        Choice("MINIMISE", "What is to be least", "--minimise", choices=("tips", "hubs", "height")),
+        Text(
+            "ROTOR_SPACING",
+            "Rotor diameters between turbines: along the wind x across it, as 5x3",
+            "--rotor-spacing",
+        ),
+        Number("WIND_FROM", "Where the wind comes from [degrees]", "--wind-from", unit="deg"),
+        Layer("DWELLINGS", "Dwellings to keep away from", "--dwellings", geometry="any"),
+        Number("SETBACK", "Distance from dwellings", "--setback", unit="m", minimum=0),
+        Number(
+            "RADIUS", "How far turbines are looked for", "--radius", unit="m", minimum=0, help="Left blank: by their tips"
+        ),
+        *DEMAND,
+        FolderOutput(
+            "OUTPUT",
+            "Folder of results",
+            "--output",
+            required=True,
+            layers=("turbines.gpkg", *SITES_LAYERS),
+            seen=("turbines", "coverage.tif"),
+            page="report.html",
+        ),
+        shared.OVERWRITE,
+        shared.LOAD_RESULTS,
+        Text("FARM", "Name of the farm", "--farm", default="proposed", advanced=True),
+        *CHOICE,
+        shared.NODATA,
+        *shared.EARTH,
+        shared.ENGINE,
+        *shared.PAPER_MAPS,
+        *shared.running("1G"),
+    )
