@@ -85,6 +85,7 @@ TEST_F(ServeHttp, ChangesNothingWithoutTheKey) {
 
 TEST_F(ServeHttp, LivesOnAfterWhatIsNoRequest) {
   const std::string host = "Host: " + server_->host() + "\r\n";
+  const std::string key = "X-Itin-Key: " + server_->key() + "\r\nContent-Type: application/json\r\n";
   const std::pair<std::string, int> requests[] = {
       {"\r\n\r\n\x01\x02\x03 what\r\n\r\n", 400},
       {"GET\r\n\r\n", 400},
@@ -97,7 +98,8 @@ TEST_F(ServeHttp, LivesOnAfterWhatIsNoRequest) {
       {"GET / HTTP/1.1\r\nX: " + std::string(20000, 'x') + "\r\n\r\n", 431},
       {"POST /api/v1/jobs HTTP/1.1\r\n" + host + "Content-Length: 20000\r\n\r\n", 413},
       {"POST /api/v1/jobs HTTP/1.1\r\n" + host + "Content-Length: -1\r\n\r\n", 400},
-      {"POST /api/v1/jobs HTTP/1.1\r\n" + host + "Transfer-Encoding: chunked\r\n\r\nzz\r\n", 400}};
+      {"POST /api/v1/jobs HTTP/1.1\r\n" + host + key + "Transfer-Encoding: chunked\r\n\r\nzz\r\n", 400},
+      {"POST /api/v1/jobs HTTP/1.1\r\n" + host + "Content-Length: 10000\r\n\r\n", 403}};
   for (const auto& [request, status] : requests) {
     ClientSocket socket(server_->port());
     socket.send(request);
@@ -227,6 +229,7 @@ TEST_F(ServeHttp, DescribesItself) {
     EXPECT_NE(ask(*server_, path).status, 404) << path;
   }
   EXPECT_TRUE(api.at("paths").at("/api/v1/jobs").contains("post"));
+  EXPECT_TRUE(api.at("paths").at("/api/v1/uploads").contains("post"));
 }
 
 TEST_F(ServeHttp, OutlinesBuildings) {
