@@ -40,6 +40,14 @@ export const settled = async (page) => (
   })
 );
 
+/** Waits until nothing is asked of the server any more, whoever sees. */
+export const settledViews = async (page) => (
+  await drawn(page),
+  page.waitForFunction(() => document.querySelector("#status").hidden && !document.querySelector("#legend").hidden, {
+    timeout: 15000,
+  })
+);
+
 export async function setField(page, selector, wanted) {
   await page.$eval(
     selector,

@@ -14,6 +14,7 @@ const browser = [
   "URLSearchParams",
   "WebSocket",
   "ImageData",
+  "Blob",
   "Path2D",
   "ResizeObserver",
   "HTMLElement",

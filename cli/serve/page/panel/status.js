@@ -13,14 +13,14 @@ const LINE_WORDS = {
   refused: "This address is of an earlier start of the server. Open the address that itin serve printed.",
 };
 
-/** @param {import("../state/scene.js").Scene} scene @param {LiveConnection} connection @param {LiveViews} views */
-export function makeStatus(scene, connection, views) {
+/** @param {LiveConnection} connection @param {LiveViews} views */
+export function makeStatus(connection, views) {
   const line = element("status");
   let trouble = "";
   const show = () => {
-    const found = scene.state.masts.map((mast) => views.of(mast.id));
-    const steps = found.filter((view) => view?.cells && !view.done).map((view) => view?.cells?.step ?? 1);
-    const reading = found.some((view) => view && !view.cells && !view.error) ? "Reading the ground …" : "";
+    const found = views.all;
+    const steps = found.filter((view) => view.cells && !view.done).map((view) => view.cells?.step ?? 1);
+    const reading = found.some((view) => !view.cells && !view.error) ? "Reading the ground …" : "";
     line.textContent =
       trouble || (steps.length > 0 ? (SHARES[Math.max(...steps)] ?? "Deciding the last cells …") : reading);
     line.classList.toggle("problem", trouble !== "");
