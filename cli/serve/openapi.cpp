@@ -110,6 +110,7 @@ Document openapi_document() {
       {"/api/v1/info", "What the store holds", kJson, {}},
       {"/api/v1/los", "Whether two points see each other, and the profile between them", kJson, {"from", "to"}},
       {"/api/v1/profile", "The surface along a line", kJson, {"from", "to"}},
+      {"/tin.glb", "The triangulation of a window as glTF", "model/gltf-binary", {"bbox"}},
       {"/tiles/heights/{z}/{x}/{y}", "Heights of the ground as float32", "application/octet-stream", {}},
       {"/tiles/theme/{name}/{z}/{x}/{y}", "Outlines of a theme's buildings", kJson, {}},
       {"/api/v1/jobs/{id}", "How far a job is", kJson, {}},

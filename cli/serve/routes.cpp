@@ -56,6 +56,7 @@ Routes::Routes(ServedStore& served, Admission admission, int threads, Progress& 
       progress_(progress),
       grid_(tile_grid(served.metadata())),
       uploads_(served, folder_),
+      windows_(served, uploads_, folder_, threads),
       jobs_(folder_) {}
 
 std::optional<HttpResponse> Routes::refusal(const HttpRequest& request) const {
@@ -103,6 +104,7 @@ HttpResponse Routes::get(const HttpRequest& request) {
   if (path == "/") return page_answer("index.html", false);
   if (const auto file = behind(path, "/page/")) return page_answer(*file, may_be_kept);
   if (const auto address = behind(path, "/tiles/")) return tile(*address, may_be_kept);
+  if (path == "/tin.glb") return {200, content_type_of(path), windows_.glb(request.query, progress_)};
   if (path == "/api/v1/info") return json_answer(served_info(served_, grid_));
   if (path == "/api/v1/openapi.json") return json_answer(openapi_document());
   if (path == "/api/v1/los") return json_answer(los_answer(served_, arguments_of(request.query)));

@@ -9,6 +9,7 @@
 #include "serve/served_store.hpp"
 #include "serve/server_folder.hpp"
 #include "serve/tile_grid.hpp"
+#include "serve/tin_windows.hpp"
 #include "serve/uploads.hpp"
 
 namespace itin::cli {
@@ -40,6 +41,7 @@ class Routes final : public HttpHandler {
   TileGrid grid_;
   ServerFolder folder_;
   Uploads uploads_;
+  TinWindows windows_;
   Jobs jobs_;
 };
 

@@ -15,6 +15,8 @@ const { addTurbine, commonSize, removeTurbine, resizeTurbines, rotorOf, takeLayo
 const { TIPS, HUBS, wantedOf } = await module("seen/viewers");
 const { placesIn, turbineTable } = await module("plan/tables");
 const { jobOptions } = await module("plan/job_options");
+const { extentFor, toleranceFor } = await module("relief/window");
+const { middleSeen } = await module("seen/middle_seen");
 
 const INFO = {
   bounds: { xmin: 300000, ymin: 170000, xmax: 340000, ymax: 210000 },
@@ -137,4 +139,26 @@ test("sites are moved by hand and put back", () => {
   assert.deepEqual(scene.state.plan.sites.map(isMoved), [false, false]);
   assert.equal(areaOf([0, 0, 4, 0, 4, 3]), 6);
   assert.equal(polygonText([0, 0, 4, 0, 4, 3]), "POLYGON ((0 0, 4 0, 4 3, 0 0))");
+});
+
+test("the 3-D view shows what lies about the masts, as closely as a browser can", () => {
+  const levels = [
+    { tolerance_m: 0, query_vertices: 640000 },
+    { tolerance_m: 1, query_vertices: 300000 },
+    { tolerance_m: 4, query_vertices: 90000 },
+  ];
+  const info = { ...INFO, levels };
+  assert.deepEqual(extentFor(info, [{ x: 305000, y: 190000 }], 10000, []), [300000, 180000, 315000, 200000]);
+  assert.deepEqual(extentFor(info, [], 10000, [320000, 180000, 350000, 190000]), [320000, 180000, 340000, 190000]);
+  assert.deepEqual(extentFor(info, [], NaN, [0, 0, 1, 1]), [300000, 170000, 340000, 210000]);
+  assert.equal(toleranceFor(info, [300000, 180000, 315000, 200000]), 0);
+  assert.equal(toleranceFor(info, [300000, 170000, 320000, 210000]), 1);
+  assert.equal(toleranceFor(info, [300000, 170000, 340000, 210000]), 4);
+});
+
+test("an eye looks to the middle of what it sees", () => {
+  const cells = new SeenCells({ seq: 1, cell_m: 10, column: 2, row: -9, columns: 4, rows: 3, kind: 0, ground_m: [] });
+  assert.equal(middleSeen(cells), null);
+  cells.codes[5] = cells.codes[7] = 1;
+  assert.deepEqual(middleSeen(cells), { x: 45, y: 75 });
 });

@@ -74,11 +74,12 @@ export async function serve(folder, store, port) {
   return { address, stop: () => (child.kill("SIGINT"), ended) };
 }
 
-const launchBrowser = () =>
+/** Starts Chromium; `drawing` are arguments that say how it draws. */
+export const launchBrowser = (drawing = ["--disable-gpu"]) =>
   puppeteer.launch({
     executablePath: process.env.ITIN_CHROMIUM ?? "/usr/bin/chromium",
     headless: true,
-    args: ["--no-sandbox", "--disable-gpu", "--force-device-scale-factor=1"],
+    args: ["--no-sandbox", "--force-device-scale-factor=1", ...drawing],
   });
 
 /** Opens an address, and notes errors of the page and requests to other places than the server. */

@@ -37,6 +37,7 @@ import { makeStatus } from "./panel/status.js";
 import { makePremisesSurvey } from "./plan/premises_survey.js";
 import { makeSearchForm } from "./plan/search_form.js";
 import { makeSiteChoice } from "./plan/site_choice.js";
+import { makeReliefPanel } from "./relief/relief_panel.js";
 import { makeTasksForm } from "./plan/tasks_form.js";
 import { makeTurbinePanel } from "./plan/turbine_panel.js";
 import { makeWireline, makeZoneFiles } from "./plan/zone_files.js";
@@ -111,6 +112,7 @@ async function start() {
   makeLinePanel(scene, connection, map, lines, dark);
   new MastList(scene, views, tiles);
   new Readout(scene, views, map, connection);
+  makeReliefPanel({ scene, views, map, info });
   makePlans({ scene, views, map, info, jobs: new Jobs(key) });
   keepAddress(scene);
   connection.connect();

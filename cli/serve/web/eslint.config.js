@@ -18,6 +18,7 @@ const browser = [
   "Path2D",
   "ResizeObserver",
   "HTMLElement",
+  "Image",
   "Option",
   "HTMLInputElement",
   "HTMLSelectElement",

@@ -221,6 +221,24 @@ TEST_F(ServeHttp, RefusesWhatTheCommandLineRefuses) {
   expect("/api/v1/profile?from=300200,171000&to=301800,171000&output=x.csv", "--output", "names a file");
 }
 
+TEST_F(ServeHttp, HasTrianglesOfTheCommandLine) {
+  const Answer window = ask(*server_, "/tin.glb?bbox=300500,170500,301500,171500&tolerance=1");
+  ASSERT_EQ(window.status, 200) << window.body;
+  EXPECT_EQ(window.headers.at("content-type"), "model/gltf-binary");
+  shell_.run("itin tin hill.itin --bbox 300500,170500,301500,171500 --tolerance 1 -o window.glb");
+  EXPECT_EQ(window.body, shell_.read("window.glb"));
+  const auto expect = [&](const std::string& query, const std::string& error) {
+    const Answer answer = ask(*server_, "/tin.glb?" + query);
+    EXPECT_EQ(answer.status, 400) << query;
+    EXPECT_NE(answer.json().at("error").get<std::string>().find(error), std::string::npos) << answer.body;
+  };
+  expect("", "--bbox: give xmin,ymin,xmax,ymax");
+  expect("bbox=1,2,3", "--bbox");
+  expect("bbox=300500,170500,301500,171500&tolerance=much", "--tolerance");
+  expect("bbox=300500,170500,301500,171500&output=/tmp/x.glb", "--output: give bbox, tolerance and themes alone");
+  expect("bbox=300500,170500,301500,171500&image=x.png", "--image: give");
+}
+
 TEST_F(ServeHttp, DescribesItself) {
   const Json api = ask(*server_, "/api/v1/openapi.json").json();
   EXPECT_EQ(api.at("openapi"), "3.1.0");

@@ -30,7 +30,7 @@ export class SeenCells {
     this.row = begun.row;
     this.columns = begun.columns;
     this.rows = begun.rows;
-    this.ground = begun.ground_m?.[0] ?? NaN;
+    this.grounds = begun.ground_m ?? [];
     this.counts = begun.kind === COUNTS;
     this.step = 9;
     this.verdicts = 0; // a bit for each verdict that has come

@@ -7,6 +7,7 @@
  * @property {{xmin: number, ymin: number, xmax: number, ymax: number}} bounds
  * @property {number | null} data_spacing_m
  * @property {{name: string, kind: string, features: number}[]} themes
+ * @property {{tolerance_m: number, query_vertices: number}[]} levels  The finest first.
  * @property {string[]} modes
  * @property {{origin: [number, number], size: number, border: number, resolutions: number[], themes: string[]}} tiles
  */
