@@ -103,10 +103,16 @@ HttpResponse Routes::get(const HttpRequest& request) {
   const bool may_be_kept = names_version(request.query);
   if (path == "/") return page_answer("index.html", false);
   if (const auto file = behind(path, "/page/")) return page_answer(*file, may_be_kept);
+  if (path == "/api/v1/openapi.json") return json_answer(openapi_document());
+  return get_of_store(request, may_be_kept);
+}
+
+HttpResponse Routes::get_of_store(const HttpRequest& request, bool may_be_kept) {
+  const std::string& path = request.path;
+  served_.require_unchanged();
   if (const auto address = behind(path, "/tiles/")) return tile(*address, may_be_kept);
   if (path == "/tin.glb") return {200, content_type_of(path), windows_.glb(request.query, progress_)};
   if (path == "/api/v1/info") return json_answer(served_info(served_, grid_));
-  if (path == "/api/v1/openapi.json") return json_answer(openapi_document());
   if (path == "/api/v1/los") return json_answer(los_answer(served_, arguments_of(request.query)));
   if (path == "/api/v1/profile") return json_answer(profile_answer(served_, arguments_of(request.query), progress_));
   return not_found(path);
@@ -133,6 +139,7 @@ HttpResponse Routes::remove_upload(const HttpRequest& request, const std::string
 }
 
 HttpResponse Routes::start_job(const HttpRequest& request) {
+  served_.require_unchanged();
   const Document asked = Document::parse(request.body, nullptr, false);
   const auto id = jobs_.start(job_call(served_, uploads_, asked, served_.memory_bytes() / 4, threads_));
   if (!id) return http_failure(429, "too many jobs wait; cancel one, or try again later");

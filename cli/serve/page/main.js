@@ -108,7 +108,7 @@ async function start() {
   makeOptionsForm(scene, info, views);
   makeLayersForm(scene, info);
   makeLegend(scene, views);
-  makeStatus(connection, views);
+  makeStatus(connection, views, tiles);
   makeLinePanel(scene, connection, map, lines, dark);
   new MastList(scene, views, tiles);
   new Readout(scene, views, map, connection);

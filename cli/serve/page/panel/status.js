@@ -13,12 +13,16 @@ const LINE_WORDS = {
   refused: "This address is of an earlier start of the server. Open the address that itin serve printed.",
 };
 
-/** @param {LiveConnection} connection @param {LiveViews} views */
-export function makeStatus(connection, views) {
+/** @param {LiveConnection} connection @param {LiveViews} views
+ * @param {import("../map/height_tiles.js").HeightTiles} tiles */
+export function makeStatus(connection, views, tiles) {
   const line = element("status");
-  let trouble = "";
+  let lost = "";
+  let ground = "";
   const show = () => {
     const found = views.all;
+    // An error that is about no option is about the store or the server.
+    const trouble = lost || found.find(({ error, field }) => error && !field)?.error || ground;
     const steps = found.filter((view) => view.cells && !view.done).map((view) => view.cells?.step ?? 1);
     const reading = found.some((view) => !view.cells && !view.error) ? "Reading the ground …" : "";
     line.textContent =
@@ -27,7 +31,11 @@ export function makeStatus(connection, views) {
     line.hidden = line.textContent === "";
   };
   connection.onState = (state) => {
-    trouble = LINE_WORDS[state];
+    lost = LINE_WORDS[state];
+    show();
+  };
+  tiles.onProblem = (problem) => {
+    ground = problem;
     show();
   };
   views.onChange(show);

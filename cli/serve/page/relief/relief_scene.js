@@ -176,7 +176,7 @@ export class ReliefScene {
     const { clientWidth: width, clientHeight: height } = this.box;
     if (width === 0 || height === 0) return;
     this.renderer.setSize(width, height);
-    Object.assign(this.#camera, { aspect: width / height, near: 0.5, far: 5 * this.#size });
+    Object.assign(this.#camera, { aspect: width / height, near: 0.05, far: 5 * this.#size });
     this.#camera.updateProjectionMatrix();
     this.draw();
   }
