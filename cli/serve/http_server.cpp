@@ -343,7 +343,7 @@ class Asker : public std::enable_shared_from_this<Asker> {
   beast::tcp_stream stream_;
   beast::flat_buffer buffer_;
   std::optional<http::request_parser<http::string_body>> parser_;
-  std::size_t most_bytes_ = kMostHttpBytes;  ///< of the body
+  std::size_t most_bytes_ = kMostHttpBytes;  ///< the longest body that is read
   HttpRequest request_;
   std::shared_ptr<const int> large_body_;
   http::response<http::string_body> answer_;
