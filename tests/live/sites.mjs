@@ -55,6 +55,10 @@ test("sites are chosen among places of a file; what each adds, and what a swap c
     rows,
     chosen.map(({ gain }) => `adds ${km2(gain)}`),
   );
+  assert.deepEqual(
+    await page.$$eval("#plan-sites .mast-name", (all) => all.map(({ textContent }) => textContent)),
+    chosen.map(({ id }) => id),
+  );
   await keepPicture(page, "sites");
   assert.deepEqual(await axeFindings(page), []);
 

@@ -3,7 +3,7 @@
 import { element } from "../panel/elements.js";
 import { areaText, countedText } from "../panel/words.js";
 import { roundUp } from "../state/first_state.js";
-import { areaOf } from "../state/plan.js";
+import { areaOf, haveHeights } from "../state/plan.js";
 import { drawArea } from "../map/search_layer.js";
 import { takeFiles } from "./tasks_form.js";
 
@@ -55,6 +55,7 @@ export function makeSearchForm(scene, map, jobs, info) {
     const proposed = search !== null && areaIn(search) > 0;
     element("search-said").textContent = searchText(search);
     element("spacing-field").hidden = !proposed;
+    element("height-field").hidden = haveHeights(search);
     if (proposed) spacing.value = String(usualSpacing(search));
   });
 }

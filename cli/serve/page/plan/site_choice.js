@@ -6,7 +6,7 @@ import { hueCss } from "../seen/palette.js";
 import { VISIBLE } from "../seen/seen_cells.js";
 import { sourcesOf } from "../seen/shown.js";
 import { tally } from "../seen/tally.js";
-import { MOST_SITES, isMoved, polygonText, putBack, selectSite, sitesOf } from "../state/plan.js";
+import { MOST_SITES, haveHeights, isMoved, polygonText, putBack, selectSite, sitesOf } from "../state/plan.js";
 import { MOST_MASTS } from "../state/scene.js";
 import { jobOptions } from "./job_options.js";
 import { JobRun } from "./job_run.js";
@@ -25,7 +25,9 @@ const field = (/** @type {string} */ id) => /** @type {HTMLInputElement} */ (ele
 function searchOptions(search) {
   const spacing = { spacing: field("site-spacing") };
   if ("ring" in search) return { "search-area": polygonText(search.ring), ...spacing };
-  return search.places.length > 0 ? { candidates: search.upload } : { "search-area": search.upload, ...spacing };
+  if (search.places.length === 0) return { "search-area": search.upload, ...spacing };
+  const named = search.places.every(({ name }) => name);
+  return { candidates: search.upload, ...(named ? { "name-field": "name" } : {}) };
 }
 
 /** @param {Scene} scene @returns {Promise<import("./job_run.js").Call>} */
@@ -35,13 +37,12 @@ async function siteCall({ state: { search, options } }) {
   if (!(Number.isInteger(count) && count >= 1 && count <= MOST_SITES)) {
     throw new Error(`The map shows from 1 to ${MOST_SITES} sites; the command line takes more.`);
   }
-  const heights = "places" in search && search.places.some((place) => "height_m" in place);
   return {
     verb: "site",
     options: {
       ...jobOptions("site", options),
       ...searchOptions(search),
-      ...(heights ? {} : { "mast-height": field("site-height") }),
+      ...(haveHeights(search) ? {} : { "mast-height": field("site-height") }),
       ...{ count: field("site-count"), output: SITES },
     },
     uploads: [],
@@ -105,15 +106,14 @@ function siteItem(scene, site, place, most) {
   const { result, selected } = /** @type {Plan} */ (scene.state.plan);
   const item = make("li");
   const button = make("button", "site");
-  const name = make("span", "mast-name", `${site.name}${isMoved(site) ? ", moved" : ""}`);
   button.type = "button";
   button.style.setProperty("--hue", hueCss(site.hue));
   button.style.setProperty("--share", String(most > 0 ? site.gain / most : 0));
   button.setAttribute("aria-pressed", String(site.id === selected));
   button.append(
     make("span", "dot", String(place + 1)),
-    name,
-    make("span", "site-gain", `adds ${areaText(site.gain * result.cell ** 2)}`),
+    make("span", "mast-name", site.name),
+    make("span", "site-gain", `${isMoved(site) ? "moved; added" : "adds"} ${areaText(site.gain * result.cell ** 2)}`),
     make("span", "site-bar"),
   );
   button.addEventListener("click", () => selectSite(scene, site.id));

@@ -11,7 +11,8 @@
  * @property {Place[]} candidates  Where else they may stand.
  * @property {{value: number, demand: number, gap: number, cell: number}} result
  */
-/** @typedef {{ring: number[]} | {file: string, upload: string, places: Place[], rings: number[][]}} Search
+/** @typedef {import("../server/api.js").UploadedPlace} UploadedPlace */
+/** @typedef {{ring: number[]} | {file: string, upload: string, places: UploadedPlace[], rings: number[][]}} Search
  *    An area that was drawn, [x0, y0, x1, y1, ...], or a file that was sent. */
 
 /** So many sites the page shows; the command line takes more. */
@@ -22,10 +23,14 @@ const FIRST_SITE = 32;
 /** @param {{id: string, x: number, y: number, height_m: number, gain: number}[]} chosen @returns {Site[]} */
 export function sitesOf(chosen) {
   return chosen.map(({ id, x, y, height_m, gain }, i) => ({
-    ...{ id: FIRST_SITE + i, hue: i, name: `Site ${id}`, x, y, height: height_m, gain },
+    ...{ id: FIRST_SITE + i, hue: i, name: /^\d+$/.test(id) ? `Site ${id}` : id, x, y, height: height_m, gain },
     chosen: { x, y },
   }));
 }
+
+/** Whether a file of candidates says how high masts are. @param {Search | null} search */
+export const haveHeights = (search) =>
+  search !== null && "places" in search && search.places.some(({ height_m }) => height_m !== undefined);
 
 /** @param {{chosen: Place, x: number, y: number}} site */
 export const isMoved = ({ chosen, x, y }) => chosen.x !== x || chosen.y !== y;
