@@ -111,11 +111,17 @@ HttpResponse Routes::get_of_store(const HttpRequest& request, bool may_be_kept) 
   const std::string& path = request.path;
   served_.require_unchanged();
   if (const auto address = behind(path, "/tiles/")) return tile(*address, may_be_kept);
-  if (path == "/tin.glb") return {200, content_type_of(path), windows_.glb(request.query, progress_)};
+  if (path == "/tin.glb") return window(request.query);
   if (path == "/api/v1/info") return json_answer(served_info(served_, grid_));
   if (path == "/api/v1/los") return json_answer(los_answer(served_, arguments_of(request.query)));
   if (path == "/api/v1/profile") return json_answer(profile_answer(served_, arguments_of(request.query), progress_));
   return not_found(path);
+}
+
+HttpResponse Routes::window(const HttpQuery& query) {
+  auto bytes = windows_.glb(query, progress_);
+  if (!bytes) return http_failure(429, "another window is being made; try again later");
+  return {200, content_type_of("window.glb"), std::move(*bytes), {cache_header(false)}};
 }
 
 HttpResponse Routes::tile(const std::string& path, bool may_be_kept) {

@@ -28,6 +28,7 @@ class Routes final : public HttpHandler {
   HttpResponse routed(const HttpRequest& request);
   HttpResponse get(const HttpRequest& request);
   HttpResponse get_of_store(const HttpRequest& request, bool may_be_kept);
+  HttpResponse window(const HttpQuery& query);
   HttpResponse tile(const std::string& path, bool may_be_kept);
   HttpResponse upload(const HttpRequest& request);
   HttpResponse remove_upload(const HttpRequest& request, const std::string& name);

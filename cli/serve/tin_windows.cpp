@@ -1,7 +1,6 @@
 #include "serve/tin_windows.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <fstream>
 #include <iterator>
 
@@ -23,7 +22,6 @@ namespace fs = std::filesystem;
 constexpr const char* kFile = "window.glb";
 constexpr int kWrongCall = 2;
 constexpr std::uint64_t kPartForChild = 8, kPartForBytes = 16;
-constexpr std::chrono::milliseconds kBetweenLocks{5};
 
 /// The call of `itin tin` that the query asks for.
 Document call_for(const HttpQuery& query) {
@@ -40,10 +38,10 @@ Document call_for(const HttpQuery& query) {
 
 }  // namespace
 
-std::string TinWindows::glb(const HttpQuery& query, const Progress& progress) {
+std::optional<std::string> TinWindows::glb(const HttpQuery& query, const Progress& progress) {
   const JobCall call = job_call(served_, uploads_, call_for(query), served_.memory_bytes() / kPartForChild, threads_);
-  std::unique_lock lock(one_, std::defer_lock);
-  while (!lock.try_lock_for(kBetweenLocks)) progress.throw_if_cancelled();
+  const std::unique_lock lock(one_, std::try_to_lock);
+  if (!lock) return std::nullopt;
   return made(call.arguments, progress);
 }
 

@@ -1,8 +1,11 @@
 // Triangles of a part of the store, for the 3-D view: what `itin tin` writes as glTF, made by a child of the server.
 #pragma once
 
+#include <cstdint>
 #include <mutex>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include <itin/progress.hpp>
 
@@ -20,9 +23,10 @@ class TinWindows {
   TinWindows(const ServedStore& served, const Uploads& uploads, ServerFolder& folder, int threads)
       : served_(served), uploads_(uploads), folder_(folder), threads_(threads) {}
 
-  /// Returns the bytes of a .glb file. The query has `bbox`, and may have `tolerance` and `themes`. Throws InputError
-  /// for another query, and where there are too many triangles; Error, Cancelled.
-  std::string glb(const HttpQuery& query, const Progress& progress);
+  /// Returns the bytes of a .glb file; nothing while another one is being made. The query has `bbox`, and may have
+  /// `tolerance` and `themes`. Throws InputError for another query, and where there are too many triangles; Error,
+  /// Cancelled.
+  std::optional<std::string> glb(const HttpQuery& query, const Progress& progress);
 
  private:
   std::string made(const std::vector<std::string>& arguments, const Progress& progress) const;
@@ -32,7 +36,7 @@ class TinWindows {
   const Uploads& uploads_;
   ServerFolder& folder_;
   int threads_;
-  std::timed_mutex one_;
+  std::mutex one_;
 };
 
 }  // namespace itin::cli

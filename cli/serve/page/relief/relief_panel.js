@@ -17,6 +17,11 @@ import { extentFor, toleranceFor } from "./window.js";
 /** @typedef {import("./relief_scene.js").Standing} Standing */
 /** @typedef {import("./window.js").Extent} Extent */
 
+// The server makes one window at a time.
+const BUSY = 429;
+const MOST_TRIES = 20;
+const BETWEEN_TRIES = 500;
+
 /** What stands on the ground: masts and sites, or turbines, as soon as their ground is known.
  * @param {Scene} scene @param {LiveViews} views @returns {Standing[]} */
 function standingOf({ state }, views) {
@@ -38,9 +43,13 @@ const groundOf = (views, id, place = 0) => views.of(id)?.begun?.grounds[place] ?
 async function loadTriangles(info, extent, { themes, tolerance }) {
   const query = new URLSearchParams({ bbox: extent.join(","), ...(themes ? { themes } : {}) });
   query.set("tolerance", tolerance ?? String(toleranceFor(info, extent)));
-  const answer = await fetch(`/tin.glb?${query}`);
-  if (answer.ok) return answer.arrayBuffer();
-  throw new Error((await answer.json().catch(() => null))?.error ?? `the server answered ${answer.status}`);
+  for (let tries = 0; ; ++tries) {
+    const answer = await fetch(`/tin.glb?${query}`);
+    if (answer.ok) return answer.arrayBuffer();
+    const problem = (await answer.json().catch(() => null))?.error ?? `the server answered ${answer.status}`;
+    if (answer.status !== BUSY || tries === MOST_TRIES) throw new Error(problem);
+    await new Promise((resume) => setTimeout(resume, BETWEEN_TRIES));
+  }
 }
 
 class ReliefPanel {
