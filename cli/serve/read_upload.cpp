@@ -34,9 +34,9 @@ constexpr bool kLimitsMemory = false;
 constexpr bool kLimitsMemory = true;
 #endif
 
-void limit(int resource, rlim_t most) {
+void limit(decltype(RLIMIT_CPU) resource, rlim_t most) {
   const rlimit both{most, most};
-  setrlimit(static_cast<__rlimit_resource>(resource), &both);
+  setrlimit(resource, &both);
 }
 
 Document place_document(const SiteRow& row) {
