@@ -105,7 +105,7 @@ JobCall job_call(const ServedStore& served, const Uploads& uploads, const Docume
   call.command = "itin " + command_line(call.arguments);
   if (memory != nullptr) call.arguments.push_back(fmt::format("--memory={}", memory_bytes));
   call.arguments.insert(call.arguments.end(), {fmt::format("--threads={}", threads), "--json", "--progress=lines"});
-  if (!call.uploads.empty()) call.arguments.push_back("--uploads");
+  if (!call.uploads.empty()) call.arguments.emplace_back("--uploads");
   return call;
 }
 
