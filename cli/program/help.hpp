@@ -15,6 +15,8 @@ inline constexpr const char* kRadio = "Radio";
 inline constexpr const char* kSurface = "Surface";
 inline constexpr const char* kEarth = "Curvature and refraction";
 inline constexpr const char* kRunning = "Running";
+/// What help does not show.
+inline constexpr const char* kHidden = "";
 
 /// Puts all options into this group that are declared from here on, until the next call. Groups are shown in the order
 /// of their first options.

@@ -82,7 +82,7 @@ Document option_document(const CLI::Option& option) {
 Document verb_document(const CLI::App& verb) {
   Document groups = Document::array();
   for (const std::string& group : verb.get_groups()) {
-    if (group.empty()) continue;  // what a verb only knows in order to refuse it
+    if (group == kHidden) continue;
     Document options = Document::array();
     for (const CLI::Option* option : verb.get_options([&](const CLI::Option* o) { return o->get_group() == group; }))
       options.push_back(option_document(*option));
@@ -95,7 +95,8 @@ Document verb_document(const CLI::App& verb) {
 
 Document help_document(const CLI::App& app) {
   Document verbs = Document::array();
-  for (const CLI::App* verb : app.get_subcommands({})) verbs.push_back(verb_document(*verb));
+  for (const CLI::App* verb : app.get_subcommands({}))
+    if (verb->get_group() != kHidden) verbs.push_back(verb_document(*verb));
   return {{"itin", ITIN_VERSION}, {"verbs", std::move(verbs)}};
 }
 

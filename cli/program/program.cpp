@@ -18,6 +18,7 @@
 
 #include <itin/document.hpp>
 #include <itin/error.hpp>
+#include <itin/gdal_ready.hpp>
 #include <itin/network.hpp>
 #include <itin/parallel.hpp>
 
@@ -44,6 +45,7 @@ struct Everywhere {
   bool json = false;
   bool quiet = false;
   bool network = false;
+  bool uploads = false;
   std::string threads, progress;
 
   void declare(CLI::App& app) {
@@ -59,12 +61,14 @@ struct Everywhere {
         ->type_name("N");
     app.add_flag("--allow-network", network,
                  "Let sources send the requests that they name; none leaves this machine else");
+    app.add_flag("--uploads", uploads, "Files were sent by strangers, to itin serve")->group(kHidden);
   }
   StderrProgress::Style style() const {
     return progress.empty() ? StderrProgress::style_for(quiet) : StderrProgress::Style::kJson;
   }
   void apply() const {
     if (network) allow_network();
+    if (uploads) read_tables_alone();
     if (!progress.empty()) parse_choice("--progress", progress, {"lines"});
     if (!progress.empty() && quiet) throw InputError("--progress and --quiet exclude each other; give one of them");
     if (!threads.empty()) set_thread_count(parse_whole("--threads", threads, 1, 4096));
@@ -85,13 +89,16 @@ std::vector<std::unique_ptr<Verb>> make_verbs() {
   verbs.push_back(make_site_verb());
   verbs.push_back(make_premises_verb());
   verbs.push_back(make_serve_verb());
+  verbs.push_back(make_read_upload_verb());
   return verbs;
 }
 
 /// Throws InputError for an unknown verb, which CLI11 would call an unexpected argument.
 void require_known_verb(const std::vector<std::string>& arguments, const std::vector<std::unique_ptr<Verb>>& verbs) {
   std::vector<std::string> names;
-  for (const auto& verb : verbs) names.push_back(verb->name());
+  for (const auto& verb : verbs)
+    if (!verb->is_internal() || (!arguments.empty() && arguments.front() == verb->name()))
+      names.push_back(verb->name());
   if (arguments.empty()) throw InputError(fmt::format("no verb given; the verbs are {}", fmt::join(names, ", ")));
   const std::string& first = arguments.front();
   const bool option = !first.empty() && first.front() == '-';
@@ -180,6 +187,7 @@ void parse_and_run(const std::vector<std::string>& arguments) {
   Everywhere everywhere;
   for (const auto& verb : verbs) {
     CLI::App* subcommand = app.add_subcommand(verb->name(), verb->summary());
+    if (verb->is_internal()) subcommand->group(kHidden);
     verb->declare(*subcommand);
     everywhere.declare(*subcommand);
     require_roles(*subcommand);

@@ -26,6 +26,8 @@ class Verb {
   virtual ~Verb() = default;
   virtual std::string name() const = 0;
   virtual std::string summary() const = 0;
+  /// Whether the program alone calls it, so that help and messages leave it out.
+  virtual bool is_internal() const { return false; }
   virtual void declare(CLI::App& app) = 0;
   /// Takes options that a file holds, as if they were given. Throws InputError, FileError.
   virtual void complete() {}
@@ -53,5 +55,6 @@ std::unique_ptr<Verb> make_los_verb();
 std::unique_ptr<Verb> make_site_verb();
 std::unique_ptr<Verb> make_premises_verb();
 std::unique_ptr<Verb> make_serve_verb();
+std::unique_ptr<Verb> make_read_upload_verb();
 
 }  // namespace itin::cli

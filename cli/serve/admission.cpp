@@ -8,6 +8,8 @@
 
 #include <fmt/format.h>
 
+#include "serve/uploads.hpp"
+
 namespace itin::cli {
 
 namespace {
@@ -78,7 +80,10 @@ std::optional<HttpResponse> Admission::refusal(const HttpRequest& request) const
     return http_failure(405, "the methods are GET, POST and DELETE");
   if (!is_same_key(request.key, key_))
     return http_failure(403, "give the key of the printed URL as the header X-Itin-Key");
-  if (request.method == "POST" && !is_json(request.content_type)) return http_failure(415, "send application/json");
+  if (request.method == "POST" && request.path != kUploadsPath && !is_json(request.content_type))
+    return http_failure(415, "send application/json");
+  if (request.method == "POST" && request.path == kUploadsPath && !upload_ending(request.content_type))
+    return http_failure(415, "send text/csv or application/geo+json");
   return std::nullopt;
 }
 

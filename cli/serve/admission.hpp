@@ -28,7 +28,7 @@ class Admission {
   /// The address of the page, by the first of the names, with the key.
   std::string url() const;
   /// The answer to a request that is not allowed: another Host, the Origin of another page, or a change without the key
-  /// or with a body that is no JSON.
+  /// or with a body that is no JSON, or for uploads no file of theirs: types that browsers send for no other page.
   std::optional<HttpResponse> refusal(const HttpRequest& request) const;
 
  private:

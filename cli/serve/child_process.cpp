@@ -6,6 +6,7 @@
 #include <cstring>
 #include <fcntl.h>
 #include <spawn.h>
+#include <string_view>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -20,6 +21,7 @@ namespace {
 
 constexpr const char* kThisProgram = "/proc/self/exe";
 constexpr int kLowerPriority = 10;
+constexpr std::string_view kErrorLine = "itin: error: ";
 constexpr int kFirstOtherFile = 3;  ///< behind standard input, output and error
 
 /// What the system does between the fork and the start of the program.
@@ -103,6 +105,10 @@ int ChildProcess::wait() {
   waitpid(process_, &status, 0);
   process_ = 0;
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
+std::optional<std::string> told_error(const std::string& line) {
+  return line.starts_with(kErrorLine) ? std::optional(line.substr(kErrorLine.size())) : std::nullopt;
 }
 
 void ChildProcess::terminate() {

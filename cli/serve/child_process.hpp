@@ -2,6 +2,7 @@
 #pragma once
 
 #include <mutex>
+#include <optional>
 #include <string>
 #include <sys/types.h>
 #include <vector>
@@ -31,5 +32,8 @@ class ChildProcess {
   int errors_ = -1;
   std::string read_;
 };
+
+/// The error that a line of the program's standard error tells, in its words; nothing for other lines.
+std::optional<std::string> told_error(const std::string& line);
 
 }  // namespace itin::cli

@@ -9,8 +9,8 @@
 
 namespace itin::cli {
 
-/// The longest header, body or message that is read, bytes.
-inline constexpr std::size_t kMostHttpBytes = 16384;
+/// The longest header, body or message that is read, bytes; and the longest body of an upload.
+inline constexpr std::size_t kMostHttpBytes = 16384, kMostUploadBytes = std::size_t{16} << 20;
 
 /// Names and values, decoded, in the order of the query.
 using HttpQuery = std::vector<std::pair<std::string, std::string>>;

@@ -36,7 +36,8 @@ constexpr std::size_t kMostConnections = 32;
 /// Connections from one other machine. Programs on this one share an address, and a browser alone has seven.
 constexpr std::size_t kMostFromOneAddress = 8;
 constexpr std::size_t kAnsweringThreads = 4;
-constexpr auto kTimeToAsk = 30s;
+constexpr auto kTimeToAsk = 30s, kTimeToUpload = 120s;
+constexpr int kMostLargeBodies = 2;
 constexpr auto kTimeToSayHello = 10s;
 /// How often the server looks whether it is to end, and how long clients have to hear that it does.
 constexpr auto kBetweenLooks = 50ms, kTimeToPart = 100ms;
@@ -75,13 +76,15 @@ struct Network {
   asio::thread_pool answering{kAnsweringThreads};
   std::set<Socket*> sockets;  ///< the WebSockets that are open
   Seats seats;
+  /// Whoever reads a large body has a copy, so that few do at once.
+  std::shared_ptr<const int> large_bodies = std::make_shared<const int>(0);
 };
 
 std::string header_of(const http::request<http::string_body>& request, http::field name) {
   return std::string(request[name]);
 }
 
-/// Nothing for a request that is malformed in a way that Beast lets pass.
+/// A request without its body. Nothing for one that is malformed in a way that Beast lets pass.
 std::optional<HttpRequest> understood(const http::request<http::string_body>& request) {
   const auto target = http_target({request.target().data(), request.target().size()});
   if (!target || !target->path.starts_with('/') || request.count(http::field::host) != 1) return std::nullopt;
@@ -92,7 +95,7 @@ std::optional<HttpRequest> understood(const http::request<http::string_body>& re
                      header_of(request, http::field::origin),
                      std::string(request["X-Itin-Key"]),
                      header_of(request, http::field::content_type),
-                     request.body()};
+                     {}};
 }
 
 struct Message {
@@ -239,11 +242,12 @@ class Asker : public std::enable_shared_from_this<Asker> {
   void read() {
     parser_.emplace();
     parser_->header_limit(kMostHttpBytes);
-    parser_->body_limit(kMostHttpBytes);
+    parser_->body_limit(kMostUploadBytes);
     stream_.expires_after(kTimeToAsk);
-    http::async_read(stream_, buffer_, *parser_, [self = shared_from_this()](beast::error_code error, std::size_t) {
-      error ? self->refuse(error) : self->take();
-    });
+    http::async_read_header(stream_, buffer_, *parser_,
+                            [self = shared_from_this()](beast::error_code error, std::size_t) {
+                              error ? self->refuse(error) : self->take_header();
+                            });
   }
 
  private:
@@ -251,26 +255,53 @@ class Asker : public std::enable_shared_from_this<Asker> {
   void refuse(beast::error_code error) {
     if (error == http::error::end_of_stream || error == http::error::partial_message) return part();
     if (error.category() != make_error_code(http::error::end_of_stream).category()) return;
-    if (error == http::error::body_limit)
-      return write(http_failure(413, fmt::format("a request has at most {} bytes", kMostHttpBytes)), false);
+    if (error == http::error::body_limit) return refuse_size(most_bytes_);
     if (error == http::error::header_limit)
       return write(http_failure(431, fmt::format("headers have at most {} bytes", kMostHttpBytes)), false);
     write(http_failure(400, "this is no request of HTTP"), false);
   }
 
-  void take() {
+  void refuse_size(std::size_t most) {
+    write(http_failure(413, fmt::format("a request has at most {} bytes", most)), false);
+  }
+
+  /// Refuses by the header what is to be refused, before the body is read.
+  void take_header() {
     const http::request<http::string_body>& asked = parser_->get();
-    const bool keep = asked.keep_alive() && seat_;
-    const std::optional<HttpRequest> request = understood(asked);
-    if (!request) return write(http_failure(400, "the request is malformed"), keep);
+    const bool keep = asked.keep_alive() && parser_->is_done();
+    auto request = understood(asked);
+    if (!request) return write(http_failure(400, "the request is malformed"), keep && seat_);
+    request_ = std::move(*request);
     if (!seat_) return write(http_failure(429, "too many connections; close another page, or wait"), false);
-    if (auto refusal = network_.handler->refusal(*request)) return write(std::move(*refusal), keep);
-    if (websocket::is_upgrade(asked)) return upgrade(request->path);
+    most_bytes_ = network_.handler->most_bytes(request_);
+    if (parser_->content_length().value_or(0) > most_bytes_) return refuse_size(most_bytes_);
+    if (auto refusal = network_.handler->refusal(request_)) return write(std::move(*refusal), keep);
+    if (websocket::is_upgrade(asked)) return upgrade(request_.path);
+    parser_->is_done() ? answer() : read_body();
+  }
+
+  void read_body() {
+    if (most_bytes_ > kMostHttpBytes) {
+      if (network_.large_bodies.use_count() > kMostLargeBodies)
+        return write(http_failure(429, "other uploads are under way; try again later"), false);
+      large_body_ = network_.large_bodies;
+      stream_.expires_after(kTimeToUpload);
+    }
+    parser_->body_limit(most_bytes_);
+    http::async_read(stream_, buffer_, *parser_, [self = shared_from_this()](beast::error_code error, std::size_t) {
+      error ? self->refuse(error) : self->answer();
+    });
+  }
+
+  void answer() {
+    request_.body = std::move(parser_->get().body());
     stream_.expires_never();
-    asio::post(network_.answering, [self = shared_from_this(), request = *request, keep]() mutable {
-      HttpResponse response = self->network_.handler->answer(request);
+    asio::post(network_.answering, [self = shared_from_this(), keep = parser_->get().keep_alive()]() mutable {
+      HttpResponse response = self->network_.handler->answer(self->request_);
       const auto executor = self->stream_.get_executor();
       asio::post(executor, [self = std::move(self), response = std::move(response), keep]() mutable {
+        self->request_ = {};
+        self->large_body_.reset();
         self->write(std::move(response), keep);
       });
     });
@@ -312,6 +343,9 @@ class Asker : public std::enable_shared_from_this<Asker> {
   beast::tcp_stream stream_;
   beast::flat_buffer buffer_;
   std::optional<http::request_parser<http::string_body>> parser_;
+  std::size_t most_bytes_ = kMostHttpBytes;  ///< the longest body that is read
+  HttpRequest request_;
+  std::shared_ptr<const int> large_body_;
   http::response<http::string_body> answer_;
   std::array<char, 4096> rest_{};
   std::size_t drained_ = 0;

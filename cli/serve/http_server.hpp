@@ -40,9 +40,11 @@ class LiveClient {
 class HttpHandler {
  public:
   virtual ~HttpHandler() = default;
-  /// Returns the answer to a request that is not to be answered; nothing for others. Called on the thread of the
-  /// network, for WebSockets, too.
+  /// Returns the answer to a request that is not to be answered, by its header alone; nothing for others. Called on the
+  /// thread of the network, for WebSockets, too.
   virtual std::optional<HttpResponse> refusal(const HttpRequest& request) const = 0;
+  /// How long the body of a request may be, on the thread of the network.
+  virtual std::size_t most_bytes(const HttpRequest& request) const = 0;
   /// Called on any thread, at the same time as others. Throws nothing.
   virtual HttpResponse answer(const HttpRequest& request) = 0;
   /// Opens a WebSocket. The client lives as long as the connection.

@@ -1,7 +1,6 @@
 #include "serve/jobs.hpp"
 
 #include <algorithm>
-#include <cstdlib>
 #include <fstream>
 #include <utility>
 
@@ -20,25 +19,25 @@ namespace fs = std::filesystem;
 constexpr std::size_t kMostWaiting = 2;
 constexpr std::size_t kMostEnded = 16;
 constexpr const char* kStateNames[] = {"queued", "running", "done", "failed", "cancelled"};
-constexpr std::string_view kErrorLine = "itin: error: ";
 
 std::string job_url(const std::string& id) {
   return "/api/v1/jobs/" + id;
 }
 
-/// The names of all files below a folder, relative to it.
-std::vector<std::string> files_below(const fs::path& folder) {
+/// The names of all files below a folder, relative to it, but for some.
+std::vector<std::string> files_below(const fs::path& folder, const std::vector<std::string>& but) {
   std::vector<std::string> names;
   std::error_code gone;
   for (fs::recursive_directory_iterator entry(folder, gone), end; !gone && entry != end; entry.increment(gone))
     if (entry->is_regular_file(gone)) names.push_back(fs::relative(entry->path(), folder, gone).generic_string());
+  std::erase_if(names, [&](const std::string& name) { return std::find(but.begin(), but.end(), name) != but.end(); });
   std::sort(names.begin(), names.end());
   return names;
 }
 
 }  // namespace
 
-Jobs::Jobs() : thread_([this] { work(); }) {}
+Jobs::Jobs(ServerFolder& folder) : folder_(folder), thread_([this] { work(); }) {}
 
 Jobs::~Jobs() {
   {
@@ -56,20 +55,26 @@ std::optional<std::string> Jobs::start(JobCall call) {
   const auto waiting =
       std::count_if(jobs_.begin(), jobs_.end(), [](const auto& job) { return job->state == State::queued; });
   if (static_cast<std::size_t>(waiting) >= kMostWaiting) return std::nullopt;
-  if (!folder_) make_folder();
   const auto job = std::make_shared<Job>(Job{random_key(), std::move(call)});
   std::error_code error;
   if (!fs::create_directory(folder_of(*job), error))
     throw FileError(folder_of(*job).string(), "cannot be made: " + error.message());
+  link_uploads(*job);
   jobs_.push_back(job);
   changed_.notify_all();
   return job->id;
 }
 
-void Jobs::make_folder() {
-  std::string pattern = (fs::temp_directory_path() / "itin-serve-XXXXXX").string();
-  if (mkdtemp(pattern.data()) == nullptr) throw FileError(pattern, "cannot be made; set TMPDIR to another folder");
-  folder_.emplace(pattern, Unfinished::Kind::folder);
+/// Puts the uploads that a call reads beside its outputs, where it finds them by the names that a person would type.
+/// They stay there whatever becomes of the uploads.
+void Jobs::link_uploads(const Job& job) const {
+  for (const std::string& name : job.call.uploads) {
+    std::error_code error;
+    fs::create_hard_link(folder_.path() / name, folder_of(job) / name, error);
+    if (!error) continue;
+    fs::remove_all(folder_of(job), error);
+    throw InputError(name + ": is no longer there; send it again");
+  }
 }
 
 std::optional<Document> Jobs::state(const std::string& id) const {
@@ -89,7 +94,7 @@ Document Jobs::files_of(const Job& job) const {
   Document files = Document::array();
   if (job.state != State::done) return files;
   std::error_code gone;
-  for (const std::string& name : files_below(folder_of(job)))
+  for (const std::string& name : files_below(folder_of(job), job.call.uploads))
     files.push_back(
         {{"name", name}, {"bytes", fs::file_size(folder_of(job) / name, gone)}, {"url", job_url(job.id) + "/" + name}});
   return files;
@@ -113,7 +118,7 @@ std::optional<fs::path> Jobs::file(const std::string& id, const std::string& nam
   const std::lock_guard lock(mutex_);
   const auto job = find(id);
   if (!job || job->state != State::done) return std::nullopt;
-  const std::vector<std::string> names = files_below(folder_of(*job));
+  const std::vector<std::string> names = files_below(folder_of(*job), job->call.uploads);
   if (std::find(names.begin(), names.end(), name) == names.end()) return std::nullopt;
   return folder_of(*job) / name;
 }
@@ -124,10 +129,10 @@ std::shared_ptr<Jobs::Job> Jobs::find(const std::string& id) const {
 }
 
 fs::path Jobs::folder_of(const Job& job) const {
-  return fs::path(folder_->path()) / job.id;
+  return folder_.path() / job.id;
 }
 fs::path Jobs::document_of(const Job& job) const {
-  return fs::path(folder_->path()) / (job.id + ".json");
+  return folder_.path() / (job.id + ".json");
 }
 
 void Jobs::remove_files(const Job& job) const {
@@ -175,7 +180,7 @@ void Jobs::run(Job& job) {
 /// Takes a line of progress, or the error that the program ends with.
 void Jobs::hear(Job& job, const std::string& line) {
   const std::lock_guard lock(mutex_);
-  if (line.starts_with(kErrorLine)) job.error = line.substr(kErrorLine.size());
+  if (const auto error = told_error(line)) job.error = *error;
   const Document progress = Document::parse(line, nullptr, false);
   if (progress.is_object()) job.progress.update(progress);
 }

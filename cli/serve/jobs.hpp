@@ -12,23 +12,25 @@
 #include <thread>
 
 #include <itin/document.hpp>
-#include <itin/unfinished.hpp>
 
 #include "serve/child_process.hpp"
 #include "serve/job_call.hpp"
+#include "serve/server_folder.hpp"
 
 namespace itin::cli {
 
 /// Safe for concurrent use.
 class Jobs {
  public:
-  Jobs();
+  /// `folder`, which must outlive the jobs, is where each has a folder.
+  explicit Jobs(ServerFolder& folder);
   /// Ends what runs, and removes all files.
   ~Jobs();
   Jobs(const Jobs&) = delete;
   Jobs& operator=(const Jobs&) = delete;
 
-  /// Returns the id of the job; nothing where too many wait. Throws FileError where there is no place for its files.
+  /// Returns the id of the job; nothing where too many wait. Throws FileError where there is no place for its files,
+  /// InputError where an upload is gone.
   std::optional<std::string> start(JobCall call);
   /// The document of a job as PROTOCOL.md describes it; nothing where there is none of this id.
   std::optional<Document> state(const std::string& id) const;
@@ -58,13 +60,13 @@ class Jobs {
   Document files_of(const Job& job) const;
   std::filesystem::path folder_of(const Job& job) const;
   std::filesystem::path document_of(const Job& job) const;
+  void link_uploads(const Job& job) const;
   void remove_files(const Job& job) const;
-  void make_folder();
 
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   std::list<std::shared_ptr<Job>> jobs_;  ///< the oldest first
-  std::optional<Unfinished> folder_;      ///< where all jobs have their folders
+  ServerFolder& folder_;
   bool ending_ = false;
   std::thread thread_;
 };

@@ -138,14 +138,19 @@ void LiveMap::stop(const LiveNumber& number) {
 void LiveMap::probe(const LiveNumber& number, const Document& message) {
   const Point2 position{number_member(message, "x"), number_member(message, "y")};
   asking_.put(kProbeKey, [this, number, position, options = options_of(number), to = connection_](LatestWork::Run&) {
-    answering(*to, "probe", number, [&] { send_answer(*to, "probe", number, probe_.answer(options, position)); });
+    answering(*to, "probe", number, [&] {
+      served_.require_unchanged();
+      send_answer(*to, "probe", number, probe_.answer(options, position));
+    });
   });
 }
 
 void LiveMap::line(const LiveNumber& number, const Document& message) {
   asking_.put(number.id, [this, number, options = options_member(message), to = connection_](LatestWork::Run&) {
-    answering(*to, "line", number,
-              [&] { send_answer(*to, "line", number, los_answer(served_, arguments_of(options))); });
+    answering(*to, "line", number, [&] {
+      served_.require_unchanged();
+      send_answer(*to, "line", number, los_answer(served_, arguments_of(options)));
+    });
   });
 }
 

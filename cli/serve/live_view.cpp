@@ -147,6 +147,7 @@ void take_view(const Document& options, ViewOptions& view) {
 void show_view(ServedStore& served, const LiveNumber& number, const Document& options, LiveConnection& to,
                LatestWork::Run& run) {
   const auto start = std::chrono::steady_clock::now();
+  served.require_unchanged();
   ViewOptions view;
   take_view(options, view);
   std::vector<std::string> warnings;
@@ -158,6 +159,7 @@ void show_view(ServedStore& served, const LiveNumber& number, const Document& op
   ShownCells shown(number, to, run);
   const viewshed::Result result =
       surface->views.compute(request, run, [&](const auto& decided, const auto& cells) { shown.add(decided, cells); });
+  served.require_unchanged();
   shown.finish(result);
   Document done = done_document(served, number, view, result, std::move(warnings), run);
   done["seconds"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

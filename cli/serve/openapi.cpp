@@ -66,21 +66,31 @@ Document get_operation(const GetPath& path) {
   return operation(path.summary, std::move(parameters), {{"200", answer_of(path.summary, path.type)}});
 }
 
+Document key_parameter() {
+  return parameter("header", "X-Itin-Key", "string");
+}
+
 Document start_operation() {
   Document start =
-      operation("Start a call of the program",
-                {{{"in", "header"}, {"name", "X-Itin-Key"}, {"required", true}, {"schema", {{"type", "string"}}}}},
-                {{"202", answer_of("The job's id and url", kJson)}});
+      operation("Start a call of the program", {key_parameter()}, {{"202", answer_of("The job's id and url", kJson)}});
   start["requestBody"] = {{"required", true},
                           {"content", {{kJson, {{"schema", {{"$ref", "#/components/schemas/Job"}}}}}}}};
   return start;
 }
 
-Document delete_operation(const char* path) {
+Document upload_operation() {
+  Document upload = operation("Send a file for jobs to read", {key_parameter()},
+                              {{"201", answer_of("The file's name here, and the places in it", kJson)}});
+  for (const char* type : {"text/csv", "application/geo+json"})
+    upload["requestBody"]["content"][type]["schema"] = {{"type", "string"}, {"format", "binary"}};
+  upload["requestBody"]["required"] = true;
+  return upload;
+}
+
+Document delete_operation(const char* path, const char* summary) {
   Document parameters = path_parameters(path);
-  parameters.push_back(parameter("header", "X-Itin-Key", "string"));
-  return operation("Cancel a job and remove its files", std::move(parameters),
-                   {{"200", answer_of("It is gone", kJson)}});
+  parameters.push_back(key_parameter());
+  return operation(summary, std::move(parameters), {{"200", answer_of("It is gone", kJson)}});
 }
 
 Document schemas() {
@@ -100,6 +110,7 @@ Document openapi_document() {
       {"/api/v1/info", "What the store holds", kJson, {}},
       {"/api/v1/los", "Whether two points see each other, and the profile between them", kJson, {"from", "to"}},
       {"/api/v1/profile", "The surface along a line", kJson, {"from", "to"}},
+      {"/tin.glb", "The triangulation of a window as glTF", "model/gltf-binary", {"bbox"}},
       {"/tiles/heights/{z}/{x}/{y}", "Heights of the ground as float32", "application/octet-stream", {}},
       {"/tiles/theme/{name}/{z}/{x}/{y}", "Outlines of a theme's buildings", kJson, {}},
       {"/api/v1/jobs/{id}", "How far a job is", kJson, {}},
@@ -107,7 +118,9 @@ Document openapi_document() {
   Document paths = Document::object();
   for (const GetPath& get : kGets) paths[get.path]["get"] = get_operation(get);
   paths["/api/v1/jobs"]["post"] = start_operation();
-  paths["/api/v1/jobs/{id}"]["delete"] = delete_operation("/api/v1/jobs/{id}");
+  paths["/api/v1/jobs/{id}"]["delete"] = delete_operation("/api/v1/jobs/{id}", "Cancel a job and remove its files");
+  paths["/api/v1/uploads"]["post"] = upload_operation();
+  paths["/api/v1/uploads/{name}"]["delete"] = delete_operation("/api/v1/uploads/{name}", "Remove a file that was sent");
   return {{"openapi", "3.1.0"},
           {"info", {{"title", "itin serve"}, {"version", ITIN_VERSION}}},
           {"paths", paths},

@@ -33,6 +33,7 @@ std::string content_type_of(const std::string& name) {
                                                             {".txt", "text/plain; charset=utf-8"},
                                                             {".wasm", "application/wasm"},
                                                             {".tif", "image/tiff"},
+                                                            {".glb", "model/gltf-binary"},
                                                             {".pdf", "application/pdf"},
                                                             {".gpkg", "application/geopackage+sqlite3"}};
   for (const auto& [ending, type] : kTypes)

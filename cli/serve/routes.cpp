@@ -54,12 +54,19 @@ Routes::Routes(ServedStore& served, Admission admission, int threads, Progress& 
       admission_(std::move(admission)),
       threads_(threads),
       progress_(progress),
-      grid_(tile_grid(served.metadata())) {}
+      grid_(tile_grid(served.metadata())),
+      uploads_(served, folder_),
+      windows_(served, uploads_, folder_, threads),
+      jobs_(folder_) {}
 
 std::optional<HttpResponse> Routes::refusal(const HttpRequest& request) const {
   auto refusal = admission_.refusal(request);
   if (refusal) refusal->headers = protective_headers();
   return refusal;
+}
+
+std::size_t Routes::most_bytes(const HttpRequest& request) const {
+  return request.path == kUploadsPath ? kMostUploadBytes : kMostHttpBytes;
 }
 
 std::unique_ptr<LiveClient> Routes::open(std::shared_ptr<LiveConnection> connection) {
@@ -84,6 +91,9 @@ HttpResponse Routes::routed(const HttpRequest& request) {
   if (request.path == kJobsPath)
     return request.method == "POST" ? start_job(request) : http_failure(405, "jobs are started by POST");
   if (const auto path = behind(request.path, std::string(kJobsPath) + "/")) return job(request, *path);
+  if (request.path == kUploadsPath)
+    return request.method == "POST" ? upload(request) : http_failure(405, "files are sent by POST");
+  if (const auto name = behind(request.path, std::string(kUploadsPath) + "/")) return remove_upload(request, *name);
   if (request.method != "GET") return http_failure(405, "this is for GET alone");
   return get(request);
 }
@@ -93,12 +103,25 @@ HttpResponse Routes::get(const HttpRequest& request) {
   const bool may_be_kept = names_version(request.query);
   if (path == "/") return page_answer("index.html", false);
   if (const auto file = behind(path, "/page/")) return page_answer(*file, may_be_kept);
-  if (const auto address = behind(path, "/tiles/")) return tile(*address, may_be_kept);
-  if (path == "/api/v1/info") return json_answer(served_info(served_, grid_));
   if (path == "/api/v1/openapi.json") return json_answer(openapi_document());
+  return get_of_store(request, may_be_kept);
+}
+
+HttpResponse Routes::get_of_store(const HttpRequest& request, bool may_be_kept) {
+  const std::string& path = request.path;
+  served_.require_unchanged();
+  if (const auto address = behind(path, "/tiles/")) return tile(*address, may_be_kept);
+  if (path == "/tin.glb") return window(request.query);
+  if (path == "/api/v1/info") return json_answer(served_info(served_, grid_));
   if (path == "/api/v1/los") return json_answer(los_answer(served_, arguments_of(request.query)));
   if (path == "/api/v1/profile") return json_answer(profile_answer(served_, arguments_of(request.query), progress_));
   return not_found(path);
+}
+
+HttpResponse Routes::window(const HttpQuery& query) {
+  auto bytes = windows_.glb(query, progress_);
+  if (!bytes) return http_failure(429, "another window is being made; try again later");
+  return {200, content_type_of("window.glb"), std::move(*bytes), {cache_header(false)}};
 }
 
 HttpResponse Routes::tile(const std::string& path, bool may_be_kept) {
@@ -112,9 +135,19 @@ HttpResponse Routes::tile(const std::string& path, bool may_be_kept) {
   return not_found("/tiles/" + path);
 }
 
+HttpResponse Routes::upload(const HttpRequest& request) {
+  return json_answer(uploads_.add(*upload_ending(request.content_type), request.body), 201);
+}
+
+HttpResponse Routes::remove_upload(const HttpRequest& request, const std::string& name) {
+  if (request.method != "DELETE") return http_failure(405, "an upload is removed by DELETE");
+  return uploads_.remove(name) ? json_answer(Document::object()) : not_found(request.path);
+}
+
 HttpResponse Routes::start_job(const HttpRequest& request) {
+  served_.require_unchanged();
   const Document asked = Document::parse(request.body, nullptr, false);
-  const auto id = jobs_.start(job_call(served_, asked, served_.memory_bytes() / 4, threads_));
+  const auto id = jobs_.start(job_call(served_, uploads_, asked, served_.memory_bytes() / 4, threads_));
   if (!id) return http_failure(429, "too many jobs wait; cancel one, or try again later");
   return json_answer({{"id", *id}, {"url", fmt::format("{}/{}", kJobsPath, *id)}}, 202);
 }

@@ -7,7 +7,10 @@
 #include "serve/http_server.hpp"
 #include "serve/jobs.hpp"
 #include "serve/served_store.hpp"
+#include "serve/server_folder.hpp"
 #include "serve/tile_grid.hpp"
+#include "serve/tin_windows.hpp"
+#include "serve/uploads.hpp"
 
 namespace itin::cli {
 
@@ -17,13 +20,18 @@ class Routes final : public HttpHandler {
   Routes(ServedStore& served, Admission admission, int threads, Progress& progress);
 
   std::optional<HttpResponse> refusal(const HttpRequest& request) const override;
+  std::size_t most_bytes(const HttpRequest& request) const override;
   HttpResponse answer(const HttpRequest& request) override;
   std::unique_ptr<LiveClient> open(std::shared_ptr<LiveConnection> connection) override;
 
  private:
   HttpResponse routed(const HttpRequest& request);
   HttpResponse get(const HttpRequest& request);
+  HttpResponse get_of_store(const HttpRequest& request, bool may_be_kept);
+  HttpResponse window(const HttpQuery& query);
   HttpResponse tile(const std::string& path, bool may_be_kept);
+  HttpResponse upload(const HttpRequest& request);
+  HttpResponse remove_upload(const HttpRequest& request, const std::string& name);
   HttpResponse start_job(const HttpRequest& request);
   HttpResponse job(const HttpRequest& request, const std::string& path);
   HttpResponse job_file(const std::string& id, const std::string& name) const;
@@ -33,6 +41,9 @@ class Routes final : public HttpHandler {
   int threads_;
   Progress& progress_;
   TileGrid grid_;
+  ServerFolder folder_;
+  Uploads uploads_;
+  TinWindows windows_;
   Jobs jobs_;
 };
 

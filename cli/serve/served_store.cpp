@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <itin/error.hpp>
 #include <itin/memory_shares.hpp>
 
 namespace itin::cli {
@@ -21,8 +22,9 @@ constexpr std::chrono::milliseconds kBetweenTries{5};
 
 std::string version_of(const std::string& path) {
   struct stat status {};
-  ::stat(path.c_str(), &status);
-  return fmt::format("{:x}-{:x}-{:x}", status.st_ino, status.st_size, status.st_mtim.tv_sec);
+  if (::stat(path.c_str(), &status) != 0) return {};
+  return fmt::format("{:x}-{:x}-{:x}.{:x}", status.st_ino, status.st_size, status.st_mtim.tv_sec,
+                     status.st_mtim.tv_nsec);
 }
 
 }  // namespace
@@ -45,6 +47,13 @@ std::uint64_t ServedStore::most_cells() const {
 
 ServedStore::ServedStore(const std::string& path, std::uint64_t memory_bytes)
     : store_(path, cache_within(memory_bytes)), memory_bytes_(memory_bytes), version_(version_of(path)) {}
+
+void ServedStore::require_unchanged() const {
+  const std::string version = version_of(store_.path());
+  if (version.empty()) throw FileError(store_.path(), "is no longer there; put it back, or serve another store");
+  if (version != version_)
+    throw FileError(store_.path(), "was changed or replaced since the server started; start itin serve again");
+}
 
 std::shared_ptr<ServedSurface> ServedStore::surface(const Detail& detail, const ThemeChoice& themes) {
   const std::string key = fmt::format("{} {}", detail.coarsest(), fmt::join(themes.names(metadata().themes), ","));

@@ -59,6 +59,9 @@ class ServedStore {
   CallPlace::Places& places() { return places_; }
   /// A text that is another one for another store, or for a store that has been replaced.
   const std::string& version() const { return version_; }
+  /// Throws FileError where the file is no longer the one that was opened, of which it is known only in part what it
+  /// held: no answer may come of two stores.
+  void require_unchanged() const;
 
   /// The surface at a tolerance with these themes. The two that were asked for last are kept. Throws InputError for
   /// themes that the store does not have.

@@ -28,8 +28,8 @@ std::string text_of(const std::string& key, const Document& value) {
 /// Tells whether an option belongs to the run itself, and does not only say where and how the run is written.
 bool is_parameter(const std::string& name) {
   for (const char* other :
-       {"help", "params", "output", "json", "quiet", "progress", "threads", "allow-network", "resume", "overwrite",
-        "memory", "engine", "sheets", "sheet-scale", "basemap", "project", "date"})
+       {"help", "params", "output", "json", "quiet", "progress", "uploads", "threads", "allow-network", "resume",
+        "overwrite", "memory", "engine", "sheets", "sheet-scale", "basemap", "project", "date"})
     if (name == other) return false;
   return true;
 }

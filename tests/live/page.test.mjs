@@ -2,9 +2,7 @@
 import { after, before } from "node:test";
 
 import "./lines.mjs";
-import "./looks.mjs";
 import "./masts.mjs";
-import "./results.mjs";
 import { startWorld, stopWorld } from "./served_map.mjs";
 
 before(startWorld);

@@ -19,9 +19,9 @@ export const observer = ({ x, y, h }) => `${x},${y},${h}`;
 
 export const pause = (milliseconds) => new Promise((resume) => setTimeout(resume, milliseconds));
 
-/** Waits until something holds, for five seconds at most. */
+/** Waits until something holds, for half a minute at most: the machine may be busy. */
 export async function until(holds, what) {
-  for (let tries = 0; tries < 50; ++tries) {
+  for (let tries = 0; tries < 300; ++tries) {
     if (await holds()) return;
     await pause(100);
   }
@@ -36,7 +36,15 @@ export const drawn = (page) =>
 export const settled = async (page) => (
   await drawn(page),
   page.waitForFunction(() => document.querySelector(".mast") && !document.querySelector(".mast.working"), {
-    timeout: 15000,
+    timeout: 30000,
+  })
+);
+
+/** Waits until nothing is asked of the server any more, whoever sees. */
+export const settledViews = async (page) => (
+  await drawn(page),
+  page.waitForFunction(() => document.querySelector("#status").hidden && !document.querySelector("#legend").hidden, {
+    timeout: 30000,
   })
 );
 

@@ -1,11 +1,23 @@
 // Tests of what outlives the page: its address, the command, files; and of a server that goes.
 import assert from "node:assert/strict";
-import { mkdirSync } from "node:fs";
+import { copyFileSync, mkdirSync, renameSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
 
-import { closed, downloaded, mastAt, pageWithMast, pause, setField, settled, text, value, MIDDLE } from "./planner.mjs";
-import { openPage, runLine, serve, world } from "./served_map.mjs";
+import {
+  closed,
+  downloaded,
+  mastAt,
+  pageWithMast,
+  pause,
+  setField,
+  settled,
+  text,
+  until,
+  value,
+  MIDDLE,
+} from "./planner.mjs";
+import { keepPicture, openPage, runLine, serve, world } from "./served_map.mjs";
 
 test("a reload from the address shows the same, and the key is not in it", async () => {
   const page = await pageWithMast();
@@ -79,6 +91,25 @@ test("the page says when the server has gone, and when another has come", async 
   await says("an earlier start");
   await page.close();
   await second.stop();
+});
+
+test("a store that is gone is told of in one line, and the map goes on when it is back", async () => {
+  const [store, away] = ["passing.itin", "away.itin"].map((name) => join(world.folder, name));
+  copyFileSync(join(world.folder, "hills.itin"), store);
+  const server = await serve(world.folder, "passing.itin");
+  const page = await pageWithMast(server);
+  renameSync(store, away);
+  await page.focus(".marker");
+  await page.keyboard.press("ArrowLeft");
+  const status = () => text(page, "#status");
+  await until(async () => /^passing\.itin: is no longer there/.test(await status()), "the page says so");
+  await keepPicture(page, "gone");
+  renameSync(away, store);
+  await page.keyboard.press("ArrowLeft");
+  await settled(page);
+  await until(() => page.$eval("#status", (line) => line.hidden), "the line goes");
+  await page.close();
+  await server.stop();
 });
 
 test("without the key the page says where to find it", async () => {

@@ -14,9 +14,14 @@ const program = process.env.ITIN_PROGRAM ?? new URL("../../build/test/bin/itin",
 const data = new URL("../../scripts/demo-data/", import.meta.url).pathname;
 const pictures = new URL("../../build/live/", import.meta.url).pathname;
 
-/** Runs the program with options that have no spaces, in a folder, and returns what it prints. */
+/** Runs the program in a folder, with a list of options or a line of some that have no spaces, and returns what it
+ * prints. */
 export const itin = (options, folder) =>
-  execFileSync(program, options.split(" "), { cwd: folder, encoding: "utf8", stdio: ["ignore", "pipe", "ignore"] });
+  execFileSync(program, Array.isArray(options) ? options : options.split(" "), {
+    cwd: folder,
+    encoding: "utf8",
+    stdio: ["ignore", "pipe", "ignore"],
+  });
 
 /** Runs a line that someone copied into a shell, in a folder, and returns the file that it writes. */
 export function runLine(line, folder, output) {
@@ -71,19 +76,21 @@ export async function serve(folder, store, port) {
     child.on("exit", () => reject(new Error(`itin serve ended: ${said}`)));
   });
   const ended = new Promise((resolve) => child.on("exit", resolve));
-  return { address, stop: () => (child.kill("SIGINT"), ended) };
+  return { address, pid: child.pid, stop: () => (child.kill("SIGINT"), ended) };
 }
 
-const launchBrowser = () =>
+/** Starts Chromium; `drawing` are arguments that say how it draws. */
+export const launchBrowser = (drawing = ["--disable-gpu"]) =>
   puppeteer.launch({
     executablePath: process.env.ITIN_CHROMIUM ?? "/usr/bin/chromium",
     headless: true,
-    args: ["--no-sandbox", "--disable-gpu", "--force-device-scale-factor=1"],
+    args: ["--no-sandbox", "--force-device-scale-factor=1", ...drawing],
   });
 
-/** Opens an address, and notes errors of the page and requests to other places than the server. */
-export async function openPage(browser, address, { width = 1200, height = 800, dark = false } = {}) {
+/** Opens an address, where `before` runs before the page's own modules, and notes errors of the page and requests to other places than the server. */
+export async function openPage(browser, address, { width = 1200, height = 800, dark = false, before } = {}) {
   const page = await browser.newPage();
+  if (before) await page.evaluateOnNewDocument(before);
   const origin = new URL(address).origin;
   const troubles = [];
   page.on("pageerror", (problem) => troubles.push(problem.message));

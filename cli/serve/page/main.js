@@ -1,6 +1,6 @@
 // The page of `itin serve`: puts its parts together.
 
-import { askInfo } from "./server/api.js";
+import { Jobs, askInfo } from "./server/api.js";
 import { LiveConnection } from "./server/live_connection.js";
 import { addressOf, readAddress } from "./state/address.js";
 import { firstState } from "./state/first_state.js";
@@ -13,8 +13,10 @@ import { HeightTiles } from "./map/height_tiles.js";
 import { LineLayer } from "./map/line_layer.js";
 import { makeMap, projectionOf } from "./map/map.js";
 import { takeClicks } from "./map/map_clicks.js";
-import { MastMarkers } from "./map/mast_markers.js";
 import { makeReliefLayer } from "./map/relief_layer.js";
+import { SearchLayer } from "./map/search_layer.js";
+import { makeMastMarkers, makeSiteMarkers, makeTurbineMarkers } from "./map/task_markers.js";
+import { makeViewpointMarker } from "./map/viewpoint_marker.js";
 import { makeTargetMarker } from "./map/target_marker.js";
 import { drawThemes } from "./map/theme_layer.js";
 import { VerdictLayer } from "./map/verdict_layer.js";
@@ -32,14 +34,38 @@ import { makeResults } from "./panel/results.js";
 import { makeSheet } from "./panel/sheet.js";
 import { makeShowForm } from "./panel/show_form.js";
 import { makeStatus } from "./panel/status.js";
+import { makePremisesSurvey } from "./plan/premises_survey.js";
+import { makeSearchForm } from "./plan/search_form.js";
+import { makeSiteChoice } from "./plan/site_choice.js";
+import { makeReliefPanel } from "./relief/relief_panel.js";
+import { makeTasksForm } from "./plan/tasks_form.js";
+import { makeTurbinePanel } from "./plan/turbine_panel.js";
+import { makeWireline, makeZoneFiles } from "./plan/zone_files.js";
 
 /** Keeps the address true to the scene, some time after the last change. @param {Scene} scene */
 function keepAddress(scene) {
   let waiting = 0;
-  scene.on(["masts", "selected", "show", "target", "options", "layers", "view"], () => {
+  const kept = /** @type {(keyof import("./state/scene.js").SceneState)[]} */ ([
+    ...["task", "masts", "selected", "show", "target", "options", "layers", "view"],
+    ...["turbines", "part", "viewpoint", "search"],
+  ]);
+  scene.on(kept, () => {
     clearTimeout(waiting);
     waiting = setTimeout(() => history.replaceState(null, "", `#${addressOf(scene.state)}`), 150);
   });
+}
+
+/** What the server writes for the planner.
+ * @param {{scene: Scene, views: LiveViews, map: import("./vendor/ol.js").OlMap, info: import("./server/api.js").Info,
+ *   jobs: Jobs}} world */
+function makePlans({ scene, views, map, info, jobs }) {
+  makeResults(scene, views, jobs);
+  makeTurbinePanel(scene, views, jobs, map);
+  makeZoneFiles(scene, jobs);
+  makeWireline(scene, jobs, map);
+  makeSearchForm(scene, map, jobs, info);
+  makeSiteChoice(scene, views, jobs);
+  makePremisesSurvey(scene, jobs);
 }
 
 async function start() {
@@ -63,25 +89,31 @@ async function start() {
   map.addLayer(new ContourLayer(scene, tiles, dark));
   map.addLayer(verdicts);
   drawThemes(map, info, scene);
+  map.addLayer(new SearchLayer(scene));
   map.addLayer(lines);
   views.onChange(showVerdicts);
-  scene.on(["show", "selected"], showVerdicts);
+  scene.on(["show", "selected", "task", "part", "plan"], showVerdicts);
 
-  const markers = new MastMarkers(map, scene);
+  const masts = makeMastMarkers(map, scene);
+  const turbines = makeTurbineMarkers(map, scene);
+  makeSiteMarkers(map, scene);
   makeTargetMarker(map, scene);
+  makeViewpointMarker(map, scene);
   makeSheet();
+  makeTasksForm(scene, info);
   makeShowForm(scene);
-  takeClicks(scene, map, (id) => markers.focus(id));
+  takeClicks(scene, map, masts, turbines);
   makeHint(scene);
   makePlaceForm(scene, map);
   makeOptionsForm(scene, info, views);
   makeLayersForm(scene, info);
   makeLegend(scene, views);
-  makeResults(scene, views, key);
-  makeStatus(scene, connection, views);
+  makeStatus(connection, views, tiles);
   makeLinePanel(scene, connection, map, lines, dark);
   new MastList(scene, views, tiles);
   new Readout(scene, views, map, connection);
+  makeReliefPanel({ scene, views, map, info });
+  makePlans({ scene, views, map, info, jobs: new Jobs(key) });
   keepAddress(scene);
   connection.connect();
 }

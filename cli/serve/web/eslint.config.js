@@ -14,9 +14,11 @@ const browser = [
   "URLSearchParams",
   "WebSocket",
   "ImageData",
+  "Blob",
   "Path2D",
   "ResizeObserver",
   "HTMLElement",
+  "Image",
   "Option",
   "HTMLInputElement",
   "HTMLSelectElement",
@@ -30,6 +32,8 @@ const browser = [
   "KeyboardEvent",
   "EventTarget",
   "AbortController",
+  "MessageChannel",
+  "addEventListener",
   "requestAnimationFrame",
   "devicePixelRatio",
   "setTimeout",
@@ -63,5 +67,8 @@ export default [
   },
   { files: ["cli/serve/page/**/*.js"], languageOptions: { globals: globals(browser) } },
   // What a test evaluates runs in the page.
-  { files: ["tests/live/*.mjs", "cli/serve/web/*.js"], languageOptions: { globals: globals([...node, ...browser]) } },
+  {
+    files: ["tests/live/*.mjs", "benchmarks/live/*.mjs", "cli/serve/web/*.js"],
+    languageOptions: { globals: globals([...node, ...browser]) },
+  },
 ];

@@ -1,5 +1,6 @@
 #include "gdal/drivers.hpp"
 
+#include <atomic>
 #include <mutex>
 
 #include <gdal_frmts.h>
@@ -13,6 +14,10 @@
 namespace itin {
 
 namespace {
+
+/// The drivers that may open files; null: all.
+constexpr const char* kTableDrivers[] = {"CSV", "GeoJSON", nullptr};
+std::atomic<const char* const*> reading_drivers = nullptr;
 
 /// Registers drivers, one thread at a time: two at once destroy GDAL's tables.
 void register_once(std::once_flag& done, void (*drivers)()) {
@@ -55,15 +60,17 @@ void open_layers(GDALDataset& dataset) {
 
 GDALDatasetUniquePtr open_dataset(const std::string& path, unsigned kinds, const char* const* options) {
   return found_by_drivers(path, [&] {
-    GDALDatasetUniquePtr dataset(GDALDataset::Open(path.c_str(), kinds | GDAL_OF_READONLY, nullptr, options, nullptr));
+    GDALDatasetUniquePtr dataset(
+        GDALDataset::Open(path.c_str(), kinds | GDAL_OF_READONLY, reading_drivers, options, nullptr));
     if (dataset) open_layers(*dataset);
     return dataset;
   });
 }
 
 GDALDriver* driver_of(const std::string& path, unsigned kinds) {
-  return found_by_drivers(
-      path, [&] { return static_cast<GDALDriver*>(GDALIdentifyDriverEx(path.c_str(), kinds, nullptr, nullptr)); });
+  return found_by_drivers(path, [&] {
+    return static_cast<GDALDriver*>(GDALIdentifyDriverEx(path.c_str(), kinds, reading_drivers, nullptr));
+  });
 }
 
 void make_gdal_ready() {
@@ -75,6 +82,10 @@ void make_gdal_ready() {
     RegisterOGRGeoPackage();
     RegisterOGRMEM();
   });
+}
+
+void read_tables_alone() {
+  reading_drivers = kTableDrivers;
 }
 
 GDALDriver* written_driver(const char* name) {

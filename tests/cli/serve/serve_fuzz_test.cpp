@@ -54,7 +54,9 @@ TEST_F(ServeFuzz, LivesOnAfterDamagedRequests) {
       "GET /live" + rest + "Connection: Upgrade\r\nUpgrade: websocket\r\nSec-WebSocket-Version: 13\r\n\r\n",
       "GET /api/v1/jobs/0123/../../x" + rest + "\r\n",
       "POST /api/v1/jobs" + rest + key +
-          "Content-Type: application/json\r\nContent-Length: " + std::to_string(job.size()) + "\r\n\r\n" + job};
+          "Content-Type: application/json\r\nContent-Length: " + std::to_string(job.size()) + "\r\n\r\n" + job,
+      "POST /api/v1/uploads" + rest + key +
+          "Content-Type: text/csv\r\nContent-Length: 22\r\n\r\nx,y\n301000,171000\n1,2\n"};
   for (int i = 0; i < 300; ++i) {
     ClientSocket socket(server_->port());
     socket.send(damaged(requests[below(requests.size())]));

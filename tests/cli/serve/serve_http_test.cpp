@@ -85,6 +85,7 @@ TEST_F(ServeHttp, ChangesNothingWithoutTheKey) {
 
 TEST_F(ServeHttp, LivesOnAfterWhatIsNoRequest) {
   const std::string host = "Host: " + server_->host() + "\r\n";
+  const std::string key = "X-Itin-Key: " + server_->key() + "\r\nContent-Type: application/json\r\n";
   const std::pair<std::string, int> requests[] = {
       {"\r\n\r\n\x01\x02\x03 what\r\n\r\n", 400},
       {"GET\r\n\r\n", 400},
@@ -97,7 +98,8 @@ TEST_F(ServeHttp, LivesOnAfterWhatIsNoRequest) {
       {"GET / HTTP/1.1\r\nX: " + std::string(20000, 'x') + "\r\n\r\n", 431},
       {"POST /api/v1/jobs HTTP/1.1\r\n" + host + "Content-Length: 20000\r\n\r\n", 413},
       {"POST /api/v1/jobs HTTP/1.1\r\n" + host + "Content-Length: -1\r\n\r\n", 400},
-      {"POST /api/v1/jobs HTTP/1.1\r\n" + host + "Transfer-Encoding: chunked\r\n\r\nzz\r\n", 400}};
+      {"POST /api/v1/jobs HTTP/1.1\r\n" + host + key + "Transfer-Encoding: chunked\r\n\r\nzz\r\n", 400},
+      {"POST /api/v1/jobs HTTP/1.1\r\n" + host + "Content-Length: 10000\r\n\r\n", 403}};
   for (const auto& [request, status] : requests) {
     ClientSocket socket(server_->port());
     socket.send(request);
@@ -219,6 +221,24 @@ TEST_F(ServeHttp, RefusesWhatTheCommandLineRefuses) {
   expect("/api/v1/profile?from=300200,171000&to=301800,171000&output=x.csv", "--output", "names a file");
 }
 
+TEST_F(ServeHttp, HasTrianglesOfTheCommandLine) {
+  const Answer window = ask(*server_, "/tin.glb?bbox=300500,170500,301500,171500&tolerance=1");
+  ASSERT_EQ(window.status, 200) << window.body;
+  EXPECT_EQ(window.headers.at("content-type"), "model/gltf-binary");
+  shell_.run("itin tin hill.itin --bbox 300500,170500,301500,171500 --tolerance 1 -o window.glb");
+  EXPECT_EQ(window.body, shell_.read("window.glb"));
+  const auto expect = [&](const std::string& query, const std::string& error) {
+    const Answer answer = ask(*server_, "/tin.glb?" + query);
+    EXPECT_EQ(answer.status, 400) << query;
+    EXPECT_NE(answer.json().at("error").get<std::string>().find(error), std::string::npos) << answer.body;
+  };
+  expect("", "--bbox: give xmin,ymin,xmax,ymax");
+  expect("bbox=1,2,3", "--bbox");
+  expect("bbox=300500,170500,301500,171500&tolerance=much", "--tolerance");
+  expect("bbox=300500,170500,301500,171500&output=/tmp/x.glb", "--output: give bbox, tolerance and themes alone");
+  expect("bbox=300500,170500,301500,171500&image=x.png", "--image: give");
+}
+
 TEST_F(ServeHttp, DescribesItself) {
   const Json api = ask(*server_, "/api/v1/openapi.json").json();
   EXPECT_EQ(api.at("openapi"), "3.1.0");
@@ -227,6 +247,7 @@ TEST_F(ServeHttp, DescribesItself) {
     EXPECT_NE(ask(*server_, path).status, 404) << path;
   }
   EXPECT_TRUE(api.at("paths").at("/api/v1/jobs").contains("post"));
+  EXPECT_TRUE(api.at("paths").at("/api/v1/uploads").contains("post"));
 }
 
 TEST_F(ServeHttp, OutlinesBuildings) {

@@ -3,12 +3,12 @@
 import { ProfileChart } from "./profile_chart.js";
 import { lineFacts, verdictWords } from "./line_words.js";
 import { followSightLine } from "./sight_line.js";
+import { keepingPlace } from "../map/keeping_place.js";
 import { element, make } from "../panel/elements.js";
 
 /** @typedef {import("../state/scene.js").Scene} Scene */
 
 const NEAR_PIXELS = 14;
-const MARGIN_PIXELS = 24;
 
 /** How far along a line a place lies, and how far beside it. @param {{x: number, y: number}} from
  * @param {{x: number, y: number}} to @param {number[]} place */
@@ -39,7 +39,7 @@ export function makeLinePanel(scene, connection, map, layer, dark) {
     () => (panel.ariaBusy = "true"),
     (line, error, newest) => {
       panel.ariaBusy = String(!newest);
-      keepingPlace(map, scene, () => (panel.hidden = line === null && error === ""));
+      keepingPlace(map, scene.farEnd, () => (panel.hidden = line === null && error === ""));
       length = line?.distance_m ?? 0;
       verdict.textContent = line
         ? `${[scene.mast?.name, scene.farEnd?.name].filter(Boolean).join(" to ")}: ${verdictWords(line).replace(/^./, (letter) => letter.toLowerCase())}`
@@ -58,23 +58,6 @@ export function makeLinePanel(scene, connection, map, layer, dark) {
     const near = share >= 0 && share <= 1 && beside < NEAR_PIXELS * (map.getView().getResolution() ?? 1);
     chart.point(near ? share * length : null);
   });
-}
-
-/** Lets the map change its height without moving what it shows, but where that would hide the target.
- * @param {import("../vendor/ol.js").OlMap} map @param {Scene} scene @param {() => void} change */
-function keepingPlace(map, scene, change) {
-  const before = map.getSize()?.[1] ?? 0;
-  const view = map.getView();
-  const end = scene.farEnd;
-  change();
-  map.updateSize();
-  const height = map.getSize()?.[1] ?? before;
-  const centre = view.getCenter();
-  const resolution = view.getResolution();
-  if (height === before || !centre || !resolution) return;
-  const north = centre[1] + ((before - height) / 2) * resolution;
-  const lowest = north - (height / 2 - MARGIN_PIXELS) * resolution;
-  view.setCenter([centre[0], end && end.y < lowest ? north - (lowest - end.y) : north]);
 }
 
 /** @param {[string, string]} fact */

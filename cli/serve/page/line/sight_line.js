@@ -1,6 +1,6 @@
 // The line of sight from the mast selected to the target: asked for anew as either moves.
 
-import { observerOf } from "../seen/live_views.js";
+import { observerOf } from "../seen/viewers.js";
 
 /** @typedef {import("../state/scene.js").Scene} Scene */
 /** @typedef {import("../server/live_connection.js").LiveConnection} LiveConnection */
@@ -81,5 +81,5 @@ export function followSightLine(scene, connection, asks, take) {
   });
   connection.on("line", (message) => asked !== "null" && take(/** @type {any} */ (message), "", message.seq === seq));
   connection.on("error", (message) => message.of === "line" && message.seq === seq && take(null, message.error, true));
-  scene.on(["masts", "selected", "target", "options"], ask);
+  scene.on(["masts", "selected", "target", "options", "task"], ask);
 }

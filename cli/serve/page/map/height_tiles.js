@@ -1,5 +1,7 @@
 // Tiles of the ground's heights, as the server sends them and kept for a while.
 
+import { messageOf } from "../panel/words.js";
+
 /** @typedef {import("../server/api.js").Info} Info */
 /**
  * @typedef {{heights: Float32Array, width: number}} HeightTile  Rows from the north-west, with a border of pixels
@@ -11,6 +13,8 @@ const MOST_TILES = 400;
 export class HeightTiles {
   /** @type {Map<string, Promise<HeightTile | null>>} */
   #tiles = new Map();
+  /** @type {(problem: string) => void}  Gets what is wrong with the ground, or nothing once it is there. */
+  onProblem = () => {};
 
   /** @param {Info} info */
   constructor(info) {
@@ -35,10 +39,12 @@ export class HeightTiles {
     try {
       const answer = await fetch(`/tiles/heights/${name}?v=${encodeURIComponent(this.info.version)}`);
       if (answer.status === 204) return null;
-      if (!answer.ok) throw new Error(`the server answered ${answer.status} for heights ${name}`);
+      if (!answer.ok) throw new Error((await answer.json()).error);
+      this.onProblem("");
       return { heights: new Float32Array(await answer.arrayBuffer()), width: this.size + 2 * this.border };
     } catch (problem) {
       this.#tiles.delete(name);
+      this.onProblem(messageOf(problem));
       throw problem;
     }
   }

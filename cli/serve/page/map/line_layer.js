@@ -3,6 +3,7 @@
 
 import { Circle, Feature, Fill, LineString, Stroke, Style, VectorLayer, VectorSource } from "../vendor/ol.js";
 import { hueCss } from "../seen/palette.js";
+import { viewerOf, viewersOf } from "../seen/viewers.js";
 
 /** @typedef {import("../state/scene.js").Scene} Scene */
 /** @typedef {import("../state/scene.js").Place} Place */
@@ -28,7 +29,7 @@ export class LineLayer extends VectorLayer {
           zIndex: 2,
         }),
     );
-    scene.on(["masts", "selected", "target", "options"], () => this.#draw(scene));
+    scene.on(["masts", "selected", "target", "options", "task", "plan"], () => this.#draw(scene));
   }
 
   /** Marks a place, or none. @param {Place | null} place */
@@ -39,7 +40,9 @@ export class LineLayer extends VectorLayer {
 
   /** @param {Scene} scene */
   #draw(scene) {
-    const { masts, selected, options } = scene.state;
+    const { options } = scene.state;
+    const masts = viewersOf(scene.state);
+    const chosen = viewerOf(scene.state);
     const end = scene.farEnd;
     const source = /** @type {VectorSource} */ (this.getSource());
     source.clear(true);
@@ -49,7 +52,7 @@ export class LineLayer extends VectorLayer {
       const circle = new Feature(new Circle(at(mast), radius));
       circle.setStyle(
         new Style({
-          stroke: new Stroke({ color: hueCss(mast.hue), width: mast.id === selected ? 2 : 1, lineDash: [6, 5] }),
+          stroke: new Stroke({ color: hueCss(mast.hue), width: mast === chosen ? 2 : 1, lineDash: [6, 5] }),
         }),
       );
       source.addFeature(circle);

@@ -1,31 +1,61 @@
 // What clicks and keys on the map itself do.
 
 import { roundedPlace } from "./dragging.js";
+import { candidateAt } from "./search_layer.js";
 import { element } from "../panel/elements.js";
+import { moveSite } from "../state/plan.js";
+import { addTurbine } from "../state/turbines.js";
 
 /** @typedef {import("../state/scene.js").Scene} Scene */
+/** @typedef {import("../state/scene.js").Place} Place */
 /** @typedef {import("../vendor/ol.js").OlMap} OlMap */
+/** @typedef {import("./markers.js").Markers} Markers */
 
-/** Clicks place masts, or the far end of the line of sight; Enter on the map takes its middle, Escape gives up.
- * @param {Scene} scene @param {OlMap} map @param {(id: number) => void} focusMast */
-export function takeClicks(scene, map, focusMast) {
-  const cell = () => Number(scene.state.options.cell) || 1;
-  const add = (/** @type {number[]} */ [x, y]) => {
-    scene.addMast(roundedPlace({ x, y }, cell()));
-    if (scene.state.selected !== null) focusMast(scene.state.selected);
-  };
-  map.on("click", ({ coordinate: [x, y] }) => {
-    if (scene.state.placing || !scene.mast) add([x, y]);
-    else scene.change({ target: roundedPlace({ x, y }, cell()) });
-  });
+/** Adds what the task is about. @param {Scene} scene @param {Markers} masts @param {Markers} turbines
+ * @param {Place} place */
+function add(scene, masts, turbines, place) {
+  const { task } = scene.state;
+  if (task === "turbines") {
+    addTurbine(scene, place);
+    turbines.focus(scene.state.turbine ?? -1);
+  } else if (task !== "sites") {
+    scene.addMast(place);
+    masts.focus(scene.state.selected ?? -1);
+  }
+}
+
+/** @param {Scene} scene @param {OlMap} map @param {number[]} coordinate @param {(place: Place) => void} addHere */
+function click(scene, map, coordinate, addHere) {
+  const { task, placing, turbines, plan, options } = scene.state;
+  const place = roundedPlace({ x: coordinate[0], y: coordinate[1] }, Number(options.cell) || 1);
+  if (task === "sites") {
+    const candidate = candidateAt(scene, map, coordinate);
+    if (plan && candidate) moveSite(scene, plan.selected, candidate);
+  } else if (placing || (task === "turbines" ? turbines.length === 0 : !scene.mast)) {
+    addHere(place);
+  } else {
+    scene.change(task === "turbines" ? { viewpoint: place } : { target: place });
+  }
+}
+
+/** Clicks place masts and turbines, or the far end of a line of sight or a wireline, or take a candidate; Enter on the
+ * map takes its middle, Escape gives up.
+ * @param {Scene} scene @param {OlMap} map @param {Markers} masts @param {Markers} turbines */
+export function takeClicks(scene, map, masts, turbines) {
+  const addHere = (/** @type {Place} */ place) => add(scene, masts, turbines, place);
+  const rounded = (/** @type {number[]} */ [x, y]) => roundedPlace({ x, y }, Number(scene.state.options.cell) || 1);
+  map.on("click", ({ coordinate }) => click(scene, map, coordinate, addHere));
   map.getViewport().addEventListener("contextmenu", (event) => {
     event.preventDefault();
-    add(map.getEventCoordinate(event));
+    addHere(rounded(map.getEventCoordinate(event)));
   });
   element("map").addEventListener("keydown", (event) => {
-    if (event.key === "Enter" && event.target === element("map")) add(map.getView().getCenter() ?? [0, 0]);
+    if (event.key === "Enter" && event.target === element("map")) {
+      addHere(rounded(map.getView().getCenter() ?? [0, 0]));
+    }
   });
   document.addEventListener("keydown", (event) => {
-    if (event.key === "Escape") scene.change(scene.state.placing ? { placing: false } : { target: null });
+    if (event.key !== "Escape") return;
+    scene.change(scene.state.placing ? { placing: false } : { target: null, viewpoint: null });
   });
 }

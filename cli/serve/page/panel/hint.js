@@ -1,17 +1,26 @@
-// What to do first, over the map: until there is a mast, and then until a line of sight or a second mast shows that the
-// planner has found out.
+// What to do first, over the map: until there is a mast or a turbine, and then until a line of sight, a wireline or a
+// second one shows that the planner has found out.
 
 import { element } from "./elements.js";
 
-/** @param {import("../state/scene.js").Scene} scene */
+/** @typedef {import("../state/scene.js").Scene} Scene */
+
+/** What stands on the map, what a click there does once something does, and whether it has. @param {Scene} scene */
+function ofTask({ state: { task, masts, turbines, target, viewpoint } }) {
+  return task === "turbines"
+    ? { what: "turbine", next: "for a wireline", count: turbines.length, done: viewpoint !== null }
+    : { what: "mast", next: "for a line of sight", count: masts.length, done: target !== null };
+}
+
+/** @param {Scene} scene */
 export function makeHint(scene) {
   const hint = element("hint");
-  let known = scene.state.masts.length > 0;
-  scene.on(["placing", "masts", "target"], () => {
-    const { placing, masts, target } = scene.state;
-    known ||= target !== null || masts.length > 1;
-    const first = placing || masts.length === 0;
-    hint.textContent = first ? "Click the map to place a mast" : "Drag the mast, or click the map for a line of sight";
-    hint.hidden = !first && known;
+  const known = new Set(scene.state.masts.length > 0 ? ["mast"] : []);
+  scene.on(["placing", "masts", "target", "task", "turbines", "viewpoint"], () => {
+    const { what, next, count, done } = ofTask(scene);
+    if (done || count > 1) known.add(what);
+    const first = scene.state.placing || count === 0;
+    hint.textContent = first ? `Click the map to place a ${what}` : `Drag the ${what}, or click the map ${next}`;
+    hint.hidden = scene.state.task === "sites" || (!first && known.has(what));
   });
 }

@@ -7,7 +7,8 @@ import { HUES, SHARED, UNDECIDED_COLOUR, cssColour, hueCss, meanColour, rampColo
 import { SLOPE_COLOURS, SLOPE_LIMITS } from "../map/shade.js";
 import { sourcesOf } from "../seen/shown.js";
 import { tally } from "../seen/tally.js";
-import { className, valueModeOf } from "../seen/values.js";
+import { className } from "../seen/values.js";
+import { modeOf, showOf, viewerOf, viewersOf } from "../seen/viewers.js";
 
 /** @typedef {import("../state/scene.js").Scene} Scene */
 /** @typedef {import("../seen/live_views.js").LiveViews} LiveViews */
@@ -22,7 +23,7 @@ export function makeLegend(scene, views) {
   const slopes = element("slopes");
   const draw = () => {
     const sources = sourcesOf(scene, views);
-    const mode = valueModeOf(scene.state.options);
+    const mode = modeOf(scene.state);
     const sloped = scene.state.layers.relief === "slope";
     element("legend").hidden = sources.length === 0 && !sloped;
     slopes.hidden = !sloped;
@@ -30,11 +31,12 @@ export function makeLegend(scene, views) {
     list.replaceChildren(
       ...(sources.length === 0 ? [] : mode ? valueEntries(mode) : verdictEntries(scene, sources)).map(entryElement),
     );
-    sum.textContent = sources.length > 1 && views.settled && !mode ? sumText(scene, sources) : "";
+    sum.textContent =
+      sources.length > 1 && views.settled && !mode && scene.state.task !== "sites" ? sumText(scene, sources) : "";
   };
   element("slope-list").replaceChildren(...slopeEntries().map(entryElement));
   views.onChange(draw);
-  scene.on(["show", "selected", "layers"], draw);
+  scene.on(["show", "selected", "layers", "task", "part", "plan"], draw);
 }
 
 /** @returns {Entry[]} */
@@ -55,20 +57,22 @@ function valueEntries(mode) {
 
 /** @param {Scene} scene @param {Source[]} sources @returns {Entry[]} */
 function verdictEntries(scene, sources) {
-  const { masts, show, selected, options } = scene.state;
+  const { options } = scene.state;
+  const show = showOf(scene.state);
+  const masts = viewersOf(scene.state);
   const single = sources.length === 1;
-  const chosen = scene.mast;
+  const chosen = viewerOf(scene.state);
   /** @type {Entry[]} */
   const entries = [];
   if (show === "difference" && !single && chosen) {
-    const others = masts.filter((mast) => mast.id !== selected).map((mast) => HUES[mast.hue]);
+    const others = masts.filter((mast) => mast !== chosen).map((mast) => HUES[mast.hue]);
     entries.push(
       [hueCss(chosen.hue), `only from ${chosen.name}`],
       [cssColour(SHARED), "from others, too"],
       [cssColour(others[0]), "pale: only from others", 0.3],
     );
   } else {
-    for (const mast of masts.filter((some) => show !== "alone" || some.id === selected)) {
+    for (const mast of masts.filter((some) => show !== "alone" || some === chosen)) {
       entries.push([hueCss(mast.hue), `from ${mast.name}`]);
     }
     if (!single) entries.push([cssColour(meanColour(sources.map(({ hue }) => HUES[hue]))), "mixed: from several", 0.9]);
@@ -97,6 +101,6 @@ function entryElement([colour, text, opacity = 0.65]) {
 function sumText(scene, sources) {
   const { any, all, onlySelected, looked, area } = tally(sources);
   const part = (/** @type {number} */ cells) => `${areaText(cells * area)} (${shareText(cells, looked)})`;
-  if (scene.state.show === "difference") return `${scene.mast?.name} alone adds ${part(onlySelected)}.`;
+  if (showOf(scene.state) === "difference") return `${scene.mast?.name} alone adds ${part(onlySelected)}.`;
   return `From any ${part(any)}, from all ${part(all)}.`;
 }

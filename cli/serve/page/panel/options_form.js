@@ -23,7 +23,7 @@ export function makeOptionsForm(scene, info, views) {
   });
   makeThemeBoxes(scene, info);
   scene.on(["options"], () => fillIn(form, scene.state.options));
-  views.onChange(() => showProblems(form, scene, views));
+  views.onChange(() => showProblems(form, views));
 }
 
 /** @param {Scene} scene @param {string} name @param {string} value */
@@ -64,11 +64,10 @@ function fillIn(form, options) {
 /**
  * Marks the field that the server found wrong.
  * @param {HTMLFormElement} form
- * @param {Scene} scene
  * @param {LiveViews} views
  */
-function showProblems(form, scene, views) {
-  const wrong = scene.state.masts.map((mast) => views.of(mast.id)).find((view) => view?.error);
+function showProblems(form, views) {
+  const wrong = views.all.find((view) => view.error);
   for (const field of form.elements) {
     if (field instanceof HTMLInputElement) {
       field.setAttribute("aria-invalid", String(Boolean(wrong) && wrong?.field === `--${field.name}`));

@@ -1,6 +1,7 @@
 // The button and the field that say where the next mast goes.
 
 import { element } from "./elements.js";
+import { messageOf } from "./words.js";
 import { askPlace } from "../server/api.js";
 import { MOST_MASTS } from "../state/scene.js";
 
@@ -23,14 +24,14 @@ export function makePlaceForm(scene, map) {
       showPlace(map, place);
       input.value = "";
     } catch (error) {
-      problem.textContent = String(error instanceof Error ? error.message : error).replace(/^--from /, "");
+      problem.textContent = messageOf(error).replace(/^--from /, "");
     }
   });
-  scene.on(["placing", "masts"], () => {
-    const { placing, masts } = scene.state;
+  scene.on(["placing", "masts", "task"], () => {
+    const { placing, masts, task } = scene.state;
     button.setAttribute("aria-pressed", String(placing));
     button.disabled = masts.length >= MOST_MASTS;
-    element("map").classList.toggle("placing", placing || masts.length === 0);
+    element("map").classList.toggle("placing", task !== "sites" && (placing || masts.length === 0));
   });
 }
 

@@ -5,7 +5,8 @@ import { azimuthsText, distanceText, metresText, numberText, placeText } from ".
 import { CUT, NEAREST, VERDICT, VISIBLE } from "../seen/seen_cells.js";
 import { hueCss } from "../seen/palette.js";
 import { letterOf } from "../state/mast_letter.js";
-import { valueModeOf, withUnit } from "../seen/values.js";
+import { withUnit } from "../seen/values.js";
+import { HUBS, TIPS, modeOf, viewerOf, viewersOf } from "../seen/viewers.js";
 
 /** @typedef {import("../state/scene.js").Scene} Scene */
 /** @typedef {import("../seen/live_views.js").LiveViews} LiveViews */
@@ -38,12 +39,14 @@ export class Readout {
     map.getOverlayContainerStopEvent().addEventListener("pointerover", () => this.#moved(null, [0, 0]));
     connection.on("probe", (message) => message.seq === this.#seq && this.#show(message));
     views.onChange(() => this.#ask());
-    scene.on(["selected"], () => this.#ask());
+    scene.on(["selected", "task", "plan"], () => this.#ask());
   }
 
   /** @param {number[] | null} place @param {number[]} pixel */
   #moved(place, pixel) {
-    this.#place = this.scene.mast && !this.scene.state.placing ? place : null;
+    const { state } = this.scene;
+    const seen = state.task === "turbines" ? state.turbines.length > 0 : viewerOf(state) !== null;
+    this.#place = seen && !state.placing ? place : null;
     this.#pixel = pixel;
     if (!this.#place) this.#box.hidden = true;
     this.#putBeside();
@@ -66,8 +69,9 @@ export class Readout {
     this.#waiting = true;
     requestAnimationFrame(() => {
       this.#waiting = false;
-      const mast = this.scene.mast;
-      if (!mast || !this.#place) return;
+      const mast = viewerOf(this.scene.state);
+      if (!this.#place) return;
+      if (!mast) return this.#showCounts(this.#place);
       this.#seq += 1;
       this.connection.send({ type: "probe", id: mast.id, seq: this.#seq, x: this.#place[0], y: this.#place[1] });
     });
@@ -75,22 +79,37 @@ export class Readout {
 
   /** @param {Message} probe */
   #show(probe) {
-    const mast = this.scene.mast;
+    const mast = viewerOf(this.scene.state);
     const place = this.#place;
     if (!mast || !place) return;
+    const others = viewersOf(this.scene.state).filter((other) => other.id !== mast.id);
+    this.#masts.replaceChildren(...others.map((other) => this.#chip(other, place)));
+    this.#masts.hidden = others.length === 0;
+    this.#tell(`${mast.name}: ${verdictOf(probe)}`, mast.hue, factsOf(probe, place, this.#valueAt(place)));
+  }
+
+  /** How many turbines are seen. @param {number[]} place */
+  #showCounts(place) {
+    if (this.scene.state.task !== "turbines") return;
+    const all = this.scene.state.turbines;
+    const hubs = all.filter(({ hub }) => hub !== null);
+    const count = (/** @type {number} */ id, /** @type {number} */ most) =>
+      `${this.#cellValue(id, place) || 0} of ${most}`;
+    /** @type {[string, string][]} */
+    const facts = [["Blade tips", count(TIPS, all.length)]];
+    if (hubs.length > 0) facts.push(["Hubs", count(HUBS, hubs.length)]);
+    const nearest = Math.min(...all.map(({ x, y }) => Math.hypot(x - place[0], y - place[1])));
+    facts.push(["Nearest turbine", distanceText(nearest)], ["At", placeText(place[0], place[1])]);
+    this.#masts.hidden = true;
+    this.#tell(this.#cellValue(TIPS, place) > 0 ? "Turbines are seen" : "No turbine is seen", 0, facts);
+  }
+
+  /** @param {string} verdict @param {number} hue @param {[string, string][]} facts */
+  #tell(verdict, hue, facts) {
     this.#box.hidden = false;
-    this.#verdict.textContent = `${mast.name}: ${verdictOf(probe)}`;
-    this.#verdict.style.setProperty("--hue", hueCss(mast.hue));
-    this.#facts.replaceChildren(
-      ...factsOf(probe, place, this.#valueAt(place)).flatMap(([name, value]) => [
-        make("dt", "", name),
-        make("dd", "", value),
-      ]),
-    );
-    this.#masts.replaceChildren(
-      ...this.scene.state.masts.filter((other) => other.id !== mast.id).map((other) => this.#chip(other, place)),
-    );
-    this.#masts.hidden = this.scene.state.masts.length < 2;
+    this.#verdict.textContent = verdict;
+    this.#verdict.style.setProperty("--hue", hueCss(hue));
+    this.#facts.replaceChildren(...facts.flatMap(([name, value]) => [make("dt", "", name), make("dd", "", value)]));
     this.#putBeside();
   }
 
@@ -106,12 +125,17 @@ export class Readout {
   }
 
   /** The value of the cell, in modes with values. @param {number[]} place @returns {[string, string][]} */
-  #valueAt([x, y]) {
-    const mode = valueModeOf(this.scene.state.options);
-    const cells = this.views.of(this.scene.mast?.id ?? NEVER_SENT)?.cells;
-    const at = cells?.at(x, y) ?? NEVER_SENT;
-    const value = at < 0 || (cells?.codes[at] ?? 0) & NEAREST ? NaN : (cells?.values?.[at] ?? NaN);
+  #valueAt(place) {
+    const mode = modeOf(this.scene.state);
+    const value = this.#cellValue(viewerOf(this.scene.state)?.id ?? NEVER_SENT, place);
     return mode && !Number.isNaN(value) ? [[mode.short, withUnit(numberText(value, 2), mode.unit)]] : [];
+  }
+
+  /** @param {number} id @param {number[]} place */
+  #cellValue(id, [x, y]) {
+    const cells = this.views.of(id)?.cells;
+    const at = cells?.at(x, y) ?? NEVER_SENT;
+    return at < 0 || (cells?.codes[at] ?? 0) & NEAREST ? NaN : (cells?.values?.[at] ?? NaN);
   }
 }
 

@@ -2,16 +2,16 @@
 // server in a process of its own.
 
 import { element } from "./elements.js";
-import { Jobs } from "../server/api.js";
-import { observerOf } from "../seen/live_views.js";
+import { messageOf } from "./words.js";
+import { observerOf } from "../seen/viewers.js";
 
 /** @typedef {import("../state/scene.js").Scene} Scene */
 /** @typedef {import("../state/scene.js").Mast} Mast */
 /** @typedef {import("../seen/live_views.js").LiveViews} LiveViews */
+/** @typedef {import("../server/api.js").Jobs} Jobs */
 
 /** The option that writes a file of this ending. @type {Record<string, string>} */
 const OUTPUTS = { tif: "output", gpkg: "output", png: "image", pdf: "sheet" };
-const LOOK_EVERY = 300;
 
 /**
  * Together they are one call with all observers; else the mast selected is meant.
@@ -43,8 +43,8 @@ const fileName = (masts) =>
     .replace(/[^a-z0-9]+/g, "-")
     .replace(/^-+|-+$/g, "") || "mast";
 
-/** @param {Scene} scene @param {LiveViews} views @param {string} key */
-export function makeResults(scene, views, key) {
+/** @param {Scene} scene @param {LiveViews} views @param {Jobs} jobs */
+export function makeResults(scene, views, jobs) {
   const copy = /** @type {HTMLButtonElement} */ (element("copy"));
   const said = element("results-said");
   const command = element("command");
@@ -59,7 +59,7 @@ export function makeResults(scene, views, key) {
       said.textContent = "The command is selected: copy it with Ctrl+C.";
     }
   });
-  const download = new Download(new Jobs(key));
+  const download = new Download(jobs);
   for (const button of section.querySelectorAll("button[data-ending]")) {
     button.addEventListener("click", () => {
       const masts = mastsMeant(scene);
@@ -87,16 +87,12 @@ class Download {
   #box = element("job");
   #bar = /** @type {HTMLProgressElement} */ (element("job-bar"));
   #said = element("results-said");
-  #url = "";
-  #cancelled = false;
+  #given = new AbortController();
 
   /** @param {Jobs} jobs */
   constructor(jobs) {
     this.jobs = jobs;
-    element("job-cancel").addEventListener("click", () => {
-      this.#cancelled = true;
-      this.jobs.cancel(this.#url).catch((problem) => (this.#said.textContent = problem.message));
-    });
+    element("job-cancel").addEventListener("click", () => this.#given.abort());
   }
 
   /** @param {import("../server/api.js").Options} options */
@@ -104,25 +100,21 @@ class Download {
     if (!this.#box.hidden) return;
     this.#said.textContent = "";
     this.#box.hidden = false;
-    this.#cancelled = false;
+    this.#given = new AbortController();
     try {
-      this.#url = await this.jobs.start("viewshed", options);
-      await this.#wait();
+      const url = await this.jobs.start("viewshed", options);
+      const job = await this.jobs.ended(url, (now) => this.#look(now), this.#given.signal);
+      if (job) this.#save(job.files);
     } catch (problem) {
-      this.#said.textContent = problem instanceof Error ? problem.message : String(problem);
+      this.#said.textContent = messageOf(problem);
     }
     this.#box.hidden = true;
   }
 
-  async #wait() {
-    while (!this.#cancelled) {
-      const job = await this.jobs.look(this.#url);
-      this.#bar.value = job.share ?? 0;
-      this.#bar.title = job.stage ?? "";
-      if (job.state === "done") return this.#save(job.files);
-      if (job.state === "failed") throw new Error(job.error ?? "it could not be done");
-      await new Promise((resume) => setTimeout(resume, LOOK_EVERY));
-    }
+  /** @param {import("../server/api.js").Job} job */
+  #look({ share, stage }) {
+    this.#bar.value = share ?? 0;
+    this.#bar.title = stage ?? "";
   }
 
   /** @param {{name: string, url: string}[]} files */

@@ -13,21 +13,29 @@ const LINE_WORDS = {
   refused: "This address is of an earlier start of the server. Open the address that itin serve printed.",
 };
 
-/** @param {import("../state/scene.js").Scene} scene @param {LiveConnection} connection @param {LiveViews} views */
-export function makeStatus(scene, connection, views) {
+/** @param {LiveConnection} connection @param {LiveViews} views
+ * @param {import("../map/height_tiles.js").HeightTiles} tiles */
+export function makeStatus(connection, views, tiles) {
   const line = element("status");
-  let trouble = "";
+  let lost = "";
+  let ground = "";
   const show = () => {
-    const found = scene.state.masts.map((mast) => views.of(mast.id));
-    const steps = found.filter((view) => view?.cells && !view.done).map((view) => view?.cells?.step ?? 1);
-    const reading = found.some((view) => view && !view.cells && !view.error) ? "Reading the ground …" : "";
+    const found = views.all;
+    // An error that is about no option is about the store or the server.
+    const trouble = lost || found.find(({ error, field }) => error && !field)?.error || ground;
+    const steps = found.filter((view) => view.cells && !view.done).map((view) => view.cells?.step ?? 1);
+    const reading = found.some((view) => !view.cells && !view.error) ? "Reading the ground …" : "";
     line.textContent =
       trouble || (steps.length > 0 ? (SHARES[Math.max(...steps)] ?? "Deciding the last cells …") : reading);
     line.classList.toggle("problem", trouble !== "");
     line.hidden = line.textContent === "";
   };
   connection.onState = (state) => {
-    trouble = LINE_WORDS[state];
+    lost = LINE_WORDS[state];
+    show();
+  };
+  tiles.onProblem = (problem) => {
+    ground = problem;
     show();
   };
   views.onChange(show);

@@ -39,3 +39,9 @@ export const placeText = (x, y) => `${numberText(x)} E ${numberText(y)} N`;
 /** An azimuth from grid north, and from true north where that is known. @param {number} grid @param {number | null} north */
 export const azimuthsText = (grid, north) =>
   `${azimuthText(grid)} grid${north === null ? "" : `, ${azimuthText(north)} true`}`;
+
+/** What went wrong, in the words of who says so. @param {unknown} problem */
+export const messageOf = (problem) => (problem instanceof Error ? problem.message : String(problem));
+
+/** @param {number} count @param {string} what */
+export const countedText = (count, what) => `${numberText(count)} ${what}${count === 1 ? "" : "s"}`;

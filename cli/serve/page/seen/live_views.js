@@ -1,15 +1,17 @@
-// One view at the server for each mast: asks for it, follows the mast and the options, and keeps what comes.
+// The views at the server, one for each mast, or of all turbines: asks for them, follows what changes, and keeps what
+// comes.
 
 import { SeenCells } from "./seen_cells.js";
+import { wantedOf } from "./viewers.js";
 
 /** @typedef {import("../state/scene.js").Scene} Scene */
-/** @typedef {import("../state/scene.js").Mast} Mast */
+/** @typedef {import("./viewers.js").Wanted} Wanted */
 /** @typedef {import("../server/live_connection.js").LiveConnection} LiveConnection */
 /** @typedef {import("../server/live_connection.js").Message} Message */
 /**
  * @typedef {object} MastView
  * @property {string} options          The options that the server was sent last, but for the observer.
- * @property {string} observer         The observer that it was sent last.
+ * @property {string} observer         The observers that it was sent last, as JSON.
  * @property {number} seq              What it was last asked for.
  * @property {SeenCells | null} begun  The cells that tiles are about to fill.
  * @property {SeenCells | null} cells  The cells that are shown.
@@ -21,9 +23,6 @@ import { SeenCells } from "./seen_cells.js";
 const MOST_CELLS = 25e6;
 // What else errors are about, under ids of its own.
 const OF_OTHERS = ["probe", "line"];
-
-/** The observer as the command line takes it. @param {Mast} mast */
-export const observerOf = (mast) => `${mast.x},${mast.y},${mast.height}`;
 
 /** Says that a view has more cells than a browser holds, or nothing. @param {Record<string, string>} options */
 function tooManyCells({ radius, cell }) {
@@ -54,7 +53,7 @@ export class LiveViews {
       this.#answered(message, (view) => Object.assign(view, { error: message.error, field: message.field ?? "" })),
     );
     connection.on("welcome", () => this.#askAnew());
-    scene.on(["masts", "options"], () => this.#follow());
+    scene.on(["masts", "options", "task", "turbines", "plan"], () => this.#follow());
   }
 
   /** Calls `listener` before the next picture after each change. @param {() => void} listener */
@@ -67,9 +66,13 @@ export class LiveViews {
     return this.#views.get(id);
   }
 
+  get all() {
+    return [...this.#views.values()];
+  }
+
   /** Whether all that was asked for has come. */
   get settled() {
-    return [...this.#views.values()].every((view) => view.done !== null || view.error !== "");
+    return this.all.every((view) => view.done !== null || view.error !== "");
   }
 
   #askAnew() {
@@ -78,11 +81,11 @@ export class LiveViews {
   }
 
   #follow() {
-    const { masts } = this.scene.state;
+    const wanted = wantedOf(this.scene.state);
     for (const id of [...this.#views.keys()]) {
-      if (!masts.some((mast) => mast.id === id)) this.#stop(id);
+      if (!wanted.some((some) => some.id === id)) this.#stop(id);
     }
-    for (const mast of masts) this.#ask(mast);
+    for (const view of wanted) this.#ask(view);
     this.#tell();
   }
 
@@ -92,18 +95,17 @@ export class LiveViews {
     this.#views.delete(id);
   }
 
-  /** Sends what the server does not know yet of this mast. @param {Mast} mast */
-  #ask(mast) {
-    const options = JSON.stringify(this.scene.state.options);
-    const observer = observerOf(mast);
-    const id = mast.id;
+  /** Sends what the server does not know yet of a view. @param {Wanted} wanted */
+  #ask({ id, options: wantedOptions, observer: place }) {
+    const options = JSON.stringify(wantedOptions);
+    const observer = JSON.stringify(place);
     const known = this.#views.get(id);
     if (known?.options === options && known.observer === observer) return;
     const seq = ++this.#seq;
-    const tooMany = tooManyCells(this.scene.state.options);
+    const tooMany = tooManyCells(wantedOptions);
     if (tooMany) this.connection.send({ type: "stop", id });
-    else if (known?.options === options) this.connection.send({ type: "move", id, seq, observer });
-    else this.connection.send({ type: "view", id, seq, options: { ...this.scene.state.options, observer } });
+    else if (known?.options === options) this.connection.send({ type: "move", id, seq, observer: place });
+    else this.connection.send({ type: "view", id, seq, options: { ...wantedOptions, observer: place } });
     this.#views.set(id, {
       options,
       observer,

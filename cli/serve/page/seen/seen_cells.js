@@ -15,6 +15,8 @@ export const VERDICT = 7; // the bits of a code that have the verdict
 export const NEAREST = 8; // the bit that says: no verdict of its own yet, the nearest cell's is shown
 
 const SERVERS_OUTSIDE = 255;
+const COUNTS = 1; // the kind of values that are counts
+const COUNTED_OUTSIDE = 65535;
 
 /** @param {number} verdict as the server sends it */
 const codeOf = (verdict) => (verdict === SERVERS_OUTSIDE ? OUTSIDE : verdict);
@@ -28,7 +30,8 @@ export class SeenCells {
     this.row = begun.row;
     this.columns = begun.columns;
     this.rows = begun.rows;
-    this.ground = begun.ground_m?.[0] ?? NaN;
+    this.grounds = begun.ground_m ?? [];
+    this.counts = begun.kind === COUNTS;
     this.step = 9;
     this.verdicts = 0; // a bit for each verdict that has come
     this.codes = new Uint8Array(this.columns * this.rows).fill(UNKNOWN);
@@ -46,9 +49,14 @@ export class SeenCells {
         const code = codeOf(tile.verdicts[from]);
         this.codes[to] = code;
         this.verdicts |= 1 << code;
-        if (this.values && tile.values) this.values[to] = tile.values[from];
+        if (this.values && tile.values) this.values[to] = this.#valueOf(tile.values[from]);
       }
     }
+  }
+
+  /** A count of nothing is no value. @param {number} value as the server sends it */
+  #valueOf(value) {
+    return this.counts && (value === 0 || value === COUNTED_OUTSIDE) ? NaN : value;
   }
 
   /** @param {Tile} tile */
@@ -58,7 +66,13 @@ export class SeenCells {
     const north = row - this.row - half;
     for (let j = 0, at = 0; j < rows; ++j) {
       for (let i = 0; i < columns; ++i, ++at) {
-        this.#fill(west + i * step, north + j * step, step, codeOf(verdicts[at]) | NEAREST, values ? values[at] : NaN);
+        this.#fill(
+          west + i * step,
+          north + j * step,
+          step,
+          codeOf(verdicts[at]) | NEAREST,
+          values ? this.#valueOf(values[at]) : NaN,
+        );
       }
     }
   }

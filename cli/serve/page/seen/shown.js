@@ -1,21 +1,28 @@
-// What the map shows of the masts: which of them count, and in which colours.
+// What the map shows of the masts, sites or turbines: which of them count, and in which colours.
 
 import { valuePicture, verdictPicture } from "./picture.js";
-import { valueModeOf } from "./values.js";
+import { HUBS, TIPS, modeOf, showOf, viewerOf, viewersOf } from "./viewers.js";
 
 /** @typedef {import("../state/scene.js").Scene} Scene */
 /** @typedef {import("./live_views.js").LiveViews} LiveViews */
 /** @typedef {import("./picture.js").Source} Source */
 
-/** The masts that count, each with its cells; those of the size of the mast selected alone, while sizes change.
+/** Who counts: all masts or sites, the one selected, or one of the views of turbines. @param {Scene} scene
+ * @returns {{id: number, hue: number, selected: boolean}[]} */
+function counted({ state }) {
+  if (state.task === "turbines") return [{ id: state.part === "hubs" ? HUBS : TIPS, hue: 0, selected: true }];
+  const chosen = viewerOf(state)?.id;
+  return viewersOf(state)
+    .map(({ id, hue }) => ({ id, hue, selected: id === chosen }))
+    .filter(({ selected }) => selected || showOf(state) !== "alone");
+}
+
+/** Those that count, each with its cells; those of the size of the one selected alone, while sizes change.
  * @param {Scene} scene @param {LiveViews} views @returns {Source[]} */
 export function sourcesOf(scene, views) {
-  const { masts, show, selected } = scene.state;
-  const sources = masts.flatMap((mast) => {
-    const cells = views.of(mast.id)?.cells;
-    return cells && (show !== "alone" || mast.id === selected)
-      ? [{ cells, hue: mast.hue, selected: mast.id === selected }]
-      : [];
+  const sources = counted(scene).flatMap(({ id, ...others }) => {
+    const cells = views.of(id)?.cells;
+    return cells ? [{ cells, ...others }] : [];
   });
   const cell = (sources.find((source) => source.selected) ?? sources[0])?.cells.cell;
   return sources.filter((source) => source.cells.cell === cell);
@@ -24,8 +31,8 @@ export function sourcesOf(scene, views) {
 /** @param {Scene} scene @param {LiveViews} views */
 export function shownOf(scene, views) {
   const sources = sourcesOf(scene, views);
-  const mode = valueModeOf(scene.state.options);
+  const mode = modeOf(scene.state);
   if (sources.length === 0) return null;
-  const picture = mode ? valuePicture(sources, mode) : verdictPicture(sources, scene.state.show === "difference");
+  const picture = mode ? valuePicture(sources, mode) : verdictPicture(sources, showOf(scene.state) === "difference");
   return { picture, cell: sources[0].cells.cell };
 }

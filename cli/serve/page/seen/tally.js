@@ -6,8 +6,11 @@ import { CUT, OUTSIDE, UNKNOWN, VERDICT, VISIBLE } from "./seen_cells.js";
 /** @typedef {{any: number, all: number, onlySelected: number, looked: number, area: number}} Tally
  *    Cells that any mast sees, all of them, only the one selected; cells that any looks at; the area of a cell, m². */
 
-/** @param {Source[]} sources @returns {Tally} */
-export function tally(sources) {
+/** Whether a mast sees a cell, whatever cuts its Fresnel zone. @param {number} verdict */
+const inSight = (verdict) => verdict === VISIBLE || verdict === CUT;
+
+/** @param {Source[]} sources @param {(verdict: number) => boolean} [sees]  Which verdicts count. @returns {Tally} */
+export function tally(sources, sees = inSight) {
   const column = Math.min(...sources.map(({ cells }) => cells.column));
   const row = Math.min(...sources.map(({ cells }) => cells.row));
   const right = Math.max(...sources.map(({ cells }) => cells.column + cells.columns));
@@ -21,8 +24,7 @@ export function tally(sources) {
       if (verdict === OUTSIDE || verdict === UNKNOWN) continue;
       const r = Math.floor(k / cells.columns);
       const c = k - r * cells.columns;
-      masks[(r + cells.row - row) * columns + c + cells.column - column] |=
-        LOOKED | (verdict === VISIBLE || verdict === CUT ? 1 << bit : 0);
+      masks[(r + cells.row - row) * columns + c + cells.column - column] |= LOOKED | (sees(verdict) ? 1 << bit : 0);
     }
   });
   const every = (1 << sources.length) - 1;

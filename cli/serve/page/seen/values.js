@@ -7,6 +7,7 @@
  * @property {string} unit
  * @property {number[]} limits          Where the next class begins.
  * @property {"least" | "greatest"} best  Which of several masts' values counts.
+ * @property {number} [whole]           Values are whole numbers from 1 to this.
  */
 
 /** @type {Record<string, ValueMode>} */
@@ -38,6 +39,18 @@ export const VALUE_MODES = {
 /** The mode with values that the options ask for, or null. @param {Record<string, string>} options */
 export const valueModeOf = (options) => VALUE_MODES[options.loss ? "loss" : options.mode] ?? null;
 
+const MOST_BANDS = 7;
+
+/** How many of `most` turbines are seen: bands of equal width, the most first. @param {number} most
+ * @param {string} what @returns {ValueMode} */
+export function countMode(most, what) {
+  const width = Math.max(1, Math.ceil(most / MOST_BANDS));
+  const limits = [];
+  for (let limit = width * Math.floor((most - 1) / width) + 1; limit > 1; limit -= width) limits.push(limit);
+  const title = `${what[0].toUpperCase()}${what.slice(1)}s seen`;
+  return { title, short: title, unit: "", limits, best: "greatest", whole: most };
+}
+
 /** The class of a value, from 0. @param {ValueMode} mode @param {number} value */
 export function classOf({ limits, best }, value) {
   const least = best === "least";
@@ -51,9 +64,13 @@ export const withUnit = (number, unit) => `${number}${unit && unit !== "°" ? " 
 
 /** What class `at` is called. @param {ValueMode} mode @param {number} at */
 export function className(mode, at) {
-  const { limits, unit, best } = mode;
+  const { limits, unit, best, whole } = mode;
+  if (whole) return bandName(limits[at] ?? 1, (limits[at - 1] ?? whole + 1) - 1);
   const text = (/** @type {number} */ limit) => withUnit(String(limit).replace("-", "−"), unit);
   if (at === 0) return `${best === "least" ? "up to" : "over"} ${text(limits[0])}`;
   if (at === limits.length) return `${best === "least" ? "over" : "under"} ${text(limits[at - 1])}`;
   return `${text(limits[at - 1])} to ${text(limits[at])}`;
 }
+
+/** @param {number} from @param {number} to */
+const bandName = (from, to) => (from === to ? String(from) : `${from} to ${to}`);

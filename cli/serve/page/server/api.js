@@ -7,6 +7,7 @@
  * @property {{xmin: number, ymin: number, xmax: number, ymax: number}} bounds
  * @property {number | null} data_spacing_m
  * @property {{name: string, kind: string, features: number}[]} themes
+ * @property {{tolerance_m: number, query_vertices: number}[]} levels  The finest first.
  * @property {string[]} modes
  * @property {{origin: [number, number], size: number, border: number, resolutions: number[], themes: string[]}} tiles
  */
@@ -14,9 +15,21 @@
 /**
  * @typedef {object} Job
  * @property {"queued" | "running" | "done" | "failed" | "cancelled"} state
- * @property {string} stage @property {number} share @property {string | null} error @property {string} command
- * @property {{name: string, url: string}[]} files
+ * @property {string | null} stage @property {number} share @property {number | null} seconds_left
+ * @property {string | null} error @property {string} command
+ * @property {any} document
+ * @property {{name: string, url: string, bytes: number}[]} files
  */
+/**
+ * @typedef {object} UploadedPlace
+ * @property {number} x @property {number} y @property {string} [name] @property {number} [height_m]
+ * @property {number} [hub_height_m] @property {number} [rotor_diameter_m] @property {number} [tip_height_m]
+ */
+/** @typedef {{name: string, rows: number, places: UploadedPlace[], rings: number[][], warnings: string[]}} Upload */
+
+const LOOK_EVERY = 300;
+/** @type {Record<string, string>} */
+const UPLOAD_TYPES = { csv: "text/csv", geojson: "application/geo+json", json: "application/geo+json" };
 
 /** @param {string} path @param {RequestInit} [request] */
 async function ask(path, request) {
@@ -49,9 +62,36 @@ export class Jobs {
     return (await ask("/api/v1/jobs", { method: "POST", headers, body: JSON.stringify({ verb, options }) })).url;
   }
 
-  /** @param {string} url @returns {Promise<Job>} */
-  look(url) {
-    return ask(url);
+  /**
+   * Waits until a job has ended, or the signal says that it is given up.
+   * @param {string} url @param {(job: Job) => void} look  Gets the job now and then.
+   * @param {AbortSignal} signal
+   * @returns {Promise<Job | null>} null where it was given up
+   */
+  async ended(url, look, signal) {
+    while (!signal.aborted) {
+      const job = /** @type {Job} */ (await ask(url));
+      look(job);
+      if (job.state === "done") return job;
+      if (job.state === "failed") throw new Error(job.error ?? "it could not be done");
+      await new Promise((resume) => setTimeout(resume, LOOK_EVERY));
+    }
+    await this.cancel(url);
+    return null;
+  }
+
+  /** Sends a file for jobs to read. @param {string} name  Its ending says what it is. @param {Blob} bytes
+   * @returns {Promise<Upload>} */
+  send(name, bytes) {
+    const type = UPLOAD_TYPES[name.toLowerCase().split(".").at(-1) ?? ""];
+    if (!type) throw new Error(`${name}: choose a table (.csv) or GeoJSON (.geojson)`);
+    const headers = { "Content-Type": type, "X-Itin-Key": this.key };
+    return ask("/api/v1/uploads", { method: "POST", headers, body: bytes });
+  }
+
+  /** Lets the server forget a file; jobs that were started keep it. @param {string} name */
+  async forget(name) {
+    await ask(`/api/v1/uploads/${name}`, { method: "DELETE", headers: { "X-Itin-Key": this.key } });
   }
 
   /** @param {string} url */

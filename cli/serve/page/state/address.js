@@ -4,17 +4,26 @@
 //
 // What is not about the page itself is an option of the command line under its own name.
 
+import { MOST_TURBINES } from "./turbines.js";
+
 /** @typedef {import("./scene.js").SceneState} SceneState */
 /** @typedef {import("./scene.js").Mast} Mast */
 /** @typedef {import("./scene.js").Target} Target */
 
-const OF_THE_PAGE = ["mast", "selected", "show", "target", "relief", "contours", "draw", "at"];
+/** @typedef {import("./turbines.js").Turbine} Turbine */
+
+const OF_THE_PAGE = [
+  ...["task", "mast", "selected", "show", "target", "relief", "contours", "draw", "at"],
+  ...["turbine", "part", "viewpoint", "area"],
+];
+const TASKS = ["masts", "turbines", "sites", "premises"];
 const SHOWS = ["together", "alone", "difference"];
 const RELIEFS = ["shade", "slope", "none"];
 
 /** @param {SceneState} state @returns {string} */
 export function addressOf(state) {
   const fields = new URLSearchParams();
+  if (state.task !== "masts") fields.set("task", state.task);
   for (const { x, y, height, hue, name } of state.masts) fields.append("mast", [x, y, height, hue, name].join(","));
   const selected = state.masts.findIndex((mast) => mast.id === state.selected);
   if (selected > 0) fields.set("selected", String(selected));
@@ -24,8 +33,17 @@ export function addressOf(state) {
   if (state.layers.relief !== "shade") fields.set("relief", state.layers.relief);
   if (state.layers.contours) fields.set("contours", "on");
   fields.set("draw", state.layers.themes.join(","));
+  addPlans(state, fields);
   if (state.view) fields.set("at", [state.view.x, state.view.y, state.view.resolution].join(","));
   return fields.toString().replaceAll("%2C", ",").replaceAll("%2F", "/").replaceAll("%3A", ":");
+}
+
+/** What is planned beside masts. @param {SceneState} state @param {URLSearchParams} fields */
+function addPlans({ turbines, part, viewpoint, search }, fields) {
+  for (const { x, y, hub, tip, name } of turbines) fields.append("turbine", [x, y, hub ?? "", tip, name].join(","));
+  if (part !== "tips") fields.set("part", part);
+  if (viewpoint) fields.set("viewpoint", `${viewpoint.x},${viewpoint.y}`);
+  if (search && "ring" in search) fields.set("area", search.ring.join(","));
 }
 
 /** @param {string} text @param {number} count @returns {number[] | null} that many numbers, or null */
@@ -40,6 +58,34 @@ function readMast(text, id) {
   if (!values) return [];
   const [x, y, height, hue] = values;
   return [{ id, hue: Math.abs(Math.trunc(hue)) % 8, x, y, height, name: text.split(",").slice(4).join(",") }];
+}
+
+/** @param {string} text @param {number} id @returns {Turbine[]} the turbine, or none where the text is not one */
+function readTurbine(text, id) {
+  const values = numbers(text, 4);
+  if (!values) return [];
+  const [x, y, hub, tip] = values;
+  const parts = text.split(",");
+  return [{ id, x, y, hub: parts[2] === "" ? null : hub, tip, name: parts.slice(4).join(",") }];
+}
+
+/** @param {string} text @returns {{ring: number[]} | null} */
+function readArea(text) {
+  const ring = numbers(text, text.split(",").length);
+  return ring && ring.length >= 6 && ring.length % 2 === 0 ? { ring } : null;
+}
+
+/** @param {URLSearchParams} fields @returns {Partial<SceneState>} */
+function readPlans(fields) {
+  const turbines = fields.getAll("turbine").slice(0, MOST_TURBINES).flatMap(readTurbine);
+  const viewpoint = numbers(fields.get("viewpoint") ?? "", 2);
+  return {
+    turbines,
+    turbine: turbines[0]?.id ?? null,
+    part: fields.get("part") === "hubs" ? "hubs" : "tips",
+    viewpoint: viewpoint && { x: viewpoint[0], y: viewpoint[1] },
+    search: readArea(fields.get("area") ?? ""),
+  };
 }
 
 /**
@@ -69,8 +115,11 @@ export function readAddress(text, state) {
   const relief = fields.get("relief") ?? "";
   const draw = fields.get("draw");
   const options = [...fields].filter(([name]) => !OF_THE_PAGE.includes(name));
+  const task = fields.get("task") ?? "";
   return {
     ...state,
+    ...readPlans(fields),
+    task: TASKS.includes(task) ? /** @type {SceneState["task"]} */ (task) : state.task,
     masts,
     selected: masts[Number(fields.get("selected"))]?.id ?? masts[0]?.id ?? null,
     show: SHOWS.includes(show) ? /** @type {SceneState["show"]} */ (show) : state.show,

@@ -8,7 +8,7 @@ const CELLS_ACROSS = 500;
 const ROUND = [1, 2, 2.5, 5, 10];
 
 /** The next round number from here up. @param {number} value */
-function roundUp(value) {
+export function roundUp(value) {
   const power = 10 ** Math.floor(Math.log10(value));
   return Number(((ROUND.find((step) => step * power >= value * 0.999) ?? 10) * power).toPrecision(3));
 }
@@ -19,6 +19,7 @@ export function firstState(info) {
   const radius = Math.min(MOST_RADIUS, roundUp(Math.min(xmax - xmin, ymax - ymin) / 4));
   const cell = roundUp(Math.max(info.data_spacing_m ?? 0, (2 * radius) / CELLS_ACROSS));
   return {
+    task: "masts",
     masts: [],
     selected: null,
     show: "together",
@@ -27,5 +28,11 @@ export function firstState(info) {
     layers: { relief: "shade", contours: false, themes: info.tiles.themes },
     view: null,
     placing: false,
+    turbines: [],
+    turbine: null,
+    part: "tips",
+    viewpoint: null,
+    search: null,
+    plan: null,
   };
 }

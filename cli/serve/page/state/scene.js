@@ -5,9 +5,11 @@
  *    `id` tells masts and their views apart, 0 to 7; `hue` is a place in the palette; `height` is above the ground. */
 /** @typedef {Place | {mast: number}} Target  A place with a target on it, or another mast by its id. */
 /** @typedef {"together" | "alone" | "difference"} Show */
+/** @typedef {"masts" | "turbines" | "sites" | "premises"} Task */
 /** @typedef {{relief: "shade" | "slope" | "none", contours: boolean, themes: string[]}} Layers */
 /**
  * @typedef {object} SceneState
+ * @property {Task} task
  * @property {Mast[]} masts
  * @property {number | null} selected  The id of a mast.
  * @property {Show} show
@@ -16,7 +18,13 @@
  *   them.
  * @property {Layers} layers
  * @property {{x: number, y: number, resolution: number} | null} view  The middle of the map, and metres a pixel.
- * @property {boolean} placing         Whether the next click on the map places a mast.
+ * @property {boolean} placing         Whether the next click on the map places a mast or a turbine.
+ * @property {import("./turbines.js").Turbine[]} turbines
+ * @property {number | null} turbine   The id of the turbine that is selected.
+ * @property {"tips" | "hubs"} part    What of the turbines is counted.
+ * @property {Place | null} viewpoint  Where a wireline is seen from.
+ * @property {import("./plan.js").Search | null} search  Where sites are looked for.
+ * @property {import("./plan.js").Plan | null} plan      The sites that were chosen.
  */
 
 export const MOST_MASTS = 8;
@@ -53,8 +61,8 @@ export class Scene {
   /** The far end of the line of sight: where it is, how high, and its name if it is a mast.
    * @returns {Place & {height: number | string, name: string} | null} */
   get farEnd() {
-    const { target, masts, selected, options } = this.state;
-    if (!target || !this.mast) return null;
+    const { target, masts, selected, options, task } = this.state;
+    if (!target || !this.mast || task === "turbines" || task === "sites") return null;
     if (!("mast" in target)) return { ...target, height: options["target-height"] ?? 0, name: "" };
     return masts.find(({ id }) => id === target.mast && id !== selected) ?? null;
   }

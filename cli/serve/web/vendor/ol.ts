@@ -16,6 +16,7 @@ export { default as Circle } from "ol/geom/Circle.js";
 export { default as Style } from "ol/style/Style.js";
 export { default as Fill } from "ol/style/Fill.js";
 export { default as Stroke } from "ol/style/Stroke.js";
+export { default as Draw } from "ol/interaction/Draw.js";
 export { defaults as defaultInteractions } from "ol/interaction/defaults.js";
 export { defaults as defaultControls } from "ol/control/defaults.js";
 export { default as ScaleLine } from "ol/control/ScaleLine.js";

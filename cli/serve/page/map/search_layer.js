@@ -1,0 +1,89 @@
+// Where sites are looked for, and the candidates: an area that is drawn on the map or was sent, and points.
+
+import { Circle, Draw, Feature, Fill, Polygon, Stroke, Style, VectorLayer, VectorSource } from "../vendor/ol.js";
+
+/** @typedef {import("../state/scene.js").Scene} Scene */
+/** @typedef {import("../vendor/ol.js").OlMap} OlMap */
+
+const LINE = "rgb(27 31 36 / 0.9)";
+const AREA = new Style({
+  stroke: new Stroke({ color: LINE, width: 2, lineDash: [8, 5] }),
+  fill: new Fill({ color: "rgb(255 255 255 / 0.12)" }),
+});
+const CANDIDATE_PIXELS = 3.5;
+/** How far from a candidate a click still means it, in pixels. */
+const NEAR_PIXELS = 10;
+
+/** @param {number[]} ring */
+function pairsOf(ring) {
+  const pairs = [];
+  for (let i = 0; i < ring.length; i += 2) pairs.push([ring[i], ring[i + 1]]);
+  return pairs;
+}
+
+/** @param {import("../state/scene.js").SceneState} state @returns {{rings: number[][], places: {x: number, y: number}[]}} */
+function searched({ search, plan }) {
+  const rings = !search ? [] : "ring" in search ? [search.ring] : search.rings;
+  return { rings, places: plan?.candidates ?? (search && "places" in search ? search.places : []) };
+}
+
+export class SearchLayer extends VectorLayer {
+  /** @param {Scene} scene */
+  constructor(scene) {
+    super({ source: new VectorSource() });
+    scene.on(["search", "plan", "task"], () => this.#draw(scene));
+  }
+
+  /** @param {Scene} scene */
+  #draw(scene) {
+    const source = /** @type {VectorSource} */ (this.getSource());
+    source.clear(true);
+    this.setVisible(scene.state.task === "sites");
+    const { rings, places } = searched(scene.state);
+    for (const ring of rings) {
+      const area = new Feature(new Polygon([pairsOf([...ring, ring[0], ring[1]])]));
+      area.setStyle(AREA);
+      source.addFeature(area);
+    }
+    for (const { x, y } of places) {
+      const point = new Feature(new Circle([x, y], 1));
+      point.setStyle(
+        (_, resolution) =>
+          new Style({
+            geometry: new Circle([x, y], CANDIDATE_PIXELS * resolution),
+            fill: new Fill({ color: "#fff" }),
+            stroke: new Stroke({ color: LINE, width: 1.5 }),
+          }),
+      );
+      source.addFeature(point);
+    }
+  }
+}
+
+/** The candidate that a click means, or null. @param {Scene} scene @param {OlMap} map @param {number[]} place */
+export function candidateAt(scene, map, [x, y]) {
+  const near = NEAR_PIXELS * (map.getView().getResolution() ?? 1);
+  const distance = (/** @type {{x: number, y: number}} */ at) => Math.hypot(at.x - x, at.y - y);
+  const found = [...(scene.state.plan?.candidates ?? [])].sort((a, b) => distance(a) - distance(b))[0];
+  return found && distance(found) <= near ? found : null;
+}
+
+/** Lets the planner draw an area on the map, corner by corner, until it is closed or given up.
+ * @param {OlMap} map @param {(ring: number[]) => void} take  Gets the area.
+ * @param {() => void} end  Called when there is nothing more to draw.
+ * @returns {() => void} gives up */
+export function drawArea(map, take, end) {
+  const draw = new Draw({ type: "Polygon" });
+  const stop = () => {
+    map.removeInteraction(draw);
+    end();
+  };
+  draw.on("drawend", ({ feature }) => {
+    const corners = /** @type {Polygon} */ (feature.getGeometry()).getCoordinates()[0].slice(0, -1);
+    take(corners.flatMap(([x, y]) => [Math.round(x), Math.round(y)]));
+    // The click that ends the drawing is still on its way to the map.
+    setTimeout(stop);
+  });
+  map.addInteraction(draw);
+  return stop;
+}

@@ -1,0 +1,111 @@
+// A call of the program that the planner starts: how far it is, what is wrong with it, and the files that it wrote.
+
+import { make } from "../panel/elements.js";
+import { messageOf, numberText } from "../panel/words.js";
+
+/** @typedef {import("../server/api.js").Jobs} Jobs */
+/** @typedef {import("../server/api.js").Job} Job */
+/** @typedef {{verb: string, options: import("../server/api.js").Options, uploads: string[]}} Call
+ *    `uploads` are files that only this call reads. */
+
+export class JobRun {
+  #now = make("div", "run-now");
+  #bar = make("progress");
+  #stage = make("span", "quiet");
+  #problem = make("p", "problem");
+  #files = make("ul", "run-files");
+  #given = new AbortController();
+
+  /** @param {HTMLElement} box @param {Jobs} jobs @param {string} what  What is being done, for those who hear it.
+   * @param {(name: string) => boolean} [listed]  Which of the files are listed. */
+  constructor(box, jobs, what, listed = () => true) {
+    this.jobs = jobs;
+    this.listed = listed;
+    const cancel = make("button", "", "Cancel");
+    cancel.type = "button";
+    cancel.addEventListener("click", () => this.cancel());
+    this.#bar.max = 1;
+    this.#bar.ariaLabel = what;
+    this.#problem.setAttribute("role", "alert");
+    this.#now.append(this.#bar, this.#stage, cancel);
+    this.#files.tabIndex = 0;
+    this.#files.ariaLabel = "Files";
+    box.classList.add("run");
+    box.append(this.#now, this.#problem, this.#files);
+    this.#show(false);
+    this.#files.hidden = true;
+  }
+
+  get running() {
+    return !this.#now.hidden;
+  }
+
+  cancel() {
+    this.#given.abort();
+  }
+
+  /** Runs a call, in place of one that runs already. @param {() => Promise<Call>} prepare
+   * @returns {Promise<Job | null>} null where it failed, as the page then says, or was given up */
+  async run(prepare) {
+    this.cancel();
+    const given = new AbortController();
+    this.#given = given;
+    this.#problem.textContent = "";
+    this.#files.hidden = true;
+    this.#look({ share: 0, stage: "waiting", seconds_left: null });
+    this.#show(true);
+    let job = null;
+    try {
+      job = await this.#ended(await prepare(), given.signal);
+    } catch (problem) {
+      if (!given.signal.aborted) this.#problem.textContent = messageOf(problem);
+    }
+    if (this.#given === given) this.#show(false);
+    if (given.signal.aborted) return null;
+    if (job) this.#list(job);
+    return job;
+  }
+
+  /** @param {Call} call @param {AbortSignal} signal */
+  async #ended({ verb, options, uploads }, signal) {
+    try {
+      const url = await this.jobs.start(verb, options);
+      return await this.jobs.ended(url, (job) => !signal.aborted && this.#look(job), signal);
+    } finally {
+      for (const name of uploads) this.jobs.forget(name).catch(() => {});
+    }
+  }
+
+  /** @param {boolean} running */
+  #show(running) {
+    this.#now.hidden = !running;
+  }
+
+  /** @param {Pick<Job, "share" | "stage" | "seconds_left">} job */
+  #look({ share, stage, seconds_left }) {
+    this.#bar.value = share ?? 0;
+    const left = seconds_left ? `, ${numberText(Math.ceil(seconds_left))} s left` : "";
+    this.#stage.textContent = `${stage ?? "starting"}${left}`;
+  }
+
+  /** Lists the files, a report first. @param {Job} job */
+  #list({ files, document }) {
+    const what = new Map((document?.outputs ?? []).map((/** @type {any} */ output) => [output.path, output.what]));
+    const order = (/** @type {{name: string}} */ { name }) =>
+      name.endsWith(".html") ? 0 : /\.(pdf|png|csv)$/.test(name) ? 1 : what.has(name) ? 2 : 3;
+    const items = files
+      .filter(({ name }) => this.listed(name))
+      .sort((a, b) => order(a) - order(b))
+      .map(({ name, url }) => {
+        const item = make("li");
+        const link = make("a", "", name.split("/").slice(1).join("/") || name);
+        link.href = url;
+        link.download = name.split("/").at(-1) ?? name;
+        const [first] = String(what.get(name) ?? "").split(";");
+        item.append(link, make("span", "quiet", first && ` ${first}`));
+        return item;
+      });
+    this.#files.replaceChildren(...items);
+    this.#files.hidden = items.length === 0;
+  }
+}

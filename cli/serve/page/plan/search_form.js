@@ -1,0 +1,81 @@
+// Where sites are looked for: in an area that is drawn, or among places of a file.
+
+import { element } from "../panel/elements.js";
+import { areaText, countedText } from "../panel/words.js";
+import { roundUp } from "../state/first_state.js";
+import { areaOf, haveHeights } from "../state/plan.js";
+import { drawArea } from "../map/search_layer.js";
+import { takeFiles } from "./tasks_form.js";
+
+/** @typedef {import("../state/scene.js").Scene} Scene */
+/** @typedef {import("../state/plan.js").Search} Search */
+/** @typedef {import("../vendor/ol.js").OlMap} OlMap */
+
+/** So many candidates to a side of an area. */
+const CANDIDATES_ACROSS = 10;
+
+/** @param {Search} search */
+const areaIn = (search) =>
+  ("ring" in search ? [search.ring] : search.rings).reduce((sum, ring) => sum + areaOf(ring), 0);
+
+/** What is looked through, in words. @param {Search | null} search */
+function searchText(search) {
+  if (!search) return "Draw an area, take all that is in view, or load places (CSV) or an area (GeoJSON).";
+  const area = areaIn(search);
+  if ("ring" in search) return `Candidates are proposed in ${areaText(area)}.`;
+  if (search.places.length > 0) return `${countedText(search.places.length, "candidate")} of ${search.file}.`;
+  return `Candidates are proposed in ${areaText(area)}, the area of ${search.file}.`;
+}
+
+/** A round distance between candidates that suits the area. @param {Search} search */
+export const usualSpacing = (search) => roundUp(Math.sqrt(areaIn(search)) / CANDIDATES_ACROSS);
+
+/** @param {Scene} scene @param {OlMap} map @param {import("../server/api.js").Jobs} jobs
+ * @param {import("../server/api.js").Info} info */
+export function makeSearchForm(scene, map, jobs, info) {
+  const take = (/** @type {Search} */ search) => scene.change({ search, plan: null });
+  makeDrawing(scene, map, (ring) => take({ ring }));
+  element("area-in-view").addEventListener("click", () => {
+    const [west, south, east, north] = map.getView().calculateExtent();
+    const { xmin, ymin, xmax, ymax } = info.bounds;
+    const [w, s] = [Math.max(west, xmin), Math.max(south, ymin)].map(Math.ceil);
+    const [e, n] = [Math.min(east, xmax), Math.min(north, ymax)].map(Math.floor);
+    if (w < e && s < n) take({ ring: [w, s, e, s, e, n, w, n] });
+  });
+  takeFiles("candidates", element("candidates-problem"), async (file) => {
+    const { name, places, rings } = await jobs.send(file.name, file);
+    if (places.length === 0 && rings.length === 0) throw new Error(`${file.name}: has neither places nor an area`);
+    const { search } = scene.state;
+    if (search && "upload" in search) jobs.forget(search.upload).catch(() => {});
+    take({ file: file.name, upload: name, places, rings });
+  });
+  const spacing = /** @type {HTMLInputElement} */ (element("site-spacing"));
+  scene.on(["search"], () => {
+    const { search } = scene.state;
+    const proposed = search !== null && areaIn(search) > 0;
+    element("search-said").textContent = searchText(search);
+    element("spacing-field").hidden = !proposed;
+    element("height-field").hidden = haveHeights(search);
+    if (proposed) spacing.value = String(usualSpacing(search));
+  });
+}
+
+/** @param {Scene} scene @param {OlMap} map @param {(ring: number[]) => void} take */
+function makeDrawing(scene, map, take) {
+  const button = element("area-button");
+  /** @type {(() => void) | null} */
+  let stop = null;
+  const end = () => {
+    stop = null;
+    button.setAttribute("aria-pressed", "false");
+    element("map").classList.remove("drawing");
+  };
+  const begin = () => {
+    stop = drawArea(map, take, end);
+    button.setAttribute("aria-pressed", "true");
+    element("map").classList.add("drawing");
+  };
+  button.addEventListener("click", () => (stop ? stop() : begin()));
+  document.addEventListener("keydown", ({ key }) => key === "Escape" && stop?.());
+  scene.on(["task"], () => stop?.());
+}

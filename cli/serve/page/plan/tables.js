@@ -1,0 +1,34 @@
+// Tables that the page sends and reads (CSV).
+
+/** @param {(string | number | null)[]} cells */
+const lineOf = (cells) =>
+  cells.map((cell) => (typeof cell === "string" ? `"${cell.replaceAll('"', '""')}"` : (cell ?? ""))).join(",");
+
+/** @param {string[]} columns @param {(string | number | null)[][]} rows */
+export const tableOf = (columns, rows) => new Blob([`${[columns.join(","), ...rows.map(lineOf)].join("\n")}\n`]);
+
+/** @param {import("../state/turbines.js").Turbine[]} turbines */
+export const turbineTable = (turbines) =>
+  tableOf(
+    ["name", "x", "y", "hub_height", "rotor_diameter", "tip_height"],
+    turbines.map(({ name, x, y, hub, tip }) => [name, x, y, hub, hub === null ? null : 2 * (tip - hub), tip]),
+  );
+
+/** @param {import("../state/scene.js").Mast[]} masts */
+export const mastTable = (masts) =>
+  tableOf(
+    ["name", "x", "y", "height"],
+    masts.map(({ name, x, y, height }) => [name, x, y, height]),
+  );
+
+/** The cells of a line, of which those with commas are quoted. @param {string} line */
+const cellsOf = (line) =>
+  [...line.matchAll(/("(?:[^"]|"")*"|[^,]*)(?:,|$)/g)].map(([, cell]) => cell.replace(/^"|"$/g, ""));
+
+/** The places in a table that the program wrote. @param {string} text @returns {{x: number, y: number}[]} */
+export function placesIn(text) {
+  const [head, ...lines] = text.trim().split(/\r?\n/).map(cellsOf);
+  const x = head.indexOf("x");
+  const y = head.indexOf("y");
+  return lines.map((cells) => ({ x: Number(cells[x]), y: Number(cells[y]) }));
+}

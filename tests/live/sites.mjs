@@ -1,0 +1,154 @@
+// Tests of the choice of sites, and of the survey of premises.
+import assert from "node:assert/strict";
+import { writeFileSync } from "node:fs";
+import { join } from "node:path";
+import { test } from "node:test";
+
+import { axeFindings, closed, drawn, pageWithMast, setField, settledViews, text, until, MIDDLE } from "./planner.mjs";
+import { itin, keepPicture, openPage, world } from "./served_map.mjs";
+
+const CANDIDATES = `name,x,y,height
+Ridge,316000,190000,20
+Top,310375,183525,20
+Moor,322000,196000,25
+Vale,318000,184000,20
+`;
+
+/** What `itin site` says of a choice among the candidates. */
+function chosenOf(options) {
+  writeFileSync(join(world.folder, "candidates.csv"), CANDIDATES);
+  const all = `--candidates candidates.csv --radius 10000 --cell 200 --target-height 2 -o sites --overwrite --json`;
+  return JSON.parse(itin(`site hills.itin ${all} ${options}`, world.folder));
+}
+
+/** The page with options for a quick choice. */
+async function pageOfSites() {
+  const page = await openPage(world.browser, world.hills.address);
+  await page.$eval("#tasks input[value=sites]", (input) => input.click());
+  await setField(page, "[name=cell]", "200");
+  return page;
+}
+
+const load = async (page, name, text_) => {
+  writeFileSync(join(world.folder, name), text_);
+  await (await page.$("#candidates")).uploadFile(join(world.folder, name));
+};
+
+async function choose(page, count) {
+  await page.$eval("#site-count", (input, to) => (input.value = to), String(count));
+  await page.$eval("#choose", (button) => button.click());
+  await page.waitForSelector("#plan:not([hidden])", { timeout: 30000 });
+  await settledViews(page);
+  await drawn(page);
+}
+
+test("sites are chosen among places of a file; what each adds, and what a swap costs, is what the command line says", async () => {
+  const page = await pageOfSites();
+  await load(page, "places.csv", CANDIDATES);
+  await until(async () => /^4 candidates of places\.csv/.test(await text(page, "#search-said")), "candidates are told");
+  await choose(page, 2);
+  const { chosen, value, served_percent: percent } = chosenOf("--count 2 --name-field name");
+  const km2 = (cells) => `${((cells * 200 ** 2) / 1e6).toFixed((cells * 200 ** 2) / 1e6 < 100 ? 1 : 0)} km²`;
+  assert.ok((await text(page, "#plan-sum")).includes(`serve ${km2(value)}, ${percent.toFixed(1)} %`));
+  const rows = await page.$$eval("#plan-sites .site-gain", (all) => all.map(({ textContent }) => textContent));
+  assert.deepEqual(
+    rows,
+    chosen.map(({ gain }) => `adds ${km2(gain)}`),
+  );
+  assert.deepEqual(
+    await page.$$eval("#plan-sites .mast-name", (all) => all.map(({ textContent }) => textContent)),
+    chosen.map(({ id }) => id),
+  );
+  await keepPicture(page, "sites");
+  assert.deepEqual(await axeFindings(page), []);
+
+  // The second site goes by hand to where a candidate was not chosen.
+  await page.$$eval(".site", (all) => all[1].click());
+  const free = CANDIDATES.split("\n")
+    .slice(1, 5)
+    .map((line) => line.split(",").slice(1, 3).map(Number))
+    .find(([x, y]) => !chosen.some((site) => site.x === x && site.y === y));
+  const [cx, cy, resolution] = new URLSearchParams(new URL(page.url()).hash.slice(1)).get("at").split(",").map(Number);
+  const box = await page.$eval("#map", (map) => {
+    const { x, y, width, height } = map.getBoundingClientRect();
+    return { x: x + width / 2, y: y + height / 2 };
+  });
+  await page.mouse.click(box.x + (free[0] - cx) / resolution, box.y - (free[1] - cy) / resolution);
+  await page.waitForSelector(".marker.moved");
+  await settledViews(page);
+  writeFileSync(
+    join(world.folder, "swapped.csv"),
+    `x,y,height\n${chosen[0].x},${chosen[0].y},${chosen[0].height_m}\n${free.join(",")},${chosen[1].height_m}\n`,
+  );
+  const swapped = JSON.parse(
+    itin(
+      "viewshed hills.itin --observers swapped.csv --height-field height --target-height 2 --radius 10000 --cell 200 " +
+        "-o swapped.tif --overwrite --json",
+      world.folder,
+    ),
+  ).cells.visible;
+  await until(
+    async () => (await text(page, "#plan-now")).startsWith(`Now ${km2(swapped)}: ${km2(value - swapped)}`),
+    `${await text(page, "#plan-now")}: ${km2(swapped)}, ${km2(value - swapped)}`,
+  );
+  assert.match(await text(page, "#plan-now"), /less than the choice/);
+  await keepPicture(page, "swap");
+  await page.$eval("#plan-back", (button) => button.click());
+  await page.waitForFunction(() => !document.querySelector(".marker.moved"));
+  await page.$eval("#plan-keep", (button) => button.click());
+  await page.waitForFunction(() => document.querySelectorAll(".mast").length === 2);
+  await closed(page);
+});
+
+test("an area is drawn, a choice in it is cancelled, and then made", async () => {
+  const page = await pageOfSites();
+  await page.$eval("#choose", (button) => button.click());
+  await until(async () => /draw an area/.test(await text(page, "#choice-run .problem")), "an area is asked for");
+  await page.$eval("#area-button", (button) => button.click());
+  for (const [x, y] of [
+    [-60, -60],
+    [60, -60],
+    [60, 60],
+    [-60, -60],
+  ]) {
+    await page.mouse.click(MIDDLE.x + x, MIDDLE.y + y);
+    await new Promise((resume) => setTimeout(resume, 300));
+  }
+  await until(async () => /^Candidates are proposed in/.test(await text(page, "#search-said")), "the area is told");
+  await page.waitForFunction(() => location.hash.includes("&area="));
+  await setField(page, "#site-spacing", "300");
+  await page.$eval("#choose", (button) => button.click());
+  await page.waitForSelector("#choice-run .run-now:not([hidden])");
+  await page.$eval("#choice-run .run-now button", (button) => button.click());
+  await page.waitForSelector("#choice-run .run-now[hidden]");
+  assert.equal(await page.$eval("#plan", (plan) => plan.hidden), true);
+  await setField(page, "#site-spacing", "2500");
+  await choose(page, 1);
+  assert.match(await text(page, "#plan-sum"), /^The site serves .* No choice serves more/);
+  assert.match(await text(page, "#choice-run .run-files"), /report\.html/);
+  await closed(page);
+});
+
+test("premises are surveyed from the masts on the map", async () => {
+  const page = await pageWithMast(world.town);
+  await page.$eval("#tasks input[value=premises]", (input) => input.click());
+  await page.$eval("#survey-premises", (button) => button.click());
+  await until(async () => (await text(page, "#premises-sum")) !== "", "buildings are counted");
+  const [x, y, h] = await page.$$eval(".mast.selected .mast-fields input", (all) => all.slice(1).map((i) => i.value));
+  writeFileSync(join(world.folder, "one.csv"), `x,y,height\n${x},${y},${h}\n`);
+  const radius = await page.$eval("[name=radius]", (input) => input.value);
+  const { premises } = JSON.parse(
+    itin(`premises town.itin --masts one.csv --radius ${radius} -o premises --overwrite --json`, world.folder),
+  );
+  assert.ok((await text(page, "#premises-sum")).startsWith(`${premises.served} of ${premises.all} buildings served`));
+  assert.match(await text(page, "#premises-run .run-files"), /premises\.csv/);
+  await keepPicture(page, "premises");
+  assert.deepEqual(await axeFindings(page), []);
+  await closed(page);
+});
+
+test("a store without buildings offers no survey of them", async () => {
+  const page = await openPage(world.browser, world.hills.address);
+  assert.equal(await page.$eval("#premises-task", (label) => label.hidden), true);
+  await closed(page);
+});
