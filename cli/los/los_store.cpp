@@ -57,7 +57,7 @@ void LosStoreOptions::require_none() const {
   if (given()) throw InputError("--from and --to need a STORE; with --profile-csv give --heights h1,h2");
   require_not_given(*app_,
                     {"--absolute-heights", "--observer-absolute", "--target-absolute", "--observer-on", "--target-on",
-                     "--in-crs", "--tolerance", "--rings", "--themes", "--nodata", "--memory"},
+                     "--in-crs", "--tolerance", "--rings", "--themes", "--without", "--nodata", "--memory"},
                     "works only with a STORE");
 }
 

@@ -33,6 +33,9 @@ class LosStoreOptions {
   void validate(std::optional<double> object_tip_m);
   /// Checks everything but --from and --to, for links, which bring their own ends. Throws InputError.
   void validate_surface();
+  /// Finds in the store what the options name there, before run() or themes(). Throws InputError, CorruptStore,
+  /// FileError, Cancelled.
+  void complete(const Store& store, Progress& progress) { themes_.complete(store, progress); }
   Document surface_parameters() const;
   Detail detail() const { return detail_.detail({}); }
   const ThemeChoice& themes() const { return themes_.choice(); }

@@ -87,6 +87,7 @@ constexpr std::array kNames{
     Names{"wall_offset", "--wall-offset"},
     Names{"where", "--where"},
     Names{"wirelines", "--wirelines"},
+    Names{"without", "--without"},
     Names{"z_field", "--z-field"},
 };
 
