@@ -94,6 +94,7 @@ class LosVerb final : public Verb {
     reports_.write(one, command(), reports_.paths(), policy_.overwrite);
     one.result.document["outputs"] = reports_.paths();
     one.result.text = text_of(one.report);
+    if (!one.foliage_text.empty()) one.result.text += one.foliage_text + "\n";
     return std::move(one.result);
   }
 

@@ -11,6 +11,7 @@
 #include <profile/los.hpp>
 
 #include "options/detail_options.hpp"
+#include "options/foliage_options.hpp"
 #include "options/in_crs.hpp"
 #include "options/memory_option.hpp"
 #include "options/nodata_option.hpp"
@@ -55,6 +56,8 @@ class LosStoreOptions {
     profile::LosReport report;
     profile::StoreLine line;
     std::vector<std::string> warnings;
+    Document foliage;          ///< null without --foliage
+    std::string foliage_text;  ///< empty without it
   };
   /// Completes the query by the options, and computes the report. Throws InputError, CorruptStore, FileError.
   Result run(const Store& store, profile::LosQuery query) const;
@@ -73,6 +76,7 @@ class LosStoreOptions {
   InCrs in_crs_;
   DetailOptions detail_;
   ThemeOptions themes_;
+  FoliageOptions foliage_;
   NoDataOption nodata_;
   MemoryOption memory_;
 

@@ -132,7 +132,7 @@ class FeatureNames {
   std::multimap<std::string, std::size_t> by_name_;
 };
 
-std::vector<std::string> split(const std::string& text, char separator) {
+std::vector<std::string> names_between(const std::string& text, char separator) {
   std::vector<std::string> parts;
   std::istringstream stream(text);
   for (std::string part; std::getline(stream, part, separator);) parts.push_back(trimmed(part));
@@ -148,12 +148,12 @@ std::vector<std::string> omitted_in(const std::string& text) {
     std::ifstream file(text, std::ios::binary);
     std::ostringstream content;
     if (!(content << file.rdbuf())) throw FileError(text, "cannot be read, or is empty; give a feature in each line");
-    names = split(content.str(), '\n');
+    names = names_between(content.str(), '\n');
     std::erase(names, "");
     if (names.empty()) throw FileError(text, "names no features; give one in each line, such as woods:17");
     return names;
   }
-  names = split(text, ';');
+  names = names_between(text, ';');
   if (names.empty() || std::find(names.begin(), names.end(), "") != names.end())
     throw InputError(
         fmt::format("--without '{}': give features with semicolons between, such as woods:17;woods:18, or "

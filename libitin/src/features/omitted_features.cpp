@@ -60,7 +60,7 @@ Selection with_theme(const StoreMetadata& metadata, std::uint16_t theme) {
 /// its corners.
 using Owners = std::map<std::int64_t, double>;
 
-/// Of the features about a vertex, it is of the highest: where two of them touch, the wall stands in the lower one, and
+/// Returns the highest of the features about a vertex: where two of them touch, the wall stands in the lower one, and
 /// the party line is the other's (footprint_arrangement.hpp). Among equals it is the first one's.
 std::int64_t owner_among(const Owners& owners) {
   return std::max_element(owners.begin(), owners.end(),
