@@ -1,8 +1,8 @@
 // Sight through woods: how far a line runs within foliage, and how much light comes through.
 //
-//   const profile::StoreLine line{.from = {310375, 183525}, .to = {322300, 190000}, .themes = ThemeChoice::all()};
+//   const profile::StoreLine hills{.from = {310375, 183525}, .to = {322300, 190000}, .themes = ThemeChoice::all()};
 //   const profile::FoliageSight sight =
-//       profile::through_foliage(store, line, {.from_height_m = 2, .to_height_m = 30}, {.leaf_area = 0.1});
+//       profile::through_foliage(store, hills, {.from_height_m = 2, .to_height_m = 30}, {.leaf_area = 0.1});
 //   std::cout << sight.length_m << " m of foliage, transmittance " << sight.transmittance << '\n';
 //
 // Foliage is what features of themes of vegetation hold between the ground and their tops, down to the ground. Of the
