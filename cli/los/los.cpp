@@ -89,11 +89,12 @@ class LosVerb final : public Verb {
   Result execute(Progress& progress) override {
     if (links_.given()) return run_links(progress);
     for (const std::string& path : reports_.paths()) policy_.require_writable(path);
-    LosCase one = store_.empty() ? run_profile() : run_store();
+    LosCase one = store_.empty() ? run_profile() : run_store(progress);
     if (query_.radio) warn_of_refraction(query_.radio->effective_earth_km, one.result);
     reports_.write(one, command(), reports_.paths(), policy_.overwrite);
     one.result.document["outputs"] = reports_.paths();
     one.result.text = text_of(one.report);
+    if (!one.foliage_text.empty()) one.result.text += one.foliage_text + "\n";
     return std::move(one.result);
   }
 
@@ -148,8 +149,9 @@ class LosVerb final : public Verb {
     return one;
   }
 
-  LosCase run_store() {
+  LosCase run_store(Progress& progress) {
     const Store store(store_, cache_within(line_.memory_bytes()));
+    line_.complete(store, progress);
     earth_.take_body_of(store.metadata());
     query_ = query_of(earth_, radio_, people_);
     LosCase one = los_case(store, line_.run(store, query_), header());
@@ -161,6 +163,7 @@ class LosVerb final : public Verb {
   Result run_links(Progress& progress) {
     for (const std::string& output : links_.outputs()) policy_.require_writable(output);
     const Store store(store_, cache_within(line_.memory_bytes()));
+    line_.complete(store, progress);
     earth_.take_body_of(store.metadata());
     query_ = query_of(earth_, radio_, people_);
     profile::LinkTable table = links_.table(store, line_);

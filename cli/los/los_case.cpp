@@ -89,6 +89,8 @@ LosCase los_case(const Store& store, LosStoreOptions::Result line, const LosHead
   Document document = profile::los_document(store.metadata(), line.line, line.report);
   LosCase one = los_case(std::move(line.report), std::move(document), header);
   one.result.warnings = std::move(line.warnings);
+  if (!line.foliage.is_null()) one.result.document["foliage"] = std::move(line.foliage);
+  one.foliage_text = std::move(line.foliage_text);
   return one;
 }
 

@@ -17,6 +17,7 @@ namespace itin::cli {
 struct LosCase {
   profile::LosReport report;
   Result result;
+  std::string foliage_text = {};  ///< what --foliage tells
 };
 
 /// The data that the reports of all lines of a call begin with.

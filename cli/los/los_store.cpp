@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <itin/error.hpp>
+#include <profile/foliage_text.hpp>
 #include <profile/report_text.hpp>
 
 #include "options/off_the_data.hpp"
@@ -46,6 +47,7 @@ void LosStoreOptions::declare(CLI::App& app) {
   in_crs_.declare(app);
   detail_.declare(app, "--from");
   themes_.declare(app);
+  foliage_.declare(app);
   nodata_.declare(app);
 }
 
@@ -57,7 +59,8 @@ void LosStoreOptions::require_none() const {
   if (given()) throw InputError("--from and --to need a STORE; with --profile-csv give --heights h1,h2");
   require_not_given(*app_,
                     {"--absolute-heights", "--observer-absolute", "--target-absolute", "--observer-on", "--target-on",
-                     "--in-crs", "--tolerance", "--rings", "--themes", "--nodata", "--memory"},
+                     "--in-crs", "--tolerance", "--rings", "--themes", "--without", "--foliage", "--leaf-area",
+                     "--transmittance", "--nodata", "--memory"},
                     "works only with a STORE");
 }
 
@@ -85,10 +88,12 @@ void LosStoreOptions::validate_choices() {
   parse_choice("--target-on", to_on_, {"ground", "surface"});
   detail_.validate();
   themes_.validate();
+  foliage_.validate();
 }
 
 void LosStoreOptions::validate_surface() {
   validate_choices();
+  if (foliage_.given()) throw InputError("--foliage is for one line between --from and --to, not for --links");
   if (detail_.has_rings()) throw InputError("--rings have no one centre for many links; give --tolerance");
   for (const auto& [given, option] :
        {std::pair(absolute_heights_, "--absolute-heights"), std::pair(from_absolute_, "--observer-absolute"),
@@ -99,6 +104,7 @@ void LosStoreOptions::validate_surface() {
 Document LosStoreOptions::surface_parameters() const {
   Document parameters = detail_.parameters();
   parameters.update(themes_.parameters());
+  parameters.update(foliage_.parameters());
   parameters["observer_on"] = from_on_;
   parameters["target_on"] = to_on_;
   if (!in_crs_.crs.empty()) parameters["in_crs"] = in_crs_.crs;
@@ -134,8 +140,17 @@ LosStoreOptions::Result LosStoreOptions::run(const Store& store, profile::LosQue
   query.from_on_surface = from_on_surface(), query.to_on_surface = to_on_surface();
   query.nodata = nodata();
   Result result;
-  result.report = profile::analyse(store, line, query);
   result.line = line;
+  if (foliage_.given()) {
+    profile::FoliageSight sight = profile::through_foliage(store, line, query, foliage_.foliage());
+    result.foliage = profile::foliage_document(sight, foliage_.foliage());
+    result.foliage_text = profile::foliage_text(sight, foliage_.foliage());
+    result.report = std::move(sight.solid);
+    result.report.verdict = sight.verdict;
+    result.report.facts.emplace_back("Foliage", result.foliage_text);
+  } else {
+    result.report = profile::analyse(store, line, query);
+  }
   result.warnings = warnings_about(result.report);
   return result;
 }

@@ -11,6 +11,7 @@
 #include <profile/los.hpp>
 
 #include "options/detail_options.hpp"
+#include "options/foliage_options.hpp"
 #include "options/in_crs.hpp"
 #include "options/memory_option.hpp"
 #include "options/nodata_option.hpp"
@@ -33,6 +34,9 @@ class LosStoreOptions {
   void validate(std::optional<double> object_tip_m);
   /// Checks everything but --from and --to, for links, which bring their own ends. Throws InputError.
   void validate_surface();
+  /// Finds in the store what the options name there, before run() or themes(). Throws InputError, CorruptStore,
+  /// FileError, Cancelled.
+  void complete(const Store& store, Progress& progress) { themes_.complete(store, progress); }
   Document surface_parameters() const;
   Detail detail() const { return detail_.detail({}); }
   const ThemeChoice& themes() const { return themes_.choice(); }
@@ -52,6 +56,8 @@ class LosStoreOptions {
     profile::LosReport report;
     profile::StoreLine line;
     std::vector<std::string> warnings;
+    Document foliage;          ///< null without --foliage
+    std::string foliage_text;  ///< empty without it
   };
   /// Completes the query by the options, and computes the report. Throws InputError, CorruptStore, FileError.
   Result run(const Store& store, profile::LosQuery query) const;
@@ -70,6 +76,7 @@ class LosStoreOptions {
   InCrs in_crs_;
   DetailOptions detail_;
   ThemeOptions themes_;
+  FoliageOptions foliage_;
   NoDataOption nodata_;
   MemoryOption memory_;
 

@@ -35,7 +35,7 @@ class PremisesVerb final : public Verb {
     const Store store(options_.store, cache_within(options_.memory_bytes()));
     CallProgress call(progress);
     const viewshed::PremisesSurvey survey =
-        viewshed::survey_premises(store, options_.complete_request(store.metadata()), call.step(0.8));
+        viewshed::survey_premises(store, options_.complete_request(store, call), call.step(0.8));
     Result result;
     result.warnings = survey.warnings;
     options_.warn_of_light(result.warnings);

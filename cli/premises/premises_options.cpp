@@ -62,7 +62,6 @@ void PremisesOptions::declare_work(CLI::App& app) {
 void PremisesOptions::validate() {
   themes_.validate();
   earth_.validate();
-  request_.themes = themes_.choice();
   request_.nodata = nodata_.rule();
   request_.memory_bytes = memory_.bytes().value_or(request_.memory_bytes);
   request_.masts_on_surface = parse_choice("--observer-on", observer_on_, {"ground", "surface"}) == 1;
@@ -85,10 +84,13 @@ void PremisesOptions::validate_antennas() {
   require_curved(earth_.earth());
 }
 
-viewshed::PremisesRequest PremisesOptions::complete_request(const StoreMetadata& metadata) {
+viewshed::PremisesRequest PremisesOptions::complete_request(const Store& read, Progress& progress) {
+  const StoreMetadata& metadata = read.metadata();
   earth_.take_body_of(metadata);
   request_.earth = earth_.earth();
   themes_.choice().check(metadata.themes);
+  themes_.complete(read, progress);
+  request_.themes = themes_.choice();
   viewshed::SitePlaces& masts = request_.masts;
   take_fields(masts.warnings);
   masts.source = masts_.path;

@@ -27,8 +27,9 @@ class PremisesOptions {
   /// Throws InputError.
   void validate();
   Document parameters() const;
-  /// Adds to the request what takes the store and the file of masts. Throws InputError, FileError.
-  viewshed::PremisesRequest complete_request(const StoreMetadata& metadata);
+  /// Adds to the request what takes the store and the file of masts. Throws InputError, FileError,
+  /// CorruptStore, Cancelled.
+  viewshed::PremisesRequest complete_request(const Store& read, Progress& progress);
   /// Says whose heights the masts have, where their file gives these unasked; empty else.
   std::string heights_text() const;
   /// Warns where refraction is that of light, and links are radio.

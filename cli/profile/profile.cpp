@@ -139,6 +139,7 @@ class ProfileVerb final : public Verb {
     for (const std::string& output : outputs()) policy_.require_writable(output);
     if (!triangles_.empty()) require_tin_output(triangles_, policy_.overwrite);
     const Store store(store_, cache_within(memory_.bytes()));
+    themes_.complete(store, progress);
     Result result;
     const std::vector<Point2> corners = corners_in(store.metadata(), result.warnings);
     const profile::PathProfiles along = profile::profiles_along(store, query(corners), progress);

@@ -30,6 +30,8 @@ constexpr std::array kNames{
     Names{"crs", "--crs"},
     Names{"dwellings", "--dwellings"},
     Names{"eaves_field", "--eaves-field"},
+    Names{"extinction", "--foliage"},
+    Names{"foliage", "--foliage"},
     Names{"foundation", "--foundation"},
     Names{"frequency_ghz", "--frequency"},
     Names{"fresnel", "--fresnel"},
@@ -46,6 +48,8 @@ constexpr std::array kNames{
     Names{"in_crs", "--in-crs"},
     Names{"kind", "--kind"},
     Names{"layer", "--layer"},
+    Names{"leaf_area", "--leaf-area"},
+    Names{"least_transmittance", "--transmittance"},
     Names{"masts", "--masts"},
     Names{"max_gap", "--max-gap"},
     Names{"memory_bytes", "--memory"},
@@ -87,6 +91,7 @@ constexpr std::array kNames{
     Names{"wall_offset", "--wall-offset"},
     Names{"where", "--where"},
     Names{"wirelines", "--wirelines"},
+    Names{"without", "--without"},
     Names{"z_field", "--z-field"},
 };
 

@@ -73,7 +73,8 @@ Document LiveProbe::answer(const Document& options, Point2 position) {
   ViewOptions view;
   take_view(options, view);
   std::vector<std::string> ignored;
-  const viewshed::Request& request = view.complete(served_.metadata(), ignored);
+  NoProgress quiet;
+  const viewshed::Request& request = view.complete(served_.store(), ignored, quiet);
   const auto surface = served_.surface(request.detail, request.themes);
   const profile::LosReport report = line_to(served_.store(), *surface, request, position);
   Document answer{{"verdict", name_of(report.verdict)}, {"distance_m", report.profile.length_m}};

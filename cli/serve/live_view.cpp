@@ -151,7 +151,7 @@ void show_view(ServedStore& served, const LiveNumber& number, const Document& op
   ViewOptions view;
   take_view(options, view);
   std::vector<std::string> warnings;
-  const viewshed::Request& request = view.complete(served.metadata(), warnings);
+  const viewshed::Request& request = view.complete(served.store(), warnings, run);
   require_few_cells(served, request);
   const auto surface = served.surface(request.detail, request.themes);
   wait_for(to, run);

@@ -62,6 +62,8 @@ class SiteVerb final : public Verb {
     const Store store(options_.store, cache_within(options_.request.memory_bytes));
     options_.earth.take_body_of(store.metadata());
     options_.themes.choice().check(store.metadata().themes);
+    options_.themes.complete(store, progress);
+    options_.request.themes = options_.themes.choice();
     inputs_document_ = hash_inputs(progress);
     Result result;
     options_.take_fields(result.warnings);

@@ -293,7 +293,6 @@ void SiteOptions::validate_choice() {
 void SiteOptions::validate_work() {
   request.tolerance = number("--tolerance", tolerance_text_, Range::kNotNegative);
   themes.validate();
-  request.themes = themes.choice();
   earth.validate();
   request.engine = engine.engine();
   request.nodata = nodata.rule();

@@ -102,6 +102,7 @@ class TinVerb final : public Verb {
     const Store store(store_, cache_within(memory_.bytes()));
     const auto [window, centre] = window_.region(store.metadata());
     const Detail detail = detail_.detail(centre);
+    themes_.complete(store, progress);
     const ThemeChoice themes = themes_.choice().with_ground_lines();
     themes.check(store.metadata().themes);
     if (names_geotiff(output_)) return write_raster_of(store, window, detail, themes, progress);

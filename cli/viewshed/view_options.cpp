@@ -53,7 +53,6 @@ void ViewOptions::validate() {
   targets_.validate(observers_, request_);
   detail_.validate();
   themes_.validate();
-  request_.themes = themes_.choice();
   earth_.validate();
   request_.earth = earth_.earth();
   request_.engine = engine_.engine();
@@ -97,7 +96,11 @@ void ViewOptions::validate_precise() {
   precise_ = exact;
 }
 
-const viewshed::Request& ViewOptions::complete(const StoreMetadata& metadata, std::vector<std::string>& warnings) {
+const viewshed::Request& ViewOptions::complete(const Store& store, std::vector<std::string>& warnings,
+                                               Progress& progress) {
+  const StoreMetadata& metadata = store.metadata();
+  themes_.complete(store, progress);
+  request_.themes = themes_.choice();
   earth_.take_body_of(metadata);
   request_.earth = earth_.earth();
   targets_.complete(metadata, request_);

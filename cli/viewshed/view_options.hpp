@@ -5,7 +5,7 @@
 //   view.declare_view(app), view.declare_surface(app);
 //   // Once `app` has its values:
 //   view.validate();
-//   const viewshed::Request& request = view.complete(store.metadata(), warnings);
+//   const viewshed::Request& request = view.complete(store, warnings, progress);
 #pragma once
 
 #include <string>
@@ -35,8 +35,9 @@ class ViewOptions {
   void declare_surface(CLI::App& app);
   /// Throws InputError.
   void validate();
-  /// Completes the request from the store's CRS and the fields of files, and returns it. Throws InputError, FileError.
-  const viewshed::Request& complete(const StoreMetadata& metadata, std::vector<std::string>& warnings);
+  /// Completes the request from the store and the fields of files, and returns it. Throws InputError, FileError,
+  /// CorruptStore, Cancelled.
+  const viewshed::Request& complete(const Store& store, std::vector<std::string>& warnings, Progress& progress);
 
   /// The request as far as it is known by now.
   const viewshed::Request& request() const { return request_; }

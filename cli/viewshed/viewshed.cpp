@@ -83,7 +83,7 @@ class ViewshedVerb final : public Verb {
     const Store store(store_, cache_within(compute_options_.memory_bytes));
     const StoreMetadata& metadata = store.metadata();
     Result result;
-    const viewshed::Request& request = view_.complete(metadata, result.warnings);
+    const viewshed::Request& request = view_.complete(store, result.warnings, progress);
     horizon_.read_targets(request, view_.targets(), view_.observers().in_crs(), metadata, result.warnings);
     request.themes.check(metadata.themes);
     features_.require_themes(metadata, request.themes);

@@ -64,6 +64,7 @@ std::string viewshed_text(const StoreMetadata& metadata, const viewshed::Result&
     const bool features = result.request.themes.includes_raised(metadata.themes);
     text += features && !result.certified ? "; lower features may be left out\n" : "\n";
   }
+  if (const std::string omitted = omitted_text(result.request.themes); !omitted.empty()) text += omitted + "\n";
   if (missing.share() > 0) text += fmt::format("no ground data: {} of the area looked at\n", missing.text());
   return text + fmt::format("{}, {}; {}\n", counted(result.statistics.triangles, "triangle"),
                             counted(result.statistics.lines, "line"), result.request.earth.convention());

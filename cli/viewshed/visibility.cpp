@@ -98,7 +98,6 @@ class VisibilityVerb final : public Verb {
     detail_.validate();
     if (detail_.has_rings()) throw InputError("--rings lie about one observer; give --tolerance");
     themes_.validate();
-    request_.themes = themes_.choice();
     earth_.validate();
     request_.earth = earth_.earth();
     request_.nodata = nodata_.rule();
@@ -134,6 +133,8 @@ class VisibilityVerb final : public Verb {
     if (!request_.area.is_all() && !metadata.grid.box(metadata.bounds).meets(request_.area.bounds()))
       throw InputError(window_.no_ground(metadata));
     request_.detail = detail_.detail({});
+    themes_.complete(store, progress);
+    request_.themes = themes_.choice();
     request_.themes.check(metadata.themes);
     const viewshed::VisibilityIndex index = viewshed::visibility_index(store, request_, progress);
     const Document surface = surface_document(metadata, request_.detail, request_.themes);

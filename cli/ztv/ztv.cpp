@@ -136,6 +136,7 @@ class ZtvVerb final : public Verb {
     viewshed::require_zone_folder(output_, policy_.overwrite);
     radius_.load();
     const Store store(store_, cache_within(request_.zone.memory_bytes));
+    themes_.complete(store, progress);
     complete_request(store.metadata());
     const viewshed::ZoneStudy study = viewshed::study_zone(store, request_, progress);
     cli::Result result;

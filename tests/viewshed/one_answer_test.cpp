@@ -11,6 +11,7 @@
 
 #include <itin/cross_section.hpp>
 #include <itin/error.hpp>
+#include <itin/feature_at.hpp>
 #include <itin/grazing.hpp>
 #include <itin/import.hpp>
 #include <itin/store.hpp>
@@ -277,6 +278,38 @@ TEST_F(InATown, WithFeaturesAtATolerance) {
     request_.detail = Detail::tolerance(tolerance);
     expect_plain_agrees(*store_, request_, 600);
   }
+}
+
+/// Woods felled and houses not built: plain, precise, certified, at a tolerance, in rings, by rays and in little
+/// memory.
+TEST_F(InATown, WithoutSomeFeatures) {
+  NoProgress progress;
+  request_.observers.front().height = 6;
+  std::vector<FeatureNumber> omitted;
+  const std::vector<ThemeInfo>& themes = store_->metadata().themes;
+  for (std::uint16_t theme = 1; theme <= themes.size(); ++theme)
+    for (const FeatureAt& f : themes[theme - 1U].is_raised() ? features_of(*store_, theme) : std::vector<FeatureAt>())
+      if (random_() % 2 == 0) omitted.push_back({theme, f.number});
+  const Result before = viewshed::compute(*store_, request_, progress);
+  request_.themes = without_features(*store_, request_.themes, omitted, progress);
+  const Result plain = viewshed::compute(*store_, request_, progress);
+  EXPECT_GT(plain.cells.visible, before.cells.visible);
+  for (std::size_t cell = 0; cell < plain.visible.size(); ++cell)
+    EXPECT_FALSE(before.visible[cell] == viewshed::Verdict::kVisible &&
+                 plain.visible[cell] == viewshed::Verdict::kHidden);
+  expect_exact(*store_, plain, 800);
+  EXPECT_EQ(test::compute_at_full_detail(*store_, request_, {.memory_bytes = 1 << 20}, progress).result.visible,
+            plain.visible);
+  Request by_rays = request_;
+  by_rays.engine = viewshed::Engine::kRays;
+  EXPECT_EQ(viewshed::compute(*store_, by_rays, progress).visible, plain.visible);
+  for (const double tolerance : {2.0, 8.0}) {
+    request_.detail = Detail::tolerance(tolerance);
+    expect_plain_agrees(*store_, request_, 300);
+    expect_exact(*store_, viewshed::compute_certified(*store_, request_, {}, progress).result, 300);
+  }
+  request_.detail = Detail::rings(request_.observers.front().position, {{80, 0}, {120, 8}, {320, 32}});
+  ask_again(*store_, viewshed::compute(*store_, request_, progress), 300);
 }
 
 /// Rings that leave most houses out, seen over what they have.

@@ -1,4 +1,4 @@
-// Which imported feature stands at a place.
+// Which imported feature stands at a place, and the surface without some features.
 //
 //   const CrossSection street =
 //       cross_section(store, {321590, 4297655}, {321790, 4297655}, Detail::tolerance(0), ThemeChoice::all());
@@ -7,6 +7,7 @@
 //     const std::optional<FeatureAt> house = features_at(store, p.theme, {{p.position.x, p.position.y}})[0];
 //     if (house) std::cout << title_of(*house) << '\n';
 //   }
+//   const ThemeChoice without_it = without_features(store, ThemeChoice::all(), {{1, 42}}, progress);
 #pragma once
 
 #include <cstdint>
@@ -16,6 +17,7 @@
 
 #include <itin/geometry.hpp>
 #include <itin/progress.hpp>
+#include <itin/theme.hpp>
 
 namespace itin {
 
@@ -44,5 +46,26 @@ std::vector<std::optional<FeatureAt>> features_at(const Store& store, std::uint1
 /// have. Cost: reads the blocks of 256 that hold these features. Throws CorruptStore.
 std::vector<std::optional<FeatureAt>> features_numbered(const Store& store, std::uint16_t theme,
                                                         const std::vector<std::int64_t>& numbers);
+
+/// Returns all features of a raised theme, by number. Throws CorruptStore.
+std::vector<FeatureAt> features_of(const Store& store, std::uint16_t theme);
+
+/// A feature of a raised theme, by its number.
+struct FeatureNumber {
+  std::uint16_t theme = 0;  ///< the theme's number, from 1
+  std::int64_t number = 0;  ///< the feature's number in its theme, from 0
+  friend auto operator<=>(const FeatureNumber&, const FeatureNumber&) = default;
+};
+
+/// Returns the choice of themes without these features: a surface on which they do not stand, in every query. Nothing
+/// changes beyond their outlines; within, the surface is the ground as the store has it, whatever else made way for
+/// them. It ends at their outlines, where it is straight between their vertices; at tolerance 0 these lie on each edge
+/// of the ground that an outline crosses, so that it is the ground to a step of the store's grid. A feature of a theme
+/// that is not chosen changes nothing.
+///
+/// The choice is for this store alone. Cost: reads all footprints of their themes, and triangulates about them. Throws
+/// InputError for a theme that is not raised or a number that it does not have, CorruptStore, FileError, Cancelled.
+ThemeChoice without_features(const Store& store, const ThemeChoice& themes, std::vector<FeatureNumber> features,
+                             Progress& progress);
 
 }  // namespace itin

@@ -11,6 +11,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -107,6 +108,18 @@ struct ThemePart {
 /// vegetation, then surfaces; among equals the name decides.
 bool comes_before(const ThemeInfo& a, const ThemeInfo& b);
 
+class OmittedTops;  // declared in a header that is not installed
+
+/// A feature of a raised theme that a query leaves out; see without_features() of feature_at.hpp.
+struct OmittedFeature {
+  std::uint16_t theme = 0;  ///< the theme's number, from 1
+  std::int64_t number = 0;  ///< the feature's number in its theme, from 0
+  std::string theme_name;   ///< the theme's name
+  std::string name = {};    ///< as its source calls the feature
+  std::string id = {};      ///< empty where the store has none
+  friend bool operator==(const OmittedFeature&, const OmittedFeature&) = default;
+};
+
 /// The themes that a query wants besides those of the terrain. Lines that only lie on the ground (roads, and whatever
 /// was imported without heights) are straight between their vertices, where the terrain is not. A surface to look over
 /// therefore has none of them; they are present only where with_ground_lines() asks for them.
@@ -118,6 +131,17 @@ class ThemeChoice {
   static ThemeChoice parse(std::string_view text);
   /// Returns this choice with lines that lie on the ground taken in, too.
   ThemeChoice with_ground_lines() const;
+
+  /// Returns this choice without its themes of vegetation: what stands that no light passes through.
+  ThemeChoice without_vegetation() const;
+  /// Returns this choice without these features. `tops` are their vertices in the store that they come from, and the
+  /// choice is then for that store alone. without_features() makes both.
+  ThemeChoice omitting(std::vector<OmittedFeature> features, std::shared_ptr<const OmittedTops> tops) const;
+
+  /// The features that are left out, ascending by theme and number.
+  const std::vector<OmittedFeature>& omitted() const { return omitted_; }
+  bool omits(std::uint16_t theme, std::int64_t feature) const;
+  const std::shared_ptr<const OmittedTops>& omitted_tops() const { return tops_; }
 
   bool includes(const ThemeInfo& theme) const;
   /// Tells whether some included theme stands on the ground.
@@ -132,7 +156,9 @@ class ThemeChoice {
   ThemeChoice(bool all, std::vector<std::string> names) : all_(all), names_(std::move(names)) {}
   bool all_;
   std::vector<std::string> names_;
-  bool ground_lines_ = false;
+  bool ground_lines_ = false, vegetation_ = true;
+  std::vector<OmittedFeature> omitted_ = {};
+  std::shared_ptr<const OmittedTops> tops_ = {};
 };
 
 }  // namespace itin

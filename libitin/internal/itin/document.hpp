@@ -32,7 +32,8 @@ std::string result_text(const Document& document);
 /// Returns [lo, hi] of a certificate.
 Document error_interval(const CertifiedError& error);
 /// Returns `surface`: tolerance, certified error and themes of the surface that a query at this detail sees. With rings
-/// the tolerance is the coarsest, the error covers all rings, and the rings are listed.
+/// the tolerance is the coarsest, the error covers all rings, and the rings are listed. Features that the query leaves
+/// out are listed as `without`.
 Document surface_document(const StoreMetadata& metadata, const Detail& detail, const ThemeChoice& themes);
 /// Returns `sources`: the sources that something was made of.
 Document sources_document(const std::vector<SourceInfo>& sources);

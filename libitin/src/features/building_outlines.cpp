@@ -9,7 +9,7 @@ namespace itin {
 
 namespace {
 
-/// Calls visit(theme, number, feature) for each building and terrace of the chosen themes.
+/// Calls visit(theme, number, feature) for each building and terrace of the chosen themes that is not left out.
 template <class Visit>
 void for_each_building(const Store& store, const ThemeChoice& themes, const Visit& visit) {
   const std::vector<ThemeInfo>& known = store.metadata().themes;
@@ -18,8 +18,10 @@ void for_each_building(const Store& store, const ThemeChoice& themes, const Visi
     const auto theme = static_cast<std::uint16_t>(t + 1);
     std::int64_t number = 0;
     for (std::uint32_t block = 0; block < known[t].footprint_blocks; ++block)
-      for (const StoredFootprint& footprint : stored_footprints(store, theme, block))
-        visit(theme, number++, footprint.feature);
+      for (const StoredFootprint& footprint : stored_footprints(store, theme, block)) {
+        if (!themes.omits(theme, number)) visit(theme, number, footprint.feature);
+        ++number;
+      }
   }
 }
 

@@ -141,4 +141,18 @@ std::vector<std::optional<FeatureAt>> features_numbered(const Store& store, std:
   return found;
 }
 
+std::vector<FeatureAt> features_of(const Store& store, std::uint16_t theme) {
+  std::vector<FeatureAt> all;
+  FeatureTable table(store, theme);
+  const std::uint32_t blocks = store.metadata().themes[theme - std::size_t{1}].footprint_blocks;
+  for (std::uint32_t block = 0; block < blocks; ++block) {
+    for (StoredFootprint& footprint : stored_footprints(store, theme, block)) {
+      const auto number = static_cast<std::int64_t>(all.size());
+      const FeatureRecord* const record = table.at(number);
+      all.push_back({number, std::move(footprint.feature.name), record != nullptr ? record->id : std::string()});
+    }
+  }
+  return all;
+}
+
 }  // namespace itin

@@ -69,9 +69,28 @@ ThemeChoice ThemeChoice::with_ground_lines() const {
   return choice;
 }
 
+ThemeChoice ThemeChoice::without_vegetation() const {
+  ThemeChoice choice = *this;
+  choice.vegetation_ = false;
+  return choice;
+}
+
+ThemeChoice ThemeChoice::omitting(std::vector<OmittedFeature> features, std::shared_ptr<const OmittedTops> tops) const {
+  ThemeChoice choice = *this;
+  choice.omitted_ = std::move(features);
+  choice.tops_ = std::move(tops);
+  return choice;
+}
+
+bool ThemeChoice::omits(std::uint16_t theme, std::int64_t feature) const {
+  return std::any_of(omitted_.begin(), omitted_.end(),
+                     [&](const OmittedFeature& f) { return f.theme == theme && f.number == feature; });
+}
+
 bool ThemeChoice::includes(const ThemeInfo& theme) const {
   if (is_terrain(theme.kind)) return true;
   if (!theme.is_raised() && !ground_lines_) return false;
+  if (theme.kind == ThemeKind::Vegetation && !vegetation_) return false;
   return all_ || std::find(names_.begin(), names_.end(), theme.name) != names_.end();
 }
 

@@ -27,6 +27,11 @@ Document surface_document(const StoreMetadata& metadata, const Detail& detail, c
     }
   }
   surface["themes"] = themes.names(metadata.themes);
+  for (const OmittedFeature& f : themes.omitted())
+    surface["without"].push_back({{"theme", f.theme_name},
+                                  {"feature", f.name},
+                                  {"feature_number", f.number},
+                                  {"feature_id", f.id.empty() ? Document(nullptr) : Document(f.id)}});
   return surface;
 }
 

@@ -4,6 +4,7 @@
 #include <tuple>
 
 #include "store/store_format.hpp"
+#include "triangulate/omitted_tops.hpp"
 
 namespace itin {
 
@@ -30,6 +31,7 @@ RaisedIndex::RaisedIndex(const Store& store, const Selection& selection)
     ranks_.push_back(chosen ? static_cast<int>(rank) : kNotThere);
     any_ = any_ || chosen;
   }
+  if (any_ && selection.omitted()) beneath_ = selection.omitted()->ground(store, selection);
 }
 
 /// Returns the ascending codes of the places where vertices of rank `below` make way.
@@ -59,11 +61,14 @@ std::shared_ptr<const Block> RaisedIndex::block(const Leaf& leaf) const {
   for (std::size_t k = 0; k < whole->points.size(); ++k) {
     const GridPoint& p = whole->points[k];
     if (is_part(leaf.theme) && whole->sources[k] == format::kMask) continue;
-    if (std::binary_search(masked.begin(), masked.end(), code_of(p))) continue;
-    rest->points.push_back(p);
+    if (is_part(leaf.theme) && beneath_ && beneath_->removes(p)) continue;
+    const bool makes_way = std::binary_search(masked.begin(), masked.end(), code_of(p));
+    if (makes_way && (is_part(leaf.theme) || !beneath_ || !beneath_->restores(p))) continue;
+    const std::optional<std::int32_t> ground = is_part(leaf.theme) && beneath_ ? beneath_->lowered(p) : std::nullopt;
+    rest->points.push_back({p.x, p.y, ground.value_or(p.z)});
     rest->sources.add(is_part(leaf.theme) ? static_cast<std::uint16_t>(whole->sources[k] & ~format::kOnOutline)
                                           : whole->sources[k]);
-    if (is_part(leaf.theme)) rest->outline.push_back((whole->sources[k] & format::kOnOutline) != 0 ? 1 : 0);
+    if (is_part(leaf.theme)) rest->outline.push_back(ground || (whole->sources[k] & format::kOnOutline) != 0 ? 1 : 0);
     if (!whole->levels.empty()) rest->levels.push_back(whole->levels[k]);
   }
   cache_.insert(leaf.key, rest, rest->bytes());
@@ -83,9 +88,10 @@ void RaisedIndex::segments(const GridBox& box, std::vector<Segment>& out) const 
   }
   std::sort(masked.begin(), masked.end());
   for (const Segment& s : found) {
-    if (s.finest == format::kMaskedSegment) continue;
+    if (s.finest == format::kMaskedSegment || (beneath_ && beneath_->removes(s))) continue;
     if (!std::binary_search(masked.begin(), masked.end(), name(s, s.theme))) out.push_back(s);
   }
+  if (beneath_) beneath_->segments(box, out);
 }
 
 }  // namespace itin

@@ -15,6 +15,7 @@
 #include "store/block_cache.hpp"
 #include "store/point_index.hpp"
 #include "triangulate/chosen_clusters.hpp"
+#include "triangulate/ground_beneath.hpp"
 #include "triangulate/selection.hpp"
 
 namespace itin {
@@ -61,7 +62,8 @@ class RaisedIndex final : public PointIndex {
   std::size_t themes_;
   std::vector<int> ranks_;  ///< by number of theme or part
   std::vector<std::uint16_t> themes_of_parts_;
-  bool any_ = false;  ///< whether some part is chosen
+  bool any_ = false;                              ///< whether some part is chosen
+  std::shared_ptr<const GroundBeneath> beneath_;  ///< in place of features that are left out; null: none are
   mutable BlockCache cache_;
 };
 

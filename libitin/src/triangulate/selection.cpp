@@ -71,6 +71,21 @@ bool Selection::selects(const Segment& s) const {
   return s.finest <= nearest && farthest <= s.coarsest;
 }
 
+Selection Selection::with_all_features() const {
+  Selection all = *this;
+  all.omitted_ = nullptr;
+  return all;
+}
+
+Selection Selection::without_raised(const StoreMetadata& metadata) const {
+  Selection bare = with_all_features();
+  for (std::size_t t = 0; t < metadata.themes.size(); ++t)
+    if (metadata.themes[t].is_raised()) bare.leave_out(static_cast<std::uint16_t>(t + 1));
+  for (std::size_t p = 0; p < metadata.parts.size(); ++p)
+    bare.leave_out(static_cast<std::uint16_t>(metadata.themes.size() + p + 1));
+  return bare;
+}
+
 Selection selection_of(const StoreMetadata& metadata, const Detail& detail, const ThemeChoice& themes) {
   themes.check(metadata.themes);
   std::vector<double> tolerances;
@@ -86,6 +101,7 @@ Selection selection_of(const StoreMetadata& metadata, const Detail& detail, cons
     if (!selection.includes(part.theme) || part.coarsest < selection.finest())
       selection.leave_out(static_cast<std::uint16_t>(metadata.themes.size() + p + 1));
   }
+  selection.omit(themes.omitted_tops());
   return selection;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include <itin/detail.hpp>
@@ -25,6 +26,14 @@ class Selection {
   /// Leaves out a theme, by its number, or the coverage outline. At first all are selected.
   void leave_out(std::uint16_t theme);
   bool includes(std::uint16_t theme) const { return theme >= left_out_.size() || !left_out_[theme]; }
+
+  /// Leaves out the features that these are the tops of; null: none.
+  void omit(std::shared_ptr<const OmittedTops> tops) { omitted_ = std::move(tops); }
+  const std::shared_ptr<const OmittedTops>& omitted() const { return omitted_; }
+  /// Returns what is selected with every feature of the chosen themes.
+  Selection with_all_features() const;
+  /// Returns what is selected of the terrain and of lines on it.
+  Selection without_raised(const StoreMetadata& metadata) const;
 
   /// These are the levels asked for at the centre and beyond the last ring.
   int finest() const { return finest_; }
@@ -49,10 +58,13 @@ class Selection {
   /// are unaffected.
   bool selects(const Segment& segment) const;
 
+  friend bool operator==(const Selection&, const Selection&) = default;
+
  private:
   struct Disc {
     std::int64_t radius;  ///< grid units
     int level;
+    friend bool operator==(const Disc&, const Disc&) = default;
   };
 
   int level_at(std::int64_t x, std::int64_t y) const;
@@ -63,6 +75,7 @@ class Selection {
   std::int64_t y_ = 0;
   std::vector<Disc> discs_;     ///< all rings but the last, which has no end
   std::vector<bool> left_out_;  ///< by theme
+  std::shared_ptr<const OmittedTops> omitted_;
 };
 
 /// Returns the selection of a query of a store. Throws InputError for a theme that the store does not have.

@@ -13,6 +13,7 @@
 #include "triangulate/assembly.hpp"
 #include "triangulate/raised_index.hpp"
 #include "triangulate/region.hpp"
+#include "triangulate/selected_tin.hpp"
 #include "triangulate/window_leaves.hpp"
 
 namespace itin {
@@ -90,11 +91,9 @@ void name_themes(Tin& tin, const StoreMetadata& metadata) {
 
 }  // namespace
 
-Tin triangulate(const Store& store, const Window& window, const Detail& detail, Progress& progress,
-                const ThemeChoice& themes) {
+Tin triangulate_selected(const Store& store, const Window& window, const Selection& selection, Progress& progress) {
   const Stoppable stoppable(progress);
   const StoreMetadata& metadata = store.metadata();
-  const Selection selection = selection_of(metadata, detail, themes);
   const GridWindow grid_window(window, metadata.grid, metadata.bounds);
   const RaisedIndex index(store, selection);
   const TilePlan plan(index, selection, grid_window);
@@ -112,6 +111,11 @@ Tin triangulate(const Store& store, const Window& window, const Detail& detail, 
   name_themes(tin, metadata);
   call.finish();
   return tin;
+}
+
+Tin triangulate(const Store& store, const Window& window, const Detail& detail, Progress& progress,
+                const ThemeChoice& themes) {
+  return triangulate_selected(store, window, selection_of(store.metadata(), detail, themes), progress);
 }
 
 std::uint64_t points_about(const Store& store, const Window& window, const Detail& detail, const ThemeChoice& themes) {

@@ -80,10 +80,12 @@ std::vector<std::pair<std::string, std::string>> facts_about(const Store& store,
   std::vector<std::pair<std::string, std::string>> facts = {
       {"Store", std::filesystem::path(store.path()).filename().string()}};
   for (const std::string& text : described(sources, metadata)) facts.emplace_back("Source", text);
-  facts.insert(facts.end(),
-               {{"CRS", fmt::format("{} ({})", crs_title(metadata.crs_wkt), crs_identifier(metadata.crs_wkt))},
-                {"Surface", fmt::format("{}; themes: {}", surface_text(metadata, line.detail),
-                                        names_in(line.themes.names(metadata.themes)))}});
+  const std::string omitted = omitted_text(line.themes);
+  facts.insert(
+      facts.end(),
+      {{"CRS", fmt::format("{} ({})", crs_title(metadata.crs_wkt), crs_identifier(metadata.crs_wkt))},
+       {"Surface", fmt::format("{}; themes: {}{}{}", surface_text(metadata, line.detail),
+                               names_in(line.themes.names(metadata.themes)), omitted.empty() ? "" : "; ", omitted)}});
   return facts;
 }
 

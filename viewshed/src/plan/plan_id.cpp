@@ -65,6 +65,10 @@ class Text {
     const auto& [frequency_ghz, effective_earth_km, polarisation, over_sea] = v;
     add(frequency_ghz, effective_earth_km, polarisation, over_sea);
   }
+  void put(const OmittedFeature& v) {
+    const auto& [theme, number, theme_name, name, id] = v;
+    add(std::uint64_t{theme}, number, theme_name, name, id);
+  }
   void put(const Segment& v) {
     const auto& [north_west, columns, rows, observers, distance_m, points] = v;
     add(north_west.column, north_west.row, columns, rows, observers, distance_m, points);
@@ -78,8 +82,8 @@ void add_request(Text& text, const Request& request, const std::vector<ThemeInfo
                earth, detail, choice, observers_on_surface, targets_on_surface, nodata, engine, mode, vertical_error,
                fresnel, radio] = request;
   text.add(observers, target_height, target_absolute, radius, min_radius, azimuth, elevation, cell_size,
-           grid.has_value(), earth, detail.centre(), detail.rings(), choice.names(themes), observers_on_surface,
-           targets_on_surface, nodata, engine, mode, vertical_error, fresnel, radio);
+           grid.has_value(), earth, detail.centre(), detail.rings(), choice.names(themes), choice.omitted(),
+           observers_on_surface, targets_on_surface, nodata, engine, mode, vertical_error, fresnel, radio);
 }
 
 /// A store has no digest of its own: what tells it from others is what was imported, and what became of it.

@@ -23,7 +23,7 @@ void require_surface_of(const Plan& plan, const Store& store, const Detail& deta
   if (!same_detail(detail, certified ? Detail::tolerance(0) : plan.request().detail))
     throw InputError("the surface that is held has another `detail` than the plan", "detail");
   const std::vector<ThemeInfo>& all = store.metadata().themes;
-  if (themes.names(all) != plan.request().themes.names(all))
+  if (themes.names(all) != plan.request().themes.names(all) || themes.omitted() != plan.request().themes.omitted())
     throw InputError("the surface that is held has other `themes` than the plan", "themes");
 }
 

@@ -129,8 +129,9 @@ std::string statement_of(const StoreMetadata& metadata, const ThemeChoice& theme
           ? "as imported"
           : fmt::format("as far as they stand at a tolerance of {:g} m, at which lower ones may be left out,",
                         detail.coarsest());
-  return fmt::format("Screening by {} {} is taken into account; whatever else stands on the ground is not.",
-                     fmt::join(themes.names(metadata.themes), ", "), as);
+  const std::string omitted = omitted_text(themes);
+  return fmt::format("Screening by {} {}{} is taken into account; whatever else stands on the ground is not.",
+                     fmt::join(themes.names(metadata.themes), ", "), as, omitted.empty() ? "" : ", " + omitted + ",");
 }
 
 std::pair<std::string, std::string> terrain_fact(const StoreMetadata& metadata, const Detail& detail) {

@@ -11,6 +11,7 @@
 #include <itin/counted.hpp>
 #include <itin/height_axis.hpp>
 #include <itin/sources_in.hpp>
+#include <itin/surface_text.hpp>
 #include <viewshed/radius_document.hpp>
 #include <viewshed/undecided_area.hpp>
 #include <viewshed/zone_files.hpp>
@@ -115,12 +116,14 @@ std::string screening_in_words(const ZoneStudy& study) {
                            " At the tolerance of {:g} m lower features may be left out: their screening effect is then "
                            "not taken into account.",
                            tolerance);
+  const std::string omitted = omitted_text(*zone.request.themes);
   return fmt::format(
       "The results are given for bare ground and, with `-screened` in their names, with the screening effect of these "
-      "features: {}.{} Their heights are as they were imported: by a field, by one height for all, or by a raster in "
+      "features: {}.{}{} Their heights are as they were imported: by a field, by one height for all, or by a raster in "
       "whole steps. They are taken as solid in all seasons. The observer "
       "stands on the ground in both cases; an observer within a feature that is higher than the eye sees nothing.",
-      features, generalised);
+      features, omitted.empty() ? "" : fmt::format(" They are given {}, as though these were not there.", omitted),
+      generalised);
 }
 
 constexpr const char* kWirelines =

@@ -1,0 +1,30 @@
+// Sight through woods: `--foliage`, `--leaf-area`, `--transmittance`.
+#pragma once
+
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include <profile/foliage.hpp>
+
+#include "program/verb.hpp"
+
+namespace itin::cli {
+
+class FoliageOptions {
+ public:
+  void declare(CLI::App& app);
+  /// Throws InputError.
+  void validate();
+  bool given() const { return option_ != nullptr && option_->count() > 0; }
+  const profile::Foliage& foliage() const { return foliage_; }
+  /// Nothing where light is not to come through woods.
+  Document parameters() const;
+
+ private:
+  CLI::Option* option_ = nullptr;
+  std::string extinction_text_, leaf_area_text_, transmittance_text_;
+  profile::Foliage foliage_;
+};
+
+}  // namespace itin::cli

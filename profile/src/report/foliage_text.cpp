@@ -1,0 +1,54 @@
+#include <fmt/format.h>
+
+#include <profile/foliage_text.hpp>
+
+namespace itin::profile {
+
+namespace {
+
+Document loss_document(const std::optional<WoodLoss>& loss) {
+  if (!loss) return nullptr;
+  return {{"section", loss->end_within ? "2" : "3, as a preset"},
+          {"through_db", loss->through_db},
+          {"over_db", loss->over_db ? Document(*loss->over_db) : Document(nullptr)},
+          {"loss_db", loss->loss_db}};
+}
+
+}  // namespace
+
+Document foliage_document(const FoliageSight& sight, const Foliage& foliage) {
+  Document stretches = Document::array();
+  for (const FoliageStretch& s : sight.stretches)
+    stretches.push_back(
+        {{"from_m", s.from_m},
+         {"to_m", s.to_m},
+         {"length_m", s.length_m},
+         {"theme", s.theme < sight.solid.themes.size() ? Document(sight.solid.themes[s.theme]) : Document(nullptr)}});
+  Document document{
+      {"length_m", sight.length_m},
+      {"transmittance", sight.transmittance},
+      {"least_transmittance", foliage.least_transmittance},
+      {"extinction", foliage.extinction},
+      {"leaf_area_m2_per_m3", foliage.leaf_area},
+      {"leaf_area_field", foliage.leaf_area_field.empty() ? Document(nullptr) : Document(foliage.leaf_area_field)},
+      {"verdict_without_foliage", name_of(sight.solid.verdict)},
+      {"stretches", stretches}};
+  if (sight.solid.query.radio) document["p833"] = loss_document(sight.loss);
+  return document;
+}
+
+std::string foliage_text(const FoliageSight& sight, const Foliage& foliage) {
+  std::string text =
+      fmt::format("{:.2f} m of foliage on the line; {:.3g} % of the light comes through, {:g} % are enough",
+                  sight.length_m, 100 * sight.transmittance, 100 * foliage.least_transmittance);
+  if (!sight.loss) return text;
+  const WoodLoss& loss = *sight.loss;
+  if (loss.end_within) return text + fmt::format("; {:.1f} dB by P.833 section 2", loss.loss_db);
+  if (!loss.over_db) return text + fmt::format("; {:.1f} dB through the wood", loss.through_db);
+  return text + fmt::format(
+                    "; {:.1f} dB through the wood, {:.1f} dB over it, {:.1f} dB in all by a preset for P.833 "
+                    "section 3",
+                    loss.through_db, *loss.over_db, loss.loss_db);
+}
+
+}  // namespace itin::profile
