@@ -29,7 +29,14 @@ THEMES = Text(
     "THEMES", "Themes that stand on the ground", "--themes", default="all",
     help="all, none, or names with commas between them, as buildings,vegetation",
 )
-STANDING: tuple[Parameter, ...] = (THEMES,)
+WITHOUT = Text(
+    "WITHOUT",
+    "What would be were these features not there, as buildings:12;woods:Long Wood",
+    "--without",
+    advanced=True,
+    help="THEME:ID or THEME:NAME as reports print them, or THEME#NUMBER",
+)
+STANDING: tuple[Parameter, ...] = (THEMES, WITHOUT)
 """What of all that stands on the ground counts: what each verb with themes has."""
 NODATA = Choice(
     "NODATA", "What ground without data does to sight lines", "--nodata", choices=("unknown", "block", "clear"),
