@@ -7,8 +7,8 @@ namespace itin {
 /// takes some 30 ms. A call that will write a raster does this beside() its other work.
 void make_gdal_ready();
 
-/// Lets files that are read be opened as CSV and GeoJSON alone from now on, whatever their bytes look like: other formats
-/// name further files, or are large when they are unpacked. For files that strangers have sent.
+/// Lets files that are read be opened as CSV and GeoJSON alone from now on, whatever their bytes look like: other
+/// formats name further files, or are large when they are unpacked. For files that strangers have sent.
 void read_tables_alone();
 
 }  // namespace itin

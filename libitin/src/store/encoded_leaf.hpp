@@ -16,7 +16,7 @@ struct EncodedLeaf {
   Leaf leaf;
   GridBox bounds;                                ///< the box about the leaf's points
   std::uint32_t vertices = 0;                    ///< the leaf's points without those of source format::kMask
-  std::vector<std::uint32_t> vertices_of_level;  ///< of a leaf of the ground, the numbers by level
+  std::vector<std::uint32_t> vertices_of_level;  ///< the number of each level, where the leaf is one of the ground
   std::vector<std::uint8_t> block;               ///< empty without points
 };
 

@@ -34,7 +34,7 @@ struct GivenLeaf {
   Cell cell;
   std::vector<GridPoint> points;
   std::vector<std::uint16_t> sources;
-  std::vector<std::uint8_t> levels;  ///< of the ground's points
+  std::vector<std::uint8_t> levels;  ///< one for each point; none but in the ground
   std::int32_t lo = 0, hi = 0;
 };
 
