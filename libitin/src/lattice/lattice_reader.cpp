@@ -29,7 +29,7 @@ namespace {
 constexpr std::uint64_t kEmptiest = 4, kEmptiestWithoutHeights = 64;
 /// The number of the fullest leaves that the lattice is found by.
 constexpr std::size_t kSamples = 8;
-constexpr std::size_t kLeavesPerTask = 64;
+constexpr std::size_t kLeavesPerTask = 16;
 /// The widest leaf, in posts, that bounds the height of a tile. Wider leaves have few posts, so these are read instead.
 constexpr std::int64_t kWidestToBound = LatticeTin::kSide;
 

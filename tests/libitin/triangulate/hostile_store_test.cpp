@@ -44,7 +44,7 @@ TEST_F(HostileStore, IsTriangulatedOrRefused) {
 }
 
 TEST_F(HostileStore, CanBeLeftInTheMidstOfATile) {
-  test::GivenStore given = test::random_store(test::seed(), 6000, 1);
+  test::GivenStore given = test::random_store(test::seed(), 20000, 1);
   given.segments.clear();
   given.write(path());
   const Store store(path());
