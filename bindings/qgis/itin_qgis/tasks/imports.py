@@ -54,6 +54,7 @@ _OF_FEATURES = (
     Field("NAME_FIELD", "Field of names", "--name-field", of="INPUT", advanced=True),
     Text("ATTRIBUTES", "Fields to keep: names, or none; left blank: all", "--attributes", advanced=True),
 )
+_BAND = Number("BAND", "Band of rasters that holds heights", "--band", minimum=1, whole=True, advanced=True)
 _MIXED = Flag(
     "ALLOW_MIXED_VERTICAL",
     "Take heights as they are, though sources have different vertical datums",
@@ -98,7 +99,7 @@ class ImportTerrain(Task):
             help="Left blank: missing ground stays missing, and sight lines across it are undecided",
         ),
         Layer("SEA_AREA", "Fill within these polygons only", "--sea-area", geometry="polygon", advanced=True),
-        Number("BAND", "Band of rasters that holds heights", "--band", minimum=1, whole=True, advanced=True),
+        _BAND,
         Text("CLASSES", "LAS and LAZ: only these classes, as 2,9", "--class", advanced=True),
         Number(
             "MAX_GAP",
@@ -260,7 +261,7 @@ class ImportFeatures(Task):
             choices=("nearest", "up", "down"),
             advanced=True,
         ),
-        Number("BAND", "Band of rasters that holds heights", "--band", minimum=1, whole=True, advanced=True),
+        _BAND,
         _CRS,
         _MIXED,
         _NOTE,
