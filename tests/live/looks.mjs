@@ -50,8 +50,8 @@ test("layers change the picture under the masts, and houses are drawn where they
       },
       to,
     );
-    const now = await shown();
-    assert.notDeepEqual(now, last, `${selector} ${to}`);
+    let now = last;
+    await until(async () => Buffer.compare((now = await shown()), last) !== 0, `${selector} ${to}`);
     last = now;
   }
   const share = async () => (await text(page, ".mast-summary")).match(/([\d.]+) %$/)[1];

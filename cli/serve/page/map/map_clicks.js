@@ -24,10 +24,13 @@ function add(scene, masts, turbines, place) {
   }
 }
 
+/** @param {Scene} scene @param {number[]} coordinate */
+const roundedAt = ({ state: { options } }, [x, y]) => roundedPlace({ x, y }, Number(options.cell) || 1);
+
 /** @param {Scene} scene @param {OlMap} map @param {number[]} coordinate @param {(place: Place) => void} addHere */
 function click(scene, map, coordinate, addHere) {
-  const { task, placing, turbines, plan, options } = scene.state;
-  const place = roundedPlace({ x: coordinate[0], y: coordinate[1] }, Number(options.cell) || 1);
+  const { task, placing, turbines, plan } = scene.state;
+  const place = roundedAt(scene, coordinate);
   if (task === "sites") {
     const candidate = candidateAt(scene, map, coordinate);
     if (plan && candidate) moveSite(scene, plan.selected, candidate);
@@ -43,15 +46,14 @@ function click(scene, map, coordinate, addHere) {
  * @param {Scene} scene @param {OlMap} map @param {Markers} masts @param {Markers} turbines */
 export function takeClicks(scene, map, masts, turbines) {
   const addHere = (/** @type {Place} */ place) => add(scene, masts, turbines, place);
-  const rounded = (/** @type {number[]} */ [x, y]) => roundedPlace({ x, y }, Number(scene.state.options.cell) || 1);
   map.on("click", ({ coordinate }) => click(scene, map, coordinate, addHere));
   map.getViewport().addEventListener("contextmenu", (event) => {
     event.preventDefault();
-    addHere(rounded(map.getEventCoordinate(event)));
+    addHere(roundedAt(scene, map.getEventCoordinate(event)));
   });
   element("map").addEventListener("keydown", (event) => {
     if (event.key === "Enter" && event.target === element("map")) {
-      addHere(rounded(map.getView().getCenter() ?? [0, 0]));
+      addHere(roundedAt(scene, map.getView().getCenter() ?? [0, 0]));
     }
   });
   document.addEventListener("keydown", (event) => {

@@ -1,6 +1,7 @@
 // Where sites are looked for, and the candidates: an area that is drawn on the map or was sent, and points.
 
 import { Circle, Draw, Feature, Fill, Polygon, Stroke, Style, VectorLayer, VectorSource } from "../vendor/ol.js";
+import { closedCorners } from "../state/plan.js";
 
 /** @typedef {import("../state/scene.js").Scene} Scene */
 /** @typedef {import("../vendor/ol.js").OlMap} OlMap */
@@ -13,13 +14,6 @@ const AREA = new Style({
 const CANDIDATE_PIXELS = 3.5;
 /** How far from a candidate a click still means it, in pixels. */
 const NEAR_PIXELS = 10;
-
-/** @param {number[]} ring */
-function pairsOf(ring) {
-  const pairs = [];
-  for (let i = 0; i < ring.length; i += 2) pairs.push([ring[i], ring[i + 1]]);
-  return pairs;
-}
 
 /** @param {import("../state/scene.js").SceneState} state @returns {{rings: number[][], places: {x: number, y: number}[]}} */
 function searched({ search, plan }) {
@@ -41,7 +35,7 @@ export class SearchLayer extends VectorLayer {
     this.setVisible(scene.state.task === "sites");
     const { rings, places } = searched(scene.state);
     for (const ring of rings) {
-      const area = new Feature(new Polygon([pairsOf([...ring, ring[0], ring[1]])]));
+      const area = new Feature(new Polygon([closedCorners(ring)]));
       area.setStyle(AREA);
       source.addFeature(area);
     }

@@ -1,26 +1,14 @@
-// The far end of the line of sight on the map, which can be dragged and moved with the arrow keys.
+// The far end of the line of sight on the map.
 
-import { Overlay } from "../vendor/ol.js";
-import { follow } from "./dragging.js";
+import { makePlaceMarker } from "./place_marker.js";
 
-/** @typedef {import("../state/scene.js").Scene} Scene */
-
-/** @param {import("../vendor/ol.js").OlMap} map @param {Scene} scene */
-export function makeTargetMarker(map, scene) {
-  const button = document.createElement("button");
-  button.type = "button";
-  button.className = "target";
-  button.setAttribute("aria-label", "Far end of the line of sight. Arrow keys move it, Delete removes it.");
-  const marker = new Overlay({ element: button, positioning: "center-center", stopEvent: true });
-  map.addOverlay(marker);
-  follow(map, button, {
+/** @param {import("../vendor/ol.js").OlMap} map @param {import("../state/scene.js").Scene} scene */
+export const makeTargetMarker = (map, scene) =>
+  makePlaceMarker(map, scene, {
+    className: "target",
+    label: "Far end of the line of sight",
+    name: "target",
+    keys: ["target", "masts", "selected"],
     place: () => scene.farEnd,
-    cell: () => Number(scene.state.options.cell) || 1,
-    move: (target) => scene.change({ target }),
-    remove: () => scene.change({ target: null }),
+    shown: () => (scene.farEnd?.name ? null : scene.farEnd),
   });
-  scene.on(["target", "masts", "selected"], () => {
-    const end = scene.farEnd;
-    marker.setPosition(end && !end.name ? [end.x, end.y] : undefined);
-  });
-}

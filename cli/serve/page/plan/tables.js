@@ -1,5 +1,7 @@
 // Tables that the page sends and reads (CSV).
 
+import { rotorOf } from "../state/turbines.js";
+
 /** @param {(string | number | null)[]} cells */
 const lineOf = (cells) =>
   cells.map((cell) => (typeof cell === "string" ? `"${cell.replaceAll('"', '""')}"` : (cell ?? ""))).join(",");
@@ -11,7 +13,7 @@ export const tableOf = (columns, rows) => new Blob([`${[columns.join(","), ...ro
 export const turbineTable = (turbines) =>
   tableOf(
     ["name", "x", "y", "hub_height", "rotor_diameter", "tip_height"],
-    turbines.map(({ name, x, y, hub, tip }) => [name, x, y, hub, hub === null ? null : 2 * (tip - hub), tip]),
+    turbines.map(({ name, x, y, hub, tip }) => [name, x, y, hub, rotorOf({ hub, tip }), tip]),
   );
 
 /** @param {import("../state/scene.js").Mast[]} masts */

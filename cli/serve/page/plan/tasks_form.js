@@ -1,6 +1,7 @@
 // What is planned: masts, wind turbines, a choice of sites, or the buildings that masts serve.
 
 import { element } from "../panel/elements.js";
+import { messageOf } from "../panel/words.js";
 
 /** @typedef {import("../state/scene.js").Scene} Scene */
 /** @typedef {import("../state/scene.js").Task} Task */
@@ -35,8 +36,7 @@ export function takeFiles(id, problem, take) {
       await take(file);
     } catch (error) {
       // The planner knows the file by its own name.
-      const said = error instanceof Error ? error.message : String(error);
-      problem.textContent = said.replace(/upload-\d+\.\w+/g, file.name);
+      problem.textContent = messageOf(error).replace(/upload-\d+\.\w+/g, file.name);
     }
   });
 }

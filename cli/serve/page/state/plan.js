@@ -65,10 +65,15 @@ export function areaOf(ring) {
   return Math.abs(twice) / 2;
 }
 
-/** The area as the command line takes it. @param {number[]} ring */
-export function polygonText(ring) {
-  const corners = [...ring, ring[0], ring[1]];
-  const pairs = [];
-  for (let i = 0; i < corners.length; i += 2) pairs.push(`${corners[i]} ${corners[i + 1]}`);
-  return `POLYGON ((${pairs.join(", ")}))`;
+/** The corners of a ring, the first one once more at the end. @param {number[]} ring */
+export function closedCorners(ring) {
+  const corners = [];
+  for (let i = 0; i < ring.length; i += 2) corners.push([ring[i], ring[i + 1]]);
+  return [...corners, corners[0]];
 }
+
+/** The area as the command line takes it. @param {number[]} ring */
+export const polygonText = (ring) =>
+  `POLYGON ((${closedCorners(ring)
+    .map((corner) => corner.join(" "))
+    .join(", ")}))`;
