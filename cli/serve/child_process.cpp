@@ -107,6 +107,14 @@ int ChildProcess::wait() {
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
+CallEnd end_of(ChildProcess& process, const Progress& progress) {
+  CallEnd end;
+  for (std::string line; process.read_line(line); progress.throw_if_cancelled())
+    end.error = told_error(line).value_or(end.error);
+  end.status = process.wait();
+  return end;
+}
+
 std::optional<std::string> told_error(const std::string& line) {
   return line.starts_with(kErrorLine) ? std::optional(line.substr(kErrorLine.size())) : std::nullopt;
 }

@@ -7,6 +7,8 @@
 #include <sys/types.h>
 #include <vector>
 
+#include <itin/progress.hpp>
+
 namespace itin::cli {
 
 class ChildProcess {
@@ -32,6 +34,15 @@ class ChildProcess {
   int errors_ = -1;
   std::string read_;
 };
+
+/// How a call of the program ended.
+struct CallEnd {
+  int status = 0;
+  std::string error;  ///< in the program's words; empty where it told none
+};
+/// Hears a process to its end. Throws Cancelled as soon as a line of it comes after the progress was cancelled: it
+/// tells of its own several times a second.
+CallEnd end_of(ChildProcess& process, const Progress& progress);
 
 /// The error that a line of the program's standard error tells, in its words; nothing for other lines.
 std::optional<std::string> told_error(const std::string& line);

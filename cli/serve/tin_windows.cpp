@@ -51,11 +51,7 @@ std::string TinWindows::made(const std::vector<std::string>& arguments, const Pr
   std::error_code failed;
   if (!fs::create_directory(path, failed)) throw FileError(path.string(), "cannot be made: " + failed.message());
   ChildProcess process(arguments, path.string(), (path / "document.json").string());
-  std::string error;
-  // The program tells of its progress several times a second.
-  for (std::string line; process.read_line(line); progress.throw_if_cancelled())
-    error = told_error(line).value_or(error);
-  const int status = process.wait();
+  const auto [status, error] = end_of(process, progress);
   if (status == kWrongCall) throw InputError(error);
   if (status != 0) throw Error(error.empty() ? fmt::format("the call ended with status {}", status) : error);
   if (const auto bytes = fs::file_size(path / kFile, failed); !failed && bytes > most_bytes())

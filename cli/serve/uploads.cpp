@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <fstream>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include <itin/error.hpp>
 #include <itin/output_file.hpp>
+#include <itin/unfinished.hpp>
 
 #include "serve/child_process.hpp"
 #include "serve/given_options.hpp"
@@ -27,22 +29,6 @@ void remove_file(const fs::path& path) {
   fs::remove(path, ignored);
 }
 
-/// Removes a file at the end of its life, unless it is kept.
-class Passing {
- public:
-  explicit Passing(fs::path path) : path_(std::move(path)) {}
-  ~Passing() {
-    if (!kept_) remove_file(path_);
-  }
-  Passing(const Passing&) = delete;
-  Passing& operator=(const Passing&) = delete;
-  void keep() { kept_ = true; }
-
- private:
-  fs::path path_;
-  bool kept_ = false;
-};
-
 }  // namespace
 
 std::optional<std::string> upload_ending(std::string_view content_type) {
@@ -58,30 +44,27 @@ Document Uploads::add(const std::string& ending, std::string_view bytes) {
     const std::lock_guard lock(mutex_);
     name = fmt::format("upload-{}{}", ++count_, ending);
   }
-  Passing file(path(name));
-  write_file(path(name).string(), bytes, false);
+  Unfinished file(path(name).string());
+  write_file(file.path(), bytes, false);
   Document document{{"name", name}, {"bytes", bytes.size()}};
   document.update(read(name));
-  keep(name);
-  file.keep();
+  file.finish([&] { keep(name); });
   return document;
 }
 
 /// What the child that reads a file says of it.
 Document Uploads::read(const std::string& name) const {
-  const fs::path answer = path(name + ".read");
-  const Passing passing(answer);
-  ChildProcess process({"read-upload", fs::absolute(served_.store().path()).string(), name,
-                        fmt::format("--memory={}", served_.memory_bytes() / 4), "--json", "--quiet", "--uploads"},
-                       folder_.path().string(), answer.string());
-  std::string error;
-  for (std::string line; process.read_line(line);) error = told_error(line).value_or(error);
-  const int status = process.wait();
+  const Unfinished answer(path(name + ".read").string());
+  std::vector<std::string> arguments = call_of(
+      served_, {name, fmt::format("--memory={}", served_.memory_bytes() / 4), "--json", "--quiet", "--uploads"});
+  arguments.insert(arguments.begin(), "read-upload");
+  ChildProcess process(arguments, folder_.path().string(), answer.path());
+  const auto [status, error] = end_of(process, NoProgress());
   if (status != 0)
     throw InputError(error.empty() ? name + ": takes too much memory or time to read; send a smaller file" : error);
-  std::ifstream output(answer);
+  std::ifstream output(answer.path());
   Document document = Document::parse(output, nullptr, false);
-  if (!document.is_object()) throw FileError(answer.string(), "could not be written; is the disk full?");
+  if (!document.is_object()) throw FileError(answer.path(), "could not be written; is the disk full?");
   for (const char* of_the_call : {"itin", "command", "statistics"}) document.erase(of_the_call);
   return document;
 }

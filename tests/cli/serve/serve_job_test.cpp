@@ -16,24 +16,6 @@ namespace fs = std::filesystem;
 
 class ServeJobs : public ServedHill {
  protected:
-  Answer start(const Json& job) const {
-    return ask(*server_, "/api/v1/jobs",
-               {.method = "POST",
-                .headers = {{"X-Itin-Key", server_->key()}, {"Content-Type", "application/json"}},
-                .body = job.dump()});
-  }
-  Answer remove(const std::string& url) const {
-    return ask(*server_, url, {.method = "DELETE", .headers = {{"X-Itin-Key", server_->key()}}});
-  }
-  Json state(const std::string& url) const { return ask(*server_, url).json(); }
-  Json ended(const std::string& url) const {
-    for (int i = 0; i < 600; ++i) {
-      const Json job = state(url);
-      if (job.at("state") != "queued" && job.at("state") != "running") return job;
-      std::this_thread::sleep_for(std::chrono::milliseconds(50));
-    }
-    throw std::runtime_error("the job does not end");
-  }
   /// A call that takes long.
   Json long_job() const {
     return {{"verb", "visibility"},

@@ -29,24 +29,10 @@ class ServeUploads : public ServedHill {
     return ask(*server_, "/api/v1/uploads",
                {.method = "POST", .headers = {{"X-Itin-Key", server_->key()}, {"Content-Type", type}}, .body = bytes});
   }
-  Answer start(const Json& job) const {
-    return ask(*server_, "/api/v1/jobs",
-               {.method = "POST",
-                .headers = {{"X-Itin-Key", server_->key()}, {"Content-Type", "application/json"}},
-                .body = job.dump()});
-  }
-  Answer remove(const std::string& url) const {
-    return ask(*server_, url, {.method = "DELETE", .headers = {{"X-Itin-Key", server_->key()}}});
-  }
   Json done(const Json& asked) const {
     const Answer started = start(asked);
     if (started.status != 202) throw std::runtime_error(started.body);
-    for (int i = 0; i < 600; ++i) {
-      Json job = ask(*server_, started.json().at("url")).json();
-      if (job.at("state") != "queued" && job.at("state") != "running") return job;
-      std::this_thread::sleep_for(std::chrono::milliseconds(50));
-    }
-    throw std::runtime_error("the job does not end");
+    return ended(started.json().at("url"));
   }
 
   /// Expects a job's files to be those that its command writes, with the upload beside.

@@ -1,8 +1,11 @@
 // A small hill, served.
 #pragma once
 
+#include <chrono>
 #include <optional>
+#include <stdexcept>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -28,6 +31,27 @@ class ServedHill : public ::testing::Test {
     std::vector<std::string> all{store()};
     all.insert(all.end(), arguments.begin(), arguments.end());
     server_.emplace(all);
+  }
+
+  /// These ask as the page does, which knows the key.
+  Answer start(const Json& job) const {
+    return ask(*server_, "/api/v1/jobs",
+               {.method = "POST",
+                .headers = {{"X-Itin-Key", server_->key()}, {"Content-Type", "application/json"}},
+                .body = job.dump()});
+  }
+  Answer remove(const std::string& url) const {
+    return ask(*server_, url, {.method = "DELETE", .headers = {{"X-Itin-Key", server_->key()}}});
+  }
+  Json state(const std::string& url) const { return ask(*server_, url).json(); }
+  /// Returns the job once it has ended.
+  Json ended(const std::string& url) const {
+    for (int i = 0; i < 600; ++i) {
+      const Json job = state(url);
+      if (job.at("state") != "queued" && job.at("state") != "running") return job;
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    }
+    throw std::runtime_error("the job does not end");
   }
 
   Shell shell_;
