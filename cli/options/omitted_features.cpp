@@ -14,6 +14,7 @@
 
 #include <itin/error.hpp>
 #include <itin/parsed_number.hpp>
+#include <itin/sort_unique.hpp>
 
 #include "program/likely_meant.hpp"
 
@@ -77,8 +78,7 @@ class FeatureNames {
     if (by_number) return of_number(feature, given);
     std::vector<std::size_t> found;
     for (auto [at, end] = by_name_.equal_range(feature); at != end; ++at) found.push_back(at->second);
-    std::sort(found.begin(), found.end());
-    found.erase(std::unique(found.begin(), found.end()), found.end());
+    sort_unique(found);
     if (found.empty()) refuse(given, fmt::format("{} has no such feature; {}", theme_, nearest(feature)));
     if (found.size() > 1) refuse(given, fmt::format("{} features are called so; give {}", found.size(), some(found)));
     return features_[found.front()].number;

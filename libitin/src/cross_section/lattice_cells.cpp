@@ -48,10 +48,7 @@ bool LatticeCells::lay(const LatticeCell& cell) {
   sheet_ = {{cell.x - behind(heading_.x), cell.y - behind(heading_.y), cell.side}, kCellsPerSide, kCellsPerSide};
   unread_.clear(), leaves_.clear();
   selected_leaves(index_, selection_, sheet_.box(), leaves_);
-  for (const Leaf& leaf : leaves_) {
-    const GridBox box = leaf.cell.box();
-    if (leaf.level >= selection_.finest_in(box)) unread_.push_back({leaf, box});
-  }
+  for (const Leaf& leaf : leaves_) unread_.push_back({leaf, leaf.cell.box()});
   add_segments(sheet_, index_, selection_);
   return true;
 }

@@ -47,13 +47,11 @@ void NearbyApex::move_to(Position a, Position b, double lambda) {
   points_.clear();
   unread_.clear();
   for (const Leaf& leaf : leaves_) {
-    const GridBox box = leaf.cell.box();
-    if (leaf.level < selection_.finest_in(box)) continue;
     // A block that was read before costs nothing.
     if (index_.has_read(leaf)) {
       load(leaf);
     } else {
-      unread_.push_back({leaf, box});
+      unread_.push_back({leaf, leaf.cell.box()});
     }
   }
 }

@@ -10,6 +10,7 @@
 #include <itin/sort_unique.hpp>
 #include <itin/store.hpp>
 
+#include "features/footprint_extent.hpp"
 #include "store/footprint_codec.hpp"
 #include "triangulate/omitted_tops.hpp"
 #include "triangulate/selected_tin.hpp"
@@ -18,16 +19,8 @@ namespace itin {
 
 namespace {
 
-/// How far, in metres, a feature's vertices may lie outside of its footprint, as with features_at().
-constexpr double kBesideFootprint = 1;
-
 Box box_beside(const FootprintFeature& feature) {
-  Box box;
-  for (const PlanRing& ring : feature.rings)
-    for (const Point2& p : ring) box.extend(p);
-  for (const RoofSurface& surface : feature.surfaces)
-    for (const auto& ring : surface.rings)
-      for (const Point3& p : ring) box.extend(Point2{p.x, p.y});
+  const Box box = extent_of(feature);
   return {box.xmin - kBesideFootprint, box.ymin - kBesideFootprint, box.xmax + kBesideFootprint,
           box.ymax + kBesideFootprint};
 }
@@ -43,17 +36,6 @@ std::vector<Box> boxes_of(const Store& store, std::uint16_t theme, const std::ve
     boxes.push_back(box_beside(footprints[static_cast<std::size_t>(number) % kFootprintsInBlock].feature));
   }
   return boxes;
-}
-
-/// Selects the full surface with one theme.
-Selection with_theme(const StoreMetadata& metadata, std::uint16_t theme) {
-  Selection selection = selection_of(metadata, Detail::tolerance(0), ThemeChoice::all());
-  for (std::size_t t = 0; t < metadata.themes.size(); ++t)
-    if (metadata.themes[t].is_raised() && t + 1 != theme) selection.leave_out(static_cast<std::uint16_t>(t + 1));
-  for (std::size_t p = 0; p < metadata.parts.size(); ++p)
-    if (metadata.parts[p].theme != theme)
-      selection.leave_out(static_cast<std::uint16_t>(metadata.themes.size() + p + 1));
-  return selection;
 }
 
 /// The features that a vertex may be of, by number: how high the highest of their triangles about it is, in the mean of
@@ -104,8 +86,9 @@ TopsOfTheme tops_of(const Store& store, std::uint16_t theme, const std::vector<s
   TopsOfTheme tops{theme, {}, boxes_of(store, theme, numbers)};
   std::vector<Window::Polygon> parts;
   for (const Box& box : tops.boxes) parts.push_back(Window::rectangle(box));
-  const Tin tin =
-      triangulate_selected(store, Window::polygons(std::move(parts)), with_theme(store.metadata(), theme), progress);
+  const Selection all = selection_of(store.metadata(), Detail::tolerance(0), ThemeChoice::all());
+  const Tin tin = triangulate_selected(store, Window::polygons(std::move(parts)),
+                                       all.with_raised_alone(store.metadata(), theme), progress);
   for (const auto& [vertex, owners] : owners_of_tops(store, tin, theme, progress))
     if (std::binary_search(numbers.begin(), numbers.end(), owner_among(owners)))
       tops.vertices.push_back(tin.id(vertex));

@@ -189,7 +189,7 @@ GroundBeneath::GroundBeneath(const Store& store, const Selection& selection, con
   if (removed_.empty() && region.lowered().empty()) return;
   enclose(region, boxes);
   const Tin bare =
-      triangulate_selected(store, window_over(boxes, metadata.grid), selection.without_raised(metadata), quiet);
+      triangulate_selected(store, window_over(boxes, metadata.grid), selection.with_raised_alone(metadata, 0), quiet);
   for (const std::uint64_t code : region.lowered()) lowered_.emplace_back(code, ground_at(bare, position_of(code)));
   for (const GridPoint& p : bare.vertices)
     if (region.side_of({p.x, p.y}) == OpenedRegion::Side::inside) restored_.push_back(code_of(p));
@@ -206,14 +206,9 @@ GroundBeneath::GroundBeneath(const Store& store, const Selection& selection, con
   segments_near_ = BoxIndex(std::move(extents));
 }
 
-std::optional<std::int32_t> GroundBeneath::lowered(const GridPoint& p) const {
-  const auto at = std::lower_bound(lowered_.begin(), lowered_.end(), std::pair(code_of(p), INT32_MIN));
-  return at != lowered_.end() && at->first == code_of(p) ? std::optional(at->second) : std::nullopt;
-}
-
-bool GroundBeneath::is_top(std::uint64_t code) const {
+std::optional<std::int32_t> GroundBeneath::lowered(std::uint64_t code) const {
   const auto at = std::lower_bound(lowered_.begin(), lowered_.end(), std::pair(code, INT32_MIN));
-  return has(removed_, code) || (at != lowered_.end() && at->first == code);
+  return at != lowered_.end() && at->first == code ? std::optional(at->second) : std::nullopt;
 }
 
 void GroundBeneath::segments(const GridBox& box, std::vector<Segment>& out) const {

@@ -36,22 +36,19 @@ class GroundBeneath {
   GroundBeneath(const Store& store, const Selection& selection, const std::vector<TopsOfTheme>& tops);
 
   /// Tells whether a vertex of a raised theme is a top that goes.
-  bool removes(const GridPoint& p) const { return has(removed_, code_of(p)); }
+  bool removes(const GridPoint& p) const { return has_code(removed_, code_of(p)); }
   /// Returns the height of the ground, grid units, where a vertex of a raised theme is a top that is lowered to it.
-  std::optional<std::int32_t> lowered(const GridPoint& p) const;
+  std::optional<std::int32_t> lowered(const GridPoint& p) const { return lowered(code_of(p)); }
   /// Tells whether a segment ends at a top of either kind. Those that stay are among segments().
   bool removes(const Segment& s) const { return is_top(code_of(s.a())) || is_top(code_of(s.b())); }
   /// Tells whether a vertex of the terrain, which made way, is there again.
-  bool restores(const GridPoint& p) const { return has(restored_, code_of(p)); }
+  bool restores(const GridPoint& p) const { return has_code(restored_, code_of(p)); }
   /// Appends the constraints in the place of the features that meet the box.
   void segments(const GridBox& box, std::vector<Segment>& out) const;
 
  private:
-  static bool has(const std::vector<std::uint64_t>& codes, std::uint64_t code) {
-    return std::binary_search(codes.begin(), codes.end(), code);
-  }
-
-  bool is_top(std::uint64_t code) const;
+  std::optional<std::int32_t> lowered(std::uint64_t code) const;
+  bool is_top(std::uint64_t code) const { return has_code(removed_, code) || lowered(code); }
 
   std::vector<std::uint64_t> removed_, restored_;                ///< ascending
   std::vector<std::pair<std::uint64_t, std::int32_t>> lowered_;  ///< codes and heights, ascending

@@ -28,10 +28,6 @@ inline PlanEdge plan_edge(Position a, Position b) {
 inline GridBox extent_of(const PlanEdge& e) {
   return {e.first.x, std::min(e.first.y, e.second.y), e.second.x, std::max(e.first.y, e.second.y)};
 }
-/// Tells whether a code is among ascending ones.
-inline bool has_code(const std::vector<std::uint64_t>& codes, std::uint64_t code) {
-  return std::binary_search(codes.begin(), codes.end(), code);
-}
 /// Tells whether the edges have a point in common that is an end of neither and not on both as a whole.
 bool cross(const PlanEdge& e, const PlanEdge& f);
 

@@ -64,9 +64,7 @@ void RegionReader::start(const GridBox& box, std::span<const Leaf> leaves, const
 
 std::vector<RegionReader::Coded> RegionReader::points(const GridBox& box) {
   std::vector<Coded> found;
-  for (const Leaf& leaf : leaves_in(box)) {
-    if (leaf.level >= selection_.finest_in(intersection(leaf.cell.box(), box))) read_block(leaf, box, found);
-  }
+  for (const Leaf& leaf : leaves_in(box)) read_block(leaf, box, found);
   return found;
 }
 

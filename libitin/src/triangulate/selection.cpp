@@ -77,13 +77,13 @@ Selection Selection::with_all_features() const {
   return all;
 }
 
-Selection Selection::without_raised(const StoreMetadata& metadata) const {
-  Selection bare = with_all_features();
+Selection Selection::with_raised_alone(const StoreMetadata& metadata, std::uint16_t theme) const {
+  Selection alone = with_all_features();
   for (std::size_t t = 0; t < metadata.themes.size(); ++t)
-    if (metadata.themes[t].is_raised()) bare.leave_out(static_cast<std::uint16_t>(t + 1));
+    if (metadata.themes[t].is_raised() && t + 1 != theme) alone.leave_out(static_cast<std::uint16_t>(t + 1));
   for (std::size_t p = 0; p < metadata.parts.size(); ++p)
-    bare.leave_out(static_cast<std::uint16_t>(metadata.themes.size() + p + 1));
-  return bare;
+    if (metadata.parts[p].theme != theme) alone.leave_out(static_cast<std::uint16_t>(metadata.themes.size() + p + 1));
+  return alone;
 }
 
 Selection selection_of(const StoreMetadata& metadata, const Detail& detail, const ThemeChoice& themes) {

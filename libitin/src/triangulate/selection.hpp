@@ -32,8 +32,8 @@ class Selection {
   const std::shared_ptr<const OmittedTops>& omitted() const { return omitted_; }
   /// Returns what is selected with every feature of the chosen themes.
   Selection with_all_features() const;
-  /// Returns what is selected of the terrain and of lines on it.
-  Selection without_raised(const StoreMetadata& metadata) const;
+  /// Returns what is selected of the terrain, of lines on it, and of all features of this raised theme; 0: of none.
+  Selection with_raised_alone(const StoreMetadata& metadata, std::uint16_t theme) const;
 
   /// These are the levels asked for at the centre and beyond the last ring.
   int finest() const { return finest_; }
@@ -81,7 +81,8 @@ class Selection {
 /// Returns the selection of a query of a store. Throws InputError for a theme that the store does not have.
 Selection selection_of(const StoreMetadata& metadata, const Detail& detail, const ThemeChoice& themes);
 
-/// Appends the leaves of an index that may hold something selected in `box`.
+/// Appends the leaves of an index that may hold something selected in `box`, without those whose levels no place of
+/// theirs asks for.
 void selected_leaves(const PointIndex& index, const Selection& selection, const GridBox& box, std::vector<Leaf>& out);
 
 }  // namespace itin

@@ -25,10 +25,6 @@ namespace {
 /// that reading beyond its border is not the main cost. No result depends on it.
 constexpr double kMostPerTile = 32768, kLeastPerTile = 16384, kTiles = 8;
 
-void leave_out_finer(const Selection& selection, std::vector<Leaf>& leaves) {
-  std::erase_if(leaves, [&](const Leaf& leaf) { return leaf.level < selection.finest_in(leaf.cell.box()); });
-}
-
 std::uint64_t points_of(const std::vector<Leaf>& leaves) {
   return std::accumulate(leaves.begin(), leaves.end(), std::uint64_t{0},
                          [](std::uint64_t sum, const Leaf& leaf) { return sum + leaf.asked; });
@@ -40,7 +36,6 @@ class TilePlan {
   TilePlan(const PointIndex& index, const Selection& selection, const GridWindow& window)
       : index_(index), selection_(selection), window_(window) {
     selected_leaves(index_, selection_, window_.bounds(), leaves_);
-    leave_out_finer(selection_, leaves_);
     std::vector<std::uint32_t> all(leaves_.size());
     std::iota(all.begin(), all.end(), 0U);
     const auto points = static_cast<double>(points_of(leaves_));
@@ -122,9 +117,7 @@ std::uint64_t points_about(const Store& store, const Window& window, const Detai
   const StoreMetadata& metadata = store.metadata();
   const Selection selection = selection_of(metadata, detail, themes);
   const GridWindow grid_window(window, metadata.grid, metadata.bounds);
-  std::vector<Leaf> leaves = leaves_about(store.points(), selection, grid_window, 0);
-  leave_out_finer(selection, leaves);
-  return points_of(leaves);
+  return points_of(leaves_about(store.points(), selection, grid_window, 0));
 }
 
 }  // namespace itin
