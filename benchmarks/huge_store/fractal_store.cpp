@@ -49,7 +49,14 @@ class FractalWriter {
  public:
   FractalWriter(StoreWriter& writer, const Square& square, const Fractal& fractal,
                 const std::vector<FractalLevel>& levels)
-      : writer_(writer), square_(square), fractal_(fractal), levels_(levels), deviation_(square, fractal, levels) {}
+      : writer_(writer),
+        square_(square),
+        fractal_(fractal),
+        levels_(levels),
+        fine_levels_(fine_levels(levels)),
+        deviation_(square, fractal, levels) {
+    writer_.set_fine_levels(fine_levels_);
+  }
 
   /// Writes the ground, and then a level after the other.
   void write_level(int number, Progress& progress) {
@@ -118,8 +125,8 @@ class FractalWriter {
     const std::vector<std::uint16_t> sources(points.size(), 0);
     if (number == 0) return encode_ground(cell, points, sources, of_posts);
     const HeightBounds bounds = deviation_.over(cell, number);
-    return number < fine_levels(levels_) ? bare_leaf(number, cell, points, bounds.lo, bounds.hi)
-                                         : encode_leaf(number, cell, points, sources, bounds.lo, bounds.hi);
+    return number < fine_levels_ ? bare_leaf(number, cell, points, bounds.lo, bounds.hi)
+                                 : encode_leaf(number, cell, points, sources, bounds.lo, bounds.hi);
   }
 
   void write(const std::vector<Leaves>& tiles) {
@@ -142,6 +149,7 @@ class FractalWriter {
   const Square& square_;
   const Fractal& fractal_;
   const std::vector<FractalLevel>& levels_;
+  int fine_levels_;
   Deviation deviation_;
   FractalStoreReport report_{0, 0, std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
 };
@@ -186,7 +194,6 @@ FractalStoreReport write_fractal_store(const std::string& path, const FractalSto
   const Square square(side_m);
   const Fractal fractal(options.seed);
   StoreWriter writer(path, parse_crs(Square::kCrs, Square::kCrs).wkt, Square::kGrid, tolerances);
-  writer.set_fine_levels(fine_levels(levels));
   FractalWriter fractal_writer(writer, square, fractal, levels);
   for (std::size_t k = 0; k < levels.size(); ++k) fractal_writer.write_level(static_cast<int>(k), progress);
   writer.add_segments(outline(square.ground()));

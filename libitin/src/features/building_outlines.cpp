@@ -16,12 +16,9 @@ void for_each_building(const Store& store, const ThemeChoice& themes, const Visi
   for (std::size_t t = 0; t < known.size(); ++t) {
     if (!is_of_buildings(known[t]) || !themes.includes(known[t])) continue;
     const auto theme = static_cast<std::uint16_t>(t + 1);
-    std::int64_t number = 0;
-    for (std::uint32_t block = 0; block < known[t].footprint_blocks; ++block)
-      for (const StoredFootprint& footprint : stored_footprints(store, theme, block)) {
-        if (!themes.omits(theme, number)) visit(theme, number, footprint.feature);
-        ++number;
-      }
+    for_each_footprint(store, theme, [&](std::int64_t number, const StoredFootprint& footprint) {
+      if (!themes.omits(theme, number)) visit(theme, number, footprint.feature);
+    });
   }
 }
 

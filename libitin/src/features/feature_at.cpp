@@ -10,15 +10,13 @@
 #include <itin/segment_distance.hpp>
 #include <itin/store.hpp>
 
+#include "features/footprint_extent.hpp"
 #include "store/feature_table.hpp"
 #include "store/footprint_codec.hpp"
 
 namespace itin {
 
 namespace {
-
-/// How far, in metres, a place may be outside of a footprint that it belongs to.
-constexpr double kNear = 1;
 
 Point2 in_plan(const Point2& p) {
   return p;
@@ -65,16 +63,6 @@ double distance_to(const FootprintFeature& feature, Point2 place) {
   return distance;
 }
 
-Box extent_of(const FootprintFeature& feature) {
-  Box box;
-  for (const PlanRing& ring : feature.rings)
-    for (const Point2& p : ring) box.extend(p);
-  for (const RoofSurface& surface : feature.surfaces)
-    for (const auto& ring : surface.rings)
-      for (const Point3& p : ring) box.extend(in_plan(p));
-  return box;
-}
-
 /// Returns the numbers of places from west to east, so that a footprint is compared with few of them.
 std::vector<std::size_t> from_west(const std::vector<Point2>& places) {
   std::vector<std::size_t> order(places.size());
@@ -99,24 +87,19 @@ std::string title_of(const FeatureAt& feature) {
 std::vector<std::optional<FeatureAt>> features_at(const Store& store, std::uint16_t theme,
                                                   const std::vector<Point2>& places, const Progress& progress) {
   std::vector<std::optional<FeatureAt>> found(places.size());
-  std::vector<double> nearest(places.size(), kNear);
+  std::vector<double> nearest(places.size(), kBesideFootprint);
   const std::vector<std::size_t> order = from_west(places);
-  std::int64_t number = 0;
-  const std::uint32_t blocks = store.metadata().themes[theme - std::size_t{1}].footprint_blocks;
-  for (std::uint32_t block = 0; block < blocks; ++block) {
+  for_each_footprint(store, theme, [&](std::int64_t number, const StoredFootprint& footprint) {
     progress.throw_if_cancelled();
-    for (const StoredFootprint& footprint : stored_footprints(store, theme, block)) {
-      const Box box = extent_of(footprint.feature);
-      auto i = std::lower_bound(order.begin(), order.end(), box.xmin - kNear,
-                                [&](std::size_t place, double x) { return places[place].x < x; });
-      for (; i != order.end() && places[*i].x <= box.xmax + kNear; ++i) {
-        if (places[*i].y < box.ymin - kNear || places[*i].y > box.ymax + kNear) continue;
-        const double distance = distance_to(footprint.feature, places[*i]);
-        if (distance < nearest[*i]) nearest[*i] = distance, found[*i] = {number, footprint.feature.name, {}};
-      }
-      ++number;
+    const Box box = extent_of(footprint.feature);
+    auto i = std::lower_bound(order.begin(), order.end(), box.xmin - kBesideFootprint,
+                              [&](std::size_t place, double x) { return places[place].x < x; });
+    for (; i != order.end() && places[*i].x <= box.xmax + kBesideFootprint; ++i) {
+      if (places[*i].y < box.ymin - kBesideFootprint || places[*i].y > box.ymax + kBesideFootprint) continue;
+      const double distance = distance_to(footprint.feature, places[*i]);
+      if (distance < nearest[*i]) nearest[*i] = distance, found[*i] = {number, footprint.feature.name, {}};
     }
-  }
+  });
   add_ids(store, theme, found);
   return found;
 }
@@ -144,14 +127,10 @@ std::vector<std::optional<FeatureAt>> features_numbered(const Store& store, std:
 std::vector<FeatureAt> features_of(const Store& store, std::uint16_t theme) {
   std::vector<FeatureAt> all;
   FeatureTable table(store, theme);
-  const std::uint32_t blocks = store.metadata().themes[theme - std::size_t{1}].footprint_blocks;
-  for (std::uint32_t block = 0; block < blocks; ++block) {
-    for (StoredFootprint& footprint : stored_footprints(store, theme, block)) {
-      const auto number = static_cast<std::int64_t>(all.size());
-      const FeatureRecord* const record = table.at(number);
-      all.push_back({number, std::move(footprint.feature.name), record != nullptr ? record->id : std::string()});
-    }
-  }
+  for_each_footprint(store, theme, [&](std::int64_t number, const StoredFootprint& footprint) {
+    const FeatureRecord* const record = table.at(number);
+    all.push_back({number, footprint.feature.name, record != nullptr ? record->id : std::string()});
+  });
   return all;
 }
 

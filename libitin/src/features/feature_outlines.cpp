@@ -84,14 +84,11 @@ class Outlines {
  public:
   Outlines(const Store& store, std::uint16_t theme, const std::vector<std::int64_t>& numbers)
       : grid_(store.metadata().grid), theme_(theme) {
-    std::int64_t number = 0;
-    const std::uint32_t blocks = store.metadata().themes[theme - std::size_t{1}].footprint_blocks;
-    for (std::uint32_t block = 0; block < blocks; ++block)
-      for (const StoredFootprint& f : stored_footprints(store, theme, block))
-        if (const std::int64_t own = number++;
-            !f.feature.cells && std::binary_search(numbers.begin(), numbers.end(), own))
-          for (std::vector<GridPoint>& corners : rings_of(f.feature, grid_))
-            rings_.push_back({static_cast<std::uint32_t>(own), std::move(corners)});
+    for_each_footprint(store, theme, [&](std::int64_t number, const StoredFootprint& f) {
+      if (f.feature.cells || !std::binary_search(numbers.begin(), numbers.end(), number)) return;
+      for (std::vector<GridPoint>& corners : rings_of(f.feature, grid_))
+        rings_.push_back({static_cast<std::uint32_t>(number), std::move(corners)});
+    });
   }
 
   std::vector<FeatureLine> lines(const Store& store, const WindowLines& window_lines, Progress& progress) const {

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <compare>
 #include <cstdint>
+#include <vector>
 
 #include <itin/geometry.hpp>
 #include <itin/precondition.hpp>
@@ -65,6 +66,10 @@ auto find_by_code(const Points& points, std::uint64_t code) {
   const auto at = std::lower_bound(points.begin(), points.end(), code,
                                    [](const auto& p, std::uint64_t c) { return code_of(p) < c; });
   return at != points.end() && code_of(*at) == code ? at : points.end();
+}
+/// Tells whether a code is among ascending ones.
+inline bool has_code(const std::vector<std::uint64_t>& codes, std::uint64_t code) {
+  return std::binary_search(codes.begin(), codes.end(), code);
 }
 constexpr std::int32_t morton_x(std::uint64_t code) {
   return static_cast<std::int32_t>(detail_morton::gather(code)) - kGridHalfSide;

@@ -26,6 +26,15 @@ struct LevelPoint {
   std::uint8_t level = 0;
 };
 
+// Joins points and their levels, of which there may be none.
+std::vector<LevelPoint> with_levels(std::span<const GridPoint> points, std::span<const std::uint8_t> levels) {
+  std::vector<LevelPoint> joined;
+  joined.reserve(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i)
+    joined.push_back({points[i], levels.empty() ? std::uint8_t{0} : levels[i]});
+  return joined;
+}
+
 // Adapts the Rice parameter of height residuals to their running mean.
 class ResidualScale {
  public:
@@ -193,10 +202,7 @@ std::vector<std::uint8_t> encode_block(const Cell& cell, std::span<const GridPoi
   header.count = points.size();
   header.coarsest = levels.empty() ? 0 : *std::max_element(levels.begin(), levels.end());
   find_layout(cell, points, header);
-  std::vector<LevelPoint> ordered;
-  ordered.reserve(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i)
-    ordered.push_back({points[i], levels.empty() ? std::uint8_t{0} : levels[i]});
+  std::vector<LevelPoint> ordered = with_levels(points, levels);
   if (header.layout != PointLayout::kScattered) sort_by_rows(cell, header.lattice, ordered);
   header.step_z = height_step(ordered);
   header.first_z = ordered[0].point.z;
@@ -334,10 +340,7 @@ void leave_out_finer(int finest, Block& block) {
 void sort_along_curve(const Cell& cell, const CellLattice& lattice, Block& block) {
   // All codes already differ without the low bits, which the lattice's steps leave free.
   const int low_bits = 2 * (std::bit_width(std::min(lattice.step_x, lattice.step_y)) - 1);
-  std::vector<LevelPoint> points;
-  points.reserve(block.points.size());
-  for (std::size_t i = 0; i < block.points.size(); ++i)
-    points.push_back({block.points[i], block.levels.empty() ? std::uint8_t{0} : block.levels[i]});
+  std::vector<LevelPoint> points = with_levels(block.points, block.levels);
   radix_sort(points, 2 * cell.log2_side - low_bits,
              [&](const LevelPoint& p) { return (code_of(p.point) - cell.code) >> low_bits; });
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -346,16 +349,19 @@ void sort_along_curve(const Cell& cell, const CellLattice& lattice, Block& block
   }
 }
 
-}  // namespace
-
-BlockLattice decode_lattice(const Cell& cell, std::span<const std::uint8_t> bytes) {
+BlockLattice block_lattice_of(const Cell& cell, const BlockHeader& header) {
   const GridBox box = cell.box();
-  ByteReader in(bytes);
-  const BlockHeader header = read_header(in, cell);
   const CellLattice& lattice = header.lattice;
   return {static_cast<std::uint32_t>(header.count), static_cast<std::int32_t>(box.xmin + lattice.x0),
           static_cast<std::int32_t>(box.ymin + lattice.y0), static_cast<std::int64_t>(lattice.step_x),
           static_cast<std::int64_t>(lattice.step_y)};
+}
+
+}  // namespace
+
+BlockLattice decode_lattice(const Cell& cell, std::span<const std::uint8_t> bytes) {
+  ByteReader in(bytes);
+  return block_lattice_of(cell, read_header(in, cell));
 }
 
 Block decode_plan(const Cell& cell, std::span<const std::uint8_t> bytes) {
@@ -382,7 +388,7 @@ std::optional<PostHeights> decode_posts(const Cell& cell, std::span<const std::u
   if (header.layout != PointLayout::kFullLattice) return std::nullopt;
   read_sources(in, header.count);
   const std::vector<std::int64_t> heights = read_full_heights(in, header);
-  PostHeights posts{decode_lattice(cell, bytes), static_cast<std::uint32_t>(header.lattice.columns),
+  PostHeights posts{block_lattice_of(cell, header), static_cast<std::uint32_t>(header.lattice.columns),
                     static_cast<std::uint32_t>(header.lattice.rows), std::vector<std::int32_t>(heights.size())};
   const std::int64_t most = most_steps(header);
   for (std::size_t i = 0; i < heights.size(); ++i) posts.heights[i] = height_at(header, heights[i], most);

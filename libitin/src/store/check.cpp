@@ -123,16 +123,14 @@ class Inspection {
     friend bool operator==(const Counted&, const Counted&) = default;
   };
 
-  /// Counts the ground's vertices by level, and those that have a second place by that, too.
+  /// Counts vertices by level, those of the ground and those of a level's own tree.
   void count_levels(const Leaf& leaf, const Block& block) {
+    std::vector<Counted>& counted = leaf.level == format::kGroundTree ? levels_ : own_trees_;
     for (std::size_t k = 0; k < block.points.size(); ++k) {
       const std::size_t level = level_of(leaf, block, k);
-      const bool second = leaf.level != format::kGroundTree;
       if (level >= levels_.size())
         throw CorruptStore(file_.rows().path(), format::place("block", leaf.key), "has an unknown level");
-      if (!second) ++vertices_[level];
-      if (static_cast<int>(level) >= file_.metadata().fine_levels)
-        (second ? own_trees_ : levels_)[level].add(block.points[k], block.sources[k]);
+      counted[level].add(block.points[k], block.sources[k]);
     }
   }
 
@@ -236,11 +234,12 @@ class Inspection {
     const StoreMetadata& metadata = file_.metadata();
     std::uint64_t sum = 0;
     for (std::size_t level = 0; level < metadata.levels.size(); ++level) {
-      sum += vertices_[level];
-      if (vertices_[level] != metadata.levels[level].vertices)
+      sum += levels_[level].vertices;
+      if (levels_[level].vertices != metadata.levels[level].vertices)
         damage_.push_back({"metadata", "level " + std::to_string(level) + " has another number of vertices"});
       const bool fine = static_cast<int>(level) < metadata.fine_levels;
-      if (level > 0 && (fine ? own_trees_[level].vertices != vertices_[level] : own_trees_[level] != levels_[level]))
+      if (level > 0 &&
+          (fine ? own_trees_[level].vertices != levels_[level].vertices : own_trees_[level] != levels_[level]))
         damage_.push_back({"metadata", "level " + std::to_string(level) + " has other vertices in its own tree"});
     }
     for (std::size_t theme = 1; theme <= metadata.themes.size(); ++theme) {

@@ -22,6 +22,16 @@ std::vector<StoredFootprint> stored_footprints(const Store& store, std::uint16_t
 /// Returns the footprints in one of the theme's footprint_blocks.
 std::vector<StoredFootprint> stored_footprints(const Store& store, std::uint16_t theme, std::uint32_t block);
 
+/// Calls visit(number, footprint) for each of a theme's footprints, in the order of import, one block in memory at a
+/// time.
+template <class Visit>
+void for_each_footprint(const Store& store, std::uint16_t theme, const Visit& visit) {
+  std::int64_t number = 0;
+  const std::uint32_t blocks = store.metadata().themes[theme - std::size_t{1}].footprint_blocks;
+  for (std::uint32_t block = 0; block < blocks; ++block)
+    for (const StoredFootprint& footprint : stored_footprints(store, theme, block)) visit(number++, footprint);
+}
+
 inline constexpr std::size_t kFootprintsInBlock = 256;
 
 std::vector<std::uint8_t> encode_footprints(std::span<const StoredFootprint> footprints);

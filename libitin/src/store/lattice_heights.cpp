@@ -15,6 +15,11 @@ constexpr std::size_t kGroup = 8;  ///< residuals of one width, which take as ma
 constexpr int kCodes = 15;         ///< codes of widths above 0: the least such width and the 14 after it
 constexpr int kWidest = 36;        ///< bits of a residual: heights differ by 2^32, so residuals by 2^34
 
+/// The code of a group's width, two in a byte.
+int code_of_group(std::span<const std::uint8_t> codes, std::size_t group) {
+  return codes[group / 2] >> group % 2 * 4 & 15;
+}
+
 using Group = std::array<std::uint64_t, kGroup>;
 
 int width_of(std::span<const std::uint64_t> residuals) {
@@ -69,7 +74,7 @@ void put_lattice_heights(std::vector<std::uint8_t>& out, std::span<const std::in
   out.push_back(static_cast<std::uint8_t>(least));
   out.insert(out.end(), codes.begin(), codes.end());
   for (std::size_t g = 0; g < groups; ++g) {
-    const int code = codes[g / 2] >> g % 2 * 4 & 15;
+    const int code = code_of_group(codes, g);
     if (code > 0) put_group(out, group(g), least + code - 1);
   }
 }
@@ -81,7 +86,7 @@ void read_lattice_heights(ByteReader& in, std::span<std::int64_t> heights, std::
   const std::span<const std::uint8_t> codes = in.bytes((groups + 1) / 2);
   if (groups % 2 == 1 && codes.back() >> 4 != 0) throw DecodeError("has heights beyond its last one");
   const auto width = [&](std::size_t g) {
-    const int code = codes[g / 2] >> g % 2 * 4 & 15;
+    const int code = code_of_group(codes, g);
     return code == 0 ? 0U : static_cast<unsigned>(least + code - 1);
   };
   std::size_t size = 0;

@@ -181,8 +181,8 @@ void StoreFile::leaves(const LevelRange& asked, const GridBox& box, std::vector<
       out.push_back(leaf);
     });
   }
-  for (int level = std::max(asked.finest, metadata_.fine_levels); level < level_count(); ++level) {
-    if (asked.coarsest < metadata_.fine_levels) break;
+  const bool asks_for_coarse = asked.coarsest >= metadata_.fine_levels;
+  for (int level = std::max(asked.finest, metadata_.fine_levels); asks_for_coarse && level < level_count(); ++level) {
     for_each_leaf(level, box, [&](Leaf leaf) {
       leaf.serves = {metadata_.fine_levels, level_count()};
       leaf.asked = leaf.points;
