@@ -58,19 +58,30 @@ class InfoVerb final : public Verb {
  public:
   std::string name() const override { return "info"; }
   std::string summary() const override { return "Show what a store holds"; }
-  void declare(CLI::App& app) override { reads(app.add_option("STORE", store_, "The store")->required()); }
+  void declare(CLI::App& app) override {
+    reads(app.add_option("STORE", store_, "The store")->required());
+    app.add_flag("--digest", digest_,
+                 "Read the whole store and tell the digest of its content: equal stores have equal digests, whenever "
+                 "and wherever they were imported");
+  }
   void validate() override {}
-  Document parameters() const override { return {{"store", store_}}; }
-  Result execute(Progress&) override {
+  Document parameters() const override { return {{"store", store_}, {"digest", digest_}}; }
+  Result execute(Progress& progress) override {
     const Store store(store_);
     const StatedHeights heights(store.metadata());
     Result result{info_document(store, heights), info_text(store, heights), {}, {}};
+    if (digest_) {
+      const std::string digest = content_digest(store, progress);
+      result.document["digest"] = digest;
+      result.text += fmt::format("\ndigest      {}\n", digest);
+    }
     warn_of_grid(store.metadata(), result.warnings);
     return result;
   }
 
  private:
   std::string store_;
+  bool digest_ = false;
 };
 
 }  // namespace

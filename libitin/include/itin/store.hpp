@@ -125,4 +125,10 @@ class Store {
 /// empty vector for a sound store. Throws FileError when reading itself fails, and Cancelled.
 std::vector<Damage> check(const Store& store, Progress& progress);
 
+/// Returns 32 hexadecimal digits that tell what the store holds: XXH3-128 over every row and over the metadata but for
+/// the times of the imports. Stores that were made from the same sources with the same options have the same digest,
+/// whatever the machine, the compiler, the number of threads, and the order of the sources in one import. Reads every
+/// byte. Throws CorruptStore, FileError, Cancelled.
+std::string content_digest(const Store& store, Progress& progress);
+
 }  // namespace itin

@@ -2,20 +2,17 @@
 
 #include <algorithm>
 #include <limits>
-#include <map>
 #include <span>
 
 #include <itin/precondition.hpp>
 
 #include "geometry/whole_division.hpp"
-#include "lattice/lattice_frame.hpp"
+#include "store/prevailing_lattice.hpp"
 
 namespace itin {
 
 namespace {
 
-/// The number of a block's points, mostly neighbours, that the spacing is guessed from. A wrong guess is found out.
-constexpr std::size_t kSamples = 16;
 constexpr std::int32_t kNoPost = std::numeric_limits<std::int32_t>::min();
 
 std::int32_t narrow(std::int64_t v) {
@@ -30,13 +27,6 @@ std::int64_t circle_margin(std::int64_t side) {
 
 GridBox box_about(std::int64_t x, std::int64_t y, std::int64_t width, std::int64_t height, std::int64_t margin) {
   return {narrow(x - margin), narrow(y - margin), narrow(x + width + margin), narrow(y + height + margin)};
-}
-
-/// Returns the first cell whose coordinates are not negative.
-LatticeCell cell_at_origin(const PostSpacing& posts) {
-  const std::int64_t side = posts.spacing();
-  const auto rest = [&](std::int64_t v) { return v - floor_divide(v, side) * side; };
-  return {rest(posts.origin().x), rest(posts.origin().y), side};
 }
 
 }  // namespace
@@ -127,21 +117,8 @@ void add_segments(LatticeSheet& sheet, const PointIndex& index, const Selection&
 std::optional<LatticeCell> cell_about(const GridBox& box, const PointIndex& index, const Selection& selection) {
   std::vector<Leaf> leaves;
   selected_leaves(index, selection, box, leaves);
-  // Each leaf votes by itself, as a single point off the lattice spoils the guess of its leaf.
-  std::map<LatticeCell, std::size_t> votes;
-  for (const Leaf& leaf : leaves) {
-    const auto block = index.unordered_block(leaf);
-    PostSpacing posts;
-    std::size_t samples = 0;
-    for (std::size_t k = 0; k < block->points.size() && samples < kSamples; ++k) {
-      const GridPoint& p = block->points[k];
-      if (selection.selects(leaf, level_of(leaf, *block, k), p.x, p.y)) posts.add(p), ++samples;
-    }
-    if (posts.found()) votes[cell_at_origin(posts)] += samples;
-  }
-  const auto most =
-      std::max_element(votes.begin(), votes.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
-  return most == votes.end() ? std::nullopt : std::optional(most->first);
+  const std::optional<PostLattice> lattice = prevailing_lattice(index, leaves, index.bounds());
+  return lattice ? std::optional(LatticeCell{lattice->x, lattice->y, lattice->side()}) : std::nullopt;
 }
 
 }  // namespace itin

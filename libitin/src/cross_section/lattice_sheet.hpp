@@ -73,8 +73,8 @@ class LatticeSheet {
 /// Adds the selected segments about a sheet.
 void add_segments(LatticeSheet& sheet, const PointIndex& index, const Selection& selection);
 
-/// Returns any cell of the lattice that most points in a box seem to lie on; nothing where no leaf has two points. This
-/// is a guess from some points of each leaf.
+/// Returns any cell of the lattice that most points in a box seem to lie on; nothing where there are
+/// no leaves.
 std::optional<LatticeCell> cell_about(const GridBox& box, const PointIndex& index, const Selection& selection);
 
 }  // namespace itin

@@ -4,19 +4,18 @@
 
 namespace itin {
 
-bool lay(const PostSpacing& of, const GridBox& box, LatticeTin& lattice) {
-  ITIN_PRECONDITION(of.found() && !box.empty());
-  const std::int64_t spacing = of.spacing();
-  const GridPoint& origin = of.origin();
+bool lay(const PostLattice& posts, const GridBox& box, LatticeTin& lattice) {
+  ITIN_PRECONDITION(!box.empty());
+  const std::int64_t spacing = posts.side();
   const auto floor_of = [&](std::int64_t v) { return v - ((v % spacing) + spacing) % spacing; };
   // The lattice has whole cells about the box, and a bare one all around.
-  const std::int64_t west = floor_of(std::int64_t{box.xmin} - origin.x) - spacing,
-                     east = -floor_of(origin.x - std::int64_t{box.xmax}) + spacing,
-                     south = floor_of(std::int64_t{box.ymin} - origin.y) - spacing,
-                     north = -floor_of(origin.y - std::int64_t{box.ymax}) + spacing;
+  const std::int64_t west = floor_of(std::int64_t{box.xmin} - posts.x) - spacing,
+                     east = -floor_of(posts.x - std::int64_t{box.xmax}) + spacing,
+                     south = floor_of(std::int64_t{box.ymin} - posts.y) - spacing,
+                     north = -floor_of(posts.y - std::int64_t{box.ymax}) + spacing;
   lattice.spacing = static_cast<std::int32_t>(spacing);
-  lattice.west = static_cast<std::int32_t>(origin.x + west);
-  lattice.north = static_cast<std::int32_t>(origin.y + north);
+  lattice.west = static_cast<std::int32_t>(posts.x + west);
+  lattice.north = static_cast<std::int32_t>(posts.y + north);
   lattice.columns = static_cast<std::uint32_t>((east - west) / spacing + 1);
   lattice.rows = static_cast<std::uint32_t>((north - south) / spacing + 1);
   const std::uint64_t tiles = std::uint64_t{lattice.tile_columns()} * lattice.tile_rows();

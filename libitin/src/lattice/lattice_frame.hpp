@@ -1,44 +1,23 @@
-// The places of a square lattice's posts, found from points that may be some of them.
+// The places of a square lattice's posts.
 //
-//   PostSpacing spacing;
-//   for (const GridPoint& p : some) spacing.add(p);
 //   LatticeTin lattice;
-//   if (spacing.found() && lay(spacing, box, lattice)) place_of(lattice, point)->column
+//   if (lay(posts, box, lattice)) place_of(lattice, point)->column
 #pragma once
 
 #include <cstdint>
-#include <numeric>
 #include <optional>
 
 #include <itin/geometry.hpp>
 #include <itin/lattice_tin.hpp>
 
-#include "geometry/cell.hpp"
+#include "geometry/post_lattice.hpp"
 
 namespace itin {
 
-/// The widest lattice that all added points can lie on.
-class PostSpacing {
- public:
-  void add(const GridPoint& p) {
-    if (!origin_) origin_ = p;
-    spacing_ = std::gcd(std::gcd(spacing_, std::int64_t{p.x} - origin_->x), std::int64_t{p.y} - origin_->y);
-  }
-  /// Tells whether two points differ.
-  bool found() const { return spacing_ > 0; }
-  /// Returns the spacing, grid units.
-  std::int64_t spacing() const { return spacing_; }
-  /// Returns one of the points. Precondition: found().
-  const GridPoint& origin() const { return *origin_; }
-
- private:
-  std::int64_t spacing_ = 0;
-  std::optional<GridPoint> origin_;
-};
-
-/// Lays the lattice over a box, with bare cells all around, and makes its tiles, without ground. Returns false where
-/// there would be too many tiles. Preconditions: found(), and the box is not empty.
-bool lay(const PostSpacing& spacing, const GridBox& box, LatticeTin& lattice);
+/// Lays squares that have all places of `posts` among their corners over a box, with bare cells all around, and makes
+/// the lattice's tiles, without ground. Returns false where there would be too many tiles. Precondition: the box is not
+/// empty.
+bool lay(const PostLattice& posts, const GridBox& box, LatticeTin& lattice);
 
 /// The column and row of the place at a point, or to its north-west.
 struct PointPlace {

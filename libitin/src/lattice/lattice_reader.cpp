@@ -15,6 +15,7 @@
 
 #include "lattice/lattice_cover.hpp"
 #include "lattice/post_sheet.hpp"
+#include "store/prevailing_lattice.hpp"
 #include "triangulate/grid_window.hpp"
 #include "triangulate/raised_index.hpp"
 #include "triangulate/selection.hpp"
@@ -27,8 +28,6 @@ namespace {
 /// A lattice must have at least one of this many of its posts. Without heights, which take most of the memory, fewer
 /// posts are enough.
 constexpr std::uint64_t kEmptiest = 4, kEmptiestWithoutHeights = 64;
-/// The number of the fullest leaves that the lattice is found by.
-constexpr std::size_t kSamples = 8;
 constexpr std::size_t kLeavesPerTask = 16;
 /// The widest leaf, in posts, that bounds the height of a tile. Wider leaves have few posts, so these are read instead.
 constexpr std::int64_t kWidestToBound = LatticeTin::kSide;
@@ -106,17 +105,9 @@ class LatticeReader::Work {
 
 bool LatticeReader::Work::find_lattice(Heights heights, std::uint64_t most_posts) {
   std::vector<Leaf> leaves = leaves_within(widest_spacing_);
-  std::vector<Leaf> fullest(std::min(kSamples, leaves.size()));
-  std::partial_sort_copy(leaves.begin(), leaves.end(), fullest.begin(), fullest.end(),
-                         [](const Leaf& a, const Leaf& b) { return a.points > b.points; });
-  PostSpacing posts;
-  for (const Leaf& leaf : fullest) {
-    const auto block = index_.unordered_block(leaf);
-    for (const GridPoint& p : block->points)
-      if (window_.bounds().contains(p.x, p.y)) posts.add(p);
-  }
-  if (!posts.found()) return false;
-  const auto margin = static_cast<double>(posts.spacing());
+  const std::optional<PostLattice> posts = prevailing_lattice(index_, leaves, window_.bounds());
+  if (!posts) return false;
+  const auto margin = static_cast<double>(posts->side());
   if (margin > widest_spacing_) {
     leaves = leaves_within(margin);
   } else if (margin < widest_spacing_) {
@@ -124,7 +115,7 @@ bool LatticeReader::Work::find_lattice(Heights heights, std::uint64_t most_posts
   }
   if (!std::all_of(leaves.begin(), leaves.end(), [](const Leaf& leaf) { return leaf.theme == 0; })) return false;
   const GridBox box = intersection(expanded(window_.bounds(), margin), index_.bounds());
-  if (box.empty() || !lay(posts, box, lattice_)) return false;
+  if (box.empty() || !lay(*posts, box, lattice_)) return false;
   std::uint64_t points = 0;
   for (const Leaf& leaf : leaves) points += leaf.points;
   cover_.emplace(lattice_, window_, everything_);
@@ -211,13 +202,13 @@ bool LatticeReader::Work::place_unread(const Leaf& leaf) {
   return for_each_post(*index_.plan_once(leaf), [](const PointPlace&, std::int32_t) {});
 }
 
-/// Tells whether all of a leaf's points lie on the lattice, as far as that is known without reading them.
+/// Tells whether all of a leaf's points are known to lie on the lattice.
 bool LatticeReader::Work::on_lattice(const Leaf& leaf) const {
-  const auto lattice = index_.lattice_of(leaf);
+  if (index_.any_raised()) return false;
+  const PostLattice posts = index_.lattice_of(leaf);
   const std::int64_t spacing = lattice_.spacing;
-  return lattice && lattice->step_x % spacing == 0 && lattice->step_y % spacing == 0 &&
-         (std::int64_t{lattice->x} - lattice_.west) % spacing == 0 &&
-         (std::int64_t{lattice->y} - lattice_.north) % spacing == 0;
+  return posts.side() % spacing == 0 && (posts.x - lattice_.west) % spacing == 0 &&
+         (posts.y - lattice_.north) % spacing == 0;
 }
 
 /// Adds the block's posts to the cover and calls visit(place, height) for each. Returns false as soon as a point lies

@@ -5,7 +5,7 @@
 namespace itin {
 
 std::optional<PostSheet> PostSheet::of(PostHeights posts, const LatticeTin& lattice) {
-  const std::int64_t spacing = lattice.spacing, east = std::int64_t{posts.lattice.x} - lattice.west,
+  const std::int64_t spacing = lattice.spacing, east = posts.lattice.x - lattice.west,
                      south = std::int64_t{lattice.north} - posts.lattice.y;
   if (posts.lattice.step_x != spacing || posts.lattice.step_y != spacing || east % spacing != 0 || south % spacing != 0)
     return std::nullopt;

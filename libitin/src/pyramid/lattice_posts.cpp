@@ -1,9 +1,10 @@
 #include "pyramid/lattice_posts.hpp"
 
 #include <algorithm>
-#include <numeric>
 
 #include <itin/box_of.hpp>
+
+#include "geometry/post_lattice.hpp"
 
 namespace itin {
 
@@ -13,13 +14,6 @@ namespace {
 constexpr double kLeastShare = 1.0 / 16;
 /// The least share of posts with neighbours to the east and north.
 constexpr double kLeastWithNeighbours = 0.5;
-
-/// The greatest step that leads from `first` to all coordinates; 1 where they are all the same.
-std::int64_t common_step(std::span<const SelectedVertex> vertices, std::int32_t GridPoint::*axis, std::int32_t first) {
-  std::int64_t step = 0;
-  for (const SelectedVertex& v : vertices) step = std::gcd(step, std::int64_t{v.point.*axis} - first);
-  return std::max<std::int64_t>(step, 1);
-}
 
 }  // namespace
 
@@ -39,7 +33,9 @@ bool LatticePosts::find_lattice(std::span<const SelectedVertex> vertices) {
   const GridBox box = box_of(vertices, &SelectedVertex::point);
   if (box.empty()) return false;
   west_ = box.xmin, south_ = box.ymin;
-  step_x_ = common_step(vertices, &GridPoint::x, west_), step_y_ = common_step(vertices, &GridPoint::y, south_);
+  WidestLattice widest;
+  for (const SelectedVertex& v : vertices) widest.add(v.point.x, v.point.y);
+  step_x_ = widest.lattice().step_x, step_y_ = widest.lattice().step_y;
   constexpr double kMoreThanOne = 1 + 1e-12;
   columns_per_unit_ = kMoreThanOne / static_cast<double>(step_x_);
   rows_per_unit_ = kMoreThanOne / static_cast<double>(step_y_);

@@ -4,23 +4,13 @@
 #include <limits>
 
 #include "geometry/whole_division.hpp"
+#include "store/prevailing_lattice.hpp"
 
 namespace itin {
 
 namespace {
 
 constexpr std::int32_t kMissing = std::numeric_limits<std::int32_t>::min();
-
-/// The least distance between two different values; 0 where all are equal.
-std::int64_t least_step(std::vector<std::int32_t> values) {
-  std::sort(values.begin(), values.end());
-  std::int64_t step = 0;
-  for (std::size_t i = 1; i < values.size(); ++i) {
-    const std::int64_t apart = std::int64_t{values[i]} - values[i - 1];
-    if (apart > 0 && (step == 0 || apart < step)) step = apart;
-  }
-  return step;
-}
 
 /// Posts of one axis: the first one and their number, among origin + i step.
 struct Extent {
@@ -54,18 +44,13 @@ std::optional<WholeLattice> WholeLattice::about(const PointIndex& index, const G
   return lattice;
 }
 
-/// Guesses the steps from the fullest leaf; read() finds out whether they are right.
+/// Guesses the steps from leaves; read() finds out whether they are right.
 bool WholeLattice::find_steps(const PointIndex& index, const std::vector<Leaf>& leaves) {
-  const auto fullest =
-      std::max_element(leaves.begin(), leaves.end(), [](const Leaf& a, const Leaf& b) { return a.points < b.points; });
-  if (fullest == leaves.end()) return false;
-  std::vector<std::int32_t> x, y;
-  const auto block = index.block(*fullest);
-  for (const GridPoint& p : block->points) x.push_back(p.x), y.push_back(p.y);
-  if (x.empty()) return false;
-  west_ = x.front(), south_ = y.front();
-  step_x_ = least_step(std::move(x)), step_y_ = least_step(std::move(y));
-  return step_x_ > 0 && step_y_ > 0;
+  const std::optional<PostLattice> lattice = prevailing_lattice(index, leaves, index.bounds());
+  if (!lattice) return false;
+  west_ = lattice->x, south_ = lattice->y;
+  step_x_ = lattice->step_x, step_y_ = lattice->step_y;
+  return true;
 }
 
 bool WholeLattice::find_extent(const GridBox& box, const GridBox& all) {

@@ -8,10 +8,10 @@
 
 #include <itin/precondition.hpp>
 
+#include "geometry/common_divisor.hpp"
 #include "store/bit_stream.hpp"
 #include "store/block_header.hpp"
 #include "store/byte_stream.hpp"
-#include "store/common_divisor.hpp"
 #include "store/height_predictor.hpp"
 #include "store/lattice_heights.hpp"
 #include "store/radix_sort.hpp"
@@ -349,19 +349,19 @@ void sort_along_curve(const Cell& cell, const CellLattice& lattice, Block& block
   }
 }
 
-BlockLattice block_lattice_of(const Cell& cell, const BlockHeader& header) {
+PostLattice post_lattice_of(const Cell& cell, const BlockHeader& header) {
   const GridBox box = cell.box();
   const CellLattice& lattice = header.lattice;
-  return {static_cast<std::uint32_t>(header.count), static_cast<std::int32_t>(box.xmin + lattice.x0),
-          static_cast<std::int32_t>(box.ymin + lattice.y0), static_cast<std::int64_t>(lattice.step_x),
-          static_cast<std::int64_t>(lattice.step_y)};
+  return {std::int64_t{box.xmin} + lattice.x0, std::int64_t{box.ymin} + lattice.y0,
+          static_cast<std::int64_t>(lattice.step_x), static_cast<std::int64_t>(lattice.step_y)};
 }
 
 }  // namespace
 
 BlockLattice decode_lattice(const Cell& cell, std::span<const std::uint8_t> bytes) {
   ByteReader in(bytes);
-  return block_lattice_of(cell, read_header(in, cell));
+  const BlockHeader header = read_header(in, cell);
+  return {header.count, post_lattice_of(cell, header)};
 }
 
 Block decode_plan(const Cell& cell, std::span<const std::uint8_t> bytes) {
@@ -388,7 +388,7 @@ std::optional<PostHeights> decode_posts(const Cell& cell, std::span<const std::u
   if (header.layout != PointLayout::kFullLattice) return std::nullopt;
   read_sources(in, header.count);
   const std::vector<std::int64_t> heights = read_full_heights(in, header);
-  PostHeights posts{block_lattice_of(cell, header), static_cast<std::uint32_t>(header.lattice.columns),
+  PostHeights posts{post_lattice_of(cell, header), static_cast<std::uint32_t>(header.lattice.columns),
                     static_cast<std::uint32_t>(header.lattice.rows), std::vector<std::int32_t>(heights.size())};
   const std::int64_t most = most_steps(header);
   for (std::size_t i = 0; i < heights.size(); ++i) posts.heights[i] = height_at(header, heights[i], most);

@@ -30,7 +30,12 @@ Block decode_block(const Cell& cell, std::span<const std::uint8_t> bytes, BlockO
 /// the bytes that it reads.
 Block decode_plan(const Cell& cell, std::span<const std::uint8_t> bytes);
 
-/// Returns the lattice that all of the block's points lie on, from its header alone. Throws DecodeError for damage in
+/// The number of a block's points, and the widest lattice that has them all; scattered points lie on the grid itself.
+struct BlockLattice {
+  std::size_t points = 0;
+  PostLattice lattice;
+};
+/// Returns what a block's header tells of its points, from the header alone. Throws DecodeError for damage in
 /// the header.
 BlockLattice decode_lattice(const Cell& cell, std::span<const std::uint8_t> bytes);
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "geometry/post_lattice.hpp"
 #include "store/block_codec.hpp"
-#include "store/common_divisor.hpp"
 #include "store/store_format.hpp"
 
 namespace itin {
@@ -12,13 +12,14 @@ namespace itin {
 void find_layout(const Cell& cell, std::span<const GridPoint> points, BlockHeader& header) {
   const GridBox box = cell.box();
   GridBox extent;
-  CommonDivisor step_x, step_y;
+  WidestLattice widest;
   for (const GridPoint& p : points) {
-    step_x.include(std::int64_t{p.x} - points[0].x);
-    step_y.include(std::int64_t{p.y} - points[0].y);
+    widest.add(p.x, p.y);
     extent.extend(p.x, p.y);
   }
-  CellLattice lattice{step_x.value(), step_y.value(), 0, 0, 1, 1};
+  CellLattice lattice;
+  lattice.step_x = static_cast<std::uint64_t>(widest.lattice().step_x);
+  lattice.step_y = static_cast<std::uint64_t>(widest.lattice().step_y);
   lattice.x0 = static_cast<std::uint32_t>(extent.xmin - box.xmin);
   lattice.y0 = static_cast<std::uint32_t>(extent.ymin - box.ymin);
   lattice.columns = static_cast<std::uint64_t>(std::int64_t{extent.xmax} - extent.xmin) / lattice.step_x + 1;

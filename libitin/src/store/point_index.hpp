@@ -14,6 +14,7 @@
 #include <itin/geometry.hpp>
 
 #include "geometry/cell.hpp"
+#include "geometry/post_lattice.hpp"
 #include "store/point_sources.hpp"
 
 namespace itin {
@@ -61,16 +62,9 @@ struct Block {
   }
 };
 
-/// The lattice that all points of a block lie on: (x + i step_x, y + j step_y), grid units.
-struct BlockLattice {
-  std::uint32_t points = 0;  ///< number of its places with a point
-  std::int32_t x = 0, y = 0;
-  std::int64_t step_x = 1, step_y = 1;
-};
-
 /// The heights of a leaf whose points have all places of their lattice.
 struct PostHeights {
-  BlockLattice lattice;
+  PostLattice lattice;
   std::uint32_t columns = 0, rows = 0;
   std::vector<std::int32_t> heights;  ///< grid units, row by row from the lattice's first place
 };
@@ -123,8 +117,8 @@ class PointIndex {
   /// Returns what block_once() does, for callers who use only the positions in plan: the heights may be anything.
   virtual std::shared_ptr<const Block> plan_once(const Leaf& leaf) const { return block_once(leaf); }
 
-  /// Returns the lattice that the leaf's points lie on, where it is known without reading them.
-  virtual std::optional<BlockLattice> lattice_of(const Leaf&) const { return std::nullopt; }
+  /// Returns a lattice that has all of the leaf's points. An index that has recorded one does not read them.
+  virtual PostLattice lattice_of(const Leaf& leaf) const;
   /// Returns the heights of a leaf whose points have all places of their lattice, where the index keeps them so.
   virtual std::optional<PostHeights> posts_once(const Leaf&) const { return std::nullopt; }
 
@@ -132,5 +126,12 @@ class PointIndex {
   /// nearby. A segment may come twice.
   virtual void segments(const GridBox& box, std::vector<Segment>& out) const = 0;
 };
+
+inline PostLattice PointIndex::lattice_of(const Leaf& leaf) const {
+  WidestLattice widest;
+  const auto block = unordered_block(leaf);
+  for (const GridPoint& p : block->points) widest.add(p.x, p.y);
+  return widest.lattice();
+}
 
 }  // namespace itin

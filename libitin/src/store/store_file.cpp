@@ -235,12 +235,12 @@ std::shared_ptr<const Block> StoreFile::plan_once(const Leaf& leaf) const {
   });
 }
 
-std::optional<BlockLattice> StoreFile::lattice_of(const Leaf& leaf) const {
-  if (is_part_of_ground(leaf)) return std::nullopt;
-  return decoded(rows_, BlobKind::Block, leaf.key, [&](const auto& bytes) {
-    const BlockLattice lattice = decode_lattice(leaf.cell, items_of(leaf.key, bytes));
-    if (lattice.points != leaf.points) throw DecodeError("does not agree with its directory");
-    return lattice;
+PostLattice StoreFile::lattice_of(const Leaf& leaf) const {
+  const std::uint64_t key = is_part_of_ground(leaf) ? format::key(format::kGroundTree, leaf.cell.code) : leaf.key;
+  return decoded(rows_, BlobKind::Block, key, [&](const auto& bytes) {
+    const BlockLattice block = decode_lattice(leaf.cell, items_of(key, bytes));
+    if (block.points != leaf.points) throw DecodeError("does not agree with its directory");
+    return block.lattice;
   });
 }
 
@@ -248,7 +248,7 @@ std::optional<PostHeights> StoreFile::posts_once(const Leaf& leaf) const {
   if (is_part_of_ground(leaf)) return std::nullopt;
   return decoded(rows_, BlobKind::Block, leaf.key, [&](const auto& bytes) {
     std::optional<PostHeights> posts = decode_posts(leaf.cell, items_of(leaf.key, bytes));
-    if (posts && posts->lattice.points != leaf.points) throw DecodeError("does not agree with its directory");
+    if (posts && posts->heights.size() != leaf.points) throw DecodeError("does not agree with its directory");
     return posts;
   });
 }

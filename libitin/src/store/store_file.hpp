@@ -34,7 +34,7 @@ class StoreFile final : public PointIndex {
   std::shared_ptr<const Block> unordered_block(const Leaf& leaf) const override;
   std::shared_ptr<const Block> block_once(const Leaf& leaf) const override;
   std::shared_ptr<const Block> plan_once(const Leaf& leaf) const override;
-  std::optional<BlockLattice> lattice_of(const Leaf& leaf) const override;
+  PostLattice lattice_of(const Leaf& leaf) const override;
   std::optional<PostHeights> posts_once(const Leaf& leaf) const override;
   void segments(const GridBox& box, std::vector<Segment>& out) const override;
 

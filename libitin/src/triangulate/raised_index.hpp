@@ -41,13 +41,14 @@ class RaisedIndex final : public PointIndex {
   std::shared_ptr<const Block> plan_once(const Leaf& leaf) const override {
     return any_ ? block(leaf) : base_.plan_once(leaf);
   }
-  std::optional<BlockLattice> lattice_of(const Leaf& leaf) const override {
-    return any_ ? std::nullopt : base_.lattice_of(leaf);
-  }
+  PostLattice lattice_of(const Leaf& leaf) const override { return base_.lattice_of(leaf); }
   std::optional<PostHeights> posts_once(const Leaf& leaf) const override {
     return any_ ? std::nullopt : base_.posts_once(leaf);
   }
   void segments(const GridBox& box, std::vector<Segment>& out) const override;
+
+  /// Tells whether features are chosen, for which vertices of the store make way.
+  bool any_raised() const { return any_; }
 
  private:
   static constexpr int kNotThere = -1;

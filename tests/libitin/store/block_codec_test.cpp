@@ -139,8 +139,8 @@ TEST(BlockCodec, TheHeaderTellsALatticeOfAllPoints) {
     for (const Cell cell : {Cell{morton(0, 0), 16}, Cell{morton(-65536, 131072), 15}}) {
       const auto points = test::scatter(how, cell, 200, random);
       const auto bytes = encode_block(cell, points, std::vector<std::uint16_t>(points.size(), 1));
-      const BlockLattice lattice = decode_lattice(cell, bytes);
-      EXPECT_EQ(lattice.points, points.size());
+      const auto [count, lattice] = decode_lattice(cell, bytes);
+      EXPECT_EQ(count, points.size());
       for (const GridPoint& p : points) {
         EXPECT_EQ((std::int64_t{p.x} - lattice.x) % lattice.step_x, 0);
         EXPECT_EQ((std::int64_t{p.y} - lattice.y) % lattice.step_y, 0);
@@ -181,8 +181,9 @@ TEST(PointSources, OfOneSourceTakeNoMemory) {
 // Whatever the bytes: an error, or a block that keeps its promises.
 void expect_error_or_valid(const Cell& cell, const std::vector<std::uint8_t>& bytes) {
   try {
-    const BlockLattice lattice = decode_lattice(cell, bytes);
-    ASSERT_TRUE(lattice.step_x >= 1 && lattice.step_y >= 1 && cell.box().contains(lattice.x, lattice.y));
+    const PostLattice lattice = decode_lattice(cell, bytes).lattice;
+    ASSERT_TRUE(lattice.step_x >= 1 && lattice.step_y >= 1 &&
+                cell.box().contains(static_cast<std::int32_t>(lattice.x), static_cast<std::int32_t>(lattice.y)));
   } catch (const DecodeError&) {
   }
   try {

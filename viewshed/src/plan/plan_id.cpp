@@ -86,14 +86,15 @@ void add_request(Text& text, const Request& request, const std::vector<ThemeInfo
            observers_on_surface, targets_on_surface, nodata, engine, mode, vertical_error, fresnel, radio);
 }
 
-/// A store has no digest of its own: what tells it from others is what was imported, and what became of it.
+/// What tells a store from others is what was imported, and what became of it; not when it was imported. A digest of
+/// its content would take reading all of it.
 void add_store(Text& text, const StoreMetadata& store) {
   text.add(store.crs_wkt, store.grid.origin, store.grid.resolution, store.vertices);
   for (const LevelInfo& level : store.levels)
     text.add(level.tolerance, level.lateral_tolerance, level.vertices, level.certified_error.lo,
              level.certified_error.hi);
   for (const SourceInfo& source : store.sources)
-    text.add(source.path, source.theme, source.imported, source.sha256, source.vertices);
+    text.add(source.path, source.theme, source.sha256, source.vertices);
   for (const ThemeInfo& theme : store.themes) text.add(theme.name, theme.features, theme.vertices, theme.segments);
 }
 

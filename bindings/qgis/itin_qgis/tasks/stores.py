@@ -18,7 +18,12 @@ class Info(Task):
     prints = True
     guide = "importing.md"
     summary = "Tells the CRS, extent, levels, themes and sources of a store, and its certified error by level."
-    parameters = (shared.STORE, shared.THREADS, shared.FURTHER)
+    parameters = (
+        shared.STORE,
+        Flag("DIGEST", "Tell the digest of the content", "--digest", help="Every byte is read for it"),
+        shared.THREADS,
+        shared.FURTHER,
+    )
 
 
 class Check(Task):

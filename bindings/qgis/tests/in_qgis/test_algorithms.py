@@ -31,7 +31,7 @@ CASES: list[tuple[str, dict[str, Any], str]] = [
         {"INPUT": "{d}/alexandria-buildings.geojson", "KIND": "buildings", "HEIGHT_FIELD": "HEIGHT", "STORE": "{o}/town.itin"},
         "import {o}/town.itin {d}/alexandria-buildings.geojson --kind buildings --height-field HEIGHT",
     ),
-    ("info", {"STORE": "{c}"}, "info {c}"),
+    ("info", {"STORE": "{c}", "DIGEST": True}, "info {c} --digest"),
     ("check", {"STORE": "{c}", "QUICK": True}, "check {c} --quick"),
     (
         "surfaceraster",

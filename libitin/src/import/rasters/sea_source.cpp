@@ -13,6 +13,7 @@
 
 #include <itin/error.hpp>
 
+#include "geometry/post_lattice.hpp"
 #include "geometry/whole_division.hpp"
 #include "import/rasters/raster_source.hpp"
 #include "import/source/source_context.hpp"
@@ -27,13 +28,10 @@ constexpr double kSeaGapSteps = 1.9;  // a missing post leaves a hole; posts bes
 constexpr double kMostSeaPosts = 4e9;
 constexpr std::size_t kSeaBatch = 1 << 16;
 
-/// A lattice of the places with these coordinates plus multiples of the spacing, in grid units. The coarsest lattice is
-/// the least.
-struct PostLattice {
-  std::int64_t spacing = 1, x = 0, y = 0;
-
-  friend bool operator<(const PostLattice& a, const PostLattice& b) {
-    return std::tuple(-a.spacing, a.x, a.y) < std::tuple(-b.spacing, b.x, b.y);
+/// Orders lattices of squares by their sides, the widest first.
+struct WidestFirst {
+  bool operator()(const PostLattice& a, const PostLattice& b) const {
+    return std::tuple(-a.side(), a.x, a.y) < std::tuple(-b.side(), b.x, b.y);
   }
 };
 
@@ -83,19 +81,19 @@ class SeaFill::Lattices {
     coarsest_ = std::max(coarsest_, info.spacing);
     const auto step = upright_step(info, grid_.resolution);
     if (!step || points.empty()) return;
-    const auto phase = [&](std::int32_t v) { return v - floor_divide(std::int64_t{v}, *step) * *step; };
-    const PostLattice lattice{*step, phase(points.front().x), phase(points.front().y)};
+    const PostLattice lattice = PostLattice{points.front().x, points.front().y, *step, *step}.from_first_place();
     SeaPlaces& places = seen_[lattice];
-    for (const GridPoint& p : points)
-      if (phase(p.x) == lattice.x && phase(p.y) == lattice.y)
-        places.add((p.x - lattice.x) / *step, (p.y - lattice.y) / *step);
+    for (const GridPoint& p : points) {
+      const std::int64_t east = p.x - lattice.x, north = p.y - lattice.y;
+      if (east % *step == 0 && north % *step == 0) places.add(east / *step, north / *step);
+    }
   }
 
   double level() const { return level_; }
   double resolution() const { return grid_.resolution; }
   PostLattice lattice() const {
-    const PostLattice own{std::max<std::int64_t>(1, std::llround(coarsest_ / grid_.resolution)), 0, 0};
-    return seen_.empty() || seen_.begin()->first.spacing < own.spacing ? own : seen_.begin()->first;
+    const std::int64_t own = std::max<std::int64_t>(1, std::llround(coarsest_ / grid_.resolution));
+    return seen_.empty() || seen_.begin()->first.side() < own ? PostLattice{0, 0, own, own} : seen_.begin()->first;
   }
 
   /// Calls visit(share of rows done, points) row by row from the north, each row from the west.
@@ -104,8 +102,8 @@ class SeaFill::Lattices {
     const PostLattice lattice = this->lattice();
     const auto seen = seen_.find(lattice);
     const GridBox box = grid_.enclosing(box_);
-    const auto first = [&](std::int64_t v, std::int64_t phase) { return ceil_divide(v - phase, lattice.spacing); };
-    const auto last = [&](std::int64_t v, std::int64_t phase) { return floor_divide(v - phase, lattice.spacing); };
+    const auto first = [&](std::int64_t v, std::int64_t phase) { return ceil_divide(v - phase, lattice.side()); };
+    const auto last = [&](std::int64_t v, std::int64_t phase) { return floor_divide(v - phase, lattice.side()); };
     const std::int64_t west = first(box.xmin, lattice.x), east = last(box.xmax, lattice.x),
                        south = first(box.ymin, lattice.y), north = last(box.ymax, lattice.y);
     require_few(static_cast<double>(east - west + 1) * static_cast<double>(north - south + 1));
@@ -117,8 +115,8 @@ class SeaFill::Lattices {
       points.clear();
       for (std::int64_t column = west; column <= east; ++column) {
         if (seen != seen_.end() && seen->second.has(column, row)) continue;
-        const auto x = static_cast<std::int32_t>(lattice.x + column * lattice.spacing),
-                   y = static_cast<std::int32_t>(lattice.y + row * lattice.spacing);
+        const auto x = static_cast<std::int32_t>(lattice.x + column * lattice.step_x),
+                   y = static_cast<std::int32_t>(lattice.y + row * lattice.step_y);
         if (!window || window->contains(x, y)) points.push_back({x, y, z});
       }
       visit(static_cast<double>(north - row) / static_cast<double>(north - south + 1), points);
@@ -140,7 +138,7 @@ class SeaFill::Lattices {
   Box box_;
   Grid grid_;
   double coarsest_ = 0;
-  std::map<PostLattice, SeaPlaces> seen_;
+  std::map<PostLattice, SeaPlaces, WidestFirst> seen_;
 };
 
 namespace {
@@ -189,7 +187,7 @@ class SeaTerrain final : public TerrainSource {
   }
 
   SourceInfo info() const override {
-    const double step = static_cast<double>(lattices_->lattice().spacing) * lattices_->resolution();
+    const double step = static_cast<double>(lattices_->lattice().side()) * lattices_->resolution();
     SourceInfo info;
     info.path = sea_name(lattices_->level());
     info.kind = kSea;
