@@ -36,8 +36,9 @@ std::vector<std::uint32_t> hull_of(std::span<const SelectedVertex> vertices, std
 }
 
 template <class Ground>
-std::vector<std::uint8_t> levels_over(Ground& ground, std::span<const SelectedVertex> vertices,
-                                      std::span<const Candidacy> candidacy, std::span<const double> tolerances) {
+std::vector<std::uint8_t> levels_over(Ground& ground, std::span<const Candidacy> candidacy,
+                                      std::span<const double> tolerances) {
+  const std::vector<SelectedVertex>& vertices = ground.vertices();
   const std::size_t coarsest = tolerances.size() - 1;
   std::vector<std::uint8_t> levels(candidacy.size(), 0);
   std::vector<std::uint32_t> candidates;
@@ -52,7 +53,7 @@ std::vector<std::uint8_t> levels_over(Ground& ground, std::span<const SelectedVe
   first.insert(first.end(), given[coarsest].begin(), given[coarsest].end());
   for (const std::uint32_t v : first) levels[v] = static_cast<std::uint8_t>(coarsest);
   GreedyInsertion<Ground> greedy(ground, candidacy, tolerances);
-  if (!greedy.start(first)) return levels;
+  if (!greedy.start(std::move(first))) return levels;
   for (std::size_t k = coarsest; k >= 1; --k) {
     greedy.begin_level(k);
     greedy.insert_given(given[k]);
@@ -66,13 +67,13 @@ std::vector<std::uint8_t> levels_over(Ground& ground, std::span<const SelectedVe
 std::vector<std::uint8_t> greedy_levels(const RegionMesh& fine, std::span<const Candidacy> candidacy,
                                         std::span<const double> tolerances) {
   MeshGround ground(fine);
-  return levels_over(ground, fine.vertices, candidacy, tolerances);
+  return levels_over(ground, candidacy, tolerances);
 }
 
-std::vector<std::uint8_t> greedy_levels(std::span<const SelectedVertex> vertices, const LatticePosts& posts,
+std::vector<std::uint8_t> greedy_levels(const std::vector<SelectedVertex>& vertices, const LatticePosts& posts,
                                         std::span<const Candidacy> candidacy, std::span<const double> tolerances) {
   LatticeGround ground(vertices, posts, candidacy);
-  return levels_over(ground, vertices, candidacy, tolerances);
+  return levels_over(ground, candidacy, tolerances);
 }
 
 }  // namespace itin

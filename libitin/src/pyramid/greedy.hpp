@@ -33,7 +33,7 @@ std::vector<std::uint8_t> greedy_levels(const RegionMesh& fine, std::span<const 
 /// Returns the levels where the full surface is the Delaunay triangulation of these vertices, which are posts of a
 /// lattice. Needs no triangles. Edges of the full surface that are no sides of the lattice's triangles, as beside gaps,
 /// are passed over.
-std::vector<std::uint8_t> greedy_levels(std::span<const SelectedVertex> vertices, const LatticePosts& posts,
+std::vector<std::uint8_t> greedy_levels(const std::vector<SelectedVertex>& vertices, const LatticePosts& posts,
                                         std::span<const Candidacy> candidacy, std::span<const double> tolerances);
 
 }  // namespace itin

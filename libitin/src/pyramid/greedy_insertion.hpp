@@ -3,16 +3,16 @@
 //   GreedyInsertion<MeshGround> greedy(ground, candidacy, tolerances);
 //
 // A ground knows the full surface and its vertices, by number, and says how far a coarse face or edge is off it:
-//   point(v), size()                the vertices
-//   begin(triangulation, open)      called before the first face is looked at
-//   take(faces, v)                  called before the star about vertex v replaces these faces
-//   assign_to_star(centre, faces)   called with the star's faces, which share the vertices of the faces replaced
-//   worst_point(face)               the open vertex in the face that is farthest off it
-//   compare_edge(a, b, worst)       offers worst what would break up edge ab where it crosses full edges
-// Include only where CGAL may appear.
+//   vertices()                  the vertices
+//   begin(mesh, open)           called before the first face is looked at, with the open vertices
+//   take(faces, v)              called when the star about vertex v has replaced these faces of the mesh
+//   assign_to_star(mesh, star)  called after that, with the star's faces: they share the vertices of the faces replaced
+//   worst_point(face, corners)  the open vertex in the face that is farthest off it
+//   compare_edge(a, b, worst)   offers worst what would break up edge ab where it crosses full edges
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <initializer_list>
 #include <iterator>
@@ -22,38 +22,13 @@
 #include <utility>
 #include <vector>
 
-#include <CGAL/Delaunay_triangulation_2.h>
-#include <CGAL/Triangulation_face_base_with_info_2.h>
-#include <CGAL/Triangulation_vertex_base_2.h>
+#include <itin/sort_unique.hpp>
 
 #include "pyramid/greedy.hpp"
-#include "triangulate/cgal_traits.hpp"
+#include "triangulate/delaunay.hpp"
+#include "triangulate/growing_mesh.hpp"
 
 namespace itin {
-
-struct CoarseFaceInfo {
-  std::uint32_t first = kNoVertex;  ///< the first vertex that lies in the face, where the ground lists these
-  std::uint32_t version = 0;        ///< counts the face's reincarnations, to recognise stale proposals
-};
-
-using CoarseTriangulation = CGAL::Delaunay_triangulation_2<
-    GridTraits,
-    CGAL::Triangulation_data_structure_2<CGAL::Triangulation_vertex_base_2<GridTraits>,
-                                         CGAL::Triangulation_face_base_with_info_2<CoarseFaceInfo, GridTraits>>>;
-using CoarseFace = CoarseTriangulation::Face_handle;
-
-/// Finds a finite face that holds p. A point on the hull may be found in an infinite face, whose neighbour holds it,
-/// too.
-inline CoarseFace locate(const CoarseTriangulation& triangulation, const TraitsPoint& p, CoarseFace hint) {
-  const CoarseFace f = triangulation.locate(p, hint);
-  return triangulation.is_infinite(f) ? f->neighbor(f->index(triangulation.infinite_vertex())) : f;
-}
-
-/// A face of the star about a vertex that was inserted.
-struct StarFace {
-  CoarseFace face;
-  TraitsPoint right, left;  ///< as seen from the vertex
-};
 
 /// A vertex and how far it is off; kNoVertex where there is none.
 struct WorstPoint {
@@ -71,9 +46,9 @@ struct Insertion {
   double error;
   std::uint32_t point;
   std::uint32_t version;   ///< the face's, when this was proposed
-  CoarseFace face;         ///< null for an edge's proposal
+  std::uint32_t face;      ///< kNoTriangle for an edge's proposal
   std::uint32_t from, to;  ///< the ends of the edge
-  bool of_edge() const { return face == CoarseFace(); }
+  bool of_edge() const { return face == kNoTriangle; }
   /// Compares by the greatest error first, then by the first vertex; the rest only makes the order unique.
   bool operator<(const Insertion& p) const {
     if (error != p.error) return error < p.error;
@@ -137,25 +112,30 @@ class GreedyInsertion {
  public:
   /// All arguments must outlive it.
   GreedyInsertion(Ground& ground, std::span<const Candidacy> candidacy, std::span<const double> tolerances)
-      : ground_(ground), candidacy_(candidacy), vertices_(ground.size()), insertions_(tolerances) {}
+      : ground_(ground), candidacy_(candidacy), mesh_(ground.vertices()), insertions_(tolerances) {}
 
   /// Starts from these vertices, whose hull must contain all candidates; false while they are collinear.
-  bool start(const std::vector<std::uint32_t>& vertices) {
-    Face hint;
-    for (const std::uint32_t v : vertices) {
-      if (is_inserted(v)) continue;
-      vertices_[v] = triangulation_.insert(position(v), hint);
-      hint = vertices_[v]->face();
-    }
-    if (triangulation_.dimension() < 2) return false;
+  bool start(std::vector<std::uint32_t> vertices) {
+    sort_unique(vertices);
+    std::vector<Position> positions;
+    for (const std::uint32_t v : vertices) positions.push_back(ground_.vertices()[v].position());
+    Delaunay delaunay;
+    delaunay.insert(positions, vertices);
+    mesh_.start(delaunay.mesh());
+    const auto faces = static_cast<std::uint32_t>(mesh_.mesh().triangles.size());
+    if (faces == 0) return false;
+    versions_.assign(faces, 0);
     std::vector<std::uint32_t> open;
     for (std::uint32_t v = 0; v < candidacy_.size(); ++v)
       if (is_open(v)) open.push_back(v);
-    ground_.begin(triangulation_, open);
-    for (Face f : triangulation_.finite_face_handles()) propose_worst_point(f);
-    for (const auto& edge : triangulation_.finite_edges()) {
-      propose_edge(edge.first->vertex(CoarseTriangulation::ccw(edge.second)),
-                   edge.first->vertex(CoarseTriangulation::cw(edge.second)));
+    ground_.begin(mesh_, open);
+    for (std::uint32_t f = 0; f < faces; ++f) propose_worst_point(f);
+    for (std::uint32_t f = 0; f < faces; ++f) {
+      for (std::size_t i = 0; i < 3; ++i) {
+        const std::array<std::uint32_t, 3>& corners = mesh_.mesh().triangles[f];
+        const std::uint32_t from = corners[(i + 1) % 3], to = corners[(i + 2) % 3];
+        if (from < to || mesh_.mesh().neighbours[f][i] == kNoTriangle) propose_edge(from, to);
+      }
     }
     return true;
   }
@@ -167,12 +147,8 @@ class GreedyInsertion {
 
   /// Inserts these vertices, if they are not yet in.
   void insert_given(const std::vector<std::uint32_t>& vertices) {
-    Face hint;
-    for (const std::uint32_t v : vertices) {
-      if (is_inserted(v)) continue;
-      hint = locate(triangulation_, position(v), hint);
-      hint = insert(v, hint);
-    }
+    for (const std::uint32_t v : vertices)
+      if (!mesh_.has(v)) insert(v, mesh_.triangle_at(position(v)));
   }
 
   /// Inserts the worst vertex until nothing is more than the level's tolerance off; calls on_insert(vertex) for each.
@@ -181,64 +157,45 @@ class GreedyInsertion {
     while (const auto worst = insertions_.pop()) {
       if (is_stale(*worst)) continue;
       const bool of_edge = worst->of_edge();
-      if (!is_inserted(worst->point)) {
+      if (!mesh_.has(worst->point)) {
         insert(worst->point,
-               of_edge ? locate(triangulation_, position(worst->point), vertices_[worst->from]->face()) : worst->face);
+               of_edge ? mesh_.triangle_at(position(worst->point), mesh_.triangle_of(worst->from)) : worst->face);
         on_insert(worst->point);
       }
       // An edge that has outlived the insertion needs another one.
-      if (of_edge && !is_stale(*worst)) propose_edge(vertices_[worst->from], vertices_[worst->to]);
+      if (of_edge && !is_stale(*worst)) propose_edge(worst->from, worst->to);
     }
   }
 
  private:
-  using Face = CoarseFace;
-  using Vertex = CoarseTriangulation::Vertex_handle;
-
-  TraitsPoint position(std::uint32_t v) const { return {ground_.point(v).x, ground_.point(v).y, v}; }
-  bool is_inserted(std::uint32_t v) const { return vertices_[v] != Vertex(); }
-  bool is_open(std::uint32_t v) const { return !is_inserted(v) && candidacy_[v] != Candidacy::kNone; }
+  Position position(std::uint32_t v) const { return ground_.vertices()[v].position(); }
+  bool is_open(std::uint32_t v) const { return !mesh_.has(v) && candidacy_[v] != Candidacy::kNone; }
   /// Whether the insertion's face or edge is no more.
   bool is_stale(const Insertion& insertion) const {
-    return insertion.of_edge() ? !triangulation_.is_edge(vertices_[insertion.from], vertices_[insertion.to])
-                               : insertion.face->info().version != insertion.version;
+    return insertion.of_edge() ? !mesh_.has_edge(insertion.from, insertion.to)
+                               : versions_[insertion.face] != insertion.version;
   }
 
-  /// Inserts v and returns a face at it.
-  Face insert(std::uint32_t v, Face start) {
-    conflicts_.clear();
-    boundary_.clear();
-    triangulation_.get_conflicts_and_boundary(position(v), std::back_inserter(conflicts_),
-                                              std::back_inserter(boundary_), start);
-    ground_.take(conflicts_, v);
-    vertices_[v] =
-        triangulation_.star_hole(position(v), boundary_.begin(), boundary_.end(), conflicts_.begin(), conflicts_.end());
-    update_star(vertices_[v]);
-    return vertices_[v]->face();
+  /// Inserts v, given a face that holds it.
+  void insert(std::uint32_t v, std::uint32_t face) {
+    mesh_.insert(v, face);
+    ground_.take(mesh_.replaced(), v);
+    versions_.resize(mesh_.mesh().triangles.size());
+    for (const std::uint32_t f : mesh_.star()) ++versions_[f];
+    ground_.assign_to_star(mesh_.mesh(), mesh_.star());
+    for (const std::uint32_t f : mesh_.star()) propose_worst_point(f);
+    for (const std::uint32_t f : mesh_.star()) {
+      const auto& [from, to, centre] = mesh_.mesh().triangles[f];
+      propose_edge(centre, from);
+      // At the hull, the last face has an edge that no other face has.
+      if (mesh_.mesh().neighbours[f][0] == kNoTriangle) propose_edge(centre, to);
+    }
   }
 
-  void update_star(Vertex centre) {
-    star_.clear();
-    auto face = triangulation_.incident_faces(centre), end = face;
-    do {
-      face->info() = {kNoVertex, face->info().version + 1};
-      if (triangulation_.is_infinite(face)) continue;
-      const int i = face->index(centre);
-      star_.push_back({face, face->vertex(CoarseTriangulation::ccw(i))->point(),
-                       face->vertex(CoarseTriangulation::cw(i))->point()});
-    } while (++face != end);
-    ground_.assign_to_star(centre->point(), star_);
-    for (const StarFace& s : star_) propose_worst_point(s.face);
-    auto neighbour = triangulation_.incident_vertices(centre), last = neighbour;
-    do {
-      if (!triangulation_.is_infinite(neighbour)) propose_edge(centre, neighbour);
-    } while (++neighbour != last);
-  }
-
-  void propose_worst_point(Face face) {
-    const WorstPoint worst = ground_.worst_point(face);
+  void propose_worst_point(std::uint32_t face) {
+    const WorstPoint worst = ground_.worst_point(face, mesh_.mesh().triangles[face]);
     if (worst.point != kNoVertex)
-      insertions_.push({worst.error - kPointError, worst.point, face->info().version, face, kNoVertex, kNoVertex});
+      insertions_.push({worst.error - kPointError, worst.point, versions_[face], face, kNoVertex, kNoVertex});
   }
 
   /// The place where an edge is most off, among the places at which a vertex would break it up.
@@ -262,23 +219,18 @@ class GreedyInsertion {
   };
 
   /// Proposes a vertex that would break up this edge.
-  void propose_edge(Vertex from, Vertex to) {
-    const std::uint32_t a = from->point().vertex, b = to->point().vertex;
+  void propose_edge(std::uint32_t a, std::uint32_t b) {
     WorstCrossing worst(*this);
     ground_.compare_edge(std::min(a, b), std::max(a, b), worst);
     const auto& [error, remedy] = worst.found();
-    if (remedy != kNoVertex) insertions_.push({error + kCrossingError, remedy, 0, Face(), a, b});
+    if (remedy != kNoVertex) insertions_.push({error + kCrossingError, remedy, 0, kNoTriangle, a, b});
   }
 
   Ground& ground_;
   std::span<const Candidacy> candidacy_;
-  CoarseTriangulation triangulation_;
-  std::vector<Vertex> vertices_;  ///< by vertex of the ground; null until it is inserted
+  GrowingMesh mesh_;
+  std::vector<std::uint32_t> versions_;  ///< by face: counts its replacements, to recognise stale proposals
   Insertions insertions_;
-  // These are kept between insertions for their memory.
-  std::vector<Face> conflicts_;
-  std::vector<CoarseTriangulation::Edge> boundary_;
-  std::vector<StarFace> star_;
 };
 
 }  // namespace itin

@@ -6,7 +6,7 @@
 
 namespace itin {
 
-LatticeGround::LatticeGround(std::span<const SelectedVertex> vertices, const LatticePosts& posts,
+LatticeGround::LatticeGround(const std::vector<SelectedVertex>& vertices, const LatticePosts& posts,
                              std::span<const Candidacy> candidacy)
     : vertices_(vertices), posts_(posts), heights_(posts.places(), kMissing) {
   for (std::size_t i = 0; i < heights_.size(); ++i) {
@@ -15,15 +15,15 @@ LatticeGround::LatticeGround(std::span<const SelectedVertex> vertices, const Lat
   }
 }
 
-WorstPoint LatticeGround::worst_point(CoarseFace face) const {
+WorstPoint LatticeGround::worst_point(std::uint32_t, const std::array<std::uint32_t, 3>& vertices) const {
   struct Corner {
     double column, row, z;
   };
   std::array<Corner, 3> corners;
-  for (int i = 0; i < 3; ++i) {
-    const LatticePlace place = posts_.place_of(face->vertex(i)->point());
-    corners[static_cast<std::size_t>(i)] = {static_cast<double>(place.column), static_cast<double>(place.row),
-                                            static_cast<double>(height(place))};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const LatticePlace place = posts_.place_of(point(vertices[i]));
+    corners[i] = {static_cast<double>(place.column), static_cast<double>(place.row),
+                  static_cast<double>(height(place))};
   }
   const auto& [a, b, c] = corners;
   const double bx = b.column - a.column, by = b.row - a.row, bz = b.z - a.z;

@@ -6,6 +6,7 @@
 // edges, too, which only verification sees.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -21,17 +22,16 @@ namespace itin {
 class LatticeGround {
  public:
   /// `posts` must be the posts of `vertices`. All arguments must outlive it.
-  LatticeGround(std::span<const SelectedVertex> vertices, const LatticePosts& posts,
+  LatticeGround(const std::vector<SelectedVertex>& vertices, const LatticePosts& posts,
                 std::span<const Candidacy> candidacy);
 
-  std::size_t size() const { return vertices_.size(); }
-  const GridPoint& point(std::uint32_t v) const { return vertices_[v].point; }
+  const std::vector<SelectedVertex>& vertices() const { return vertices_; }
 
-  void begin(const CoarseTriangulation&, std::span<const std::uint32_t>) {}
-  void take(std::span<const CoarseFace>, std::uint32_t) {}
-  void assign_to_star(const TraitsPoint&, std::span<const StarFace>) {}
+  void begin(GrowingMesh&, std::span<const std::uint32_t>) {}
+  void take(std::span<const std::uint32_t>, std::uint32_t) {}
+  void assign_to_star(const PlaneMesh&, std::span<const std::uint32_t>) {}
 
-  WorstPoint worst_point(CoarseFace face) const;
+  WorstPoint worst_point(std::uint32_t face, const std::array<std::uint32_t, 3>& corners) const;
 
   /// Offers, at a crossing, the nearer post of the side, or the other one, or a post opposite.
   template <class Worst>
@@ -54,9 +54,10 @@ class LatticeGround {
  private:
   static constexpr std::int32_t kMissing = std::numeric_limits<std::int32_t>::min();
 
+  const GridPoint& point(std::uint32_t v) const { return vertices_[v].point; }
   std::int32_t height(const LatticePlace& place) const { return heights_[posts_.index(place.column, place.row)]; }
 
-  std::span<const SelectedVertex> vertices_;
+  const std::vector<SelectedVertex>& vertices_;
   const LatticePosts& posts_;
   std::vector<std::int32_t> heights_;  ///< by place, grid units; kMissing where no candidate is
 };

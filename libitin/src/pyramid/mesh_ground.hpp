@@ -1,9 +1,11 @@
 // The full surface that greedy insertion approximates (greedy_insertion.hpp), by its triangles.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "pyramid/greedy_insertion.hpp"
@@ -18,40 +20,40 @@ class MeshGround {
   /// The surface must outlive it.
   explicit MeshGround(const RegionMesh& fine) : fine_(fine), walk_(fine), next_(fine.vertices.size(), kNoVertex) {}
 
-  std::size_t size() const { return fine_.vertices.size(); }
-  const GridPoint& point(std::uint32_t v) const { return fine_.vertices[v].point; }
+  const std::vector<SelectedVertex>& vertices() const { return fine_.vertices; }
 
-  void begin(const CoarseTriangulation& triangulation, std::span<const std::uint32_t> open) {
-    CoarseFace hint;
+  void begin(GrowingMesh& mesh, std::span<const std::uint32_t> open) {
+    first_.assign(mesh.mesh().triangles.size(), kNoVertex);
+    std::uint32_t near = 0;
     for (const std::uint32_t v : open) {
-      hint = locate(triangulation, position(v), hint);
-      link(v, hint);
+      near = mesh.triangle_at(position(v), near);
+      link(v, near);
     }
   }
 
-  void take(std::span<const CoarseFace> faces, std::uint32_t v) {
+  void take(std::span<const std::uint32_t> faces, std::uint32_t v) {
     homeless_.clear();
-    for (const CoarseFace& f : faces) {
-      for (std::uint32_t q = f->info().first; q != kNoVertex; q = next_[q])
+    for (const std::uint32_t f : faces) {
+      for (std::uint32_t q = std::exchange(first_[f], kNoVertex); q != kNoVertex; q = next_[q])
         if (q != v) homeless_.push_back(q);
     }
   }
 
   /// Gives every homeless vertex to the face of the star that holds it.
-  void assign_to_star(const TraitsPoint& centre, std::span<const StarFace> star) {
+  void assign_to_star(const PlaneMesh& mesh, std::span<const std::uint32_t> star) {
+    first_.resize(mesh.triangles.size(), kNoVertex);
     std::size_t at = 0;
     for (const std::uint32_t q : homeless_) {
-      const TraitsPoint p = position(q);
-      for (std::size_t tried = 0; tried < star.size() && !in_wedge(star[at], centre, p); ++tried)
+      for (std::size_t tried = 0; tried < star.size() && !in_wedge(mesh.triangles[star[at]], position(q)); ++tried)
         at = (at + 1) % star.size();
-      link(q, star[at].face);
+      link(q, star[at]);
     }
   }
 
-  WorstPoint worst_point(CoarseFace f) const {
-    const std::uint32_t first = f->info().first;
+  WorstPoint worst_point(std::uint32_t face, const std::array<std::uint32_t, 3>& corners) const {
+    const std::uint32_t first = first_[face];
     if (first == kNoVertex) return {};
-    const GridPoint &a = corner(f, 0), &b = corner(f, 1), &c = corner(f, 2);
+    const GridPoint &a = point(corners[0]), &b = point(corners[1]), &c = point(corners[2]);
     const double bx = static_cast<double>(b.x) - a.x, by = static_cast<double>(b.y) - a.y,
                  bz = static_cast<double>(b.z) - a.z;
     const double cx = static_cast<double>(c.x) - a.x, cy = static_cast<double>(c.y) - a.y,
@@ -87,16 +89,15 @@ class MeshGround {
   }
 
  private:
-  TraitsPoint position(std::uint32_t v) const { return {point(v).x, point(v).y, v}; }
-  const GridPoint& corner(CoarseFace f, int i) const { return point(f->vertex(i)->point().vertex); }
+  const GridPoint& point(std::uint32_t v) const { return fine_.vertices[v].point; }
+  Position position(std::uint32_t v) const { return fine_.vertices[v].position(); }
 
-  void link(std::uint32_t v, CoarseFace f) {
-    next_[v] = f->info().first;
-    f->info().first = v;
-  }
+  void link(std::uint32_t v, std::uint32_t face) { next_[v] = std::exchange(first_[face], v); }
 
-  static bool in_wedge(const StarFace& s, const TraitsPoint& centre, const TraitsPoint& p) {
-    return orientation(centre, s.right, p) >= 0 && orientation(centre, s.left, p) <= 0;
+  /// Tells whether a position lies ahead of the last corner of a face of the star, between the other two.
+  bool in_wedge(const std::array<std::uint32_t, 3>& corners, Position p) const {
+    const Position centre = position(corners[2]);
+    return orientation(centre, position(corners[0]), p) >= 0 && orientation(centre, position(corners[1]), p) <= 0;
   }
 
   std::uint32_t opposite(std::uint32_t triangle, std::uint32_t p, std::uint32_t q) const {
@@ -107,6 +108,7 @@ class MeshGround {
 
   const RegionMesh& fine_;
   VertexWalk walk_;
+  std::vector<std::uint32_t> first_;     ///< by face: the first open vertex in it
   std::vector<std::uint32_t> next_;      ///< by vertex: the next one in its face
   std::vector<std::uint32_t> homeless_;  ///< vertices of the faces that were taken
 };

@@ -57,9 +57,16 @@ bool GrowingMesh::disturbs(Position p, std::uint32_t t) const {
 
 void GrowingMesh::insert(std::uint32_t vertex) {
   ITIN_PRECONDITION(!mesh_.triangles.empty());
+  insert(vertex, locate(position(vertex), last_));
+}
+
+void GrowingMesh::insert(std::uint32_t vertex, std::uint32_t triangle) {
+  insert(vertex, Place{triangle, kInside});
+}
+
+void GrowingMesh::insert(std::uint32_t vertex, const Place& place) {
   some_triangle_.resize(std::max<std::size_t>(some_triangle_.size(), vertex + std::size_t{1}), kNoTriangle);
   clear();
-  const Place place = locate(position(vertex));
   if (place.beyond == kInside) {
     take(place.triangle);
     split_edge_at(vertex);
@@ -68,13 +75,13 @@ void GrowingMesh::insert(std::uint32_t vertex) {
   }
   take_disturbed(position(vertex));
   fan_out(vertex);
-  replace();
+  replace_by_star(vertex);
 }
 
 /// Walks from one triangle to the next, beyond an edge that has p on its other side. Between two such edges it chooses
 /// at random: a fixed choice could go in circles, as the triangulation is constrained.
-GrowingMesh::Place GrowingMesh::locate(Position p) {
-  for (std::uint32_t t = last_;;) {
+GrowingMesh::Place GrowingMesh::locate(Position p, std::uint32_t near) {
+  for (std::uint32_t t = near;;) {
     random_ = random_ * 1664525 + 1013904223;
     int edge = kInside;
     for (unsigned k = 0; k < 3 && edge == kInside; ++k) {
@@ -89,6 +96,7 @@ GrowingMesh::Place GrowingMesh::locate(Position p) {
 void GrowingMesh::clear() {
   cavity_.clear();
   rim_.clear();
+  halves_.clear();
   filling_.clear();
 }
 
@@ -105,9 +113,10 @@ void GrowingMesh::split_edge_at(std::uint32_t vertex) {
     const Side edge = side(t, i);
     if (orientation(position(edge.from), position(edge.to), position(vertex)) != 0) continue;
     if (edge.outer != kNoTriangle) take(edge.outer);
+    if (edge.bits == 0) continue;
     for (const std::uint32_t end : {edge.from, edge.to}) {
-      rim_.push_back({end, vertex, kNoTriangle, edge.bits});
-      rim_.push_back({vertex, end, kNoTriangle, edge.bits});
+      halves_.push_back({end, vertex, kNoTriangle, edge.bits});
+      halves_.push_back({vertex, end, kNoTriangle, edge.bits});
     }
   }
 }
@@ -170,6 +179,40 @@ void GrowingMesh::add_side(const Side& side, std::uint32_t vertex) {
   filling_.push_back({side.from, side.to, vertex});
 }
 
+/// Replaces the triangles of cavity_ by those of filling_, which are no fewer, each with its edge of rim_ and the
+/// vertex as its last corner.
+void GrowingMesh::replace_by_star(std::uint32_t vertex) {
+  star_.resize(filling_.size());
+  for (std::size_t k = 0; k < filling_.size(); ++k) {
+    const std::uint32_t t = star_[k] = place_for(k);
+    const Side& side = rim_[k];
+    mesh_.triangles[t] = filling_[k];
+    mesh_.neighbours[t] = {kNoTriangle, kNoTriangle, side.outer};
+    mesh_.constrained[t] = static_cast<std::uint8_t>(side.bits << 2);
+    if (side.outer != kNoTriangle) mesh_.neighbours[side.outer][edge_between(side.outer, side.from, side.to)] = t;
+    proved_[t] = 0;
+    changed_.push_back(t);
+    some_triangle_[side.to] = t;
+  }
+  for (const std::uint32_t t : star_) some_triangle_[mesh_.triangles[t][0]] = t;
+  for (const std::uint32_t t : star_) {
+    const std::uint32_t next =
+        some_triangle_[mesh_.triangles[t][1]];  // it begins where this one ends, unless at a hull
+    if (next == t) continue;
+    mesh_.neighbours[t][0] = next;
+    mesh_.neighbours[next][1] = t;
+  }
+  for (const Side& half : halves_) {
+    for (const std::uint32_t t : star_) {
+      const Corners& corners = mesh_.triangles[t];
+      if (half.from == corners[1] && half.to == vertex) mesh_.constrained[t] |= half.bits;
+      if (half.from == vertex && half.to == corners[0])
+        mesh_.constrained[t] |= static_cast<std::uint8_t>(half.bits << 1);
+    }
+  }
+  some_triangle_[vertex] = last_ = star_.front();
+}
+
 /// Replaces the triangles of cavity_ by those of filling_, which are no fewer.
 void GrowingMesh::replace() {
   std::sort(rim_.begin(), rim_.end(), kByEnds);
@@ -226,6 +269,21 @@ SegmentEdge GrowingMesh::edge_towards(std::uint32_t at, std::uint32_t to) const 
     } while (t != kNoTriangle && t != start);
   }
   throw Error("a constraint leads out of the triangulation");
+}
+
+bool GrowingMesh::has_edge(std::uint32_t from, std::uint32_t to) const {
+  const std::uint32_t start = some_triangle_[from];
+  for (const int step : {1, 2}) {  // counterclockwise, and then clockwise if the hull ended that
+    std::uint32_t t = start;
+    do {
+      int i = 0;
+      while (corner(t, i) != from) ++i;
+      if (corner(t, i + 1) == to || corner(t, i + 2) == to) return true;
+      t = mesh_.neighbours[t][(i + step) % 3];
+    } while (t != kNoTriangle && t != start);
+    if (t == start) return false;
+  }
+  return false;
 }
 
 void GrowingMesh::lay(std::uint32_t from, std::uint32_t to, std::uint16_t theme) {

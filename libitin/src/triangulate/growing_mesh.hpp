@@ -39,11 +39,28 @@ class GrowingMesh {
   void start(PlaneMesh mesh);
   /// Inserts a vertex where there is none yet. Precondition: there are triangles.
   void insert(std::uint32_t vertex);
+  /// Inserts it where a triangle is known that holds its position.
+  void insert(std::uint32_t vertex, std::uint32_t triangle);
   /// Lays a segment. Throws Error where it crosses another. Precondition: there are triangles, and their vertices
   /// include both ends.
   void lay(std::uint32_t from, std::uint32_t to, std::uint16_t theme);
 
   const PlaneMesh& mesh() const { return mesh_; }
+  bool has(std::uint32_t vertex) const {
+    return vertex < some_triangle_.size() && some_triangle_[vertex] != kNoTriangle;
+  }
+  /// Tells whether there is an edge between two vertices of the mesh.
+  bool has_edge(std::uint32_t from, std::uint32_t to) const;
+  /// Returns a triangle that holds a position. `near` is a triangle to begin at; else the search begins at the last
+  /// change. Precondition: the position lies within the hull.
+  std::uint32_t triangle_at(Position p, std::uint32_t near) { return locate(p, near).triangle; }
+  std::uint32_t triangle_at(Position p) { return locate(p, last_).triangle; }
+  /// Returns a triangle at a vertex of the mesh.
+  std::uint32_t triangle_of(std::uint32_t vertex) const { return some_triangle_[vertex]; }
+  /// The triangles that the last insertion replaced. Their numbers are those of new ones now.
+  std::span<const std::uint32_t> replaced() const { return cavity_; }
+  /// The triangles about the vertex of the last insertion. The vertex is the last of their corners.
+  std::span<const std::uint32_t> star() const { return star_; }
   /// Appends the edges that a segment laid earlier is made of.
   void edges_of(std::uint32_t from, std::uint32_t to, std::uint16_t theme, std::vector<SegmentEdge>& edges) const;
 
@@ -83,7 +100,8 @@ class GrowingMesh {
   bool disturbs(Position p, std::uint32_t t) const;
   SegmentEdge edge_towards(std::uint32_t at, std::uint32_t to) const;
 
-  Place locate(Position p);
+  Place locate(Position p, std::uint32_t near);
+  void insert(std::uint32_t vertex, const Place& place);
   void clear();
   void take(std::uint32_t t);
   void take_beyond_hull(const Place& place, std::uint32_t vertex);
@@ -94,6 +112,7 @@ class GrowingMesh {
   void cut(std::uint32_t at, std::uint32_t to, std::uint32_t first);
   void fill_between(std::uint32_t from, std::uint32_t to, std::span<const std::uint32_t> chain);
   void replace();
+  void replace_by_star(std::uint32_t vertex);
   std::uint32_t place_for(std::size_t number);
 
   const std::vector<SelectedVertex>& vertices_;
@@ -104,8 +123,9 @@ class GrowingMesh {
   std::uint32_t last_ = 0;              ///< a triangle near the last change
   std::uint32_t random_ = 0;
   // These are buffers for the part that is being replaced, kept for their memory.
-  std::vector<std::uint32_t> cavity_, left_, right_;
-  std::vector<Side> rim_;
+  std::vector<std::uint32_t> cavity_, star_, left_, right_;
+  std::vector<Side> rim_;     ///< after insertions, one for each of filling_
+  std::vector<Side> halves_;  ///< the halves of a line that the vertex lies on, both ways
   std::vector<Corners> filling_;
   std::vector<HalfEdge> half_edges_;
 };

@@ -133,6 +133,47 @@ TEST(GrowingMesh, TellsWhichTrianglesChanged) {
   EXPECT_TRUE(grown.take_changed().empty());
 }
 
+TEST(GrowingMesh, TellsTheStarThatReplacedTriangles) {
+  std::mt19937 random(test::seed());
+  for (int run = 0; run < 40; ++run) {
+    // The corners of a square hold all others.
+    std::vector<SelectedVertex> vertices = random_vertices(60, 4 << random() % 6, random);
+    const std::int32_t side = 2000;
+    for (const Position p : {Position{side, side}, {-side, side}, {-side, -side}, {side, -side}})
+      vertices.insert(vertices.begin(), {{p.x, p.y, 0}, 0, 0, 0});
+    Delaunay first;
+    std::vector<Position> corners;
+    for (int i = 0; i < 4; ++i) corners.push_back(vertices[i].position());
+    first.insert(corners);
+    GrowingMesh grown(vertices);
+    grown.start(first.mesh());
+    for (std::uint32_t v = 4; v < vertices.size(); ++v) {
+      const auto before = grown.mesh().triangles;
+      ASSERT_FALSE(grown.has(v));
+      const std::uint32_t holds = grown.triangle_at(vertices[v].position());
+      for (int i = 0; i < 3; ++i)
+        ASSERT_GE(orientation(vertices[before[holds][i]].position(), vertices[before[holds][(i + 1) % 3]].position(),
+                              vertices[v].position()),
+                  0);
+      grown.insert(v, holds);
+      ASSERT_TRUE(grown.has(v));
+      std::set<std::uint32_t> changed;
+      for (std::uint32_t t = 0; t < grown.mesh().triangles.size(); ++t)
+        if (t >= before.size() || grown.mesh().triangles[t] != before[t]) changed.insert(t);
+      EXPECT_EQ(std::set<std::uint32_t>(grown.star().begin(), grown.star().end()), changed);
+      for (const std::uint32_t t : grown.star()) EXPECT_EQ(grown.mesh().triangles[t][2], v);
+      for (const std::uint32_t t : grown.replaced()) EXPECT_TRUE(changed.contains(t));
+      expect_linked(grown.mesh());
+    }
+    std::set<std::pair<std::uint32_t, std::uint32_t>> edges;
+    for (const auto& t : grown.mesh().triangles)
+      for (int i = 0; i < 3; ++i) edges.insert({t[i], t[(i + 1) % 3]}), edges.insert({t[(i + 1) % 3], t[i]});
+    for (std::uint32_t a = 0; a < vertices.size(); ++a)
+      for (std::uint32_t b = 0; b < vertices.size(); ++b)
+        if (a != b) ASSERT_EQ(grown.has_edge(a, b), edges.contains({a, b})) << a << " " << b;
+  }
+}
+
 TEST(GrowingMesh, RefusesLinesThatCross) {
   std::vector<SelectedVertex> vertices;
   for (const Position p : {Position{0, 0}, {10, 0}, {0, 10}, {10, 11}}) vertices.push_back({{p.x, p.y, 0}, 0, 0, 0});
