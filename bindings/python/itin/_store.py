@@ -246,6 +246,13 @@ class Store:
         """The themes, those of the terrain first."""
         return tuple(Theme(*theme) for theme in self._core.themes)
 
+    def content_digest(self, *, progress: Progress | None = None) -> str:
+        """Returns 32 hexadecimal digits that equal stores share, whenever and wherever they were imported.
+
+        Reads the whole store. ``itin info --digest`` prints the same.
+        """
+        return self._core.content_digest(progress)
+
     def heights(
         self,
         xy: ArrayLike,

@@ -125,6 +125,10 @@ void bind_store(py::module_& module) {
       .def_property_readonly("bounds", &bounds_of)
       .def_property_readonly("levels", &levels_of)
       .def_property_readonly("themes", &theme_list)
+      .def("content_digest",
+           [](const Store& store, const py::object& show) {
+             return result_of(show, [&](Progress& progress) { return content_digest(store, progress); });
+           })
       .def("heights", &heights)
       .def("height_raster", &height_raster)
       .def("triangulate", &triangles_of);

@@ -24,6 +24,10 @@ def test_tells_what_it_holds(town: itin.Store) -> None:
     assert town.themes[0].stands
 
 
+def test_digest_is_the_command_line_s(town: itin.Store) -> None:
+    assert town.content_digest() == json.loads(run("info", town.path, "--digest", "--json"))["digest"]
+
+
 def test_heights_are_those_of_triangles(town: itin.Store) -> None:
     tin = town.triangulate(itin.Window.disc(321700, 4297700, 60), themes="all")
     corners = tin.vertices[tin.triangles]
