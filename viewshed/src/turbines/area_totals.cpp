@@ -45,7 +45,7 @@ std::vector<AreaRow> rows_of_map(const ZoneMap& map) {
 std::string area_totals(const Zone& zone) {
   constexpr std::size_t kAnyCombination = 250;
   const double cell = zone.grid.cell_area();
-  // So many decimals of km2 tell one cell from two.
+  // The decimals suffice to tell the km2 of one cell from those of two.
   const std::string number =
       fmt::format("{{:.{}f}}", static_cast<int>(std::clamp(1 + std::ceil(-std::log10(cell / 1e6)), 2.0, 6.0)));
   const auto km2 = [cell](std::uint64_t cells) { return static_cast<double>(cells) * cell / 1e6; };

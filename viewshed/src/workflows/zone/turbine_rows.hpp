@@ -13,7 +13,7 @@ namespace itin::viewshed {
 /// A row of the turbines' file.
 struct TurbineRow {
   std::size_t number = 0;  ///< from 1
-  std::size_t index = 0;   ///< of the turbine among those of the zone
+  std::size_t index = 0;   ///< the place of the turbine among those of the zone
   const Turbine* turbine = nullptr;
   const BadRow* bad = nullptr;  ///< why the row was not used; null: it was
 };
