@@ -7,7 +7,9 @@
 #include <fmt/format.h>
 
 #include <itin/base64.hpp>
+#include <itin/filling_grid.hpp>
 #include <itin/svg_path.hpp>
+#include <profile/averaged_cells.hpp>
 #include <viewshed/picture_bytes.hpp>
 
 namespace itin::cli {
@@ -20,23 +22,14 @@ constexpr SvgPrecision kTenthOfAPixel{.tolerance = 1, .step = 1};
 constexpr double kPixelsPerMillimetre = 96 / 25.4, kMarkPixels = 14;
 constexpr Rgba kNoGround{237, 237, 242, 255};
 
-/// Returns the cells themselves or, where they are many, the cells at the centres of as many pixels as a page shows.
+/// Returns the cells themselves or, where they are many, as many as a page shows.
 profile::SheetCells few_enough(const profile::SheetCells& cells) {
-  const std::int64_t longer = std::max(cells.grid.columns(), cells.grid.rows());
+  const RasterGrid& grid = cells.grid;
+  const std::int64_t longer = std::max(grid.columns(), grid.rows());
   if (longer <= kWebMostCells) return cells;
   const auto fewer = [&](std::int64_t count) { return std::max<std::int64_t>(1, count * kWebMostCells / longer); };
-  const std::int64_t columns = fewer(cells.grid.columns()), rows = fewer(cells.grid.rows());
-  const Box box = cells.grid.bounds();
-  profile::SheetCells few{{{box.xmin, box.ymax},
-                           box.width() / static_cast<double>(columns),
-                           box.height() / static_cast<double>(rows),
-                           columns,
-                           rows},
-                          {}};
-  for (std::int64_t row = 0; row < rows; ++row)
-    for (std::int64_t column = 0; column < columns; ++column)
-      few.colours.push_back(cells.colours[cells.grid.index(*cells.grid.cell_at(few.grid.centre(column, row)))]);
-  return few;
+  const RasterGrid few = filling_grid(grid.bounds(), fewer(grid.columns()), fewer(grid.rows()));
+  return {few, profile::averaged_cells(cells.colours, profile::counts_of(grid), profile::counts_of(few))};
 }
 
 std::string embedded(const RasterGrid& grid, const std::vector<std::uint8_t>& samples, int channels,
@@ -100,10 +93,11 @@ class WebLayer {
   }
 
   std::string operator()(const profile::SheetMarks& marks) const {
+    const std::string symbol = profile::symbol_svg(marks.symbol, marks.colour, kMarkPixels);
     std::string svg;
     for (const profile::SheetMark& mark : marks.marks)
       svg += fmt::format("<svg x=\"{}\" y=\"{}\" overflow=\"visible\">{}</svg>\n", web_percent(across(mark.at.x)),
-                         web_percent(down(mark.at.y)), web_mark(marks.symbol, marks.colour));
+                         web_percent(down(mark.at.y)), symbol);
     return svg;
   }
 
@@ -119,17 +113,6 @@ class WebLayer {
 
 std::string web_layer(const Box& frame, const profile::SheetLayer& layer, WebPicture picture) {
   return std::visit(WebLayer(frame, picture), layer);
-}
-
-std::string web_mark(profile::SheetSymbol symbol, const Rgba& colour) {
-  const std::string paint =
-      fmt::format("fill=\"{}\" stroke=\"#fff\" stroke-width=\"1.5\" paint-order=\"stroke\"", web_colour(colour));
-  const std::span<const Point2> corners = profile::corners_of(symbol);
-  if (corners.empty()) return fmt::format("<circle r=\"{}\" {}/>", 0.45 * kMarkPixels, paint);
-  std::string points;
-  for (const Point2& c : corners) points += fmt::format("{:.1f},{:.1f} ", kMarkPixels * c.x, kMarkPixels * c.y);
-  points.pop_back();
-  return fmt::format("<polygon points=\"{}\" {}/>", points, paint);
 }
 
 std::string web_colour(const Rgba& c) {

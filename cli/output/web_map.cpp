@@ -6,10 +6,10 @@
 
 #include <fmt/format.h>
 
+#include <itin/filling_grid.hpp>
 #include <itin/label_places.hpp>
 #include <itin/markup.hpp>
 #include <itin/round_length.hpp>
-#include <itin/void_stripes.hpp>
 
 #include "output/web_layers.hpp"
 
@@ -31,17 +31,6 @@ using profile::SheetMark;
 
 constexpr double kPageWidth = 990, kPhoneWidth = 358;  ///< the widths of a map, pixels
 constexpr double kLetterWidth = 7.2, kLetterHeight = 14, kBeside = 10;
-
-RasterGrid ground_pixels(const Box& frame) {
-  const double pixel = std::max(frame.width(), frame.height()) / kWebGroundPixels;
-  const auto count = [&](double length) { return std::max<std::int64_t>(1, std::llround(length / pixel)); };
-  const std::int64_t columns = count(frame.width()), rows = count(frame.height());
-  return {{frame.xmin, frame.ymax},
-          frame.width() / static_cast<double>(columns),
-          frame.height() / static_cast<double>(rows),
-          columns,
-          rows};
-}
 
 /// The labels of marks, beside them and none over another. There are fewer on a phone, which has less room.
 class WebLabels {
@@ -105,45 +94,10 @@ class WebLabels {
   std::vector<const SheetMark*> marks_;
 };
 
-/// Draws a patch of the legend, over level ground.
-std::string patch_svg(const std::vector<Rgba>& colours) {
-  constexpr double kWidth = 23;
-  std::string svg = fmt::format("<rect x=\".5\" y=\".5\" width=\"{}\" height=\"15\" fill=\"#d6d6d6\"/>", kWidth);
-  for (std::size_t i = 0; i < colours.size(); ++i) {
-    const double part = kWidth / static_cast<double>(colours.size());
-    svg +=
-        fmt::format("<rect x=\"{:.4g}\" y=\".5\" width=\"{:.4g}\" height=\"15\" fill=\"{}\" fill-opacity=\"{:.2g}\"/>",
-                    0.5 + part * static_cast<double>(i), part, web_colour(colours[i]), colours[i].alpha / 255.0);
-  }
-  return svg +
-         fmt::format("<rect x=\".5\" y=\".5\" width=\"{}\" height=\"15\" fill=\"none\" stroke=\"#5f5f5f\"/>", kWidth);
-}
-
-/// Striped, as places without ground are.
-std::string void_svg() {
-  return fmt::format(
-      "<rect width=\"24\" height=\"16\" fill=\"{}\"/><path d=\"M-6 16L10 0M0 16L16 0M6 16L22 0M12 16L28 0M18 16L34 0\" "
-      "stroke=\"{}\" stroke-width=\"1.5\"/><rect x=\".5\" y=\".5\" width=\"23\" height=\"15\" fill=\"none\" "
-      "stroke=\"#5f5f5f\"/>",
-      web_colour(itin::kVoid), web_colour(kVoidStripe));
-}
-
 std::string key_html(const SheetKey& key) {
-  using enum SheetKey::Sample;
   const std::string text = escaped_markup(key.text);
-  if (key.sample == kHeading) return fmt::format("<li class=\"heading\">{}</li>\n", text);
-  std::string sample;
-  if (key.sample == kMark) {
-    sample = fmt::format("<g transform=\"translate(12 8)\">{}</g>", web_mark(key.symbol, key.colours.front()));
-  } else if (key.sample == kPatch) {
-    sample = patch_svg(key.colours);
-  } else if (key.sample == SheetKey::Sample::kVoid) {
-    sample = void_svg();
-  } else {
-    sample = fmt::format("<path d=\"M0 8h24\" stroke=\"{}\" stroke-width=\"2\"{}/>", web_colour(key.colours.front()),
-                         key.sample == kDashes ? " stroke-dasharray=\"8 5\"" : "");
-  }
-  return fmt::format("<li><svg aria-hidden=\"true\">{}</svg>{}</li>\n", sample, text);
+  if (key.sample == SheetKey::Sample::kHeading) return fmt::format("<li class=\"heading\">{}</li>\n", text);
+  return fmt::format("<li><svg aria-hidden=\"true\">{}</svg>{}</li>\n", profile::sample_svg(key, 24, 16), text);
 }
 
 std::string scale_bar(const Box& frame) {
@@ -160,7 +114,8 @@ constexpr const char* kNorthArrow =
 }  // namespace
 
 WebMaps::WebMaps(const Store& store, const Box& frame, Progress& progress)
-    : frame_(frame), base_(viewshed::plain_base(store, ground_pixels(frame), progress)) {}
+    : frame_(frame),
+      base_(viewshed::plain_base(viewshed::relief(store, filling_grid(frame, kWebGroundPixels), progress))) {}
 
 std::string WebMaps::part(std::string svg) {
   const auto [known, added] = parts_.emplace(std::move(svg), parts_.size() + 1);

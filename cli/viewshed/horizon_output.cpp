@@ -23,25 +23,6 @@ namespace itin::cli {
 
 namespace {
 
-std::string theme_name(std::uint16_t theme, const StoreMetadata& metadata) {
-  return theme == 0 ? "terrain" : metadata.themes[theme - std::size_t{1}].name;
-}
-
-std::string table(const viewshed::Horizon& horizon, const StoreMetadata& metadata) {
-  std::string text = "azimuth_deg,elevation_deg,distance_m,x,y,z,theme,data_edge,over_missing\n";
-  for (const viewshed::HorizonPoint& p : horizon.points) {
-    if (!p.sky) {
-      text += fmt::format("{:.10g},,,,,,,,\n", p.azimuth_deg);
-      continue;
-    }
-    const Point3& at = p.sky->position;
-    text += fmt::format("{:.10g},{:.6f},{:.3f},{:.3f},{:.3f},{:.3f},{},{:d},{:d}\n", p.azimuth_deg,
-                        p.sky->elevation_deg, p.sky->distance_m, at.x, at.y, at.z, theme_name(p.sky->theme, metadata),
-                        p.sky->data_edge, p.over_missing);
-  }
-  return text;
-}
-
 profile::Panorama panorama(const viewshed::Horizon& horizon, const viewshed::Request& request) {
   const viewshed::Observer& observer = request.observers.front();
   profile::Panorama drawing;
@@ -137,7 +118,7 @@ Document HorizonOutput::write(const Store& store, viewshed::ViewshedWithSurface&
       viewshed::horizon(store, computed, request, {step_deg_, targets_}, options, progress);
   for (const std::string& path : paths_) {
     const std::string ending = ending_of(path);
-    const std::string bytes = ending == ".csv"    ? table(horizon, metadata)
+    const std::string bytes = ending == ".csv"    ? viewshed::horizon_csv(horizon, metadata)
                               : ending == ".json" ? viewshed::json_of(horizon, request, metadata)
                                                   : profile::draw_panorama(panorama(horizon, request), path);
     write_file(path, bytes, overwrite);

@@ -36,23 +36,9 @@ class Around {
 }  // namespace
 
 Topology::Topology(const Tin& tin) : tin_(&tin), twins_(twin_half_edges(tin)) {
-  number_edges();
   std::vector<std::uint32_t> outgoing;
   group_by_origin(outgoing);
   order_stars(outgoing);
-}
-
-void Topology::number_edges() {
-  edge_of_half_edge_.resize(twins_.size());
-  half_edge_of_edge_.reserve(twins_.size() / 2 + twins_.size() / 16);
-  for (std::uint32_t h = 0; h < twins_.size(); ++h) {
-    if (twins_[h] < h) {
-      edge_of_half_edge_[h] = edge_of_half_edge_[twins_[h]];
-    } else {
-      edge_of_half_edge_[h] = edge_count();
-      half_edge_of_edge_.push_back(h);
-    }
-  }
 }
 
 /// Fills first_triangle_, and `outgoing` with each vertex's half-edges in ascending order.
@@ -71,9 +57,7 @@ void Topology::group_by_origin(std::vector<std::uint32_t>& outgoing) {
 void Topology::order_stars(std::vector<std::uint32_t>& outgoing) {
   const auto boundary =
       static_cast<std::size_t>(std::count(twins_.begin(), twins_.end(), kNoNeighbour));  // one fan begins at each
-  triangles_.reserve(twins_.size());
   neighbours_.reserve(twins_.size() + boundary);
-  edges_.reserve(twins_.size() + boundary);
   first_neighbour_.assign(1, 0);
   first_neighbour_.reserve(tin_->vertices.size() + 1);
 
@@ -90,42 +74,14 @@ void Topology::order_stars(std::vector<std::uint32_t>& outgoing) {
     for (auto fan = begin; fan != fans_end; ++fan) {
       std::uint32_t h = *fan;
       do {
-        triangles_.push_back(face(h));
         neighbours_.push_back(destination(h));
-        edges_.push_back(edge(h));
         const std::uint32_t last = previous(h);
         h = twins_[last];
-        if (h == kNoNeighbour) {
-          neighbours_.push_back(origin(last));
-          edges_.push_back(edge(last));
-        }
+        if (h == kNoNeighbour) neighbours_.push_back(origin(last));
       } while (h != kNoNeighbour && h != *fan);
     }
     first_neighbour_.push_back(static_cast<std::uint32_t>(neighbours_.size()));
   }
-}
-
-void Topology::edges_of_edge(std::uint32_t e, std::vector<std::uint32_t>& out) const {
-  for (const std::uint32_t v : vertices_of_edge(e)) {
-    const auto around = edges_of_vertex(v);
-    const auto self = std::find(around.begin(), around.end(), e);
-    out.insert(out.end(), self + 1, around.end());
-    out.insert(out.end(), around.begin(), self);
-  }
-}
-
-std::array<std::optional<std::uint32_t>, 2> Topology::triangles_of_edge(std::uint32_t e) const {
-  const std::uint32_t h = half_edge(e);
-  const auto other = twin(h);
-  return {face(h), other ? std::optional(face(*other)) : std::nullopt};
-}
-
-std::array<std::optional<std::uint32_t>, 3> Topology::triangles_of_triangle(std::uint32_t t) const {
-  std::array<std::optional<std::uint32_t>, 3> adjacent;
-  for (std::uint32_t i = 0; i < 3; ++i) {
-    if (const auto other = twin(3 * t + i)) adjacent[i] = face(*other);
-  }
-  return adjacent;
 }
 
 }  // namespace itin

@@ -11,7 +11,6 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <string>
 #include <utility>
 #include <variant>
@@ -42,8 +41,6 @@ struct SheetLines {
 };
 
 enum class SheetSymbol { kTurbine, kViewpoint, kMast, kRelay, kExistingMast, kHub };
-/// The corners of a symbol about its place, y downwards, for a height of 1. Empty for discs and for turbines.
-std::span<const Point2> corners_of(SheetSymbol symbol);
 
 /// A mark with its label. Labels that would cover another label or a mark are left out, first those of later marks, and
 /// counted below the legend.
@@ -116,5 +113,10 @@ struct MapPicture {
 MapPicture draw_map_picture(const MapSheet& sheet, int pixels);
 /// The distance of the stripes where there is no ground, pixels of such a picture.
 int void_stripe_pixels(int pixels);
+
+/// Returns the elements of an SVG that draw a mark of this height about the origin.
+std::string symbol_svg(SheetSymbol symbol, const Rgba& colour, double size);
+/// Returns the elements of an SVG that draw the sample of a legend's row, which is no heading.
+std::string sample_svg(const SheetKey& key, double width, double height);
 
 }  // namespace itin::profile

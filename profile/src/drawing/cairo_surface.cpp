@@ -1,4 +1,5 @@
 // The only part that sees Cairo.
+#include <algorithm>
 #include <cairo-pdf.h>
 #include <cairo.h>
 #include <cmath>
@@ -16,6 +17,7 @@ namespace itin::profile {
 namespace {
 
 constexpr const char* kFont = "DejaVu Sans";
+constexpr double kMostOfCairo = 32767;  ///< the longest side of an image
 
 cairo_status_t append(void* bytes, const unsigned char* data, unsigned int size) {
   static_cast<std::string*>(bytes)->append(reinterpret_cast<const char*>(data), size);
@@ -48,10 +50,24 @@ void set_colour(cairo_t* cairo, const Colour& c) {
 }
 
 /// Returns the colour as Cairo takes it: multiplied by its alpha.
-std::uint32_t times_alpha(std::uint32_t argb) {
-  const std::uint32_t alpha = argb >> 24;
-  const auto part = [&](unsigned shift) { return ((argb >> shift & 0xff) * alpha + 127) / 255 << shift; };
-  return alpha << 24 | part(16) | part(8) | part(0);
+std::uint32_t times_alpha(const Rgba& c) {
+  const std::uint32_t alpha = c.alpha;
+  const auto part = [&](std::uint32_t value) { return (value * alpha + 127) / 255; };
+  return alpha << 24 | part(c.red) << 16 | part(c.green) << 8 | part(c.blue);
+}
+
+cairo_surface_t* image_of(std::span<const Rgba> colours, CellCounts counts) {
+  cairo_surface_t* image =
+      cairo_image_surface_create(CAIRO_FORMAT_ARGB32, static_cast<int>(counts.columns), static_cast<int>(counts.rows));
+  require_success(cairo_surface_status(image));
+  unsigned char* const data = cairo_image_surface_get_data(image);
+  const auto stride = static_cast<std::size_t>(cairo_image_surface_get_stride(image));
+  for (std::size_t i = 0; i < colours.size(); ++i) {
+    const std::uint32_t pixel = times_alpha(colours[i]);
+    std::memcpy(data + i / counts.columns * stride + i % counts.columns * sizeof(pixel), &pixel, sizeof(pixel));
+  }
+  cairo_surface_mark_dirty(image);
+  return image;
 }
 
 void trace(cairo_t* cairo, std::span<const Point2> points) {
@@ -100,16 +116,11 @@ class CairoSurface final : public Surface {
     cairo_fill(cairo_);
   }
 
-  void cells(const Box& box, int columns, int rows, std::span<const std::uint32_t> argb) override {
-    cairo_surface_t* image = cairo_image_surface_create(CAIRO_FORMAT_ARGB32, columns, rows);
-    unsigned char* const data = cairo_image_surface_get_data(image);
-    const auto stride = static_cast<std::size_t>(cairo_image_surface_get_stride(image));
-    const auto width = static_cast<std::size_t>(columns);
-    for (std::size_t i = 0; i < argb.size(); ++i) {
-      const std::uint32_t pixel = times_alpha(argb[i]);
-      std::memcpy(data + i / width * stride + i % width * sizeof(pixel), &pixel, sizeof(pixel));
-    }
-    cairo_surface_mark_dirty(image);
+  void cells(const Box& box, CellCounts counts, std::span<const Rgba> colours) override {
+    const CellCounts drawn = fewest(box, counts);
+    cairo_surface_t* image =
+        drawn == counts ? image_of(colours, counts) : image_of(averaged_cells(colours, counts, drawn), drawn);
+    const auto columns = static_cast<double>(drawn.columns), rows = static_cast<double>(drawn.rows);
     cairo_save(cairo_);
     cairo_translate(cairo_, box.xmin, box.ymin);
     cairo_scale(cairo_, box.width() / columns, box.height() / rows);
@@ -174,6 +185,19 @@ class CairoSurface final : public Surface {
   }
 
  private:
+  /// Returns how many cells tell as much as these: no more than a picture has pixels there, or than Cairo takes.
+  CellCounts fewest(const Box& box, CellCounts counts) const {
+    double width = kMostOfCairo, height = kMostOfCairo;
+    if (format_ != Drawing::Format::kPdf) {
+      width = box.width(), height = box.height();
+      cairo_user_to_device_distance(cairo_, &width, &height);
+    }
+    const auto most = [](double length) {
+      return static_cast<std::size_t>(std::clamp(std::ceil(length), 1.0, kMostOfCairo));
+    };
+    return {std::min(counts.columns, most(width)), std::min(counts.rows, most(height))};
+  }
+
   void append_pixels() {
     require_success(cairo_surface_status(page_));
     cairo_surface_flush(page_);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <sstream>
 
 #include <itin/file_ending.hpp>
@@ -21,8 +22,9 @@ std::optional<Drawing::Format> Drawing::format_of(const std::string& path) {
 Drawing::Drawing(Format format, double width, double height, double pixels_per_point)
     : width_(width),
       height_(height),
-      surface_(format == Format::kSvg ? svg_surface(width, height)
-                                      : cairo_surface(format, width, height, pixels_per_point)) {}
+      surface_(format == Format::kSvg || format == Format::kSvgParts
+                   ? svg_surface(format, width, height)
+                   : cairo_surface(format, width, height, pixels_per_point)) {}
 Drawing::~Drawing() = default;
 
 void Drawing::polyline(std::span<const Point2> points, const Stroke& stroke) {
@@ -48,8 +50,8 @@ void Drawing::circle(Point2 centre, double radius, const Colour& fill) {
   surface_->circle(centre, radius, fill);
 }
 
-void Drawing::cells(const Box& box, int columns, int rows, std::span<const std::uint32_t> argb) {
-  surface_->cells(box, columns, rows, argb);
+void Drawing::cells(const Box& box, CellCounts counts, std::span<const Rgba> colours) {
+  surface_->cells(box, counts, colours);
 }
 
 double Drawing::text_width(const std::string& text, const Lettering& lettering) const {

@@ -8,7 +8,6 @@
 // Lengths are points, 1/72 inch, y downwards. The bytes depend on the calls alone.
 #pragma once
 
-#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
@@ -16,6 +15,8 @@
 #include <vector>
 
 #include <itin/geometry.hpp>
+#include <itin/raster.hpp>
+#include <profile/averaged_cells.hpp>
 
 namespace itin::profile {
 
@@ -45,7 +46,8 @@ inline constexpr Colour kRim{1, 1, 1, 0.85};
 
 class Drawing {
  public:
-  enum class Format { kSvg, kPdf, kPng, kPixels };
+  /// SVG parts are the elements that an SVG of another maker takes.
+  enum class Format { kSvg, kSvgParts, kPdf, kPng, kPixels };
   /// The format for a file's name, by its ending in whatever case; nothing for another ending.
   static std::optional<Format> format_of(const std::string& path);
 
@@ -63,9 +65,9 @@ class Drawing {
   void rectangle(const Box& box, const Colour& fill);
   void outline(const Box& box, const Stroke& stroke);
   void circle(Point2 centre, double radius, const Colour& fill);
-  /// Draws cells of equal size over a box, unsmoothed, row by row from the top. Colours are 0xAARRGGBB, not yet
-  /// multiplied by alpha. Not for SVG.
-  void cells(const Box& box, int columns, int rows, std::span<const std::uint32_t> argb);
+  /// Draws cells of equal size over a box, row by row from the top: unsmoothed, but averaged where they are smaller
+  /// than the picture's pixels. Not for SVG.
+  void cells(const Box& box, CellCounts counts, std::span<const Rgba> colours);
   /// Draws a text. The anchor is on the baseline, at the text's left end, centre or right end.
   void text(Point2 anchor, const std::string& text, const Lettering& lettering);
   double text_width(const std::string& text, const Lettering& lettering) const;

@@ -3,7 +3,6 @@
 //   const std::unique_ptr<Surface> page = cairo_surface(Drawing::Format::kPdf, 842, 595, 1);
 #pragma once
 
-#include <cstdint>
 #include <memory>
 #include <span>
 #include <string>
@@ -18,7 +17,7 @@ class Surface {
   virtual void polyline(std::span<const Point2> points, const Stroke& stroke) = 0;
   virtual void polygon(std::span<const Point2> points, const Colour& fill) = 0;
   virtual void circle(Point2 centre, double radius, const Colour& fill) = 0;
-  virtual void cells(const Box& box, int columns, int rows, std::span<const std::uint32_t> argb) = 0;
+  virtual void cells(const Box& box, CellCounts counts, std::span<const Rgba> colours) = 0;
   virtual void text(Point2 anchor, const std::string& text, const Lettering& lettering) = 0;
   virtual double text_width(const std::string& text, const Lettering& lettering) const = 0;
   virtual void clip(const Box& box) = 0;
@@ -29,6 +28,7 @@ class Surface {
 
 /// Makes a PDF, a PNG or pixels.
 std::unique_ptr<Surface> cairo_surface(Drawing::Format format, double width, double height, double pixels_per_point);
-std::unique_ptr<Surface> svg_surface(double width, double height);
+/// Makes an SVG, or its elements alone.
+std::unique_ptr<Surface> svg_surface(Drawing::Format format, double width, double height);
 
 }  // namespace itin::profile

@@ -33,7 +33,10 @@ std::string painted(const char* name, const Colour& c) {
 
 class SvgSurface final : public Surface {
  public:
-  SvgSurface(double width, double height) : page_(cairo_surface(Drawing::Format::kPdf, 1, 1, 1)) {
+  SvgSurface(Drawing::Format format, double width, double height)
+      : page_(cairo_surface(Drawing::Format::kPdf, 1, 1, 1)) {
+    if (format == Drawing::Format::kSvgParts) return;
+    end_ = "</svg>\n";
     svg_ = fmt::format(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}pt\" height=\"{1}pt\" viewBox=\"0 0 {0} {1}\" "
         "font-family=\"DejaVu Sans,Verdana,sans-serif\" stroke-linejoin=\"round\" xml:space=\"preserve\">\n",
@@ -60,7 +63,7 @@ class SvgSurface final : public Surface {
                         coordinate(radius), painted("fill", fill));
   }
 
-  void cells(const Box&, int, int, std::span<const std::uint32_t>) override {
+  void cells(const Box&, CellCounts, std::span<const Rgba>) override {
     throw Error("drawing failed: an SVG holds no cells");
   }
 
@@ -97,18 +100,18 @@ class SvgSurface final : public Surface {
 
   void new_page() override { throw Error("drawing failed: an SVG has one page"); }
 
-  std::string finish() override { return std::move(svg_) + "</svg>\n"; }
+  std::string finish() override { return std::move(svg_) + end_; }
 
  private:
   std::unique_ptr<Surface> page_;  ///< text is measured on it
   int clips_ = 0;
-  std::string svg_;
+  std::string svg_, end_;
 };
 
 }  // namespace
 
-std::unique_ptr<Surface> svg_surface(double width, double height) {
-  return std::make_unique<SvgSurface>(width, height);
+std::unique_ptr<Surface> svg_surface(Drawing::Format format, double width, double height) {
+  return std::make_unique<SvgSurface>(format, width, height);
 }
 
 }  // namespace itin::profile

@@ -11,11 +11,8 @@ namespace itin::profile {
 
 namespace {
 
-using Value = VectorLayer::Value;
-using enum VectorLayer::Type;
-
-Value number(const std::optional<double>& value) {
-  return value && std::isfinite(*value) ? Value(*value) : Value();
+std::optional<double> finite(const std::optional<double>& value) {
+  return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
 /// Fills in values that need longitude and latitude.
@@ -59,9 +56,9 @@ class ColumnList {
     if (radio_) add_fresnel();
     if (survey_.query.object) add_object();
     if (any(rows_, [](const LinkRow& r) { return r.found() == nullptr; }))
-      text("message", [](const LinkRow& r) { return Value(r.message); });
+      columns_.emplace_back("message", [](const LinkRow& r) { return r.message; });
     of_geodesic("geodesic_distance_m", &LinkCourse::distance_m);
-    of_result("gap_m", [](const LinkResult& r) { return Value(r.gap_m); });
+    of_result("gap_m", [](const LinkResult& r) { return r.gap_m; });
     add_ends();
     add_tightest();
     if (radio_) add_radio();
@@ -79,77 +76,91 @@ class ColumnList {
   }
 
  private:
-  using OfRow = std::function<Value(const LinkRow&)>;
   using Place = std::function<std::optional<std::size_t>(const LinkRow&)>;
 
-  void add(const std::string& name, VectorLayer::Type type, OfRow value) {
-    columns_.push_back({name, type, std::move(value)});
-  }
-  void text(const std::string& name, OfRow value) { add(name, kText, std::move(value)); }
   /// Fills only rows of links that have been computed.
-  void of_result(const std::string& name, std::function<Value(const LinkResult&)> value,
-                 VectorLayer::Type type = kNumber) {
-    add(name, type,
-        [value = std::move(value)](const LinkRow& r) { return r.found() == nullptr ? Value() : value(*r.result); });
+  template <class Of>
+  void of_result(const std::string& name, Of of) {
+    columns_.emplace_back(
+        name, [of](const LinkRow& r) { return r.found() != nullptr ? std::optional(of(*r.result)) : std::nullopt; });
   }
   void of_geodesic(const std::string& name, double LinkCourse::*member) {
-    add(name, kNumber, [member](const LinkRow& r) { return r.course ? Value((*r.course).*member) : Value(); });
+    columns_.emplace_back(
+        name, [member](const LinkRow& r) { return r.course ? std::optional((*r.course).*member) : std::nullopt; });
   }
 
   void add_verdict() {
-    text("id", [](const LinkRow& r) { return Value(r.id); });
-    of_result("distance_m", [](const LinkResult& r) { return Value(r.distance_m); });
-    text("verdict", [](const LinkRow& r) { return Value(verdict_of(r)); });
-    of_result("clearance_m", [](const LinkResult& r) { return number(r.found->least_clearance_m); });
+    columns_.emplace_back("id", [](const LinkRow& r) { return r.id; });
+    of_result("distance_m", [](const LinkResult& r) { return r.distance_m; });
+    columns_.emplace_back("verdict", verdict_of);
+    of_result("clearance_m", [](const LinkResult& r) { return finite(r.found->least_clearance_m); });
     of_result("critical_m", [](const LinkResult& r) { return distance_to(r.found->lowest); });
   }
   /// Adds the tightest place, which reports call the critical point.
   void add_tightest() {
-    of_result("tightest_clearance_m", [](const LinkResult& r) { return number(r.found->clearance_m); });
+    of_result("tightest_clearance_m", [](const LinkResult& r) { return finite(r.found->clearance_m); });
     of_result("tightest_m", [](const LinkResult& r) { return distance_to(r.found->critical); });
   }
-  static Value distance_to(const std::optional<ProfilePoint>& p) { return p ? Value(p->distance_m) : Value(); }
+  static std::optional<double> distance_to(const std::optional<ProfilePoint>& p) {
+    return p ? std::optional(p->distance_m) : std::nullopt;
+  }
+  /// Fills only rows of results that have this part.
+  template <class Of>
+  void of_losses(const char* name, Of of) {
+    of_result(name, [of](const LinkResult& r) { return r.losses ? std::optional(of(*r.losses)) : std::nullopt; });
+  }
+  template <class Of>
+  void of_fresnel(const char* name, Of of) {
+    of_result(name, [of](const LinkResult& r) {
+      return r.found->fresnel ? std::optional(of(*r.found->fresnel)) : std::nullopt;
+    });
+  }
+  template <class Of>
+  void of_visible(const std::string& name, Of of) {
+    of_result(name, [of](const LinkResult& r) { return r.visible ? std::optional(of(*r.visible)) : std::nullopt; });
+  }
+
   void add_fresnel() {
-    of_result("fresnel_fraction",
-              [](const LinkResult& r) { return r.found->fresnel ? Value(r.found->fresnel->fraction) : Value(); });
-    of_result("ld_db", [](const LinkResult& r) { return r.losses ? Value(r.losses->ld_db) : Value(); });
+    of_fresnel("fresnel_fraction", [](const auto& fresnel) { return fresnel.fraction; });
+    of_losses("ld_db", [](const PathLosses& losses) { return losses.ld_db; });
   }
   void add_object() {
-    using Part = std::function<std::optional<VisiblePart>(const VisibleHeight&)>;
-    const auto part = [&](const std::string& name, const Part& of) {
+    const auto add_part = [&](const std::string& name, const auto& part) {
       const auto add = [&](const char* what, double VisiblePart::*member) {
-        of_result(name + what, [of, member](const LinkResult& r) {
-          const std::optional<VisiblePart> seen = r.visible ? of(*r.visible) : std::nullopt;
-          return seen ? Value((*seen).*member) : Value();
+        of_visible(name + what, [part, member](const VisibleHeight& seen) {
+          const std::optional<VisiblePart> of_object = part(seen);
+          return of_object ? std::optional((*of_object).*member) : std::nullopt;
         });
       };
       add("_visible_m", &VisiblePart::visible_m);
       add("_fraction", &VisiblePart::fraction);
     };
-    of_result("hidden_below_m", [](const LinkResult& r) { return r.visible ? Value(r.visible->from_m) : Value(); });
-    part("hub", [](const VisibleHeight& seen) { return seen.hub; });
-    part("tip", [](const VisibleHeight& seen) { return std::optional(seen.tip); });
+    of_visible("hidden_below_m", [](const VisibleHeight& seen) { return seen.from_m; });
+    add_part("hub", [](const VisibleHeight& seen) { return seen.hub; });
+    add_part("tip", [](const VisibleHeight& seen) { return std::optional(seen.tip); });
   }
   void add_ends() {
-    of_result(
-        "known_verdict", [](const LinkResult& r) { return Value(std::string(name_of(r.found->known_verdict))); },
-        kText);
+    of_result("known_verdict", [](const LinkResult& r) { return name_of(r.found->known_verdict); });
     const auto named = [](const LinkRow& r) {
       return r.link != nullptr && !(r.link->from_name + r.link->to_name).empty();
     };
     if (any(rows_, named)) {
-      text("name1", [](const LinkRow& r) { return r.link != nullptr ? Value(r.link->from_name) : Value(); });
-      text("name2", [](const LinkRow& r) { return r.link != nullptr ? Value(r.link->to_name) : Value(); });
+      const auto name_at = [](std::string Link::*end) {
+        return [end](const LinkRow& r) { return r.link != nullptr ? std::optional(r.link->*end) : std::nullopt; };
+      };
+      columns_.emplace_back("name1", name_at(&Link::from_name));
+      columns_.emplace_back("name2", name_at(&Link::to_name));
     }
     of_result(survey_.query.from_on_surface ? "stands_on1_m" : "ground1_m",
-              [](const LinkResult& r) { return Value(r.stands_on.from_m); });
+              [](const LinkResult& r) { return r.stands_on.from_m; });
     of_result(survey_.query.to_on_surface ? "stands_on2_m" : "ground2_m",
-              [](const LinkResult& r) { return Value(r.stands_on.to_m); });
+              [](const LinkResult& r) { return r.stands_on.to_m; });
     for (const bool there : {true, false}) {
-      add(there ? "azimuth_grid1_deg" : "azimuth_grid2_deg", kNumber, [there](const LinkRow& r) {
-        if (r.found() == nullptr) return Value();
-        return Value(there ? grid_azimuth_deg(r.link->from, r.link->to) : grid_azimuth_deg(r.link->to, r.link->from));
-      });
+      columns_.emplace_back(
+          there ? "azimuth_grid1_deg" : "azimuth_grid2_deg", [there](const LinkRow& r) -> std::optional<double> {
+            if (r.found() == nullptr) return std::nullopt;
+            return there ? grid_azimuth_deg(r.link->from, r.link->to) : grid_azimuth_deg(r.link->to, r.link->from);
+          });
       of_geodesic(there ? "azimuth_true1_deg" : "azimuth_true2_deg",
                   there ? &LinkCourse::azimuth_deg : &LinkCourse::back_azimuth_deg);
     }
@@ -158,33 +169,29 @@ class ColumnList {
   void add_magnetic() {
     const auto of_end = [&](const char* azimuth, const char* declination, double LinkCourse::*from_true,
                             std::optional<double> LinkRow::*of_north) {
-      add(azimuth, kNumber, [from_true, of_north](const LinkRow& r) {
-        return r.course ? number(magnetic_azimuth_deg((*r.course).*from_true, r.*of_north)) : Value();
+      columns_.emplace_back(azimuth, [from_true, of_north](const LinkRow& r) {
+        return r.course ? finite(magnetic_azimuth_deg((*r.course).*from_true, r.*of_north)) : std::nullopt;
       });
-      add(declination, kNumber, [of_north](const LinkRow& r) { return number(r.*of_north); });
+      columns_.emplace_back(declination, [of_north](const LinkRow& r) { return finite(r.*of_north); });
     };
     of_end("azimuth_magnetic1_deg", "declination1_deg", &LinkCourse::azimuth_deg, &LinkRow::from_declination_deg);
     of_end("azimuth_magnetic2_deg", "declination2_deg", &LinkCourse::back_azimuth_deg, &LinkRow::to_declination_deg);
   }
   void add_radio() {
-    const auto of_radio = [&](const char* name, VectorLayer::Type type,
-                              const std::function<Value(const RadioPath&)>& value) {
-      of_result(
-          name, [value](const LinkResult& r) { return r.radio ? value(*r.radio) : Value(); }, type);
+    const auto of_radio = [&](const char* name, auto of) {
+      of_result(name, [of](const LinkResult& r) { return r.radio ? std::optional(of(*r.radio)) : std::nullopt; });
     };
-    of_radio("frequency_ghz", kNumber, [](const RadioPath& path) { return Value(path.frequency_ghz); });
-    of_radio("polarisation", kText, [](const RadioPath& path) {
-      return Value(std::string(path.polarisation == Polarisation::kVertical ? "v" : "h"));
-    });
-    of_result("fresnel_fraction_at_m",
-              [](const LinkResult& r) { return r.found->fresnel ? Value(r.found->fresnel->distance_m) : Value(); });
-    of_result("free_space_db", [](const LinkResult& r) { return r.losses ? Value(r.losses->free_space_db) : Value(); });
-    of_result("reflection_m",
-              [](const LinkResult& r) { return r.reflection ? Value(r.reflection->distance_m) : Value(); });
-    of_result(
-        "reflected_path",
-        [](const LinkResult& r) { return r.reflection ? Value(std::string(name_of_path(*r.reflection))) : Value(); },
-        kText);
+    const auto of_reflection = [&](const char* name, auto of) {
+      of_result(name,
+                [of](const LinkResult& r) { return r.reflection ? std::optional(of(*r.reflection)) : std::nullopt; });
+    };
+    of_radio("frequency_ghz", [](const RadioPath& path) { return path.frequency_ghz; });
+    of_radio("polarisation",
+             [](const RadioPath& path) { return path.polarisation == Polarisation::kVertical ? "v" : "h"; });
+    of_fresnel("fresnel_fraction_at_m", [](const auto& fresnel) { return fresnel.distance_m; });
+    of_losses("free_space_db", [](const PathLosses& losses) { return losses.free_space_db; });
+    of_reflection("reflection_m", [](const Reflection& reflection) { return reflection.distance_m; });
+    of_reflection("reflected_path", name_of_path);
   }
 
   static std::string name_of_criterion(const Criterion& c) {
@@ -197,17 +204,17 @@ class ColumnList {
   }
   void add_criterion(const Criterion& criterion) {
     const std::string name = name_of_criterion(criterion);
-    const auto of = [&](const char* what, VectorLayer::Type type, std::function<Value(const CriterionResult&)> value) {
-      add(name + what, type, [criterion, value = std::move(value)](const LinkRow& row) {
+    const auto of_criterion = [&](const char* what, auto of) {
+      columns_.emplace_back(name + what, [criterion, of](const LinkRow& row) {
         const CriterionResult* c = row.found() != nullptr ? result_of(row, criterion) : nullptr;
-        return c != nullptr ? value(*c) : Value();
+        return c != nullptr ? std::optional(of(*c)) : std::nullopt;
       });
     };
-    of("", kText, [](const CriterionResult& c) { return Value(std::string(profile::name_of(c.verdict))); });
-    of("_clearance_m", kNumber, [](const CriterionResult& c) { return number(c.clearance_m); });
-    of("_clearance_f1", kNumber, [](const CriterionResult& c) { return number(c.clearance_f1); });
-    of("_margin_m", kNumber, [](const CriterionResult& c) { return number(c.margin_m); });
-    of("_margin_at_m", kNumber, [](const CriterionResult& c) { return number(c.margin_at_m); });
+    of_criterion("", [](const CriterionResult& c) { return profile::name_of(c.verdict); });
+    of_criterion("_clearance_m", [](const CriterionResult& c) { return finite(c.clearance_m); });
+    of_criterion("_clearance_f1", [](const CriterionResult& c) { return finite(c.clearance_f1); });
+    of_criterion("_margin_m", [](const CriterionResult& c) { return finite(c.margin_m); });
+    of_criterion("_margin_at_m", [](const CriterionResult& c) { return finite(c.margin_at_m); });
   }
   /// The place of a criterion's heights among the required heights of a link.
   static Place place_of(const Criterion& criterion) {
@@ -219,9 +226,10 @@ class ColumnList {
   }
   void add_required(const std::string& name, const Place& place) {
     const auto of = [&](const char* what, std::optional<double> RequiredHeights::*member) {
-      add("required_" + name + what, kNumber, [place, member](const LinkRow& row) {
+      columns_.emplace_back("required_" + name + what, [place, member](const LinkRow& row) {
         const auto at = row.found() != nullptr ? place(row) : std::nullopt;
-        return at && *at < row.found()->required.size() ? number(row.found()->required[*at].heights.*member) : Value();
+        return at && *at < row.found()->required.size() ? finite(row.found()->required[*at].heights.*member)
+                                                        : std::nullopt;
       });
     };
     of("_h1_m", &RequiredHeights::from_alone_m);
@@ -238,8 +246,8 @@ class ColumnList {
                std::any_of(columns_.begin(), columns_.end(), [&](const LinkColumn& c) { return c.name == name; });
       };
       while (taken()) name += "_given";
-      text(name, [i](const LinkRow& r) {
-        return r.others != nullptr && i < r.others->size() ? Value((*r.others)[i]) : Value();
+      columns_.emplace_back(name, [i](const LinkRow& r) {
+        return r.others != nullptr && i < r.others->size() ? &(*r.others)[i] : nullptr;
       });
     }
   }

@@ -1,12 +1,11 @@
 // Lists what is said about each of many links: one list of columns for every format.
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include <itin/vector_export.hpp>
+#include <itin/table_columns.hpp>
 #include <profile/links.hpp>
 
 namespace itin::profile {
@@ -27,11 +26,7 @@ struct LinkRow {
 };
 std::vector<LinkRow> link_rows(const LinkSurvey& survey);
 
-struct LinkColumn {
-  std::string name;
-  VectorLayer::Type type;
-  std::function<VectorLayer::Value(const LinkRow&)> value;
-};
+using LinkColumn = TableColumn<LinkRow>;
 std::vector<LinkColumn> link_columns(const LinkSurvey& survey, const std::vector<LinkRow>& rows);
 
 /// Returns "visible", "hidden", "undecided" or "error".

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include <fmt/format.h>
 
 #include <itin/grid_reference.hpp>
 
 #include "drawing/palette.hpp"
+#include "sheet/map_symbols.hpp"
 
 namespace itin::profile {
 
@@ -32,46 +32,6 @@ Colour opaque(Rgba c) {
 }
 
 }  // namespace
-
-std::span<const Point2> corners_of(SheetSymbol symbol) {
-  static constexpr std::array<Point2, 4> kSquare{{{-0.5, -0.5}, {0.5, -0.5}, {0.5, 0.5}, {-0.5, 0.5}}};
-  static constexpr std::array<Point2, 4> kDiamond{{{0, -0.62}, {0.62, 0}, {0, 0.62}, {-0.62, 0}}};
-  static constexpr std::array<Point2, 3> kTriangle{{{0, -0.6}, {0.6, 0.45}, {-0.6, 0.45}}};
-  if (symbol == SheetSymbol::kHub) return kSquare;
-  if (symbol == SheetSymbol::kRelay) return kDiamond;
-  if (symbol == SheetSymbol::kExistingMast) return kTriangle;
-  return {};
-}
-
-void draw_symbol(Drawing& drawing, SheetSymbol symbol, Point2 at, double size, const Rgba& colour) {
-  const Colour fill = drawn(colour);
-  if (symbol == SheetSymbol::kTurbine) {
-    const Point2 hub{at.x, at.y - 0.45 * size};
-    const auto blades = [&](const Stroke& stroke) {
-      drawing.polyline(std::array{at, hub}, stroke);
-      for (const double sixths : {0.0, 2.0, 4.0}) {
-        const double angle = sixths * std::numbers::pi / 3, r = 0.5 * size;
-        drawing.polyline(std::array{hub, Point2{hub.x + r * std::sin(angle), hub.y - r * std::cos(angle)}}, stroke);
-      }
-    };
-    blades({{1, 1, 1, 0.9}, 0.34 * size, {}});
-    blades({fill, 0.15 * size, {}});
-    return;
-  }
-  if (const std::span<const Point2> corners = corners_of(symbol); !corners.empty()) {
-    std::vector<Point2> outer, inner;
-    for (const Point2& c : corners) {
-      outer.push_back({at.x + size * c.x, at.y + size * c.y});
-      inner.push_back({at.x + 0.82 * size * c.x, at.y + 0.82 * size * c.y});
-    }
-    drawing.polygon(outer, kPaper);
-    drawing.polygon(inner, fill);
-    return;
-  }
-  drawing.circle(at, 0.5 * size, kPaper);
-  drawing.circle(at, 0.43 * size, fill);
-  if (symbol == SheetSymbol::kViewpoint) drawing.circle(at, 0.18 * size, kPaper);
-}
 
 MapFrame::MapFrame(Drawing& drawing, const Paper& paper, const Box& ground)
     : drawing_(drawing), paper_(paper), ground_(ground), scale_(paper.frame.width() / ground.width()) {}
@@ -96,18 +56,14 @@ void MapFrame::draw(const MapSheet& sheet) {
 }
 
 void MapFrame::draw_layer(const SheetCells& cells) {
-  std::vector<std::uint32_t> pixels(cells.colours.size());
-  std::transform(cells.colours.begin(), cells.colours.end(), pixels.begin(), argb);
   const Box box = cells.grid.bounds();
   const Point2 top = at({box.xmin, box.ymax}), bottom = at({box.xmax, box.ymin});
-  drawing_.cells({top.x, top.y, bottom.x, bottom.y}, static_cast<int>(cells.grid.columns()),
-                 static_cast<int>(cells.grid.rows()), pixels);
+  drawing_.cells({top.x, top.y, bottom.x, bottom.y}, counts_of(cells.grid), cells.colours);
 }
 
 void MapFrame::draw_layer(const SheetLines& lines) {
   Stroke stroke{drawn(lines.colour), lines.width_mm * kPointsPerMillimetre * paper_.type, {}};
-  if (lines.dashed)
-    stroke.dashes = {2.2 * kPointsPerMillimetre * paper_.type, 1.4 * kPointsPerMillimetre * paper_.type};
+  if (lines.dashed) stroke.dashes = map_dashes(paper_.type);
   std::vector<Point2> points;
   for (const SheetLine& line : lines.lines) {
     points.clear();

@@ -1,7 +1,7 @@
 // The map of a sheet: its layers to scale in their frame, with the grid's references about it.
 #pragma once
 
-#include <cstdint>
+#include <cstddef>
 #include <string>
 
 #include <itin/geometry.hpp>
@@ -12,18 +12,6 @@
 #include "sheet/paper.hpp"
 
 namespace itin::profile {
-
-inline Colour drawn(const Rgba& c) {
-  return {c.red / 255.0, c.green / 255.0, c.blue / 255.0, c.alpha / 255.0};
-}
-
-/// The colour as Drawing::cells() takes it.
-inline std::uint32_t argb(const Rgba& c) {
-  return std::uint32_t{c.alpha} << 24 | std::uint32_t{c.red} << 16 | std::uint32_t{c.green} << 8 | c.blue;
-}
-
-/// Draws a mark of a map or its legend; `size` is its height in points.
-void draw_symbol(Drawing& drawing, SheetSymbol symbol, Point2 at, double size, const Rgba& colour);
 
 class MapFrame {
  public:

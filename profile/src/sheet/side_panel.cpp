@@ -11,10 +11,9 @@
 #include <itin/coordinates.hpp>
 #include <itin/counted.hpp>
 #include <itin/round_length.hpp>
-#include <itin/void_stripes.hpp>
 
 #include "drawing/palette.hpp"
-#include "sheet/map_frame.hpp"
+#include "sheet/map_symbols.hpp"
 
 namespace itin::profile {
 
@@ -76,41 +75,11 @@ void SidePanel::draw_heading() {
 }
 
 void SidePanel::draw_key(const SheetKey& key) {
-  using enum SheetKey::Sample;
   const double row = 4.4 * kPointsPerMillimetre * paper_.type, width = 7 * kPointsPerMillimetre * paper_.type,
                x = left_, middle = y_ + row / 2;
-  if (key.sample == kHeading) return paragraph(key.text, 7.5, true);
+  if (key.sample == SheetKey::Sample::kHeading) return paragraph(key.text, 7.5, true);
   const Box patch{x, middle - 0.36 * row, x + width, middle + 0.36 * row};
-  const double size = 0.85 * row;
-  switch (key.sample) {
-    case kPatch: {
-      const double wash = 0.84;  // the grey of level ground in the relief
-      drawing_.rectangle(patch, {wash, wash, wash});
-      const double part = patch.width() / static_cast<double>(key.colours.size());
-      double from = patch.xmin;
-      for (const Rgba& colour : key.colours) {
-        drawing_.rectangle({from, patch.ymin, from + part, patch.ymax}, drawn(colour));
-        from += part;
-      }
-      drawing_.outline(patch, {kFaint, 0.3 * paper_.type, {}});
-      break;
-    }
-    case kVoid:
-      draw_void(patch);
-      break;
-    case kLine:
-    case kDashes: {
-      Stroke stroke{drawn(key.colours.front()), 0.35 * kPointsPerMillimetre * paper_.type, {}};
-      if (key.sample == kDashes)
-        stroke.dashes = {2.2 * kPointsPerMillimetre * paper_.type, 1.4 * kPointsPerMillimetre * paper_.type};
-      drawing_.polyline(std::array{Point2{patch.xmin, middle}, Point2{patch.xmax, middle}}, stroke);
-      break;
-    }
-    default: {
-      const double up = key.symbol == SheetSymbol::kTurbine ? 0.4 * size : 0;
-      draw_symbol(drawing_, key.symbol, {x + width / 2, middle + up}, size, key.colours.front());
-    }
-  }
+  draw_sample(drawing_, key, patch, paper_.type);
   const Lettering lettering{.size = 7 * paper_.type, .colour = kInk};
   const double text = x + width + 2 * kPointsPerMillimetre * paper_.type;
   double baseline = middle + 0.36 * lettering.size;
@@ -119,19 +88,6 @@ void SidePanel::draw_key(const SheetKey& key) {
     baseline += 1.2 * lettering.size;
   }
   y_ = std::max(y_ + row, baseline - 0.8 * lettering.size);
-}
-
-/// Draws a patch without ground pixel by pixel, as the map does.
-void SidePanel::draw_void(const Box& patch) {
-  const double pixel = kSheetPixelMm * kPointsPerMillimetre;
-  const auto pixels = [&](double length) { return std::max(1, static_cast<int>(std::lround(length / pixel))); };
-  const int columns = pixels(patch.width()), rows = pixels(patch.height());
-  std::vector<std::uint32_t> colours;
-  for (int row = 0; row < rows; ++row)
-    for (int column = 0; column < columns; ++column)
-      colours.push_back(argb(void_colour(column, row, kVoidStripePixels)));
-  drawing_.cells(patch, columns, rows, colours);
-  drawing_.outline(patch, {kFaint, 0.3 * paper_.type, {}});
 }
 
 void SidePanel::draw_legend(double bottom) {

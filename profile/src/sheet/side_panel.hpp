@@ -21,7 +21,6 @@ class SidePanel {
   void draw_heading();
   void draw_legend(double bottom);
   void draw_key(const SheetKey& key);
-  void draw_void(const Box& patch);
   void draw_scale();
   void draw_north(Point2 foot);
   void heading(const std::string& text, std::size_t most_lines, double size, bool bold);

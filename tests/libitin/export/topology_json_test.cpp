@@ -48,8 +48,11 @@ TEST_F(TopologyJsonTest, TriangleBased) {
   const Topology topology(tin_);
   ASSERT_EQ(json.at("adjacent_triangles").size(), tin_.triangles.size());
   for (std::uint32_t t = 0; t < tin_.triangles.size(); ++t)
-    for (std::size_t i = 0; i < 3; ++i)
-      ASSERT_EQ(json.at("adjacent_triangles")[t][i], json_of(topology.triangles_of_triangle(t)[i]));
+    for (std::uint32_t i = 0; i < 3; ++i) {
+      const auto twin = topology.twin(3 * t + i);
+      ASSERT_EQ(json.at("adjacent_triangles")[t][i],
+                json_of(twin ? std::optional(Topology::face(*twin)) : std::nullopt));
+    }
 }
 
 TEST_F(TopologyJsonTest, VertexBased) {

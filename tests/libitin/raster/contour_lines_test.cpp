@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -40,8 +41,9 @@ TEST(ContourLines, APlaneHasOneLineFromEdgeToEdge) {
   const auto plane = heights(grid, [](Point2 p) { return p.x; });
   const auto lines = contour_lines(grid, plane, 7.25);
   ASSERT_EQ(lines.size(), 1U);
-  EXPECT_EQ(lines[0].size(), 10U);
+  EXPECT_EQ(lines[0].size(), 12U);  // the centres of ten rows, and the edges
   for (const Point2& p : lines[0]) EXPECT_NEAR(p.x, 7.25, 1e-6);
+  EXPECT_EQ(std::abs(lines[0].front().y - lines[0].back().y), 10);
 }
 
 TEST(ContourLines, NothingCrossesMissingValues) {
@@ -50,7 +52,11 @@ TEST(ContourLines, NothingCrossesMissingValues) {
   plane[grid.index({7, 5})] = std::numeric_limits<float>::quiet_NaN();
   const auto lines = contour_lines(grid, plane, 7.25);
   ASSERT_EQ(lines.size(), 2U);
-  EXPECT_EQ(lines[0].size() + lines[1].size(), 9U);
+  // Both end where the square about the missing centre begins.
+  for (const auto& line : lines) {
+    for (const Point2& p : line) EXPECT_GE(std::max(std::abs(p.x - 7.5), std::abs(p.y - 4.5)), 0.5);
+    EXPECT_EQ(std::min(std::abs(line.front().y - 4.5), std::abs(line.back().y - 4.5)), 0.5);
+  }
 }
 
 TEST(ContourLines, EveryCrossingOfASaddleIsUsedOnce) {
@@ -59,7 +65,7 @@ TEST(ContourLines, EveryCrossingOfASaddleIsUsedOnce) {
     const std::vector<float> saddle{1, other, other, 1};
     const auto lines = contour_lines(grid, saddle, 0.94);
     ASSERT_EQ(lines.size(), 2U);
-    for (const auto& line : lines) EXPECT_EQ(line.size(), 2U);
+    for (const auto& line : lines) EXPECT_EQ(line.size(), 4U);  // two crossings, and two places on the edges
   }
 }
 

@@ -1,4 +1,4 @@
-// Every relation against its definition, applied to all pairs.
+// Each answer against its definition, applied to all pairs.
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -63,86 +63,44 @@ std::optional<Index> triangle_across(const Tin& tin, Index t, std::size_t i) {
   return std::nullopt;
 }
 
-void check_triangles(const Tin& tin, const Topology& topology) {
+void check_triangles(const Tin& tin) {
   const auto adjacent = adjacent_triangles(tin);
   ASSERT_EQ(adjacent.size(), tin.triangles.size());
-  for (Index t = 0; t < tin.triangles.size(); ++t) {
-    EXPECT_EQ(topology.vertices_of_triangle(t), tin.triangles[t]);
-    for (std::size_t i = 0; i < 3; ++i) {
-      const auto expected = triangle_across(tin, t, i);
-      ASSERT_EQ(topology.triangles_of_triangle(t)[i], expected);
-      ASSERT_EQ(adjacent[t][i], expected.value_or(kNoNeighbour));
-      const auto ends = topology.vertices_of_edge(topology.edges_of_triangle(t)[i]);
-      ASSERT_EQ(std::minmax(ends[0], ends[1]), std::minmax(tin.triangles[t][i], tin.triangles[t][(i + 1) % 3]));
-    }
-  }
+  for (Index t = 0; t < tin.triangles.size(); ++t)
+    for (std::size_t i = 0; i < 3; ++i) ASSERT_EQ(adjacent[t][i], triangle_across(tin, t, i).value_or(kNoNeighbour));
 }
 
-void check_edges(const Tin& tin, const Topology& topology) {
-  ASSERT_EQ(topology.edge_count(), index_edges_of(tin).size());
-  std::set<std::pair<Index, Index>> seen;
-  Index before = 0;
-  for (Index e = 0; e < topology.edge_count(); ++e) {
-    const auto [a, b] = topology.vertices_of_edge(e);
-    seen.insert(std::minmax(a, b));
-    EXPECT_EQ(topology.edge(topology.half_edge(e)), e);
-    EXPECT_TRUE(e == 0 || topology.half_edge(e) > before);
-    before = topology.half_edge(e);
-
-    Set triangles, expected_triangles;
-    for (const auto t : topology.triangles_of_edge(e))
-      if (t) triangles.insert(*t);
-    for (Index t = 0; t < tin.triangles.size(); ++t)
-      if (uses(tin.triangles[t], a) && uses(tin.triangles[t], b)) expected_triangles.insert(t);
-    ASSERT_EQ(triangles, expected_triangles);
-
-    std::vector<Index> edges;
-    topology.edges_of_edge(e, edges);
-    Set expected_edges;
-    for (Index f = 0; f < topology.edge_count(); ++f) {
-      const auto ends = topology.vertices_of_edge(f);
-      if (f != e && (ends[0] == a || ends[0] == b || ends[1] == a || ends[1] == b)) expected_edges.insert(f);
-    }
-    ASSERT_EQ(as_set(edges), expected_edges);
-  }
-  EXPECT_EQ(seen, index_edges_of(tin));
+std::size_t triangles_at_edge(const Tin& tin, Index a, Index b) {
+  return static_cast<std::size_t>(std::count_if(tin.triangles.begin(), tin.triangles.end(),
+                                                [&](const Triangle& t) { return uses(t, a) && uses(t, b); }));
 }
 
 void check_vertices(const Tin& tin, const Topology& topology) {
   const auto edges = index_edges_of(tin);
   for (Index v = 0; v < tin.vertices.size(); ++v) {
     const auto neighbours = topology.vertices_of_vertex(v);
-    Set expected, expected_triangles;
+    Set expected;
     for (const auto& [a, b] : edges)
       if (a == v || b == v) expected.insert(a == v ? b : a);
-    for (Index t = 0; t < tin.triangles.size(); ++t)
-      if (uses(tin.triangles[t], v)) expected_triangles.insert(t);
     ASSERT_EQ(as_set(neighbours), expected);
-    ASSERT_EQ(as_set(topology.triangles_of_vertex(v)), expected_triangles);
     ASSERT_TRUE(counterclockwise(tin, v, neighbours)) << v;
-
-    const auto around = topology.edges_of_vertex(v);
-    ASSERT_EQ(around.size(), neighbours.size());
-    for (std::size_t i = 0; i < around.size(); ++i) {
-      const auto ends = topology.vertices_of_edge(around[i]);
-      ASSERT_EQ(std::minmax(ends[0], ends[1]), std::minmax(v, neighbours[i]));
-    }
-    const bool boundary = std::any_of(around.begin(), around.end(),
-                                      [&](Index e) { return !topology.triangles_of_edge(e)[1].has_value(); });
+    const auto ends_a_fan = [&](Index neighbour) { return triangles_at_edge(tin, v, neighbour) == 1; };
+    const bool boundary = std::any_of(neighbours.begin(), neighbours.end(), ends_a_fan);
     ASSERT_EQ(topology.on_boundary(v), boundary);
     if (boundary) {
-      EXPECT_FALSE(topology.triangles_of_edge(around.front())[1].has_value()) << "begins inside";
-      EXPECT_FALSE(topology.triangles_of_edge(around.back())[1].has_value()) << "ends inside";
+      EXPECT_TRUE(ends_a_fan(neighbours.front())) << "begins inside";
+      EXPECT_TRUE(ends_a_fan(neighbours.back())) << "ends inside";
     }
     // Each triangle lies between two neighbours that follow each other.
-    std::size_t n = 0;
-    for (const Index t : topology.triangles_of_vertex(v)) {
-      while (n < neighbours.size() && !(uses(tin.triangles[t], neighbours[n]) &&
-                                        uses(tin.triangles[t], neighbours[(n + 1) % neighbours.size()])))
-        ++n;
-      ASSERT_LT(n, neighbours.size()) << "triangles and neighbours are not in step";
-      ++n;
+    std::size_t between = 0, triangles = 0;
+    for (const Triangle& t : tin.triangles) {
+      if (!uses(t, v)) continue;
+      ++triangles;
+      for (std::size_t n = 0; n < neighbours.size(); ++n)
+        between += uses(t, neighbours[n]) && uses(t, neighbours[(n + 1) % neighbours.size()]) && neighbours.size() > 1;
     }
+    // Two neighbours follow each other both ways round.
+    ASSERT_EQ(between, neighbours.size() == 2 ? 2 * triangles : triangles) << "a triangle's corners are apart";
   }
 }
 
@@ -156,7 +114,6 @@ void check_half_edges(const Tin& tin, const Topology& topology) {
     if (const auto twin = topology.twin(h)) {
       EXPECT_EQ(topology.twin(*twin), h);
       EXPECT_EQ(topology.origin(*twin), topology.destination(h));
-      EXPECT_EQ(topology.edge(*twin), topology.edge(h));
     }
   }
 }
@@ -164,8 +121,7 @@ void check_half_edges(const Tin& tin, const Topology& topology) {
 void check(const Tin& tin) {
   const Topology topology(tin);
   check_half_edges(tin, topology);
-  check_triangles(tin, topology);
-  check_edges(tin, topology);
+  check_triangles(tin);
   check_vertices(tin, topology);
 }
 
@@ -177,8 +133,11 @@ TEST(Topology, AgreesWithDefinitionsOnRandomTins) {
     check(tin);
     if (HasFatalFailure()) return;
     const Topology topology(tin);
-    for (Index v = 0; v < topology.vertex_count(); ++v)
-      several_fans += topology.vertices_of_vertex(v).size() > topology.triangles_of_vertex(v).size() + 1;
+    for (Index v = 0; v < topology.vertex_count(); ++v) {
+      const auto triangles =
+          std::count_if(tin.triangles.begin(), tin.triangles.end(), [&](const Triangle& t) { return uses(t, v); });
+      several_fans += topology.vertices_of_vertex(v).size() > static_cast<std::size_t>(triangles) + 1;
+    }
   }
   EXPECT_GT(several_fans, 10) << "no vertex had its triangles cut into fans";
 }
@@ -209,10 +168,10 @@ TEST(Topology, CornersOfTheGridAreOrderedExactly) {
 TEST(Topology, OneTriangleAndNone) {
   const Tin one = test::canonical_tin({{0, 0}, 1}, {{0, 0, 0}, {5, 0, 0}, {0, 5, 0}}, {0, 0, 0}, {{0, 1, 2}});
   check(one);
-  EXPECT_EQ(Topology(one).edge_count(), 3u);
+  EXPECT_TRUE(Topology(one).on_boundary(0));
   const Tin empty;
   const Topology none(empty);
-  EXPECT_EQ(none.edge_count(), 0u);
+  EXPECT_EQ(none.half_edge_count(), 0u);
 }
 
 }  // namespace

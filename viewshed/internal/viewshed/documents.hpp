@@ -41,6 +41,9 @@ Document blockers_document(const Store& store, const Result& result);
 /// `beyond_the_data`, and `share_without_data`.
 void add_missing_ground(const MissingGround& missing, Document& document);
 
+/// The sky line, a row for each azimuth.
+std::string horizon_csv(const Horizon& horizon, const StoreMetadata& metadata);
+
 /// The horizon's targets.
 Document targets_document(const Horizon& horizon);
 

@@ -11,6 +11,7 @@
 
 #include <itin/store.hpp>
 #include <profile/map_sheet.hpp>
+#include <viewshed/relief.hpp>
 
 namespace itin::viewshed {
 
@@ -25,8 +26,8 @@ struct MapBase {
 /// empty if there is none. Throws FileError for a picture that cannot be used.
 MapBase map_base(const Store& store, const Box& frame, double scale, const std::string& basemap, Progress& progress);
 
-/// Makes the shaded relief alone, at these pixels.
-MapBase plain_base(const Store& store, const RasterGrid& pixels, Progress& progress);
+/// Makes a base of the shaded relief alone.
+MapBase plain_base(const Relief& ground);
 
 /// Names the picture in a title block.
 std::pair<std::string, std::string> basemap_fact(const std::string& basemap);

@@ -58,8 +58,8 @@ std::string statement_of(const StoreMetadata& metadata, const ThemeChoice& theme
 /// The fact that says how exact a map's surface is.
 std::pair<std::string, std::string> terrain_fact(const StoreMetadata& metadata, const Detail& detail);
 
-/// The base faded outside the study, and striped where the study has no ground.
-MapBase fitted(MapBase base, const ResultSheet& content);
+/// The base faded outside the study, and striped where the study has no ground. The stripes are this far apart, pixels.
+MapBase fitted(MapBase base, const ResultSheet& content, int stripes = profile::kVoidStripePixels);
 
 /// Makes the base of a result's map on this paper. Results of one area and study may share it. Throws FileError (a
 /// basemap), InputError (a scale that is too large), Cancelled.
@@ -67,7 +67,7 @@ MapBase base_of(const Store& store, const ResultSheet& content, profile::PaperSi
                 const profile::SheetChoice& choice, Progress& progress);
 
 /// All layers of the result's map, the base lowest.
-std::vector<profile::SheetLayer> layers_of(const MapBase& base, const ResultSheet& content);
+std::vector<profile::SheetLayer> layers_of(const MapBase& base, ResultSheet content);
 /// The legend. It says which objects lie beyond the frame, given as a box of ground.
 std::vector<profile::SheetKey> keys_of(const MapBase& base, const ResultSheet& content, const Box& frame);
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <itin/degrees.hpp>
 #include <itin/parallel.hpp>
@@ -40,7 +41,9 @@ double shade(double east, double north) {
 
 }  // namespace
 
-std::vector<float> hillshade(std::span<const float> heights, const RasterGrid& pixels) {
+Relief hillshade(const RasterGrid& pixels, std::vector<float> heights_m) {
+  Relief relief{pixels, std::move(heights_m), std::vector<float>(pixels.cell_count(), kNothing)};
+  const std::vector<float>& heights = relief.heights_m;
   float low = kFloatInfinity, high = -low;
   for (const float z : heights) {
     if (!std::isnan(z)) low = std::min(low, z), high = std::max(high, z);
@@ -59,7 +62,6 @@ std::vector<float> hillshade(std::span<const float> heights, const RasterGrid& p
     if (!std::isnan(after)) return (after - here) / step;
     return std::isnan(before) ? 0.0 : (here - before) / step;
   };
-  std::vector<float> result(pixels.cell_count(), kNothing);
   parallel_for(static_cast<std::size_t>(rows), [&](std::size_t r) {
     const auto row = static_cast<std::int64_t>(r);
     for (std::int64_t column = 0; column < columns; ++column) {
@@ -67,10 +69,10 @@ std::vector<float> hillshade(std::span<const float> heights, const RasterGrid& p
       if (std::isnan(here)) continue;
       const double east = slope(height(column - 1, row), here, height(column + 1, row), pixels.cell_width());
       const double north = slope(height(column, row + 1), here, height(column, row - 1), pixels.cell_height());
-      result[pixels.index({column, row})] = static_cast<float>(shade(exaggeration * east, exaggeration * north));
+      relief.shades[pixels.index({column, row})] = static_cast<float>(shade(exaggeration * east, exaggeration * north));
     }
   });
-  return result;
+  return relief;
 }
 
 }  // namespace itin::viewshed

@@ -1,7 +1,6 @@
 // Shaded relief on the pixels of a picture.
 #pragma once
 
-#include <span>
 #include <vector>
 
 #include <itin/raster.hpp>
@@ -9,8 +8,8 @@
 
 namespace itin::viewshed {
 
-/// Returns one value per pixel: 0 (darkest) to 1 (brightest), NaN where its height, metres, is NaN. Light comes from
-/// the north-west and, weaker, from the west, north and south-west, so that no slope direction is lost.
-std::vector<float> hillshade(std::span<const float> heights, const RasterGrid& pixels);
+/// Shades the pixels whose height, metres, is not NaN. Light comes from the north-west and, weaker, from the west,
+/// north and south-west, so that no slope direction is lost.
+Relief hillshade(const RasterGrid& pixels, std::vector<float> heights_m);
 
 }  // namespace itin::viewshed

@@ -37,9 +37,7 @@ std::vector<float> ground_heights(const Store& store, const RasterGrid& pixels, 
 
 Relief relief(const Store& store, const RasterGrid& pixels, Progress& progress) {
   constexpr double kTellable = 0.1;  ///< what is smaller cannot be told, in widths of a pixel
-  Relief result{pixels, ground_heights(store, pixels, kTellable * pixels.cell_width(), progress), {}};
-  result.shades = hillshade(result.heights_m, pixels);
-  return result;
+  return hillshade(pixels, ground_heights(store, pixels, kTellable * pixels.cell_width(), progress));
 }
 
 }  // namespace itin::viewshed

@@ -7,6 +7,7 @@
 #include <itin/coordinates.hpp>
 #include <itin/feature_at.hpp>
 #include <itin/store.hpp>
+#include <itin/table_columns.hpp>
 #include <viewshed/documents.hpp>
 
 namespace itin::viewshed {
@@ -25,23 +26,29 @@ Document of_verdicts(const Result& result, const auto& value) {
   return document;
 }
 
-Document sky_line_document(const Horizon& horizon, const StoreMetadata& metadata) {
-  Document points = Document::array();
-  for (const HorizonPoint& p : horizon.points) {
-    Document point{{"azimuth_deg", p.azimuth_deg}};
-    if (p.sky) {
-      point["elevation_deg"] = p.sky->elevation_deg;
-      point["distance_m"] = p.sky->distance_m;
-      point["x"] = p.sky->position.x;
-      point["y"] = p.sky->position.y;
-      point["z"] = p.sky->position.z;
-      point["theme"] = p.sky->theme == 0 ? "terrain" : metadata.themes[p.sky->theme - std::size_t{1}].name;
-      point["data_edge"] = p.sky->data_edge;
-      point["over_missing"] = p.over_missing;
-    }
-    points.push_back(std::move(point));
-  }
-  return points;
+/// The columns of the sky line. In directions without one, they are empty.
+std::vector<TableColumn<HorizonPoint>> sky_line_columns(const StoreMetadata& metadata) {
+  std::vector<TableColumn<HorizonPoint>> columns{
+      {"azimuth_deg", [](const HorizonPoint& p) { return p.azimuth_deg; }, kInAllFormats, "{:.10g}"}};
+  const auto add = [&](const char* name, auto of, const char* number = "{:.3f}") {
+    columns.emplace_back(
+        name, [of](const HorizonPoint& p) { return p.sky ? std::optional(of(p)) : std::nullopt; }, kInAllFormats,
+        number);
+  };
+  add(
+      "elevation_deg", [](const HorizonPoint& p) { return p.sky->elevation_deg; }, "{:.6f}");
+  add("distance_m", [](const HorizonPoint& p) { return p.sky->distance_m; });
+  add("x", [](const HorizonPoint& p) { return p.sky->position.x; });
+  add("y", [](const HorizonPoint& p) { return p.sky->position.y; });
+  add("z", [](const HorizonPoint& p) { return p.sky->position.z; });
+  add("theme", [&metadata](const HorizonPoint& p) {
+    return p.sky->theme == 0 ? "terrain" : metadata.themes[p.sky->theme - std::size_t{1}].name;
+  });
+  add(
+      "data_edge", [](const HorizonPoint& p) { return p.sky->data_edge; }, kFlagsAsNumbers);
+  add(
+      "over_missing", [](const HorizonPoint& p) { return p.over_missing; }, kFlagsAsNumbers);
+  return columns;
 }
 
 }  // namespace
@@ -130,6 +137,10 @@ void add_missing_ground(const MissingGround& missing, Document& document) {
   document["share_without_data"] = missing.share();
 }
 
+std::string horizon_csv(const Horizon& horizon, const StoreMetadata& metadata) {
+  return csv_of(sky_line_columns(metadata), horizon.points);
+}
+
 Document targets_document(const Horizon& horizon) {
   Document targets = Document::array();
   for (const SightedTarget& t : horizon.targets) {
@@ -163,7 +174,7 @@ std::string json_of(const Horizon& horizon, const Request& request, const StoreM
                         {"y", observer.position.y},
                         {"elevation_m", horizon.eye_elevation_m}}},
                       {"refraction", earth_document(request.earth)},
-                      {"sky_line", sky_line_document(horizon, metadata)},
+                      {"sky_line", documents_of(sky_line_columns(metadata), horizon.points)},
                       {"targets", targets_document(horizon)}});
 }
 

@@ -82,13 +82,9 @@ profile::SheetCells shaded(const Relief& ground) {
   return cells;
 }
 
-MapBase base_without_contours(const Relief& ground) {
-  return {shaded(ground), {}, {}, "No terrain data"};
-}
-
 MapBase relief_base(const Store& store, const RasterGrid& pixels, Progress& progress) {
   const Relief ground = relief(store, pixels, progress);
-  MapBase base = base_without_contours(ground);
+  MapBase base = plain_base(ground);
   add_contours(smoothed(ground), base);
   return base;
 }
@@ -105,8 +101,8 @@ Rgba paler(const Rgba& c) {
 
 }  // namespace
 
-MapBase plain_base(const Store& store, const RasterGrid& pixels, Progress& progress) {
-  return base_without_contours(relief(store, pixels, progress));
+MapBase plain_base(const Relief& ground) {
+  return {shaded(ground), {}, {}, "No terrain data"};
 }
 
 MapBase map_base(const Store& store, const Box& frame, double scale, const std::string& basemap, Progress& progress) {

@@ -1,14 +1,11 @@
 #include <algorithm>
-#include <cmath>
-#include <limits>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include <itin/error.hpp>
-#include <itin/parallel.hpp>
-#include <itin/void_stripes.hpp>
+#include <itin/filling_grid.hpp>
 #include <viewshed/map_image.hpp>
-#include <viewshed/relief.hpp>
 #include <viewshed/result_sheet.hpp>
 #include <viewshed/surface.hpp>
 
@@ -19,9 +16,6 @@ namespace itin::viewshed {
 
 namespace {
 
-constexpr Rgba kMapPaper{255, 255, 255, 255}, kBeyondRead{244, 244, 244, 255};
-constexpr double kOutsideFade = 0.6;  ///< how far ground outside the field of view fades into the paper
-
 std::string length_text(double metres) {
   return metres >= 1000 ? fmt::format("{:.10g} km", metres / 1000) : fmt::format("{:.10g} m", metres);
 }
@@ -30,114 +24,6 @@ void require_possible(const MapOptions& options) {
   if (options.map_pixels < 200 || options.map_pixels > 16000)
     throw InputError(fmt::format("map of {} pixels: give 200 to 16000", options.map_pixels), "map_pixels");
 }
-
-RasterGrid pixel_grid(const RasterGrid& cells, int longest) {
-  const Box box = cells.bounds();
-  const double pixel = std::max(box.width(), box.height()) / longest;
-  const auto count = [&](double length) { return std::max<std::int64_t>(1, std::llround(length / pixel)); };
-  const std::int64_t columns = count(box.width()), rows = count(box.height());
-  return {{box.xmin, box.ymax},
-          box.width() / static_cast<double>(columns),
-          box.height() / static_cast<double>(rows),
-          columns,
-          rows};
-}
-
-/// Colours that are laid over each other.
-struct Blend {
-  double red = 0, green = 0, blue = 0;
-
-  void lay(const Rgba& c, double opacity) {
-    red += opacity * (c.red - red), green += opacity * (c.green - green), blue += opacity * (c.blue - blue);
-  }
-  Rgba colour() const {
-    const auto channel = [](double v) { return static_cast<std::uint8_t>(std::lround(v)); };
-    return {channel(red), channel(green), channel(blue), 255};
-  }
-};
-
-/// The mean of what a pixel's samples show.
-struct Shown {
-  double red = 0, green = 0, blue = 0;  ///< times the opacity
-  double opacity = 0;
-  double outside = 0;  ///< share outside the field of view
-
-  void add(const Rgba& c, double share) {
-    const double of = share * c.alpha / 255;
-    opacity += of, red += of * c.red, green += of * c.green, blue += of * c.blue;
-  }
-  Rgba colour() const {
-    const auto channel = [&](double sum) { return static_cast<std::uint8_t>(std::lround(sum / opacity)); };
-    return opacity > 0 ? Rgba{channel(red), channel(green), channel(blue), 255} : Rgba{};
-  }
-};
-
-/// The colours of a result over shaded ground, pixel by pixel.
-class PixelColours {
- public:
-  PixelColours(const Result& result, const MapOptions& options, const std::vector<Rgba>& cells, const RasterGrid& grid)
-      : result_(result),
-        options_(options),
-        cells_(cells),
-        grid_(grid),
-        apart_(profile::void_stripe_pixels(options.map_pixels)) {}
-
-  /// `heights` are those of the ground.
-  std::vector<Rgba> over(const std::vector<float>& heights) const {
-    const std::vector<float> shades = hillshade(heights, grid_);
-    std::vector<Rgba> colours(shades.size());
-    parallel_for(static_cast<std::size_t>(grid_.rows()), [&](std::size_t row) {
-      for (std::int64_t column = 0; column < grid_.columns(); ++column) {
-        const RasterGrid::Cell pixel{column, static_cast<std::int64_t>(row)};
-        colours[grid_.index(pixel)] = colour(pixel, shades[grid_.index(pixel)]);
-      }
-    });
-    return colours;
-  }
-
- private:
-  Rgba colour(const RasterGrid::Cell& pixel, float shade) const {
-    const auto cell = result_.grid.cell_at(grid_.centre(pixel.column, pixel.row));
-    if (cell && lacks_ground(result_.grid.index(*cell))) return opaque(void_colour(pixel.column, pixel.row, apart_));
-    if (std::isnan(shade)) return kBeyondRead;
-    const Shown shown = shown_at(pixel);
-    const double grey = std::clamp(214 + 150.0 * (shade - kLevelShade), 100.0, 250.0);
-    Blend blend{grey, grey, grey};
-    blend.lay(kMapPaper, kOutsideFade * shown.outside);
-    blend.lay(shown.colour(), shown.opacity);
-    return blend.colour();
-  }
-
-  static Rgba opaque(Rgba c) {
-    c.alpha = 255;
-    return c;
-  }
-  bool lacks_ground(std::size_t cell) const { return cell < options_.no_data.size() && options_.no_data[cell] == 1; }
-
-  Shown shown_at(const RasterGrid::Cell& pixel) const {
-    // There are as many samples as cells along a pixel's side, within reason, so that thin shadows are not lost.
-    const double cells = grid_.cell_width() / result_.grid.cell_width();
-    const int samples = static_cast<int>(std::clamp(std::ceil(cells), 1.0, 4.0));
-    const double share = 1.0 / (samples * samples);
-    const Point2 centre = grid_.centre(pixel.column, pixel.row);
-    Shown shown;
-    for (int i = 0; i < samples; ++i) {
-      for (int j = 0; j < samples; ++j) {
-        const auto cell = result_.grid.cell_at({centre.x + ((i + 0.5) / samples - 0.5) * grid_.cell_width(),
-                                                centre.y + ((j + 0.5) / samples - 0.5) * grid_.cell_height()});
-        const bool in_view = cell && result_.visible[result_.grid.index(*cell)] != Verdict::kOutside;
-        in_view ? shown.add(cells_[result_.grid.index(*cell)], share) : void(shown.outside += share);
-      }
-    }
-    return shown;
-  }
-
-  const Result& result_;
-  const MapOptions& options_;
-  const std::vector<Rgba>& cells_;
-  const RasterGrid& grid_;
-  int apart_;  ///< stripes where there is no ground
-};
 
 std::string subtitle_of(const Result& result) {
   const Request& r = result.request;
@@ -191,17 +77,15 @@ ResultSheet content_of(const Result& result, const MapOptions& options) {
 template <class HeightsOf>
 MapImage drawn_map(const HeightsOf& heights_of, const Result& result, const MapOptions& options) {
   require_possible(options);
-  const ResultSheet content = content_of(result, options);
-  const RasterGrid pixels = pixel_grid(result.grid, options.map_pixels);
-  const MapBase base{
-      {pixels, PixelColours(result, options, content.map.cells, pixels).over(heights_of(pixels))}, {}, {}, {}};
+  ResultSheet content = content_of(result, options);
+  const RasterGrid pixels = filling_grid(content.area, options.map_pixels);
+  const MapBase base = fitted(plain_base(hillshade(pixels, heights_of(pixels))), content,
+                              profile::void_stripe_pixels(options.map_pixels));
   profile::MapSheet sheet;
   sheet.area = content.area, sheet.crs_wkt = options.crs_wkt;
-  sheet.layers = {base.picture};
-  for (const MapObjects& objects : content.objects)
-    sheet.layers.insert(sheet.layers.end(), objects.layers.begin(), objects.layers.end());
   sheet.legend = keys_of(base, content, content.area);
   sheet.title = content.title;
+  sheet.layers = layers_of(base, std::move(content));
   const profile::MapPicture picture = profile::draw_map_picture(sheet, options.map_pixels);
   return {picture.width, picture.height, {picture.rgb.begin(), picture.rgb.end()}};
 }

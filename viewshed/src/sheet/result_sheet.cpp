@@ -142,13 +142,13 @@ std::pair<std::string, std::string> terrain_fact(const StoreMetadata& metadata, 
   return {"Terrain", posts + surface_text(metadata, detail)};
 }
 
-MapBase fitted(MapBase base, const ResultSheet& content) {
+MapBase fitted(MapBase base, const ResultSheet& content, int stripes) {
   base = faded(std::move(base), content.studied);
   const RasterGrid& pixels = base.picture.grid;
   for (std::int64_t row = 0; row < pixels.rows() && content.missing.there; ++row)
     for (std::int64_t column = 0; column < pixels.columns(); ++column)
       if (content.missing.there(pixels.centre(column, row)))
-        base.picture.colours[pixels.index({column, row})] = void_colour(column, row, profile::kVoidStripePixels);
+        base.picture.colours[pixels.index({column, row})] = void_colour(column, row, stripes);
   return base;
 }
 
@@ -159,8 +159,8 @@ MapBase base_of(const Store& store, const ResultSheet& content, profile::PaperSi
                 content);
 }
 
-std::vector<profile::SheetLayer> layers_of(const MapBase& base, const ResultSheet& content) {
-  std::vector<profile::SheetLayer> layers = layers_of(base, {content.grid, content.map.cells});
+std::vector<profile::SheetLayer> layers_of(const MapBase& base, ResultSheet content) {
+  std::vector<profile::SheetLayer> layers = layers_of(base, {content.grid, std::move(content.map.cells)});
   for (const MapObjects& objects : content.objects)
     layers.insert(layers.end(), objects.layers.begin(), objects.layers.end());
   return layers;

@@ -1,10 +1,9 @@
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 #include <fmt/format.h>
 
-#include <itin/csv_cell.hpp>
+#include <itin/table_columns.hpp>
 #include <viewshed/zone_files.hpp>
 #include <viewshed/zone_maps.hpp>
 
@@ -14,36 +13,57 @@ namespace itin::viewshed {
 
 namespace {
 
-/// Returns how many decimals of km2 tell one cell from two.
-int decimals(const Zone& zone) {
-  return static_cast<int>(std::clamp(1 + std::ceil(-std::log10(zone.grid.cell_area() / 1e6)), 2.0, 6.0));
+/// A class of a map, and how many cells the map has in all.
+struct AreaRow {
+  const ZoneMap& map;
+  std::string name;
+  ZoneMap::Class cells;
+  std::uint64_t all;
+};
+
+/// Returns the rows of a map: its classes, any tip or hub seen, and all.
+std::vector<AreaRow> rows_of_map(const ZoneMap& map) {
+  ZoneMap::Class any{"any", {}}, all{"all", {}};
+  for (const ZoneMap::Class& c : map.classes) {
+    all.cells += c.cells, all.open_cells += c.open_cells;
+    if (&c == &map.classes.front() || c.undecided) continue;
+    any.cells += c.cells, any.open_cells += c.open_cells;
+  }
+  std::vector<AreaRow> rows;
+  for (const ZoneMap::Class& c : map.classes)
+    rows.push_back({map,
+                    &c == &map.classes.front() ? kNoneSeen
+                    : c.undecided              ? kUndecidedSeen
+                                               : c.label,
+                    c, all.cells});
+  for (const ZoneMap::Class& c : {any, all}) rows.push_back({map, c.label, c, all.cells});
+  return rows;
 }
 
 }  // namespace
 
 std::string area_totals(const Zone& zone) {
   constexpr std::size_t kAnyCombination = 250;
-  std::string text = "surface,seen,class,area_km2,share_percent,undecided_km2\n";
-  for (const ZoneMap& map : zone_maps(zone, kAnyCombination)) {
-    ZoneMap::Class any{"any", {}}, all{"all", {}};
-    for (const ZoneMap::Class& c : map.classes) {
-      all.cells += c.cells, all.open_cells += c.open_cells;
-      if (&c == &map.classes.front() || c.undecided) continue;
-      any.cells += c.cells, any.open_cells += c.open_cells;
-    }
-    const auto add = [&](const std::string& name, const ZoneMap::Class& c) {
-      const auto km2 = [&](std::uint64_t cells) { return static_cast<double>(cells) * zone.grid.cell_area() / 1e6; };
-      fmt::format_to(std::back_inserter(text), "{},{},{},{:.{}f},{:.2f},{:.{}f}\n", map.screened ? "screened" : "bare",
-                     map.seen, csv_cell(name), km2(c.cells), decimals(zone),
-                     100.0 * static_cast<double>(c.cells) / static_cast<double>(std::max<std::uint64_t>(1, all.cells)),
-                     km2(c.open_cells), decimals(zone));
-    };
-    for (const ZoneMap::Class& c : map.classes)
-      add(&c == &map.classes.front() ? kNoneSeen : c.undecided ? kUndecidedSeen : c.label, c);
-    add(any.label, any);
-    add(all.label, all);
-  }
-  return text;
+  const double cell = zone.grid.cell_area();
+  // The decimals suffice to tell the km2 of one cell from those of two.
+  const std::string number =
+      fmt::format("{{:.{}f}}", static_cast<int>(std::clamp(1 + std::ceil(-std::log10(cell / 1e6)), 2.0, 6.0)));
+  const auto km2 = [cell](std::uint64_t cells) { return static_cast<double>(cells) * cell / 1e6; };
+  const auto percent = [](const AreaRow& row) {
+    return 100.0 * static_cast<double>(row.cells.cells) / static_cast<double>(std::max<std::uint64_t>(1, row.all));
+  };
+  const std::vector<TableColumn<AreaRow>> columns{
+      {"surface", [](const AreaRow& row) { return row.map.screened ? "screened" : "bare"; }},
+      {"seen", [](const AreaRow& row) { return row.map.seen; }},
+      {"class", [](const AreaRow& row) { return row.name; }},
+      {"area_km2", [&](const AreaRow& row) { return km2(row.cells.cells); }, kInCsv, number.c_str()},
+      {"share_percent", percent, kInCsv, "{:.2f}"},
+      {"undecided_km2", [&](const AreaRow& row) { return km2(row.cells.open_cells); }, kInCsv, number.c_str()}};
+  const std::vector<ZoneMap> maps = zone_maps(zone, kAnyCombination);
+  std::vector<AreaRow> rows;
+  for (const ZoneMap& map : maps)
+    for (const AreaRow& row : rows_of_map(map)) rows.push_back(row);
+  return csv_of(columns, rows);
 }
 
 }  // namespace itin::viewshed

@@ -4,10 +4,8 @@
 #include <set>
 #include <utility>
 
-#include <fmt/format.h>
-
-#include <itin/csv_cell.hpp>
 #include <itin/parallel.hpp>
+#include <itin/table_columns.hpp>
 #include <viewshed/zone_files.hpp>
 
 namespace itin::viewshed {
@@ -151,20 +149,19 @@ std::string combination_table(const Zone& zone) {
                          screened_open = zone.screened ? cells_by_combination(where_open(screened, *zone.screened))
                                                        : CombinationCells{};
   const auto present = commonest_first(combinations_present(zone, {&bare, &screened}), bare_cells);
-  std::string text = "value,farms_seen,bare_km2";
-  text += zone.screened ? ",screened_km2,bare_undecided_km2,screened_undecided_km2\n" : ",bare_undecided_km2\n";
-  for (const Combination& c : present) {
-    text += fmt::format("{},{}", c.farms, csv_cell(c.name));
-    const auto add = [&](const CombinationCells& cells) {
-      text += fmt::format(",{:.6f}", static_cast<double>(cells_of(cells, c)) * zone.grid.cell_area() / 1e6);
+  std::vector<TableColumn<Combination>> columns{{"value", [](const Combination& c) { return c.farms; }},
+                                                {"farms_seen", [](const Combination& c) { return c.name; }}};
+  const auto add = [&](const char* name, const CombinationCells& cells) {
+    const auto km2 = [&zone, &cells](const Combination& c) {
+      return static_cast<double>(cells_of(cells, c)) * zone.grid.cell_area() / 1e6;
     };
-    add(bare_cells);
-    if (zone.screened) add(screened_cells);
-    add(bare_open);
-    if (zone.screened) add(screened_open);
-    text += "\n";
-  }
-  return text;
+    columns.emplace_back(name, km2, kInCsv, "{:.6f}");
+  };
+  add("bare_km2", bare_cells);
+  if (zone.screened) add("screened_km2", screened_cells);
+  add("bare_undecided_km2", bare_open);
+  if (zone.screened) add("screened_undecided_km2", screened_open);
+  return csv_of(columns, present);
 }
 
 }  // namespace itin::viewshed

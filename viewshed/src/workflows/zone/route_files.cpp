@@ -6,10 +6,10 @@
 #include <fmt/ranges.h>
 
 #include <itin/counted.hpp>
-#include <itin/csv_cell.hpp>
 #include <itin/file_name.hpp>
 #include <itin/grid_reference.hpp>
 #include <itin/output_file.hpp>
+#include <itin/table_columns.hpp>
 #include <profile/route_chart.hpp>
 
 namespace itin::viewshed {
@@ -53,42 +53,83 @@ RouteTotals totals_of(const StudiedRoute& route, Found found) {
   return totals;
 }
 
-std::string count_cell(const std::optional<SightSummary>& found, bool hubs) {
-  if (!found) return "";
-  return hubs ? (found->hubs ? fmt::format("{}", *found->hubs) : "") : fmt::format("{}", found->tips);
+/// Returns a cell of what is seen from a place; empty where there is no ground.
+template <class Of>
+auto of_found(Found found, Of of) {
+  return
+      [found, of](const RoutePlace& place) { return place.*found ? std::optional(of(*(place.*found))) : std::nullopt; };
 }
 
-std::string place_row(const RoutePlace& p, const Zone& zone, bool national) {
-  const bool screened = zone.screened.has_value();
-  const auto reference = national ? national_grid_reference(p.position) : std::nullopt;
-  std::string row =
-      fmt::format("{:.0f},{:.1f},{:.1f},{},", p.distance, p.position.x, p.position.y, reference.value_or(""));
-  if (!p.bare) return row + (screened ? ",,,,,,,,\n" : ",,,,,\n");
-  row += fmt::format("{:.1f},{},{},{},{:.0f}", p.ground, count_cell(p.bare, true), count_cell(p.bare, false),
-                     zone.request.turbines[p.bare->nearest].number, p.bare->nearest_m);
-  if (screened) row += fmt::format(",{},{}", count_cell(p.screened, true), count_cell(p.screened, false));
-  row += fmt::format(",{}", p.bare->tips_undecided);
-  return row + (screened ? fmt::format(",{}\n", p.screened->tips_undecided) : "\n");
-}
-
-std::string route_table(const StudiedRoute& route, const Zone& zone, bool national) {
-  std::string table =
-      fmt::format("distance_m,x,y,grid_reference,ground_m,hubs_visible,tips_visible,nearest_turbine,nearest_m{}\n",
-                  zone.screened ? ",hubs_visible_screened,tips_visible_screened,tips_undecided,tips_undecided_screened"
-                                : ",tips_undecided");
-  for (const RoutePlace& place : route.places) table += place_row(place, zone, national);
-  return table;
-}
-
-std::string route_row(const StudiedRoute& route, const char* surface, Found found, bool hubs) {
-  const RouteTotals t = totals_of(route, found);
-  const auto percent = [&](double metres) {
-    return fmt::format("{:.1f}", 100 * metres / std::max(1e-9, route.length));
+std::vector<TableColumn<RoutePlace>> place_columns(const Zone& zone, bool national) {
+  std::vector<TableColumn<RoutePlace>> columns;
+  const auto add = [&](const char* name, auto of, const char* number = "{}") {
+    columns.emplace_back(name, of, kInCsv, number);
   };
-  return fmt::format("{},{},{},{:.2f},{:.2f},{},{},{},{},{},{:.2f},{:.2f}\n", route.number, csv_cell(route.title()),
-                     surface, route.length / 1000, t.tips_m / 1000, percent(t.tips_m),
-                     hubs ? fmt::format("{:.2f}", t.hubs_m / 1000) : "", hubs ? percent(t.hubs_m) : "", t.most_tips,
-                     t.stretches, t.unknown_m / 1000, t.undecided_m / 1000);
+  const auto hubs = [](const SightSummary& seen) { return seen.hubs; };
+  const auto tips = [](const SightSummary& seen) { return seen.tips; };
+  const auto undecided = [](const SightSummary& seen) { return seen.tips_undecided; };
+  add(
+      "distance_m", [](const RoutePlace& p) { return p.distance; }, "{:.0f}");
+  add(
+      "x", [](const RoutePlace& p) { return p.position.x; }, "{:.1f}");
+  add(
+      "y", [](const RoutePlace& p) { return p.position.y; }, "{:.1f}");
+  add("grid_reference",
+      [national](const RoutePlace& p) { return national ? national_grid_reference(p.position) : std::nullopt; });
+  add(
+      "ground_m", [](const RoutePlace& p) { return p.bare ? std::optional(p.ground) : std::nullopt; }, "{:.1f}");
+  add("hubs_visible", of_found(&RoutePlace::bare, hubs));
+  add("tips_visible", of_found(&RoutePlace::bare, tips));
+  add("nearest_turbine", of_found(&RoutePlace::bare, [&zone](const SightSummary& seen) {
+        return zone.request.turbines[seen.nearest].number;
+      }));
+  add("nearest_m", of_found(&RoutePlace::bare, [](const SightSummary& seen) { return seen.nearest_m; }), "{:.0f}");
+  if (zone.screened) {
+    add("hubs_visible_screened", of_found(&RoutePlace::screened, hubs));
+    add("tips_visible_screened", of_found(&RoutePlace::screened, tips));
+  }
+  add("tips_undecided", of_found(&RoutePlace::bare, undecided));
+  if (zone.screened) add("tips_undecided_screened", of_found(&RoutePlace::screened, undecided));
+  return columns;
+}
+
+/// A route over one surface.
+struct RouteRow {
+  std::size_t number;
+  std::string title;
+  const char* surface;
+  double length;
+  RouteTotals totals;
+  bool hubs;  ///< whether hubs are known
+};
+
+std::vector<TableColumn<RouteRow>> route_columns() {
+  std::vector<TableColumn<RouteRow>> columns;
+  const auto add = [&](const char* name, auto of, const char* number = "{}") {
+    columns.emplace_back(name, of, kInCsv, number);
+  };
+  const auto percent = [](const RouteRow& r, double metres) { return 100 * metres / std::max(1e-9, r.length); };
+  const auto of_hubs = [](auto of) {
+    return [of](const RouteRow& r) { return r.hubs ? std::optional(of(r)) : std::nullopt; };
+  };
+  add("route", [](const RouteRow& r) { return r.number; });
+  add("name", [](const RouteRow& r) { return r.title; });
+  add("surface", [](const RouteRow& r) { return r.surface; });
+  add(
+      "length_km", [](const RouteRow& r) { return r.length / 1000; }, "{:.2f}");
+  add(
+      "tips_visible_km", [](const RouteRow& r) { return r.totals.tips_m / 1000; }, "{:.2f}");
+  add(
+      "tips_visible_percent", [percent](const RouteRow& r) { return percent(r, r.totals.tips_m); }, "{:.1f}");
+  add("hubs_visible_km", of_hubs([](const RouteRow& r) { return r.totals.hubs_m / 1000; }), "{:.2f}");
+  add("hubs_visible_percent", of_hubs([percent](const RouteRow& r) { return percent(r, r.totals.hubs_m); }), "{:.1f}");
+  add("most_tips_visible", [](const RouteRow& r) { return r.totals.most_tips; });
+  add("stretches_with_tips", [](const RouteRow& r) { return r.totals.stretches; });
+  add(
+      "no_data_km", [](const RouteRow& r) { return r.totals.unknown_m / 1000; }, "{:.2f}");
+  add(
+      "tips_undecided_km", [](const RouteRow& r) { return r.totals.undecided_m / 1000; }, "{:.2f}");
+  return columns;
 }
 
 /// Writes the files of routes.
@@ -102,7 +143,7 @@ class RouteWriter {
                                    : fmt::format("route-{}-{}", route.number, name));
     what_ = name.empty() ? route.title() : fmt::format("route {}, {}", route.number, name);
     add(stem_ + ".csv", what_ + ": hubs and tips visible place by place",
-        route_table(route, study_.zone, is_national_grid(study_.metadata.crs_wkt)));
+        csv_of(place_columns(study_.zone, is_national_grid(study_.metadata.crs_wkt)), route.places));
     add_surface(route, &RoutePlace::bare, "", "Bare ground");
     if (study_.zone.screened)
       add_surface(
@@ -111,7 +152,8 @@ class RouteWriter {
   }
 
   std::vector<ZoneFile> finish() && {
-    add("routes.csv", "a row for each route: kilometres from where tips and hubs are visible", summary_);
+    add("routes.csv", "a row for each route: kilometres from where tips and hubs are visible",
+        csv_of(route_columns(), rows_));
     return std::move(files_);
   }
 
@@ -135,14 +177,13 @@ class RouteWriter {
           profile::draw_route_chart(chart, stem_ + suffix + ending));
     const bool hubs = std::any_of(route.places.begin(), route.places.end(),
                                   [&](const RoutePlace& p) { return p.*found && (p.*found)->hubs; });
-    summary_ += route_row(route, suffix.empty() ? "bare" : "screened", found, hubs);
+    rows_.push_back({route.number, route.title(), suffix.empty() ? "bare" : "screened", route.length,
+                     totals_of(route, found), hubs});
   }
 
   std::string folder_, stem_, what_;
   const ZoneStudy& study_;
-  std::string summary_ =
-      "route,name,surface,length_km,tips_visible_km,tips_visible_percent,hubs_visible_km,hubs_visible_percent,"
-      "most_tips_visible,stretches_with_tips,no_data_km,tips_undecided_km\n";
+  std::vector<RouteRow> rows_;
   std::vector<ZoneFile> files_;
 };
 

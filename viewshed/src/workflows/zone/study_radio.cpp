@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include <itin/counted.hpp>
-#include <itin/csv_cell.hpp>
 #include <itin/earth.hpp>
 #include <itin/error.hpp>
 #include <viewshed/link_exclusion.hpp>
@@ -118,25 +117,24 @@ std::vector<ZoneFile> write_radio_rasters(const std::string& folder, const ZoneS
   return files;
 }
 
-std::string radio_columns(const ZoneStudy& study) {
-  std::string names;
-  if (study.zone.radar) names += ",radar_visible_m";
-  if (has_links(study)) names += ",link,link_clearance_m,link_excluded";
-  if (study.zone.radar) names += ",radar_sees";
-  return names;
-}
-
-std::string radio_cells(const ZoneStudy& study, std::size_t k) {
-  const std::optional<RadarView>& radar = study.zone.radar;
-  std::string text;
-  const bool undecided = radar && radar_leaves_open(*radar, k);
-  if (radar) text += undecided ? "," : fmt::format(",{:.2f}", radar->turbine_m[k]);
+void add_radio_columns(const ZoneStudy& study, std::vector<TableColumn<TurbineRow>>& columns) {
+  const auto add = [&](const char* name, auto of) { columns.emplace_back(name, of_turbine(of), kInCsv, "{:.2f}"); };
+  if (study.zone.radar)
+    add("radar_visible_m", [&radar = *study.zone.radar](const TurbineRow& row) {
+      return radar_leaves_open(radar, row.index) ? std::nullopt : std::optional(radar.turbine_m[row.index]);
+    });
   if (has_links(study)) {
-    const auto& [link, clearance] = study.link_clearances[k];
-    text += fmt::format(",{},{:.2f},{}", csv_cell(link), clearance, clearance < 0 ? "yes" : "no");
+    const auto nearest = [&study](const TurbineRow& row) -> const LinkClearance& {
+      return study.link_clearances[row.index];
+    };
+    add("link", [nearest](const TurbineRow& row) { return nearest(row).link; });
+    add("link_clearance_m", [nearest](const TurbineRow& row) { return nearest(row).clearance_m; });
+    add("link_excluded", [nearest](const TurbineRow& row) { return nearest(row).clearance_m < 0; });
   }
-  if (radar) text += undecided ? ",undecided" : radar->turbine_m[k] > 0 ? ",yes" : ",no";
-  return text;
+  if (study.zone.radar)
+    add("radar_sees", [&radar = *study.zone.radar](const TurbineRow& row) {
+      return radar_leaves_open(radar, row.index) ? "undecided" : radar.turbine_m[row.index] > 0 ? "yes" : "no";
+    });
 }
 
 Document radio_document(const ZoneStudy& study) {

@@ -9,6 +9,8 @@
 #include <viewshed/zone_files.hpp>
 #include <viewshed/zone_study.hpp>
 
+#include "workflows/zone/turbine_rows.hpp"
+
 namespace itin::viewshed {
 
 /// Throws InputError where none of the links can be used, or they have no frequency.
@@ -21,9 +23,8 @@ std::vector<LinkClearance> link_clearances(const ZoneStudyRequest& request, cons
 std::vector<ZoneFile> write_radio_rasters(const std::string& folder, const ZoneStudy& study,
                                           const ZoneFileOptions& options);
 
-/// Return columns for the table of turbines: names with commas before them, and the values of turbine k of the zone.
-std::string radio_columns(const ZoneStudy& study);
-std::string radio_cells(const ZoneStudy& study, std::size_t k);
+/// Adds to the columns of the table of turbines. The study must outlive them.
+void add_radio_columns(const ZoneStudy& study, std::vector<TableColumn<TurbineRow>>& columns);
 
 /// Returns how many turbines are concerned; empty where there are neither links nor a radar.
 Document radio_document(const ZoneStudy& study);

@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
-#include <itin/csv_cell.hpp>
 #include <itin/grid_reference.hpp>
+#include <itin/table_columns.hpp>
 
 #include "workflows/zone/sight_summary.hpp"
 
@@ -13,102 +13,183 @@ namespace itin::viewshed {
 
 namespace {
 
-const char* yes_or_no(bool value) {
-  return value ? "yes" : "no";
+/// A viewpoint and a turbine.
+struct SightRow {
+  const Viewpoint& viewpoint;
+  const Turbine& turbine;
+  const TurbineSight& bare;
+  const TurbineSight* screened;  ///< null where nothing screens
+};
+
+using SightColumns = std::vector<TableColumn<SightRow>>;
+
+const char* word_of(TurbineSight::Verdict verdict) {
+  constexpr const char* kWords[] = {"no", "yes", "undecided"};
+  return kWords[verdict == TurbineSight::Verdict::kUndecided ? 2 : verdict == TurbineSight::Verdict::kVisible];
 }
 
-const char* verdict_cell(TurbineSight::Verdict verdict) {
-  return verdict == TurbineSight::Verdict::kUndecided ? "undecided"
-                                                      : yes_or_no(verdict == TurbineSight::Verdict::kVisible);
+/// Adds columns for hub and tip, and for how much is seen. `ending` goes before the unit. Unknown values have no
+/// number.
+template <class SightOf>
+void add_seen(SightColumns& columns, const std::string& ending, const SightOf& sight_of) {
+  const auto add = [&](const std::string& name, auto of, const char* number = "{}") {
+    columns.emplace_back(
+        name,
+        [sight_of, of](const SightRow& row) {
+          const TurbineSight* sight = sight_of(row);
+          return sight != nullptr ? std::optional(of(*sight)) : std::nullopt;
+        },
+        kInCsv, number);
+  };
+  const auto if_known = [](double TurbineSight::*part) {
+    return [part](const TurbineSight& s) {
+      return s.tip == TurbineSight::Verdict::kUndecided ? std::nullopt : std::optional(s.*part);
+    };
+  };
+  add("hub_visible" + ending, [](const TurbineSight& s) { return s.hub ? word_of(*s.hub) : ""; });
+  add("tip_visible" + ending, [](const TurbineSight& s) { return word_of(s.tip); });
+  add("visible_height" + ending + "_m", if_known(&TurbineSight::visible), "{:.2f}");
+  add("vertical_angle" + ending + "_deg", if_known(&TurbineSight::vertical_deg), "{:.4f}");
 }
 
-/// Returns the cells for hub and tip, and for how much is seen; unknown values have no number.
-std::string seen_cells(const TurbineSight& s) {
-  const std::string verdicts = fmt::format("{},{}", s.hub ? verdict_cell(*s.hub) : "", verdict_cell(s.tip));
-  return s.tip == TurbineSight::Verdict::kUndecided
-             ? verdicts + ",,"
-             : fmt::format("{},{:.2f},{:.4f}", verdicts, s.visible, s.vertical_deg);
+SightColumns sight_columns(bool screened) {
+  SightColumns columns{{"viewpoint", [](const SightRow& row) { return row.viewpoint.number; }},
+                       {"viewpoint_name", [](const SightRow& row) { return row.viewpoint.name; }},
+                       {"x", [](const SightRow& row) { return row.viewpoint.position.x; }, kInCsv, "{:.1f}"},
+                       {"y", [](const SightRow& row) { return row.viewpoint.position.y; }, kInCsv, "{:.1f}"},
+                       {"ground_m", [](const SightRow& row) { return row.viewpoint.ground; }, kInCsv, "{:.2f}"},
+                       {"turbine", [](const SightRow& row) { return row.turbine.number; }},
+                       {"turbine_name", [](const SightRow& row) { return row.turbine.name; }},
+                       {"farm", [](const SightRow& row) { return row.turbine.farm; }},
+                       {"distance_m", [](const SightRow& row) { return row.bare.distance; }, kInCsv, "{:.1f}"},
+                       {"azimuth_grid_deg", [](const SightRow& row) { return row.bare.azimuth; }, kInCsv, "{:.2f}"}};
+  add_seen(columns, "", [](const SightRow& row) { return &row.bare; });
+  columns.emplace_back(
+      "tip_elevation_deg", [](const SightRow& row) { return row.bare.tip_deg; }, kInCsv, "{:.4f}");
+  columns.emplace_back("within_radius", [](const SightRow& row) { return row.bare.distance <= row.turbine.radius; });
+  columns.emplace_back("note", [](const SightRow& row) { return row.bare.gaps ? "crosses ground without data" : ""; });
+  if (screened) add_seen(columns, "_screened", [](const SightRow& row) { return row.screened; });
+  return columns;
 }
 
-std::string viewpoint_row(const Viewpoint& v, const Turbine& t, const TurbineSight& s, const TurbineSight* screened) {
-  std::string row = fmt::format("{},{},{:.1f},{:.1f},{:.2f},{},{},{},{:.1f},{:.2f},{},{:.4f},{},{}", v.number,
-                                csv_cell(v.name), v.position.x, v.position.y, v.ground, t.number, csv_cell(t.name),
-                                csv_cell(t.farm), s.distance, s.azimuth, seen_cells(s), s.tip_deg,
-                                yes_or_no(s.distance <= t.radius), s.gaps ? "crosses ground without data" : "");
-  if (screened != nullptr) row += "," + seen_cells(*screened);
-  return row + "\n";
+/// All that is seen from a viewpoint.
+struct ViewRow {
+  ViewRow(const StudiedViewpoint& v, const Zone& zone)
+      : viewpoint(v.viewpoint), studied(v), bare(seen_of(zone, v.bare, all_turbines(zone))) {
+    if (!v.screened.empty()) screened = seen_of(zone, v.screened, all_turbines(zone));
+  }
+  const TurbineSight& nearest() const { return studied.bare[bare.nearest]; }
+
+  const Viewpoint& viewpoint;
+  const StudiedViewpoint& studied;
+  SightSummary bare;
+  std::optional<SightSummary> screened;  ///< nothing where nothing screens
+};
+
+using ViewColumns = std::vector<TableColumn<ViewRow>>;
+
+/// The sights over one of the two surfaces, and their summary.
+struct SeenOver {
+  const SightSummary& seen;
+  const std::vector<TurbineSight>& sights;
+};
+std::optional<SeenOver> seen_over(const ViewRow& row, bool screened) {
+  if (!screened) return SeenOver{row.bare, row.studied.bare};
+  if (!row.screened) return std::nullopt;
+  return SeenOver{*row.screened, row.studied.screened};
 }
 
-constexpr const char* kViewpointHeader =
-    "viewpoint,viewpoint_name,x,y,ground_m,turbine,turbine_name,farm,distance_m,azimuth_grid_deg,hub_visible,"
-    "tip_visible,visible_height_m,vertical_angle_deg,tip_elevation_deg,within_radius,note";
-constexpr const char* kScreenedHeader =
-    ",hub_visible_screened,tip_visible_screened,visible_height_screened_m,vertical_angle_screened_deg";
-
-constexpr const char* kSummaryHeader =
-    "viewpoint,viewpoint_name,x,y,grid_reference,ground_m,eye_m,turbines,nearest_turbine,nearest_m,"
-    "nearest_azimuth_grid_deg";
-constexpr const char* kSummarySeen =
-    ",hubs_visible{0},tips_visible{0},nearest_visible_turbine{0},nearest_visible{0}_m,horizontal_from{0}_deg,"
-    "horizontal_extent{0}_deg,vertical_angle{0}_deg";
-
-std::string summary_header(bool screened) {
-  std::string header = kSummaryHeader + fmt::format(kSummarySeen, "");
-  if (screened) header += fmt::format(kSummarySeen, "_screened");
-  header += std::string(",tips_beyond_radius,note") + (screened ? ",before_the_eye" : "");
-  header += ",hubs_undecided,tips_undecided";
-  return header + (screened ? ",hubs_undecided_screened,tips_undecided_screened\n" : "\n");
+/// Returns the cells of a column about one of the two surfaces.
+template <class Of>
+auto of_surface(bool screened, Of of) {
+  return [screened, of](const ViewRow& row) {
+    const std::optional<SeenOver> over = seen_over(row, screened);
+    return over ? std::optional(of(*over)) : std::nullopt;
+  };
 }
 
-std::string number_cell(std::optional<std::size_t> number) {
-  return number ? fmt::format("{}", *number) : "";
+/// Adds how much is seen over one of the two surfaces. `ending` goes before the unit.
+void add_summary(ViewColumns& columns, const Zone& zone, bool screened) {
+  const std::string ending = screened ? "_screened" : "";
+  const auto add = [&](const std::string& name, auto of, const char* number = "{}") {
+    columns.emplace_back(name, of_surface(screened, of), kInCsv, number);
+  };
+  const auto if_seen = [](auto of) {
+    return [of](const SeenOver& over) { return over.seen.nearest_seen ? std::optional(of(over)) : std::nullopt; };
+  };
+  add("hubs_visible" + ending, [](const SeenOver& over) { return over.seen.hubs; });
+  add("tips_visible" + ending, [](const SeenOver& over) { return over.seen.tips; });
+  add("nearest_visible_turbine" + ending,
+      if_seen([&zone](const SeenOver& over) { return zone.request.turbines[*over.seen.nearest_seen].number; }));
+  add("nearest_visible" + ending + "_m",
+      if_seen([](const SeenOver& over) { return over.sights[*over.seen.nearest_seen].distance; }), "{:.0f}");
+  add("horizontal_from" + ending + "_deg", if_seen([](const SeenOver& over) { return over.seen.arc->from; }), "{:.1f}");
+  add("horizontal_extent" + ending + "_deg", if_seen([](const SeenOver& over) { return over.seen.arc->width; }),
+      "{:.1f}");
+  add("vertical_angle" + ending + "_deg", [](const SeenOver& over) {
+    return over.seen.nearest_seen ? fmt::format("{:.3f}", over.seen.vertical_deg) : "0";
+  });
 }
 
-std::string undecided_cells(const SightSummary& seen) {
-  return fmt::format(",{},{}", number_cell(seen.hubs_undecided), seen.tips_undecided);
+void add_undecided(ViewColumns& columns, bool screened) {
+  const std::string ending = screened ? "_screened" : "";
+  columns.emplace_back("hubs_undecided" + ending,
+                       of_surface(screened, [](const SeenOver& over) { return over.seen.hubs_undecided; }));
+  columns.emplace_back("tips_undecided" + ending,
+                       of_surface(screened, [](const SeenOver& over) { return over.seen.tips_undecided; }));
 }
 
-std::string summary_cells(const Zone& zone, const std::vector<TurbineSight>& sights, const SightSummary& seen) {
-  std::string cells = fmt::format(",{},{}", number_cell(seen.hubs), seen.tips);
-  if (!seen.nearest_seen) return cells + ",,,,,0";
-  return cells + fmt::format(",{},{:.0f},{:.1f},{:.1f},{:.3f}", zone.request.turbines[*seen.nearest_seen].number,
-                             sights[*seen.nearest_seen].distance, seen.arc->from, seen.arc->width, seen.vertical_deg);
-}
-
-std::string summary_row(const StudiedViewpoint& studied, const Zone& zone, bool national) {
-  const auto& [v, sights, screened, remark] = studied;
-  const SightSummary seen = seen_of(zone, sights, all_turbines(zone));
-  const TurbineSight& nearest = sights[seen.nearest];
-  const auto reference = national ? national_grid_reference(v.position) : std::nullopt;
-  std::string row =
-      fmt::format("{},{},{:.1f},{:.1f},{},{:.1f},{:.1f},{},{},{:.0f},{:.1f}", v.number, csv_cell(v.name), v.position.x,
-                  v.position.y, reference.value_or(""), v.ground, v.ground + v.height, seen.turbines,
-                  zone.request.turbines[seen.nearest].number, nearest.distance, nearest.azimuth);
-  row += summary_cells(zone, sights, seen);
-  std::optional<SightSummary> behind;
-  if (!screened.empty()) behind = seen_of(zone, screened, all_turbines(zone));
-  if (behind) row += summary_cells(zone, screened, *behind);
-  row += fmt::format(",{},{}", seen.tips_beyond, seen.gaps ? "some lines cross ground without data" : "");
-  if (behind) row += "," + csv_cell(remark);
-  return row + undecided_cells(seen) + (behind ? undecided_cells(*behind) : "") + "\n";
+ViewColumns view_columns(const ZoneStudy& study) {
+  const Zone& zone = study.zone;
+  const bool national = is_national_grid(study.metadata.crs_wkt), screened = zone.screened.has_value();
+  ViewColumns columns;
+  const auto add = [&](const char* name, auto of, const char* number = "{}") {
+    columns.emplace_back(name, of, kInCsv, number);
+  };
+  add("viewpoint", [](const ViewRow& row) { return row.viewpoint.number; });
+  add("viewpoint_name", [](const ViewRow& row) { return row.viewpoint.name; });
+  add(
+      "x", [](const ViewRow& row) { return row.viewpoint.position.x; }, "{:.1f}");
+  add(
+      "y", [](const ViewRow& row) { return row.viewpoint.position.y; }, "{:.1f}");
+  add("grid_reference", [national](const ViewRow& row) {
+    return national ? national_grid_reference(row.viewpoint.position) : std::nullopt;
+  });
+  add(
+      "ground_m", [](const ViewRow& row) { return row.viewpoint.ground; }, "{:.1f}");
+  add(
+      "eye_m", [](const ViewRow& row) { return row.viewpoint.ground + row.viewpoint.height; }, "{:.1f}");
+  add("turbines", [](const ViewRow& row) { return row.bare.turbines; });
+  add("nearest_turbine", [&zone](const ViewRow& row) { return zone.request.turbines[row.bare.nearest].number; });
+  add(
+      "nearest_m", [](const ViewRow& row) { return row.nearest().distance; }, "{:.0f}");
+  add(
+      "nearest_azimuth_grid_deg", [](const ViewRow& row) { return row.nearest().azimuth; }, "{:.1f}");
+  add_summary(columns, zone, false);
+  if (screened) add_summary(columns, zone, true);
+  add("tips_beyond_radius", [](const ViewRow& row) { return row.bare.tips_beyond; });
+  add("note", [](const ViewRow& row) { return row.bare.gaps ? "some lines cross ground without data" : ""; });
+  if (screened) add("before_the_eye", [](const ViewRow& row) { return row.studied.before_the_eye; });
+  add_undecided(columns, false);
+  if (screened) add_undecided(columns, true);
+  return columns;
 }
 
 }  // namespace
 
 std::string viewpoint_table(const ZoneStudy& study) {
-  std::string table = fmt::format("{}{}\n", kViewpointHeader, study.zone.screened ? kScreenedHeader : "");
+  std::vector<SightRow> rows;
   for (const StudiedViewpoint& v : study.viewpoints)
     for (std::size_t k = 0; k < v.bare.size(); ++k)
-      table += viewpoint_row(v.viewpoint, study.zone.request.turbines[k], v.bare[k],
-                             v.screened.empty() ? nullptr : &v.screened[k]);
-  return table;
+      rows.push_back(
+          {v.viewpoint, study.zone.request.turbines[k], v.bare[k], v.screened.empty() ? nullptr : &v.screened[k]});
+  return csv_of(sight_columns(study.zone.screened.has_value()), rows);
 }
 
 std::string viewpoint_summary(const ZoneStudy& study) {
-  const bool national = is_national_grid(study.metadata.crs_wkt);
-  std::string summary = summary_header(study.zone.screened.has_value());
-  for (const StudiedViewpoint& v : study.viewpoints) summary += summary_row(v, study.zone, national);
-  return summary;
+  std::vector<ViewRow> rows;
+  for (const StudiedViewpoint& v : study.viewpoints) rows.emplace_back(v, study.zone);
+  return csv_of(view_columns(study), rows);
 }
 
 }  // namespace itin::viewshed

@@ -21,19 +21,7 @@ Document premises_document(const PremisesSurvey& survey) {
                     {"surface", surface_document(survey.metadata, Detail::tolerance(0), survey.request.themes)},
                     {"refraction", earth_document(survey.request.earth)}};
   document["premises"] = counts_document(survey.counts());
-  const std::vector<MastService> services = services_of(survey);
-  document["masts"] = Document::array();
-  for (std::size_t i = 0; i < services.size(); ++i) {
-    const SitePosition& mast = survey.masts[i];
-    document["masts"].push_back({{"name", mast.name},
-                                 {"x", mast.position.x},
-                                 {"y", mast.position.y},
-                                 {"height_m", mast.height},
-                                 {"stands_on_m", mast.ground},
-                                 {"within_reach", services[i].within_reach},
-                                 {"serves", services[i].serves},
-                                 {"serves_best", services[i].best}});
-  }
+  document["masts"] = masts_document(survey);
   document["statistics"] = statistics_document(survey.statistics);
   return document;
 }

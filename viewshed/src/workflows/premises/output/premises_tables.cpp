@@ -1,11 +1,8 @@
 #include "workflows/premises/output/premises_tables.hpp"
 
 #include <cmath>
-#include <iterator>
 
-#include <fmt/format.h>
-
-#include <itin/csv_cell.hpp>
+#include <itin/table_columns.hpp>
 
 #include "workflows/premises/output/vector_styles.hpp"
 #include "workflows/premises/output/wall_service.hpp"
@@ -14,68 +11,101 @@ namespace itin::viewshed {
 
 namespace {
 
-using Type = VectorLayer::Type;
+constexpr const char *kMillimetres = "{:.3f}", *kAsGiven = "{:.10g}";
 
-const std::string& theme_name(const PremisesSurvey& survey, const Premises& p) {
-  return survey.metadata.themes[p.theme - std::size_t{1}].name;
-}
-
-/// x, y, what the antenna is on, its height, elevations and the distance; seven empty cells for nothing.
-std::string mounting_cells(const Mounting* m) {
-  if (m == nullptr) return ",,,,,,";
-  return fmt::format("{},{:.3f},{:.3f},{:.10g},{:.3f},{:.3f},{:.3f}", word_of(m->on), m->position.x, m->position.y,
-                     m->height_m, m->base_m, m->elevation_m(), m->distance_m);
-}
-constexpr const char* kMountingColumns = "on,x,y,height_m,base_m,elevation_m,distance_m";
-
-std::string blocker_cells(const PremisesSurvey& survey, const LinkBlocker* b) {
-  if (b == nullptr) return ",,,,";
-  return fmt::format("{},{},{:.3f},{:.3f},{}", csv_cell(theme_of(b->theme, survey.metadata)), csv_cell(b->name),
-                     b->position.x, b->position.y, b->own ? "yes" : "no");
-}
-constexpr const char* kBlockerColumns = "blocked_by,blocking_feature,blocked_x,blocked_y,blocked_by_itself";
-
-std::string roof_cells(const PremisesSurvey& survey, const RoofPlace& place) {
-  const std::string at = fmt::format("{:.3f},{:.3f},{:.3f}", place.position.x, place.position.y, place.roof_m);
-  if (!place.mast) return at + ",,,";
-  return fmt::format("{},{},{:.10g},{:.3f}", at, csv_cell(survey.masts[*place.mast].name), place.height_m,
-                     place.distance_m);
-}
-constexpr const char* kRoofColumns = "x,y,roof_m,mast,pole_m,distance_m";
-
-/// Without a sign where it is 0.
-double in_whole_millimetres(double metres) {
-  return std::round(metres * 1000) / 1000 + 0.0;
-}
-
-std::string street_cells(const PremisesSurvey& survey, const RoofPlace& place) {
-  if (!place.street) return ",,,,,,";
-  const auto& [street, pole, edge] = *place.street;
-  // Poles are rounded up, so that the street is in sight from what is told.
-  std::string cells = fmt::format("{:.3f},{:.3f},{:.3f},", street.x, street.y, std::ceil(pole * 1000) / 1000);
-  if (!edge) return cells + ",,,";
-  return cells + fmt::format("{},{:.3f},{:.3f},{:.3f}", csv_cell(theme_of(edge->theme, survey.metadata)),
-                             edge->position.x, edge->position.y, in_whole_millimetres(edge->position.z - place.roof_m));
-}
-constexpr const char* kStreetColumns =
-    "street_x,street_y,street_pole_m,hidden_by,hidden_x,hidden_y,hidden_above_roof_m";
-
-template <class T>
-const T* pointer_to(const std::optional<T>& value) {
-  return value ? &*value : nullptr;
-}
-
-/// The link that a building's row tells of, and its antenna: null where no mast is within reach.
-struct ToldLink {
-  explicit ToldLink(const Premises& p) : link(p.best ? &p.links[*p.best] : p.nearest_miss()) {
-    if (link != nullptr) mounting = p.best ? &p.best_mounting() : pointer_to(link->tried);
+/// A building, and the link and the antenna that its row tells of: null where no mast is within reach.
+struct PremisesRow {
+  explicit PremisesRow(const Premises& p) : premises(p), link(p.best ? &p.links[*p.best] : p.nearest_miss()) {
+    if (link != nullptr) mounting = p.best ? &p.best_mounting() : link->tried ? &*link->tried : nullptr;
+    if (link != nullptr && link->blocker) blocker = &*link->blocker;
   }
+  const Premises& premises;
   const PremisesLink* link = nullptr;
   const Mounting* mounting = nullptr;
+  const LinkBlocker* blocker = nullptr;
 };
 
-std::string mast_name(const PremisesSurvey& survey, const PremisesLink* link) {
-  return link == nullptr ? "" : survey.masts[link->mast].name;
+/// A building and a mast within reach.
+struct PremisesLinkRow {
+  PremisesLinkRow(const Premises& p, const PremisesLink& l)
+      : premises(p), link(l), blocker(l.blocker ? &*l.blocker : nullptr) {
+    for (const auto* told : {&l.wall, &l.roof, &l.tried})
+      if (mounting == nullptr && *told) mounting = &**told;
+  }
+  const Premises& premises;
+  const PremisesLink& link;
+  const Mounting* mounting = nullptr;
+  const LinkBlocker* blocker;
+};
+
+struct WallRow {
+  const Premises& premises;
+  const WallPlace& wall;
+};
+struct RoofRow {
+  const Premises& premises;
+  const RoofPlace& place;
+};
+/// How many buildings a mast reaches, serves, and serves best.
+struct MastService {
+  std::size_t within_reach = 0, serves = 0, best = 0;
+};
+struct MastRow {
+  const SitePosition& mast;
+  MastService service;
+};
+
+template <class Row>
+using Columns = std::vector<TableColumn<Row>>;
+
+template <class Row>
+void add_building(const PremisesSurvey& survey, Columns<Row>& columns, int formats) {
+  columns.emplace_back(
+      "theme", [&survey](const Row& row) { return survey.metadata.themes[row.premises.theme - std::size_t{1}].name; },
+      formats);
+  columns.emplace_back(
+      "name", [](const Row& row) { return row.premises.name; }, formats);
+  columns.emplace_back(
+      "id", [](const Row& row) { return row.premises.id; }, formats);
+}
+
+/// Adds what the row's antenna is on, where, its height, elevations and distance. Layers have height and distance.
+template <class Row>
+void add_mounting(Columns<Row>& columns) {
+  const auto add = [&](const char* name, auto of, int formats = kInCsv, const char* number = kMillimetres) {
+    columns.emplace_back(
+        name,
+        [of](const Row& row) { return row.mounting != nullptr ? std::optional(of(*row.mounting)) : std::nullopt; },
+        formats, number);
+  };
+  add("on", [](const Mounting& m) { return word_of(m.on); });
+  add("x", [](const Mounting& m) { return m.position.x; });
+  add("y", [](const Mounting& m) { return m.position.y; });
+  add(
+      "height_m", [](const Mounting& m) { return m.height_m; }, kInCsv | kInLayer, kAsGiven);
+  add("base_m", [](const Mounting& m) { return m.base_m; });
+  add("elevation_m", [](const Mounting& m) { return m.elevation_m(); });
+  add(
+      "distance_m", [](const Mounting& m) { return m.distance_m; }, kInCsv | kInLayer);
+}
+
+/// Adds what blocks the row's link. Layers have its names.
+template <class Row>
+void add_blocker(const PremisesSurvey& survey, Columns<Row>& columns) {
+  const auto add = [&](const char* name, auto of, int formats = kInCsv) {
+    using Value = decltype(of(std::declval<const LinkBlocker&>()));
+    using Cell = std::conditional_t<std::is_same_v<Value, std::string>, std::string, std::optional<Value>>;
+    columns.emplace_back(
+        name, [of](const Row& row) { return row.blocker != nullptr ? Cell(of(*row.blocker)) : Cell(); }, formats,
+        kMillimetres);
+  };
+  add(
+      "blocked_by", [&survey](const LinkBlocker& b) { return theme_of(b.theme, survey.metadata); }, kInCsv | kInLayer);
+  add(
+      "blocking_feature", [](const LinkBlocker& b) { return b.name; }, kInCsv | kInLayer);
+  add("blocked_x", [](const LinkBlocker& b) { return b.position.x; });
+  add("blocked_y", [](const LinkBlocker& b) { return b.position.y; });
+  add("blocked_by_itself", [](const LinkBlocker& b) { return b.own; });
 }
 
 std::size_t walls_served(const Premises& p) {
@@ -84,110 +114,159 @@ std::size_t walls_served(const Premises& p) {
   return served;
 }
 
-VectorLayer::Value whole(std::size_t value) {
-  return static_cast<std::int64_t>(value);
+const char* service_of_row(const PremisesRow& row) {
+  return class_of(service_of(row.premises)).name;
+}
+
+std::vector<PremisesRow> premises_rows(const PremisesSurvey& survey) {
+  return {survey.premises.begin(), survey.premises.end()};
+}
+
+Columns<PremisesRow> premises_columns(const PremisesSurvey& survey) {
+  Columns<PremisesRow> columns;
+  const auto add = [&](const char* name, auto of, int formats = kInCsv | kInLayer) {
+    columns.emplace_back(name, of, formats);
+  };
+  add_building(survey, columns, kInCsv | kInLayer);
+  add("service", service_of_row);
+  add("verdict", [](const PremisesRow& row) { return word_of(row.premises.verdict()); });
+  add("mast", [&survey](const PremisesRow& row) {
+    return row.link == nullptr ? std::string() : survey.masts[row.link->mast].name;
+  });
+  add_mounting(columns);
+  add(
+      "masts_in_reach", [](const PremisesRow& row) { return row.premises.links.size(); }, kInCsv);
+  add("masts_serving", [](const PremisesRow& row) { return row.premises.masts_serving(); });
+  add(
+      "walls", [](const PremisesRow& row) { return row.premises.walls.size(); }, kInCsv);
+  add(
+      "walls_served", [](const PremisesRow& row) { return walls_served(row.premises); }, kInCsv);
+  add_blocker(survey, columns);
+  return columns;
+}
+
+Columns<PremisesLinkRow> premises_link_columns(const PremisesSurvey& survey) {
+  const auto height = [](const std::optional<Mounting>& m) { return m ? std::optional(m->height_m) : std::nullopt; };
+  Columns<PremisesLinkRow> columns;
+  const auto add = [&](const char* name, auto of) { columns.emplace_back(name, of, kInCsv, kAsGiven); };
+  add_building(survey, columns, kInCsv);
+  add("mast", [&survey](const PremisesLinkRow& row) { return survey.masts[row.link.mast].name; });
+  add("verdict", [](const PremisesLinkRow& row) { return word_of(row.link.verdict); });
+  add("wall_height_m", [height](const PremisesLinkRow& row) { return height(row.link.wall); });
+  add("pole_m", [height](const PremisesLinkRow& row) { return height(row.link.roof); });
+  add_mounting(columns);
+  add_blocker(survey, columns);
+  return columns;
+}
+
+/// Adds the least pole that sees the street, and what hides the street from lower ones.
+void add_street(const PremisesSurvey& survey, Columns<RoofRow>& columns) {
+  const auto add = [&](const char* name, auto of) {
+    columns.emplace_back(
+        name,
+        [of](const RoofRow& row) { return row.place.street ? std::optional(of(*row.place.street)) : std::nullopt; },
+        kInCsv, kMillimetres);
+  };
+  const auto add_edge = [&](const char* name, auto of) {
+    columns.emplace_back(
+        name,
+        [of](const RoofRow& row) {
+          const auto& street = row.place.street;
+          return street && street->edge ? std::optional(of(*street->edge, row.place)) : std::nullopt;
+        },
+        kInCsv, kMillimetres);
+  };
+  using Edge = StreetSight::Edge;
+  add("street_x", [](const StreetSight& s) { return s.street.x; });
+  add("street_y", [](const StreetSight& s) { return s.street.y; });
+  // Poles are rounded up, so that the street is in sight from what is told.
+  add("street_pole_m", [](const StreetSight& s) { return std::ceil(s.pole_m * 1000) / 1000; });
+  add_edge("hidden_by", [&survey](const Edge& e, const RoofPlace&) { return theme_of(e.theme, survey.metadata); });
+  add_edge("hidden_x", [](const Edge& e, const RoofPlace&) { return e.position.x; });
+  add_edge("hidden_y", [](const Edge& e, const RoofPlace&) { return e.position.y; });
+  // Zero has no sign.
+  add_edge("hidden_above_roof_m", [](const Edge& e, const RoofPlace& place) {
+    return std::round((e.position.z - place.roof_m) * 1000) / 1000 + 0.0;
+  });
+}
+
+Columns<RoofRow> roof_columns(const PremisesSurvey& survey) {
+  Columns<RoofRow> columns;
+  const auto add = [&](const char* name, auto of, const char* number = kMillimetres) {
+    columns.emplace_back(name, of, kInCsv, number);
+  };
+  const auto if_served = [](auto of) {
+    return [of](const RoofRow& row) { return row.place.mast ? std::optional(of(row.place)) : std::nullopt; };
+  };
+  add_building(survey, columns, kInCsv);
+  add("x", [](const RoofRow& row) { return row.place.position.x; });
+  add("y", [](const RoofRow& row) { return row.place.position.y; });
+  add("roof_m", [](const RoofRow& row) { return row.place.roof_m; });
+  add("mast", if_served([&survey](const RoofPlace& place) { return survey.masts[*place.mast].name; }));
+  add("pole_m", if_served([](const RoofPlace& place) { return place.height_m; }), kAsGiven);
+  add("distance_m", if_served([](const RoofPlace& place) { return place.distance_m; }));
+  add_street(survey, columns);
+  return columns;
 }
 
 VectorLayer layer_of_premises(const PremisesSurvey& survey) {
-  VectorLayer layer{"premises",
-                    VectorLayer::Shape::kPoints,
-                    {{"theme", Type::kText},
-                     {"name", Type::kText},
-                     {"id", Type::kText},
-                     {"service", Type::kText},
-                     {"verdict", Type::kText},
-                     {"mast", Type::kText},
-                     {"height_m", Type::kNumber},
-                     {"distance_m", Type::kNumber},
-                     {"masts_serving", Type::kWhole},
-                     {"blocked_by", Type::kText},
-                     {"blocking_feature", Type::kText}},
-                    {},
-                    point_style("service", kPremisesServices)};
-  for (const Premises& p : survey.premises) {
-    const ToldLink told(p);
-    const LinkBlocker* const blocker = told.link == nullptr ? nullptr : pointer_to(told.link->blocker);
-    const Point2 at = told.mounting == nullptr ? p.foot.front().front() : told.mounting->position;
-    VectorLayer::Value height, distance;
-    if (told.mounting != nullptr) height = told.mounting->height_m, distance = told.mounting->distance_m;
-    layer.features.push_back(
-        {{{at.x, at.y, told.mounting == nullptr ? 0 : told.mounting->elevation_m()}},
-         {theme_name(survey, p), p.name, p.id, std::string(class_of(service_of(p)).name),
-          std::string(word_of(p.verdict())), mast_name(survey, told.link), height, distance, whole(p.masts_serving()),
-          blocker == nullptr ? std::string() : theme_of(blocker->theme, survey.metadata),
-          blocker == nullptr ? std::string() : blocker->name}});
-  }
+  const auto place = [](const PremisesRow& row) -> std::vector<Point3> {
+    const Point2 foot = row.premises.foot.front().front();
+    if (row.mounting == nullptr) return {{foot.x, foot.y, 0}};
+    return {{row.mounting->position.x, row.mounting->position.y, row.mounting->elevation_m()}};
+  };
+  VectorLayer layer =
+      layer_of("premises", VectorLayer::Shape::kPoints, premises_columns(survey), premises_rows(survey), place);
+  layer.style = point_style("service", kPremisesServices);
   return layer;
 }
 
 VectorLayer layer_of_facades(const PremisesSurvey& survey) {
-  VectorLayer layer{"facades",
-                    VectorLayer::Shape::kLines,
-                    {{"name", Type::kText},
-                     {"service", Type::kText},
-                     {"mast", Type::kText},
-                     {"least_height_m", Type::kNumber},
-                     {"wall_m", Type::kNumber},
-                     {"x", Type::kNumber},
-                     {"y", Type::kNumber}},
-                    {},
-                    line_style("service", kWallServices, 0.8)};
-  for (const Premises& p : survey.premises) {
-    for (const WallPlace& wall : p.walls) {
-      VectorLayer::Value mast, height;
-      if (wall.mast) mast = survey.masts[*wall.mast].name, height = wall.height_m;
-      VectorLayer::Feature feature{{},
-                                   {p.name, std::string(class_of(service_of(wall, survey.request.storey)).name), mast,
-                                    height, wall.most_m, wall.position.x, wall.position.y}};
-      for (const Point3& at : wall.stretch) feature.points.push_back({at.x, at.y, wall.ground_m + wall.most_m});
-      layer.features.push_back(std::move(feature));
-    }
-  }
+  const auto if_served = [](auto of) {
+    return [of](const WallRow& row) { return row.wall.mast ? std::optional(of(row.wall)) : std::nullopt; };
+  };
+  const Columns<WallRow> columns{
+      {"name", [](const WallRow& row) { return row.premises.name; }},
+      {"service", [&](const WallRow& row) { return class_of(service_of(row.wall, survey.request.storey)).name; }},
+      {"mast", if_served([&](const WallPlace& wall) { return survey.masts[*wall.mast].name; })},
+      {"least_height_m", if_served([](const WallPlace& wall) { return wall.height_m; })},
+      {"wall_m", [](const WallRow& row) { return row.wall.most_m; }},
+      {"x", [](const WallRow& row) { return row.wall.position.x; }},
+      {"y", [](const WallRow& row) { return row.wall.position.y; }}};
+  std::vector<WallRow> rows;
+  for (const Premises& p : survey.premises)
+    for (const WallPlace& wall : p.walls) rows.push_back({p, wall});
+  VectorLayer layer = layer_of("facades", VectorLayer::Shape::kLines, columns, rows, [](const WallRow& row) {
+    std::vector<Point3> top;
+    for (const Point3& at : row.wall.stretch) top.push_back({at.x, at.y, row.wall.ground_m + row.wall.most_m});
+    return top;
+  });
+  layer.style = line_style("service", kWallServices, 0.8);
   return layer;
 }
 
 VectorLayer layer_of_best_links(const PremisesSurvey& survey) {
-  VectorLayer layer{"links",
-                    VectorLayer::Shape::kLines,
-                    {{"mast", Type::kText},
-                     {"name", Type::kText},
-                     {"service", Type::kText},
-                     {"height_m", Type::kNumber},
-                     {"distance_m", Type::kNumber}},
-                    {},
-                    line_style("service", std::span(kPremisesServices).first(2), 0.15)};
-  for (const Premises& p : survey.premises) {
-    if (!p.best) continue;
-    const SitePosition& mast = survey.masts[p.links[*p.best].mast];
-    const Mounting& m = p.best_mounting();
-    layer.features.push_back(
-        {{{mast.position.x, mast.position.y, mast.elevation()}, {m.position.x, m.position.y, m.elevation_m()}},
-         {mast.name, p.name, std::string(class_of(service_of(p)).name), m.height_m, m.distance_m}});
-  }
+  const auto mast = [&](const PremisesRow& row) -> const SitePosition& { return survey.masts[row.link->mast]; };
+  const Columns<PremisesRow> columns{{"mast", [&](const PremisesRow& row) { return mast(row).name; }},
+                                     {"name", [](const PremisesRow& row) { return row.premises.name; }},
+                                     {"service", service_of_row},
+                                     {"height_m", [](const PremisesRow& row) { return row.mounting->height_m; }},
+                                     {"distance_m", [](const PremisesRow& row) { return row.mounting->distance_m; }}};
+  std::vector<PremisesRow> rows;
+  for (const Premises& p : survey.premises)
+    if (p.best) rows.emplace_back(p);
+  const auto line = [&](const PremisesRow& row) {
+    const SitePosition& a = mast(row);
+    const Mounting& b = *row.mounting;
+    return std::vector<Point3>{{a.position.x, a.position.y, a.elevation()},
+                               {b.position.x, b.position.y, b.elevation_m()}};
+  };
+  VectorLayer layer = layer_of("links", VectorLayer::Shape::kLines, columns, rows, line);
+  layer.style = line_style("service", std::span(kPremisesServices).first(2), 0.15);
   return layer;
 }
 
-VectorLayer layer_of_masts(const PremisesSurvey& survey) {
-  VectorLayer layer{"masts",
-                    VectorLayer::Shape::kPoints,
-                    {{"name", Type::kText},
-                     {"height_m", Type::kNumber},
-                     {"ground_m", Type::kNumber},
-                     {"serves", Type::kWhole},
-                     {"serves_best", Type::kWhole}},
-                    {}};
-  const std::vector<MastService> services = services_of(survey);
-  for (std::size_t i = 0; i < survey.masts.size(); ++i) {
-    const SitePosition& mast = survey.masts[i];
-    layer.features.push_back(
-        {{{mast.position.x, mast.position.y, mast.ground}},
-         {mast.name, mast.height, mast.ground, whole(services[i].serves), whole(services[i].best)}});
-  }
-  return layer;
-}
-
-}  // namespace
-
+/// Returns one for each mast.
 std::vector<MastService> services_of(const PremisesSurvey& survey) {
   std::vector<MastService> services(survey.masts.size());
   for (const Premises& p : survey.premises) {
@@ -200,45 +279,56 @@ std::vector<MastService> services_of(const PremisesSurvey& survey) {
   return services;
 }
 
+const Columns<MastRow>& mast_columns() {
+  static const Columns<MastRow> columns{
+      {"name", [](const MastRow& row) { return row.mast.name; }},
+      {"x", [](const MastRow& row) { return row.mast.position.x; }, kInDocument},
+      {"y", [](const MastRow& row) { return row.mast.position.y; }, kInDocument},
+      {"height_m", [](const MastRow& row) { return row.mast.height; }},
+      {"ground_m", [](const MastRow& row) { return row.mast.ground; }, kInLayer},
+      {"stands_on_m", [](const MastRow& row) { return row.mast.ground; }, kInDocument},
+      {"within_reach", [](const MastRow& row) { return row.service.within_reach; }, kInDocument},
+      {"serves", [](const MastRow& row) { return row.service.serves; }},
+      {"serves_best", [](const MastRow& row) { return row.service.best; }}};
+  return columns;
+}
+
+std::vector<MastRow> mast_rows(const PremisesSurvey& survey) {
+  const std::vector<MastService> services = services_of(survey);
+  std::vector<MastRow> rows;
+  for (std::size_t i = 0; i < services.size(); ++i) rows.push_back({survey.masts[i], services[i]});
+  return rows;
+}
+
+VectorLayer layer_of_masts(const PremisesSurvey& survey) {
+  const auto place = [](const MastRow& row) {
+    return std::vector<Point3>{{row.mast.position.x, row.mast.position.y, row.mast.ground}};
+  };
+  return layer_of("masts", VectorLayer::Shape::kPoints, mast_columns(), mast_rows(survey), place);
+}
+
+}  // namespace
+
 std::string premises_csv(const PremisesSurvey& survey) {
-  std::string text =
-      fmt::format("theme,name,id,service,verdict,mast,{},masts_in_reach,masts_serving,walls,walls_served,{}\n",
-                  kMountingColumns, kBlockerColumns);
-  for (const Premises& p : survey.premises) {
-    const ToldLink told(p);
-    fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{},{},{},{},{},{}\n", csv_cell(theme_name(survey, p)),
-                   csv_cell(p.name), csv_cell(p.id), class_of(service_of(p)).name, word_of(p.verdict()),
-                   csv_cell(mast_name(survey, told.link)), mounting_cells(told.mounting), p.links.size(),
-                   p.masts_serving(), p.walls.size(), walls_served(p),
-                   blocker_cells(survey, told.link == nullptr ? nullptr : pointer_to(told.link->blocker)));
-  }
-  return text;
+  return csv_of(premises_columns(survey), premises_rows(survey));
 }
 
 std::string premises_links_csv(const PremisesSurvey& survey) {
-  std::string text =
-      fmt::format("theme,name,id,mast,verdict,wall_height_m,pole_m,{},{}\n", kMountingColumns, kBlockerColumns);
-  for (const Premises& p : survey.premises) {
-    for (const PremisesLink& link : p.links) {
-      const auto height = [](const std::optional<Mounting>& m) { return m ? fmt::format("{:.10g}", m->height_m) : ""; };
-      const Mounting* const told = link.wall ? &*link.wall : link.roof ? &*link.roof : pointer_to(link.tried);
-      fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{},{},{}\n", csv_cell(theme_name(survey, p)),
-                     csv_cell(p.name), csv_cell(p.id), csv_cell(survey.masts[link.mast].name), word_of(link.verdict),
-                     height(link.wall), height(link.roof), mounting_cells(told),
-                     blocker_cells(survey, pointer_to(link.blocker)));
-    }
-  }
-  return text;
+  std::vector<PremisesLinkRow> rows;
+  for (const Premises& p : survey.premises)
+    for (const PremisesLink& link : p.links) rows.emplace_back(p, link);
+  return csv_of(premises_link_columns(survey), rows);
 }
 
 std::string premises_roofs_csv(const PremisesSurvey& survey) {
-  std::string text = fmt::format("theme,name,id,{},{}\n", kRoofColumns, kStreetColumns);
-  for (const Premises& p : survey.premises) {
-    for (const RoofPlace& place : p.roof)
-      fmt::format_to(std::back_inserter(text), "{},{},{},{},{}\n", csv_cell(theme_name(survey, p)), csv_cell(p.name),
-                     csv_cell(p.id), roof_cells(survey, place), street_cells(survey, place));
-  }
-  return text;
+  std::vector<RoofRow> rows;
+  for (const Premises& p : survey.premises)
+    for (const RoofPlace& place : p.roof) rows.push_back({p, place});
+  return csv_of(roof_columns(survey), rows);
+}
+
+Document masts_document(const PremisesSurvey& survey) {
+  return documents_of(mast_columns(), mast_rows(survey));
 }
 
 std::vector<VectorLayer> premises_layers(const PremisesSurvey& survey) {

@@ -1,140 +1,154 @@
 #include "workflows/siting/output/link_tables.hpp"
 
-#include <iterator>
+#include <optional>
+#include <vector>
 
-#include <fmt/format.h>
-
-#include <itin/csv_cell.hpp>
+#include <itin/table_columns.hpp>
 #include <viewshed/site_links.hpp>
 
 namespace itin::viewshed {
 
 namespace {
 
-bool is_clear(const SitePlan& r, const SiteLink& link) {
-  return link_rules(r.request).met_by(link.found());
+struct LinkRow {
+  const SiteLink& link;
+  const SitePosition &from, &to;
+  std::size_t routes;  ///< how many lead over it
+};
+
+std::vector<LinkRow> link_rows(const SitePlan& r) {
+  const std::vector<std::size_t> routes = routes_over_links(r.network, r.routes);
+  std::vector<LinkRow> rows;
+  for (const SiteLink& link : r.network.links)
+    rows.push_back({link, r.network.from(link), r.network.to(link), routes[rows.size()]});
+  return rows;
 }
 
 std::optional<double> fraction_of(const SiteLink& link) {
   return link.found().fresnel ? std::optional(link.found().fresnel->fraction) : std::nullopt;
 }
 
-void add_clearance_of(const SiteLink& link, Document& entry) {
-  if (link.found().clearance_m) entry["clearance_m"] = *link.found().clearance_m;
-  if (const auto fraction = fraction_of(link)) entry["fresnel_fraction"] = *fraction;
+std::vector<TableColumn<LinkRow>> link_columns(const SitePlan& r) {
+  const auto from = [](const LinkRow& row) { return row.from.name; };
+  const auto to = [](const LinkRow& row) { return row.to.name; };
+  const auto gap = [](const LinkRow& row) { return row.link.line.gap_m; };
+  const auto critical = [](double profile::ProfilePoint::*coordinate) {
+    return [coordinate](const LinkRow& row) {
+      const auto& place = row.link.found().critical;
+      return place ? std::optional((*place).*coordinate) : std::nullopt;
+    };
+  };
+  const bool radio = r.request.frequency_ghz.has_value();
+  std::vector<TableColumn<LinkRow>> columns{
+      {"from", from, kInCsv | kInDocument},
+      {"from_id", from, kInLayer},
+      {"to", to, kInCsv | kInDocument},
+      {"to_id", to, kInLayer},
+      {"distance_m", [](const LinkRow& row) { return row.link.line.distance_m; }, kInAllFormats, "{:.3f}"},
+      {"verdict", [](const LinkRow& row) { return name_of(row.link.found().verdict); }},
+      {"gap_m", gap, kInDocument},
+      {"clearance_m", [](const LinkRow& row) { return row.link.found().clearance_m; }, kInAllFormats, "{:.3f}"},
+      {"critical_x", critical(&profile::ProfilePoint::x), kInCsv, "{:.3f}"},
+      {"critical_y", critical(&profile::ProfilePoint::y), kInCsv, "{:.3f}"},
+      {"critical_z", critical(&profile::ProfilePoint::ground_m), kInCsv, "{:.3f}"},
+      {"fresnel_fraction", [](const LinkRow& row) { return fraction_of(row.link); },
+       radio ? kInAllFormats : kInLayer | kInDocument, "{:.4f}"}};
+  if (radio)
+    columns.emplace_back(
+        "clear", [rules = link_rules(r.request)](const LinkRow& row) { return rules.met_by(row.link.found()); },
+        kInCsv | kInDocument);
+  columns.emplace_back("gap_m", gap, kInCsv | kInLayer, "{:.3f}");
+  columns.emplace_back(
+      "routes",
+      [hub = r.request.hub.has_value()](const LinkRow& row) { return hub ? std::optional(row.routes) : std::nullopt; },
+      kInLayer);
+  return columns;
 }
 
-/// Returns a hop, from the end of its link that comes first on the route.
-Document hop_document(const SiteNetwork& network, const RouteHop& hop) {
-  const SiteLink& link = network.links[hop.link];
-  Document entry{{"from", network.ends[hop.from].place.name},
-                 {"to", network.ends[hop.to].place.name},
-                 {"distance_m", link.line.distance_m},
-                 {"gap_m", link.line.gap_m}};
-  add_clearance_of(link, entry);
-  return entry;
+/// A hop of a route, from the end of its link that comes first; or a route that does not reach the hub.
+struct HopRow {
+  const SiteRoute& route;
+  const RouteHop* hop = nullptr;
+  std::size_t number = 0;  ///< from 1
+};
+
+std::vector<TableColumn<HopRow>> hop_columns(const SitePlan& r) {
+  const SiteNetwork& network = r.network;
+  const auto end = [&network](std::size_t i) { return network.ends[i].place.name; };
+  // What a row without a hop has not.
+  const auto of_hop = [](auto value) {
+    return [value](const HopRow& row) { return row.hop != nullptr ? std::optional(value(row)) : std::nullopt; };
+  };
+  const auto of_link = [&network, of_hop](auto value) {
+    return of_hop([&network, value](const HopRow& row) { return value(network.links[row.hop->link]); });
+  };
+  const auto gap = of_link([](const SiteLink& link) { return link.line.gap_m; });
+  const auto worst = [&network](const HopRow& row) -> std::optional<bool> {
+    const std::optional<RouteHop> hop = worst_hop(network, row.route);
+    return hop && hop->link == row.hop->link ? std::optional(true) : std::nullopt;
+  };
+  return {
+      {"site", [end](const HopRow& row) { return end(row.route.site); }, kInCsv},
+      {"route", [&network](const HopRow& row) { return in_words(network, row.route); }, kInCsv},
+      {"route_m", of_hop([&network](const HopRow& row) { return length_m(network, row.route); }), kInCsv, "{:.3f}"},
+      {"hop", of_hop([](const HopRow& row) { return row.number; }), kInCsv},
+      {"from", of_hop([end](const HopRow& row) { return end(row.hop->from); })},
+      {"to", of_hop([end](const HopRow& row) { return end(row.hop->to); })},
+      {"distance_m", of_link([](const SiteLink& link) { return link.line.distance_m; }), kInAllFormats, "{:.3f}"},
+      {"gap_m", gap, kInDocument},
+      {"clearance_m", of_link([](const SiteLink& link) { return link.found().clearance_m; }), kInAllFormats, "{:.3f}"},
+      {"fresnel_fraction", of_link(fraction_of), kInAllFormats, "{:.4f}"},
+      {"gap_m", gap, kInCsv, "{:.3f}"},
+      {"worst", of_hop(worst), kInCsv}};
+}
+
+std::vector<HopRow> hops_of(const SiteRoute& route) {
+  std::vector<HopRow> rows;
+  for (const RouteHop& hop : route.hops) rows.push_back({route, &hop, rows.size() + 1});
+  return rows;
 }
 
 }  // namespace
 
 std::string links_csv(const SitePlan& r) {
-  std::string text = "from,to,distance_m,verdict,clearance_m,critical_x,critical_y,critical_z";
-  text += r.request.frequency_ghz ? ",fresnel_fraction,clear,gap_m\n" : ",gap_m\n";
-  const auto out = std::back_inserter(text);
-  for (const SiteLink& link : r.network.links) {
-    const profile::LineFindings& found = link.found();
-    fmt::format_to(out, "{},{},{:.3f},{}", csv_cell(r.network.from(link).name), csv_cell(r.network.to(link).name),
-                   link.line.distance_m, name_of(found.verdict));
-    if (found.critical) {
-      fmt::format_to(out, ",{:.3f},{:.3f},{:.3f},{:.3f}", *found.clearance_m, found.critical->x, found.critical->y,
-                     found.critical->ground_m);
-    } else {
-      text += ",,,,";
-    }
-    if (r.request.frequency_ghz)
-      fmt::format_to(out, ",{},{}", csv_cell(fraction_of(link), 4), is_clear(r, link) ? "yes" : "no");
-    fmt::format_to(out, ",{:.3f}\n", link.line.gap_m);
-  }
-  return text;
+  return csv_of(link_columns(r), link_rows(r));
 }
 
 std::string routes_csv(const SitePlan& r) {
-  const SiteNetwork& network = r.network;
-  std::string text = "site,route,route_m,hop,from,to,distance_m,clearance_m,fresnel_fraction,gap_m,worst\n";
-  const auto out = std::back_inserter(text);
+  std::vector<HopRow> rows;
   for (const SiteRoute& route : r.routes) {
-    const std::string site = csv_cell(network.ends[route.site].place.name), words = csv_cell(in_words(network, route));
-    if (route.hops.empty()) fmt::format_to(out, "{},{},,,,,,,,,\n", site, words);
-    const std::optional<RouteHop> worst = worst_hop(network, route);
-    for (std::size_t i = 0; i < route.hops.size(); ++i) {
-      const RouteHop& hop = route.hops[i];
-      const SiteLink& link = network.links[hop.link];
-      fmt::format_to(out, "{},{},{:.3f},{},{},{},{:.3f},{},{},{:.3f},{}\n", site, words, length_m(network, route),
-                     i + 1, csv_cell(network.ends[hop.from].place.name), csv_cell(network.ends[hop.to].place.name),
-                     link.line.distance_m, csv_cell(link.found().clearance_m, 3), csv_cell(fraction_of(link), 4),
-                     link.line.gap_m, worst && worst->link == hop.link ? "yes" : "");
-    }
+    if (route.hops.empty()) rows.push_back({route});
+    for (const HopRow& row : hops_of(route)) rows.push_back(row);
   }
-  return text;
+  return csv_of(hop_columns(r), rows);
 }
 
 Document links_document(const SitePlan& r) {
-  Document links = Document::array();
-  for (const SiteLink& link : r.network.links) {
-    Document entry{{"from", r.network.from(link).name},
-                   {"to", r.network.to(link).name},
-                   {"distance_m", link.line.distance_m},
-                   {"verdict", name_of(link.found().verdict)},
-                   {"gap_m", link.line.gap_m}};
-    add_clearance_of(link, entry);
-    if (r.request.frequency_ghz) entry["clear"] = is_clear(r, link);
-    links.push_back(std::move(entry));
-  }
-  return links;
+  return documents_of(link_columns(r), link_rows(r));
 }
 
 Document routes_document(const SitePlan& r) {
   const SiteNetwork& network = r.network;
+  const auto columns = hop_columns(r);
   Document routes = Document::array();
   for (const SiteRoute& route : r.routes) {
     Document entry{{"site", network.ends[route.site].place.name},
                    {"reaches_hub", !route.hops.empty()},
-                   {"hops", Document::array()}};
-    for (const RouteHop& hop : route.hops) entry["hops"].push_back(hop_document(network, hop));
+                   {"hops", documents_of(columns, hops_of(route))}};
     if (!route.hops.empty()) entry["length_m"] = length_m(network, route);
-    if (const auto worst = worst_hop(network, route)) entry["worst_hop"] = hop_document(network, *worst);
+    if (const auto worst = worst_hop(network, route)) entry["worst_hop"] = document_of(columns, {route, &*worst});
     routes.push_back(std::move(entry));
   }
   return routes;
 }
 
 VectorLayer links_layer(const SitePlan& r) {
-  using Type = VectorLayer::Type;
-  VectorLayer layer{"links",
-                    VectorLayer::Shape::kLines,
-                    {{"from_id", Type::kText},
-                     {"to_id", Type::kText},
-                     {"distance_m", Type::kNumber},
-                     {"verdict", Type::kText},
-                     {"clearance_m", Type::kNumber},
-                     {"fresnel_fraction", Type::kNumber},
-                     {"gap_m", Type::kNumber},
-                     {"routes", Type::kWhole}},
-                    {}};
-  const std::vector<std::size_t> routes = routes_over_links(r.network, r.routes);
-  for (std::size_t i = 0; i < r.network.links.size(); ++i) {
-    const SiteLink& link = r.network.links[i];
-    const SitePosition &a = r.network.from(link), &b = r.network.to(link);
-    VectorLayer::Value clearance, fraction, over;
-    if (link.found().clearance_m) clearance = *link.found().clearance_m;
-    if (const auto known = fraction_of(link)) fraction = *known;
-    if (r.request.hub) over = static_cast<std::int64_t>(routes[i]);
-    layer.features.push_back(
-        {{{a.position.x, a.position.y, a.elevation()}, {b.position.x, b.position.y, b.elevation()}},
-         {a.name, b.name, link.line.distance_m, std::string(name_of(link.found().verdict)), clearance, fraction,
-          link.line.gap_m, over}});
-  }
-  return layer;
+  const auto line = [](const LinkRow& row) {
+    const auto& [link, a, b, routes] = row;
+    return std::vector<Point3>{{a.position.x, a.position.y, a.elevation()},
+                               {b.position.x, b.position.y, b.elevation()}};
+  };
+  return layer_of("links", VectorLayer::Shape::kLines, link_columns(r), link_rows(r), line);
 }
 
 }  // namespace itin::viewshed

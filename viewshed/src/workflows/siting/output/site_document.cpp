@@ -3,14 +3,11 @@
 #include <viewshed/site_document.hpp>
 
 #include "workflows/siting/output/link_tables.hpp"
+#include "workflows/siting/output/site_tables.hpp"
 
 namespace itin::viewshed {
 
 namespace {
-
-Document interval_of(const CoverageSummary& summary) {
-  return Document::array({summary.certain, summary.possible});
-}
 
 /// Returns how much ground without data leaves open, as the value measures it and in cells of the rasters.
 Document undecided_of(const SitePlan& r) {
@@ -46,22 +43,7 @@ Document site_document(const SitePlan& r, const StoreMetadata& metadata) {
   }
   if (r.leaves_open) document["undecided"] = undecided_of(r);
   if (r.premises) document["premises"] = counts_document(r.premises->counts());
-  document["chosen"] = Document::array();
-  for (std::size_t i = 0; i < r.choice.chosen.size(); ++i) {
-    const ChosenSite& site = r.choice.chosen[i];
-    const SitePosition& place = r.place_of(site);
-    document["chosen"].push_back({{"id", place.name},
-                                  {"x", place.position.x},
-                                  {"y", place.position.y},
-                                  {"height_m", place.height},
-                                  {"ground_m", r.ground_m[i]},
-                                  {"stands_on_m", place.ground},
-                                  {"cost", r.inputs.options[site.option].cost},
-                                  {"gain", r.in_metric(site.gain)},
-                                  {"cumulative", r.in_metric(site.cumulative)},
-                                  {"bounds_before", interval_of(r.surveys[site.option].first)},
-                                  {"bounds_after", interval_of(r.surveys[site.option].last)}});
-  }
+  document["chosen"] = chosen_document(r);
   document["candidates"] = r.inputs.candidates.size();
   document["options"] = r.inputs.options.size();
   document["existing"] = r.inputs.existing();

@@ -1,115 +1,148 @@
 #include "workflows/siting/output/site_tables.hpp"
 
-#include <iterator>
+#include <vector>
 
-#include <fmt/format.h>
-
-#include <itin/csv_cell.hpp>
+#include <itin/document.hpp>
+#include <itin/table_columns.hpp>
 
 namespace itin::viewshed {
 
-using Type = VectorLayer::Type;
+namespace {
+
+/// A place that was chosen, with its rank, or that could have been.
+struct PlaceRow {
+  std::size_t number;
+  const SitePosition& place;
+  const SiteOption& option;
+  const OptionSurvey& survey;
+};
+
+using PlaceColumns = std::vector<TableColumn<PlaceRow>>;
+
+std::vector<PlaceRow> chosen_rows(const SitePlan& r) {
+  std::vector<PlaceRow> rows;
+  for (const ChosenSite& site : r.choice.chosen)
+    rows.push_back({rows.size(), r.place_of(site), r.inputs.options[site.option], r.surveys[site.option]});
+  return rows;
+}
+
+std::vector<PlaceRow> option_rows(const SitePlan& r) {
+  std::vector<PlaceRow> rows;
+  for (std::size_t i = 0; i < r.inputs.options.size(); ++i)
+    rows.push_back({i, r.inputs.positions[i], r.inputs.options[i], r.surveys[i]});
+  return rows;
+}
+
+double place_x(const PlaceRow& row) {
+  return row.place.position.x;
+}
+double place_y(const PlaceRow& row) {
+  return row.place.position.y;
+}
+std::string name_of_place(const PlaceRow& row) {
+  return row.place.name;
+}
+double place_height(const PlaceRow& row) {
+  return row.place.height;
+}
+double option_cost(const PlaceRow& row) {
+  return row.option.cost;
+}
+
+PlaceColumns chosen_columns(const SitePlan& r) {
+  const auto rank = [](const PlaceRow& row) { return row.number + 1; };
+  const auto ground = [&r](const PlaceRow& row) { return r.ground_m[row.number]; };
+  const auto stands_on = [](const PlaceRow& row) { return row.place.ground; };
+  const auto metric = [&r](Weight ChosenSite::*weight) {
+    return [&r, weight](const PlaceRow& row) { return r.in_metric(r.choice.chosen[row.number].*weight); };
+  };
+  return {{"order", rank, kInCsv},
+          {"rank", rank, kInLayer},
+          {"id", name_of_place},
+          {"x", place_x, kInCsv | kInDocument},
+          {"y", place_y, kInCsv | kInDocument},
+          {"height_m", place_height},
+          {"ground_m", ground, kInCsv | kInDocument, "{:.3f}"},
+          {"stands_on_m", stands_on, kInDocument},
+          {"cost", option_cost},
+          {"gain", metric(&ChosenSite::gain)},
+          {"cumulative", metric(&ChosenSite::cumulative)},
+          {"coverage", [](const PlaceRow& row) { return row.survey.last.certain; }, kInCsv},
+          {"first_certain", [](const PlaceRow& row) { return row.survey.first.certain; }, kInCsv},
+          {"first_possible", [](const PlaceRow& row) { return row.survey.first.possible; }, kInCsv},
+          {"stands_on_m", stands_on, kInCsv, "{:.3f}"}};
+}
+
+PlaceColumns candidate_columns(const SitePlan& r) {
+  return {{"id", name_of_place},
+          {"x", place_x, kInCsv},
+          {"y", place_y, kInCsv},
+          {"height_m", place_height},
+          {"cost", option_cost},
+          {"looked_at", [](const PlaceRow& row) { return row.survey.looked_at; }},
+          {"first_certain", [](const PlaceRow& row) { return row.survey.first.certain; }, kInCsv},
+          {"first_possible", [](const PlaceRow& row) { return row.survey.first.possible; }, kInCsv},
+          {"certain", [](const PlaceRow& row) { return row.survey.last.certain; }},
+          {"possible", [](const PlaceRow& row) { return row.survey.last.possible; }},
+          {"proposed_as", [&r](const PlaceRow& row) { return r.candidate(row.number).proposed_as; }, kInCsv},
+          {"outcome", [&r](const PlaceRow& row) { return r.reason(row.number); }}};
+}
+
+/// The columns that `itin ztv` reads.
+PlaceColumns turbine_columns(const TurbinePlacement& placement) {
+  return {{"name", name_of_place},
+          {"x", place_x, kInCsv},
+          {"y", place_y, kInCsv},
+          {"hub_height", [&placement](const PlaceRow&) { return placement.hub_height; }},
+          {"rotor_diameter", [&placement](const PlaceRow&) { return placement.rotor_diameter; }},
+          {"tip_height", [&placement](const PlaceRow&) { return placement.tip_height; }},
+          {"farm", [&placement](const PlaceRow&) { return placement.farm; }}};
+}
+
+/// A layer of points on the ground.
+VectorLayer layer_of_places(const char* name, const PlaceColumns& columns, const std::vector<PlaceRow>& rows) {
+  const auto point = [](const PlaceRow& row) {
+    return std::vector<Point3>{{place_x(row), place_y(row), row.place.ground}};
+  };
+  return layer_of(name, VectorLayer::Shape::kPoints, columns, rows, point);
+}
+
+}  // namespace
 
 std::string sites_csv(const SitePlan& r) {
-  std::string text =
-      "order,id,x,y,height_m,ground_m,cost,gain,cumulative,coverage,first_certain,first_possible,stands_on_m\n";
-  const auto out = std::back_inserter(text);
-  for (std::size_t i = 0; i < r.choice.chosen.size(); ++i) {
-    const ChosenSite& site = r.choice.chosen[i];
-    const SitePosition& place = r.place_of(site);
-    const auto& [first, last, exact, stage, looked_at] = r.surveys[site.option];
-    fmt::format_to(out, "{},{},{},{},{},{:.3f},{},{},{},{},{},{},{:.3f}\n", i + 1, csv_cell(place.name),
-                   place.position.x, place.position.y, place.height, r.ground_m[i], r.inputs.options[site.option].cost,
-                   r.in_metric(site.gain), r.in_metric(site.cumulative), last.certain, first.certain, first.possible,
-                   place.ground);
-  }
-  return text;
+  return csv_of(chosen_columns(r), chosen_rows(r));
 }
 
 std::string candidates_csv(const SitePlan& r) {
-  std::string text =
-      "id,x,y,height_m,cost,looked_at,first_certain,first_possible,certain,possible,proposed_as,outcome\n";
-  const auto out = std::back_inserter(text);
-  for (std::size_t i = 0; i < r.inputs.options.size(); ++i) {
-    const SitePosition& place = r.inputs.positions[i];
-    const auto& [first, last, exact, stage, looked_at] = r.surveys[i];
-    fmt::format_to(out, "{},{},{},{},{},{},{},{},{},{},{},{}\n", csv_cell(place.name), place.position.x,
-                   place.position.y, place.height, r.inputs.options[i].cost, csv_cell(looked_at), first.certain,
-                   first.possible, last.certain, last.possible, r.candidate(i).proposed_as, csv_cell(r.reason(i)));
-  }
-  return text;
-}
-
-VectorLayer sites_layer(const SitePlan& r) {
-  VectorLayer layer{"sites",
-                    VectorLayer::Shape::kPoints,
-                    {{"rank", Type::kWhole},
-                     {"id", Type::kText},
-                     {"height_m", Type::kNumber},
-                     {"cost", Type::kNumber},
-                     {"gain", Type::kNumber},
-                     {"cumulative", Type::kNumber}},
-                    {}};
-  for (std::size_t i = 0; i < r.choice.chosen.size(); ++i) {
-    const ChosenSite& site = r.choice.chosen[i];
-    const SitePosition& place = r.place_of(site);
-    layer.features.push_back(
-        {{{place.position.x, place.position.y, place.ground}},
-         {static_cast<std::int64_t>(i + 1), place.name, place.height, r.inputs.options[site.option].cost,
-          r.in_metric(site.gain), r.in_metric(site.cumulative)}});
-  }
-  return layer;
-}
-
-VectorLayer candidates_layer(const SitePlan& r) {
-  VectorLayer layer{"candidates",
-                    VectorLayer::Shape::kPoints,
-                    {{"id", Type::kText},
-                     {"height_m", Type::kNumber},
-                     {"cost", Type::kNumber},
-                     {"looked_at", Type::kText},
-                     {"certain", Type::kNumber},
-                     {"possible", Type::kNumber},
-                     {"outcome", Type::kText}},
-                    {}};
-  for (std::size_t i = 0; i < r.inputs.options.size(); ++i) {
-    const SitePosition& place = r.inputs.positions[i];
-    const auto& [first, last, exact, stage, looked_at] = r.surveys[i];
-    layer.features.push_back(
-        {{{place.position.x, place.position.y, place.ground}},
-         {place.name, place.height, r.inputs.options[i].cost, looked_at, last.certain, last.possible, r.reason(i)}});
-  }
-  return layer;
+  return csv_of(candidate_columns(r), option_rows(r));
 }
 
 std::string turbines_csv(const SitePlan& r) {
-  const TurbinePlacement& placement = *r.request.turbines;
-  std::string text = "name,x,y,hub_height,rotor_diameter,tip_height,farm\n";
-  for (const ChosenSite& site : r.choice.chosen) {
-    const SitePosition& place = r.place_of(site);
-    text += fmt::format("{},{},{},{},{},{},{}\n", csv_cell(place.name), place.position.x, place.position.y,
-                        placement.hub_height, placement.rotor_diameter, placement.tip_height, csv_cell(placement.farm));
+  return csv_of(turbine_columns(*r.request.turbines), chosen_rows(r));
+}
+
+Document chosen_document(const SitePlan& r) {
+  const auto interval = [](const CoverageSummary& s) { return Document::array({s.certain, s.possible}); };
+  const PlaceColumns columns = chosen_columns(r);
+  Document chosen = Document::array();
+  for (const PlaceRow& row : chosen_rows(r)) {
+    Document& entry = chosen.emplace_back(document_of(columns, row));
+    entry["bounds_before"] = interval(row.survey.first);
+    entry["bounds_after"] = interval(row.survey.last);
   }
-  return text;
+  return chosen;
+}
+
+VectorLayer sites_layer(const SitePlan& r) {
+  return layer_of_places("sites", chosen_columns(r), chosen_rows(r));
+}
+
+VectorLayer candidates_layer(const SitePlan& r) {
+  return layer_of_places("candidates", candidate_columns(r), option_rows(r));
 }
 
 VectorLayer turbines_layer(const SitePlan& r) {
-  const TurbinePlacement& placement = *r.request.turbines;
-  VectorLayer layer{"turbines",
-                    VectorLayer::Shape::kPoints,
-                    {{"name", Type::kText},
-                     {"hub_height", Type::kNumber},
-                     {"rotor_diameter", Type::kNumber},
-                     {"tip_height", Type::kNumber},
-                     {"farm", Type::kText}},
-                    {}};
-  for (const ChosenSite& site : r.choice.chosen) {
-    const SitePosition& place = r.place_of(site);
-    layer.features.push_back(
-        {{{place.position.x, place.position.y, place.ground}},
-         {place.name, placement.hub_height, placement.rotor_diameter, placement.tip_height, placement.farm}});
-  }
-  return layer;
+  return layer_of_places("turbines", turbine_columns(*r.request.turbines), chosen_rows(r));
 }
 
 }  // namespace itin::viewshed

@@ -1,8 +1,9 @@
-// Sites and candidates of a plan as tables, and as layers for a GIS.
+// Sites and candidates of a plan as tables, documents, and layers for a GIS.
 #pragma once
 
 #include <string>
 
+#include <itin/document.hpp>
 #include <itin/vector_export.hpp>
 #include <viewshed/site_plan.hpp>
 
@@ -12,6 +13,9 @@ std::string sites_csv(const SitePlan& plan);
 std::string candidates_csv(const SitePlan& plan);
 /// Returns the turbines as `itin ztv` reads them.
 std::string turbines_csv(const SitePlan& plan);
+
+/// Returns an object for each chosen site.
+Document chosen_document(const SitePlan& plan);
 
 VectorLayer sites_layer(const SitePlan& plan);
 VectorLayer candidates_layer(const SitePlan& plan);
