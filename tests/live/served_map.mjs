@@ -15,7 +15,7 @@ const data = new URL("../../scripts/demo-data/", import.meta.url).pathname;
 const pictures = new URL("../../build/live/", import.meta.url).pathname;
 
 /** How long tests wait for what must come, in milliseconds: the machine may be busy. */
-export const PATIENCE = 120000;
+export const PATIENCE = 300000;
 
 /** Runs the program in a folder, with a list of options or a line of some that have no spaces, and returns what it
  * prints. */
