@@ -88,6 +88,7 @@ async function measure(browser, scene, store) {
       await page.mouse.move(WIDTH / 2 + 3 * i, HEIGHT / 4 + i);
       await pause(50);
     }
+    await page.waitForFunction(() => window.figures.probed(), { polling: 20 });
     const { probes } = await take(page);
     const since = (name) => single.map((move) => move[name] - move.input);
     await page.close();

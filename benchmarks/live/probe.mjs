@@ -57,5 +57,6 @@ export function installProbe() {
       return all;
     },
     settled: () => [...asked.values()].at(-1)?.allDrawn !== undefined,
+    probed: () => [...probes.values()].at(-1)?.drawn !== undefined,
   };
 }

@@ -54,6 +54,7 @@ export function storeOf(name) {
   if (existsSync(path)) return path;
   const sources = SOURCES[name]?.();
   if (!sources) return null;
+  console.error(`makes ${path}, once`);
   itin(["import", path, ...sources, "--quiet"], work);
   if (name === "town") {
     writeFileSync(join(work, "houses.geojson"), houses());

@@ -30,16 +30,19 @@ constexpr std::uint16_t kUsualPort = 8080;
 constexpr std::uint64_t kUsualMemory = std::uint64_t{1} << 30;
 constexpr std::uint64_t kLeastMemory = std::uint64_t{64} << 20;
 
-/// Shows a page in the browser that the desktop has for it. Whoever has none still has the printed URL.
+/// Shows a page in the browser that the desktop has for it. Whoever has none still has the printed URL, and need not
+/// read of all that xdg-open has tried.
 void open_in_browser(std::string url) {
-  std::string program = "xdg-open";
-  char* const words[] = {program.data(), url.data(), nullptr};
+  std::string shell = "sh", option = "-c",
+              call =
+                  "xdg-open \"$0\" >/dev/null 2>&1 || "
+                  "echo 'itin: warning: --open: no browser opened; open the printed URL by hand' >&2";
+  char* const words[] = {shell.data(), option.data(), call.data(), url.data(), nullptr};
   pid_t process = 0;
   posix_spawn_file_actions_t files;
   posix_spawn_file_actions_init(&files);
   posix_spawn_file_actions_addclosefrom_np(&files, STDERR_FILENO + 1);
-  if (posix_spawnp(&process, words[0], &files, nullptr, words, environ) != 0)
-    std::cerr << "itin: warning: --open: there is no xdg-open; open the URL by hand\n";
+  posix_spawnp(&process, words[0], &files, nullptr, words, environ);
   posix_spawn_file_actions_destroy(&files);
 }
 

@@ -40,6 +40,7 @@ NAVIGATION: list[tuple[str, list[Entry]]] = [
         "How to",
         [
             ("Site a mast", "docs/how-to/mast.md"),
+            ("From a lidar tile to a mast", "docs/how-to/lidar-tile.md"),
             ("Check a radio link", "docs/how-to/link.md"),
             ("Assess a wind farm", "docs/how-to/wind-farm.md"),
             ("Place cameras in a street", "docs/how-to/camera.md"),

@@ -4,15 +4,16 @@ import { test } from "node:test";
 
 import {
   boxOf,
+  changed,
   closed,
   counted,
   mastAt,
   middleOf,
   observer,
   pageWithMast,
-  pause,
   setField,
   settled,
+  stillPicture,
   text,
   until,
   MIDDLE,
@@ -47,6 +48,11 @@ test("the readout says what is under the cursor, and a click shows the line of s
   assert.ok(readout.includes(`Azimuth${grid}° grid, ${north}° true`), readout);
   assert.match(await text(page, "#line-verdict"), line.verdict === "visible" ? /in sight/ : /hidden by/);
   await keepPicture(page, "line");
+
+  // It is a matter of masts.
+  await page.$eval("#tasks input[value=turbines]", (input) => input.click());
+  await page.waitForSelector("#line[hidden]");
+  assert.equal(await page.$(".target").then((target) => target.isVisible()), false);
   await closed(page);
 });
 
@@ -55,14 +61,13 @@ test("hovering ties the profile and the map", async () => {
   await page.mouse.click(MIDDLE.x + 200, MIDDLE.y);
   await page.waitForSelector("#profile canvas");
   await page.mouse.move(MIDDLE.x + 200, MIDDLE.y + 90); // away from the line
-  await pause(500);
   const marker = await middleOf(page, ".marker");
   const middle = { x: marker.x + 100, y: marker.y };
   const around = { clip: { x: middle.x - 12, y: middle.y - 12, width: 24, height: 24 } };
-  const without = await page.screenshot(around);
+  const without = await stillPicture(page, around);
   const plot = await boxOf(page, ".u-over");
   await page.mouse.move(plot.x + plot.width / 2, plot.y + plot.height / 2, { steps: 2 });
-  await until(async () => Buffer.compare(await page.screenshot(around), without) !== 0, "the map marks the place");
+  await changed(page, without, around, "the map marks the place");
   await page.mouse.move(middle.x, middle.y + 3, { steps: 2 });
   await until(
     async () => Math.abs((await boxOf(page, ".u-cursor-x")).x - plot.x - plot.width / 2) < 0.03 * plot.width,

@@ -2,7 +2,19 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { axeFindings, closed, pageWithMast, pause, setField, settled, text, MIDDLE } from "./planner.mjs";
+import {
+  axeFindings,
+  boxOf,
+  changed,
+  closed,
+  pageWithMast,
+  setField,
+  settled,
+  stillPicture,
+  text,
+  until,
+  MIDDLE,
+} from "./planner.mjs";
 import { keepPicture, world } from "./served_map.mjs";
 
 test("modes with values have classes in the legend, and each place its value", async () => {
@@ -28,12 +40,8 @@ test("modes with values have classes in the legend, and each place its value", a
 
 test("layers change the picture under the masts, and houses are drawn where they are", async () => {
   const page = await pageWithMast(world.town);
-  const shown = async () => (
-    await pause(300),
-    await page.waitForNetworkIdle(),
-    page.screenshot({ clip: { x: 320, y: 0, width: 700, height: 600 } })
-  );
-  let last = await shown();
+  const onMap = { clip: { x: 320, y: 0, width: 700, height: 600 } };
+  await page.waitForNetworkIdle();
   await keepPicture(page, "town");
   const changes = [
     ["#contours", "click"],
@@ -42,6 +50,7 @@ test("layers change the picture under the masts, and houses are drawn where they
     ["#drawn-themes input", "click"],
   ];
   for (const [selector, to] of changes) {
+    const before = await stillPicture(page, onMap);
     await page.$eval(
       selector,
       (field, action) => {
@@ -50,16 +59,14 @@ test("layers change the picture under the masts, and houses are drawn where they
       },
       to,
     );
-    let now = last;
-    await until(async () => Buffer.compare((now = await shown()), last) !== 0, `${selector} ${to}`);
-    last = now;
+    await changed(page, before, onMap, `${selector} ${to}`);
   }
   const share = async () => (await text(page, ".mast-summary")).match(/([\d.]+) %$/)[1];
   const withHouses = await share();
   await page.$eval("#theme-boxes input", (input) => input.click());
   await settled(page);
   assert(Number(await share()) > Number(withHouses));
-  assert.match(page.url(), /themes=none|draw=/);
+  await until(() => /themes=none|draw=/.test(page.url()), "the address has the layers");
   await closed(page);
 });
 
@@ -80,6 +87,8 @@ for (const dark of [false, true]) {
     await settled(page);
     assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), 390);
     await keepPicture(page, dark ? "phone-dark" : "phone");
+    const [zoom, relief] = [await boxOf(page, ".ol-zoom-out"), await boxOf(page, "#relief-button")];
+    assert.ok(zoom.y + zoom.height <= relief.y, JSON.stringify({ zoom, relief }));
     await page.$eval("#sheet-button", (button) => button.click());
     assert.equal(await page.$eval("#sheet-button", (button) => button.getAttribute("aria-expanded")), "true");
     assert.deepEqual(await axeFindings(page), []);

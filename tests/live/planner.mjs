@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import { readFileSync, readdirSync } from "node:fs";
 import { join } from "node:path";
 
-import { axeSource, itin, openPage, world } from "./served_map.mjs";
+import { axeSource, itin, openPage, world, PATIENCE } from "./served_map.mjs";
 
 /** The middle of the map, in pixels of the page. */
 export const MIDDLE = { x: 760, y: 330 };
@@ -17,16 +17,31 @@ export const mastAt = async (page) => ({
 });
 export const observer = ({ x, y, h }) => `${x},${y},${h}`;
 
-export const pause = (milliseconds) => new Promise((resume) => setTimeout(resume, milliseconds));
+const pause = (milliseconds) => new Promise((resume) => setTimeout(resume, milliseconds));
 
-/** Waits until something holds, for half a minute at most: the machine may be busy. */
+/** Waits until something holds, and returns what it then is. */
 export async function until(holds, what) {
-  for (let tries = 0; tries < 300; ++tries) {
-    if (await holds()) return;
-    await pause(100);
+  for (const end = Date.now() + PATIENCE; Date.now() < end; await pause(100)) {
+    const found = await holds();
+    if (found) return found;
   }
   assert.fail(`in vain: ${what}`);
 }
+
+/** A picture of the page, or of a part of it, as soon as it stands still. */
+export async function stillPicture(page, part = {}) {
+  let last = await page.screenshot(part);
+  return until(async () => {
+    const before = last;
+    await pause(200);
+    last = await page.screenshot(part);
+    return Buffer.compare(before, last) === 0 && last;
+  }, "the picture stands still");
+}
+
+/** Waits until a part of the page looks unlike a picture of it. */
+export const changed = (page, picture, part, what) =>
+  until(async () => Buffer.compare(await page.screenshot(part), picture) !== 0, what);
 
 /** Waits until the page has drawn what it knows. */
 export const drawn = (page) =>
@@ -35,17 +50,13 @@ export const drawn = (page) =>
 /** Waits until every mast's cells are all decided. */
 export const settled = async (page) => (
   await drawn(page),
-  page.waitForFunction(() => document.querySelector(".mast") && !document.querySelector(".mast.working"), {
-    timeout: 30000,
-  })
+  page.waitForFunction(() => document.querySelector(".mast") && !document.querySelector(".mast.working"))
 );
 
 /** Waits until nothing is asked of the server any more, whoever sees. */
 export const settledViews = async (page) => (
   await drawn(page),
-  page.waitForFunction(() => document.querySelector("#status").hidden && !document.querySelector("#legend").hidden, {
-    timeout: 30000,
-  })
+  page.waitForFunction(() => document.querySelector("#status").hidden && !document.querySelector("#legend").hidden)
 );
 
 export async function setField(page, selector, wanted) {
@@ -80,11 +91,8 @@ export async function closed(page) {
 
 /** A file of a folder, as soon as it is there. */
 export async function downloaded(folder, name) {
-  for (let tries = 0; tries < 100; ++tries) {
-    if (readdirSync(folder).includes(name)) return readFileSync(join(folder, name));
-    await pause(100);
-  }
-  throw new Error(`no ${name} in ${readdirSync(folder)}`);
+  await until(() => readdirSync(folder).includes(name), `${name} is downloaded`);
+  return readFileSync(join(folder, name));
 }
 
 /** Findings of axe that keep people out. */

@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
 
-import { axeFindings, closed, settled, until } from "./planner.mjs";
+import { axeFindings, changed, closed, settled, stillPicture, until } from "./planner.mjs";
 import { keepPicture, launchBrowser, openPage, startWorld, stopWorld, world } from "./served_map.mjs";
 
 before(async () => {
@@ -26,7 +26,6 @@ async function open(page) {
   await page.$eval("#relief-button", (button) => button.click());
   await page.waitForFunction(
     () => document.querySelector("#relief-picture canvas") && document.querySelector("#relief-said").textContent === "",
-    { timeout: 30000 },
   );
 }
 
@@ -68,10 +67,10 @@ test("the view is loaded when it is opened, coloured by what is seen, from outsi
   await page.$eval("#relief-inside", (button) => button.click());
   await page.waitForFunction(() => /^Eyes/.test(document.querySelector("#relief-said").textContent));
   await keepPicture(page, "relief-eye");
-  const straight = await page.screenshot();
+  const straight = await stillPicture(page);
   await page.focus("#relief-picture");
   await page.keyboard.press("ArrowLeft");
-  await until(async () => Buffer.compare(await page.screenshot(), straight) !== 0, "the head is turned");
+  await changed(page, straight, {}, "the head is turned");
   await page.keyboard.press("Escape");
   await page.waitForSelector("#relief-view[hidden]");
   await closed(page);
@@ -92,9 +91,7 @@ test("a browser that cannot draw it says so in one line, and the map goes on", a
     window.HTMLCanvasElement.prototype.getContext = () => null;
   });
   await page.$eval("#relief-button", (button) => button.click());
-  await page.waitForFunction(() => /cannot be shown/.test(document.querySelector("#relief-said").textContent), {
-    timeout: 20000,
-  });
+  await page.waitForFunction(() => /cannot be shown/.test(document.querySelector("#relief-said").textContent));
   await page.$eval("#relief-close", (button) => button.click());
   await page.waitForSelector("#relief-view[hidden]");
   await page.close();

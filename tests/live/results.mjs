@@ -4,19 +4,7 @@ import { copyFileSync, mkdirSync, renameSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
 
-import {
-  closed,
-  downloaded,
-  mastAt,
-  pageWithMast,
-  pause,
-  setField,
-  settled,
-  text,
-  until,
-  value,
-  MIDDLE,
-} from "./planner.mjs";
+import { closed, downloaded, mastAt, pageWithMast, setField, settled, text, until, value, MIDDLE } from "./planner.mjs";
 import { keepPicture, openPage, runLine, serve, world } from "./served_map.mjs";
 
 test("a reload from the address shows the same, and the key is not in it", async () => {
@@ -73,7 +61,6 @@ test("a file that takes too long is cancelled", async () => {
   await settled(page);
   await page.$eval("[data-ending=pdf]", (button) => button.click());
   await page.waitForSelector("#job:not([hidden])");
-  await pause(300);
   await page.$eval("#job-cancel", (button) => button.click());
   await page.waitForSelector("#job[hidden]");
   assert.equal(await text(page, "#results-said"), "");

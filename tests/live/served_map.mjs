@@ -14,6 +14,9 @@ const program = process.env.ITIN_PROGRAM ?? new URL("../../build/test/bin/itin",
 const data = new URL("../../scripts/demo-data/", import.meta.url).pathname;
 const pictures = new URL("../../build/live/", import.meta.url).pathname;
 
+/** How long tests wait for what must come, in milliseconds: the machine may be busy. */
+export const PATIENCE = 300000;
+
 /** Runs the program in a folder, with a list of options or a line of some that have no spaces, and returns what it
  * prints. */
 export const itin = (options, folder) =>
@@ -90,6 +93,7 @@ export const launchBrowser = (drawing = ["--disable-gpu"]) =>
 /** Opens an address, where `before` runs before the page's own modules, and notes errors of the page and requests to other places than the server. */
 export async function openPage(browser, address, { width = 1200, height = 800, dark = false, before } = {}) {
   const page = await browser.newPage();
+  page.setDefaultTimeout(PATIENCE);
   if (before) await page.evaluateOnNewDocument(before);
   const origin = new URL(address).origin;
   const troubles = [];

@@ -37,7 +37,7 @@ const load = async (page, name, text_) => {
 async function choose(page, count) {
   await page.$eval("#site-count", (input, to) => (input.value = to), String(count));
   await page.$eval("#choose", (button) => button.click());
-  await page.waitForSelector("#plan:not([hidden])", { timeout: 30000 });
+  await page.waitForSelector("#plan:not([hidden])");
   await settledViews(page);
   await drawn(page);
 }
@@ -105,6 +105,7 @@ test("an area is drawn, a choice in it is cancelled, and then made", async () =>
   await page.$eval("#choose", (button) => button.click());
   await until(async () => /draw an area/.test(await text(page, "#choice-run .problem")), "an area is asked for");
   await page.$eval("#area-button", (button) => button.click());
+  assert.match(await text(page, "#hint"), /^Click the corners/);
   for (const [x, y] of [
     [-60, -60],
     [60, -60],
@@ -112,9 +113,11 @@ test("an area is drawn, a choice in it is cancelled, and then made", async () =>
     [-60, -60],
   ]) {
     await page.mouse.click(MIDDLE.x + x, MIDDLE.y + y);
-    await new Promise((resume) => setTimeout(resume, 300));
+    await new Promise((resume) => setTimeout(resume, 300)); // sooner, two clicks are a double one
   }
   await until(async () => /^Candidates are proposed in/.test(await text(page, "#search-said")), "the area is told");
+  assert.equal(await text(page, "#choice-run .problem"), "");
+  await page.waitForSelector("#hint[hidden]");
   await page.waitForFunction(() => location.hash.includes("&area="));
   await setField(page, "#site-spacing", "300");
   await page.$eval("#choose", (button) => button.click());
@@ -127,6 +130,20 @@ test("an area is drawn, a choice in it is cancelled, and then made", async () =>
   assert.match(await text(page, "#plan-sum"), /^The site serves .* No choice serves more/);
   assert.match(await text(page, "#choice-run .run-files"), /report\.html/);
   await closed(page);
+});
+
+test("a choice ends with the page that asked for it", async () => {
+  const page = await pageOfSites();
+  const asked = new Set();
+  page.on("request", (request) => asked.add(request.url()));
+  await page.$eval("#area-in-view", (button) => button.click());
+  await setField(page, "#site-spacing", "300");
+  await page.$eval("#choose", (button) => button.click());
+  const job = await until(() => [...asked].find((url) => /\/jobs\/\w+$/.test(url)), "the choice has begun");
+  assert.equal((await (await fetch(job)).json()).error, null);
+  await page.goto("about:blank");
+  await until(async () => (await fetch(job)).status === 404, "the server has let go of it");
+  await page.close();
 });
 
 test("premises are surveyed from the masts on the map", async () => {

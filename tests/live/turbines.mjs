@@ -78,13 +78,23 @@ test("turbines are placed by hand, and a click shows the wireline from there", a
   await page.mouse.move(MIDDLE.x - 20, MIDDLE.y - 60, { steps: 3 });
   await page.waitForSelector("#readout:not([hidden])");
   assert.match(await text(page, "#readout"), /Blade tips\d of 2Hubs\d of 2Nearest turbine/);
-  await page.mouse.click(MIDDLE.x - 20, MIDDLE.y - 60);
-  await page.waitForSelector("#wireline-picture:not([hidden])", { timeout: 20000 });
+  const middle = async () => {
+    const at = new URLSearchParams(new URL(page.url()).hash.slice(1)).get("at");
+    return at?.split(",").map(Number) ?? [];
+  };
+  await until(async () => (await middle()).length === 3, "the address has the middle of the map");
+  const [x, y, resolution] = await middle();
+  await page.mouse.click(MIDDLE.x - 20, MIDDLE.y + 240);
+  await page.waitForSelector("#wireline-picture:not([hidden])");
   await until(() => page.$eval("#wireline-picture", (image) => image.naturalWidth > 0), "the wireline is drawn");
   assert.match(await text(page, "#wireline-said"), /^Wireline from/);
   await keepPicture(page, "wireline");
   await page.keyboard.press("Escape");
   await page.waitForSelector("#wireline[hidden]");
+  await until(async () => {
+    const now = await middle();
+    return Math.hypot(now[0] - x, now[1] - y) < resolution;
+  }, "the map is where it was");
   await page.$eval("#turbines-remove", (button) => button.click());
   assert.match(await text(page, "#turbine-sum"), /^None yet/);
   await closed(page);
@@ -97,7 +107,7 @@ test("the zone of visibility is written as the command line writes it", async ()
   const client = await page.createCDPSession();
   await client.send("Browser.setDownloadBehavior", { behavior: "allow", downloadPath: folder });
   await page.$eval("#write-zone", (button) => button.click());
-  await page.waitForSelector("#zone-run .run-files:not([hidden])", { timeout: 20000 });
+  await page.waitForSelector("#zone-run .run-files:not([hidden])");
   await page.$$eval("#zone-run a", (links) => links.find(({ textContent }) => textContent === "areas.csv").click());
   const table = await downloaded(folder, "areas.csv");
   areaOf(LAYOUT);

@@ -475,6 +475,8 @@ class Store:
         fields = given({k: v for k, v in locals().items() if k not in ("self", "observers", "progress")})
         if mode in ("fresnel", "loss") and frequency_ghz is None:
             raise InputError(f"`frequency_ghz`: the mode {mode} needs a frequency", "frequency_ghz")
+        if mode not in ("fresnel", "loss") and frequency_ghz is not None:
+            raise InputError(f"`mode`: {mode} needs no frequency; give fresnel or loss", "mode")
         fields["observers"] = _observers(observers)
         fields["themes"] = names_of(themes)
         fields |= _rings(fields.pop("rings"), tolerance, fields["observers"])

@@ -31,6 +31,7 @@ def test_of_viewsheds_name_the_argument(cardiff: itin.Store) -> None:
     assert field_of(lambda: cardiff.viewshed(HILL, target_height=-1)) == "target_height"
     assert field_of(lambda: cardiff.viewshed(HILL, mode="seen")) == "mode"  # type: ignore[arg-type]
     assert field_of(lambda: cardiff.viewshed(HILL, mode="loss")) == "frequency_ghz"
+    assert field_of(lambda: cardiff.viewshed(HILL, frequency_ghz=5.8)) == "mode"
     assert field_of(lambda: cardiff.viewshed(HILL, nodata="sea")) == "nodata"  # type: ignore[arg-type]
     assert field_of(lambda: cardiff.viewshed(HILL, tolerance=-1)) == "tolerance"
     assert field_of(lambda: cardiff.viewshed(HILL, themes="moat")) == "themes"

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import os
 import re
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
-from conftest import SOURCE
+from conftest import PROGRAM, SOURCE
 
 TURBINES = "x,y,hub_height,rotor_diameter\n310375,183525,80,90\n312000,185000,80,90\n"
 LINKS = "id,x1,y1,h1,x2,y2,h2\na,310375,183525,20,312000,185000,12\nb,310375,183525,20,308000,181000,12\n"
@@ -48,6 +49,20 @@ def test_the_blocks_of_a_page_run_one_after_the_other(folder: Path, page: Path) 
     assert len(blocks_of(page)) > 5
     for made in ("seen.tif", "judged.csv", "masts/sites.csv", "zone/tip-count.tif"):
         assert (folder / made).exists(), made
+
+
+def test_a_mast_is_sited_to_the_same_bytes_by_commands_and_in_python(
+    folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    page = SOURCE / "docs" / "how-to" / "lidar-tile.md"
+    monkeypatch.setenv("SOURCE_DATE_EPOCH", "0")
+    monkeypatch.setenv("PATH", f"{Path(PROGRAM).parent}{os.pathsep}{os.environ['PATH']}")
+    commands = re.findall(r"```sh\n(.*?)```", page.read_text(), re.DOTALL)
+    subprocess.run(["sh", "-ec", "".join(commands)], check=True, capture_output=True)
+    exec(compile("".join(blocks_of(page)), str(page), "exec"), {})  # noqa: S102
+    assert (folder / "delft.itin").read_bytes() == (folder / "python.itin").read_bytes()
+    for name in ("sites.csv", "sites.gpkg", "candidates.csv", "links.csv", "coverage.png", "radio.tif", "radio.qml"):
+        assert (folder / "by-command" / name).read_bytes() == (folder / "by-python" / name).read_bytes(), name
 
 
 @pytest.mark.parametrize(

@@ -34,6 +34,7 @@ const browser = [
   "AbortController",
   "MessageChannel",
   "addEventListener",
+  "removeEventListener",
   "requestAnimationFrame",
   "devicePixelRatio",
   "setTimeout",

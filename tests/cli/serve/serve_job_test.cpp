@@ -1,8 +1,6 @@
 // Jobs: calls of the program whose files clients take away.
-#include <chrono>
 #include <csignal>
 #include <filesystem>
-#include <thread>
 
 #include <gtest/gtest.h>
 
@@ -91,16 +89,13 @@ TEST_F(ServeJobs, WaitAndAreCancelled) {
     const Answer started = start(long_job());
     ASSERT_EQ(started.status, 202) << started.body;
     urls.push_back(started.json().at("url"));
-    for (int k = 0; k < 200 && i == 0 && state(urls.front()).at("state") == "queued"; ++k)
-      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    if (i == 0) EXPECT_TRUE(eventually([&] { return state(urls.front()).at("state") != "queued"; }));
   }
   EXPECT_EQ(start(long_job()).status, 429);
   EXPECT_EQ(state(urls[0]).at("state"), "running");
   EXPECT_EQ(state(urls[1]).at("state"), "queued");
   for (const std::string& url : {urls[1], urls[0]}) EXPECT_EQ(remove(url).status, 200);
-  for (int i = 0; i < 100 && state(urls[2]).at("state") != "running"; ++i)
-    std::this_thread::sleep_for(std::chrono::milliseconds(50));
-  EXPECT_EQ(state(urls[2]).at("state"), "running");
+  EXPECT_TRUE(eventually([&] { return state(urls[2]).at("state") == "running"; }));
   EXPECT_EQ(ask(*server_, urls[0]).status, 404);
 }
 
@@ -111,8 +106,7 @@ TEST_F(ServeJobs, LeaveNothingBehind) {
   serve();
   unsetenv("TMPDIR");
   const std::string url = start(long_job()).json().at("url");
-  for (int i = 0; i < 200 && state(url).at("state") == "queued"; ++i)
-    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  EXPECT_TRUE(eventually([&] { return state(url).at("state") != "queued"; }));
   EXPECT_FALSE(fs::is_empty(temporary));
   EXPECT_EQ(server_->end(SIGINT).status, 130);
   EXPECT_TRUE(fs::is_empty(temporary));

@@ -1,6 +1,7 @@
 // How the server starts and ends.
 #include <chrono>
 #include <csignal>
+#include <cstdlib>
 #include <filesystem>
 
 #include <fmt/format.h>
@@ -47,6 +48,28 @@ TEST_F(ServeStart, SaysThatThePortIsTaken) {
                                      "that is free\n",
                                      server_->port()));
   EXPECT_EQ(ask(*server_, "/api/v1/info").status, 200);
+}
+
+TEST_F(ServeStart, OpensABrowserOrSaysInOneLineThatThereIsNone) {
+  const std::string path = std::getenv("PATH");
+  ASSERT_EQ(setenv("PATH", (shell_.directory() / "bin:").string().append(path).c_str(), 1), 0);
+  const auto told = [&](const std::string& opener) {
+    shell_.run("mkdir -p bin; printf '#!/bin/sh\\n" + opener +
+               "\\n' > bin/xdg-open; chmod +x bin/xdg-open; rm -f opened");
+    serve({"--open"});
+    const std::string url = server_->url();
+    EXPECT_TRUE(eventually([&] { return shell_.read("opened") == url + "\n"; }));
+    const std::string errors = server_->end(SIGINT).errors;
+    server_.reset();
+    return errors;
+  };
+  const std::string write = "echo \"$1\" > " + (shell_.directory() / "opened").string();
+  EXPECT_EQ(told(write), "itin: error: interrupted\n");
+  const std::string none = told("echo no links2 >&2; echo no lynx; " + write + "; exit 3");
+  setenv("PATH", path.c_str(), 1);
+  EXPECT_EQ(none.find("no l"), std::string::npos) << none;
+  EXPECT_NE(none.find("itin: warning: --open: no browser opened; open the printed URL by hand\n"), std::string::npos)
+      << none;
 }
 
 TEST_F(ServeStart, RefusesWrongCalls) {

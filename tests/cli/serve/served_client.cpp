@@ -60,7 +60,7 @@ ClientSocket::ClientSocket(std::uint16_t port) : socket_(socket(AF_INET, SOCK_ST
   address.sin_family = AF_INET;
   address.sin_port = htons(port);
   address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  const timeval patience{30, 0};
+  const timeval patience{std::chrono::seconds(kPatience).count(), 0};
   setsockopt(socket_, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
   if (connect(socket_, reinterpret_cast<sockaddr*>(&address), sizeof address) != 0)
     throw std::runtime_error("not connected");

@@ -1,6 +1,7 @@
 // HTTP and WebSockets over plain sockets, so that tests may send what no library would.
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -18,7 +19,10 @@ namespace itin::test {
 
 using Json = nlohmann::json;
 
-/// A connection to a port of this machine. It waits for half a minute at most.
+/// How long tests wait for what must come: the machine may be busy.
+constexpr std::chrono::minutes kPatience{4};
+
+/// A connection to a port of this machine.
 class ClientSocket {
  public:
   explicit ClientSocket(std::uint16_t port);

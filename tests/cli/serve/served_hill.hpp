@@ -16,6 +16,16 @@
 
 namespace itin::test {
 
+/// Waits until something holds, for as long as a busy machine may take, and returns whether it does.
+template <class Holds>
+bool eventually(const Holds& holds) {
+  for (const auto end = std::chrono::steady_clock::now() + kPatience; std::chrono::steady_clock::now() < end;) {
+    if (holds()) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  return false;
+}
+
 class ServedHill : public ::testing::Test {
  protected:
   ServedHill() {
@@ -46,12 +56,12 @@ class ServedHill : public ::testing::Test {
   Json state(const std::string& url) const { return ask(*server_, url).json(); }
   /// Returns the job once it has ended.
   Json ended(const std::string& url) const {
-    for (int i = 0; i < 600; ++i) {
-      const Json job = state(url);
-      if (job.at("state") != "queued" && job.at("state") != "running") return job;
-      std::this_thread::sleep_for(std::chrono::milliseconds(50));
-    }
-    throw std::runtime_error("the job does not end");
+    Json job;
+    const bool has_ended = eventually([&] {
+      job = state(url);
+      return job.at("state") != "queued" && job.at("state") != "running";
+    });
+    return has_ended ? job : throw std::runtime_error("the job does not end");
   }
 
   Shell shell_;

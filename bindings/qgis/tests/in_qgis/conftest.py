@@ -5,7 +5,6 @@ from __future__ import annotations
 import io
 import os
 import subprocess
-import sys
 import time
 from collections.abc import Iterator
 from pathlib import Path
@@ -25,13 +24,12 @@ SITES = "x,y,name\n310375,183525,Garth\n322300,190000,East\n314200,177800,South\
 MASTS = "name,x,y,height\nchurch,321790,4297662,18\nmill,321900,4297850,12\n"
 BOX = (308000, 181000, 314000, 187000)
 
-# The program is in PATH, imports are told one time, and QGIS opens no window.
+# The program is in PATH, and imports are told one time.
 os.environ["PATH"] = f"{Path(PROGRAM).parent}{os.pathsep}{os.environ['PATH']}"
 os.environ["SOURCE_DATE_EPOCH"] = "0"
-os.environ["QT_QPA_PLATFORM"] = "offscreen"
-sys.path[:0] = ["/usr/share/qgis/python/plugins", PLUGINS]
 
-from qgis.core import (  # noqa: E402
+from headless import running_qgis
+from qgis.core import (
     QgsApplication,
     QgsProcessingAlgRunnerTask,
     QgsProcessingContext,
@@ -113,18 +111,8 @@ class Qgis:
 
 @pytest.fixture(scope="session")
 def application() -> Iterator[QgsApplication]:
-    application = QgsApplication([], False)
-    application.initQgis()
-    from processing.core.Processing import Processing
-
-    Processing.initialize()
-    from itin_qgis import classFactory
-
-    plugin = classFactory(None)
-    plugin.initProcessing()
-    yield application
-    plugin.unload()
-    application.exitQgis()
+    with running_qgis() as application:
+        yield application
 
 
 @pytest.fixture

@@ -9,12 +9,12 @@ import subprocess
 from pathlib import Path
 
 import pytest
-from conftest import DATA, PLUGINS, SOURCE, Qgis, run_program
+from conftest import DATA, PLUGINS, SOURCE, Qgis
 from qgis.core import QgsFeature, QgsGeometry, QgsProject, QgsRectangle, QgsVectorLayer
 from test_inputs import same_cells
 
 GUIDE = (SOURCE / "docs" / "qgis.md").read_text()
-BLOCKS = re.findall(r"^```(\w*)\n(.*?)^```", GUIDE, re.DOTALL | re.MULTILINE)
+LIDAR_TILE = (SOURCE / "docs" / "how-to" / "lidar-tile.md").read_text()
 
 
 @pytest.fixture
@@ -24,14 +24,22 @@ def folder(tmp_path: Path, cardiff: Path, monkeypatch: pytest.MonkeyPatch) -> Pa
     return tmp_path
 
 
-def test_block_of_python_runs(qgis: Qgis, folder: Path) -> None:
-    (block,) = (text for language, text in BLOCKS if language == "python")
+def blocks(language: str, page: str = GUIDE) -> list[str]:
+    found = re.findall(r"^```(\w*)\n(.*?)^```", page, re.DOTALL | re.MULTILINE)
+    return [text for name, text in found if name == language]
+
+
+def run_here(block: str) -> None:
     exec(compile(block, "docs/qgis.md", "exec"), {})  # noqa: S102
+
+
+def test_block_of_python_runs(qgis: Qgis, folder: Path) -> None:
+    run_here(blocks("python")[1])
     assert (folder / "height.tif").exists()
 
 
 def test_commands_of_qgis_process_run(folder: Path) -> None:
-    (block,) = (text for language, text in BLOCKS if language == "")
+    (block,) = blocks("")
     environment = os.environ | {"QGIS_PLUGINPATH": PLUGINS, "QGIS_CUSTOM_CONFIG_PATH": str(folder / "profile")}
     subprocess.run(["bash", "-e", "-c", block], env=environment, check=True, capture_output=True, timeout=120)
     assert (folder / "seen.tif").exists()
@@ -39,7 +47,7 @@ def test_commands_of_qgis_process_run(folder: Path) -> None:
 
 def test_a_mast_from_a_lidar_tile(qgis: Qgis, tmp_path: Path) -> None:
     store = str(tmp_path / "delft.itin")
-    qgis.run("importterrain", {"FILES": [str(DATA / "delft-lidar.las")], "CRS": "EPSG:28992", "STORE": store})
+    qgis.run("importterrain", {"FILES": [str(DATA / "delft-lidar.laz")], "STORE": store})
     houses = {"INPUT": str(DATA / "delft-houses.geojson"), "KIND": "buildings", "HEIGHT_FIELD": "height"}
     qgis.run("importfeatures", {**houses, "STORE": store})
 
@@ -56,14 +64,16 @@ def test_a_mast_from_a_lidar_tile(qgis: Qgis, tmp_path: Path) -> None:
     radio = {"OBSERVERS": layer, "TARGET_HEIGHT": 2, "FREQUENCY": 5.8, "EFFECTIVE_EARTH": "4/3", "RADIUS": 100, "CELL": 5}
     assert Path(qgis.run("radiocoverage", {"STORE": store, **radio, "OUTPUT": str(tmp_path / "r.tif")})["OUTPUT"]).exists()
 
-    # The same mast by the command line, to the byte but for the notes that name the area.
-    other = tmp_path / "other.itin"
-    run_program("import", other, DATA / "delft-lidar.las", "--crs=EPSG:28992")
-    run_program("import", other, DATA / "delft-houses.geojson", "--kind=buildings", "--height-field=height")
-    assert filecmp.cmp(store, other, shallow=False)
-    square_text = "POLYGON((84880 447500,84960 447500,84960 447580,84880 447580,84880 447500))"
-    choice = ["--spacing=40", "--mast-height=20", "--count=1", "--radius=100", "--cell=5"]
-    run_program("site", store, f"--search-area={square_text}", *choice, "-o", tmp_path / "same")
-    for name in ("sites.csv", "sites.gpkg"):
-        assert filecmp.cmp(tmp_path / "masts" / name, tmp_path / "same" / name, shallow=False), name
-    assert same_cells(tmp_path / "masts" / "coverage.tif", tmp_path / "same" / "coverage.tif")
+
+def test_the_mast_of_the_script_is_that_of_the_command_line(
+    qgis: Qgis, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "scripts").symlink_to(SOURCE / "scripts")
+    monkeypatch.chdir(tmp_path)
+    run_here(blocks("python")[0])
+    commands = "\n".join(blocks("sh", LIDAR_TILE))
+    subprocess.run(["sh", "-ec", commands], check=True, capture_output=True, timeout=120)
+    assert filecmp.cmp("delft.itin", "qgis.itin", shallow=False)
+    for name in ("sites.csv", "sites.gpkg", "candidates.csv", "radio.tif", "radio.qml"):
+        assert filecmp.cmp(f"by-command/{name}", f"by-qgis/{name}", shallow=False), name
+    assert same_cells(tmp_path / "by-command" / "coverage.tif", tmp_path / "by-qgis" / "coverage.tif")

@@ -1,6 +1,6 @@
 // What the line of sight comes to, in words.
 
-import { azimuthsText, distanceText, metresText, numberText } from "../panel/words.js";
+import { azimuthsText, distanceText, metresText, numberText, placeText } from "../panel/words.js";
 
 /** @typedef {import("./sight_line.js").SightLine} SightLine */
 
@@ -39,15 +39,16 @@ export function lineFacts(line) {
     ["Azimuth", azimuthsText(from.azimuth_grid_deg, from.azimuth_true_deg)],
     ["Back", azimuthsText(to.azimuth_grid_deg, to.azimuth_true_deg)],
   ];
-  if (line.tightest) facts.push(["Tightest", tightestText(line.tightest)]);
+  if (line.tightest) facts.push(["Clearance", tightestText(line.tightest)]);
   if (line.verdict === "hidden" && needed) {
-    if (needed.from_alone_m !== null) facts.push(["Mast needed", metresText(needed.from_alone_m)]);
-    if (needed.to_alone_m !== null) facts.push(["Target needed", metresText(needed.to_alone_m)]);
+    if (needed.from_alone_m !== null) facts.push(["Mast height needed", metresText(needed.from_alone_m)]);
+    if (needed.to_alone_m !== null) facts.push(["Target height needed", metresText(needed.to_alone_m)]);
   }
   if (radio?.fresnel_fraction !== null && radio?.fresnel_fraction !== undefined) {
     facts.push(["Fresnel zone", `least clearance ${numberText(radio.fresnel_fraction, 2)} F1`]);
   }
   if (radio?.losses_db) facts.push(["Loss", lossText(radio.losses_db)]);
-  if (Number.isFinite(to.lat)) facts.push(["Target at", `${numberText(to.lat, 5)}, ${numberText(to.lon, 5)}`]);
+  const degrees = Number.isFinite(to.lat) ? ` (${numberText(to.lat, 5)}, ${numberText(to.lon, 5)})` : "";
+  facts.push(["Target at", `${placeText(to.x, to.y)}${degrees}`]);
   return facts;
 }

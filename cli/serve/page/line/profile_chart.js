@@ -87,7 +87,7 @@ export class ProfileChart {
     };
     return {
       ...this.#size(),
-      padding: [10, 14, 0, 0],
+      padding: [10, 28, 0, 0],
       legend: { show: false },
       cursor: { y: false, points: { show: false }, drag: { x: false, y: false } },
       scales: {

@@ -16,8 +16,8 @@ import { observerOf } from "../seen/viewers.js";
  *   Obstruction
  */
 /**
- * @typedef {{ground_m: number, height_m: number, lon: number, lat: number, azimuth_grid_deg: number, azimuth_true_deg:
- *   number | null}} LineEnd
+ * @typedef {{x: number, y: number, ground_m: number, height_m: number, lon: number, lat: number, azimuth_grid_deg:
+ *   number, azimuth_true_deg: number | null}} LineEnd
  */
 /**
  * @typedef {object} SightLine

@@ -2,6 +2,9 @@
 
 const MARGIN_PIXELS = 24;
 
+/** The middle of the map after a place was brought into view, and how far north that is of where it would have been. */
+let raised = { north: NaN, by: 0 };
+
 /** Lets the map change its height without moving what it shows, but where that would hide a place.
  * @param {import("../vendor/ol.js").OlMap} map @param {{x: number, y: number} | null} end
  * @param {() => void} change */
@@ -14,7 +17,11 @@ export function keepingPlace(map, end, change) {
   const centre = view.getCenter();
   const resolution = view.getResolution();
   if (height === before || !centre || !resolution) return;
-  const north = centre[1] + ((before - height) / 2) * resolution;
+  // Where the planner has not moved the map meanwhile, it goes back to where it was.
+  const still = Math.abs(centre[1] - raised.north) < resolution;
+  const north = centre[1] + ((before - height) / 2) * resolution + (height > before && still ? raised.by : 0);
   const lowest = north - (height / 2 - MARGIN_PIXELS) * resolution;
-  view.setCenter([centre[0], end && end.y < lowest ? north - (lowest - end.y) : north]);
+  const by = end && end.y < lowest ? lowest - end.y : 0;
+  raised = { north: north - by, by };
+  view.setCenter([centre[0], north - by]);
 }

@@ -65,19 +65,15 @@ export function candidateAt(scene, map, [x, y]) {
 /** Lets the planner draw an area on the map, corner by corner, until it is closed or given up.
  * @param {OlMap} map @param {(ring: number[]) => void} take  Gets the area.
  * @param {() => void} end  Called when there is nothing more to draw.
- * @returns {() => void} gives up */
+ * @returns {() => void} takes the drawing off the map */
 export function drawArea(map, take, end) {
   const draw = new Draw({ type: "Polygon" });
-  const stop = () => {
-    map.removeInteraction(draw);
-    end();
-  };
   draw.on("drawend", ({ feature }) => {
     const corners = /** @type {Polygon} */ (feature.getGeometry()).getCoordinates()[0].slice(0, -1);
     take(corners.flatMap(([x, y]) => [Math.round(x), Math.round(y)]));
     // The click that ends the drawing is still on its way to the map.
-    setTimeout(stop);
+    setTimeout(end);
   });
   map.addInteraction(draw);
-  return stop;
+  return () => void map.removeInteraction(draw);
 }

@@ -8,7 +8,7 @@ export const makeTargetMarker = (map, scene) =>
     className: "target",
     label: "Far end of the line of sight",
     name: "target",
-    keys: ["target", "masts", "selected"],
+    keys: ["target", "masts", "selected", "task"],
     place: () => scene.farEnd,
     shown: () => (scene.farEnd?.name ? null : scene.farEnd),
   });

@@ -1,5 +1,5 @@
 // What to do first, over the map: until there is a mast or a turbine, and then until a line of sight, a wireline or a
-// second one shows that the planner has found out.
+// second one shows that the planner has found out. For sites, how an area is drawn.
 
 import { element } from "./elements.js";
 
@@ -16,11 +16,16 @@ function ofTask({ state: { task, masts, turbines, target, viewpoint } }) {
 export function makeHint(scene) {
   const hint = element("hint");
   const known = new Set(scene.state.masts.length > 0 ? ["mast"] : []);
-  scene.on(["placing", "masts", "target", "task", "turbines", "viewpoint"], () => {
+  const text = () => {
+    const { placing, task } = scene.state;
+    if (task === "sites") return placing ? "Click the corners of the area, and the first one again" : "";
     const { what, next, count, done } = ofTask(scene);
     if (done || count > 1) known.add(what);
-    const first = scene.state.placing || count === 0;
-    hint.textContent = first ? `Click the map to place a ${what}` : `Drag the ${what}, or click the map ${next}`;
-    hint.hidden = scene.state.task === "sites" || (!first && known.has(what));
+    if (placing || count === 0) return `Click the map to place a ${what}`;
+    return known.has(what) ? "" : `Drag the ${what}, or click the map ${next}`;
+  };
+  scene.on(["placing", "masts", "target", "task", "turbines", "viewpoint"], () => {
+    hint.textContent = text();
+    hint.hidden = hint.textContent === "";
   });
 }

@@ -44,6 +44,11 @@ export class JobRun {
     this.#given.abort();
   }
 
+  /** Takes back what went wrong, once what was asked has changed. */
+  forgive() {
+    this.#problem.textContent = "";
+  }
+
   /** Runs a call, in place of one that runs already. @param {() => Promise<Call>} prepare
    * @returns {Promise<Job | null>} null where it failed, as the page then says, or was given up */
   async run(prepare) {

@@ -65,17 +65,14 @@ function makeDrawing(scene, map, take) {
   const button = element("area-button");
   /** @type {(() => void) | null} */
   let stop = null;
-  const end = () => {
-    stop = null;
-    button.setAttribute("aria-pressed", "false");
-    element("map").classList.remove("drawing");
-  };
-  const begin = () => {
-    stop = drawArea(map, take, end);
-    button.setAttribute("aria-pressed", "true");
-    element("map").classList.add("drawing");
-  };
-  button.addEventListener("click", () => (stop ? stop() : begin()));
-  document.addEventListener("keydown", ({ key }) => key === "Escape" && stop?.());
-  scene.on(["task"], () => stop?.());
+  const end = () => scene.change({ placing: false });
+  button.addEventListener("click", () => scene.change({ placing: !scene.state.placing }));
+  scene.on(["placing", "task"], () => {
+    const drawing = scene.state.task === "sites" && scene.state.placing;
+    button.setAttribute("aria-pressed", String(drawing));
+    element("map").classList.toggle("drawing", drawing);
+    if (drawing === (stop !== null)) return;
+    stop?.();
+    stop = drawing ? drawArea(map, take, end) : null;
+  });
 }

@@ -70,6 +70,7 @@ export function makeSiteChoice(scene, views, jobs) {
   });
   element("plan-back").addEventListener("click", () => putBack(scene));
   element("plan-keep").addEventListener("click", () => keepAsMasts(scene));
+  scene.on(["search"], () => run.forgive());
   scene.on(["plan"], () => showPlan(scene));
   views.onChange(() => showNow(scene, views));
 }

@@ -63,18 +63,24 @@ export class Jobs {
   }
 
   /**
-   * Waits until a job has ended, or the signal says that it is given up.
+   * Waits until a job has ended, or the signal says that it is given up. A page that is left gives it up as well.
    * @param {string} url @param {(job: Job) => void} look  Gets the job now and then.
    * @param {AbortSignal} signal
    * @returns {Promise<Job | null>} null where it was given up
    */
   async ended(url, look, signal) {
-    while (!signal.aborted) {
-      const job = /** @type {Job} */ (await ask(url));
-      look(job);
-      if (job.state === "done") return job;
-      if (job.state === "failed") throw new Error(job.error ?? "it could not be done");
-      await new Promise((resume) => setTimeout(resume, LOOK_EVERY));
+    const leave = () => this.cancel(url);
+    addEventListener("pagehide", leave);
+    try {
+      while (!signal.aborted) {
+        const job = /** @type {Job} */ (await ask(url));
+        look(job);
+        if (job.state === "done") return job;
+        if (job.state === "failed") throw new Error(job.error ?? "it could not be done");
+        await new Promise((resume) => setTimeout(resume, LOOK_EVERY));
+      }
+    } finally {
+      removeEventListener("pagehide", leave);
     }
     await this.cancel(url);
     return null;
@@ -96,6 +102,6 @@ export class Jobs {
 
   /** @param {string} url */
   async cancel(url) {
-    await ask(url, { method: "DELETE", headers: { "X-Itin-Key": this.key } });
+    await ask(url, { method: "DELETE", headers: { "X-Itin-Key": this.key }, keepalive: true });
   }
 }

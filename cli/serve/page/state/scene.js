@@ -18,7 +18,7 @@
  *   them.
  * @property {Layers} layers
  * @property {{x: number, y: number, resolution: number} | null} view  The middle of the map, and metres a pixel.
- * @property {boolean} placing         Whether the next click on the map places a mast or a turbine.
+ * @property {boolean} placing         Whether the next click on the map places a mast or a turbine, or a corner of an area.
  * @property {import("./turbines.js").Turbine[]} turbines
  * @property {number | null} turbine   The id of the turbine that is selected.
  * @property {"tips" | "hubs"} part    What of the turbines is counted.
