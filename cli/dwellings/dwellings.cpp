@@ -24,7 +24,7 @@ class DwellingsVerb final : public Verb {
  public:
   std::string name() const override { return "dwellings"; }
   std::string summary() const override {
-    return "Tell when the shadows of wind turbines flicker at dwellings, minute by minute of a year";
+    return "Tell what dwellings see of wind turbines, facade by facade, and when their shadows flicker there";
   }
   void declare(CLI::App& app) override { options_.declare(app); }
   void validate() override { options_.validate(); }
@@ -67,15 +67,19 @@ class DwellingsVerb final : public Verb {
     const Document& counts = document["dwellings"];
     const viewshed::FlickerRules& rules = survey.request.flicker;
     const auto count = [&](const char* name) { return grouped(counts[name].get<std::uint64_t>()); };
+    const std::string screened = counts["see_a_tip_screened"].is_null()
+                                     ? ""
+                                     : fmt::format(", from {} past what stands on it", count("see_a_tip_screened"));
     return fmt::format(
-        "shadow flicker in {}, worst case: {} of {} have some\n"
+        "a blade tip is seen over the bare ground from {} of {}{}\n"
+        "shadow flicker in {}, worst case: {} have some\n"
         "more than {:g} hours in the year: {}; more than {:g} minutes on a day: {}\n"
-        "{}, {}, {}; {}\n{}: open dwellings.csv; calendar.csv has the times, by {}\n",
-        rules.year.year, count("with_flicker"), counted(survey.dwellings.size(), "dwelling"),
-        rules.limit_minutes_year / 60, count("over_year"), rules.limit_minutes_day, count("over_day"),
-        counted(survey.request.turbines.turbines.size(), "turbine"), counted(survey.statistics.triangles, "triangle"),
-        counted(survey.statistics.lines, "sight line"), survey.request.earth.convention(), options_.directory,
-        document["flicker"]["clock"].get<std::string>());
+        "{}, {}, {}; {}\n{}: open dwellings.csv and facades.csv; calendar.csv has the times, by {}\n",
+        count("see_a_tip"), counted(survey.dwellings.size(), "dwelling"), screened, rules.year.year,
+        count("with_flicker"), rules.limit_minutes_year / 60, count("over_year"), rules.limit_minutes_day,
+        count("over_day"), counted(survey.request.turbines.turbines.size(), "turbine"),
+        counted(survey.statistics.triangles, "triangle"), counted(survey.statistics.lines, "sight line"),
+        survey.request.earth.convention(), options_.directory, document["flicker"]["clock"].get<std::string>());
   }
 
   DwellingsOptions options_;

@@ -34,6 +34,7 @@ void DwellingsOptions::declare(CLI::App& app) {
   policy.declare(app);
   themes_.declare(app);
   earth_.declare(app);
+  nodata_.declare(app);
   memory_.declare(app,
                   "Memory to work in, for example 2G. Surfaces that exceed it are read in parts; the result does not "
                   "depend on it (default: 1G)");
@@ -45,6 +46,7 @@ void DwellingsOptions::validate() {
   themes_.validate();
   earth_.validate();
   request_.flicker = flicker_.rules();
+  request_.nodata = nodata_.rule();
   request_.memory_bytes = memory_.bytes().value_or(request_.memory_bytes);
   if (!radius_text_.empty()) request_.radius = parse_radius("--radius", radius_text_);
   if (!observer_text_.empty())
@@ -88,6 +90,7 @@ Document DwellingsOptions::parameters() const {
   p["observer_height_m"] = request_.eye_height;
   p.update(flicker_.parameters());
   p.update(themes_.parameters());
+  p["nodata"] = nodata_.text();
   return p;
 }
 

@@ -12,6 +12,7 @@
 #include "dwellings/flicker_options.hpp"
 #include "options/earth_options.hpp"
 #include "options/memory_option.hpp"
+#include "options/nodata_option.hpp"
 #include "options/surface_options.hpp"
 #include "output/output_path.hpp"
 #include "program/verb.hpp"
@@ -41,6 +42,7 @@ class DwellingsOptions {
   FlickerOptions flicker_;
   ThemeOptions themes_;
   EarthOptions earth_;
+  NoDataOption nodata_;
   MemoryOption memory_;
   std::string places_, radius_text_, observer_text_;
 };

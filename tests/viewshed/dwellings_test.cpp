@@ -1,4 +1,5 @@
-// Shadow flicker at dwellings: known answers, symmetry, and minute by minute against a twin that shares nothing.
+// What dwellings see of turbines, and their shadow flicker: known answers, symmetry, and every line and every minute
+// against twins that share nothing.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -209,6 +210,14 @@ class DwellingSurveys : public testing::Test {
           EXPECT_EQ(a[f].flicker[k].turbine, b[f].flicker[k].turbine);
           EXPECT_EQ(a[f].flicker[k].runs, b[f].flicker[k].runs);
         }
+        ASSERT_EQ(a[f].screened.size(), b[f].screened.size());
+        for (std::size_t t = 0; t < a[f].screened.size(); ++t) {
+          EXPECT_EQ(a[f].screened[t].tip, b[f].screened[t].tip);
+          EXPECT_EQ(a[f].screened[t].hub, b[f].screened[t].hub);
+          EXPECT_EQ(a[f].screened[t].visible, b[f].screened[t].visible);
+          EXPECT_EQ(a[f].bare[t].tip, b[f].bare[t].tip);
+          EXPECT_EQ(a[f].bare[t].visible, b[f].bare[t].visible);
+        }
       }
     }
   }
@@ -309,6 +318,98 @@ TEST_F(DwellingSurveys, AgreeWithEveryTriangleInEveryMinute) {
   EXPECT_GT(hidden, 20U);
 }
 
+TEST_F(DwellingSurveys, SeeATurbineOnAPlainAsBigAsItIs) {
+  build([](double) { return 50; });
+  DwellingsRequest request = open_place();
+  request.earth = Earth::flat();
+  const DwellingsSurvey found = survey(request);
+  const double distance = std::hypot(600, 100);
+  EXPECT_TRUE(found.dwellings[0].facades[0].screened.empty());
+  EXPECT_FALSE(view_of(found, found.dwellings[0], SightSurface::kScreened));
+  const auto view = view_of(found, found.dwellings[0], SightSurface::kBare);
+  ASSERT_TRUE(view && view->arc);
+  EXPECT_EQ(view->tips, 1U);
+  EXPECT_EQ(view->hubs, 1U);
+  EXPECT_EQ(view->nearest_seen, 0U);
+  EXPECT_NEAR(view->arc->width, 2 * in_degrees(std::atan(50 / distance)), 1e-9);
+  EXPECT_NEAR(view->arc->from + view->arc->width / 2, 90 + in_degrees(std::atan2(100, 600)), 1e-9);
+  EXPECT_NEAR(view->vertical_deg, in_degrees(std::atan(138 / distance) + std::atan(2 / distance)), 1e-3);
+}
+
+TEST_F(DwellingSurveys, SeeNothingBehindAFacadeNorPastATallHouse) {
+  build([](double) { return 50; },
+        {test::box(400500, 200500, 400520, 200512, 6), test::box(400560, 200300, 400580, 200700, 80)});
+  DwellingsRequest request = open_place();
+  request.places.places[0].position = {400510, 200506};
+  const DwellingsSurvey found = survey(request);
+  for (const DwellingFacade& facade : found.dwellings[0].facades) {
+    const bool looks_at_it = facade.bare[0].tip != Verdict::kOutside;
+    // The turbine is in the east, a little south: before the eastern and the southern facade.
+    EXPECT_EQ(looks_at_it, *facade.outward_deg > 45 && *facade.outward_deg < 225);
+    EXPECT_EQ(view_of(found, facade, SightSurface::kBare).has_value(), looks_at_it);
+    EXPECT_EQ(facade.screened[0].tip, looks_at_it ? Verdict::kHidden : Verdict::kOutside);
+    if (looks_at_it) {
+      EXPECT_EQ(facade.bare[0].tip, Verdict::kVisible);
+      EXPECT_EQ(facade.bare[0].hub, Verdict::kVisible);
+    }
+  }
+  EXPECT_EQ(view_of(found, found.dwellings[0], SightSurface::kBare)->tips, 1U);
+  EXPECT_EQ(view_of(found, found.dwellings[0], SightSurface::kScreened)->tips, 0U);
+}
+
+TEST_F(DwellingSurveys, SeeWhatEveryTriangleLeavesToSee) {
+  std::mt19937_64 random(test::seed());
+  const auto in = [&](double low, double high) { return std::uniform_real_distribution(low, high)(random); };
+  std::vector<test::LineFeature> houses;
+  for (int i = 0; i < 14; ++i)
+    houses.push_back(test::turned_box({400420 + 45.0 * i + in(0, 10), 200450 + in(-80, 80)}, in(10, 20), in(8, 14),
+                                      in(0, 3), in(4, 60)));
+  build([](double east) { return 50 + 25 * std::sin(east / 90); }, houses, 50);
+  DwellingsRequest request = open_place();
+  request.turbines.turbines.push_back(turbine(402400, 200250, 2));
+  request.places.places.clear();
+  const DwellingsSurvey found = survey(request);
+  const Store store(store_);
+  const auto tin_of = [&](const ThemeChoice& themes) {
+    return triangulate(store, Window::all(), Detail::tolerance(0), progress_, themes);
+  };
+  const Tin ground = tin_of(ThemeChoice::none()), surface = tin_of(ThemeChoice::all());
+  const test::ExactLineOfSight bare(ground, request.earth), screened(surface, request.earth);
+  std::size_t seen = 0, hidden = 0, partly = 0;
+  for (const Dwelling& house : found.dwellings) {
+    for (const DwellingFacade& facade : house.facades) {
+      const Point3 eye{facade.position.x, facade.position.y, facade.ground_m + 2};
+      for (std::size_t t = 0; t < 2; ++t) {
+        const Turbine& turbine = found.request.turbines.turbines[t];
+        const auto expect = [&](const test::ExactLineOfSight& twin, const TurbineSight& sight) {
+          if (sight.tip == Verdict::kOutside) return;
+          const auto clear = [&](double height) {
+            return twin.clearance(eye, {turbine.position.x, turbine.position.y, found.ground_m[t] + height}) >= -1e-6;
+          };
+          EXPECT_EQ(sight.tip == Verdict::kVisible, clear(140));
+          EXPECT_EQ(sight.hub == Verdict::kVisible, clear(90));
+          ++(sight.tip == Verdict::kVisible ? seen : hidden);
+          if (sight.tip != Verdict::kVisible) return;
+          const double least = 140 - sight.visible;
+          EXPECT_TRUE(clear(least + 0.01)) << least;
+          if (least > 0.01) {
+            EXPECT_FALSE(clear(least - 0.01)) << least;
+            ++partly;
+          }
+        };
+        expect(bare, facade.bare[t]), expect(screened, facade.screened[t]);
+        if (facade.screened[t].tip == Verdict::kVisible) {
+          EXPECT_EQ(facade.bare[t].tip, Verdict::kVisible) << "houses cannot uncover";
+          EXPECT_LE(facade.screened[t].visible, facade.bare[t].visible + 1e-9);
+        }
+      }
+    }
+  }
+  EXPECT_GT(seen, 20U);
+  EXPECT_GT(hidden, 10U);
+  EXPECT_GT(partly, 10U);
+}
+
 TEST_F(DwellingSurveys, FindTheFacadesOfAHouse) {
   build([](double) { return 50; }, {test::box(400500, 200500, 400520, 200512, 6)});
   DwellingsRequest request = open_place();
@@ -399,8 +500,6 @@ TEST_F(DwellingSurveys, RefuseWhatMakesNoSense) {
   other = request, other.places.places[0].position = {402990, 200500};
   other.radius = 100, other.flicker.reach_diameters = 1;
   expect_refused(other, "radius", "no dwelling is within");
-  other = request, other.turbines.turbines[0].rotor_diameter = {};
-  expect_refused(other, "turbines", "no turbine has both");
   other = request, other.turbines.turbines[0].position = {500000, 200500};
   expect_refused(other, "turbines", "no data under any");
   other = request, other.places.places.clear();

@@ -1,4 +1,5 @@
-// What a wind farm is to the dwellings about it: shadow flicker, minute by minute of a year.
+// What a wind farm is to the dwellings about it: what is seen of it from each facade, and shadow flicker, minute by
+// minute of a year.
 //
 //   viewshed::DwellingsRequest wanted;
 //   wanted.turbines = viewshed::read_turbines({.path = "turbines.csv"}, store.metadata().crs_wkt);
@@ -9,7 +10,9 @@
 //   viewshed::write_dwellings("dwellings", store, survey, {}, progress);
 //
 // A dwelling is a building of the store, looked from before each of its facades, or a place in the open. A facade is a
-// straight run of walls; its eye is before the middle, and takes in what is before the wall.
+// straight run of walls; its eye is before the middle, and takes in what is before the wall. A turbine is an upright
+// axis (turbines.hpp). It is looked at over the bare ground and over the surface with the themes, however far it is.
+// Each sight is a line from the eye that `itin los` gives the same verdict.
 //
 // Flicker is the worst case: the sun shines all day, the rotor turns, and faces the sun. The sun is a point. It is
 // behind a rotor where the ray to it passes the hub no farther away than the rotor's radius. Whatever stands on the
@@ -75,6 +78,7 @@ struct DwellingsRequest {
   FlickerRules flicker = {};
   Earth earth = {};
   ThemeChoice themes = ThemeChoice::all();  ///< what stands on the ground
+  NoData nodata = NoData::kUnknown;         ///< what ground without data does to sights of turbines
   /// Changes the speed, never the result. Of the ground at most this much is in memory at once, or 64 MB.
   std::uint64_t memory_bytes = std::uint64_t{1} << 30;
 };
@@ -99,6 +103,9 @@ struct DwellingFacade {
   std::optional<double> outward_deg = {};    ///< grid azimuth to which the facade looks; nothing: in the open
   double length_m = 0;                       ///< how long the facade is
   std::vector<TurbineFlicker> flicker = {};  ///< that of each turbine that has any, in their order
+  /// What is seen of each turbine, over the bare ground, and over the surface with the themes: empty where none of them
+  /// stands on the ground. A turbine behind the facade is Verdict::kOutside.
+  std::vector<TurbineSight> bare = {}, screened = {};
 };
 
 struct Dwelling {
@@ -141,6 +148,13 @@ FlickerSum flicker_sum(const DwellingsSurvey& survey, const Dwelling& dwelling,
 /// Merges the runs of a dwelling's facades, of all turbines or of one. Days end runs.
 std::vector<FlickerRun> flicker_runs(const Dwelling& dwelling, const std::optional<std::size_t>& turbine = {});
 
+enum class SightSurface : std::uint8_t { kBare, kScreened };
+
+/// Sums up what a facade sees of the turbines before it; nothing where none is, or nothing was looked at.
+std::optional<SightSummary> view_of(const DwellingsSurvey& survey, const DwellingFacade& facade, SightSurface surface);
+/// Does so for a dwelling: a turbine is seen where one of the facades sees it, as much as the best of them does.
+std::optional<SightSummary> view_of(const DwellingsSurvey& survey, const Dwelling& dwelling, SightSurface surface);
+
 /// Surveys the dwellings. Throws InputError where the request makes no sense, the sun's place is not known there or in
 /// that year, no turbine has ground, one stands within a building, no dwelling is within reach, or the memory does not
 /// hold the ground between a dwelling and one turbine; Cancelled, CorruptStore, FileError.
@@ -155,9 +169,9 @@ struct DwellingsFileOptions {
   bool overwrite = false;
 };
 
-/// Writes dwellings.csv, flicker.csv and calendar.csv into a folder, which appears complete or not at all, and returns
-/// what is in it besides dwellings.json. Files of an earlier survey there are replaced if `overwrite`; foreign ones are
-/// kept. Throws FileError, Cancelled.
+/// Writes dwellings.csv, facades.csv, flicker.csv, calendar.csv, dwellings.gpkg and dwellings.png into a folder, which
+/// appears complete or not at all, and returns what is in it besides dwellings.json. Files of an earlier survey there
+/// are replaced if `overwrite`; foreign ones are kept. Throws FileError, Cancelled.
 std::vector<PlanFile> write_dwellings(const std::string& folder, const Store& store, const DwellingsSurvey& survey,
                                       const DwellingsFileOptions& options, Progress& progress);
 

@@ -122,17 +122,18 @@ class Ztv(Task):
     )
 
 
-class Flicker(Task):
+class Dwellings(Task):
     """What turbines are to dwellings."""
 
     name = "dwellings"
-    title = "Shadow flicker at dwellings"
+    title = "Wind turbines at dwellings"
     group = TURBINES
     verb = "dwellings"
     guide = "dwellings.md"
     summary = (
-        "Tells when the shadows of wind turbines flicker at dwellings, minute by minute of a year: hours, worst days, a "
-        "calendar, and what exceeds the limits. The turbines have the fields hub_height and rotor_diameter; name."
+        "Tells what dwellings see of wind turbines, facade by facade, over the bare ground and past what stands on it, and "
+        "when their shadows flicker there, minute by minute of a year: hours, worst days, a calendar, and what exceeds "
+        "the limits. The turbines have the fields hub_height and rotor_diameter; name."
     )
     parameters = (
         shared.STORE,
@@ -153,7 +154,14 @@ class Flicker(Task):
         Text("LIMITS", "Limits for a year and for a day", "--limits", default="30h,30min"),
         File("MONTHS", "Shares of sunshine and operation by month", "--months", filter="CSV (*.csv)"),
         *shared.STANDING,
-        FolderOutput("OUTPUT", "Folder of results", "--output", required=True),
+        FolderOutput(
+            "OUTPUT",
+            "Folder of results",
+            "--output",
+            required=True,
+            layers=("dwellings.gpkg",),
+            seen=("dwellings", "turbines"),
+        ),
         shared.OVERWRITE,
         shared.LOAD_RESULTS,
         Text("DWELLING_THEME", "Theme whose buildings are dwellings", "--dwelling-theme", advanced=True),
@@ -181,6 +189,7 @@ class Flicker(Task):
         Field("TIP_HEIGHT_FIELD", "Field of tip heights", "--tip-height-field", of="TURBINES", advanced=True),
         Field("FARM_FIELD", "Field of farms", "--farm-field", of="TURBINES", advanced=True),
         Text("FARM", "Farm of those that give none", "--farm", advanced=True),
+        shared.NODATA,
         *shared.EARTH,
         *shared.running("1G"),
     )

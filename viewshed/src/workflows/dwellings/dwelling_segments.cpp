@@ -18,8 +18,8 @@ namespace itin::viewshed {
 
 namespace {
 
-/// The surface with its triangles, its scene and its pyramid of heights, for each point of the bare one.
-constexpr std::uint64_t kBytesOfSunlitPoint = kPointsWithFeatures * (kBytesPerSurfacePoint + 300);
+/// The surface with its triangles, its scene and its pyramid of heights, and the bare one, for each point of that.
+constexpr std::uint64_t kBytesOfSunlitPoint = kPointsWithFeatures * (kBytesPerSurfacePoint + 300) + 60;
 /// So little ground is never too much: the program takes as much by itself.
 constexpr std::uint64_t kLittleGround = 64 << 20;
 
@@ -69,6 +69,8 @@ std::vector<DwellingSegment> dwelling_segments(const Store& store, const Dwellin
   if (pairs.empty()) return {};
   Box all;
   for (const DwellingPair& pair : pairs) all.extend(pair.eyes), all.extend(pair.ends);
+  constexpr double kAbout = 1;
+  all = {all.xmin - kAbout, all.ymin - kAbout, all.xmax + kAbout, all.ymax + kAbout};
   all = intersection(all, store.metadata().grid.box(store.metadata().bounds));
   const std::uint64_t points = store.points_about(0, all);
   if (holds_pairs(request, points)) return {{std::move(pairs), Window::box(all), points}};

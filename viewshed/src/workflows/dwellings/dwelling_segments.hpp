@@ -21,8 +21,9 @@ namespace itin::viewshed {
 /// A dwelling and a turbine, and where lines between them lead.
 struct DwellingPair {
   std::size_t dwelling = 0, turbine = 0;
-  Box eyes;  ///< about the dwelling's eyes
-  Box ends;  ///< about the far ends of lines from them
+  bool in_shadow = false;  ///< the turbine's shadow may reach the dwelling
+  Box eyes;                ///< about the dwelling's eyes
+  Box ends;                ///< about the far ends of lines from them
 };
 
 struct DwellingSegment {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <numbers>
 #include <utility>
@@ -16,7 +17,6 @@
 #include <itin/error.hpp>
 #include <itin/feature_at.hpp>
 #include <itin/geodesic.hpp>
-#include <itin/in_ring.hpp>
 #include <viewshed/dwellings.hpp>
 
 #include "line/infinity.hpp"
@@ -26,11 +26,14 @@
 #include "run/segments.hpp"
 #include "run/surface_reader.hpp"
 #include "turbines/sun_behind_rotor.hpp"
+#include "workflows/dwellings/choose_dwellings.hpp"
 #include "workflows/dwellings/dwelling_facades.hpp"
 #include "workflows/dwellings/dwelling_segments.hpp"
+#include "workflows/dwellings/dwelling_sights.hpp"
 #include "workflows/dwellings/sun_reach.hpp"
 #include "workflows/premises/premises_rules.hpp"
 #include "workflows/premises/premises_segments.hpp"
+#include "workflows/zone/study_document.hpp"
 
 namespace itin::viewshed {
 
@@ -52,29 +55,6 @@ void require_dwellings_request(const DwellingsRequest& request) {
           "give 1 degree or more, and less than 90");
   require(rules.reach_diameters > 0, "reach_diameters", "give more than 0");
   require(!rules.blade_width || *rules.blade_width > 0, "blade_width", "give more than 0 m");
-}
-
-/// The corner of a rotor's shadow that is farthest.
-double shadow_reach(const FlickerRules& rules, const Turbine& turbine) {
-  if (!turbine.hub_height || !turbine.rotor_diameter) return 0;
-  return rules.blade_width ? kReachOfBlade * *rules.blade_width : rules.reach_diameters * *turbine.rotor_diameter;
-}
-
-double horizontal_distance(Point2 a, Point2 b) {
-  return std::hypot(a.x - b.x, a.y - b.y);
-}
-
-bool holds_place(const BuildingFoot& foot, Point2 place) {
-  return std::count_if(foot.rings.begin(), foot.rings.end(), [&](const auto& ring) { return in_ring(ring, place); }) %
-             2 !=
-         0;
-}
-
-Box box_of_foot(const BuildingFoot& foot) {
-  Box box;
-  for (const std::vector<Point2>& ring : foot.rings)
-    for (const Point2& p : ring) box.extend(p);
-  return box;
 }
 
 /// The box about the far ends of lines of this length from a place, up to so much to either side of a direction.
@@ -108,6 +88,8 @@ class DwellingsSurveyor {
     survey_.request = std::move(request);
     survey_.metadata = store.metadata();
     survey_.warnings = survey_.request.turbines.warnings;
+    for (const BadRow& bad : survey_.request.turbines.bad)
+      survey_.warnings.push_back(bad_row_warning(survey_.request.turbines.path, bad));
     const auto& more = survey_.request.places.warnings;
     survey_.warnings.insert(survey_.warnings.end(), more.begin(), more.end());
     premises_.themes = survey_.request.themes, premises_.memory_bytes = survey_.request.memory_bytes;
@@ -117,14 +99,14 @@ class DwellingsSurveyor {
     progress_.step(0.05);
     place_turbines();
     feet_ = building_feet(store_, survey_.request.themes, survey_.metadata.grid.box(survey_.metadata.bounds));
-    require_turbines_apart();
-    choose_dwellings();
+    auto [dwellings, feet] = choose_dwellings(survey_.request, survey_.metadata, feet_, progress_);
+    survey_.dwellings = std::move(dwellings), foot_of_ = std::move(feet);
     find_facades();
     name_dwellings();
     year_.emplace(survey_.request.flicker.year, progress_);
     look_at_skies();
     progress_.step(0.1);
-    const auto segments = dwelling_segments(store_, survey_.request, flicker_pairs(), progress_);
+    const auto segments = dwelling_segments(store_, survey_.request, all_pairs(), progress_);
     for_each_segment(segments, effort_of_dwellings, progress_.step(1),
                      [&](const DwellingSegment& segment, SegmentProgress& of_segment) { judge(segment, of_segment); });
     order_flicker();
@@ -152,104 +134,10 @@ class DwellingsSurveyor {
       placed.push_back(turbine), survey_.ground_m.push_back(*ground[i]);
     }
     if (placed.empty()) throw InputError("`turbines`: there is no data under any of them", "turbines");
-    if (without_rotor == placed.size())
-      throw InputError("`turbines`: shadow flicker takes a hub height and a rotor diameter, and no turbine has both",
-                       "turbines");
     if (without_rotor > 0)
-      survey_.warnings.push_back(fmt::format("{} without hub height or rotor diameter: no flicker is known of them",
-                                             counted(without_rotor, "turbine")));
+      survey_.warnings.push_back(fmt::format("{} without hub height or rotor diameter: no flicker is known of {}",
+                                             counted(without_rotor, "turbine"), without_rotor == 1 ? "it" : "them"));
     survey_.request.turbines.turbines = std::move(placed);
-  }
-
-  void require_turbines_apart() const {
-    for (const BuildingFoot& foot : feet_) {
-      const Box box = box_of_foot(foot);
-      for (const Turbine& turbine : turbines())
-        if (box.contains(turbine.position) && holds_place(foot, turbine.position))
-          throw InputError(fmt::format("`turbines`: turbine {} at {:.10g},{:.10g} stands within a building of {}; move "
-                                       "it, or leave the building out of `themes`",
-                                       turbine.number, turbine.position.x, turbine.position.y,
-                                       survey_.metadata.themes[foot.theme - std::size_t{1}].name),
-                           "turbines");
-    }
-  }
-
-  // Which dwellings there are.
-
-  void choose_dwellings() {
-    const DwellingsRequest& request = survey_.request;
-    if (!request.theme.empty()) require_theme();
-    if (request.places.places.empty()) {
-      for (std::size_t i = 0; i < feet_.size(); ++i)
-        if (is_of_theme(feet_[i])) add_building(i);
-      if (foot_of_.empty())
-        throw InputError("`themes`: none of them has buildings; give `dwellings`, or import buildings", "themes");
-    } else {
-      for (const SitePlace& place : request.places.places) add_place(place);
-    }
-    keep_those_within_reach();
-  }
-
-  void require_theme() const {
-    for (const ThemeInfo& theme : survey_.metadata.themes)
-      if (theme.name == survey_.request.theme && is_of_buildings(theme) && survey_.request.themes.includes(theme))
-        return;
-    throw InputError(
-        fmt::format("`dwelling_theme`: the store has no chosen theme of buildings named '{}'", survey_.request.theme),
-        "dwelling_theme");
-  }
-
-  bool is_of_theme(const BuildingFoot& foot) const {
-    return survey_.request.theme.empty() ||
-           survey_.metadata.themes[foot.theme - std::size_t{1}].name == survey_.request.theme;
-  }
-
-  Dwelling& add_building(std::size_t foot) {
-    const Box box = box_of_foot(feet_[foot]);
-    survey_.dwellings.push_back({.theme = feet_[foot].theme,
-                                 .feature = feet_[foot].feature,
-                                 .position = {(box.xmin + box.xmax) / 2, (box.ymin + box.ymax) / 2}});
-    foot_of_.push_back(foot);
-    return survey_.dwellings.back();
-  }
-
-  void add_place(const SitePlace& place) {
-    const auto foot = std::find_if(feet_.begin(), feet_.end(), [&](const BuildingFoot& f) {
-      return is_of_theme(f) && box_of_foot(f).contains(place.position) && holds_place(f, place.position);
-    });
-    if (foot != feet_.end()) {
-      Dwelling& dwelling = add_building(static_cast<std::size_t>(foot - feet_.begin()));
-      dwelling.name = place.name, dwelling.position = place.position;
-      return;
-    }
-    survey_.dwellings.push_back({.name = place.name, .position = place.position});
-    foot_of_.emplace_back();
-  }
-
-  void keep_those_within_reach() {
-    std::vector<Dwelling> kept;
-    std::vector<std::optional<std::size_t>> feet;
-    double nearest_m = kInfinity;
-    for (std::size_t i = 0; i < survey_.dwellings.size(); ++i) {
-      progress_.throw_if_cancelled();
-      Dwelling& dwelling = survey_.dwellings[i];
-      bool reached = false;
-      dwelling.nearest_m = kInfinity;
-      for (std::size_t t = 0; t < turbines().size(); ++t) {
-        const double distance = horizontal_distance(dwelling.position, turbines()[t].position);
-        if (distance < dwelling.nearest_m) dwelling.nearest = t, dwelling.nearest_m = distance;
-        reached = reached || distance <= shadow_reach(survey_.request.flicker, turbines()[t]);
-      }
-      nearest_m = std::min(nearest_m, dwelling.nearest_m);
-      if (!reached && dwelling.nearest_m > survey_.request.radius) continue;
-      kept.push_back(std::move(dwelling)), feet.push_back(foot_of_[i]);
-    }
-    if (kept.empty())
-      throw InputError(fmt::format("no dwelling is within the `radius` of {:g} m of a turbine, nor within reach of its "
-                                   "shadow; the nearest is {:.0f} m away; give a greater `radius`",
-                                   survey_.request.radius, nearest_m),
-                       "radius");
-    survey_.dwellings = std::move(kept), foot_of_ = std::move(feet);
   }
 
   // Where their eyes are.
@@ -349,30 +237,38 @@ class DwellingsSurveyor {
         "least_elevation_deg");
   }
 
-  /// The pairs of dwellings and turbines whose shadow may reach them.
-  std::vector<DwellingPair> flicker_pairs() {
+  /// The pairs of dwellings and turbines, with the ground that each needs.
+  std::vector<DwellingPair> all_pairs() {
     std::vector<DwellingPair> pairs;
-    for (std::size_t d = 0; d < survey_.dwellings.size(); ++d)
-      for (std::size_t t = 0; t < turbines().size(); ++t)
-        if (horizontal_distance(survey_.dwellings[d].position, turbines()[t].position) <=
-            shadow_reach(survey_.request.flicker, turbines()[t]))
-          pairs.push_back({d, t, {}, {}});
     EyesInSun eyes{{}, kInfinity, survey_.request.flicker.least_elevation_deg};
-    for (const DwellingPair& pair : pairs) {
-      for (const DwellingFacade& facade : survey_.dwellings[pair.dwelling].facades) {
+    for (std::size_t d = 0; d < survey_.dwellings.size(); ++d) {
+      for (DwellingFacade& facade : survey_.dwellings[d].facades) {
         eyes.box.extend(facade.position);
         eyes.lowest_m = std::min(eyes.lowest_m, facade.ground_m + survey_.request.eye_height);
+        facade.bare.resize(turbines().size());
+        if (has_screens()) facade.screened.resize(turbines().size());
       }
+      for (std::size_t t = 0; t < turbines().size(); ++t) pairs.push_back({d, t, in_shadow(d, t), {}, {}});
     }
-    if (!pairs.empty()) reach_ = sun_reach(store_, survey_.request.themes, survey_.request.earth, eyes, progress_);
+    reach_ = sun_reach(store_, survey_.request.themes, survey_.request.earth, eyes, progress_);
     for (DwellingPair& pair : pairs) add_boxes(pair);
     return pairs;
   }
 
+  bool has_screens() const { return survey_.request.themes.includes_raised(survey_.metadata.themes); }
+
+  /// Tells whether the turbine's shadow may reach the dwelling.
+  bool in_shadow(std::size_t dwelling, std::size_t turbine) const {
+    return horizontal_distance(survey_.dwellings[dwelling].position, turbines()[turbine].position) <=
+           shadow_reach(survey_.request.flicker, turbines()[turbine]);
+  }
+
   void add_boxes(DwellingPair& pair) const {
     const Turbine& turbine = turbines()[pair.turbine];
+    pair.ends.extend(turbine.position);
     for (const DwellingFacade& facade : survey_.dwellings[pair.dwelling].facades) {
       pair.eyes.extend(facade.position);
+      if (!pair.in_shadow) continue;
       const double distance = horizontal_distance(facade.position, turbine.position);
       const double sine = *turbine.rotor_diameter / 2 / std::max(distance, *turbine.rotor_diameter / 2);
       pair.ends.extend(box_of_ends(facade.position, turbine.position, std::asin(sine), farthest(facade)));
@@ -386,24 +282,57 @@ class DwellingsSurveyor {
                       std::max(1.0, reach_.metres));
   }
 
-  // When it flickers.
+  // What is seen, and when it flickers.
 
   void judge(const DwellingSegment& segment, SegmentProgress& progress) {
     SurfaceReader reader(store_, Detail::tolerance(0), survey_.statistics);
-    Tin tin = reader.triangles(segment.surface, survey_.request.themes, progress.reading());
+    const LinkJudgement rules{survey_.request.earth, survey_.request.nodata, {}};
+    Tin surface = reader.triangles(segment.surface, survey_.request.themes, progress.reading(has_screens() ? 0.6 : 1));
+    Tin ground;
+    if (has_screens()) ground = reader.triangles(segment.surface, ThemeChoice::none(), progress.reading());
+    CallProgress judging(progress.judging());
+    {
+      const PlaceScene scene(std::move(surface), rules, progress_);
+      find_flicker(segment, scene, judging.step(0.6));
+      find_sights(segment, scene, has_screens() ? &DwellingFacade::screened : &DwellingFacade::bare, judging.step(0.5));
+    }
+    if (!has_screens()) return;
+    const PlaceScene scene(std::move(ground), rules, progress_);
+    find_sights(segment, scene, &DwellingFacade::bare, judging.step(1));
+  }
+
+  void find_sights(const DwellingSegment& segment, const PlaceScene& scene,
+                   std::vector<TurbineSight> DwellingFacade::*sights, Progress& progress) {
     Stopwatch watch;
-    const PlaceScene scene(std::move(tin), {survey_.request.earth, NoData::kClear, {}}, progress_);
-    survey_.statistics.scene_seconds += watch.lap();
-    std::vector<std::vector<TurbineFlicker>> found(segment.pairs.size());  // by facade
-    std::vector<std::uint64_t> lines(segment.pairs.size());
-    for_each_step(segment.pairs.size(), "shadow flicker", progress.judging(), [&](std::size_t i) {
+    std::map<std::size_t, TurbineEnds> ends;
+    for (const DwellingPair& pair : segment.pairs) {
+      progress_.throw_if_cancelled();
+      if (!ends.contains(pair.turbine)) ends.emplace(pair.turbine, turbine_ends(scene, survey_, pair.turbine));
+      survey_.statistics.lines += survey_.dwellings[pair.dwelling].facades.size() * 2;
+    }
+    for_each_step(segment.pairs.size(), "sight lines", progress, [&](std::size_t i) {
       const DwellingPair& pair = segment.pairs[i];
-      for (const DwellingFacade& facade : survey_.dwellings[pair.dwelling].facades)
-        found[i].push_back({pair.turbine, lit_runs(scene, pair, facade, lines[i])});
+      auto& facades = survey_.dwellings[pair.dwelling].facades;
+      const auto seen = look_at_turbine(scene, survey_, ends.at(pair.turbine), facades);
+      for (std::size_t f = 0; f < facades.size(); ++f) (facades[f].*sights)[pair.turbine] = seen[f];
     });
-    for (std::size_t i = 0; i < segment.pairs.size(); ++i) {
+    survey_.statistics.lines_seconds += watch.lap();
+  }
+
+  void find_flicker(const DwellingSegment& segment, const PlaceScene& scene, Progress& progress) {
+    Stopwatch watch;
+    std::vector<DwellingPair> pairs;
+    std::copy_if(segment.pairs.begin(), segment.pairs.end(), std::back_inserter(pairs),
+                 [](const DwellingPair& pair) { return pair.in_shadow; });
+    std::vector<std::vector<TurbineFlicker>> found(pairs.size());  // by facade
+    std::vector<std::uint64_t> lines(pairs.size());
+    for_each_step(pairs.size(), "shadow flicker", progress, [&](std::size_t i) {
+      for (const DwellingFacade& facade : survey_.dwellings[pairs[i].dwelling].facades)
+        found[i].push_back({pairs[i].turbine, lit_runs(scene, pairs[i], facade, lines[i])});
+    });
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
       survey_.statistics.lines += lines[i];
-      auto& facades = survey_.dwellings[segment.pairs[i].dwelling].facades;
+      auto& facades = survey_.dwellings[pairs[i].dwelling].facades;
       for (std::size_t f = 0; f < facades.size(); ++f)
         if (!found[i][f].runs.empty()) facades[f].flicker.push_back(std::move(found[i][f]));
     }
@@ -425,7 +354,7 @@ class DwellingsSurveyor {
     lines += minutes.size();
     std::vector<FlickerRun> runs;
     if (minutes.empty()) return runs;
-    const PlaceScene::View view = scene.view_from(eye);
+    const PlaceScene::View view = scene.view_past_voids(eye);
     const double length = farthest(facade);
     for (std::size_t first = 0; first < minutes.size(); first += PlaceScene::kAtOnce) {
       progress_.throw_if_cancelled();

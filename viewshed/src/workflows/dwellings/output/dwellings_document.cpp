@@ -29,6 +29,7 @@ Document flicker_document(const FlickerRules& rules) {
 
 Document dwellings_document(const DwellingsSurvey& survey) {
   const DwellingCounts counts = counts_of(survey);
+  const bool screened = survey.request.themes.includes_raised(survey.metadata.themes);
   return {{"crs", crs_identifier(survey.metadata.crs_wkt)},
           {"surface", surface_document(survey.metadata, Detail::tolerance(0), survey.request.themes)},
           {"refraction", earth_document(survey.request.earth)},
@@ -38,7 +39,9 @@ Document dwellings_document(const DwellingsSurvey& survey) {
            {{"all", counts.all},
             {"with_flicker", counts.with_flicker},
             {"over_year", counts.over_year},
-            {"over_day", counts.over_day}}},
+            {"over_day", counts.over_day},
+            {"see_a_tip", counts.see_a_tip},
+            {"see_a_tip_screened", screened ? Document(counts.see_a_tip_screened) : Document()}}},
           {"statistics", statistics_document(survey.statistics)}};
 }
 
