@@ -19,7 +19,7 @@ void DwellingsOptions::declare(CLI::App& app) {
                      "building of --themes is that building with its facades, any other a place in the open (default: "
                      "all buildings of --themes)"))
       ->type_name("FILE");
-  app.add_option("--dwelling-theme", request_.theme,
+  app.add_option("--dwelling-theme", request_.dwelling_theme,
                  "The theme whose buildings are dwellings (default: all of --themes)")
       ->type_name("NAME");
   app.add_option("--radius", radius_text_,
@@ -69,7 +69,7 @@ void DwellingsOptions::read_places(const StoreMetadata& metadata) {
   SiteQuery query;
   query.path = places_, query.crs = turbines_.in_crs().crs;
   take_names(query, LayerFields(query));
-  viewshed::SitePlaces& places = request_.places;
+  viewshed::SitePlaces& places = request_.dwellings;
   places.source = places_;
   std::vector<Point2> positions;
   for (const Site& site : read_sites(query, metadata.crs_wkt, places.warnings)) {
@@ -85,7 +85,7 @@ Document DwellingsOptions::parameters() const {
   Document p{{"store", store}};
   p.update(turbines_.parameters());
   if (!places_.empty()) p["dwellings"] = places_;
-  if (!request_.theme.empty()) p["dwelling_theme"] = request_.theme;
+  if (!request_.dwelling_theme.empty()) p["dwelling_theme"] = request_.dwelling_theme;
   p["radius_m"] = request_.radius;
   p["observer_height_m"] = request_.eye_height;
   p.update(flicker_.parameters());

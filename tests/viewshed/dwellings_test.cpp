@@ -176,7 +176,7 @@ class DwellingSurveys : public testing::Test {
   static DwellingsRequest open_place() {
     DwellingsRequest request;
     request.turbines.turbines = {turbine(401100, 200400)};
-    request.places.places = {{.name = "cottage", .position = {400500, 200500}}};
+    request.dwellings.places = {{.name = "cottage", .position = {400500, 200500}}};
     request.flicker.year = {2027, 0};
     return request;
   }
@@ -282,7 +282,7 @@ TEST_F(DwellingSurveys, AgreeWithEveryTriangleInEveryMinute) {
   build([&](double east) { return 50 + 12 * std::sin(east / 90) + 60 * std::max(0.0, east / 3000 - 0.5); }, houses, 50);
   DwellingsRequest request = open_place();
   request.turbines.turbines.push_back(turbine(401000, 200250, 2));
-  request.places.places.clear();
+  request.dwellings.places.clear();
   const DwellingsSurvey found = survey(request);
   const Tin tin = triangulate(Store(store_), Window::all(), Detail::tolerance(0), progress_, ThemeChoice::all());
   const test::ExactLineOfSight twin(tin, request.earth);
@@ -340,7 +340,7 @@ TEST_F(DwellingSurveys, SeeNothingBehindAFacadeNorPastATallHouse) {
   build([](double) { return 50; },
         {test::box(400500, 200500, 400520, 200512, 6), test::box(400560, 200300, 400580, 200700, 80)});
   DwellingsRequest request = open_place();
-  request.places.places[0].position = {400510, 200506};
+  request.dwellings.places[0].position = {400510, 200506};
   const DwellingsSurvey found = survey(request);
   for (const DwellingFacade& facade : found.dwellings[0].facades) {
     const bool looks_at_it = facade.bare[0].tip != Verdict::kOutside;
@@ -367,7 +367,7 @@ TEST_F(DwellingSurveys, SeeWhatEveryTriangleLeavesToSee) {
   build([](double east) { return 50 + 25 * std::sin(east / 90); }, houses, 50);
   DwellingsRequest request = open_place();
   request.turbines.turbines.push_back(turbine(402400, 200250, 2));
-  request.places.places.clear();
+  request.dwellings.places.clear();
   const DwellingsSurvey found = survey(request);
   const Store store(store_);
   const auto tin_of = [&](const ThemeChoice& themes) {
@@ -413,7 +413,7 @@ TEST_F(DwellingSurveys, SeeWhatEveryTriangleLeavesToSee) {
 TEST_F(DwellingSurveys, FindTheFacadesOfAHouse) {
   build([](double) { return 50; }, {test::box(400500, 200500, 400520, 200512, 6)});
   DwellingsRequest request = open_place();
-  request.places.places[0].position = {400510, 200506};
+  request.dwellings.places[0].position = {400510, 200506};
   const DwellingsSurvey found = survey(request);
   ASSERT_EQ(found.dwellings.size(), 1U);
   EXPECT_EQ(found.dwellings[0].name, "cottage");
@@ -478,7 +478,7 @@ TEST_F(DwellingSurveys, DoNotDependOnTheMemory) {
   build([](double east) { return 50 + 3 * std::sin(east / 40) + 70 * std::max(0.0, east / 3000 - 0.5); }, houses, 4);
   DwellingsRequest request = open_place();
   request.turbines.turbines.push_back(turbine(400700, 200100, 2));
-  request.places.places.clear();
+  request.dwellings.places.clear();
   const DwellingsSurvey all = survey(request);
   ASSERT_GT(minutes_of(all), 0U);
   request.memory_bytes = 1;
@@ -497,14 +497,14 @@ TEST_F(DwellingSurveys, RefuseWhatMakesNoSense) {
   expect_refused(other, "year", "known from 1950 to 2100");
   other = request, other.flicker.least_elevation_deg = 70;
   expect_refused(other, "least_elevation_deg", "does not rise 70 degrees high there in 2027");
-  other = request, other.places.places[0].position = {402990, 200500};
+  other = request, other.dwellings.places[0].position = {402990, 200500};
   other.radius = 100, other.flicker.reach_diameters = 1;
   expect_refused(other, "radius", "no dwelling is within");
   other = request, other.turbines.turbines[0].position = {500000, 200500};
   expect_refused(other, "turbines", "no data under any");
-  other = request, other.places.places.clear();
+  other = request, other.dwellings.places.clear();
   expect_refused(other, "themes", "none of them has buildings");
-  other = request, other.theme = "houses";
+  other = request, other.dwelling_theme = "houses";
   expect_refused(other, "dwelling_theme", "no chosen theme of buildings");
 }
 

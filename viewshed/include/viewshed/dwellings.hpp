@@ -71,10 +71,10 @@ struct DwellingsRequest {
   TurbineTable turbines = {};
   /// The dwellings. One that lies on a building of the themes is that building, any other a place in the open. Without
   /// any, all buildings of the themes are dwellings.
-  SitePlaces places = {};
-  std::string theme = {};  ///< the theme whose buildings are dwellings; empty: any
-  double radius = 2000;    ///< dwellings are studied up to this distance from a turbine, and within reach of its shadow
-  double eye_height = 2;   ///< above the bare ground
+  SitePlaces dwellings = {};
+  std::string dwelling_theme = {};  ///< the theme whose buildings are dwellings; empty: any
+  double radius = 2000;   ///< dwellings are studied up to this distance from a turbine, and within reach of its shadow
+  double eye_height = 2;  ///< above the bare ground
   FlickerRules flicker = {};
   Earth earth = {};
   ThemeChoice themes = ThemeChoice::all();  ///< what stands on the ground

@@ -47,7 +47,7 @@ class DwellingChooser {
  public:
   DwellingChooser(const DwellingsRequest& request, const StoreMetadata& metadata, const std::vector<BuildingFoot>& feet)
       : request_(request), metadata_(metadata), feet_(feet) {
-    if (!request.theme.empty()) require_theme();
+    if (!request.dwelling_theme.empty()) require_theme();
   }
 
   void take_buildings() {
@@ -94,14 +94,15 @@ class DwellingChooser {
  private:
   void require_theme() const {
     for (const ThemeInfo& theme : metadata_.themes)
-      if (theme.name == request_.theme && is_of_buildings(theme) && request_.themes.includes(theme)) return;
+      if (theme.name == request_.dwelling_theme && is_of_buildings(theme) && request_.themes.includes(theme)) return;
     throw InputError(
-        fmt::format("`dwelling_theme`: the store has no chosen theme of buildings named '{}'", request_.theme),
+        fmt::format("`dwelling_theme`: the store has no chosen theme of buildings named '{}'", request_.dwelling_theme),
         "dwelling_theme");
   }
 
   bool is_of_theme(const BuildingFoot& foot) const {
-    return request_.theme.empty() || metadata_.themes[foot.theme - std::size_t{1}].name == request_.theme;
+    return request_.dwelling_theme.empty() ||
+           metadata_.themes[foot.theme - std::size_t{1}].name == request_.dwelling_theme;
   }
 
   Dwelling& add_building(std::size_t foot) {
@@ -138,8 +139,8 @@ ChosenDwellings choose_dwellings(const DwellingsRequest& request, const StoreMet
                                  const std::vector<BuildingFoot>& feet, const Progress& progress) {
   require_turbines_apart(request, metadata, feet);
   DwellingChooser chooser(request, metadata, feet);
-  if (request.places.places.empty()) chooser.take_buildings();
-  for (const SitePlace& place : request.places.places) chooser.take_place(place);
+  if (request.dwellings.places.empty()) chooser.take_buildings();
+  for (const SitePlace& place : request.dwellings.places) chooser.take_place(place);
   return std::move(chooser).within_reach_of_turbines(progress);
 }
 

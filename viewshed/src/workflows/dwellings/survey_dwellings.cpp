@@ -46,7 +46,7 @@ void require_dwellings_request(const DwellingsRequest& request) {
   const FlickerRules& rules = request.flicker;
   require(!request.turbines.turbines.empty(), "turbines", "there is none; give at least one");
   require(request.radius > 0, "radius", "give more than 0 m");
-  require(request.eye_height >= 0, "observer_height", "give 0 m or more");
+  require(request.eye_height >= 0, "eye_height", "give 0 m or more");
   require(rules.year.year >= kFirstYearOfSun && rules.year.year <= kLastYearOfSun, "year",
           fmt::format("the sun's place is known from {} to {}", kFirstYearOfSun, kLastYearOfSun));
   require(std::abs(rules.year.utc_offset_minutes) <= 14 * 60, "utc_offset_minutes",
@@ -90,7 +90,7 @@ class DwellingsSurveyor {
     survey_.warnings = survey_.request.turbines.warnings;
     for (const BadRow& bad : survey_.request.turbines.bad)
       survey_.warnings.push_back(bad_row_warning(survey_.request.turbines.path, bad));
-    const auto& more = survey_.request.places.warnings;
+    const auto& more = survey_.request.dwellings.warnings;
     survey_.warnings.insert(survey_.warnings.end(), more.begin(), more.end());
     premises_.themes = survey_.request.themes, premises_.memory_bytes = survey_.request.memory_bytes;
   }
