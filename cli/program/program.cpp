@@ -88,6 +88,7 @@ std::vector<std::unique_ptr<Verb>> make_verbs() {
   verbs.push_back(make_los_verb());
   verbs.push_back(make_site_verb());
   verbs.push_back(make_premises_verb());
+  verbs.push_back(make_dwellings_verb());
   verbs.push_back(make_serve_verb());
   verbs.push_back(make_read_upload_verb());
   return verbs;

@@ -54,6 +54,7 @@ std::unique_ptr<Verb> make_profile_verb();
 std::unique_ptr<Verb> make_los_verb();
 std::unique_ptr<Verb> make_site_verb();
 std::unique_ptr<Verb> make_premises_verb();
+std::unique_ptr<Verb> make_dwellings_verb();
 std::unique_ptr<Verb> make_serve_verb();
 std::unique_ptr<Verb> make_read_upload_verb();
 

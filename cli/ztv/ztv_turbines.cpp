@@ -41,8 +41,7 @@ void TurbineOptions::validate() {
   file_.crs = in_crs_.crs, file_.size = size_.size();
 }
 
-void TurbineOptions::complete(viewshed::ZoneStudyRequest& request, const viewshed::RadiusRule& radius,
-                              const StoreMetadata& metadata) const {
+viewshed::TurbineTable TurbineOptions::read(const viewshed::RadiusRule& radius, const StoreMetadata& metadata) const {
   viewshed::TurbineFile file = file_;
   file.radius = radius;
   viewshed::TurbineTable table = viewshed::read_turbines(file, metadata.crs_wkt);
@@ -50,7 +49,12 @@ void TurbineOptions::complete(viewshed::ZoneStudyRequest& request, const viewshe
   std::vector<Point2> places;
   for (const viewshed::Turbine& turbine : table.turbines) places.push_back(turbine.position);
   require_any_on_the_data(file_.path + ": the first turbine", places, in_crs_, metadata);
-  request.turbines = std::move(table);
+  return table;
+}
+
+void TurbineOptions::complete(viewshed::ZoneStudyRequest& request, const viewshed::RadiusRule& radius,
+                              const StoreMetadata& metadata) const {
+  request.turbines = read(radius, metadata);
 }
 
 Document TurbineOptions::parameters() const {

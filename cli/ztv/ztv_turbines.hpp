@@ -1,4 +1,4 @@
-// The turbines of `itin ztv`: their file, and what its rows leave open.
+// The turbines of `itin ztv` and `itin dwellings`: their file, and what its rows leave open.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -18,7 +18,9 @@ class TurbineOptions {
   /// Checks the options. Throws InputError.
   void validate();
   const InCrs& in_crs() const { return in_crs_; }
-  /// Adds the turbines to the request. Throws FileError, InputError (no row can be used, or all lie off the data).
+  /// Reads the turbines. Throws FileError, InputError (no row can be used, or all lie off the data).
+  viewshed::TurbineTable read(const viewshed::RadiusRule& radius, const StoreMetadata& metadata) const;
+  /// Adds the turbines to the request. Throws as read() does.
   void complete(viewshed::ZoneStudyRequest& request, const viewshed::RadiusRule& radius,
                 const StoreMetadata& metadata) const;
   Document parameters() const;

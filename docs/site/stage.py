@@ -63,6 +63,7 @@ NAVIGATION: list[tuple[str, list[Entry]]] = [
             ("Siting masts", "docs/sites.md"),
             ("Premises", "docs/premises.md"),
             ("Wind turbines", "docs/turbines.md"),
+            ("Turbines at dwellings", "docs/dwellings.md"),
             ("Woods", "docs/woods.md"),
         ],
     ),

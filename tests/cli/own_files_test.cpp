@@ -59,8 +59,9 @@ std::string required(const std::string& verb) {
 std::map<std::string, std::string> required_files(const std::string& verb) {
   if (verb == "import") return {{"STORE", "fresh.itin"}, {"SOURCE", "hill.asc"}};
   std::map<std::string, std::string> files{{"STORE", "hill.asc"}};
-  if (verb == "ztv" || verb == "site" || verb == "visibility" || verb == "premises") files["--output"] = "fresh";
-  if (verb == "ztv") files["--turbines"] = "hill.prj";
+  if (verb == "ztv" || verb == "site" || verb == "visibility" || verb == "premises" || verb == "dwellings")
+    files["--output"] = "fresh";
+  if (verb == "ztv" || verb == "dwellings") files["--turbines"] = "hill.prj";
   if (verb == "premises") files["--masts"] = "hill.prj";
   return files;
 }
@@ -113,8 +114,8 @@ TEST_P(OwnFiles, AreNeverWrittenOver) {
 }
 
 std::vector<std::string> verbs() {
-  return {"import", "info",    "check", "tin",  "viewshed", "visibility",
-          "ztv",    "profile", "los",   "site", "premises", "serve"};
+  return {"import",  "info", "check", "tin",      "viewshed",  "visibility", "ztv",
+          "profile", "los",  "site",  "premises", "dwellings", "serve"};
 }
 
 INSTANTIATE_TEST_SUITE_P(Verbs, OwnFiles, ::testing::ValuesIn(verbs()), [](const auto& verb) { return verb.param; });

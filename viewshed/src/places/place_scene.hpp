@@ -49,6 +49,8 @@ class PlaceScene {
     std::shared_ptr<const VoidShadow> shadow = nullptr;  ///< null where lines pass over such ground
   };
   View view_from(const Point3& mast) const;
+  /// Looks as if ground without data hid nothing.
+  View view_past_voids(const Point3& from) const { return {in_units(from)}; }
 
   static constexpr std::size_t kAtOnce = SightLines::kSize;
   using Verdicts = std::array<Verdict, kAtOnce>;

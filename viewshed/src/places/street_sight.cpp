@@ -7,6 +7,7 @@
 #include <itin/grid_units.hpp>
 
 #include "line/sight_line.hpp"
+#include "places/raised_end.hpp"
 
 namespace itin::viewshed {
 
@@ -16,24 +17,6 @@ Point3 nearest_street(std::span<const Point3> street, Point2 place) {
   const auto distance = [&](const Point3& p) { return std::hypot(p.x - place.x, p.y - place.y); };
   return *std::min_element(street.begin(), street.end(),
                            [&](const Point3& a, const Point3& b) { return distance(a) < distance(b); });
-}
-
-/// The triangle that asks for the highest end of a line, and that end.
-struct HighestEnd {
-  double z = 0;
-  std::optional<std::uint32_t> triangle = {};
-};
-
-/// Raises the end of a line until nothing hides it.
-HighestEnd raised_end(const PlacedSurface& surface, const SightLine& line) {
-  HighestEnd end{line.to_z()};
-  LineBundle bundle(line);
-  surface.pyramid->search(bundle, [&](std::uint32_t triangle) {
-    const auto [a, b, c] = surface.pyramid->corners(triangle);
-    const double needed = line.clearing_end(a, b, c);
-    if (needed > end.z) end = {needed, triangle}, bundle.end = needed;
-  });
-  return end;
 }
 
 }  // namespace
@@ -46,7 +29,7 @@ std::optional<StreetSight> street_sight(const PlacedSurface& surface, const Eart
   const Point2 start = place_in_units(grid, {from.x, from.y}), end = place_in_units(grid, place.position);
   const SightLine line({start.x, start.y, from.z / grid.resolution}, {end.x, end.y, place.roof_m / grid.resolution},
                        earth.drop_coefficient() * grid.resolution, kGrazing / grid.resolution);
-  const HighestEnd highest = raised_end(surface, line);
+  const ClearedEnd highest = raised_end(surface, line);
   if (!std::isfinite(highest.z)) return std::nullopt;
   StreetSight sight{from, highest.z * grid.resolution - place.roof_m, {}};
   if (!highest.triangle) return sight;

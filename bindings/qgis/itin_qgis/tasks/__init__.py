@@ -9,7 +9,7 @@ from .sites import SiteMasts
 from .stores import Check, Info
 from .surfaces import SurfaceMesh, SurfaceRaster
 from .task import Task
-from .turbines import SiteTurbines, Ztv
+from .turbines import Dwellings, SiteTurbines, Ztv
 from .viewsheds import RadioCoverage, Skyline, Viewshed, Visibility
 
 TASKS: tuple[type[Task], ...] = (
@@ -30,6 +30,7 @@ TASKS: tuple[type[Task], ...] = (
     SiteMasts,
     Premises,
     Ztv,
+    Dwellings,
     SiteTurbines,
 )
 """All of them, in the order of the guide."""

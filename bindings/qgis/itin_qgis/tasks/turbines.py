@@ -122,6 +122,79 @@ class Ztv(Task):
     )
 
 
+class Dwellings(Task):
+    """What turbines are to dwellings."""
+
+    name = "dwellings"
+    title = "Wind turbines at dwellings"
+    group = TURBINES
+    verb = "dwellings"
+    guide = "dwellings.md"
+    summary = (
+        "Tells what dwellings see of wind turbines, facade by facade, over the bare ground and past what stands on it, and "
+        "when their shadows flicker there, minute by minute of a year: hours, worst days, a calendar, and what exceeds "
+        "the limits. The turbines have the fields hub_height and rotor_diameter; name."
+    )
+    parameters = (
+        shared.STORE,
+        Layer("TURBINES", "Layer of turbines", "--turbines", geometry="point", required=True, layer_option="--layer"),
+        Number("HUB_HEIGHT", "Hub height of those that give none", "--hub-height", unit="m", minimum=0),
+        Number("ROTOR_DIAMETER", "Rotor diameter of those that give none", "--rotor-diameter", unit="m", minimum=0),
+        Number("TIP_HEIGHT", "Tip height of those that give none", "--tip-height", unit="m", minimum=0),
+        Layer(
+            "DWELLINGS",
+            "Layer of dwellings",
+            "--dwellings",
+            geometry="point",
+            help="Left blank: all buildings of the store",
+        ),
+        Number("RADIUS", "How far from a turbine dwellings are studied", "--radius", default=2000, unit="m", minimum=0),
+        Number("YEAR", "Year", "--year", minimum=1950, whole=True, help="Left blank: the year of the run"),
+        Text("TIME_ZONE", "Hours that the clock is ahead of UTC, as +1", "--time-zone", default="UTC"),
+        Text("LIMITS", "Limits for a year and for a day", "--limits", default="30h,30min"),
+        File("MONTHS", "Shares of sunshine and operation by month", "--months", filter="CSV (*.csv)"),
+        *shared.STANDING,
+        FolderOutput(
+            "OUTPUT",
+            "Folder of results",
+            "--output",
+            required=True,
+            layers=("dwellings.gpkg",),
+            seen=("dwellings", "turbines"),
+        ),
+        shared.OVERWRITE,
+        shared.LOAD_RESULTS,
+        Text("DWELLING_THEME", "Theme whose buildings are dwellings", "--dwelling-theme", advanced=True),
+        Number("OBSERVER_HEIGHT", "Height of eyes", "--observer-height", default=2, unit="m", advanced=True),
+        Number(
+            "SUN_ELEVATION",
+            "Least elevation of the sun [degrees]",
+            "--sun-elevation",
+            default=3,
+            unit="deg",
+            minimum=1,
+            advanced=True,
+        ),
+        Number("FLICKER_REACH", "Reach of shadows, in diameters of the rotor", "--flicker-reach", default=10, advanced=True),
+        Number("BLADE_WIDTH", "Mean width of a blade, for the reach instead", "--blade-width", unit="m", advanced=True),
+        Field("NAME_FIELD", "Field of names", "--name-field", of="TURBINES", advanced=True),
+        Field("HUB_HEIGHT_FIELD", "Field of hub heights", "--hub-height-field", of="TURBINES", advanced=True),
+        Field(
+            "ROTOR_DIAMETER_FIELD",
+            "Field of rotor diameters",
+            "--rotor-diameter-field",
+            of="TURBINES",
+            advanced=True,
+        ),
+        Field("TIP_HEIGHT_FIELD", "Field of tip heights", "--tip-height-field", of="TURBINES", advanced=True),
+        Field("FARM_FIELD", "Field of farms", "--farm-field", of="TURBINES", advanced=True),
+        Text("FARM", "Farm of those that give none", "--farm", advanced=True),
+        shared.NODATA,
+        *shared.EARTH,
+        *shared.running("1G"),
+    )
+
+
 class SiteTurbines(Task):
     """Where turbines are seen least."""
 

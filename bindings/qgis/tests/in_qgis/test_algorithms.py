@@ -14,7 +14,7 @@ from itin_qgis.tasks import TASKS
 
 GARTH = "310375,183525"
 CARDIFF_BAY = "320000,176000"
-HAS_SECONDS = ("ztv.json", "site.json", "premises.json")
+HAS_SECONDS = ("ztv.json", "site.json", "premises.json", "dwellings.json")
 """Documents that tell how long a run took."""
 
 # Name, parameters, the same on the command line. {s} is the store, {f} the folder of inputs, {o} that of outputs.
@@ -118,6 +118,13 @@ CASES: list[tuple[str, dict[str, Any], str]] = [
          "OUTPUT": "{o}/premises"},
         "premises {t} --masts {f}/masts.gpkg --layer masts --radius 300 --frequency 26 --effective-earth 4/3 "
         "-o {o}/premises",
+    ),
+    (
+        "dwellings",
+        {"STORE": "{c}", "TURBINES": "{f}/turbines.gpkg", "DWELLINGS": "{f}/viewpoints.gpkg", "RADIUS": 20000, "YEAR": 2027,
+         "TIME_ZONE": "+1", "OUTPUT": "{o}/dwellings"},
+        "dwellings {c} --turbines {f}/turbines.gpkg --layer turbines --dwellings {f}/viewpoints.gpkg --radius 20000 "
+        "--year 2027 --time-zone +1 -o {o}/dwellings",
     ),
     (
         "ztv",

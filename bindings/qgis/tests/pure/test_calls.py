@@ -106,6 +106,11 @@ def call(name: str, **values: Any) -> list[str]:
             "ztv /s.itin --turbines=/t.gpkg --cell=100 --output=/o --radar=5,6,12",
         ),
         (
+            "dwellings",
+            {"STORE": "/s.itin", "TURBINES": LayerFile("/t.gpkg"), "YEAR": 2027, "TIME_ZONE": "+1", "OUTPUT": "/o"},
+            "dwellings /s.itin --turbines=/t.gpkg --year=2027 --time-zone=+1 --output=/o",
+        ),
+        (
             "siteturbines",
             {"STORE": "/s.itin", "CANDIDATES": LayerFile("/c.gpkg"), "TIP_HEIGHT": 125, "COUNT": 6, "OUTPUT": "/o"},
             "site /s.itin --candidates=/c.gpkg --tip-height=125 --count=6 --output=/o --turbines",

@@ -19,7 +19,7 @@ Arc arc_to_shown(const std::vector<TurbineSight>& sights) {
   return rotor_horizon(arcs).held;
 }
 
-SightSummary seen_of(const Zone& zone, const std::vector<TurbineSight>& sights,
+SightSummary seen_of(const std::vector<Turbine>& all, const std::vector<TurbineSight>& sights,
                      const std::vector<std::size_t>& turbines) {
   SightSummary seen;
   seen.turbines = turbines.size(), seen.nearest = turbines.front();
@@ -36,8 +36,8 @@ SightSummary seen_of(const Zone& zone, const std::vector<TurbineSight>& sights,
     if (s.tip == TurbineSight::Verdict::kUndecided) ++seen.tips_undecided;
     if (s.tip != TurbineSight::Verdict::kVisible) continue;
     ++seen.tips;
-    if (s.distance > zone.request.turbines[k].radius) ++seen.tips_beyond;
-    const double half = in_degrees(std::atan2(zone.request.turbines[k].rotor_diameter.value_or(0) / 2, s.distance));
+    if (s.distance > all[k].radius) ++seen.tips_beyond;
+    const double half = in_degrees(std::atan2(all[k].rotor_diameter.value_or(0) / 2, s.distance));
     rotors.push_back({within_turn(s.azimuth - half), 2 * half});
     seen.vertical_deg = std::max(seen.vertical_deg, s.vertical_deg);
     if (!seen.nearest_seen || s.distance < sights[*seen.nearest_seen].distance) seen.nearest_seen = k;

@@ -19,9 +19,13 @@ inline bool is_shown(const TurbineSight& sight) {
 /// Returns the smallest part of the horizon that holds the axes of the turbines shown; of all, where none is.
 Arc arc_to_shown(const std::vector<TurbineSight>& sights);
 
-/// Sums up the sights of some turbines. `turbines` are indices in the request, at least one.
-SightSummary seen_of(const Zone& zone, const std::vector<TurbineSight>& sights,
+/// Sums up the sights of some turbines. `turbines` are indices in `all`, at least one.
+SightSummary seen_of(const std::vector<Turbine>& all, const std::vector<TurbineSight>& sights,
                      const std::vector<std::size_t>& turbines);
+inline SightSummary seen_of(const Zone& zone, const std::vector<TurbineSight>& sights,
+                            const std::vector<std::size_t>& turbines) {
+  return seen_of(zone.request.turbines, sights, turbines);
+}
 std::vector<std::size_t> all_turbines(const Zone& zone);
 
 /// Returns in a sentence what stands about the eye or close before it towards `to`; empty where nothing does. `surface`

@@ -1,0 +1,17 @@
+// The map of a survey of dwellings: their outlines in the colours of how much shadow flicker they have, and the
+// turbines, over the relief.
+#pragma once
+
+#include <string>
+
+#include <itin/progress.hpp>
+#include <itin/store.hpp>
+#include <viewshed/dwellings.hpp>
+
+namespace itin::viewshed {
+
+/// Returns the bytes of a .png or .pdf, by the ending of `name`. Throws Cancelled.
+std::string dwelling_map(const Store& store, const DwellingsSurvey& survey, const std::string& name,
+                         Progress& progress);
+
+}  // namespace itin::viewshed
