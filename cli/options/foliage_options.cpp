@@ -9,18 +9,32 @@
 
 namespace itin::cli {
 
-void FoliageOptions::declare(CLI::App& app) {
+void FoliageOptions::declare_foliage(CLI::App& app) {
   begin_group(app, kSurface);
   option_ = app.add_flag("--foliage{0.5}", extinction_text_,
                          "See through themes of vegetation: the share exp(-K a d) of light comes through d metres of a "
                          "leaf area a. K is 0.5, for leaves turned at random; --foliage=K gives another");
+}
+
+void FoliageOptions::declare_transmittance(CLI::App& app) {
+  app.add_option("--transmittance", transmittance_text_,
+                 "The least share of the light by which something is seen (default: 0.5)")
+      ->type_name("SHARE");
+}
+
+void FoliageOptions::declare_of_seasons(CLI::App& app) {
+  of_seasons_ = true;
+  declare_foliage(app);
+  declare_transmittance(app);
+}
+
+void FoliageOptions::declare(CLI::App& app) {
+  declare_foliage(app);
   app.add_option("--leaf-area", leaf_area_text_,
                  "Square metres of leaves in a cubic metre of wood: on (1, the default), off (0.1, a winter without a "
                  "source), or the field that features have theirs in")
       ->type_name("on|off|FIELD");
-  app.add_option("--transmittance", transmittance_text_,
-                 "The least share of the light by which something is seen (default: 0.5)")
-      ->type_name("SHARE");
+  declare_transmittance(app);
 }
 
 void FoliageOptions::validate() {
@@ -44,10 +58,21 @@ void FoliageOptions::validate() {
 
 Document FoliageOptions::parameters() const {
   if (!given()) return Document::object();
-  return {{"foliage", foliage_.extinction},
-          {"leaf_area",
-           foliage_.leaf_area_field.empty() ? Document(foliage_.leaf_area) : Document(foliage_.leaf_area_field)},
-          {"transmittance", foliage_.least_transmittance}};
+  Document parameters{{"foliage", foliage_.extinction}};
+  if (!of_seasons_)
+    parameters["leaf_area"] =
+        foliage_.leaf_area_field.empty() ? Document(foliage_.leaf_area) : Document(foliage_.leaf_area_field);
+  parameters["transmittance"] = foliage_.least_transmittance;
+  return parameters;
+}
+
+std::string FoliageOptions::text() const {
+  if (!given()) return "";
+  const std::string leaves = foliage_.leaf_area_field.empty()
+                                 ? fmt::format("leaf area {:g} m²/m³", foliage_.leaf_area)
+                                 : fmt::format("leaf areas by the field {}", foliage_.leaf_area_field);
+  return fmt::format("{}, extinction {:g}; visible from {:g} % of the light on", leaves, foliage_.extinction,
+                     100 * foliage_.least_transmittance);
 }
 
 }  // namespace itin::cli

@@ -14,17 +14,25 @@ namespace itin::cli {
 class FoliageOptions {
  public:
   void declare(CLI::App& app);
+  /// Declares --foliage and --transmittance, for answers in leaf and in winter alike.
+  void declare_of_seasons(CLI::App& app);
   /// Throws InputError.
   void validate();
   bool given() const { return option_ != nullptr && option_->count() > 0; }
   const profile::Foliage& foliage() const { return foliage_; }
   /// Nothing where light is not to come through woods.
   Document parameters() const;
+  /// Says in words how woods are seen through; empty where they are solid.
+  std::string text() const;
 
  private:
+  void declare_foliage(CLI::App& app);
+  void declare_transmittance(CLI::App& app);
+
   CLI::Option* option_ = nullptr;
   std::string extinction_text_, leaf_area_text_, transmittance_text_;
   profile::Foliage foliage_;
+  bool of_seasons_ = false;
 };
 
 }  // namespace itin::cli

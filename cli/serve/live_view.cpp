@@ -138,6 +138,7 @@ void take_view(const Document& options, ViewOptions& view) {
   take_arguments(app, arguments_of(options));
   refuse_files(app);
   view.validate();
+  if (view.foliage().given()) throw InputError("--foliage: woods are solid in live views; use the command line");
   if (view.has_rings()) throw InputError("--rings: live views have one tolerance; give --tolerance");
   if (view.certified() || !is_live(view.request().mode))
     throw InputError(

@@ -42,6 +42,7 @@ void ViewOptions::declare_surface(CLI::App& app) {
   radio_.declare(app);
   detail_.declare(app, "the observer");
   themes_.declare(app);
+  foliage_.declare(app);
   earth_.declare(app);
   nodata_.declare(app);
   app.add_flag("--precise", precise_, "Exact for the full surface: the same as --tolerance 0");
@@ -62,6 +63,13 @@ void ViewOptions::validate() {
   request_.nodata = nodata_.rule();
   validate_vertical_error();
   validate_precise();
+  validate_foliage();
+}
+
+void ViewOptions::validate_foliage() {
+  foliage_.validate();
+  if (foliage_.given() && (certified_ || request_.mode != viewshed::Mode::kVisible))
+    throw InputError("--foliage sees through woods in mode visible alone: leave out --mode and --frequency");
 }
 
 void ViewOptions::parse_mode() {
@@ -128,6 +136,7 @@ Document ViewOptions::parameters() const {
   parameters["observer_on"] = request_.observers_on_surface ? "surface" : "ground";
   parameters.update(detail_.parameters());
   parameters.update(themes_.parameters());
+  parameters.update(foliage_.parameters());
   parameters["nodata"] = nodata_.text();
   return parameters;
 }

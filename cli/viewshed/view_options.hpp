@@ -19,6 +19,7 @@
 #include "options/detail_options.hpp"
 #include "options/earth_options.hpp"
 #include "options/engine_option.hpp"
+#include "options/foliage_options.hpp"
 #include "options/nodata_option.hpp"
 #include "options/observer_options.hpp"
 #include "options/surface_options.hpp"
@@ -50,6 +51,7 @@ class ViewOptions {
   const ObserverOptions& observers() const { return observers_; }
   const ViewshedTargets& targets() const { return targets_; }
   const EarthOptions& earth() const { return earth_; }
+  const FoliageOptions& foliage() const { return foliage_; }
 
   // The parameters in two parts, between which documents have those of outputs.
   Document observer_parameters() const;
@@ -59,6 +61,7 @@ class ViewOptions {
   void parse_mode();
   void validate_vertical_error();
   void validate_precise();
+  void validate_foliage();
 
   std::string mode_text_, sigma_text_, correlation_text_;
   bool certified_ = false, precise_ = false;
@@ -66,6 +69,7 @@ class ViewOptions {
   ViewshedTargets targets_;
   DetailOptions detail_;
   ThemeOptions themes_;
+  FoliageOptions foliage_;
   EarthOptions earth_;
   NoDataOption nodata_;
   EngineOption engine_;

@@ -12,6 +12,7 @@
 #include <itin/store.hpp>
 #include <viewshed/documents.hpp>
 #include <viewshed/exact_cost.hpp>
+#include <viewshed/foliage_view.hpp>
 #include <viewshed/hidden_eyes.hpp>
 #include <viewshed/missing_ground.hpp>
 #include <viewshed/result_raster.hpp>
@@ -24,6 +25,7 @@
 #include "program/help.hpp"
 #include "program/verb.hpp"
 #include "viewshed/feature_raster.hpp"
+#include "viewshed/foliage_rasters.hpp"
 #include "viewshed/horizon_output.hpp"
 #include "viewshed/view_options.hpp"
 #include "viewshed/view_warnings.hpp"
@@ -67,6 +69,9 @@ class ViewshedVerb final : public Verb {
     sheet_.validate();
     outputs_.validate(other_outputs());
     view_.validate();
+    if (view_.foliage().given() && (outputs_.writes_each() || !horizon_.paths().empty()))
+      throw InputError(
+          "--foliage sees through woods in rasters, polygons, maps and sheets: leave out --each and --horizon");
     compute_options_.memory_bytes = memory_.bytes().value_or(compute_options_.memory_bytes);
   }
 
@@ -91,11 +96,15 @@ class ViewshedVerb final : public Verb {
       throw InputError("--horizon is that of one observer; give one");
     outputs_.prepare(request);
     for (const std::string& raster : features_.paths()) outputs_.claim_style(raster);
+    const FoliageOptions& foliage = view_.foliage();
+    if (foliage.given()) claim_foliage_rasters(outputs_);
     compute_options_.whole_surface = outputs_.draws_map() || !horizon_.paths().empty();
-    viewshed::ViewshedWithSurface computed = survey(store, request, progress);
+    viewshed::ThroughFoliage through = survey(store, request, progress);
+    viewshed::ViewshedWithSurface& computed = through.computed;
     const viewshed::MissingGround missing = viewshed::missing_ground(store, computed.result, progress);
     const std::vector<SourceInfo> sources = sources_in(store, looked_at(computed.result), request.themes);
-    const ViewshedOutputs::Context context{metadata, view_.certified(), missing, described(sources, metadata)};
+    const ViewshedOutputs::Context context{metadata, view_.certified(), missing, described(sources, metadata),
+                                           foliage.text()};
     add_view_warnings(metadata, view_, computed.result, missing, result.warnings);
     // Certified and exact answers are about the full surface.
     viewshed::Request answered = computed.result.request;
@@ -104,11 +113,15 @@ class ViewshedVerb final : public Verb {
     const Document targets =
         horizon_.write(store, computed, answered, compute_options_, outputs_.overwrite(), progress, result.warnings);
     outputs_.write(store, computed, context, progress);
-    write_viewshed_sheet(store, computed.result, sheet_, {missing, context.sources}, outputs_.overwrite(), progress);
+    if (foliage.given()) write_foliage_rasters(outputs_, metadata, through, foliage.text(), progress);
+    write_viewshed_sheet(store, computed.result, sheet_, {missing, context.sources, foliage.text()},
+                         outputs_.overwrite(), progress);
     outputs_.write_each([&](std::size_t i) { return compute_for_observer(store, computed, i, progress); }, context,
                         progress);
     if (!answered.observers_on_surface)
-      viewshed::warn_of_hidden_eyes(store, {"observer", eyes_of(computed.result), answered.detail, answered.themes},
+      viewshed::warn_of_hidden_eyes(store,
+                                    {"observer", eyes_of(computed.result), answered.detail,
+                                     foliage.given() ? answered.themes.without_vegetation() : answered.themes},
                                     result.warnings);
     const Document features =
         features_.write(store, computed.result.grid, {answered.detail, request.themes}, outputs_.overwrite(), progress);
@@ -121,6 +134,7 @@ class ViewshedVerb final : public Verb {
       result.document["blockers"] = viewshed::blockers_document(store, computed.result);
     if (!targets.empty()) result.document["horizon_targets"] = targets;
     result.text = text(metadata, computed.result, missing);
+    if (foliage.given()) result.text += "through foliage: " + foliage.text() + "\n";
     if (!view_.certified() && viewshed::exact_costs_no_more(store, computed.result.request))
       result.text += "the exact answer takes no longer over this raster: leave out --tolerance\n";
     return result;
@@ -141,15 +155,18 @@ class ViewshedVerb final : public Verb {
     return paths;
   }
 
-  viewshed::ViewshedWithSurface survey(const Store& store, const viewshed::Request& request, Progress& progress) const {
-    if (view_.certified()) return viewshed::compute_certified(store, request, compute_options_, progress);
-    return viewshed::compute_with_surface(store, request, compute_options_, progress);
+  /// Computes the viewshed; its foliage is empty where woods are solid.
+  viewshed::ThroughFoliage survey(const Store& store, const viewshed::Request& request, Progress& progress) const {
+    if (view_.certified()) return {viewshed::compute_certified(store, request, compute_options_, progress), {}};
+    if (view_.foliage().given())
+      return viewshed::compute_through_foliage(store, request, view_.foliage().foliage(), compute_options_, progress);
+    return {viewshed::compute_with_surface(store, request, compute_options_, progress), {}};
   }
   viewshed::Result compute_for_observer(const Store& store, const viewshed::ViewshedWithSurface& all,
                                         std::size_t observer, Progress& progress) const {
     const viewshed::Request request = viewshed::request_for_observer(all.result, observer);
     return all.whole ? viewshed::compute_on_surface(store, all, request, progress)
-                     : survey(store, request, progress).result;
+                     : survey(store, request, progress).computed.result;
   }
 
   std::string text(const StoreMetadata& metadata, const viewshed::Result& result,

@@ -82,16 +82,28 @@ void ViewshedOutputs::claim_style(const std::string& raster) {
   policy_.claim(styles_.emplace_back(viewshed::style_beside(raster)));
 }
 
-std::vector<std::string> ViewshedOutputs::rasters() const {
-  std::vector<std::string> rasters = single_;
+void ViewshedOutputs::claim_beside(const std::string& path) {
+  policy_.claim(others_.emplace_back(path));
+}
+
+std::vector<std::string> ViewshedOutputs::given_rasters() const {
+  std::vector<std::string> rasters;
   std::copy_if(outputs_.begin(), outputs_.end(), std::back_inserter(rasters),
                [](const std::string& path) { return !is_polygons(path); });
   return rasters;
 }
 
+std::vector<std::string> ViewshedOutputs::rasters() const {
+  std::vector<std::string> rasters = single_;
+  const std::vector<std::string> given = given_rasters();
+  rasters.insert(rasters.end(), given.begin(), given.end());
+  return rasters;
+}
+
 void ViewshedOutputs::write_raster(const std::string& path, const viewshed::Result& result, const Context& context,
                                    const Progress& progress) const {
-  viewshed::write_result_raster(path, result, context.metadata, {context.certified, policy_.overwrite}, progress);
+  viewshed::write_result_raster(path, result, context.metadata, {context.certified, policy_.overwrite, context.foliage},
+                                progress);
 }
 
 void ViewshedOutputs::write(const Store& store, viewshed::ViewshedWithSurface& computed, const Context& context,
@@ -105,7 +117,7 @@ void ViewshedOutputs::write(const Store& store, viewshed::ViewshedWithSurface& c
     options.sources = context.sources;
     options.no_data = no_data;
     options.outside = kOutOfView;
-    options.title = title_of(computed.result);
+    options.title = title_of(computed.result) + (context.foliage.empty() ? "" : ", through foliage");
     options.crs_wkt = context.metadata.crs_wkt;
     if (context.missing.without_ground > 0) {
       options.no_data_text = context.missing.key_text(kAreaLookedAt);

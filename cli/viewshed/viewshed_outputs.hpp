@@ -30,11 +30,19 @@ class ViewshedOutputs {
   /// InputError where the call reads or writes that file already.
   void claim_style(const std::string& raster);
 
+  /// Lists a file that is written beside others among the outputs. Throws as claim_style() does.
+  void claim_beside(const std::string& path);
+  /// The rasters of -o.
+  std::vector<std::string> given_rasters() const;
+  /// Whether observers have rasters of their own.
+  bool writes_each() const { return !each_.empty(); }
+
   struct Context {
     const StoreMetadata& metadata;
     bool certified;  ///< what is certain was asked for
     const viewshed::MissingGround& missing;
     std::vector<std::string> sources;  ///< where the surface comes from, sort by sort
+    std::string foliage = {};          ///< how woods are seen through; empty: they are solid
   };
   void write(const Store& store, viewshed::ViewshedWithSurface& computed, const Context& context,
              Progress& progress) const;

@@ -41,6 +41,7 @@ profile::TitleBlock title_of_map(const Store& store, const viewshed::Result& res
   if (request.radius)
     block.facts.insert(block.facts.begin() + 2, {"Radius", fmt::format("{:g} km", *request.radius / 1000)});
   if (const auto criterion = radio_criterion(request)) block.facts.emplace_back("Radio", *criterion);
+  if (!facts.foliage.empty()) block.facts.emplace_back("Foliage", facts.foliage);
   block.facts.emplace_back("Earth", request.earth.convention());
   block.facts.push_back(viewshed::terrain_fact(store.metadata(), detail));
   if (result.certified && !result.decided_exactly)

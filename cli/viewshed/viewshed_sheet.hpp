@@ -16,6 +16,7 @@ namespace itin::cli {
 struct ViewshedSheetFacts {
   const viewshed::MissingGround& missing;
   const std::vector<std::string>& sources;  ///< the sources of the surface, in words
+  std::string foliage = {};                 ///< how woods are seen through; empty: they are solid
 };
 
 /// Draws and writes the sheet. Throws FileError, InputError (a scale that is too large), Cancelled.

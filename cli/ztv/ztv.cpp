@@ -16,6 +16,7 @@
 
 #include "options/detail_options.hpp"
 #include "options/earth_options.hpp"
+#include "options/foliage_options.hpp"
 #include "options/memory_option.hpp"
 #include "options/nodata_option.hpp"
 #include "options/radius_preset.hpp"
@@ -71,6 +72,7 @@ class ZtvVerb final : public Verb {
     sheets_.declare(app);
     detail_.declare(app, "");
     themes_.declare(app);
+    foliage_.declare_of_seasons(app);
     earth_.declare(app);
     nodata_.declare(app);
     memory_.declare(app,
@@ -90,6 +92,9 @@ class ZtvVerb final : public Verb {
     detail_.validate();
     if (detail_.has_rings()) throw InputError("--rings lie about one observer; a ztv takes --tolerance");
     themes_.validate();
+    foliage_.validate();
+    if (foliage_.given())
+      request_.zone.foliage = {foliage_.foliage().extinction, foliage_.foliage().least_transmittance};
     earth_.validate();
     request_.zone.earth = earth_.earth();
     if (!observer_text_.empty())
@@ -127,6 +132,7 @@ class ZtvVerb final : public Verb {
     parameters.update(sheets_.parameters());
     parameters.update(detail_.parameters());
     parameters.update(themes_.parameters());
+    parameters.update(foliage_.parameters());
     parameters["nodata"] = nodata_.text();
     return parameters;
   }
@@ -208,6 +214,9 @@ class ZtvVerb final : public Verb {
       text += fmt::format("screened: a blade tip {}\n", seen_from(areas["screened"]));
       add_undecided("screened: ", *zone.screened);
     }
+    if (zone.seasons)
+      text += fmt::format("through foliage: a blade tip {} in summer; {} in winter\n", seen_from(areas["summer"]),
+                          seen_from(areas["winter"]));
     if (study.missing.share() > 0) text += fmt::format("no ground data: {} of the study area\n", study.missing.text());
     text += fmt::format("{}, {}; {}\n", counted(zone.statistics.triangles, "triangle"),
                         counted(zone.statistics.lines, "sight line"), zone.request.earth.convention());
@@ -224,6 +233,7 @@ class ZtvVerb final : public Verb {
   SheetOptions sheets_;
   DetailOptions detail_;
   ThemeOptions themes_;
+  FoliageOptions foliage_;
   EarthOptions earth_;
   NoDataOption nodata_;
   OutputPolicy policy_;

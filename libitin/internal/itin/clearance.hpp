@@ -9,7 +9,9 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
+#include <utility>
 
 #include <itin/precondition.hpp>
 
@@ -47,6 +49,21 @@ struct ClearancePiece {
   double least_within(double first, double last) const {
     if (square > 0) return std::clamp(-linear / (2 * square), first, last);
     return at(first) < at(last) ? first : last;
+  }
+  /// Returns where the ground rises above the line; an empty stretch where it does so nowhere by more than `grazing`.
+  /// There is one such stretch at most, for the clearance is convex.
+  std::pair<double, double> above_line(double grazing) const {
+    const double lowest = least_within(from, to);
+    if (at(lowest) >= -grazing) return {lowest, lowest};
+    // The roots of the parabola about its lowest place; those of a straight line are at infinity on one side.
+    const double root = std::sqrt(std::max(0.0, linear * linear - 4 * square * constant));
+    const double q = -(linear + std::copysign(root, linear)) / 2;
+    double first = from, last = to;
+    for (const double r : {square > 0 ? q / square : NAN, q != 0 ? constant / q : NAN}) {
+      if (r > from && r <= lowest) first = std::max(first, r);
+      if (r < to && r >= lowest) last = std::min(last, r);
+    }
+    return {first, last};
   }
 };
 

@@ -61,7 +61,8 @@ struct FoliageSight {
 };
 
 /// Returns the stretches of the line between both antennas that lie below the surface where it is part of a theme for
-/// which `vegetation`, by ProfilePoint::theme, is true. They are in order. O(n).
+/// which `vegetation`, by ProfilePoint::theme, is true. They are in order. Tops that a line only grazes (law 4) hide
+/// nothing of it. O(n).
 std::vector<FoliageStretch> foliage_along(const Profile& surface, const Antennas& antennas, const Earth& earth,
                                           const std::vector<bool>& vegetation);
 

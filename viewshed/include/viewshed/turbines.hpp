@@ -51,14 +51,21 @@ struct Turbine {
   double radius = 0;                          ///< the distance up to which eyes see it, metres
 };
 
+/// Woods that turbines are seen through, in leaf and in winter, by the rule of profile/foliage.hpp.
+struct ZoneFoliage {
+  double extinction = 0.5;           ///< k
+  double least_transmittance = 0.5;  ///< what less of the light comes from is hidden
+};
+
 struct ZoneRequest {
   std::vector<Turbine> turbines = {};  ///< at least one; numbers differ
   double observer_height = 2;
   std::optional<double> cell_size = {};  ///< either this, metres, or `grid` gives the cells
   std::optional<RasterGrid> grid = {};
   Earth earth = {};
-  Detail detail = Detail::tolerance(0);    ///< the surface's level of detail; not used with a Tin
-  std::optional<ThemeChoice> themes = {};  ///< features that screen; not used with a Tin; nothing: bare ground alone
+  Detail detail = Detail::tolerance(0);     ///< the surface's level of detail; not used with a Tin
+  std::optional<ThemeChoice> themes = {};   ///< features that screen; not used with a Tin; nothing: bare ground alone
+  std::optional<ZoneFoliage> foliage = {};  ///< nothing: woods are solid; not used with a Tin
   NoData nodata = NoData::kUnknown;
   /// The bytes that a survey of a store may take, about. Where the surface does not fit into them, the survey is made
   /// in parts, with the same results. Nothing: no limit.
@@ -98,6 +105,15 @@ constexpr RasterBit turbine_bit(std::size_t number) {
   return raster_bit(number - 1);
 }
 
+/// How many turbines are seen through woods in one season, as Visibility has it of solid ones.
+struct SeasonCounts {
+  std::vector<std::uint16_t> hub_count, tip_count;
+};
+/// What is seen through woods in leaf, and what through the same in winter.
+struct Seasons {
+  SeasonCounts summer, winter;
+};
+
 /// A turbine that could not be placed.
 struct Misplaced {
   std::size_t number = 0;
@@ -131,6 +147,7 @@ struct Zone {
   std::uint64_t shadow_bytes = 0;  ///< about the memory that the survey took to tell which lines do
   Visibility bare;
   std::optional<Visibility> screened;  ///< with the themes' features standing on the ground, where asked for
+  std::optional<Seasons> seasons;      ///< where woods are not solid
   std::optional<RadarView> radar;
   std::vector<std::string> warnings;
   Statistics statistics;  ///< counts pairs of eye and turbine as lines
@@ -148,7 +165,9 @@ struct Zone {
 Zone survey_turbines(const Tin& ground, const Tin* screened, const ZoneRequest& request, Progress& progress);
 
 /// Surveys the turbines on the surface of a store, with one retrieval within the turbines' radii, or one per part. At
-/// full detail features are read only where they may rise into a line to a turbine that the ground leaves open. Throws
+/// full detail features are read only where they may rise into a line to a turbine that the ground leaves open. Where
+/// woods are seen through, zones with and without them bound what is seen, for tips and for hubs, and lines are walked
+/// between the two alone. Throws
 /// also what triangulate() throws, and InputError where memory_bytes does not hold the rasters or some part; its
 /// message says about how much that takes.
 Zone survey_turbines(const Store& store, const ZoneRequest& request, Progress& progress);

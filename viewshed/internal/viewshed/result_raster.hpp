@@ -17,6 +17,7 @@ namespace itin::viewshed {
 struct ResultRasterOptions {
   bool certified = false;  ///< what is certain was asked for, by compute_certified()
   bool overwrite = false;
+  std::string foliage = {};  ///< how woods are seen through; empty: they are solid
 };
 
 /// The command line's names of the modes, in their order; those of radio come last.

@@ -32,16 +32,16 @@ void write_result_raster(const std::string& path, const Result& result, const St
                          const ResultRasterOptions& options, const Progress& progress) {
   const Request& r = result.request;
   const bool precise = !options.certified && r.detail.coarsest() == 0;
-  write_geotiff(path, result,
-                {metadata.crs_wkt,
-                 {{"itin", ITIN_VERSION},
-                  {"surface", json_text(surface_document(metadata, r.detail, r.themes))},
-                  {"mode", mode_name(r.mode, options.certified)},
-                  {"precise", precise ? "yes" : "no"},
-                  {"observer_on", standing_on(r.observers_on_surface)},
-                  {"target_on", standing_on(r.targets_on_surface)}},
-                 options.overwrite},
-                progress);
+  GeotiffOptions file{metadata.crs_wkt,
+                      {{"itin", ITIN_VERSION},
+                       {"surface", json_text(surface_document(metadata, r.detail, r.themes))},
+                       {"mode", mode_name(r.mode, options.certified)},
+                       {"precise", precise ? "yes" : "no"},
+                       {"observer_on", standing_on(r.observers_on_surface)},
+                       {"target_on", standing_on(r.targets_on_surface)}},
+                      options.overwrite};
+  if (!options.foliage.empty()) file.metadata.emplace_back("foliage", options.foliage);
+  write_geotiff(path, result, file, progress);
   if (has_qgis_style(r.mode)) write_file(style_beside(path), qgis_style(result), options.overwrite);
 }
 

@@ -20,6 +20,7 @@
 #include "turbines/turbine_shadows.hpp"
 #include "turbines/zone_parts.hpp"
 #include "turbines/zone_request.hpp"
+#include "turbines/zone_seasons.hpp"
 #include "turbines/zone_survey.hpp"
 #include "window/retrieval.hpp"
 
@@ -151,6 +152,9 @@ Effort effort_of(const Zone& zone, const ZonePart& part, bool screens) {
 /// About the share of the time that it takes to read a lattice.
 constexpr double kReadingLattice = 0.05;
 
+/// About the share of the time that a survey of solid woods takes, where they are also seen through.
+constexpr double kSolidShare = 0.3;
+
 }  // namespace
 
 Zone survey_turbines(const Tin& ground, const Tin* screened, const ZoneRequest& request, Progress& progress) {
@@ -167,7 +171,10 @@ Zone survey_turbines(const Tin& ground, const Tin* screened, const ZoneRequest& 
   return zone;
 }
 
-Zone survey_turbines(const Store& store, const ZoneRequest& request, Progress& progress) {
+namespace {
+
+/// Surveys turbines on a surface whose woods are solid.
+Zone survey_solid(const Store& store, const ZoneRequest& request, Progress& progress) {
   validate(request);
   const auto height = [&](Point2 p) { return height_at(store, p, ThemeChoice::none(), progress, request.detail); };
   const Tin outline = coverage_of(store, window_of(request), progress);
@@ -194,6 +201,18 @@ Zone survey_turbines(const Store& store, const ZoneRequest& request, Progress& p
     zone.screened = zone.bare;
     zone.warnings.emplace_back("none of the themes has features that stand on the ground: nothing screens");
   }
+  call.finish();
+  return zone;
+}
+
+}  // namespace
+
+Zone survey_turbines(const Store& store, const ZoneRequest& request, Progress& progress) {
+  if (!request.foliage) return survey_solid(store, request, progress);
+  CallProgress call(progress);
+  Zone zone = survey_solid(store, request, call.step(kSolidShare));
+  const auto survey = [&](const ZoneRequest& asked, Progress& step) { return survey_solid(store, asked, step); };
+  zone.seasons = survey_seasons(store, zone, survey, call.step(1));
   call.finish();
   return zone;
 }

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <itin/parallel.hpp>
+#include <profile/foliage.hpp>
 #include <viewshed/missing_ground.hpp>
 #include <viewshed/zone_files.hpp>
 
@@ -111,6 +112,25 @@ void write_counts(const Zone& zone, const View& view, RasterFolder& folder) {
   };
   if (known_hubs(zone) > 0) write("undecided-hubs", TurbinePart::kHub, undecided(hub), view.seen.hub_undecided);
   write("undecided", TurbinePart::kTip, undecided("tip"), view.seen.tip_undecided);
+}
+
+/// Writes how many turbines are seen through woods, in leaf and in winter.
+void write_seasons(const Zone& zone, RasterFolder& folder) {
+  const auto write = [&](const std::string& season, const SeasonCounts& counts, double leaf_area) {
+    const auto one = [&](const char* name, TurbinePart part, const std::string& of,
+                         const std::vector<std::uint16_t>& values) {
+      folder.write(fmt::format("{}-count-{}", name, season),
+                   fmt::format("how many turbines have their {} seen through woods in {} (leaf area {:g} m²/m³, "
+                               "extinction {:g}, {:g} % of the light are enough); 65535: {}",
+                               of, season, leaf_area, zone.request.foliage->extinction,
+                               100 * zone.request.foliage->least_transmittance, kNoValue),
+                   values, with_nodata(kCountOutside), banded_style(count_bands(zone, part)));
+    };
+    if (known_hubs(zone) > 0) one("hub", TurbinePart::kHub, hub_in_words(zone), counts.hub_count);
+    one("tip", TurbinePart::kTip, "tip", counts.tip_count);
+  };
+  write("summer", zone.seasons->summer, profile::kLeavesOn);
+  write("winter", zone.seasons->winter, profile::kLeavesOff);
 }
 
 /// Returns a style that shows whether any of the first 32 turbines is seen. QGIS's identify tool tells which ones.
@@ -242,6 +262,7 @@ std::vector<ZoneFile> write_zone_rasters(const std::string& folder, const Zone& 
     write_quantities(view, files);
   }
   if (zone.screened) write_differences(zone, files);
+  if (zone.seasons) write_seasons(zone, files);
   write_farm_rasters(zone, views, files);
   write_study_area(zone, files);
   return std::move(files).files();

@@ -67,23 +67,6 @@ _REPORTS: tuple[Parameter, ...] = (
         advanced=True,
     ),
 )
-_FOLIAGE: tuple[Parameter, ...] = (
-    Flag(
-        "FOLIAGE",
-        "See through woods: metres of leaves, and the light that comes through",
-        "--foliage",
-        advanced=True,
-    ),
-    Text("LEAF_AREA", "Leaf area of woods: on, off (winter), or a field", "--leaf-area", advanced=True),
-    Number(
-        "TRANSMITTANCE",
-        "The least share of the light by which something is seen",
-        "--transmittance",
-        default=0.5,
-        minimum=0,
-        advanced=True,
-    ),
-)
 _MEMORY = shared.running()
 
 
@@ -125,7 +108,7 @@ class LineOfSight(Task):
         Text("TO_NAME", "What the second end is called", "--to-name", advanced=True),
         *_REPORTS,
         *_ENDS,
-        *_FOLIAGE,
+        *shared.FOLIAGE,
         shared.RINGS,
         shared.NODATA,
         *_EARTH,

@@ -38,6 +38,28 @@ WITHOUT = Text(
 )
 STANDING: tuple[Parameter, ...] = (THEMES, WITHOUT)
 """What of all that stands on the ground counts: what each verb with themes has."""
+_SEEN_THROUGH = Flag(
+    "FOLIAGE",
+    "See through woods: metres of leaves, and the light that comes through",
+    "--foliage",
+    advanced=True,
+)
+_TRANSMITTANCE = Number(
+    "TRANSMITTANCE",
+    "The least share of the light by which something is seen",
+    "--transmittance",
+    default=0.5,
+    minimum=0,
+    advanced=True,
+)
+FOLIAGE: tuple[Parameter, ...] = (
+    _SEEN_THROUGH,
+    Text("LEAF_AREA", "Leaf area of woods: on, off (winter), or a field", "--leaf-area", advanced=True),
+    _TRANSMITTANCE,
+)
+"""How woods are seen through, in one season."""
+SEASONS: tuple[Parameter, ...] = (_SEEN_THROUGH, _TRANSMITTANCE)
+"""How woods are seen through, in leaf and in winter alike."""
 NODATA = Choice(
     "NODATA", "What ground without data does to sight lines", "--nodata", choices=("unknown", "block", "clear"),
     default="unknown", advanced=True, help="unknown: undecided unless known ground hides; block: hides; clear: lets pass",

@@ -115,6 +115,7 @@ class Ztv(Task):
         Text("WIRELINES", "Wirelines from these viewpoints only", "--wirelines", advanced=True),
         Flag("NO_WIRELINES", "Tables of viewpoints, without wirelines", "--no-wirelines", advanced=True),
         shared.LIKE,
+        *shared.SEASONS,
         shared.NODATA,
         *shared.EARTH,
         *shared.PAPER_MAPS,

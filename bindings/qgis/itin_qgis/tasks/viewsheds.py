@@ -136,6 +136,7 @@ class Viewshed(Task):
             minimum=0,
             advanced=True,
         ),
+        *shared.FOLIAGE,
         *_MORE_DETAIL,
         *_FILES,
         *shared.running("1G"),

@@ -1,5 +1,7 @@
 #include "workflows/zone/study_document.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include <itin/coordinates.hpp>
@@ -32,6 +34,16 @@ Document areas_of(const Zone& zone, const Visibility& v) {
   return areas;
 }
 
+/// The areas from which turbines are seen through woods in a season.
+Document areas_in_season(const Zone& zone, const SeasonCounts& counts) {
+  const auto km2 = [&](const std::vector<std::uint16_t>& seen) {
+    const auto cells = std::count_if(seen.begin(), seen.end(), [](auto n) { return n > 0 && n != kCountOutside; });
+    return static_cast<double>(cells) * zone.grid.cell_area() / 1e6;
+  };
+  return {{"any_tip_seen", km2(counts.tip_count)},
+          {"any_hub_seen", known_hubs(zone) > 0 ? Document(km2(counts.hub_count)) : Document(nullptr)}};
+}
+
 Document turbines_document(const ZoneStudy& study) {
   const TurbineTable& table = study.request.turbines;
   Document document = bad_rows_document(table.path, table.rows, study.zone.request.turbines.size(), table.bad);
@@ -43,6 +55,10 @@ Document turbines_document(const ZoneStudy& study) {
 Document area_document(const Zone& zone) {
   Document document{{"bare", areas_of(zone, zone.bare)}};
   if (zone.screened) document["screened"] = areas_of(zone, *zone.screened);
+  if (zone.seasons) {
+    document["summer"] = areas_in_season(zone, zone.seasons->summer);
+    document["winter"] = areas_in_season(zone, zone.seasons->winter);
+  }
   return document;
 }
 

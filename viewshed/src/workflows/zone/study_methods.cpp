@@ -12,6 +12,7 @@
 #include <itin/height_axis.hpp>
 #include <itin/sources_in.hpp>
 #include <itin/surface_text.hpp>
+#include <profile/foliage.hpp>
 #include <viewshed/radius_document.hpp>
 #include <viewshed/undecided_area.hpp>
 #include <viewshed/zone_files.hpp>
@@ -134,6 +135,18 @@ constexpr const char* kSheets =
     "Visual Representation of Wind Farms, version 2.2: planar, 53.5 by 18.2 degrees at 812.5 mm, and cylindrical, 90 "
     "by 14.2 degrees at 522 mm, on paper of 841 by 297 mm.";
 
+std::string foliage_in_words(const ZoneFoliage& foliage) {
+  return fmt::format(
+      "Rasters with `-summer` and `-winter` in their names count turbines that are seen through the woods, which are "
+      "not taken as solid there. Of the light along a line exp(-{:g} a d) comes through d metres of foliage of the "
+      "leaf "
+      "area a, which is {:g} m²/m³ in summer and {:g} m²/m³ in winter, for which there is no source. A blade tip or "
+      "hub "
+      "is visible where nothing else hides it and at least {:g} % of its light comes through. Foliage is everything "
+      "between the tops of the vegetation and the ground.",
+      foliage.extinction, profile::kLeavesOn, profile::kLeavesOff, 100 * foliage.least_transmittance);
+}
+
 /// Tells how sight lines that cross ground without data are judged.
 std::string crossings_in_words(const Zone& zone, const std::string& decides) {
   if (zone.request.nodata == NoData::kClear)
@@ -221,6 +234,7 @@ std::string methods_text(const ZoneStudy& study, const ZoneStudyFileOptions& opt
       "turbine above this point. Rotors are taken to face the observer. Haze, light and the acuity of the eye are not "
       "taken into account.");
   paragraph("Screening", screening_in_words(study));
+  if (zone.seasons) paragraph("Foliage", foliage_in_words(*request.foliage));
   if (has_viewpoints(study.request) && !options.wirelines.none)
     paragraph("Wirelines", std::string(kWirelines) + (options.sheets.papers.empty() ? "" : kSheets));
   for (const std::string& further : radio_methods(study, options.decides_missing_ground)) text += further + "\n\n";

@@ -1,0 +1,221 @@
+#include "foliage/foliage_about.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <span>
+#include <utility>
+
+#include <itin/clearance.hpp>
+#include <itin/grazing.hpp>
+#include <itin/parallel.hpp>
+
+#include "line/infinity.hpp"
+#include "line/rounded_outwards.hpp"
+
+namespace itin::viewshed {
+
+namespace {
+
+constexpr double kWholeTurn = 2 * std::numbers::pi;
+
+/// Angles are computed to far less than this many radians.
+constexpr double kAngleError = 1e-9;
+
+/// A line that passes both ends of an edge within this many grid units runs along it.
+constexpr double kAlongEdge = 1e-3;
+
+/// In about how many directions a triangle lies, so that lists stay short and yet fit their lines.
+constexpr double kDirectionsOfTriangle = 3;
+constexpr double kMostDirections = 1 << 16;
+
+/// How many triangles of a direction have one bound on their height.
+constexpr std::size_t kFew = 16;
+
+double squared_distance_to_edge(const Point2& a, const Point2& b) {
+  const double dx = b.x - a.x, dy = b.y - a.y, squared = dx * dx + dy * dy;
+  const double t = squared > 0 ? std::clamp(-(a.x * dx + a.y * dy) / squared, 0.0, 1.0) : 0;
+  const double x = a.x + t * dx, y = a.y + t * dy;
+  return x * x + y * y;
+}
+
+/// The theme of an edge from those of its ends, as cross-sections have it.
+std::uint16_t theme_of_edge(std::uint16_t a, std::uint16_t b) {
+  return a == 0 || b == 0 ? std::max(a, b) : std::min(a, b);
+}
+
+/// Bounds the slope at which anything that high above the eye appears, between two distances.
+double slope_bound(double above, double nearest, double farthest, double drop) {
+  if (above >= 0 && nearest == 0) return kInfinity;
+  return (above >= 0 ? above / nearest : above / farthest) - drop * nearest;
+}
+
+}  // namespace
+
+struct FoliageAbout::Line {
+  Line(const Point3& eye, const Point3& target, double drop)
+      : dx(target.x - eye.x),
+        dy(target.y - eye.y),
+        squared(dx * dx + dy * dy),
+        length(std::sqrt(squared)),
+        slope((target.z - eye.z) / length - drop * length),
+        over(eye.z, target.z, 1, drop * squared) {}
+
+  double dx, dy, squared, length;
+  double slope;  ///< at which the target appears
+  LineOverGround over;
+};
+
+FoliageAbout::FoliageAbout(const Tin& surface, const std::vector<bool>& vegetation, const Point3& eye,
+                           const Earth& earth)
+    : surface_(surface),
+      vegetation_(vegetation),
+      eye_(eye),
+      drop_(earth.drop_coefficient() * surface.grid.resolution),
+      grazing_(kGrazing / surface.grid.resolution) {
+  if (surface.raised_theme.empty()) return;
+  for (std::uint32_t t = 0; t < surface.triangles.size(); ++t)
+    if (is_foliage(surface.triangles[t])) entries_.push_back({.triangle = t});
+  constexpr std::size_t kChunk = 4096;
+  parallel_for((entries_.size() + kChunk - 1) / kChunk, [&](std::size_t chunk) {
+    for (std::size_t i = chunk * kChunk; i < std::min(entries_.size(), (chunk + 1) * kChunk); ++i)
+      entries_[i] = entry_of(entries_[i].triangle);
+  });
+  std::sort(entries_.begin(), entries_.end(), [](const Entry& a, const Entry& b) {
+    return std::pair(a.nearest, a.triangle) < std::pair(b.nearest, b.triangle);
+  });
+  list_by_direction();
+}
+
+void FoliageAbout::list_by_direction() {
+  double widths = kAngleError;
+  for (const Entry& entry : entries_) widths += entry.width;
+  directions_ = static_cast<std::size_t>(std::clamp(
+      kDirectionsOfTriangle * kWholeTurn * static_cast<double>(entries_.size()) / widths, 1.0, kMostDirections));
+  by_direction_ = {directions_, entries_.size(), [&](std::uint32_t i, const auto& add) {
+                     const Entry& entry = entries_[i];
+                     if (entry.width >= kWholeTurn) {
+                       for (std::size_t d = 0; d < directions_; ++d) add(d);
+                       return;
+                     }
+                     const std::size_t last = direction_of(entry.from + entry.width);
+                     for (std::size_t d = direction_of(entry.from);; d = (d + 1) % directions_) {
+                       add(d);
+                       if (d == last) return;
+                     }
+                   }};
+  for (std::size_t d = 0; d < directions_; ++d) {
+    first_few_.push_back(highest_.size());
+    const auto list = by_direction_.in(d);
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      if (i % kFew == 0) highest_.push_back(-kFloatInfinity);
+      highest_.back() = std::max(highest_.back(), entries_[list[i]].highest);
+    }
+  }
+}
+
+bool FoliageAbout::is_foliage(const Triangle& triangle) const {
+  return std::any_of(triangle.begin(), triangle.end(), [&](std::uint32_t v) {
+    const std::uint16_t theme = surface_.raised_theme[v];
+    return theme < vegetation_.size() && vegetation_[theme];
+  });
+}
+
+FoliageAbout::Entry FoliageAbout::entry_of(std::uint32_t triangle) const {
+  const std::array<GridPoint, 3> corners = surface_.corners(triangle);
+  std::array<Point2, 3> at;
+  double highest = -kInfinity, farthest = 0, nearest = kInfinity;
+  for (std::size_t i = 0; i < 3; ++i) {
+    at[i] = {corners[i].x - eye_.x, corners[i].y - eye_.y};
+    highest = std::max(highest, corners[i].z - eye_.z);
+    farthest = std::max(farthest, std::hypot(at[i].x, at[i].y));
+  }
+  bool about_eye = true;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Point2 &a = at[i], &b = at[(i + 1) % 3];
+    nearest = std::min(nearest, squared_distance_to_edge(a, b));
+    about_eye = about_eye && a.x * b.y - a.y * b.x >= 0;
+  }
+  // So near to the eye, angles are matters of rounding.
+  nearest = about_eye || nearest < 1 ? 0 : std::sqrt(nearest);
+  Entry entry{0, kWholeTurn, rounded_down(nearest), rounded_up(slope_bound(highest, nearest, farthest, drop_)),
+              triangle};
+  if (nearest == 0) return entry;
+  const double first = std::atan2(at[0].y, at[0].x);
+  double low = 0, high = 0;
+  for (std::size_t i = 1; i < 3; ++i) {
+    const double turn = std::remainder(std::atan2(at[i].y, at[i].x) - first, kWholeTurn);
+    low = std::min(low, turn), high = std::max(high, turn);
+  }
+  entry.from = first + low - kAngleError, entry.width = high - low + 2 * kAngleError;
+  return entry;
+}
+
+std::size_t FoliageAbout::direction_of(double angle) const {
+  const double turns = angle / kWholeTurn;
+  return std::min(directions_ - 1,
+                  static_cast<std::size_t>((turns - std::floor(turns)) * static_cast<double>(directions_)));
+}
+
+bool FoliageAbout::along(const Point3& target, std::vector<Piece>& pieces) const {
+  pieces.clear();
+  if (entries_.empty()) return true;
+  const Line line(eye_, target, drop_);
+  const std::size_t direction = direction_of(std::atan2(line.dy, line.dx));
+  const std::span<const std::uint32_t> list = by_direction_.in(direction);
+  const float* highest = highest_.data() + first_few_[direction];
+  for (std::size_t first = 0; first < list.size(); first += kFew, ++highest) {
+    if (entries_[list[first]].nearest > line.length) break;
+    if (*highest <= line.slope) continue;
+    for (const std::uint32_t i : list.subspan(first, std::min(kFew, list.size() - first)))
+      if (entries_[i].highest > line.slope && entries_[i].nearest <= line.length &&
+          !add_piece(line, entries_[i].triangle, pieces))
+        return false;
+  }
+  return true;
+}
+
+bool FoliageAbout::add_piece(const Line& line, std::uint32_t triangle, std::vector<Piece>& pieces) const {
+  const Triangle& corners = surface_.triangles[triangle];
+  std::array<double, 3> x, y, side;
+  int on_line = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const GridPoint& p = surface_.vertices[corners[i]];
+    x[i] = p.x - eye_.x, y[i] = p.y - eye_.y;
+    side[i] = line.dx * y[i] - line.dy * x[i];
+    on_line += std::abs(side[i]) <= kAlongEdge * line.length ? 1 : 0;
+  }
+  if (on_line > 1) return false;
+  // The corners are counterclockwise, so that the line enters by the edge that comes from its left side.
+  struct Crossing {
+    GroundPoint at;
+    std::uint16_t theme = 0;
+  } in, out;
+  bool crosses = false;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t j = i == 2 ? 0 : i + 1;
+    const bool left = side[i] >= 0;
+    if (left == (side[j] >= 0)) continue;
+    const double w = side[i] / (side[i] - side[j]);
+    const auto between = [w](double a, double b) { return a + w * (b - a); };
+    const double distance = (between(x[i], x[j]) * line.dx + between(y[i], y[j]) * line.dy) / line.squared;
+    const double z = between(surface_.vertices[corners[i]].z, surface_.vertices[corners[j]].z);
+    const std::uint16_t theme = theme_of_edge(surface_.raised_theme[corners[i]], surface_.raised_theme[corners[j]]);
+    (left ? in : out) = {{distance, z}, theme};
+    crosses = true;
+  }
+  if (!crosses || out.at.distance <= in.at.distance || out.at.distance <= 0 || in.at.distance >= 1) return true;
+  const bool higher_in = in.at.z >= out.at.z;
+  const std::uint16_t theme = in.theme == 0 || out.theme == 0 ? std::max(in.theme, out.theme)
+                              : higher_in                     ? in.theme
+                                                              : out.theme;
+  if (theme >= vegetation_.size() || !vegetation_[theme]) return true;
+  ClearancePiece piece = line.over.piece(in.at, out.at);
+  piece.from = std::max(piece.from, 0.0), piece.to = std::min(piece.to, 1.0);
+  const auto [from, to] = piece.above_line(grazing_);
+  if (to > from) pieces.push_back({from, to, theme, in.at.distance == from && in.theme == theme});
+  return true;
+}
+
+}  // namespace itin::viewshed

@@ -1,0 +1,50 @@
+// The lines of one observer to cells that woods may hide, and what comes through to each.
+//
+//   const FoliageLines lines(store, {detail, themes, earth}, leaves, 0.5);
+//   const std::vector<LightThrough> light = lines.between(tin, eye, targets, progress);
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include <itin/cross_section.hpp>
+#include <itin/progress.hpp>
+#include <itin/store.hpp>
+#include <profile/foliage.hpp>
+#include <profile/leaf_areas.hpp>
+
+namespace itin::viewshed {
+
+/// What foliage does to a line.
+struct LightThrough {
+  double length_m = 0, transmittance = 1;
+};
+
+/// Safe for concurrent use.
+class FoliageLines {
+ public:
+  /// The surface that lines run over.
+  struct Surface {
+    Detail detail;
+    ThemeChoice themes;
+    Earth earth;
+  };
+  /// `leaves` are those of the surface's vegetation. Store and leaves must outlive it.
+  FoliageLines(const Store& store, Surface surface, const profile::LeafAreas& leaves, double least_transmittance);
+
+  /// Returns what comes through on the lines from an eye to targets, all in metres. `tin` has the surface under the
+  /// lines. Where a decision is within rounding, the line is walked as `itin los` walks it. Throws CorruptStore,
+  /// Cancelled.
+  std::vector<LightThrough> between(const Tin& tin, const Point3& eye, std::span<const Point3> targets,
+                                    Progress& progress) const;
+
+ private:
+  class Walk;
+
+  Surface surface_;
+  const profile::LeafAreas& leaves_;
+  double least_;
+  SectionSurface sections_;
+};
+
+}  // namespace itin::viewshed
