@@ -23,7 +23,7 @@ struct SightRow {
 
 using SightColumns = std::vector<TableColumn<SightRow>>;
 
-const char* word_of(TurbineSight::Verdict verdict) {
+const char* answer_of(TurbineSight::Verdict verdict) {
   constexpr const char* kWords[] = {"no", "yes", "undecided"};
   return kWords[verdict == TurbineSight::Verdict::kUndecided ? 2 : verdict == TurbineSight::Verdict::kVisible];
 }
@@ -46,8 +46,8 @@ void add_seen(SightColumns& columns, const std::string& ending, const SightOf& s
       return s.tip == TurbineSight::Verdict::kUndecided ? std::nullopt : std::optional(s.*part);
     };
   };
-  add("hub_visible" + ending, [](const TurbineSight& s) { return s.hub ? word_of(*s.hub) : ""; });
-  add("tip_visible" + ending, [](const TurbineSight& s) { return word_of(s.tip); });
+  add("hub_visible" + ending, [](const TurbineSight& s) { return s.hub ? answer_of(*s.hub) : ""; });
+  add("tip_visible" + ending, [](const TurbineSight& s) { return answer_of(s.tip); });
   add("visible_height" + ending + "_m", if_known(&TurbineSight::visible), "{:.2f}");
   add("vertical_angle" + ending + "_deg", if_known(&TurbineSight::vertical_deg), "{:.4f}");
 }

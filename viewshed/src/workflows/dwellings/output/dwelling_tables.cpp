@@ -1,22 +1,76 @@
 #include "workflows/dwellings/output/dwelling_tables.hpp"
 
 #include <cmath>
-#include <iterator>
 #include <set>
 
-#include <fmt/format.h>
-
 #include <itin/calendar_day.hpp>
-#include <itin/csv_cell.hpp>
+#include <itin/table_columns.hpp>
 
 #include "workflows/dwellings/flicker_clock.hpp"
+#include "workflows/dwellings/output/dwelling_classes.hpp"
+#include "workflows/premises/output/vector_styles.hpp"
 
 namespace itin::viewshed {
 
 namespace {
 
-std::string dwelling_cells(const Dwelling& dwelling) {
-  return csv_cell(dwelling.name) + "," + csv_cell(dwelling.id);
+/// What is seen from a place over the bare ground, and over the surface with the themes; nothing where nothing was
+/// looked at.
+struct Views {
+  template <class Looker>
+  Views(const DwellingsSurvey& survey, const Looker& looker)
+      : bare(view_of(survey, looker, SightSurface::kBare)),
+        screened(view_of(survey, looker, SightSurface::kScreened)) {}
+  std::optional<SightSummary> bare, screened;
+};
+
+struct DwellingRow {
+  DwellingRow(const DwellingsSurvey& of, const Dwelling& d)
+      : survey(of), dwelling(d), sum(flicker_sum(of, d)), views(of, d) {}
+  Point2 position() const { return dwelling.position; }
+
+  const DwellingsSurvey& survey;
+  const Dwelling& dwelling;
+  FlickerSum sum;
+  Views views;
+};
+
+struct FacadeRow {
+  FacadeRow(const DwellingsSurvey& of, const Dwelling& d, std::size_t n)
+      : survey(of), dwelling(d), facade(d.facades[n]), number(n + 1), views(of, d.facades[n]) {}
+  Point2 position() const { return {facade.position.x, facade.position.y}; }
+
+  const DwellingsSurvey& survey;
+  const Dwelling& dwelling;
+  const DwellingFacade& facade;
+  std::size_t number;  ///< from 1
+  Views views;
+};
+
+/// A dwelling and a turbine whose flicker is there.
+struct FlickerRow {
+  FlickerRow(const DwellingsSurvey& of, const Dwelling& d, std::size_t t)
+      : survey(of), dwelling(d), turbine(of.request.turbines.turbines[t]), sum(flicker_sum(of, d, t)) {}
+
+  const DwellingsSurvey& survey;
+  const Dwelling& dwelling;
+  const Turbine& turbine;
+  FlickerSum sum;
+};
+
+/// A stretch of minutes with flicker.
+struct RunRow {
+  std::uint32_t day() const { return run.first / SunYear::kMinutesOfDay; }
+  std::uint32_t minute() const { return run.first % SunYear::kMinutesOfDay; }
+
+  const DwellingsSurvey& survey;
+  const Dwelling& dwelling;
+  const Turbine& turbine;
+  FlickerRun run;
+};
+
+std::string date_text(const DwellingsSurvey& survey, std::uint32_t day) {
+  return iso_day_text(day_of_year(survey.request.flicker.year.year, day));
 }
 
 const char* limits_word(const FlickerSum& sum) {
@@ -24,53 +78,161 @@ const char* limits_word(const FlickerSum& sum) {
   return sum.over_day ? "day" : "none";
 }
 
-/// hours,days,worst_day,worst_day_minutes,over_limit,likely_hours
-std::string flicker_cells(const DwellingsSurvey& survey, const FlickerSum& sum) {
-  const std::string likely = sum.likely ? fmt::format("{:.2f}", *sum.likely / 60) : "";
-  const std::string worst =
-      sum.days > 0 ? iso_day_text(day_of_year(survey.request.flicker.year.year, sum.worst_day)) : "";
-  return fmt::format("{:.2f},{},{},{},{},{}", sum.hours(), sum.days, worst, sum.worst_minutes, limits_word(sum),
-                     likely);
-}
-constexpr const char* kFlickerColumns =
-    "flicker_hours,flicker_days,worst_day,worst_day_minutes,over_limit,likely_hours";
-
-std::string turbine_cells(const DwellingsSurvey& survey, std::size_t turbine) {
-  const Turbine& t = survey.request.turbines.turbines[turbine];
-  return fmt::format("{},{}", t.number, csv_cell(t.name));
+template <class Row>
+std::vector<TableColumn<Row>> columns_of_dwelling() {
+  return {{"name", [](const Row& row) { return row.dwelling.name; }},
+          {"id", [](const Row& row) { return row.dwelling.id; }}};
 }
 
-/// The columns of what is seen; {0} stands for the surface.
-constexpr const char* kViewColumns =
-    "hubs_visible{0},tips_visible{0},hubs_undecided{0},tips_undecided{0},nearest_visible_turbine{0},nearest_visible{0}_"
-    "m,"
-    "horizontal_from{0}_deg,horizontal_extent{0}_deg,vertical_angle{0}_deg";
-
-std::string view_columns() {
-  return fmt::format(kViewColumns, "") + "," + fmt::format(kViewColumns, "_screened");
+template <class Row>
+void add_turbine(std::vector<TableColumn<Row>>& columns) {
+  columns.emplace_back("turbine", [](const Row& row) { return row.turbine.number; });
+  columns.emplace_back("turbine_name", [](const Row& row) { return row.turbine.name; });
 }
 
-std::string hubs_cell(const std::optional<std::size_t>& count) {
-  return count ? fmt::format("{}", *count) : "";
+template <class Row>
+void add_flicker(std::vector<TableColumn<Row>>& columns) {
+  const auto add = [&](const char* name, auto of, const char* number = "{}") {
+    columns.emplace_back(name, of, kInAllFormats, number);
+  };
+  add(
+      "flicker_hours", [](const Row& row) { return row.sum.hours(); }, "{:.2f}");
+  add("flicker_days", [](const Row& row) { return row.sum.days; });
+  add("worst_day", [](const Row& row) {
+    return row.sum.days > 0 ? std::optional(date_text(row.survey, row.sum.worst_day)) : std::nullopt;
+  });
+  add("worst_day_minutes", [](const Row& row) { return row.sum.worst_minutes; });
+  add("over_limit", [](const Row& row) { return limits_word(row.sum); });
+  add(
+      "likely_hours",
+      [](const Row& row) { return row.sum.likely ? std::optional(*row.sum.likely / 60) : std::nullopt; }, "{:.2f}");
 }
 
-/// Empty cells where nothing was looked at.
-std::string view_cells(const DwellingsSurvey& survey, Point2 from, const std::optional<SightSummary>& view) {
-  if (!view) return ",,,,,,,,";
-  std::string cells = fmt::format("{},{},{},{},", hubs_cell(view->hubs), view->tips, hubs_cell(view->hubs_undecided),
-                                  view->tips_undecided);
-  if (!view->nearest_seen) return cells + ",,,,0";
-  const Turbine& nearest = survey.request.turbines.turbines[*view->nearest_seen];
-  return cells + fmt::format("{},{:.1f},{:.2f},{:.2f},{:.3f}", nearest.number,
-                             std::hypot(nearest.position.x - from.x, nearest.position.y - from.y), view->arc->from,
-                             view->arc->width, view->vertical_deg);
+/// Adds what is seen over one of the surfaces. `ending` goes before the unit.
+template <class Row>
+void add_view(std::vector<TableColumn<Row>>& columns, const std::string& ending,
+              std::optional<SightSummary> Views::*surface) {
+  const auto add = [&](const std::string& name, auto of, const char* number = "{}") {
+    columns.emplace_back(
+        name,
+        [surface, of](const Row& row) {
+          const std::optional<SightSummary>& view = row.views.*surface;
+          return view ? std::optional(of(*view, row)) : std::nullopt;
+        },
+        kInAllFormats, number);
+  };
+  const auto if_seen = [](auto of) {
+    return [of](const SightSummary& view, const Row& row) {
+      return view.nearest_seen ? std::optional(of(view, row)) : std::nullopt;
+    };
+  };
+  const auto nearest = [](const SightSummary& view, const Row& row) -> const Turbine& {
+    return row.survey.request.turbines.turbines[*view.nearest_seen];
+  };
+  add("hubs_visible" + ending, [](const SightSummary& view, const Row&) { return view.hubs; });
+  add("tips_visible" + ending, [](const SightSummary& view, const Row&) { return view.tips; });
+  add("hubs_undecided" + ending, [](const SightSummary& view, const Row&) { return view.hubs_undecided; });
+  add("tips_undecided" + ending, [](const SightSummary& view, const Row&) { return view.tips_undecided; });
+  add("nearest_visible_turbine" + ending,
+      if_seen([nearest](const SightSummary& view, const Row& row) { return nearest(view, row).number; }));
+  add("nearest_visible" + ending + "_m", if_seen([nearest](const SightSummary& view, const Row& row) {
+        const Point2 to = nearest(view, row).position, from = row.position();
+        return std::hypot(to.x - from.x, to.y - from.y);
+      }),
+      "{:.1f}");
+  add("horizontal_from" + ending + "_deg", if_seen([](const SightSummary& view, const Row&) { return view.arc->from; }),
+      "{:.2f}");
+  add("horizontal_extent" + ending + "_deg",
+      if_seen([](const SightSummary& view, const Row&) { return view.arc->width; }), "{:.2f}");
+  add(
+      "vertical_angle" + ending + "_deg", [](const SightSummary& view, const Row&) { return view.vertical_deg; },
+      "{:.3f}");
 }
 
-/// Over the bare ground, and over the surface with the themes: what a dwelling sees, or a facade.
-template <class Looker>
-std::string views_cells(const DwellingsSurvey& survey, const Looker& looker) {
-  return view_cells(survey, looker.position, view_of(survey, looker, SightSurface::kBare)) + "," +
-         view_cells(survey, looker.position, view_of(survey, looker, SightSurface::kScreened));
+template <class Row>
+void add_views(std::vector<TableColumn<Row>>& columns) {
+  add_view(columns, "", &Views::bare);
+  add_view(columns, "_screened", &Views::screened);
+}
+
+std::vector<TableColumn<DwellingRow>> dwelling_columns() {
+  auto columns = columns_of_dwelling<DwellingRow>();
+  const auto add = [&](const char* name, auto of, int formats = kInAllFormats, const char* number = "{}") {
+    columns.emplace_back(name, of, formats, number);
+  };
+  add("theme", [](const DwellingRow& row) {
+    const std::uint16_t theme = row.dwelling.theme;
+    return theme == 0 ? std::string() : row.survey.metadata.themes[theme - std::size_t{1}].name;
+  });
+  add(
+      "x", [](const DwellingRow& row) { return row.position().x; }, kInCsv, "{:.3f}");
+  add(
+      "y", [](const DwellingRow& row) { return row.position().y; }, kInCsv, "{:.3f}");
+  add("facades",
+      [](const DwellingRow& row) { return row.dwelling.theme == 0 ? std::size_t{0} : row.dwelling.facades.size(); });
+  const auto nearest = [](const DwellingRow& row) -> const Turbine& {
+    return row.survey.request.turbines.turbines[row.dwelling.nearest];
+  };
+  add("nearest_turbine", [nearest](const DwellingRow& row) { return nearest(row).number; });
+  add("nearest_name", [nearest](const DwellingRow& row) { return nearest(row).name; });
+  add(
+      "nearest_m", [](const DwellingRow& row) { return row.dwelling.nearest_m; }, kInAllFormats, "{:.3f}");
+  add(
+      "flicker", [](const DwellingRow& row) { return std::string(class_of(class_of(row.sum)).name); }, kInLayer);
+  add_flicker(columns);
+  add_views(columns);
+  return columns;
+}
+
+std::vector<TableColumn<FacadeRow>> facade_columns() {
+  auto columns = columns_of_dwelling<FacadeRow>();
+  const auto add = [&](const char* name, auto of, int formats = kInAllFormats, const char* number = "{}") {
+    columns.emplace_back(name, of, formats, number);
+  };
+  add("facade", [](const FacadeRow& row) { return row.number; });
+  add(
+      "x", [](const FacadeRow& row) { return row.facade.position.x; }, kInCsv, "{:.3f}");
+  add(
+      "y", [](const FacadeRow& row) { return row.facade.position.y; }, kInCsv, "{:.3f}");
+  add(
+      "ground_m", [](const FacadeRow& row) { return row.facade.ground_m; }, kInCsv, "{:.3f}");
+  add(
+      "outward_grid_deg", [](const FacadeRow& row) { return row.facade.outward_deg; }, kInAllFormats, "{:.1f}");
+  add(
+      "length_m", [](const FacadeRow& row) { return row.facade.length_m; }, kInAllFormats, "{:.1f}");
+  add("turbines_before", [](const FacadeRow& row) { return row.views.bare ? row.views.bare->turbines : 0; });
+  add_views(columns);
+  return columns;
+}
+
+std::vector<TableColumn<FlickerRow>> flicker_columns() {
+  auto columns = columns_of_dwelling<FlickerRow>();
+  add_turbine(columns);
+  add_flicker(columns);
+  return columns;
+}
+
+std::vector<TableColumn<RunRow>> calendar_columns() {
+  auto columns = columns_of_dwelling<RunRow>();
+  columns.emplace_back("date", [](const RunRow& row) { return date_text(row.survey, row.day()); });
+  columns.emplace_back("from", [](const RunRow& row) { return clock_text(row.minute()); });
+  columns.emplace_back("to", [](const RunRow& row) { return clock_text(row.minute() + row.run.minutes); });
+  columns.emplace_back("minutes", [](const RunRow& row) { return row.run.minutes; });
+  add_turbine(columns);
+  return columns;
+}
+
+std::vector<DwellingRow> dwelling_rows(const DwellingsSurvey& survey) {
+  std::vector<DwellingRow> rows;
+  for (const Dwelling& dwelling : survey.dwellings) rows.emplace_back(survey, dwelling);
+  return rows;
+}
+
+std::vector<FacadeRow> facade_rows(const DwellingsSurvey& survey) {
+  std::vector<FacadeRow> rows;
+  for (const Dwelling& dwelling : survey.dwellings)
+    for (std::size_t f = 0; f < dwelling.facades.size(); ++f) rows.emplace_back(survey, dwelling, f);
+  return rows;
 }
 
 /// The turbines with flicker at a dwelling, ascending.
@@ -100,53 +262,45 @@ DwellingCounts counts_of(const DwellingsSurvey& survey) {
 }
 
 std::string dwellings_csv(const DwellingsSurvey& survey) {
-  std::string text = fmt::format("name,id,theme,x,y,facades,nearest_turbine,nearest_name,nearest_m,{},{}\n",
-                                 kFlickerColumns, view_columns());
-  for (const Dwelling& d : survey.dwellings)
-    fmt::format_to(std::back_inserter(text), "{},{},{:.3f},{:.3f},{},{},{:.3f},{},{}\n", dwelling_cells(d),
-                   d.theme == 0 ? "" : csv_cell(survey.metadata.themes[d.theme - std::size_t{1}].name), d.position.x,
-                   d.position.y, d.theme == 0 ? 0 : d.facades.size(), turbine_cells(survey, d.nearest), d.nearest_m,
-                   flicker_cells(survey, flicker_sum(survey, d)), views_cells(survey, d));
-  return text;
+  return csv_of(dwelling_columns(), dwelling_rows(survey));
 }
 
 std::string facades_csv(const DwellingsSurvey& survey) {
-  std::string text =
-      fmt::format("name,id,facade,x,y,ground_m,outward_grid_deg,length_m,turbines_before,{}\n", view_columns());
-  for (const Dwelling& d : survey.dwellings) {
-    for (std::size_t f = 0; f < d.facades.size(); ++f) {
-      const DwellingFacade& facade = d.facades[f];
-      const auto bare = view_of(survey, facade, SightSurface::kBare);
-      fmt::format_to(std::back_inserter(text), "{},{},{:.3f},{:.3f},{:.3f},{},{:.1f},{},{}\n", dwelling_cells(d), f + 1,
-                     facade.position.x, facade.position.y, facade.ground_m, csv_cell(facade.outward_deg, 1),
-                     facade.length_m, bare ? bare->turbines : 0, views_cells(survey, facade));
-    }
-  }
-  return text;
+  return csv_of(facade_columns(), facade_rows(survey));
 }
 
 std::string flicker_csv(const DwellingsSurvey& survey) {
-  std::string text = fmt::format("name,id,turbine,turbine_name,{}\n", kFlickerColumns);
+  std::vector<FlickerRow> rows;
   for (const Dwelling& dwelling : survey.dwellings)
-    for (const std::size_t turbine : flickering(dwelling))
-      fmt::format_to(std::back_inserter(text), "{},{},{}\n", dwelling_cells(dwelling), turbine_cells(survey, turbine),
-                     flicker_cells(survey, flicker_sum(survey, dwelling, turbine)));
-  return text;
+    for (const std::size_t turbine : flickering(dwelling)) rows.emplace_back(survey, dwelling, turbine);
+  return csv_of(flicker_columns(), rows);
 }
 
 std::string calendar_csv(const DwellingsSurvey& survey) {
-  std::string text = "name,id,date,from,to,minutes,turbine,turbine_name\n";
-  for (const Dwelling& dwelling : survey.dwellings) {
-    for (const std::size_t turbine : flickering(dwelling)) {
-      for (const FlickerRun& run : flicker_runs(dwelling, turbine)) {
-        const std::uint32_t day = run.first / SunYear::kMinutesOfDay, minute = run.first % SunYear::kMinutesOfDay;
-        fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{}\n", dwelling_cells(dwelling),
-                       iso_day_text(day_of_year(survey.request.flicker.year.year, day)), clock_text(minute),
-                       clock_text(minute + run.minutes), run.minutes, turbine_cells(survey, turbine));
-      }
-    }
-  }
-  return text;
+  std::vector<RunRow> rows;
+  for (const Dwelling& dwelling : survey.dwellings)
+    for (const std::size_t turbine : flickering(dwelling))
+      for (const FlickerRun& run : flicker_runs(dwelling, turbine))
+        rows.push_back({survey, dwelling, survey.request.turbines.turbines[turbine], run});
+  return csv_of(calendar_columns(), rows);
+}
+
+VectorLayer layer_of_dwellings(const DwellingsSurvey& survey) {
+  VectorLayer layer = layer_of("dwellings", VectorLayer::Shape::kPoints, dwelling_columns(), dwelling_rows(survey),
+                               [](const DwellingRow& row) {
+                                 const Point2 at = row.position();
+                                 return std::vector<Point3>{{at.x, at.y, row.dwelling.facades.front().ground_m}};
+                               });
+  layer.style = point_style("flicker", kFlickerClasses);
+  return layer;
+}
+
+VectorLayer layer_of_facades(const DwellingsSurvey& survey) {
+  return layer_of("facades", VectorLayer::Shape::kPoints, facade_columns(), facade_rows(survey),
+                  [](const FacadeRow& row) {
+                    const Point2 at = row.position();
+                    return std::vector<Point3>{{at.x, at.y, row.facade.ground_m}};
+                  });
 }
 
 }  // namespace itin::viewshed

@@ -1,9 +1,10 @@
-// The survey of dwellings as tables.
+// The survey of dwellings as tables and layers.
 #pragma once
 
 #include <cstddef>
 #include <string>
 
+#include <itin/vector_export.hpp>
 #include <viewshed/dwellings.hpp>
 
 namespace itin::viewshed {
@@ -23,5 +24,8 @@ std::string facades_csv(const DwellingsSurvey& survey);
 std::string flicker_csv(const DwellingsSurvey& survey);
 /// A row for each dwelling, turbine and stretch of minutes.
 std::string calendar_csv(const DwellingsSurvey& survey);
+/// The dwellings and the facades as layers, with the columns of their tables.
+VectorLayer layer_of_dwellings(const DwellingsSurvey& survey);
+VectorLayer layer_of_facades(const DwellingsSurvey& survey);
 
 }  // namespace itin::viewshed
