@@ -125,7 +125,8 @@ std::string web_mark(profile::SheetSymbol symbol, const Rgba& colour) {
   const std::string paint =
       fmt::format("fill=\"{}\" stroke=\"#fff\" stroke-width=\"1.5\" paint-order=\"stroke\"", web_colour(colour));
   const std::span<const Point2> corners = profile::corners_of(symbol);
-  if (corners.empty()) return fmt::format("<circle r=\"{}\" {}/>", 0.45 * kMarkPixels, paint);
+  const double disc = (symbol == profile::SheetSymbol::kDot ? profile::kDotSize : 1) * 0.45 * kMarkPixels;
+  if (corners.empty()) return fmt::format("<circle r=\"{:.3g}\" {}/>", disc, paint);
   std::string points;
   for (const Point2& c : corners) points += fmt::format("{:.1f},{:.1f} ", kMarkPixels * c.x, kMarkPixels * c.y);
   points.pop_back();

@@ -41,9 +41,12 @@ struct SheetLines {
   bool dashed = false;
 };
 
-enum class SheetSymbol { kTurbine, kViewpoint, kMast, kRelay, kExistingMast, kHub };
-/// The corners of a symbol about its place, y downwards, for a height of 1. Empty for discs and for turbines.
+enum class SheetSymbol { kTurbine, kViewpoint, kMast, kRelay, kExistingMast, kHub, kDot };
+/// The corners of a symbol about its place, y downwards, for a height of 1. Empty for discs, of which dots are small,
+/// and for turbines.
 std::span<const Point2> corners_of(SheetSymbol symbol);
+/// The size of a dot, of that of other symbols.
+inline constexpr double kDotSize = 0.55;
 
 /// A mark with its label. Labels that would cover another label or a mark are left out, first those of later marks, and
 /// counted below the legend.

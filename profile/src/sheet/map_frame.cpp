@@ -68,8 +68,9 @@ void draw_symbol(Drawing& drawing, SheetSymbol symbol, Point2 at, double size, c
     drawing.polygon(inner, fill);
     return;
   }
-  drawing.circle(at, 0.5 * size, kPaper);
-  drawing.circle(at, 0.43 * size, fill);
+  const double across = symbol == SheetSymbol::kDot ? kDotSize * size : size;
+  drawing.circle(at, 0.5 * across, kPaper);
+  drawing.circle(at, 0.43 * across, fill);
   if (symbol == SheetSymbol::kViewpoint) drawing.circle(at, 0.18 * size, kPaper);
 }
 
@@ -121,6 +122,7 @@ void MapFrame::draw_layer(const SheetMarks& marks) {
   for (const SheetMark& mark : marks.marks) {
     const Point2 p = at(mark.at);
     draw_symbol(drawing_, marks.symbol, p, size, marks.colour);
+    if (marks.symbol == SheetSymbol::kDot) continue;  // names may cover dots
     const double up = marks.symbol == SheetSymbol::kTurbine ? size : size / 2;
     places_.take({p.x - 0.4 * size, p.y - up, p.x + 0.4 * size, p.y - up + size});
   }

@@ -7,7 +7,7 @@
 
 #include <itin/csv_cell.hpp>
 
-#include "workflows/premises/output/vector_styles.hpp"
+#include "files/vector_styles.hpp"
 #include "workflows/premises/output/wall_service.hpp"
 
 namespace itin::viewshed {
