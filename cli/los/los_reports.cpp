@@ -100,7 +100,14 @@ void LosReports::write(const LosCase& one, const Document& command, const std::v
   for (const std::string& path : paths) profile::write_report(one.report, json, path, overwrite);
 }
 
-std::vector<LosReports::Job> LosReports::jobs(const std::vector<profile::Link>& links, OutputPolicy& policy) const {
+void LosReports::make_folder_of(const std::filesystem::path& path) {
+  const std::filesystem::path folder = path.parent_path();
+  if (folder.empty() || folders_.contains(folder.string()) || std::filesystem::is_directory(folder)) return;
+  make_folder_of(folder);
+  folders_.try_emplace(folder.string(), folder.string());
+}
+
+std::vector<LosReports::Job> LosReports::jobs(const std::vector<profile::Link>& links, OutputPolicy& policy) {
   std::vector<Job> jobs;
   FileNames names;
   for (std::size_t i = 0; i < links.size() && given(); ++i) {
@@ -111,6 +118,7 @@ std::vector<LosReports::Job> LosReports::jobs(const std::vector<profile::Link>& 
         throw InputError(fmt::format(
             "--report: two links' reports would be {}, where upper and lower case are one; give links different ids",
             path));
+      make_folder_of(path);
       policy.claim(path);
       job.paths.push_back(std::move(path));
     }

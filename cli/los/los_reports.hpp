@@ -2,13 +2,16 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include <CLI/CLI.hpp>
 
+#include <itin/new_folder.hpp>
 #include <itin/progress.hpp>
 #include <profile/links.hpp>
 
@@ -39,18 +42,22 @@ class LosReports {
     std::size_t link;  ///< the link's place among all links
     std::vector<std::string> paths;
   };
-  /// Returns one job per link, in order. Throws InputError where two files would be one, FileError where one cannot be
-  /// written.
-  std::vector<Job> jobs(const std::vector<profile::Link>& links, OutputPolicy& policy) const;
+  /// Returns one job per link, in order. Makes the folders that their reports lie in: those that stay empty are removed
+  /// with this object. Throws InputError where two files would be one, FileError where one cannot be written.
+  std::vector<Job> jobs(const std::vector<profile::Link>& links, OutputPolicy& policy);
   /// Writes the reports in parallel and lists them in `result`, in the links' order. A report that cannot be written is
   /// not listed, and becomes the result's failure. Throws CorruptStore, Cancelled.
   void write_all(const std::vector<Job>& jobs, const std::function<LosCase(std::size_t link)>& work,
                  const Document& command, bool overwrite, Progress& progress, Result& result) const;
 
  private:
+  /// Makes the folder that the file lies in, and those around it, where they are missing.
+  void make_folder_of(const std::filesystem::path& path);
+
   std::vector<std::string> paths_;
   std::string title_, table_spacing_text_;
   std::optional<double> table_spacing_m_;
+  std::map<std::string, NewFolder> folders_;  ///< destroyed from the last on: a folder after those within it
 };
 
 }  // namespace itin::cli

@@ -52,8 +52,9 @@ std::string likely_mistake(Point2 given, const InCrs& in_crs, const StoreMetadat
     const InCrs lon_lat{kLonLat};
     if (within(given, lon_lat, metadata)) return fmt::format("it is in degrees: give --in-crs {}, too", kLonLat);
     if (within(swapped, lon_lat, metadata))
-      return fmt::format("it is in degrees, latitude first: give {:.10g},{:.10g} and --in-crs {}", swapped.x, swapped.y,
-                         kLonLat);
+      return fmt::format(
+          "it is in degrees, latitude first: give {:.10g},{:.10g} and --in-crs {}, or '{:.10g}, {:.10g}'", swapped.x,
+          swapped.y, kLonLat, given.x, given.y);
   }
   return "move it onto the data, or say by --in-crs what its coordinates are";
 }

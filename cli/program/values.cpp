@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <itin/error.hpp>
+#include <itin/height_limit.hpp>
 #include <itin/written_position.hpp>
 
 namespace itin::cli {
@@ -152,17 +153,29 @@ std::optional<Place> written_place(std::string_view option, std::string_view tex
   if (comma == std::string_view::npos) return std::nullopt;
   const auto position = written_position(text.substr(0, comma));
   if (!position) return std::nullopt;
-  return Place{position->position, parse_height(option, text.substr(comma + 1)), position->crs};
+  std::string_view height = text.substr(comma + 1);
+  while (height.starts_with(' ')) height.remove_prefix(1);
+  return Place{position->position, parse_height(option, height), position->crs};
+}
+
+/// Returns the text without blanks in front, and behind its commas.
+std::string without_blanks_behind_commas(std::string_view text) {
+  std::string compact;
+  for (const char c : text)
+    if (c != ' ' || (!compact.empty() && compact.back() != ',')) compact += c;
+  return compact;
 }
 
 }  // namespace
 
 Place parse_place(std::string_view option, std::string_view text) {
   constexpr std::string_view kShape =
-      "x,y or x,y,h; for x,y also degrees with N, S, E or W, or an OS grid reference such as ST1037583525";
+      "x,y or x,y,h; for x,y also degrees with N, S, E or W, or an OS grid reference such as ST1037583525, or latitude "
+      "and longitude as '51.5437, -3.2934'";
   if (const auto written = written_place(option, text)) return *written;
-  const bool with_height = split(text, ',').size() == 3;
-  const std::vector<double> v = parse_tuple(option, text, with_height ? 3 : 2, kShape);
+  const std::string compact = without_blanks_behind_commas(text);
+  const bool with_height = split(compact, ',').size() == 3;
+  const std::vector<double> v = parse_tuple(option, compact, with_height ? 3 : 2, kShape);
   Place place{{v[0], v[1]}, std::nullopt};
   if (with_height) place.height = v[2];
   require_height(place.height.value_or(0), fmt::format("{} '{}'", option, text));
@@ -171,7 +184,8 @@ Place parse_place(std::string_view option, std::string_view text) {
 
 bool may_be_place(std::string_view text) {
   if (written_position(text) || written_position(text.substr(0, text.rfind(',')))) return true;
-  const std::vector<std::string_view> parts = split(text, ',');
+  const std::string compact = without_blanks_behind_commas(text);
+  const std::vector<std::string_view> parts = split(compact, ',');
   return (parts.size() == 2 || parts.size() == 3) && whole_text_as<double>(parts[0]).has_value();
 }
 

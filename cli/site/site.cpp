@@ -64,6 +64,7 @@ class SiteVerb final : public Verb {
     options_.themes.choice().check(store.metadata().themes);
     options_.themes.complete(store, progress);
     options_.request.themes = options_.themes.choice();
+    options_.take_posting(store.metadata());
     inputs_document_ = hash_inputs(progress);
     Result result;
     options_.take_fields(result.warnings);
@@ -190,6 +191,7 @@ class SiteVerb final : public Verb {
                       place.position.y, place.height, site.in_metric(chosen.gain), site.in_metric(chosen.cumulative));
     }
     text += options_.heights_text() + outcome(site);
+    if (const std::string cost = cost_in_words(site); !cost.empty()) text += cost + "\n";
     if (site.undecided > 0) text += "undecided: " + undecided_in_words(site) + "\n";
     const std::size_t candidates = site.inputs.candidates.size(), options = site.inputs.options.size();
     text += counted(candidates, "candidate");

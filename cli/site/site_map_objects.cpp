@@ -3,7 +3,9 @@
 #include <algorithm>
 
 #include <itin/building_outlines.hpp>
+#include <viewshed/result_sheet.hpp>
 #include <viewshed/site_links.hpp>
+#include <viewshed/site_maps.hpp>
 #include <viewshed/site_wording.hpp>
 
 namespace itin::cli {
@@ -77,16 +79,18 @@ std::vector<viewshed::MapObjects> site_map_objects(const Store& store, const vie
   const viewshed::SiteWording wording = viewshed::wording_of(r.request);
   const std::vector<std::size_t> through = routes_through_ends(network, r.routes);
   const auto is = [&](std::size_t i, viewshed::LinkEnd::Kind kind) { return network.ends[i].kind == kind; };
-  std::vector<viewshed::MapObjects> objects{
-      building_objects(store, r),
-      link_objects(r),
-      marks(network, SheetSymbol::kExistingMast, kExistingSite, "Existing " + wording.one,
-            [&](std::size_t i) { return is(i, kExisting); }),
-      marks(network, SheetSymbol::kMast, viewshed::kMastColour, "Chosen " + wording.one,
-            [&](std::size_t i) { return is(i, kChosen) && through[i] == 0; }),
-      marks(network, SheetSymbol::kRelay, viewshed::kMastColour, "Chosen site that relays others",
-            [&](std::size_t i) { return is(i, kChosen) && through[i] > 0; }),
-      marks(network, SheetSymbol::kHub, kHubMark, "Hub", [&](std::size_t i) { return is(i, kHub); })};
+  std::vector<viewshed::MapObjects> objects{building_objects(store, r), link_objects(r)};
+  for (const viewshed::MapDots& dots : viewshed::dots_of_points(r)) objects.push_back(viewshed::dot_objects(dots));
+  const auto add = [&](SheetSymbol symbol, const Rgba& colour, const std::string& what, const auto& is_one) {
+    objects.push_back(marks(network, symbol, colour, what, is_one));
+  };
+  add(SheetSymbol::kExistingMast, kExistingSite, "Existing " + wording.one,
+      [&](std::size_t i) { return is(i, kExisting); });
+  add(SheetSymbol::kMast, viewshed::kMastColour, "Chosen " + wording.one,
+      [&](std::size_t i) { return is(i, kChosen) && through[i] == 0; });
+  add(SheetSymbol::kRelay, viewshed::kMastColour, "Chosen site that relays others",
+      [&](std::size_t i) { return is(i, kChosen) && through[i] > 0; });
+  add(SheetSymbol::kHub, kHubMark, "Hub", [&](std::size_t i) { return is(i, kHub); });
   std::erase_if(objects, is_empty);
   return objects;
 }

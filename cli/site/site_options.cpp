@@ -8,6 +8,7 @@
 #include <itin/raster_values.hpp>
 #include <itin/site_list.hpp>
 
+#include "options/half_posting.hpp"
 #include "options/mast_file.hpp"
 #include "options/radius_preset.hpp"
 #include "options/taken_heights.hpp"
@@ -85,7 +86,10 @@ void SiteOptions::declare_demand(CLI::App& app) {
          "How far a site serves (default: 10000), or turbines are looked for (default: by their tips, as ztv has "
          "it)")
       ->type_name("METRES");
-  app.add_option("--cell", cell_text_, "Size of the cells of the demand and of the rasters (default: 50)")
+  app.add_option(
+         "--cell", cell_text_,
+         "Size of the cells of the demand and of the rasters (default: 50); unasked they are no finer than half the "
+         "posting of bare ground")
       ->type_name("METRES");
 }
 
@@ -239,6 +243,10 @@ void SiteOptions::validate_links() {
   for (const viewshed::Mast& mast : request.masts)
     if (mast.height == 0)
       throw InputError("--frequency needs a --mast-height above 0: no link from the ground is clear");
+}
+
+void SiteOptions::take_posting(const StoreMetadata& metadata) {
+  if (cell_text_.empty()) request.cell_size = std::max(request.cell_size, half_posting(metadata, themes.choice()));
 }
 
 void SiteOptions::take_fields(std::vector<std::string>& warnings) {

@@ -33,6 +33,8 @@ class SiteOptions {
   void apply_parameter_file();
   /// Checks the options. Throws InputError.
   void validate();
+  /// Takes cells that are no finer than half the posting of bare ground, where the call gives none.
+  void take_posting(const StoreMetadata& metadata);
   /// Decides which fields of the files of sites hold heights. `warnings` gets one where a file's heights are not used.
   /// Throws FileError.
   void take_fields(std::vector<std::string>& warnings);

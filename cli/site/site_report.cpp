@@ -113,10 +113,12 @@ std::string summary(const viewshed::SitePlan& r) {
                                    ? fmt::format(", {} of it by {}", amount(r.in_metric(r.choice.existing)),
                                                  counted(r.inputs.existing(), "existing site"))
                                    : "";
-  return fmt::format("<p class=\"headline\">{}: {} of a demand of {}{} ({:.1f} %){}. {}</p>\n{}<p>{}{}</p>\n",
+  std::string cost = cost_in_words(r);
+  if (!cost.empty()) cost.front() = 'T', cost = "<p>" + cost + ".</p>\n";
+  return fmt::format("<p class=\"headline\">{}: {} of a demand of {}{} ({:.1f} %){}. {}</p>\n{}{}<p>{}{}</p>\n",
                      r.leaves_open ? "Certainly served" : "Served", amount(r.served()),
                      amount(r.in_metric(r.inputs.total)), unit_of_demand(r.request.demand), r.served_percent(),
-                     existing, best_possible(r), left_open(r), times_surveyed(r), exchanges(r));
+                     existing, best_possible(r), cost, left_open(r), times_surveyed(r), exchanges(r));
 }
 
 /// Returns the routes to the hub, where there is one, and the rule by which they are chosen.
@@ -147,6 +149,7 @@ void write_site_report(const std::string& path, const viewshed::SitePlan& r, con
   html += backhaul(r);
   html += "<h2>" + wording.coverage_curve + "</h2>\n" + coverage_curve(r);
   html += "<h2>" + wording.order + "</h2>\n" + (r.request.turbines ? turbines_html(r) : sites_html(r));
+  if (!r.points.empty()) html += "<h2>Points of the demand</h2>\n" + points_html(r);
   if (!r.request.sums_heights()) html += "<h2>How closely candidates were surveyed</h2>\n" + stages_html(r);
   html += "<h2>Candidates that came closest to being chosen</h2>\n" + closest_html(r);
   if (!r.network.links.empty()) html += "<h2>Lines of sight between sites</h2>\n" + links_html(r);

@@ -7,6 +7,7 @@
 
 #include <itin/markup.hpp>
 #include <viewshed/site_links.hpp>
+#include <viewshed/site_wording.hpp>
 
 #include "output/store_document.hpp"
 
@@ -84,6 +85,31 @@ std::string turbines_html(const viewshed::SitePlan& r) {
                amount(r.surveys[site.option].last.certain)});
   }
   return table.finish();
+}
+
+std::string points_html(const viewshed::SitePlan& r) {
+  constexpr std::size_t kMostRows = 100;
+  HtmlTable table({"Point", "", "Nearest to serving it", "Easting", "Northing", "Weight", "km", "Clearance m", "of F1"},
+                  3);
+  std::size_t unserved = 0;
+  for (const viewshed::PointResult& p : r.points) {
+    if (p.service == viewshed::PointService::kServed || ++unserved > kMostRows) continue;
+    std::vector<std::string> row{p.point.name,
+                                 name_of(p.service),
+                                 p.line ? r.network.ends[p.line->site].place.name : "",
+                                 fmt::format("{:.0f}", p.place.position.x),
+                                 fmt::format("{:.0f}", p.place.position.y),
+                                 amount(p.point.weight)};
+    row.resize(9);
+    if (p.line) row[6] = fmt::format("{:.2f}", p.line->distance_m / 1000);
+    if (p.line && p.line->tightest_clearance_m) row[7] = fmt::format("{:.2f}", *p.line->tightest_clearance_m);
+    if (p.line && p.line->fresnel_fraction) row[8] = fmt::format("{:.2f}", *p.line->fresnel_fraction);
+    table.add(row);
+  }
+  return fmt::format("<p class=\"note\">{} of {} not served{}; demand.csv has all points.</p>\n{}", grouped(unserved),
+                     counted(r.points.size(), "point"),
+                     unserved > kMostRows ? fmt::format(", of which the first {} are listed", kMostRows) : "",
+                     unserved > 0 ? table.finish() : "");
 }
 
 std::string stages_html(const viewshed::SitePlan& r) {

@@ -12,6 +12,8 @@ std::string amount(double v);
 
 std::string sites_html(const viewshed::SitePlan& r);
 std::string turbines_html(const viewshed::SitePlan& r);
+/// Returns a table of the first points of the demand that are not served, and says how many there are.
+std::string points_html(const viewshed::SitePlan& r);
 /// Returns a table of how closely candidates had to be surveyed.
 std::string stages_html(const viewshed::SitePlan& r);
 /// Returns a table of the options that came nearest to being chosen.

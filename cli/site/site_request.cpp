@@ -130,8 +130,11 @@ class RequestFiles {
     }
     SiteQuery query = query_of(options_.demand, options_.demand_height_field);
     viewshed::SitePlaces begun = with_number(query, options_.weight_field, "weight", "--weight-field");
-    demand.points = places_of(query, std::move(begun),
-                              [](const Site& site, viewshed::SitePlace& point) { point.weight = number_of(site, 1); });
+    take_names(query, LayerFields(query));
+    demand.points = places_of(query, std::move(begun), [&](const Site& site, viewshed::SitePlace& point) {
+      point.name = query.name_field.empty() ? std::to_string(site.row) : site.name;
+      point.weight = number_of(site, 1);
+    });
   }
 
   const SiteOptions& options_;

@@ -1,5 +1,7 @@
 #include "site/site_wording.hpp"
 
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include <viewshed/site_wording.hpp>
@@ -28,6 +30,17 @@ std::string served_in_words(const viewshed::SitePlan& r) {
                      : chosen > 1 ? "together "
                                   : "",
                      certainly(r), chosen == 1 ? "s" : "", r.served(), r.in_metric(r.inputs.total), r.served_percent());
+}
+
+std::string cost_in_words(const viewshed::SitePlan& r) {
+  const viewshed::Choice& choice = r.choice;
+  if (r.request.turbines || (!r.request.share && !r.request.budget)) return {};
+  std::string text = fmt::format("the sites cost {:.10g} in all", choice.cost);
+  if (r.request.budget) text += fmt::format(", of a budget of {:.10g}", *r.request.budget);
+  if (choice.least_cost)
+    text += fmt::format("; no choice that serves {:.10g} % of the demand costs less than {:.10g}",
+                        100 * *r.request.share, std::floor(*choice.least_cost * 1000) / 1000);
+  return text;
 }
 
 std::string least_in_words(const viewshed::SitePlan& r) {

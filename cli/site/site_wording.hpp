@@ -16,6 +16,9 @@ std::string undecided_in_words(const viewshed::SitePlan& plan);
 /// Tells how much of the demand the sites serve: "which together serve 57 of a demand of 129 (44.2 %)".
 std::string served_in_words(const viewshed::SitePlan& plan);
 
+/// Tells what the sites cost together, where a share or a budget was asked for, and the bound on it; else empty.
+std::string cost_in_words(const viewshed::SitePlan& plan);
+
 /// Tells what sees the turbines, or how much of them is seen, and what is proved of that; a sentence or two.
 std::string least_in_words(const viewshed::SitePlan& plan);
 

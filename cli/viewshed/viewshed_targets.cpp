@@ -9,6 +9,7 @@
 #include <itin/error.hpp>
 #include <itin/raster.hpp>
 
+#include "options/half_posting.hpp"
 #include "program/call_files.hpp"
 #include "program/help.hpp"
 #include "program/values.hpp"
@@ -60,7 +61,8 @@ void ViewshedTargets::declare(CLI::App& app) {
   app.add_option("--elevation", elevation_text_, "The field of view, degrees above the horizontal")
       ->type_name("FROM,TO");
   app.add_option("--cell", cell_text_,
-                 "Size of the raster's cells (default: a round size for at most 2048 cells on a side)")
+                 "Size of the raster's cells (default: a round size for at most 2048 cells on a side); unasked they "
+                 "are no finer than half the posting of bare ground")
       ->type_name("METRES");
   reads(app.add_option("--like", like_, "Take the cells of this raster")->type_name("FILE"));
 }
@@ -95,6 +97,7 @@ void ViewshedTargets::validate(const ObserverOptions& observers, viewshed::Reque
 
 void ViewshedTargets::complete(const StoreMetadata& metadata, viewshed::Request& request) const {
   if (!like_.empty()) request.grid = raster_grid_like(like_, metadata.crs_wkt);
+  request.finest_default_cell = half_posting(metadata, request.themes);
 }
 
 std::string ViewshedTargets::text(const viewshed::Request& request) const {

@@ -17,6 +17,7 @@
 #include "options/detail_options.hpp"
 #include "options/earth_options.hpp"
 #include "options/foliage_options.hpp"
+#include "options/half_posting.hpp"
 #include "options/memory_option.hpp"
 #include "options/nodata_option.hpp"
 #include "options/radius_preset.hpp"
@@ -56,7 +57,10 @@ class ZtvVerb final : public Verb {
     begin_group(app, kOutputs);
     replaces(app.add_option("-o,--output", output_, "The folder to write")->required()->type_name("DIR"));
     begin_group(app, "Area and cells");
-    app.add_option("--cell", cell_text_, "Size of the rasters' cells (default: 50)")->type_name("METRES");
+    app.add_option("--cell", cell_text_,
+                   "Size of the rasters' cells (default: 50); unasked they are no finer than half "
+                   "the posting of bare ground")
+        ->type_name("METRES");
     reads(app.add_option("--like", like_, "Take the cells of this raster")->type_name("FILE"));
     app.add_option("--bands", bands_text_,
                    "Greatest number of turbines in each band of maps and tables, ascending (default: at most seven "
@@ -167,6 +171,8 @@ class ZtvVerb final : public Verb {
     request_.zone.themes = themes_.choice();
     viewpoints_.complete(request_, metadata);
     route_.complete(request_, metadata);
+    if (cell_text_.empty() && like_.empty())
+      request_.zone.cell_size = std::max(kDefaultCell, half_posting(metadata, themes_.choice()));
     if (like_.empty()) return;
     request_.zone.grid = raster_grid_like(like_, metadata.crs_wkt);
     request_.grid_source = "--like " + like_;
@@ -200,6 +206,10 @@ class ZtvVerb final : public Verb {
         fmt::format("{}: {} of {}; a blade tip is visible {}, of the {:.1f} km² that have terrain data\n", output_,
                     zone.request.turbines.size(), counted(study.request.turbines.rows, "turbine"),
                     seen_from(areas["bare"]), areas["bare"]["studied"].get<double>());
+    if (const auto& bare = areas["bare"]; bare.contains("proposal"))
+      text +=
+          fmt::format("proposal: a blade tip is visible from {:.1f} km², of which {:.1f} km² see no other turbine\n",
+                      bare["proposal"]["proposal_seen"].get<double>(), bare["proposal"]["additional"].get<double>());
     if (const std::string known = viewshed::of_known_hubs(zone); !known.empty())
       text += fmt::format("hubs{}: the hub heights of the others are not known\n", known);
     const auto add_undecided = [&](const char* where, const viewshed::Visibility& v) {

@@ -31,6 +31,9 @@ void TurbineOptions::declare(CLI::App& app) {
   field("--rotor-diameter-field", file_.rotor_diameter_field, "rotor diameters");
   field("--tip-height-field", file_.tip_height_field, "heights of blade tips");
   field("--farm-field", file_.farm_field, "farms");
+  field("--status-field", file_.status_field,
+        "whether each is proposed, consented or existing: with others, the study area is about the proposed ones, and "
+        "what they add is told");
   size_.declare(app, "of turbines whose row gives none");
   app.add_option("--farm", file_.farm, "Farm of turbines whose row gives none")->type_name("NAME");
   in_crs_.declare(app);
@@ -70,6 +73,7 @@ Document TurbineOptions::parameters() const {
     parameters["rotor_diameter_field"] = file_.rotor_diameter_field;
   if (file_.tip_height_field != usual.tip_height_field) parameters["tip_height_field"] = file_.tip_height_field;
   if (file_.farm_field != usual.farm_field) parameters["farm_field"] = file_.farm_field;
+  if (file_.status_field != usual.status_field) parameters["status_field"] = file_.status_field;
   text("farm", file_.farm), text("in_crs", in_crs_.crs);
   return parameters;
 }

@@ -1,4 +1,5 @@
 // Zones of theoretical visibility against single exact lines of sight, and on hand-made ground.
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -25,6 +26,7 @@
 #include "support/seed.hpp"
 #include "support/terrain_tin.hpp"
 #include "turbines/farm_combinations.hpp"
+#include "turbines/proposal.hpp"
 #include "turbines/value_bands.hpp"
 
 namespace itin::viewshed {
@@ -405,6 +407,54 @@ TEST(FarmCombinations, NameTheFarmsSeenHoweverMany) {
     const std::string table = combination_table(zone);
     EXPECT_EQ(static_cast<std::size_t>(std::count(table.begin(), table.end(), '\n')), 1 + present.size());
   }
+}
+
+TEST(Proposal, BoundsTheStudyAreaAndTellsWhatItAddsToTheOthers) {
+  const Tin tin = test::fractal_tin(33, 50, 150, 0.5, 9);
+  ZoneRequest request;
+  request.cell_size = 60;
+  request.turbines = {turbine(1, 400, 420), turbine(2, 1150, 700), turbine(3, 620, 1190), turbine(4, 480, 560)};
+  for (Turbine& t : request.turbines) t.radius = 700, t.tip_height = 60, t.hub_height = 35, t.rotor_diameter = 50;
+  request.turbines[0].status = request.turbines[3].status = TurbineStatus::kProposed;
+  request.turbines[1].status = TurbineStatus::kConsented, request.turbines[2].status = TurbineStatus::kExisting;
+  ASSERT_TRUE(has_proposal(request));
+  const Zone zone = survey(tin, request);
+  ZoneRequest all = request;
+  all.cell_size.reset(), all.grid = zone.grid;
+  for (Turbine& t : all.turbines) t.status.reset();
+  ASSERT_FALSE(has_proposal(all));
+  const Zone cumulative = survey(tin, all);
+  const std::vector<std::uint16_t> own = proposed_tips(zone, zone.bare);
+  const std::vector<std::uint8_t> added = additions(zone, zone.bare);
+  std::array<std::size_t, kAdditions.size()> cells{};
+  std::size_t outside = 0;
+  for (std::int64_t row = 0; row < zone.grid.rows(); ++row) {
+    for (std::int64_t column = 0; column < zone.grid.columns(); ++column) {
+      const std::size_t cell = zone.grid.index({column, row});
+      const Point2 centre = zone.grid.centre(column, row);
+      const auto within = [&](const Turbine& t) {
+        return std::hypot(centre.x - t.position.x, centre.y - t.position.y) <= t.radius;
+      };
+      if (!within(request.turbines[0]) && !within(request.turbines[3])) {
+        EXPECT_EQ(zone.bare.tip_count[cell], kCountOutside);
+        EXPECT_TRUE(std::isnan(zone.bare.share[cell]));
+        EXPECT_EQ(added[cell], kNoAddition);
+        outside += cumulative.bare.tip_count[cell] != kCountOutside;
+        continue;
+      }
+      EXPECT_EQ(zone.bare.tip_count[cell], cumulative.bare.tip_count[cell]);
+      EXPECT_EQ(zone.bare.hub_count[cell], cumulative.bare.hub_count[cell]);
+      if (zone.bare.tip_count[cell] == kCountOutside) continue;
+      EXPECT_EQ(own[cell], sees(zone, cell, 1) + sees(zone, cell, 4));
+      const bool others = sees(zone, cell, 2) || sees(zone, cell, 3);
+      using enum Addition;
+      const Addition expected = own[cell] > 0 ? (others ? kBoth : kProposalAlone) : (others ? kOthersAlone : kNone);
+      EXPECT_EQ(added[cell], static_cast<std::uint8_t>(expected));
+      ++cells[added[cell]];
+    }
+  }
+  EXPECT_GT(outside, 0U);
+  for (const std::size_t count : cells) EXPECT_GT(count, 0U);
 }
 
 TEST(Areas, SumUpToTheCellsWithAValue) {

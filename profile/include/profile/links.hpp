@@ -76,9 +76,9 @@ struct LinkTable {
 /// others: `name1`, `name2`, `frequency`, `polarisation` and `criteria` (with blanks between several) of each link, and
 /// further ones that are kept. `name` or `link` may stand for `id`; where none of the three is there, links have the
 /// numbers of their rows from 1. Easting and northing, or lon and lat, each with 1 or 2 behind it, may stand for x and
-/// y; so may `position1` and `position2` (or `gridref1` and `gridref2`) with grid references, or with latitudes and
-/// longitudes in degrees and their letters. Semicolons or tabs may separate the columns, and a comma that cannot
-/// part thousands is decimal.
+/// y; so may `position1` and `position2` (or `gridref1` and `gridref2`) with grid references, with latitudes and
+/// longitudes in degrees and their letters or as "54.523388, -3.145489", or with `x,y`. Semicolons or tabs may separate
+/// the columns, and a comma that cannot part thousands is decimal.
 ///
 /// The links are in the CRS `to_crs` (WKT). CSV tables, and layers whose CRS is missing, not defined or
 /// cannot be theirs, are taken to be in `csv_crs`; if that is empty, in longitude and

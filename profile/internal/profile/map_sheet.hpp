@@ -40,7 +40,7 @@ struct SheetLines {
   bool dashed = false;
 };
 
-enum class SheetSymbol { kTurbine, kViewpoint, kMast, kRelay, kExistingMast, kHub };
+enum class SheetSymbol { kTurbine, kViewpoint, kMast, kRelay, kExistingMast, kHub, kDot };
 
 /// A mark with its label. Labels that would cover another label or a mark are left out, first those of later marks, and
 /// counted below the legend.

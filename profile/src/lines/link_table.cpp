@@ -124,12 +124,11 @@ class LinkReader {
   }
   /// Reads the end whose x is in the column `i`, in the CRS asked for.
   Point2 position_of(const std::vector<std::string>& cells, std::size_t i) const {
-    if (!header_.written) {
-      const Point2 p{number_of(cells, i), number_of(cells, i + 1)};
-      return transform_ ? (*transform_)(p) : p;
-    }
+    const auto transformed = [&](const Point2& p) { return transform_ ? (*transform_)(p) : p; };
+    if (!header_.written) return transformed({number_of(cells, i), number_of(cells, i + 1)});
     const std::string& text = cells[header_.of[i]];
     const auto written = written_position(text);
+    if (const auto xy = written ? std::nullopt : written_coordinates(text)) return transformed(*xy);
     if (!written) throw InputError(fmt::format("'{}' is {}", text, kNoWrittenPosition));
     return CoordinateTransform(written->crs, to_crs_)(written->position);
   }

@@ -77,6 +77,7 @@ void MapFrame::draw_layer(const SheetMarks& marks) {
   for (const SheetMark& mark : marks.marks) {
     const Point2 p = at(mark.at);
     draw_symbol(drawing_, marks.symbol, p, size, marks.colour);
+    if (marks.symbol == SheetSymbol::kDot) continue;  // names may cover dots
     const double up = marks.symbol == SheetSymbol::kTurbine ? size : size / 2;
     places_.take({p.x - 0.4 * size, p.y - up, p.x + 0.4 * size, p.y - up + size});
   }

@@ -15,6 +15,9 @@ namespace itin::profile {
 
 namespace {
 
+/// The size of a dot, of that of other symbols.
+constexpr double kDotSize = 0.55;
+
 /// The corners of a symbol about its place, for a height of 1. Empty for discs and for turbines.
 std::span<const Point2> corners_of(SheetSymbol symbol) {
   static constexpr std::array<Point2, 4> kSquare{{{-0.5, -0.5}, {0.5, -0.5}, {0.5, 0.5}, {-0.5, 0.5}}};
@@ -86,8 +89,9 @@ void draw_symbol(Drawing& drawing, SheetSymbol symbol, Point2 at, double size, c
     drawing.polygon(inner, fill);
     return;
   }
-  drawing.circle(at, 0.5 * size, kPaper);
-  drawing.circle(at, 0.43 * size, fill);
+  const double across = symbol == SheetSymbol::kDot ? kDotSize * size : size;
+  drawing.circle(at, 0.5 * across, kPaper);
+  drawing.circle(at, 0.43 * across, fill);
   if (symbol == SheetSymbol::kViewpoint) drawing.circle(at, 0.18 * size, kPaper);
 }
 

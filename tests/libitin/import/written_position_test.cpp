@@ -41,6 +41,21 @@ TEST(WrittenPosition, ReadsDegreesWithTheirLetters) {
     EXPECT_FALSE(written_position(none)) << none;
 }
 
+TEST(WrittenPosition, ReadsWhatWebMapsCopy) {
+  for (const char* text : {"54.523388, -3.145489", " 54.523388,  -3.145489 "}) {
+    const auto place = written_position(text);
+    ASSERT_TRUE(place) << text;
+    EXPECT_EQ(place->crs, "EPSG:4326");
+    EXPECT_EQ(place->position, (Point2{-3.145489, 54.523388})) << text;
+  }
+  for (const char* none : {"54.523388,-3.145489", "310375, 183525", "91, 3", "51, 181", "51, 3, 2", "51, x", ", 3"})
+    EXPECT_FALSE(written_position(none)) << none;
+  for (const char* text : {"310375,183525", "310375, 183525", "310375 , 183525"})
+    EXPECT_EQ(written_coordinates(text), (Point2{310375, 183525})) << text;
+  for (const char* none : {"310375", "310375 183525", "1,2,3", "1,", ",2", "nan,1", "1,inf"})
+    EXPECT_FALSE(written_coordinates(none)) << none;
+}
+
 TEST(WrittenPosition, TakesDecimalCommas) {
   for (const char* text : {"51,5437N 3,2934W", "51,5437 N, 3,2934 W",
                            "51\xC2\xB0"

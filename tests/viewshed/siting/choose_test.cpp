@@ -191,6 +191,57 @@ TEST_F(Choosing, OfSmallCasesTheOptimumIsFound) {
   }
 }
 
+TEST_F(Choosing, OfThousandsOfChoicesOfExactOptionsTheOptimumIsFound) {
+  std::size_t improved = 0;
+  for (int trial = 0; trial < 30; ++trial) {
+    const Instance instance(26, 60, 1, random_);
+    ChoiceGoal goal{.count = 3};
+    goal.cover = 1 + trial % 2;
+    Simulated coverage(instance.truth, 0, random_);
+    for (std::size_t i = 0; i < instance.options.size(); ++i)
+      while (!coverage.bounds(i).exact) coverage.refine({&i, 1});
+    NoProgress progress;
+    const Choice choice = choose(Demand(instance.weights), instance.options, coverage, goal, progress);
+    std::vector<std::size_t> none, swapped = slow_greedy(instance, goal, false);
+    slow_swaps(instance, goal, swapped);
+    const double best = optimum(instance, goal, none, 0);
+    EXPECT_NEAR(static_cast<double>(choice.value) * 0x1p-30, best, kRounding) << "trial " << trial;
+    EXPECT_EQ(choice.upper_bound, choice.value);
+    improved += best > instance.sum(swapped, goal.cover, false) + kRounding;
+  }
+  EXPECT_GT(improved, 0U);
+}
+
+TEST_F(Choosing, NoChoiceOfAWantedShareCostsLessThanTheBound) {
+  std::size_t tight = 0;
+  for (int trial = 0; trial < 60; ++trial) {
+    const Instance instance(11, 40, 1, random_);
+    Simulated coverage(instance.truth, 0.1 * (trial % 3), random_);
+    ChoiceGoal goal;
+    goal.cover = 1 + trial % 2;
+    double all = 0;
+    for (const double weight : instance.weights) all += weight;
+    goal.wanted = static_cast<Weight>(all * 0.4 * 0x1p30);
+    NoProgress progress;
+    const Choice choice = choose(Demand(instance.weights), instance.options, coverage, goal, progress);
+    EXPECT_DOUBLE_EQ(choice.cost, instance.cost(options_of(choice)));
+    ASSERT_EQ(choice.least_cost.has_value(), choice.value >= *goal.wanted);
+    if (!choice.least_cost) continue;
+    double cheapest = choice.cost;
+    for (unsigned set = 0; set < 1U << instance.options.size(); ++set) {
+      std::vector<std::size_t> chosen;
+      for (std::size_t i = 0; i < instance.options.size(); ++i)
+        if ((set >> i & 1) != 0) chosen.push_back(i);
+      if (instance.sum(chosen, goal.cover, false) * 0x1p30 >= static_cast<double>(*goal.wanted))
+        cheapest = std::min(cheapest, instance.cost(chosen));
+    }
+    EXPECT_LE(*choice.least_cost, cheapest * (1 + 1e-9)) << "trial " << trial;
+    EXPECT_GT(*choice.least_cost, 0);
+    tight += *choice.least_cost > 0.6 * cheapest;
+  }
+  EXPECT_GT(tight, 10U);
+}
+
 TEST_F(Choosing, ABudgetIsSpentAsOnExactCoverage) {
   for (int trial = 0; trial < 60; ++trial) {
     const Instance instance(20, 100, 2, random_);

@@ -13,6 +13,7 @@
 #include <itin/error.hpp>
 #include <itin/import.hpp>
 #include <itin/triangulate.hpp>
+#include <viewshed/site_links.hpp>
 #include <viewshed/site_plan.hpp>
 
 #include "support/brute_force_viewshed.hpp"
@@ -212,6 +213,69 @@ TEST_F(SitePlans, TakeDemandOfPointsWithTheirOwnHeightsAndWeights) {
       asked.demand.points->places[k].weight /= 4;
   }
   EXPECT_EQ(plan(asked).served(), made.served());
+}
+
+/// Judges every line between a site and a point by itself.
+TEST_F(SitePlans, TellOfEveryPointWhatSingleLinesTell) {
+  for (const bool radio : {false, true}) {
+    for (const NoData rule : {NoData::kClear, NoData::kUnknown}) {
+      SitePlanRequest asked = request();
+      asked.nodata = rule;
+      asked.count = 2;
+      if (radio) asked.frequency_ghz = 5.8;
+      asked.cover = radio ? 1 : 2;
+      asked.demand.points.emplace();
+      for (int i = 0; i < 120; ++i)
+        asked.demand.points->places.push_back({.name = "P" + std::to_string(i),
+                                               .position = {300055.0 + i * 37 % 690, 200745.0 - i * 53 % 690},
+                                               .height = 1.0 + i % 9});
+      const SitePlan made = plan(asked);
+      ASSERT_EQ(made.points.size(), 120U);
+      const LinkRules rules = link_rules(made.request);
+      std::size_t served = 0, unserved = 0;
+      for (std::size_t i = 0; i < made.points.size(); ++i) {
+        const PointResult& point = made.points[i];
+        SCOPED_TRACE(point.point.name);
+        EXPECT_EQ(point.point.name, "P" + std::to_string(i));
+        std::size_t serving = 0, in_reach = 0;
+        double nearest = std::numeric_limits<double>::infinity(), clearest = -nearest;
+        for (std::size_t site = 0; site < made.network.ends.size(); ++site) {
+          const SitePosition& mast = made.network.ends[site].place;
+          const double distance = std::hypot(mast.position.x - point.place.position.x,  //
+                                             mast.position.y - point.place.position.y);
+          if (distance > asked.radius || point.service == PointService::kNoGround) continue;
+          ++in_reach;
+          profile::LinkQuery query = rules.query;
+          query.to_on_surface = asked.demand.on_surface;
+          const profile::LinkResult line = survey_link(*store_, link_between(mast, point.place), query);
+          if (rules.met_by(*line.found)) ++serving, nearest = std::min(nearest, distance);
+          if (line.found->verdict == profile::SightVerdict::kHidden && line.found->clearance_m)
+            clearest = std::max(clearest, *line.found->clearance_m);
+          if (!point.line || point.line->site != site) continue;
+          EXPECT_NEAR(point.line->distance_m, line.distance_m, 1e-6);  // the section begins at a point of its own grid
+          EXPECT_EQ(point.line->tightest_clearance_m, line.found->clearance_m);
+          EXPECT_EQ(point.line->fresnel_fraction.has_value(), line.found->fresnel.has_value());
+          if (line.found->fresnel) {
+            EXPECT_EQ(*point.line->fresnel_fraction, line.found->fresnel->fraction);
+          }
+        }
+        EXPECT_EQ(point.serving, serving);
+        EXPECT_EQ(point.service == PointService::kOutOfReach || point.service == PointService::kNoGround,
+                  in_reach == 0);
+        if (serving > 0) {
+          EXPECT_DOUBLE_EQ(point.line->distance_m, nearest);
+        }
+        if (point.service == PointService::kHidden && !radio) {
+          EXPECT_EQ(*point.line->tightest_clearance_m, clearest);
+        }
+        EXPECT_EQ(point.service == PointService::kServed, serving >= static_cast<std::size_t>(asked.cover));
+        ++(point.service == PointService::kServed ? served : unserved);
+      }
+      EXPECT_EQ(static_cast<double>(served), made.served());
+      EXPECT_GT(served, 0U);
+      EXPECT_GT(unserved, 0U);
+    }
+  }
 }
 
 TEST_F(SitePlans, WriteWhatTheyList) {

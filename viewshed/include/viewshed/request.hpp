@@ -97,6 +97,7 @@ struct Request {
   // fractions) metres that gives at most kDefaultCells cells per side.
   std::optional<double> cell_size = {};
   std::optional<RasterGrid> grid = {};
+  double finest_default_cell = 0;  ///< metres; no finer cells are taken unasked, but where these are very few
   Earth earth = {};
   Detail detail = Detail::tolerance(0);      ///< the surface's level of detail; not used with a Tin
   ThemeChoice themes = ThemeChoice::none();  ///< raised features on the surface; not used with a Tin

@@ -186,6 +186,13 @@ struct BarredCandidates {
   std::size_t first = 0, count = 0;  ///< their range in SiteInputs::left_out
 };
 
+/// What is known of a point of the demand besides its place and height.
+struct DemandPoint {
+  std::string name = {};
+  std::size_t number = 0;  ///< its place in SiteDemand::points, from 0
+  double weight = 1;
+};
+
 /// The request as it was understood.
 struct SiteInputs {
   std::vector<SiteCandidate> candidates;
@@ -195,6 +202,7 @@ struct SiteInputs {
   SiteTargets targets;
   Demand demand;
   DemandSet cells;                        ///< if cells in reach are the demand: those with ground
+  std::vector<DemandPoint> points;        ///< one for each of targets.points, where the demand is points
   Weight total = 0;                       ///< all demand
   std::vector<std::string> left_out;      ///< a line for each place that is not used, and why
   std::vector<BarredCandidates> barred;   ///< which of these are candidates where no site may stand
@@ -272,6 +280,37 @@ struct SiteRasters {
   }
 };
 
+/// How masts serve a point of the demand.
+enum class PointService : std::uint8_t {
+  kServed,
+  kTooFew,     ///< fewer sites serve it than SitePlanRequest::cover asks for
+  kUndecided,  ///< it is served if ground without data hides nothing, or was not surveyed exactly (`exact_chosen`)
+  kZoneCut,    ///< it is in sight, with too little of the Fresnel zone clear
+  kHidden,
+  kOutOfReach,  ///< it lies beyond the radius of all sites
+  kNoGround     ///< there is no data under it
+};
+
+/// A line between a site and a point of the demand, as `itin los` judges it.
+struct ServingLine {
+  std::size_t site = 0;  ///< an end of the network
+  double distance_m = 0;
+  /// Where the line is cut deepest or, if it is free, clears the least part of the Fresnel zone: never a mast's foot.
+  std::optional<double> tightest_clearance_m = {};
+  std::optional<double> tightest_m = {};        ///< the distance of that place from the site
+  std::optional<double> fresnel_fraction = {};  ///< nothing without a frequency
+};
+
+/// What the chosen and the existing masts are to a point of the demand.
+struct PointResult {
+  DemandPoint point = {};
+  SitePosition place = {};  ///< its ground is 0 where there is none
+  PointService service = PointService::kOutOfReach;
+  std::size_t serving = 0;  ///< how many sites serve it
+  /// The line to the nearest site that serves it; else to the one within reach that comes nearest to serving it.
+  std::optional<ServingLine> line = {};
+};
+
 struct PremisesSurvey;
 
 struct SitePlan {
@@ -293,6 +332,7 @@ struct SitePlan {
   double undecided = 0;
   ClassShares shares;  ///< what the chosen and the existing sites serve of the demand, or leave undecided
   SiteRasters rasters;
+  std::vector<PointResult> points;  ///< where masts serve points, each of these, in the order in which they were given
   /// Where premises are the demand, what those of the chosen and the existing sites that serve any are to each building
   /// (premises.hpp); else null.
   std::shared_ptr<const PremisesSurvey> premises;

@@ -10,7 +10,8 @@
 // 1978) takes the option of the greatest upper bound; where its bounds leave open whether it is the best, it is refined
 // and judged again. An option whose upper bound never comes first is never refined. Still the choice is the one that
 // greedy makes on exact coverage, ties falling to the option that comes first. Swaps of one chosen site for another
-// follow, under the same rule, until none gains. Where a count allows no more than a thousand choices, all are tried.
+// follow, under the same rule, until none gains. Where a count allows no more than a thousand choices, all are tried;
+// where every option is exact and serves little, up to a million.
 //
 // An element served by fewer than `cover` sites counts for nothing in the value. Greedy and swaps work on the sum of
 // min(served, cover), which is submodular and bounds the value.
@@ -146,6 +147,9 @@ struct Choice {
   Weight lower_bound = 0;
   Weight upper_bound = 0;
   Weight existing = 0;  ///< served by existing sites alone
+  double cost = 0;      ///< what the chosen sites cost together
+  /// No choice that reaches ChoiceGoal::wanted costs less; nothing where that is not given or was not reached.
+  std::optional<double> least_cost;
   std::size_t swaps = 0;
   std::vector<std::optional<Margin>> closest;  ///< per option: the step at which it came nearest to being taken
 };

@@ -39,6 +39,10 @@ struct Arc {
   double width = 0;
 };
 
+/// Where a turbine stands in planning. Where some are proposed and others are not, the study area is that about the
+/// proposed ones, and what they add to the others is told (has_proposal()).
+enum class TurbineStatus { kProposed, kConsented, kExisting };
+
 /// A wind turbine. Its heights are metres above the ground at its foot.
 struct Turbine {
   std::size_t number = 1;  ///< from 1; it has bit number - 1
@@ -49,6 +53,7 @@ struct Turbine {
   std::optional<double> hub_height = {};      ///< nothing: unknown; the turbine does not count among the hubs
   std::optional<double> rotor_diameter = {};  ///< nothing: unknown, taken as 0
   double radius = 0;                          ///< the distance up to which eyes see it, metres
+  std::optional<TurbineStatus> status = {};
 };
 
 /// Woods that turbines are seen through, in leaf and in winter, by the rule of profile/foliage.hpp.
@@ -77,6 +82,12 @@ struct ZoneRequest {
   /// weights. Empty: no sums.
   std::vector<double> weights = {};
 };
+
+/// Tells whether some turbines are proposed, and others are not. Then cells beyond the radius of every proposed one are
+/// outside, whatever is seen from them.
+bool has_proposal(const ZoneRequest& request);
+/// Returns the turbines that the study area lies about: the proposed ones where there is a proposal, else all.
+std::vector<Turbine> turbines_of_study_area(const ZoneRequest& request);
 
 /// Grids with one value for each cell of the zone's grid. Outside, floats are NaN and counts kCountOutside. Under
 /// NoData::kUnknown the values are those under kBlock; hub_undecided and tip_undecided are what kClear would add to the

@@ -83,9 +83,10 @@ struct TurbineFile {
   std::string rotor_diameter_field = "rotor_diameter";
   std::string tip_height_field = "tip_height";
   std::string farm_field = "farm";
-  TurbineSize size = {};   ///< taken for turbines whose row leaves it open
-  std::string farm = {};   ///< taken for turbines whose row gives none
-  RadiusRule radius = {};  ///< gives Turbine::radius
+  std::string status_field = "status";  ///< proposed, consented or existing, in usual words
+  TurbineSize size = {};                ///< taken for turbines whose row leaves it open
+  std::string farm = {};                ///< taken for turbines whose row gives none
+  RadiusRule radius = {};               ///< gives Turbine::radius
 };
 
 /// Turbines, and what there is to say about the file that they come from.

@@ -29,6 +29,8 @@ inline constexpr Rgba kMastColour{213, 94, 0, 255};
 /// Masts or eyes, as all maps mark them.
 MapObjects mast_objects(std::vector<profile::SheetMark> masts, std::string key);
 
+MapObjects dot_objects(const MapDots& dots);
+
 /// The places where the map is striped as without ground, and what the legend says about them; both empty if there are
 /// none.
 struct MissingOnSheet {

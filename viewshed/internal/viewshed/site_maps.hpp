@@ -28,6 +28,10 @@ inline constexpr const char* kWithinRadius = "the area within the radius";
 /// Returns the maps `coverage` and `redundancy`.
 std::vector<SiteMap> site_maps(const Store& store, const SitePlan& plan, Progress& progress);
 
+/// Returns the points of the demand by how they are served, a colour for each class that has any; none where masts do
+/// not serve points. Of points of a class that would cover each other on a map of the plan the first is kept.
+std::vector<MapDots> dots_of_points(const SitePlan& plan);
+
 /// Draws the maps over a hillshade of the plan's ground.
 std::vector<MapImage> drawn(const Store& store, const SitePlan& plan, const std::vector<SiteMap>& maps,
                             Progress& progress);

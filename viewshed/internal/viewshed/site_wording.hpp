@@ -24,4 +24,7 @@ struct SiteWording {
 
 SiteWording wording_of(const SitePlanRequest& request);
 
+/// Returns "served", "too few", "undecided", "zone cut", "hidden", "out of reach" or "no ground".
+const char* name_of(PointService service);
+
 }  // namespace itin::viewshed

@@ -273,28 +273,19 @@ void MapOverlay::scale_blockers() {
 void MapOverlay::scale_heights() {
   title_ =
       fmt::format("Least height above {}, metres", result_.request.targets_on_surface ? "the surface" : "the ground");
-  const std::vector<float> heights =
-      sorted_sample(result_.get<LeastHeights>().height_m, [](float h) { return h > 0 && std::isfinite(h); });
-  // Limits are round heights that part the hidden cells into about equal numbers.
-  std::vector<double> limits;
-  for (const double share : {0.2, 0.45, 0.7}) {
-    if (heights.empty()) break;
-    const double limit = round_step(heights[static_cast<std::size_t>(share * static_cast<double>(heights.size() - 1))]);
-    if (limits.empty() || limit > limits.back()) limits.push_back(limit);
-  }
-  const int steps = static_cast<int>(limits.size()) + (limits.empty() ? 1 : 2);
-  int step = steps;
+  constexpr int kBands = kMastHeightLimits.size() + 2;
+  int band = kBands;
   const auto add = [&](double most, std::string text) {
-    --step;
-    add_step(most, {kSeenColour, steps == 1 ? kOpacity : 0.08 + 0.77 * step / (steps - 1)}, std::move(text));
+    --band;
+    add_step(most, {kSeenColour, 0.08 + 0.77 * band / (kBands - 1)}, std::move(text));
   };
   add(0, "0");
   double from = 0;
-  for (const double limit : limits) {
+  for (const double limit : kMastHeightLimits) {
     add(limit, range_text(from, limit));
     from = limit;
   }
-  if (!limits.empty()) add(kInfinity, fmt::format("> {:.10g}", limits.back()));
+  add(kInfinity, fmt::format("> {:.10g}", from));
   for (std::size_t i = 0; i < result_.visible.size(); ++i)
     if (is_buried(i)) return add_step(kInfinity, {kBuriedColour, kOpacity}, "buried");
 }

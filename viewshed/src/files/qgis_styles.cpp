@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <map>
 #include <set>
@@ -19,6 +20,16 @@ namespace {
 std::vector<ValueBand> loss_bands() {
   std::vector<ValueBand> bands = limit_bands({kLossLimitsDb.begin(), kLossLimitsDb.end()}, "dB");
   bands.front() = {0, "0 dB", {0, 114, 178}};
+  return bands;
+}
+
+/// The lower a target is seen, the darker: from the ground on.
+std::vector<ValueBand> height_bands() {
+  constexpr std::array<Rgba, kMastHeightLimits.size() + 2> kBlues{
+      {{8, 48, 107}, {8, 88, 158}, {43, 140, 190}, {78, 179, 211}, {123, 204, 196}, {168, 221, 181}, {224, 243, 219}}};
+  std::vector<ValueBand> bands = limit_bands({kMastHeightLimits.begin(), kMastHeightLimits.end()}, "m");
+  bands.front().label = "0 m: the ground is seen";
+  for (std::size_t i = 0; i < bands.size(); ++i) bands[i].colour = kBlues[i];
   return bands;
 }
 
@@ -60,7 +71,7 @@ std::string style_of_blockers(const Result& result) {
 }  // namespace
 
 bool has_qgis_style(Mode mode) {
-  return mode != Mode::kAngle && mode != Mode::kNearest && mode != Mode::kHeight;
+  return mode != Mode::kAngle && mode != Mode::kNearest;
 }
 
 std::string qgis_style(const Result& result) {
@@ -78,9 +89,10 @@ std::string qgis_style(const Result& result) {
       return banded_style(limit_bands({0.05, 0.25, 0.5, 0.75, 0.95}, "of the surfaces"));
     case Mode::kLoss:
       return banded_style(loss_bands());
+    case Mode::kHeight:
+      return banded_style(height_bands());
     case Mode::kAngle:
     case Mode::kNearest:
-    case Mode::kHeight:
       return "";
   }
   return "";

@@ -79,8 +79,9 @@ class Text {
 
 void add_request(Text& text, const Request& request, const std::vector<ThemeInfo>& themes) {
   const auto& [observers, target_height, target_absolute, radius, min_radius, azimuth, elevation, cell_size, grid,
-               earth, detail, choice, observers_on_surface, targets_on_surface, nodata, engine, mode, vertical_error,
-               fresnel, radio] = request;
+               finest_default_cell, earth, detail, choice, observers_on_surface, targets_on_surface, nodata, engine,
+               mode, vertical_error, fresnel, radio] = request;
+  // The plan's grid has the cells that `grid` and `finest_default_cell` lead to.
   text.add(observers, target_height, target_absolute, radius, min_radius, azimuth, elevation, cell_size,
            grid.has_value(), earth, detail.centre(), detail.rings(), choice.names(themes), choice.omitted(),
            observers_on_surface, targets_on_surface, nodata, engine, mode, vertical_error, fresnel, radio);

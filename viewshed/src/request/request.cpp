@@ -78,9 +78,12 @@ void validate_cells(const Request& request) {
   }
 }
 
-/// The least of 1, 2, 5, 10, ... or their decimal fractions with at most kDefaultCells cells per side.
-double default_cell_size(const Box& box) {
-  const double least = std::max(box.width(), box.height()) / kDefaultCells;
+/// The least of 1, 2, 5, 10, ... or their decimal fractions with at most kDefaultCells cells per side, and not less
+/// than `finest` unless that leaves fewer than kFewestCells.
+double default_cell_size(const Box& box, double finest) {
+  constexpr int kFewestCells = 40;
+  const double side = std::max(box.width(), box.height());
+  const double least = std::max(side / kDefaultCells, std::min(finest, side / kFewestCells));
   const double decade = std::pow(10, std::floor(std::log10(least)));
   for (const double step : {1.0, 2.0, 5.0})
     if (step * decade >= least) return step * decade;
@@ -215,7 +218,7 @@ RasterGrid cells_of(const Request& request, const Box& extent) {
       area.extend(intersection(square_about(observer.position, *radius_of(request, observer)), extent));
   }
   if (area.empty()) throw InputError("no observer's radius reaches any data", "observers");
-  const double size = request.cell_size ? *request.cell_size : default_cell_size(area);
+  const double size = request.cell_size ? *request.cell_size : default_cell_size(area, request.finest_default_cell);
   return with_room_for_bands(request, RasterGrid::aligned(area, size));
 }
 

@@ -64,6 +64,7 @@ ResultSheet content_of(const Result& result, const MapOptions& options) {
   content.grid = result.grid, content.area = result.grid.bounds();
   content.map = result_map(result, options);
   content.studied = in_cells(result.grid, [&](std::size_t cell) { return result.visible[cell] != Verdict::kOutside; });
+  for (const MapDots& dots : options.dots) content.objects.push_back(dot_objects(dots));
   content.objects.push_back(observers_of(result, options));
   content.title = title_of(result, options);
   content.outside = options.outside;

@@ -31,6 +31,8 @@ std::vector<ValueBand> count_bands(std::size_t most, std::vector<std::size_t> li
 std::vector<ValueBand> limit_bands(const std::vector<double>& limits, const std::string& unit);
 /// Limits of bands of diffraction losses, from slight to beyond use; dB.
 inline constexpr std::array<double, 4> kLossLimitsDb{6, 15, 30, 50};
+/// Limits of bands of least heights that are seen: those of usual masts; metres.
+inline constexpr std::array<double, 5> kMastHeightLimits{5, 10, 20, 30, 50};
 /// Returns the bands of shares of the ground, 0 to 1.
 std::vector<ValueBand> share_bands();
 /// Returns the band that holds a value: the first whose limit it does not exceed.

@@ -8,6 +8,7 @@
 
 #include "turbines/count_classes.hpp"
 #include "turbines/farm_combinations.hpp"
+#include "turbines/proposal.hpp"
 #include "turbines/value_bands.hpp"
 
 namespace itin::viewshed {
@@ -80,6 +81,44 @@ ZoneMap farm_map(const Zone& zone, const Visibility& visibility, std::size_t mos
   return map;
 }
 
+/// Puts the cells of the first class that leave some turbine undecided into a last class, and counts all.
+void count_cells(const Zone& zone, const Visibility& visibility, ZoneMap& map) {
+  if (zone.leaves_open()) map.classes.push_back({kUndecided, kUndecidedGrey, 0, 0, true});
+  const auto last = static_cast<std::uint8_t>(map.classes.size() - 1);
+  for (std::size_t i = 0; i < map.class_of_cell.size(); ++i) {
+    std::uint8_t& of_cell = map.class_of_cell[i];
+    if (of_cell == kNoMapClass) continue;
+    const bool open = zone.leaves_open() && visibility.tip_undecided[i] > 0;
+    if (open && of_cell == 0) of_cell = last;
+    ++map.classes[of_cell].cells;
+    if (open) ++map.classes[of_cell].open_cells;
+  }
+}
+
+ZoneMap proposal_map(const Zone& zone, const Visibility& visibility) {
+  ZoneMap map;
+  map.title = "Zone of theoretical visibility of the proposal: blade tips";
+  map.heading = "Proposed turbines with their blade tip visible";
+  const std::vector<ValueBand> bands = count_bands(proposed_turbines(zone.request), zone.request.count_bands);
+  for (const ValueBand& band : bands) map.classes.push_back({band.label, band.colour});
+  map.classes.front().label = kNone;
+  for (const std::uint16_t tips : proposed_tips(zone, visibility))
+    map.class_of_cell.push_back(tips == kCountOutside ? kNoMapClass : static_cast<std::uint8_t>(band_of(bands, tips)));
+  count_cells(zone, visibility, map);
+  return map;
+}
+
+ZoneMap addition_map(const Zone& zone, const Visibility& visibility) {
+  ZoneMap map;
+  map.title = "Additional visibility: what the proposal adds to consented and existing turbines";
+  map.heading = "Blade tips visible of";
+  for (const AdditionClass& c : kAdditions) map.classes.push_back({c.text, c.colour});
+  map.classes.front().label = kNone;
+  map.class_of_cell = additions(zone, visibility);
+  count_cells(zone, visibility, map);
+  return map;
+}
+
 void add_map(std::vector<ZoneMap>& maps, ZoneMap map, const char* name, const char* seen, bool screened) {
   map.name = std::string(name) + (screened ? "-screened" : ""), map.seen = seen, map.screened = screened;
   maps.push_back(std::move(map));
@@ -93,6 +132,10 @@ std::vector<ZoneMap> zone_maps(const Zone& zone, std::size_t most_combinations) 
   const auto add_all = [&](const Visibility& v, bool screened) {
     add_map(maps, tip_map(zone, v), "tip-count", "tip", screened);
     if (known_hubs(zone) > 0) add_map(maps, hub_map(zone, v), "hub-count", "hub", screened);
+    if (has_proposal(zone.request)) {
+      add_map(maps, proposal_map(zone, v), "proposal-tip-count", "proposal", screened);
+      add_map(maps, addition_map(zone, v), "additional", "additional", screened);
+    }
     if (farms > 1) add_map(maps, farm_map(zone, v, most_combinations), "farms", "farms", screened);
   };
   add_all(zone.bare, false);

@@ -7,6 +7,7 @@
 
 #include "turbines/count_classes.hpp"
 #include "turbines/farm_combinations.hpp"
+#include "turbines/proposal.hpp"
 #include "turbines/value_bands.hpp"
 
 namespace itin::viewshed {
@@ -34,6 +35,14 @@ void write_farm_polygons(const std::string& path, const Zone& zone, const std::v
   write_regions(path, zone.grid, std::span<const std::uint32_t>(farms), description);
 }
 
+void write_addition_polygons(const std::string& path, const Zone& zone, const Visibility& seen,
+                             const ZoneFileOptions& options) {
+  RegionDescription description{options.crs_wkt, "additional", {}, true};
+  for (std::size_t i = 1; i < kAdditions.size(); ++i)
+    description.classes.push_back({static_cast<std::uint32_t>(i), kAdditions[i].text, kAdditions[i].colour});
+  write_regions(path, zone.grid, std::span<const std::uint8_t>(additions(zone, seen)), description);
+}
+
 /// A file that does not depend on the others.
 struct PolygonFile {
   ZoneFile file;
@@ -58,6 +67,10 @@ void add_files(const Zone& zone, const Visibility& seen, const std::string& suff
                      [&](const std::string& path) {
                        write_bands(path, "hub-count", zone, {zone, seen, TurbinePart::kHub}, options);
                      }});
+  if (has_proposal(zone.request))
+    files.push_back(
+        {{"additional" + suffix + ".gpkg", "where the proposal, other turbines or both have tips seen: polygons, m²"},
+         [&](const std::string& path) { write_addition_polygons(path, zone, seen, options); }});
   if (farms_of(zone).size() < 2) return;
   files.push_back(
       {{"farms" + suffix + ".gpkg", "where a combination of farms has tips seen: polygons, m²"},

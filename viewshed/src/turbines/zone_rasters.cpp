@@ -12,6 +12,7 @@
 
 #include "turbines/count_classes.hpp"
 #include "turbines/farm_combinations.hpp"
+#include "turbines/proposal.hpp"
 #include "turbines/raster_folder.hpp"
 #include "turbines/value_bands.hpp"
 
@@ -236,6 +237,21 @@ void write_farm_rasters(const Zone& zone, const std::vector<View>& views, Raster
   if (zone.screened) write_farm_raster(screened, present, count, views.back(), folder);
 }
 
+/// Writes what of the zone is the proposal's own, and what it adds to the others.
+void write_proposal(const Zone& zone, const View& view, RasterFolder& folder) {
+  folder.write("proposal-tip-count" + view.suffix,
+               fmt::format("how many proposed turbines have their tip seen; 65535: {}{}", kNoValue, view.remark),
+               proposed_tips(zone, view.seen), with_nodata(kCountOutside),
+               banded_style(count_bands(proposed_turbines(zone.request), zone.request.count_bands)));
+  RasterDescription description = with_nodata(kNoAddition);
+  for (std::size_t i = 0; i < kAdditions.size(); ++i)
+    description.classes.push_back({static_cast<int>(i), kAdditions[i].text, kAdditions[i].colour});
+  folder.write(
+      "additional" + view.suffix,
+      fmt::format("whether the proposal, other turbines or both have a tip seen; 255: {}{}", kNoValue, view.remark),
+      additions(zone, view.seen), description, class_style(description.classes));
+}
+
 /// Writes the study area, since cells without a value in the other rasters may lie outside it or have no ground.
 void write_study_area(const Zone& zone, RasterFolder& folder) {
   constexpr std::uint8_t kNoGround = 0, kGround = 1, kOutsideStudy = 255;
@@ -264,6 +280,8 @@ std::vector<ZoneFile> write_zone_rasters(const std::string& folder, const Zone& 
   if (zone.screened) write_differences(zone, files);
   if (zone.seasons) write_seasons(zone, files);
   write_farm_rasters(zone, views, files);
+  if (has_proposal(zone.request))
+    for (const View& view : views) write_proposal(zone, view, files);
   write_study_area(zone, files);
   return std::move(files).files();
 }

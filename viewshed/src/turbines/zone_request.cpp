@@ -41,7 +41,8 @@ void require_valid_turbine(const Turbine& t) {
 RasterGrid grid_of(const ZoneRequest& request, const Box& coverage) {
   if (request.grid) return *request.grid;
   Box area;
-  for (const Turbine& t : request.turbines) area.extend(intersection(coverage, square_about(t.position, t.radius)));
+  for (const Turbine& t : turbines_of_study_area(request))
+    area.extend(intersection(coverage, square_about(t.position, t.radius)));
   return RasterGrid::aligned(area, *request.cell_size);
 }
 
@@ -127,7 +128,7 @@ void validate(const ZoneRequest& request) {
 
 Request view_of(const ZoneRequest& zone) {
   Request request;
-  for (const Turbine& turbine : zone.turbines) {
+  for (const Turbine& turbine : turbines_of_study_area(zone)) {
     Observer& observer = request.observers.emplace_back();
     observer.position = turbine.position;
     observer.radius = turbine.radius;

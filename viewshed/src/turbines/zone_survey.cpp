@@ -13,6 +13,7 @@
 #include <itin/same_place.hpp>
 
 #include "line/infinity.hpp"
+#include "turbines/proposal.hpp"
 #include "turbines/zone_request.hpp"
 
 namespace itin::viewshed {
@@ -173,9 +174,11 @@ void ZoneSurvey::record(std::size_t turbine, std::size_t cell, double distance, 
 
 void ZoneSurvey::store(const TileSightings& work, Visibility& result) const {
   const double all = static_cast<double>(zone_.request.turbines.size());
+  const bool of_proposal = has_proposal(zone_.request);
   std::vector<Arc> arcs;
   for_each_cell(work.tile, [&](std::size_t from, RasterGrid::Cell place) {
     if (work.tips[from] == kCountOutside) return;
+    if (of_proposal && !in_study_area(zone_.request, zone_.grid.centre(place.column, place.row))) return;
     const std::size_t to = zone_.grid.index(place);
     result.hub_count[to] = work.hubs[from];
     result.tip_count[to] = work.tips[from];

@@ -104,7 +104,7 @@ class SiteMasts(Task):
             "--output",
             required=True,
             layers=SITES_LAYERS,
-            seen=("sites", "links", "coverage.tif"),
+            seen=("sites", "links", "demand", "coverage.tif"),
             page="report.html",
         ),
         shared.OVERWRITE,

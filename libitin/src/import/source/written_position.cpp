@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include <itin/parsed_number.hpp>
 #include <itin/written_position.hpp>
 
 #include "import/source/square_references.hpp"
@@ -85,6 +86,20 @@ std::optional<std::vector<double>> numbers_among_marks(std::string_view text) {
   return numbers;
 }
 
+std::string_view without_blanks(std::string_view text) {
+  while (text.starts_with(' ')) text.remove_prefix(1);
+  while (text.ends_with(' ')) text.remove_suffix(1);
+  return text;
+}
+
+/// Reads latitude and longitude as web maps copy them. The blank tells them from `x,y`.
+std::optional<Point2> copied_degrees(std::string_view text) {
+  if (text.find(", ") == std::string_view::npos) return std::nullopt;
+  const auto pair = written_coordinates(text);
+  if (!pair || std::abs(pair->x) > 90 || std::abs(pair->y) > 180) return std::nullopt;
+  return Point2{pair->y, pair->x};
+}
+
 /// The position of the text's next hemisphere letter.
 std::size_t next_letter(std::string_view text, std::size_t from) {
   return text.find_first_of("NSEWnsew", from);
@@ -93,8 +108,7 @@ std::size_t next_letter(std::string_view text, std::size_t from) {
 }  // namespace
 
 std::optional<double> written_angle(std::string_view text, char positive, char negative) {
-  while (!text.empty() && text.back() == ' ') text.remove_suffix(1);
-  while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
+  text = without_blanks(text);
   double sign = 1;
   bool lettered = false;
   if (!text.empty() && (upper(text.back()) == positive || upper(text.back()) == negative)) {
@@ -117,7 +131,17 @@ std::optional<double> written_angle(std::string_view text, char positive, char n
   return sign * degrees;
 }
 
+std::optional<Point2> written_coordinates(std::string_view text) {
+  const std::size_t comma = text.find(',');
+  if (comma == std::string_view::npos) return std::nullopt;
+  const auto x = whole_text_as<double>(without_blanks(text.substr(0, comma))),
+             y = whole_text_as<double>(without_blanks(text.substr(comma + 1)));
+  if (!x || !y) return std::nullopt;
+  return Point2{*x, *y};
+}
+
 std::optional<WrittenPosition> written_position(std::string_view text) {
+  if (const auto degrees = copied_degrees(text)) return WrittenPosition{*degrees, "EPSG:4326"};
   if (const auto grid = national_grid(text)) return WrittenPosition{*grid, "EPSG:27700"};
   if (const auto square = military_grid(text)) return square;
   if (const auto square = maidenhead(text)) return square;

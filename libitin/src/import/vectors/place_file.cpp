@@ -262,6 +262,7 @@ double Places::coordinate(const OGRFeature& feature, int field, const char* lett
 
 Point2 Places::of_written(const std::string& text) {
   const auto written = written_position(text);
+  if (const auto xy = written ? std::nullopt : written_coordinates(text)) return in_wanted_crs(*xy);
   if (!written) throw InputError(fmt::format("its position '{}' is {}", text, kNoWrittenPosition));
   if (to_crs_.empty()) return written->position;
   return of_written_.try_emplace(written->crs, written->crs, to_crs_).first->second(written->position);

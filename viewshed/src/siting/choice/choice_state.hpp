@@ -77,8 +77,9 @@ void extend_greedily(const ChoiceProblem& problem, StepMeasure measure, std::vec
 std::size_t swap(const ChoiceProblem& problem, std::vector<std::size_t>& chosen);
 
 /// Looks at every choice within the goal where a count allows only few, and puts the best in place of `chosen` where
-/// that is better. Returns whether it is. Every option becomes exact then.
-bool take_best_of_few(const ChoiceProblem& problem, std::vector<std::size_t>& chosen);
+/// that is better. Every option becomes exact then.
+enum class BestOfFew { kNotTried, kWasBest, kBetter };
+BestOfFew take_best_of_few(const ChoiceProblem& problem, std::vector<std::size_t>& chosen);
 
 /// Leaves out sites, the least useful first, as long as the wanted value is reached without them.
 void drop_needless(const ChoiceProblem& problem, std::vector<std::size_t>& chosen);
@@ -96,6 +97,10 @@ LeastProof prove_least(const ChoiceProblem& problem, std::vector<std::size_t>& c
 
 /// A bound on the value of every choice of `open` options within the goal, by their gains alone.
 Weight bound_gains(const ChoiceProblem& problem, const std::vector<bool>& open);
+
+/// A bound on the cost of every choice that reaches the goal's wanted value, found from the gains that are left after
+/// each prefix of `chosen`. O(prefixes times options) gains.
+double bound_cost(const ChoiceProblem& problem, std::span<const std::size_t> chosen);
 
 /// A bound on the value of every choice within the goal, found from choices that begin with a prefix of `chosen`.
 Weight bound_optimum(const ChoiceProblem& problem, std::span<const std::size_t> chosen);

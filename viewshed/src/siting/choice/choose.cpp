@@ -207,7 +207,9 @@ Choice choose(const Demand& demand, const std::vector<SiteOption>& options, Cove
   Attempt best = Attempts(problem, choice.closest).best();
   LeastProof proof;
   if (least) proof = prove_least(problem, best.chosen);
-  if (!least && goal.exact_chosen && goal.swaps && take_best_of_few(problem, best.chosen)) ++best.swaps;
+  const BestOfFew of_few =
+      !least && goal.exact_chosen && goal.swaps ? take_best_of_few(problem, best.chosen) : BestOfFew::kNotTried;
+  if (of_few == BestOfFew::kBetter) ++best.swaps;
   choice.swaps = best.swaps + proof.swaps;
   choice.existing = value_of(problem, {});
   const bool in_greedy_order = choice.swaps == 0 && !goal.budget && !goal.network && !least;
@@ -220,7 +222,10 @@ Choice choose(const Demand& demand, const std::vector<SiteOption>& options, Cove
   }
   std::vector<std::size_t> order;
   for (const ChosenSite& site : choice.chosen) order.push_back(site.option);
-  choice.upper_bound = std::max(choice.value, bound_optimum(problem, order));
+  choice.cost = problem.cost_of(order);
+  if (goal.wanted && choice.value >= *goal.wanted)
+    choice.least_cost = std::min(choice.cost, bound_cost(problem, order));
+  if (of_few == BestOfFew::kNotTried) choice.upper_bound = std::max(choice.value, bound_optimum(problem, order));
   return choice;
 }
 

@@ -8,6 +8,7 @@
 
 #include "workflows/siting/joint_coverage.hpp"
 #include "workflows/siting/plan_checks.hpp"
+#include "workflows/siting/point_results.hpp"
 #include "workflows/siting/request_rules.hpp"
 #include "workflows/siting/site_inputs.hpp"
 #include "workflows/siting/site_network.hpp"
@@ -160,6 +161,7 @@ class SitePlanner {
     plan_.undecided = plan_.heights ? undecided_heights() : undecided_demand(coverage, joint);
     plan_.shares = demand_shares(request, inputs, joint);
     if (request.demand.premises) tell_premises(joint);
+    if (tells_points(request)) plan_.points = point_results(store_, request, inputs, plan_.choice, joint, progress_);
     plan_.rasters = site_rasters(
         store_, request, inputs, plan_.choice,
         inputs.targets.grid ? joint

@@ -21,6 +21,11 @@ inline OpenTargets open_targets(const SitePlanRequest& request) {
   return request.turbines ? OpenTargets::kServed : OpenTargets::kUnserved;
 }
 
+/// Tells whether there is a result for each point of the demand: where masts serve points.
+inline bool tells_points(const SitePlanRequest& request) {
+  return request.demand.points && !request.turbines;
+}
+
 /// Tells whether distances between chosen sites matter.
 inline bool has_spacing(const SitePlanRequest& request) {
   return request.min_spacing || (request.turbines && request.turbines->spacing);

@@ -18,12 +18,13 @@ namespace {
 /// A point to serve.
 struct PointToServe {
   Point2 position;
-  double weight, height;
+  double height;
+  DemandPoint known;
 };
 
 /// Tells why a point cannot be served; nothing where it may be.
 const char* wrong_with(const PointToServe& point, bool radio) {
-  if (!(point.weight >= 0)) return "its weight is missing or negative";
+  if (!(point.known.weight >= 0)) return "its weight is missing or negative";
   if (point.height < 0) return "its height is negative";
   return point.height == 0 && radio ? "its height is 0: no link to the ground is clear" : nullptr;
 }
@@ -109,7 +110,8 @@ class DemandOfPlan {
     for (const PointToServe& point : points) {
       inputs_.targets.points.push_back(point.position);
       if (own_heights) inputs_.targets.heights.push_back(point.height);
-      weights.push_back(point.weight);
+      weights.push_back(point.known.weight);
+      inputs_.points.push_back(point.known);
     }
     inputs_.demand = Demand(weights);
     inputs_.total = inputs_.demand.total();
@@ -125,8 +127,11 @@ class DemandOfPlan {
     const std::vector<std::string>& left_out = given_.points->left_out;
     inputs_.left_out.insert(inputs_.left_out.end(), left_out.begin(), left_out.end());
     std::vector<PointToServe> points;
-    for (const SitePlace& place : given_.points->places) {
-      points.push_back({place.position, place.weight, place.height.value_or(given_.height)});
+    for (std::size_t i = 0; i < given_.points->places.size(); ++i) {
+      const SitePlace& place = given_.points->places[i];
+      points.push_back({place.position,
+                        place.height.value_or(given_.height),
+                        {place.name.empty() ? std::to_string(i) : place.name, i, place.weight}});
       if (const char* const wrong = wrong_with(points.back(), request_.frequency_ghz.has_value())) {
         inputs_.left_out.push_back(name_of(*given_.points, "demand", place) + ": " + wrong);
         points.pop_back();

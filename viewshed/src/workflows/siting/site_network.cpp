@@ -2,40 +2,13 @@
 
 #include <utility>
 
-#include <itin/cross_section.hpp>
 #include <itin/memory_shares.hpp>
 #include <itin/parallel.hpp>
-#include <profile/los.hpp>
 #include <viewshed/site_links.hpp>
 
+#include "workflows/siting/link_judge.hpp"
+
 namespace itin::viewshed {
-
-namespace {
-
-/// Judges many links one after another, keeping the tiles of the surface that were triangulated.
-class LinkJudge {
- public:
-  LinkJudge(const Store& store, LinkRules rules, const SectionSurface::Options& cache)
-      : rules_(std::move(rules)), surface_(store, rules_.query.detail, rules_.query.themes, cache) {
-    if (rules_.query.themes.includes_raised(store.metadata().themes))
-      ground_.emplace(store, rules_.query.detail, ThemeChoice::none(), cache);
-  }
-
-  bool linked(const SitePosition& a, const SitePosition& b) const {
-    const profile::LosQuery query = los_query(link_between(a, b), rules_.query);
-    profile::Profile ground;
-    if (ground_) ground = profile::from_section(ground_->between(a.position, b.position));
-    const profile::Profile line = profile::from_section(surface_.between(a.position, b.position));
-    return rules_.met_by(profile::judge(line, query, ground));
-  }
-
- private:
-  LinkRules rules_;
-  SectionSurface surface_;
-  std::optional<SectionSurface> ground_;  ///< under the raised features
-};
-
-}  // namespace
 
 LinkRules link_rules(const SitePlanRequest& request) {
   LinkRules rules{{.earth = request.earth,

@@ -1,6 +1,7 @@
 #include "workflows/zone/study_document.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include <fmt/format.h>
 
@@ -10,11 +11,26 @@
 #include <viewshed/zone_files.hpp>
 #include <viewshed/zone_study_document.hpp>
 
+#include "turbines/proposal.hpp"
 #include "workflows/zone/study_radio.hpp"
 
 namespace itin::viewshed {
 
 namespace {
+
+/// The area from which the proposal is seen, and how much of it sees no other turbine.
+Document proposal_areas(const Zone& zone, const Visibility& v) {
+  std::array<std::uint64_t, kAdditions.size()> cells{};
+  for (const std::uint8_t c : additions(zone, v))
+    if (c != kNoAddition) ++cells[c];
+  const auto km2 = [&](Addition a) {
+    return static_cast<double>(cells[static_cast<std::size_t>(a)]) * zone.grid.cell_area() / 1e6;
+  };
+  using enum Addition;
+  return {{"proposal_seen", km2(kBoth) + km2(kProposalAlone)},
+          {"others_seen", km2(kBoth) + km2(kOthersAlone)},
+          {"additional", km2(kProposalAlone)}};
+}
 
 Document areas_of(const Zone& zone, const Visibility& v) {
   std::uint64_t hubs = 0, tips = 0, all = 0;
@@ -27,6 +43,7 @@ Document areas_of(const Zone& zone, const Visibility& v) {
   const bool hubs_known = known_hubs(zone) > 0;
   if (hubs_known) areas["any_hub_seen"] = km2(hubs);
   const UndecidedArea of_tips = undecided_area(zone, v.tip_count, v.tip_undecided);
+  if (has_proposal(zone.request)) areas["proposal"] = proposal_areas(zone, v);
   areas.update({{"any_tip_undecided", of_tips.any_m2 / 1e6}, {"more_tips_undecided", of_tips.more_m2 / 1e6}});
   if (!hubs_known) return areas;
   const UndecidedArea of_hubs = undecided_area(zone, v.hub_count, v.hub_undecided);

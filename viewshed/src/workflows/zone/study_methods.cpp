@@ -17,6 +17,7 @@
 #include <viewshed/undecided_area.hpp>
 #include <viewshed/zone_files.hpp>
 
+#include "turbines/proposal.hpp"
 #include "workflows/zone/study_document.hpp"
 #include "workflows/zone/study_radio.hpp"
 
@@ -176,6 +177,21 @@ std::string missing_in_words(const ZoneStudy& study, const std::string& decides)
       missing.text(), missing.study_m2() / 1e6, crossings_in_words(study.zone, decides));
 }
 
+std::string proposal_in_words(const ZoneRequest& request) {
+  std::size_t consented = 0, existing = 0;
+  for (const Turbine& t : request.turbines) {
+    consented += t.status == TurbineStatus::kConsented;
+    existing += t.status == TurbineStatus::kExisting;
+  }
+  return fmt::format(
+      "The proposal is {}; {} consented and {} existing turbines are assessed with it. The study area is that of the "
+      "proposal alone. Within it, `tip-count.tif` and the other rasters are cumulative: they count all turbines. "
+      "`proposal-tip-count.tif` counts the proposed ones, and `additional.tif` tells where tips of the proposal are "
+      "seen "
+      "and those of no other turbine: the additional area.",
+      counted(proposed_turbines(request), "turbine"), consented, existing);
+}
+
 std::string radius_in_words(const ZoneStudy& study) {
   if (study.request.turbines.radius) return radius_text(*study.request.turbines.radius);
   const auto& turbines = study.zone.request.turbines;
@@ -221,6 +237,7 @@ std::string methods_text(const ZoneStudy& study, const ZoneStudyFileOptions& opt
             radius_in_words(study) +
                 " Distances are horizontal; beyond its own distance a turbine is not counted on maps and in "
                 "areas. Tables and sheets of viewpoints and routes count every turbine, however far it is.");
+  if (has_proposal(request)) paragraph("Cumulative assessment", proposal_in_words(request));
   paragraph("Ground without data", missing_in_words(study, options.decides_missing_ground));
   paragraph("Curvature and refraction", refraction_in_words(request.earth));
   paragraph(

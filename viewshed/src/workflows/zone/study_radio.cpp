@@ -33,13 +33,6 @@ std::vector<RadioLink> radio_links(const profile::LinkTable& table) {
   return links;
 }
 
-LinkStudy exclusion_of(const ZoneStudy& study) {
-  LinkStudy links{radio_links(study.request.links), study.request.frequency_ghz, 0};
-  for (const Turbine& t : study.zone.request.turbines)
-    links.rotor_radius_m = std::max(links.rotor_radius_m, t.rotor_diameter.value_or(0) / 2);
-  return links;
-}
-
 bool has_links(const ZoneStudy& study) {
   return !study.request.links.links.empty();
 }
@@ -83,6 +76,13 @@ std::string link_methods(const ZoneStudy& study) {
 }
 
 }  // namespace
+
+LinkStudy exclusion_of(const ZoneStudy& study) {
+  LinkStudy links{radio_links(study.request.links), study.request.frequency_ghz, 0};
+  for (const Turbine& t : study.zone.request.turbines)
+    links.rotor_radius_m = std::max(links.rotor_radius_m, t.rotor_diameter.value_or(0) / 2);
+  return links;
+}
 
 void require_links(const ZoneStudyRequest& request) {
   const profile::LinkTable& table = request.links;

@@ -13,6 +13,9 @@
 
 namespace itin::viewshed {
 
+/// Returns the study's radio links, with the radius of the greatest rotor; without links where there are none.
+LinkStudy exclusion_of(const ZoneStudy& study);
+
 /// Throws InputError where none of the links can be used, or they have no frequency.
 void require_links(const ZoneStudyRequest& request);
 

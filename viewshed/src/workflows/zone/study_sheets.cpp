@@ -29,23 +29,22 @@ constexpr Rgba kRing{70, 70, 70, 255}, kStudyArea{20, 20, 20, 255}, kViewpoint{2
 constexpr std::size_t kMostFarmColours = 8;
 
 /// Returns the least distance of `p` beyond the radius of a turbine, metres: not above 0 in the study area.
-double beyond_study_area(const Zone& zone, Point2 p) {
+double beyond_study_area(const std::vector<Turbine>& turbines, Point2 p) {
   double least = std::numeric_limits<double>::infinity();
-  for (const Turbine& t : zone.request.turbines)
+  for (const Turbine& t : turbines)
     least = std::min(least, std::hypot(t.position.x - p.x, t.position.y - p.y) - t.radius);
   return least;
 }
 
-double nearest_turbine(const Zone& zone, Point2 p) {
+double nearest_turbine(const std::vector<Turbine>& turbines, Point2 p) {
   double least = std::numeric_limits<double>::infinity();
-  for (const Turbine& t : zone.request.turbines)
-    least = std::min(least, std::hypot(t.position.x - p.x, t.position.y - p.y));
+  for (const Turbine& t : turbines) least = std::min(least, std::hypot(t.position.x - p.x, t.position.y - p.y));
   return least;
 }
 
-Box study_area(const Zone& zone) {
+Box study_area(const std::vector<Turbine>& turbines) {
   Box box;
-  for (const Turbine& t : zone.request.turbines) {
+  for (const Turbine& t : turbines) {
     box.extend(Point2{t.position.x - t.radius, t.position.y - t.radius});
     box.extend(Point2{t.position.x + t.radius, t.position.y + t.radius});
   }
@@ -84,25 +83,6 @@ struct PlaneField {
 /// ones.
 double ring_step(double farthest) {
   return farthest <= 7500 ? 1000 : farthest <= 50000 ? 5000 : 10000;
-}
-
-/// Returns the study area's edge, and rings of distance within it.
-MapObjects distance_objects(const Zone& zone) {
-  const Box box = study_area(zone);
-  double farthest = 0;
-  for (const Turbine& t : zone.request.turbines) farthest = std::max(farthest, t.radius);
-  const double step = ring_step(farthest);
-  profile::SheetLines rings{{}, kRing, 0.15, false}, edge{{}, kStudyArea, 0.4, true};
-  const PlaneField distance(box, [&](Point2 p) { return nearest_turbine(zone, p); });
-  for (double at = step; at < farthest; at += step) distance.add_lines(at, fmt::format("{:g} km", at / 1000), rings);
-  PlaneField(box, [&](Point2 p) { return beyond_study_area(zone, p); }).add_lines(0, "", edge);
-  MapObjects objects{{}, {{SheetKey::Sample::kDashes, {kStudyArea}, "Study area"}}};
-  // There are no rings where all radii are shorter than the first ring.
-  if (!rings.lines.empty())
-    objects.keys.push_back(
-        {SheetKey::Sample::kLine, {kRing}, fmt::format("Distance to the nearest turbine, every {:g} km", step / 1000)});
-  objects.layers = {std::move(rings), std::move(edge)};
-  return objects;
 }
 
 Rgba farm_colour(std::size_t farm) {
@@ -225,10 +205,11 @@ std::string hub_heights_in_words(const Zone& zone) {
 
 std::string radii_in_words(const Zone& zone) {
   double least = std::numeric_limits<double>::infinity(), most = 0;
-  for (const Turbine& t : zone.request.turbines) least = std::min(least, t.radius), most = std::max(most, t.radius);
-  return least == most
-             ? fmt::format("within {:g} km of each turbine", most / 1000)
-             : fmt::format("within {:g} to {:g} km of each turbine, by its height", least / 1000, most / 1000);
+  for (const Turbine& t : turbines_of_study_area(zone.request))
+    least = std::min(least, t.radius), most = std::max(most, t.radius);
+  const char* const each = has_proposal(zone.request) ? "each proposed turbine" : "each turbine";
+  return least == most ? fmt::format("within {:g} km of {}", most / 1000, each)
+                       : fmt::format("within {:g} to {:g} km of {}, by its height", least / 1000, most / 1000, each);
 }
 
 profile::TitleBlock title_block(const ZoneStudy& study, const ZoneMap& map) {
@@ -255,19 +236,41 @@ profile::TitleBlock title_block(const ZoneStudy& study, const ZoneMap& map) {
 
 }  // namespace
 
+MapObjects distance_objects(const ZoneRequest& request) {
+  const std::vector<Turbine> turbines = turbines_of_study_area(request);
+  const Box box = study_area(turbines);
+  double farthest = 0;
+  for (const Turbine& t : turbines) farthest = std::max(farthest, t.radius);
+  const double step = ring_step(farthest);
+  profile::SheetLines rings{{}, kRing, 0.15, false}, edge{{}, kStudyArea, 0.4, true};
+  const PlaneField distance(box, [&](Point2 p) { return nearest_turbine(turbines, p); });
+  for (double at = step; at < farthest; at += step) distance.add_lines(at, fmt::format("{:g} km", at / 1000), rings);
+  PlaneField(box, [&](Point2 p) { return beyond_study_area(turbines, p); }).add_lines(0, "", edge);
+  MapObjects objects{{}, {{SheetKey::Sample::kDashes, {kStudyArea}, "Study area"}}};
+  // There are no rings where all radii are shorter than the first ring.
+  if (!rings.lines.empty())
+    objects.keys.push_back({SheetKey::Sample::kLine,
+                            {kRing},
+                            fmt::format("Distance to the nearest {}turbine, every {:g} km",
+                                        has_proposal(request) ? "proposed " : "", step / 1000)});
+  objects.layers = {std::move(rings), std::move(edge)};
+  return objects;
+}
+
 std::vector<ZoneFile> write_study_sheets(const std::string& folder, const Store& store, const ZoneStudy& study,
                                          const profile::SheetChoice& choice, Progress& progress) {
   const Zone& zone = study.zone;
   std::vector<ZoneFile> files;
   const std::vector<ZoneMap> maps = zone_maps(zone);
-  const MapObjects distances = distance_objects(zone);
+  const MapObjects distances = distance_objects(zone.request);
+  const std::vector<Turbine> own = turbines_of_study_area(zone.request);
   const MissingOnSheet missing = missing_on_sheet(places_without_ground(zone), study.missing, "the study area");
   const auto content_of = [&](const ZoneMap& map) {
     return ResultSheet{zone.grid,
-                       study_area(zone),
+                       study_area(own),
                        classes_of(zone, map),
                        map.heading + ", and share of the area that has terrain data",
-                       [&](Point2 p) { return beyond_study_area(zone, p) <= 0; },
+                       [&](Point2 p) { return beyond_study_area(own, p) <= 0; },
                        objects_of(study, distances, shows_hubs(map)),
                        title_block(study, map),
                        missing};

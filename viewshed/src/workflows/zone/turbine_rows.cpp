@@ -46,10 +46,16 @@ std::vector<TableColumn<TurbineRow>> turbine_row_columns(const ZoneStudy& study)
   columns.emplace_back("status", [](const TurbineRow& row) { return row.bad == nullptr ? "used" : "not used"; });
   columns.emplace_back("message", [](const TurbineRow& row) { return row.bad == nullptr ? "" : row.bad->message; });
   add_radio_columns(study, columns);
+  if (has_proposal(study.zone.request)) add("planning_status", planning_word);
   return columns;
 }
 
 }  // namespace
+
+const char* planning_word(const Turbine& turbine) {
+  constexpr const char* kWords[] = {"proposed", "consented", "existing"};
+  return turbine.status ? kWords[static_cast<std::size_t>(*turbine.status)] : "";
+}
 
 std::string turbine_rows(const ZoneStudy& study) {
   return csv_of(turbine_row_columns(study), rows_of_file(study));

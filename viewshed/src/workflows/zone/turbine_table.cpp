@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include <itin/counted.hpp>
 #include <itin/decimal_comma.hpp>
 #include <itin/error.hpp>
 #include <itin/file_digest.hpp>
@@ -21,10 +22,25 @@ namespace itin::viewshed {
 
 namespace {
 
-enum TurbineField : std::size_t { kHub, kRotor, kTip, kFarm, kName };
+enum TurbineField : std::size_t { kHub, kRotor, kTip, kFarm, kName, kStatus };
+
+/// Tells whether a size is written as 0, which databases have where it is not known.
+bool is_zero(const std::optional<std::string>& text) {
+  return text && whole_text_as<double>(with_decimal_point(*text)) == 0.0;
+}
 
 std::optional<double> number_in_row(const char* name, const std::optional<std::string>& text) {
-  return text ? std::optional(parse_height(name, with_decimal_point(*text), NumberRange::kPositive)) : std::nullopt;
+  if (!text || is_zero(text)) return std::nullopt;
+  return parse_height(name, with_decimal_point(*text), NumberRange::kPositive);
+}
+
+void warn_of_zeros(const std::string& file, const std::vector<SiteRow>& rows, std::vector<std::string>& warnings) {
+  const auto zeros = std::count_if(rows.begin(), rows.end(), [](const SiteRow& row) {
+    return is_zero(row.values[kHub]) || is_zero(row.values[kRotor]) || is_zero(row.values[kTip]);
+  });
+  if (zeros == 0) return;
+  warnings.push_back(fmt::format("{}: {} {} a size of 0, which is taken as missing", file,
+                                 counted(static_cast<std::uint64_t>(zeros), "row"), zeros == 1 ? "has" : "have"));
 }
 
 /// Warns of fields that seem to hold a size of turbines, and are not read.
@@ -75,6 +91,43 @@ TurbineSize size_in_row(const SiteRow& row, const TurbineSize& otherwise) {
   return size;
 }
 
+/// Returns the status that a word of planners stands for.
+std::optional<TurbineStatus> status_of(std::string word) {
+  using enum TurbineStatus;
+  static const std::map<std::string, TurbineStatus> kWords{{"proposed", kProposed},
+                                                           {"proposal", kProposed},
+                                                           {"planned", kProposed},
+                                                           {"application", kProposed},
+                                                           {"application submitted", kProposed},
+                                                           {"consented", kConsented},
+                                                           {"approved", kConsented},
+                                                           {"granted", kConsented},
+                                                           {"planning permission granted", kConsented},
+                                                           {"awaiting construction", kConsented},
+                                                           {"under construction", kConsented},
+                                                           {"existing", kExisting},
+                                                           {"built", kExisting},
+                                                           {"operational", kExisting}};
+  std::transform(word.begin(), word.end(), word.begin(), [](unsigned char c) { return std::tolower(c); });
+  const auto known = kWords.find(word);
+  return known == kWords.end() ? std::nullopt : std::optional(known->second);
+}
+
+/// Tells whether the field of status counts: where a call names it, or a row is proposed. Otherwise a field of that
+/// name may mean something else.
+bool tells_status(const TurbineFile& file, const std::vector<SiteRow>& rows) {
+  return file.status_field != TurbineFile().status_field ||
+         std::any_of(rows.begin(), rows.end(), [](const SiteRow& row) {
+           return status_of(row.values[kStatus].value_or("")) == TurbineStatus::kProposed;
+         });
+}
+
+TurbineStatus status_in_row(const SiteRow& row) {
+  const std::string word = row.values[kStatus].value_or("");
+  if (const auto status = status_of(word)) return *status;
+  throw InputError(fmt::format("its status '{}' is not proposed, consented or existing", word));
+}
+
 Turbine turbine_of(const SiteRow& row, std::size_t number, const TurbineFile& file) {
   if (!row.position) throw InputError(row.error);
   const TurbineSize size = size_in_row(row, file.size);
@@ -97,8 +150,10 @@ std::vector<SiteField> fields_of(const TurbineFile& file, const LayerFields& lay
   const std::string name = file.name_field.empty() ? name_field_of(layer).value_or(kNameField) : file.name_field;
   return {field(file.hub_height_field, usual.hub_height_field),
           field(file.rotor_diameter_field, usual.rotor_diameter_field),
-          field(file.tip_height_field, usual.tip_height_field), field(file.farm_field, usual.farm_field),
-          SiteField{name, !file.name_field.empty()}};
+          field(file.tip_height_field, usual.tip_height_field),
+          field(file.farm_field, usual.farm_field),
+          SiteField{name, !file.name_field.empty()},
+          field(file.status_field, usual.status_field)};
 }
 
 }  // namespace
@@ -134,13 +189,17 @@ TurbineTable read_turbines(const TurbineFile& file, const std::string& to_crs) {
   table.path = file.path, table.radius = file.radius;
   const std::vector<SiteRow> rows = read_site_rows(query, fields, to_crs, table.warnings);
   warn_of_likely_sizes(file.path, layer, fields, table.warnings);
+  warn_of_zeros(file.path, rows, table.warnings);
+  const bool with_status = tells_status(file, rows);
   NoProgress quiet;
   table.sha256 = file_sha256(file.path, quiet);
   for (const SiteRow& row : rows) {
     const std::size_t k = ++table.rows;
     table.features.push_back(row.feature), table.places.push_back(row.place);
     try {
-      table.turbines.push_back(turbine_of(row, k, file));
+      Turbine turbine = turbine_of(row, k, file);
+      if (with_status) turbine.status = status_in_row(row);
+      table.turbines.push_back(std::move(turbine));
     } catch (const InputError& error) {
       table.bad.push_back({k, row.feature, row.place, error.what()});
     }

@@ -15,6 +15,7 @@
 #include "workflows/zone/route_files.hpp"
 #include "workflows/zone/study_document.hpp"
 #include "workflows/zone/study_folder.hpp"
+#include "workflows/zone/study_layers.hpp"
 #include "workflows/zone/study_methods.hpp"
 #include "workflows/zone/study_radio.hpp"
 #include "workflows/zone/study_sheets.hpp"
@@ -108,6 +109,10 @@ class StudyWriter {
     if (const std::optional<RadiusRule>& rule = study_.request.turbines.radius)
       add("radius-preset.json", "the radii used, to edit and give by `radius_rule`",
           json_text(radius_document(*rule), 2) + "\n");
+    write_geopackage(folder_ + "/layers.gpkg", study_.metadata.crs_wkt, study_layers(study_), true);
+    files_.push_back({"layers.gpkg",
+                      "turbines, viewpoints, routes, radio links and what they exclude, rings and study area as layers "
+                      "for a GIS, with styles for QGIS"});
     add("methods.md", "how the results were computed, for a chapter on methods", methods_text(study_, options_));
   }
 

@@ -8,7 +8,7 @@
 
 #include "workflows/dwellings/flicker_clock.hpp"
 #include "workflows/dwellings/output/dwelling_classes.hpp"
-#include "workflows/premises/output/vector_styles.hpp"
+#include "files/vector_styles.hpp"
 
 namespace itin::viewshed {
 

@@ -4,7 +4,7 @@
 
 #include <itin/table_columns.hpp>
 
-#include "workflows/premises/output/vector_styles.hpp"
+#include "files/vector_styles.hpp"
 #include "workflows/premises/output/wall_service.hpp"
 
 namespace itin::viewshed {

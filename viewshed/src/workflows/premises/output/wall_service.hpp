@@ -8,13 +8,9 @@
 #include <itin/raster.hpp>
 #include <viewshed/premises.hpp>
 
-namespace itin::viewshed {
+#include "files/vector_styles.hpp"
 
-struct ServiceClass {
-  const char* name;  ///< in tables and layers
-  const char* text;  ///< in legends
-  Rgba colour;
-};
+namespace itin::viewshed {
 
 /// The classes of walls.
 enum class WallService : std::uint8_t { kLow, kHigh, kUndecided, kUnserved };

@@ -3,7 +3,9 @@
 #include <viewshed/site_document.hpp>
 
 #include "workflows/siting/output/link_tables.hpp"
+#include "workflows/siting/output/point_tables.hpp"
 #include "workflows/siting/output/site_tables.hpp"
+#include "workflows/siting/request_rules.hpp"
 
 namespace itin::viewshed {
 
@@ -36,6 +38,8 @@ Document site_document(const SitePlan& r, const StoreMetadata& metadata) {
     document["upper_bound"] = r.in_metric(r.choice.upper_bound);
   }
   document["gap_percent"] = gap_percent(r.choice);
+  if (r.request.share || r.request.budget) document["cost"] = r.choice.cost;
+  if (r.choice.least_cost) document["least_cost"] = *r.choice.least_cost;
   document["demand"] = r.inputs.demand.in_metric(r.inputs.total);
   if (!r.request.sums_heights()) {
     document[turbines ? "seen_percent" : "served_percent"] = r.served_percent();
@@ -43,6 +47,7 @@ Document site_document(const SitePlan& r, const StoreMetadata& metadata) {
   }
   if (r.leaves_open) document["undecided"] = undecided_of(r);
   if (r.premises) document["premises"] = counts_document(r.premises->counts());
+  if (tells_points(r.request)) document["demand_points"] = points_document(r);
   document["chosen"] = chosen_document(r);
   document["candidates"] = r.inputs.candidates.size();
   document["options"] = r.inputs.options.size();

@@ -80,6 +80,7 @@ std::vector<SiteMap> site_maps(const Store& store, const SitePlan& r, Progress& 
   options.title = fmt::format("{} {}", wording.by, counted(r.choice.chosen.size(), wording.one));
   if (r.inputs.existing() > 0) options.title += fmt::format(" and {} existing", r.inputs.existing());
   options.subtitle = subtitle_of_plan(r.request);
+  options.dots = dots_of_points(r);
   std::vector<SiteMap> maps{{"coverage", result, options, missing}};
   result.request.mode = Mode::kCount;
   result.values = Counts{r.rasters.redundancy};

@@ -18,7 +18,9 @@
 #include "workflows/premises/output/premises_map.hpp"
 #include "workflows/premises/output/premises_tables.hpp"
 #include "workflows/siting/output/link_tables.hpp"
+#include "workflows/siting/output/point_tables.hpp"
 #include "workflows/siting/output/site_tables.hpp"
+#include "workflows/siting/request_rules.hpp"
 
 namespace itin::viewshed {
 
@@ -108,6 +110,7 @@ void write_tables(const std::string& folder, const SitePlan& plan, bool overwrit
   } else {
     write_file(within(folder, "links.csv"), links_csv(plan), overwrite);
     if (plan.request.hub) write_file(within(folder, "routes.csv"), routes_csv(plan), overwrite);
+    if (tells_points(plan.request)) write_file(within(folder, "demand.csv"), points_csv(plan), overwrite);
   }
 }
 
@@ -117,6 +120,7 @@ void write_layers(const std::string& folder, const SitePlan& plan, bool overwrit
     write_geopackage(within(folder, "turbines.gpkg"), plan.crs_wkt, {turbines_layer(plan)}, overwrite);
   } else {
     layers.push_back(links_layer(plan));
+    if (tells_points(plan.request)) layers.push_back(points_layer(plan));
   }
   write_geopackage(within(folder, "sites.gpkg"), plan.crs_wkt, layers, overwrite);
 }
@@ -171,6 +175,9 @@ std::vector<PlanFile> site_plan_files(const std::string& folder, const SitePlanR
     files.push_back({"premises.gpkg", "walls, buildings and their links to sites for a GIS, with styles for QGIS"});
     files.push_back({"premises.png", "map of walls and buildings by how they are served"});
   }
+  if (tells_points(request))
+    files.push_back(
+        {"demand.csv", "a row for each point of the demand: how it is served, by which site, and its line"});
   if (request.hub) files.push_back({"routes.csv", "the route of every site to the hub, hop by hop"});
   for (PlanFile& file : files) file.path = within(folder, file.path);
   return files;

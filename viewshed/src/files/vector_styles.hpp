@@ -6,9 +6,15 @@
 #include <span>
 #include <string>
 
-#include "workflows/premises/output/wall_service.hpp"
+#include <itin/raster.hpp>
 
 namespace itin::viewshed {
+
+struct ServiceClass {
+  const char* name;  ///< in tables and layers
+  const char* text;  ///< in legends
+  Rgba colour;
+};
 
 std::string line_style(const std::string& field, std::span<const ServiceClass> classes, double width_mm);
 std::string point_style(const std::string& field, std::span<const ServiceClass> classes);

@@ -1,4 +1,4 @@
-#include "workflows/premises/output/vector_styles.hpp"
+#include "files/vector_styles.hpp"
 
 #include <fmt/format.h>
 

@@ -1,0 +1,73 @@
+#include "turbines/proposal.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace itin::viewshed {
+
+namespace {
+
+bool is_proposed(const Turbine& turbine) {
+  return turbine.status == TurbineStatus::kProposed;
+}
+
+/// The words of Visibility::turbines in which the proposed turbines have their bits.
+std::vector<std::uint32_t> bits_of_proposal(const Zone& zone) {
+  std::vector<std::uint32_t> words(zone.words);
+  for (const Turbine& t : zone.request.turbines)
+    if (is_proposed(t)) words[turbine_bit(t.number).grid] |= turbine_bit(t.number).mask;
+  return words;
+}
+
+}  // namespace
+
+bool has_proposal(const ZoneRequest& request) {
+  const std::size_t proposed = proposed_turbines(request);
+  return proposed > 0 && proposed < request.turbines.size();
+}
+
+std::size_t proposed_turbines(const ZoneRequest& request) {
+  return static_cast<std::size_t>(std::count_if(request.turbines.begin(), request.turbines.end(), is_proposed));
+}
+
+std::vector<Turbine> turbines_of_study_area(const ZoneRequest& request) {
+  std::vector<Turbine> turbines = request.turbines;
+  if (has_proposal(request)) std::erase_if(turbines, [](const Turbine& t) { return !is_proposed(t); });
+  return turbines;
+}
+
+bool in_study_area(const ZoneRequest& request, Point2 place) {
+  const bool of_proposal = has_proposal(request);
+  return std::any_of(request.turbines.begin(), request.turbines.end(), [&](const Turbine& t) {
+    const double dx = t.position.x - place.x, dy = t.position.y - place.y;
+    return (!of_proposal || is_proposed(t)) && dx * dx + dy * dy <= t.radius * t.radius;
+  });
+}
+
+std::vector<std::uint16_t> proposed_tips(const Zone& zone, const Visibility& visibility) {
+  const std::vector<std::uint32_t> own = bits_of_proposal(zone);
+  std::vector<std::uint16_t> tips(visibility.tip_count.size(), kCountOutside);
+  for (std::size_t cell = 0; cell < tips.size(); ++cell) {
+    if (visibility.tip_count[cell] == kCountOutside) continue;
+    tips[cell] = 0;
+    for (std::size_t w = 0; w < zone.words; ++w)
+      tips[cell] += static_cast<std::uint16_t>(std::popcount(visibility.turbines[w * tips.size() + cell] & own[w]));
+  }
+  return tips;
+}
+
+std::vector<std::uint8_t> additions(const Zone& zone, const Visibility& visibility) {
+  const std::vector<std::uint16_t> own = proposed_tips(zone, visibility);
+  std::vector<std::uint8_t> classes(own.size(), kNoAddition);
+  for (std::size_t cell = 0; cell < classes.size(); ++cell) {
+    if (own[cell] == kCountOutside) continue;
+    const bool others = visibility.tip_count[cell] > own[cell];
+    const Addition seen = own[cell] > 0 ? (others ? Addition::kBoth : Addition::kProposalAlone)
+                                        : (others ? Addition::kOthersAlone : Addition::kNone);
+    classes[cell] = static_cast<std::uint8_t>(seen);
+  }
+  return classes;
+}
+
+}  // namespace itin::viewshed

@@ -1,0 +1,37 @@
+// A proposed wind farm among consented and existing ones: what of the zone is its own, and what it adds.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include <itin/raster.hpp>
+#include <viewshed/turbines.hpp>
+
+namespace itin::viewshed {
+
+/// Returns the number of proposed turbines.
+std::size_t proposed_turbines(const ZoneRequest& request);
+
+/// Tells whether a place lies within the study area: within the radius of a turbine, or, of a request with a proposal,
+/// of a proposed one.
+bool in_study_area(const ZoneRequest& request, Point2 place);
+
+/// Returns how many tips of proposed turbines are seen; kCountOutside outside.
+std::vector<std::uint16_t> proposed_tips(const Zone& zone, const Visibility& visibility);
+
+/// What of a proposal and of the others has a tip seen from a cell.
+enum class Addition : std::uint8_t { kNone, kOthersAlone, kBoth, kProposalAlone };
+inline constexpr std::uint8_t kNoAddition = 255;  ///< outside
+struct AdditionClass {
+  const char* text;
+  Rgba colour;
+};
+inline constexpr std::array<AdditionClass, 4> kAdditions{{{"none", kTransparent},
+                                                          {"consented or existing turbines alone", {86, 180, 233}},
+                                                          {"the proposal and others", {204, 121, 167}},
+                                                          {"the proposal alone: additional area", {213, 94, 0}}}};
+/// Returns an Addition, or kNoAddition, for each cell.
+std::vector<std::uint8_t> additions(const Zone& zone, const Visibility& visibility);
+
+}  // namespace itin::viewshed

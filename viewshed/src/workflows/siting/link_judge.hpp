@@ -1,0 +1,34 @@
+// Judges many lines over one surface one after another, keeping the tiles of it that were triangulated.
+//
+//   const LinkJudge judge(store, link_rules(request), section_cache_within(request.memory_bytes));
+//   if (judge.linked(a, b)) ...
+#pragma once
+
+#include <optional>
+
+#include <itin/cross_section.hpp>
+#include <itin/store.hpp>
+#include <profile/los.hpp>
+#include <viewshed/site_links.hpp>
+
+namespace itin::viewshed {
+
+class LinkJudge {
+ public:
+  /// The judge refers to the store.
+  LinkJudge(const Store& store, LinkRules rules, const SectionSurface::Options& cache);
+
+  /// Judges the line as `itin los` does. May be called from several threads. Throws InputError where an end has no
+  /// ground.
+  profile::LineFindings found(const SitePosition& from, const SitePosition& to) const;
+  /// Tells whether the line meets the rules.
+  bool linked(const SitePosition& from, const SitePosition& to) const { return rules_.met_by(found(from, to)); }
+  const LinkRules& rules() const { return rules_; }
+
+ private:
+  LinkRules rules_;
+  SectionSurface surface_;
+  std::optional<SectionSurface> ground_;  ///< under the raised features
+};
+
+}  // namespace itin::viewshed

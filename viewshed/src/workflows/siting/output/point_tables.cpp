@@ -1,0 +1,109 @@
+#include "workflows/siting/output/point_tables.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+#include <tuple>
+#include <utility>
+
+#include <itin/table_columns.hpp>
+#include <viewshed/site_maps.hpp>
+#include <viewshed/site_wording.hpp>
+
+#include "files/vector_styles.hpp"
+
+namespace itin::viewshed {
+
+namespace {
+
+/// The classes of PointService, in its order.
+constexpr std::array<ServiceClass, 7> kPointServices{{{"served", "Point served", {0, 114, 178}},
+                                                      {"too few", "Point served by too few sites", {86, 180, 233}},
+                                                      {"undecided", "Point undecided", {140, 140, 140}},
+                                                      {"zone cut", "Point in sight, Fresnel zone cut", {230, 159, 0}},
+                                                      {"hidden", "Point hidden from all sites", {150, 30, 30}},
+                                                      {"out of reach", "Point beyond the radius", {205, 205, 205}},
+                                                      {"no ground", "Point without ground data", {40, 40, 40}}}};
+
+using PointColumns = std::vector<TableColumn<PointResult>>;
+
+/// Adds what is known of the line to a site; empty where there is none.
+template <class Of>
+void add_of_line(PointColumns& columns, const char* name, Of of, const char* number) {
+  columns.emplace_back(
+      name, [of](const PointResult& p) { return p.line ? std::optional(of(*p.line)) : std::nullopt; }, kInAllFormats,
+      number);
+}
+
+PointColumns point_columns(const SitePlan& r) {
+  PointColumns columns{
+      {"id", [](const PointResult& p) { return p.point.name; }},
+      {"x", [](const PointResult& p) { return p.place.position.x; }, kInCsv, "{:.3f}"},
+      {"y", [](const PointResult& p) { return p.place.position.y; }, kInCsv, "{:.3f}"},
+      {"height_m", [](const PointResult& p) { return p.place.height; }},
+      {"weight", [](const PointResult& p) { return p.point.weight; }},
+      {"service", [](const PointResult& p) { return name_of(p.service); }},
+      {"site", [&r](const PointResult& p) { return p.line ? r.network.ends[p.line->site].place.name : ""; }},
+      {"sites_serving", [](const PointResult& p) { return p.serving; }}};
+  add_of_line(
+      columns, "distance_m", [](const ServingLine& line) { return line.distance_m; }, "{:.3f}");
+  add_of_line(
+      columns, "tightest_clearance_m", [](const ServingLine& line) { return line.tightest_clearance_m; }, "{:.3f}");
+  add_of_line(
+      columns, "fresnel_fraction", [](const ServingLine& line) { return line.fresnel_fraction; }, "{:.4f}");
+  add_of_line(
+      columns, "tightest_m", [](const ServingLine& line) { return line.tightest_m; }, "{:.3f}");
+  return columns;
+}
+
+}  // namespace
+
+const char* name_of(PointService service) {
+  return kPointServices[static_cast<std::size_t>(service)].name;
+}
+
+std::string points_csv(const SitePlan& r) {
+  return csv_of(point_columns(r), r.points);
+}
+
+VectorLayer points_layer(const SitePlan& r) {
+  VectorLayer layer =
+      layer_of("demand", VectorLayer::Shape::kPoints, point_columns(r), r.points, [](const PointResult& p) {
+        return std::vector<Point3>{{p.place.position.x, p.place.position.y, p.place.ground}};
+      });
+  layer.style = point_style("service", kPointServices);
+  return layer;
+}
+
+Document points_document(const SitePlan& r) {
+  std::array<std::size_t, kPointServices.size()> counts{};
+  for (const PointResult& p : r.points) ++counts[static_cast<std::size_t>(p.service)];
+  Document document = Document::object();
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    std::string name = kPointServices[i].name;
+    std::replace(name.begin(), name.end(), ' ', '_');
+    document[name] = counts[i];
+  }
+  return document;
+}
+
+std::vector<MapDots> dots_of_points(const SitePlan& r) {
+  constexpr double kDotsAcross = 200;  // dots along the map's longer side
+  const Box box = r.rasters.grid.bounds();
+  const double side = std::max(box.width(), box.height()) / kDotsAcross;
+  std::array<MapDots, kPointServices.size()> dots;
+  std::set<std::tuple<std::int64_t, std::int64_t, PointService>> taken;
+  for (const PointResult& p : r.points) {
+    const Point2 at = p.place.position;
+    if (!taken.emplace(std::llround(at.x / side), std::llround(at.y / side), p.service).second) continue;
+    dots[static_cast<std::size_t>(p.service)].places.push_back(at);
+  }
+  std::vector<MapDots> all;
+  for (std::size_t i = 0; i < dots.size(); ++i)
+    if (!dots[i].places.empty())
+      all.push_back({kPointServices[i].text, kPointServices[i].colour, std::move(dots[i].places)});
+  return all;
+}
+
+}  // namespace itin::viewshed
