@@ -20,7 +20,7 @@ const std::set<std::string> kInputs = {
     "STORE",      "SOURCE",          "--profile-csv", "--links",      "--observers",   "--horizon-targets",
     "--path",     "--route",         "--params",      "--candidates", "--search-area", "--demand",
     "--existing", "--radius-preset", "--like",        "--turbines",   "--viewpoints",  "--forbidden",
-    "--polygon",  "--sea-area",      "--basemap",     "--dwellings",  "--masts"};
+    "--polygon",  "--sea-area",      "--basemap",     "--dwellings",  "--masts",       "--months"};
 
 struct FileOption {
   std::string name;

@@ -94,8 +94,7 @@ void add_store(Text& text, const StoreMetadata& store) {
   for (const LevelInfo& level : store.levels)
     text.add(level.tolerance, level.lateral_tolerance, level.vertices, level.certified_error.lo,
              level.certified_error.hi);
-  for (const SourceInfo& source : store.sources)
-    text.add(source.path, source.theme, source.sha256, source.vertices);
+  for (const SourceInfo& source : store.sources) text.add(source.path, source.theme, source.sha256, source.vertices);
   for (const ThemeInfo& theme : store.themes) text.add(theme.name, theme.features, theme.vertices, theme.segments);
 }
 

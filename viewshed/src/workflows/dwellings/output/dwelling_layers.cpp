@@ -8,7 +8,7 @@ namespace itin::viewshed {
 
 namespace {
 
-VectorLayer layer_of_turbines(const DwellingsSurvey& survey) {
+VectorLayer turbines_of_survey(const DwellingsSurvey& survey) {
   const std::vector<TableColumn<Turbine>> columns{
       {"turbine", [](const Turbine& t) { return t.number; }},
       {"name", [](const Turbine& t) { return t.name; }},
@@ -26,7 +26,7 @@ VectorLayer layer_of_turbines(const DwellingsSurvey& survey) {
 }  // namespace
 
 std::vector<VectorLayer> dwelling_layers(const DwellingsSurvey& survey) {
-  return {layer_of_dwellings(survey), layer_of_facades(survey), layer_of_turbines(survey)};
+  return {layer_of_dwellings(survey), layer_of_facades(survey), turbines_of_survey(survey)};
 }
 
 }  // namespace itin::viewshed

@@ -6,9 +6,9 @@
 #include <itin/calendar_day.hpp>
 #include <itin/table_columns.hpp>
 
+#include "files/vector_styles.hpp"
 #include "workflows/dwellings/flicker_clock.hpp"
 #include "workflows/dwellings/output/dwelling_classes.hpp"
-#include "files/vector_styles.hpp"
 
 namespace itin::viewshed {
 
