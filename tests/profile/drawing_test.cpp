@@ -47,5 +47,20 @@ TEST(Drawing, KeepsACharacterInEveryLine) {
   EXPECT_EQ(drawing.lines("abc", 0.1, kPlain), (std::vector<std::string>{"a", "b", "c"}));
 }
 
+/// Returns a picture with letters in all sizes of maps and charts.
+std::string lettered(Drawing::Format format) {
+  Drawing drawing(format, 400, 300);
+  double y = 0;
+  for (double size = 5; size < 20; size += 0.5)
+    drawing.text({5, y += 9}, "Caerphilly ST 08 91 (m\u00b2)", {.size = size, .bold = y > 150});
+  return drawing.finish();
+}
+
+TEST(Drawing, HasTheSameBytesWhateverWasDrawnBefore) {
+  const std::string first = lettered(Drawing::Format::kPng);
+  for (const auto format : {Drawing::Format::kSvg, Drawing::Format::kPdf, Drawing::Format::kPixels}) lettered(format);
+  EXPECT_TRUE(lettered(Drawing::Format::kPng) == first);
+}
+
 }  // namespace
 }  // namespace itin::profile

@@ -39,6 +39,17 @@ cairo_surface_t* make_page(Drawing::Format format, double width, double height, 
   return pdf;
 }
 
+/// Leaves letters as they are designed. Hinting fits them to pixels in a way that depends on what the process has drawn
+/// before, so that equal pictures would have different bytes.
+void forbid_hinting(cairo_t* cairo) {
+  cairo_font_options_t* options = cairo_font_options_create();
+  cairo_font_options_set_hint_style(options, CAIRO_HINT_STYLE_NONE);
+  cairo_font_options_set_hint_metrics(options, CAIRO_HINT_METRICS_OFF);
+  cairo_font_options_set_antialias(options, CAIRO_ANTIALIAS_GRAY);
+  cairo_set_font_options(cairo, options);
+  cairo_font_options_destroy(options);
+}
+
 void select_font(cairo_t* cairo, const Lettering& lettering) {
   cairo_select_font_face(cairo, kFont, CAIRO_FONT_SLANT_NORMAL,
                          lettering.bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
@@ -85,6 +96,7 @@ class CairoSurface final : public Surface {
       cairo_set_source_rgb(cairo_, 1, 1, 1);
       cairo_paint(cairo_);
       cairo_scale(cairo_, pixels_per_point, pixels_per_point);
+      forbid_hinting(cairo_);
     }
     cairo_set_line_join(cairo_, CAIRO_LINE_JOIN_ROUND);
   }
