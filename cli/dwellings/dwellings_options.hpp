@@ -38,7 +38,7 @@ class DwellingsOptions {
   void read_places(const StoreMetadata& metadata);
 
   viewshed::DwellingsRequest request_;
-  TurbineOptions turbines_;
+  TurbineOptions turbines_{TurbineOptions::Use::dwellings};
   FlickerOptions flicker_;
   ThemeOptions themes_;
   EarthOptions earth_;

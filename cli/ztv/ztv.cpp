@@ -235,7 +235,7 @@ class ZtvVerb final : public Verb {
 
   std::string store_, output_, cell_text_, like_, observer_text_, bands_text_;
   MemoryOption memory_;
-  TurbineOptions turbines_;
+  TurbineOptions turbines_{TurbineOptions::Use::zone};
   RadiusOptions radius_;
   ViewpointOptions viewpoints_;
   RouteOptions route_;

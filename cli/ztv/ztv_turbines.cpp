@@ -11,12 +11,18 @@
 
 namespace itin::cli {
 
+TurbineOptions::TurbineOptions(Use use) : use_(use) {
+  if (use != Use::zone) file_.status_field.clear();
+}
+
 void TurbineOptions::declare(CLI::App& app) {
   begin_group(app, "Turbines");
+  const std::string bits = use_ == Use::zone ? ". Turbine k has bit k - 1 in turbines.tif" : "";
   reads(app.add_option(
                "--turbines", file_.path,
                "The turbines, from a vector file of points, or CSV with columns x,y or lon,lat. Fields hub_height and "
-               "rotor_diameter, or tip_height; farm; name. Turbine k has bit k - 1 in turbines.tif")
+               "rotor_diameter, or tip_height; farm; name" +
+                   bits)
             ->required()
             ->type_name("FILE"));
   app.add_option("--layer", file_.layer, "The layer of that file")->type_name("NAME");
@@ -31,7 +37,9 @@ void TurbineOptions::declare(CLI::App& app) {
   field("--rotor-diameter-field", file_.rotor_diameter_field, "rotor diameters");
   field("--tip-height-field", file_.tip_height_field, "heights of blade tips");
   field("--farm-field", file_.farm_field, "farms");
-  field("--status-field", file_.status_field,
+  if (use_ == Use::zone)
+    field(
+        "--status-field", file_.status_field,
         "whether each is proposed, consented or existing: with others, the study area is about the proposed ones, and "
         "what they add is told");
   size_.declare(app, "of turbines whose row gives none");
@@ -73,7 +81,7 @@ Document TurbineOptions::parameters() const {
     parameters["rotor_diameter_field"] = file_.rotor_diameter_field;
   if (file_.tip_height_field != usual.tip_height_field) parameters["tip_height_field"] = file_.tip_height_field;
   if (file_.farm_field != usual.farm_field) parameters["farm_field"] = file_.farm_field;
-  if (file_.status_field != usual.status_field) parameters["status_field"] = file_.status_field;
+  if (use_ == Use::zone && file_.status_field != usual.status_field) parameters["status_field"] = file_.status_field;
   text("farm", file_.farm), text("in_crs", in_crs_.crs);
   return parameters;
 }

@@ -14,6 +14,9 @@ namespace itin::cli {
 
 class TurbineOptions {
  public:
+  /// What the turbines are for: a zone tells which of them are proposed, and numbers them in its rasters.
+  enum class Use { zone, dwellings };
+  explicit TurbineOptions(Use use);
   void declare(CLI::App& app);
   /// Checks the options. Throws InputError.
   void validate();
@@ -26,6 +29,7 @@ class TurbineOptions {
   Document parameters() const;
 
  private:
+  Use use_;
   viewshed::TurbineFile file_;
   InCrs in_crs_;
   TurbineSizeOptions size_;  ///< taken for rows that give none

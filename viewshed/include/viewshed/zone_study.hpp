@@ -83,7 +83,7 @@ struct TurbineFile {
   std::string rotor_diameter_field = "rotor_diameter";
   std::string tip_height_field = "tip_height";
   std::string farm_field = "farm";
-  std::string status_field = "status";  ///< proposed, consented or existing, in usual words
+  std::string status_field = "status";  ///< proposed, consented or existing, in usual words; empty: not asked for
   TurbineSize size = {};                ///< taken for turbines whose row leaves it open
   std::string farm = {};                ///< taken for turbines whose row gives none
   RadiusRule radius = {};               ///< gives Turbine::radius

@@ -116,6 +116,7 @@ std::optional<TurbineStatus> status_of(std::string word) {
 /// Tells whether the field of status counts: where a call names it, or a row is proposed. Otherwise a field of that
 /// name may mean something else.
 bool tells_status(const TurbineFile& file, const std::vector<SiteRow>& rows) {
+  if (file.status_field.empty()) return false;
   return file.status_field != TurbineFile().status_field ||
          std::any_of(rows.begin(), rows.end(), [](const SiteRow& row) {
            return status_of(row.values[kStatus].value_or("")) == TurbineStatus::kProposed;
@@ -145,7 +146,7 @@ Turbine turbine_of(const SiteRow& row, std::size_t number, const TurbineFile& fi
 std::vector<SiteField> fields_of(const TurbineFile& file, const LayerFields& layer) {
   const TurbineFile usual;
   const auto field = [](const std::string& name, const std::string& by_default) {
-    return SiteField{name, name != by_default};
+    return SiteField{name, !name.empty() && name != by_default};
   };
   const std::string name = file.name_field.empty() ? name_field_of(layer).value_or(kNameField) : file.name_field;
   return {field(file.hub_height_field, usual.hub_height_field),
