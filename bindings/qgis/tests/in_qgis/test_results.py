@@ -64,7 +64,7 @@ def test_zones_are_a_group_with_styles(qgis: Qgis, cardiff: Path, folder: Path, 
     (group,) = qgis.project.layerTreeRoot().children()
     names = [child.name() for child in group.children()]
     assert "tip-count" in names and "visible-height" in names
-    assert [child.name() for child in group.children() if child.isVisible()] == ["tip-count"]
+    assert [child.name() for child in group.children() if child.isVisible()] == ["turbines", "study_area", "tip-count"]
 
 
 def test_results_may_be_temporary(qgis: Qgis, cardiff: Path, folder: Path) -> None:
