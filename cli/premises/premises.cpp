@@ -8,12 +8,12 @@
 #include <itin/document.hpp>
 #include <itin/store.hpp>
 #include <itin/store_scale.hpp>
+#include <viewshed/documents.hpp>
 #include <viewshed/premises.hpp>
 #include <viewshed/premises_document.hpp>
 
 #include "output/store_document.hpp"
 #include "premises/premises_options.hpp"
-#include "program/field_names.hpp"
 #include "program/verb.hpp"
 
 namespace itin::cli {
@@ -42,7 +42,10 @@ class PremisesVerb final : public Verb {
     warn_of_grid(store.metadata(), result.warnings);
     result.document = viewshed::premises_document(survey);
     viewshed::PremisesFileOptions files;
-    files.manifest = [&](const std::vector<viewshed::PlanFile>& written) { return manifest(written, result); };
+    files.manifest = [&](const std::vector<viewshed::PlanFile>& written) {
+      result.document["outputs"] = viewshed::outputs_document(written);
+      return folder_document(*this, result);
+    };
     files.overwrite = options_.policy.overwrite;
     viewshed::write_premises(options_.directory, store, survey, files, call.step(1));
     call.finish();
@@ -51,19 +54,6 @@ class PremisesVerb final : public Verb {
   }
 
  private:
-  /// Adds the outputs to the result, and returns the document of the folder: without times, so that equal runs write
-  /// equal files.
-  std::string manifest(const std::vector<viewshed::PlanFile>& files, Result& result) const {
-    for (const viewshed::PlanFile& file : files)
-      result.document["outputs"].push_back({{"path", file.path}, {"what", file.what}});
-    std::transform(result.warnings.begin(), result.warnings.end(), result.warnings.begin(), in_options);
-    Document manifest = call_document(*this);
-    manifest.update(result.document);
-    manifest["warnings"] = result.warnings;
-    manifest.erase("statistics");
-    return json_text(manifest, 2) + "\n";
-  }
-
   std::string text(const viewshed::PremisesSurvey& survey) const {
     const viewshed::PremisesCounts counts = survey.counts();
     std::string text = options_.heights_text();

@@ -42,6 +42,10 @@ class Verb {
 
 /// The head of every document: `itin`, and `command` with the verb and its parameters. To be called after execute().
 Document call_document(const Verb& verb);
+/// Returns the text of the document that stays in a folder of outputs: the call and the result without times, so that
+/// equal runs write equal files. Puts the warnings into the words of options, as the program does, but after this. To
+/// be called at the end of execute().
+std::string folder_document(const Verb& verb, Result& result);
 
 std::unique_ptr<Verb> make_import_verb();
 std::unique_ptr<Verb> make_info_verb();

@@ -132,8 +132,7 @@ class SiteVerb final : public Verb {
     warn(store, site, result.warnings);
     result.document = site_document(site, store.metadata());
     if (site.leaves_open) result.document["undecided"]["decided_by"] = kDecidesMissingGround;
-    for (const viewshed::PlanFile& output : outputs_)
-      result.document["outputs"].push_back({{"path", output.path}, {"what", output.what}});
+    result.document["outputs"] = viewshed::outputs_document(outputs_);
     write_site_plan(options_.directory, site, store, progress,
                     {.metadata = {{"itin", ITIN_VERSION}, {"parameters", json_text(parameters())}},
                      .overwrite = policy_.overwrite});

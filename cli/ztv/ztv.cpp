@@ -178,18 +178,11 @@ class ZtvVerb final : public Verb {
     request_.grid_source = "--like " + like_;
   }
 
-  /// Adds the outputs to the result, and returns the document of the folder: without times, so that equal runs write
-  /// equal files.
+  /// Adds the outputs to the result, and returns the document of the folder.
   std::string manifest(const std::vector<ZoneFile>& files, cli::Result& result) const {
     result.document["outputs"] = viewshed::outputs_document(output_, files);
     for (Document& output : result.document["outputs"]) output["what"] = in_options(output["what"].get<std::string>());
-    // The program translates them, too, but only after they are in the document of the folder.
-    std::transform(result.warnings.begin(), result.warnings.end(), result.warnings.begin(), in_options);
-    Document manifest = call_document(*this);
-    manifest.update(result.document);
-    manifest["warnings"] = result.warnings;
-    manifest.erase("statistics");
-    return json_text(manifest, 2) + "\n";
+    return folder_document(*this, result);
   }
 
   /// Puts a document of areas into words.

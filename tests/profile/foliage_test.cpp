@@ -12,12 +12,7 @@
 #include <itin/wood_loss.hpp>
 #include <profile/foliage.hpp>
 
-#include "support/houses.hpp"
-#include "support/raster_file.hpp"
-#include "support/rolling_ground.hpp"
-#include "support/seed.hpp"
-#include "support/temporary_directory.hpp"
-#include "support/vector_file.hpp"
+#include "support/rolling_hill.hpp"
 
 namespace itin::profile {
 namespace {
@@ -74,14 +69,8 @@ TEST(FoliageAlong, IsWhereTheLineIsBelowTheTops) {
 }
 
 /// 60 x 60 posts every 10 m from (300000, 199400), with woods that have leaf areas of their own, and houses.
-class ThroughFoliage : public testing::Test {
+class ThroughFoliage : public test::RollingHill {
  protected:
-  void SetUp() override {
-    test::write_raster(directory_.file("t.tif"), {300000, 200000, 10, 60, 60, 27700}, test::rolling);
-    ImportOptions options;
-    options.sources = {directory_.file("t.tif")};
-    import_terrain(path(), options, progress_);
-  }
   void add_woods(const std::string& theme, int count) {
     std::vector<test::LineFeature> woods;
     for (int i = 0; i < count; ++i) {
@@ -89,20 +78,8 @@ class ThroughFoliage : public testing::Test {
       woods.push_back(test::box(x, y, x + in(10, 90), y + in(10, 90), in(4, 15)));
       woods.back().properties = fmt::format(R"({{"h":{:.2f},"lad":{:.2f}}})", in(4, 15), in(0, 0.02));
     }
-    ImportOptions options;
-    options.attributes = {"lad"};
-    test::import_raised(path(), directory_.file(theme + ".geojson"), ThemeKind::Vegetation, theme, woods, options);
+    import_woods(theme, woods);
   }
-  void add_houses() {
-    std::vector<test::LineFeature> houses;
-    for (int i = 0; i < 15; ++i) {
-      const double x = in(300010, 300560), y = in(199420, 199960);
-      houses.push_back(test::box(x, y, x + in(6, 20), y + in(6, 20), in(3, 9)));
-    }
-    test::import_houses(path(), directory_.file("houses.geojson"), houses);
-  }
-  std::string path() const { return directory_.file("s.itin"); }
-  double in(double low, double high) { return low + (high - low) * static_cast<double>(random_() % 100000) / 100000; }
   StoreLine line() {
     return {.from = {in(300010, 300580), in(199420, 199980)},
             .to = {in(300010, 300580), in(199420, 199980)},
@@ -113,10 +90,6 @@ class ThroughFoliage : public testing::Test {
     query.from_height_m = in(6, 20), query.to_height_m = in(6, 20);
     return query;
   }
-
-  const test::TemporaryDirectory directory_;
-  std::mt19937 random_{test::seed()};
-  NoProgress progress_;
 };
 
 TEST_F(ThroughFoliage, EqualsManySmallSteps) {

@@ -19,12 +19,7 @@
 #include <viewshed/foliage_view.hpp>
 
 #include "line/cell_tiles.hpp"
-#include "support/houses.hpp"
-#include "support/raster_file.hpp"
-#include "support/rolling_ground.hpp"
-#include "support/seed.hpp"
-#include "support/temporary_directory.hpp"
-#include "support/vector_file.hpp"
+#include "support/rolling_hill.hpp"
 
 namespace itin::viewshed {
 namespace {
@@ -34,14 +29,8 @@ using profile::FoliageSight;
 using profile::SightVerdict;
 
 /// 60 x 60 posts every 10 m from (300000, 199400), with woods that have leaf areas of their own, and houses.
-class FoliageViews : public testing::Test {
+class FoliageViews : public test::RollingHill {
  protected:
-  void SetUp() override {
-    test::write_raster(directory_.file("t.tif"), {300000, 200000, 10, 60, 60, 27700}, test::rolling);
-    ImportOptions options;
-    options.sources = {directory_.file("t.tif")};
-    import_terrain(path(), options, progress_);
-  }
   /// Woods of random size on whole metres, so that lines to cells run along their edges, too.
   void add_woods(const std::string& theme, int count, double west = 300010, double east = 300480) {
     std::vector<test::LineFeature> woods;
@@ -50,20 +39,8 @@ class FoliageViews : public testing::Test {
       woods.push_back(test::box(x, y, x + whole(10, 90), y + whole(10, 90), in(4, 15)));
       woods.back().properties = fmt::format(R"({{"h":{:.2f},"lad":{:.2f}}})", in(4, 15), in(0, 0.05));
     }
-    ImportOptions options;
-    options.attributes = {"lad"};
-    test::import_raised(path(), directory_.file(theme + ".geojson"), ThemeKind::Vegetation, theme, woods, options);
+    import_woods(theme, woods);
   }
-  void add_houses() {
-    std::vector<test::LineFeature> houses;
-    for (int i = 0; i < 15; ++i) {
-      const double x = in(300010, 300560), y = in(199420, 199960);
-      houses.push_back(test::box(x, y, x + in(6, 20), y + in(6, 20), in(3, 9)));
-    }
-    test::import_houses(path(), directory_.file("houses.geojson"), houses);
-  }
-  std::string path() const { return directory_.file("s.itin"); }
-  double in(double low, double high) { return low + (high - low) * static_cast<double>(random_() % 100000) / 100000; }
   double whole(double low, double high) { return std::round(in(low, high)); }
 
   Request request(int observers = 1) {
@@ -127,10 +104,6 @@ class FoliageViews : public testing::Test {
     }
     return through;
   }
-
-  const test::TemporaryDirectory directory_;
-  std::mt19937 random_{test::seed()};
-  NoProgress progress_;
 };
 
 TEST_F(FoliageViews, AreWhatLinesOfSightSay) {

@@ -9,22 +9,15 @@
 #include <profile/foliage.hpp>
 #include <viewshed/turbines.hpp>
 
-#include "support/houses.hpp"
-#include "support/raster_file.hpp"
-#include "support/rolling_ground.hpp"
-#include "support/seed.hpp"
-#include "support/temporary_directory.hpp"
+#include "support/rolling_hill.hpp"
 
 namespace itin::viewshed {
 namespace {
 
-class ZoneSeasons : public testing::Test {
+class ZoneSeasons : public test::RollingHill {
  protected:
   void SetUp() override {
-    test::write_raster(directory_.file("t.tif"), {300000, 200000, 10, 60, 60, 27700}, test::rolling);
-    ImportOptions options;
-    options.sources = {directory_.file("t.tif")};
-    import_terrain(path(), options, progress_);
+    RollingHill::SetUp();
     add("woods", ThemeKind::Vegetation, 12, 60, 12);
     request_.turbines = {
         {.number = 1, .position = {300105.5, 199510.5}, .tip_height = 25, .hub_height = 18, .radius = 500},
@@ -41,8 +34,6 @@ class ZoneSeasons : public testing::Test {
     }
     test::import_raised(path(), directory_.file(theme + ".geojson"), kind, theme, features);
   }
-  std::string path() const { return directory_.file("s.itin"); }
-  double in(double low, double high) { return low + (high - low) * static_cast<double>(random_() % 100000) / 100000; }
 
   bool sees(const Store& store, Point2 eye, const Turbine& turbine, double height, double leaf_area) const {
     profile::LosQuery query;
@@ -89,9 +80,6 @@ class ZoneSeasons : public testing::Test {
     EXPECT_GT(between, 10);
   }
 
-  const test::TemporaryDirectory directory_;
-  std::mt19937 random_{test::seed()};
-  NoProgress progress_;
   ZoneRequest request_;
 };
 

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <xxhash.h>
 
+#include <itin/call_progress.hpp>
 #include <itin/parallel.hpp>
 #include <itin/store.hpp>
 
@@ -38,9 +39,9 @@ void add_rows(const StoreRows& rows, BlobKind kind, HashSum& sum, Progress& prog
     progress.throw_if_cancelled();
     const std::size_t first = task * kRowsPerTask, last = std::min(keys.size(), first + kRowsPerTask);
     for (std::size_t i = first; i < last; ++i) {
-      const std::uint64_t seed = kind == BlobKind::Block ? keys[i] : ~keys[i];
-      rows.read(kind, keys[i],
-                [&](StoreRows::Bytes bytes) { sum.add(XXH3_128bits_withSeed(bytes.data(), bytes.size(), seed)); });
+      rows.read(kind, keys[i], [&](StoreRows::Bytes bytes) {
+        sum.add(XXH3_128bits_withSeed(bytes.data(), bytes.size(), row_seed(kind, keys[i])));
+      });
     }
     progress.report("reading", static_cast<double>(done += last - first) / static_cast<double>(keys.size()));
   });
@@ -60,8 +61,10 @@ std::string content_digest(const Store& store, Progress& progress) {
   HashSum sum;
   const std::string metadata = metadata_without_times(rows);
   sum.add(XXH3_128bits(metadata.data(), metadata.size()));
-  add_rows(rows, BlobKind::Directory, sum, progress);
-  add_rows(rows, BlobKind::Block, sum, progress);
+  CallProgress call(progress);
+  add_rows(rows, BlobKind::Directory, sum, call.step(0.1));
+  add_rows(rows, BlobKind::Block, sum, call.step(1));
+  call.finish();
   return sum.text();
 }
 

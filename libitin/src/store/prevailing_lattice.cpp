@@ -16,10 +16,11 @@ struct Vote {
   std::uint64_t points = 0;
 };
 
-/// Returns the lattice that the index has recorded of a leaf within the box; else that of the points within the box, as
-/// others may have spoilt the leaf's.
+/// Returns the lattice that the index has recorded of a leaf whose points lie within the box; else that of those
+/// within, as others may have spoilt the leaf's.
 Vote vote_of(const PointIndex& index, const Leaf& leaf, const GridBox& box) {
-  if (box.contains(leaf.cell.box())) return {index.lattice_of(leaf).from_first_place(), leaf.points};
+  if (box.contains(intersection(leaf.cell.box(), index.bounds())))
+    return {index.lattice_of(leaf).from_first_place(), leaf.points};
   WidestLattice widest;
   Vote vote;
   const auto block = index.unordered_block(leaf);

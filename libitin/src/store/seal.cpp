@@ -13,8 +13,7 @@ namespace {
 constexpr std::size_t kSealBytes = 4;
 
 std::uint32_t checksum(BlobKind kind, std::uint64_t key, std::span<const std::uint8_t> bytes) {
-  const std::uint64_t seed = kind == BlobKind::Block ? key : ~key;
-  return static_cast<std::uint32_t>(XXH3_64bits_withSeed(bytes.data(), bytes.size(), seed));
+  return static_cast<std::uint32_t>(XXH3_64bits_withSeed(bytes.data(), bytes.size(), row_seed(kind, key)));
 }
 
 }  // namespace

@@ -11,6 +11,11 @@ namespace itin {
 
 enum class BlobKind { Block, Directory };
 
+/// The seed of hashes of a row, which tells it from a row under another key and from one of the other table.
+constexpr std::uint64_t row_seed(BlobKind kind, std::uint64_t key) {
+  return kind == BlobKind::Block ? key : ~key;
+}
+
 /// Returns `bytes` with their seal in front.
 std::vector<std::uint8_t> seal(BlobKind kind, std::uint64_t key, std::span<const std::uint8_t> bytes);
 /// Returns the bytes behind the seal. Throws DecodeError where the seal does not fit.

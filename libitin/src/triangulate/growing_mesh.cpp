@@ -249,41 +249,49 @@ std::uint32_t GrowingMesh::place_for(std::size_t number) {
   return static_cast<std::uint32_t>(mesh_.triangles.size() - 1);
 }
 
-/// Returns the edge that leaves vertex `at` straight towards vertex `to`. Where there is none, to == at, and `left` is
-/// the triangle through whose opposite edge the way leads.
-SegmentEdge GrowingMesh::edge_towards(std::uint32_t at, std::uint32_t to) const {
-  const Position p = position(at), goal = position(to);
-  const std::uint32_t start = some_triangle_[at];
+/// Calls visit(triangle, corner) for the triangles about a vertex, which is that corner of each, until a call returns
+/// true; returns whether one did.
+template <class Visit>
+bool GrowingMesh::visit_around(std::uint32_t vertex, const Visit& visit) const {
+  const std::uint32_t start = some_triangle_[vertex];
   for (const int step : {1, 2}) {  // counterclockwise, and then clockwise if the hull ended that
     std::uint32_t t = start;
     do {
       int i = 0;
-      while (corner(t, i) != at) ++i;
-      const std::uint32_t right = corner(t, i + 1), left = corner(t, i + 2);
-      const int right_side = orientation(p, goal, position(right)), left_side = orientation(p, goal, position(left));
-      if (right_side == 0 && lies_ahead(p, goal, position(right)))
-        return {at, right, t, mesh_.neighbours[t][(i + 2) % 3]};
-      if (left_side == 0 && lies_ahead(p, goal, position(left))) return {at, left, mesh_.neighbours[t][(i + 1) % 3], t};
-      if (right_side < 0 && left_side > 0) return {at, at, t, kNoTriangle};
-      t = mesh_.neighbours[t][(i + step) % 3];
-    } while (t != kNoTriangle && t != start);
-  }
-  throw Error("a constraint leads out of the triangulation");
-}
-
-bool GrowingMesh::has_edge(std::uint32_t from, std::uint32_t to) const {
-  const std::uint32_t start = some_triangle_[from];
-  for (const int step : {1, 2}) {  // counterclockwise, and then clockwise if the hull ended that
-    std::uint32_t t = start;
-    do {
-      int i = 0;
-      while (corner(t, i) != from) ++i;
-      if (corner(t, i + 1) == to || corner(t, i + 2) == to) return true;
+      while (corner(t, i) != vertex) ++i;
+      if (visit(t, i)) return true;
       t = mesh_.neighbours[t][(i + step) % 3];
     } while (t != kNoTriangle && t != start);
     if (t == start) return false;
   }
   return false;
+}
+
+/// Returns the edge that leaves vertex `at` straight towards vertex `to`. Where there is none, to == at, and `left` is
+/// the triangle through whose opposite edge the way leads.
+SegmentEdge GrowingMesh::edge_towards(std::uint32_t at, std::uint32_t to) const {
+  const Position p = position(at), goal = position(to);
+  SegmentEdge edge{};
+  const bool found = visit_around(at, [&](std::uint32_t t, int i) {
+    const std::uint32_t right = corner(t, i + 1), left = corner(t, i + 2);
+    const int right_side = orientation(p, goal, position(right)), left_side = orientation(p, goal, position(left));
+    if (right_side == 0 && lies_ahead(p, goal, position(right))) {
+      edge = {at, right, t, mesh_.neighbours[t][(i + 2) % 3]};
+    } else if (left_side == 0 && lies_ahead(p, goal, position(left))) {
+      edge = {at, left, mesh_.neighbours[t][(i + 1) % 3], t};
+    } else if (right_side < 0 && left_side > 0) {
+      edge = {at, at, t, kNoTriangle};
+    } else {
+      return false;
+    }
+    return true;
+  });
+  if (!found) throw Error("a constraint leads out of the triangulation");
+  return edge;
+}
+
+bool GrowingMesh::has_edge(std::uint32_t from, std::uint32_t to) const {
+  return visit_around(from, [&](std::uint32_t t, int i) { return corner(t, i + 1) == to || corner(t, i + 2) == to; });
 }
 
 void GrowingMesh::lay(std::uint32_t from, std::uint32_t to, std::uint16_t theme) {

@@ -98,6 +98,8 @@ class GrowingMesh {
   Side side(std::uint32_t t, int edge) const;
   int edge_between(std::uint32_t t, std::uint32_t from, std::uint32_t to) const;
   bool disturbs(Position p, std::uint32_t t) const;
+  template <class Visit>
+  bool visit_around(std::uint32_t vertex, const Visit& visit) const;
   SegmentEdge edge_towards(std::uint32_t at, std::uint32_t to) const;
 
   Place locate(Position p, std::uint32_t near);

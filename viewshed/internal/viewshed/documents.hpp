@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include <itin/document.hpp>
 #include <viewshed/horizon.hpp>
@@ -11,6 +12,8 @@
 #include <viewshed/result.hpp>
 
 namespace itin::viewshed {
+
+struct PlanFile;
 
 /// `grid`: `bounds`, `columns`, `rows`, `cell_m`.
 Document grid_document(const RasterGrid& grid);
@@ -43,6 +46,9 @@ void add_missing_ground(const MissingGround& missing, Document& document);
 
 /// The sky line, a row for each azimuth.
 std::string horizon_csv(const Horizon& horizon, const StoreMetadata& metadata);
+
+/// `outputs`: the paths of files, and what is in them.
+Document outputs_document(const std::vector<PlanFile>& files);
 
 /// The horizon's targets.
 Document targets_document(const Horizon& horizon);

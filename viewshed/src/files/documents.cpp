@@ -9,6 +9,7 @@
 #include <itin/store.hpp>
 #include <itin/table_columns.hpp>
 #include <viewshed/documents.hpp>
+#include <viewshed/site_plan.hpp>
 
 namespace itin::viewshed {
 
@@ -139,6 +140,12 @@ void add_missing_ground(const MissingGround& missing, Document& document) {
 
 std::string horizon_csv(const Horizon& horizon, const StoreMetadata& metadata) {
   return csv_of(sky_line_columns(metadata), horizon.points);
+}
+
+Document outputs_document(const std::vector<PlanFile>& files) {
+  Document outputs = Document::array();
+  for (const PlanFile& file : files) outputs.push_back({{"path", file.path}, {"what", file.what}});
+  return outputs;
 }
 
 Document targets_document(const Horizon& horizon) {

@@ -19,6 +19,27 @@ from .task import Task
 
 TURBINES = "Wind turbines"
 
+# The turbines of a layer, and the fields that tell of them.
+GIVEN_TURBINES = (
+    Layer("TURBINES", "Layer of turbines", "--turbines", geometry="point", required=True, layer_option="--layer"),
+    Number("HUB_HEIGHT", "Hub height of those that give none", "--hub-height", unit="m", minimum=0),
+    Number("ROTOR_DIAMETER", "Rotor diameter of those that give none", "--rotor-diameter", unit="m", minimum=0),
+    Number("TIP_HEIGHT", "Tip height of those that give none", "--tip-height", unit="m", minimum=0),
+)
+TURBINE_FIELDS = (
+    Field("NAME_FIELD", "Field of names", "--name-field", of="TURBINES", advanced=True),
+    Field("HUB_HEIGHT_FIELD", "Field of hub heights", "--hub-height-field", of="TURBINES", advanced=True),
+    Field(
+        "ROTOR_DIAMETER_FIELD",
+        "Field of rotor diameters",
+        "--rotor-diameter-field",
+        of="TURBINES",
+        advanced=True,
+    ),
+    Field("TIP_HEIGHT_FIELD", "Field of tip heights", "--tip-height-field", of="TURBINES", advanced=True),
+    Field("FARM_FIELD", "Field of farms", "--farm-field", of="TURBINES", advanced=True),
+)
+
 
 class Ztv(Task):
     """Zones of theoretical visibility."""
@@ -35,10 +56,7 @@ class Ztv(Task):
     )
     parameters = (
         shared.STORE,
-        Layer("TURBINES", "Layer of turbines", "--turbines", geometry="point", required=True, layer_option="--layer"),
-        Number("HUB_HEIGHT", "Hub height of those that give none", "--hub-height", unit="m", minimum=0),
-        Number("ROTOR_DIAMETER", "Rotor diameter of those that give none", "--rotor-diameter", unit="m", minimum=0),
-        Number("TIP_HEIGHT", "Tip height of those that give none", "--tip-height", unit="m", minimum=0),
+        *GIVEN_TURBINES,
         Number(
             "RADIUS",
             "Radius about each turbine",
@@ -81,17 +99,7 @@ class Ztv(Task):
         Number("FREQUENCY", "Frequency of these links [GHz]", "--frequency", unit="GHz", minimum=0, advanced=True),
         Point("RADAR", "Radar", "--radar", height="RADAR_HEIGHT", advanced=True),
         Number("RADAR_HEIGHT", "Height of the radar above the ground", unit="m", advanced=True),
-        Field("NAME_FIELD", "Field of names", "--name-field", of="TURBINES", advanced=True),
-        Field("HUB_HEIGHT_FIELD", "Field of hub heights", "--hub-height-field", of="TURBINES", advanced=True),
-        Field(
-            "ROTOR_DIAMETER_FIELD",
-            "Field of rotor diameters",
-            "--rotor-diameter-field",
-            of="TURBINES",
-            advanced=True,
-        ),
-        Field("TIP_HEIGHT_FIELD", "Field of tip heights", "--tip-height-field", of="TURBINES", advanced=True),
-        Field("FARM_FIELD", "Field of farms", "--farm-field", of="TURBINES", advanced=True),
+        *TURBINE_FIELDS,
         Field(
             "STATUS_FIELD",
             "Field that says proposed, consented or existing",
@@ -152,10 +160,7 @@ class Dwellings(Task):
     )
     parameters = (
         shared.STORE,
-        Layer("TURBINES", "Layer of turbines", "--turbines", geometry="point", required=True, layer_option="--layer"),
-        Number("HUB_HEIGHT", "Hub height of those that give none", "--hub-height", unit="m", minimum=0),
-        Number("ROTOR_DIAMETER", "Rotor diameter of those that give none", "--rotor-diameter", unit="m", minimum=0),
-        Number("TIP_HEIGHT", "Tip height of those that give none", "--tip-height", unit="m", minimum=0),
+        *GIVEN_TURBINES,
         Layer(
             "DWELLINGS",
             "Layer of dwellings",
@@ -192,17 +197,7 @@ class Dwellings(Task):
         ),
         Number("FLICKER_REACH", "Reach of shadows, in diameters of the rotor", "--flicker-reach", default=10, advanced=True),
         Number("BLADE_WIDTH", "Mean width of a blade, for the reach instead", "--blade-width", unit="m", advanced=True),
-        Field("NAME_FIELD", "Field of names", "--name-field", of="TURBINES", advanced=True),
-        Field("HUB_HEIGHT_FIELD", "Field of hub heights", "--hub-height-field", of="TURBINES", advanced=True),
-        Field(
-            "ROTOR_DIAMETER_FIELD",
-            "Field of rotor diameters",
-            "--rotor-diameter-field",
-            of="TURBINES",
-            advanced=True,
-        ),
-        Field("TIP_HEIGHT_FIELD", "Field of tip heights", "--tip-height-field", of="TURBINES", advanced=True),
-        Field("FARM_FIELD", "Field of farms", "--farm-field", of="TURBINES", advanced=True),
+        *TURBINE_FIELDS,
         Text("FARM", "Farm of those that give none", "--farm", advanced=True),
         shared.NODATA,
         *shared.EARTH,

@@ -13,6 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include <itin/error.hpp>
+#include <viewshed/documents.hpp>
 #include <viewshed/qgis_styles.hpp>
 #include <viewshed/zone_study.hpp>
 
@@ -64,6 +65,17 @@ void require_study_folder(const std::string& given, const char* manifest, bool o
 
 void require_zone_folder(const std::string& path, bool overwrite) {
   require_study_folder(path, kZoneManifest, overwrite);
+}
+
+std::vector<PlanFile> files_within(const std::string& folder, std::vector<PlanFile> files) {
+  for (PlanFile& file : files) file.path = (fs::path(folder) / file.path).string();
+  return files;
+}
+
+std::string manifest_text(Document document, const std::vector<PlanFile>& files) {
+  document.erase("statistics");
+  document["outputs"] = outputs_document(files);
+  return json_text(document, 2) + "\n";
 }
 
 StudyFolder::StudyFolder(std::string path, const char* manifest, bool overwrite)

@@ -7,8 +7,11 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
+#include <itin/document.hpp>
 #include <itin/unfinished.hpp>
+#include <viewshed/site_plan.hpp>
 
 namespace itin::viewshed {
 
@@ -16,6 +19,12 @@ namespace itin::viewshed {
 /// from any other. Throws FileError if nothing can be written beside it, or if it is something else than a folder, or a
 /// folder with files in it that may not be replaced.
 void require_study_folder(const std::string& path, const char* manifest, bool overwrite);
+
+/// Returns the files with their names as paths within the folder.
+std::vector<PlanFile> files_within(const std::string& folder, std::vector<PlanFile> files);
+/// Returns the text of the manifest of a folder: the document and the files, without times, so that equal runs write
+/// equal files.
+std::string manifest_text(Document document, const std::vector<PlanFile>& files);
 
 class StudyFolder {
  public:

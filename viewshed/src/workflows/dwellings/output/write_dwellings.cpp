@@ -1,6 +1,6 @@
 // The folder of a survey of dwellings.
 
-#include <filesystem>
+#include <utility>
 
 #include <itin/call_progress.hpp>
 #include <itin/output_file.hpp>
@@ -33,16 +33,7 @@ std::vector<PlanFile> dwellings_files(const std::string& folder, const Dwellings
       {"dwellings.png", "map of the dwellings by their shadow flicker"},
       {"calendar.csv",
        "when it flickers: a row for each dwelling, turbine, day and stretch of minutes; times are " + clock}};
-  for (PlanFile& file : files) file.path = (std::filesystem::path(folder) / file.path).string();
-  return files;
-}
-
-/// The document of the folder, without times, so that equal runs write equal files.
-std::string manifest_of_dwellings(const DwellingsSurvey& survey, const std::vector<PlanFile>& files) {
-  Document document = dwellings_document(survey);
-  document.erase("statistics");
-  for (const PlanFile& file : files) document["outputs"].push_back({{"path", file.path}, {"what", file.what}});
-  return json_text(document, 2) + "\n";
+  return files_within(folder, std::move(files));
 }
 
 }  // namespace
@@ -67,7 +58,7 @@ std::vector<PlanFile> write_dwellings(const std::string& folder, const Store& st
   write_file(path("dwellings.png"), dwelling_map(store, survey, "dwellings.png", call.step(1)), true);
   std::vector<PlanFile> files = dwellings_files(folder, survey.request);
   write_file(path(kDwellingsManifest),
-             options.manifest ? options.manifest(files) : manifest_of_dwellings(survey, files), true);
+             options.manifest ? options.manifest(files) : manifest_text(dwellings_document(survey), files), true);
   target.publish();
   call.finish();
   return files;

@@ -1,6 +1,6 @@
 // The folder of a survey of premises.
 
-#include <filesystem>
+#include <utility>
 
 #include <itin/call_progress.hpp>
 #include <itin/mesh_export.hpp>
@@ -33,16 +33,7 @@ std::vector<PlanFile> premises_files(const std::string& folder, const PremisesRe
     files.push_back({"roofs.csv",
                      "a row for each place on a roof: the mast that serves it with the least pole, and the least pole "
                      "that sees the street"});
-  for (PlanFile& file : files) file.path = (std::filesystem::path(folder) / file.path).string();
-  return files;
-}
-
-/// The document of the folder, without times, so that equal runs write equal files.
-std::string manifest_of_premises(const PremisesSurvey& survey, const std::vector<PlanFile>& files) {
-  Document document = premises_document(survey);
-  document.erase("statistics");
-  for (const PlanFile& file : files) document["outputs"].push_back({{"path", file.path}, {"what", file.what}});
-  return json_text(document, 2) + "\n";
+  return files_within(folder, std::move(files));
 }
 
 }  // namespace
@@ -65,8 +56,8 @@ std::vector<PlanFile> write_premises(const std::string& folder, const Store& sto
   write_meshes(path("facades.glb"), survey.metadata.crs_wkt, facade_meshes(survey), true, call.step(0.1));
   write_file(path("premises.png"), premises_map(store, survey, "premises.png", call.step(1)), true);
   std::vector<PlanFile> files = premises_files(folder, survey.request);
-  write_file(path(kPremisesManifest), options.manifest ? options.manifest(files) : manifest_of_premises(survey, files),
-             true);
+  write_file(path(kPremisesManifest),
+             options.manifest ? options.manifest(files) : manifest_text(premises_document(survey), files), true);
   target.publish();
   call.finish();
   return files;
