@@ -145,14 +145,7 @@ TEST_F(ThroughFoliage, LosesLightToMoreWoodAndGainsItByFelling) {
   }
   add_woods("second", 8);
   const Store store(path());
-  std::vector<FeatureNumber> some, all;
-  for (std::uint16_t theme = 1; theme <= store.metadata().themes.size(); ++theme) {
-    if (store.metadata().themes[theme - 1U].kind != ThemeKind::Vegetation) continue;
-    for (const FeatureAt& f : features_of(store, theme)) {
-      all.push_back({theme, f.number});
-      if (f.number % 2 == 0) some.push_back({theme, f.number});
-    }
-  }
+  const std::vector<FeatureNumber> all = woods_of(store), some = with_even_numbers(all);
   const ThemeChoice felled = without_features(store, ThemeChoice::all(), some, progress_),
                     cleared = without_features(store, ThemeChoice::all(), all, progress_);
   double lost = 0, gained = 0;

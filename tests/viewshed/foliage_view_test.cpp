@@ -91,8 +91,9 @@ class FoliageViews : public test::RollingHill {
       // At a tolerance a line of sight is undecided where it is nearer to the ground than that.
       const bool undecided = line.solid.verdict == SightVerdict::kUndecided;
       if (undecided && result.visible[cell] == Verdict::kHidden) continue;
-      if (!undecided)
+      if (!undecided) {
         EXPECT_EQ(result.visible[cell] == Verdict::kVisible, line.verdict == SightVerdict::kVisible) << cell;
+      }
       if (line.solid.verdict == SightVerdict::kHidden) {
         EXPECT_EQ(seen.foliage.transmittance[cell], 0) << cell;
         EXPECT_TRUE(std::isnan(seen.foliage.length_m[cell])) << cell;
@@ -181,14 +182,7 @@ TEST_F(FoliageViews, LoseLightToMoreWoodAndGainItByFelling) {
   }
   add_woods("second", 8, 300290, 300480);
   const Store store(path());
-  std::vector<FeatureNumber> some, all;
-  for (std::uint16_t theme = 1; theme <= store.metadata().themes.size(); ++theme) {
-    if (store.metadata().themes[theme - 1U].kind != ThemeKind::Vegetation) continue;
-    for (const FeatureAt& f : features_of(store, theme)) {
-      all.push_back({theme, f.number});
-      if (f.number % 2 == 0) some.push_back({theme, f.number});
-    }
-  }
+  const std::vector<FeatureNumber> all = woods_of(store), some = with_even_numbers(all);
   const ThroughFoliage more = seen(store, asked, sparse);
   Request felled = asked, cleared = asked;
   felled.themes = without_features(store, ThemeChoice::all(), some, progress_);
@@ -286,25 +280,25 @@ Point2 import_canopy(const std::string& store, const test::TemporaryDirectory& d
   options.crs = "EPSG:27700";
   NoProgress progress;
   import_terrain(store, options, progress);
-  constexpr int kSide = 120, kFirst = 240;
+  constexpr int kPart = 120, kFirst = 240;
   GDALAllRegister();
   const GDALDatasetUniquePtr raster(GDALDataset::Open((folder + canopy).c_str()));
   double transform[6];
   raster->GetGeoTransform(transform);
-  std::vector<double> metres(kSide * kSide);
-  if (raster->GetRasterBand(1)->RasterIO(GF_Read, kFirst, kFirst, kSide, kSide, metres.data(), kSide, kSide,
+  std::vector<double> metres(kPart * kPart);
+  if (raster->GetRasterBand(1)->RasterIO(GF_Read, kFirst, kFirst, kPart, kPart, metres.data(), kPart, kPart,
                                          GDT_Float64, 0, 0) != CE_None)
     throw Error("cannot read " + canopy);
   const double xmin = transform[0] + kFirst, ymax = transform[3] - kFirst;
-  test::write_raster(directory.file("canopy.tif"), {xmin, ymax, 1, kSide, kSide, 27700}, [&](int c, int r) {
-    const double height = metres[static_cast<std::size_t>(r * kSide + c)];
+  test::write_raster(directory.file("canopy.tif"), {xmin, ymax, 1, kPart, kPart, 27700}, [&](int c, int r) {
+    const double height = metres[static_cast<std::size_t>(r * kPart + c)];
     return height > 0 && height < 60 ? height : 0;
   });
   ImportOptions woods;
   woods.sources = {directory.file("canopy.tif")};
   woods.kind = ThemeKind::Vegetation, woods.theme = "canopy";
   import_lines(store, woods, progress);
-  return {xmin + kSide / 2, ymax - kSide / 2};
+  return {xmin + kPart / 2.0, ymax - kPart / 2.0};
 }
 
 /// The lidar of a part of Delft with the outlines of its greenery, 6 m high; returns a place in it.

@@ -36,7 +36,7 @@ enum class Align { kLeft, kCentre, kRight };
 
 struct Lettering {
   double size = 9;
-  Colour colour;
+  Colour colour = {};
   Align align = Align::kLeft;
   bool bold = false;
   double rotation_deg = 0;  ///< counterclockwise about the anchor
