@@ -7,24 +7,26 @@ export function installProbe() {
   const asked = new Map();
   const probes = new Map();
   let hand = 0;
-  addEventListener("pointermove", (event) => (hand = event.timeStamp), { capture: true });
+  const noteHand = (event) => (hand = event.timeStamp);
+  for (const told of ["pointerrawupdate", "pointermove"]) addEventListener(told, noteHand, true);
 
-  /** Notes once what came until now is drawn: the page decides in one picture what the next one shows. */
+  /** Notes once what came until now is drawn, and the browser composes the picture. */
   const noteDrawn = (of, name) => {
+    if (name in of) return;
+    of[name] = undefined;
     const { port1, port2 } = new MessageChannel();
-    port1.onmessage = () => (of[name] ??= performance.now());
-    requestAnimationFrame(() => requestAnimationFrame(() => port2.postMessage(0)));
+    port1.onmessage = () => (of[name] = performance.now());
+    requestAnimationFrame(() => port2.postMessage(0));
   };
 
   const takeTiles = (bytes) => {
     const view = new DataView(bytes);
     for (let at = 0; at + HEADER <= bytes.byteLength; at += view.getUint32(at, true)) {
       const move = asked.get(view.getUint32(at + 4, true));
-      const step = view.getUint8(at + 10);
       if (!move) continue;
       noteDrawn(move, "firstDrawn");
       // Once the last pass begins, the one before is over.
-      if (step === 1) noteDrawn(move, "ninthDrawn");
+      if (view.getUint8(at + 10) === 1) noteDrawn(move, "ninthDrawn");
     }
   };
   const takeText = ({ type, seq }) => {

@@ -1,9 +1,8 @@
-// The page's modules for turbines and choices of sites that need no browser. scripts/web-packages lays out what this
-// imports.
+// The page's modules for turbines and choices of sites that need no browser.
 import assert from "node:assert/strict";
 import test from "node:test";
 
-const module = (name) => import(new URL(`../../build/web/page/${name}.js`, import.meta.url));
+import { module } from "./page_modules.mjs";
 
 const { SeenCells } = await module("seen/seen_cells");
 const { classOf, className, countMode } = await module("seen/values");

@@ -91,7 +91,7 @@ async function start() {
   drawThemes(map, info, scene);
   map.addLayer(new SearchLayer(scene));
   map.addLayer(lines);
-  views.onChange(showVerdicts);
+  views.onChange((come) => verdicts.show(shownOf(scene, views), come));
   scene.on(["show", "selected", "task", "part", "plan"], showVerdicts);
 
   const masts = makeMastMarkers(map, scene);

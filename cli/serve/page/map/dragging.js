@@ -58,15 +58,17 @@ function drag(map, button, movable, event) {
   const ended = new AbortController();
   const { signal } = ended;
   button.setPointerCapture(event.pointerId);
-  button.addEventListener(
-    "pointermove",
-    (to) => {
-      const [x, y] = map.getEventCoordinate(to);
-      if (x !== start[0] || y !== start[1]) {
-        movable.move(roundedPlace({ x: from.x + x - start[0], y: from.y + y - start[1] }, movable.cell()));
-      }
-    },
-    { signal },
-  );
+  let [lastX, lastY] = start;
+  const move = (/** @type {Event} */ to) => {
+    const [x, y] = map.getEventCoordinate(/** @type {PointerEvent} */ (to));
+    if (x === lastX && y === lastY) return;
+    [lastX, lastY] = [x, y];
+    movable.move(roundedPlace({ x: from.x + x - start[0], y: from.y + y - start[1] }, movable.cell()));
+  };
+  // `pointermove` waits for the next picture, and would be answered in the one after that. Where the browser tells of
+  // the pointer at once, the first news of each picture is taken.
+  let early = false;
+  button.addEventListener("pointerrawupdate", (to) => early || ((early = true), move(to)), { signal });
+  button.addEventListener("pointermove", (to) => ((early = false), move(to)), { signal });
   for (const end of ["pointerup", "pointercancel"]) button.addEventListener(end, () => ended.abort(), { signal });
 }

@@ -1,6 +1,6 @@
 // The picture that lies on the ground of the 3-D view: plain ground, coloured where it is seen.
 
-import { paintMosaic } from "../seen/mosaic.js";
+import { Mosaic } from "../seen/mosaic.js";
 
 /** @typedef {import("./window.js").Extent} Extent */
 /** @typedef {import("../map/verdict_layer.js").Shown} Shown */
@@ -35,15 +35,16 @@ export function paintDrape(canvas, extent, shown) {
   const { picture, cell } = shown;
   const factor = Math.max(1, Math.round(longer / PIXELS / cell));
   const at = cellsOver(extent, cell, factor);
-  const mosaic = document.createElement("canvas");
-  const image = paintMosaic(picture, at, factor);
-  mosaic.width = image.width;
-  mosaic.height = image.height;
-  /** @type {CanvasRenderingContext2D} */ (mosaic.getContext("2d")).putImageData(image, 0, 0);
+  const tiles = document.createElement("canvas");
+  const mosaic = new Mosaic(at, factor);
+  mosaic.paint(picture, at);
+  tiles.width = mosaic.image.width;
+  tiles.height = mosaic.image.height;
+  /** @type {CanvasRenderingContext2D} */ (tiles.getContext("2d")).putImageData(mosaic.image, 0, 0);
   const scale = canvas.width / (east - west);
   context.imageSmoothingEnabled = false;
   context.drawImage(
-    mosaic,
+    tiles,
     (at.column * cell - west) * scale,
     (at.row * cell + north) * scale,
     at.columns * cell * scale,

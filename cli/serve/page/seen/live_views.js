@@ -6,6 +6,7 @@ import { wantedOf } from "./viewers.js";
 
 /** @typedef {import("../state/scene.js").Scene} Scene */
 /** @typedef {import("./viewers.js").Wanted} Wanted */
+/** @typedef {import("./cell_window.js").CellWindow} CellWindow */
 /** @typedef {import("../server/live_connection.js").LiveConnection} LiveConnection */
 /** @typedef {import("../server/live_connection.js").Message} Message */
 /**
@@ -16,6 +17,7 @@ import { wantedOf } from "./viewers.js";
  * @property {SeenCells | null} begun  The cells that tiles are about to fill.
  * @property {SeenCells | null} cells  The cells that are shown.
  * @property {Message | null} done     The server's summary, once all cells are decided.
+ * @property {boolean} late           Whether a move of it has not been sent yet.
  * @property {string} error            What the server found wrong, or empty.
  * @property {string} field            The option that is at fault, with its dashes, where one is.
  */
@@ -32,12 +34,18 @@ function tooManyCells({ radius, cell }) {
   return `the map shows ${MOST_CELLS / 1e6} million cells at most: take a cell of ${least} m or more, or a smaller radius`;
 }
 
+/** Whether anything of what was asked for last has come. @param {MastView} view */
+const hasColours = ({ seq, cells, done, error }) => cells?.seq === seq || done !== null || error !== "";
+
 export class LiveViews {
   /** @type {Map<number, MastView>} */
   #views = new Map();
-  /** @type {(() => void)[]} */
+  /** @type {((come: CellWindow[] | null) => void)[]} */
   #listeners = [];
   #told = false;
+  /** Windows of cells that have come since the last picture; null where more has changed.
+   * @type {CellWindow[] | null} */
+  #come = null;
   #seq = 0;
 
   /** @param {Scene} scene @param {LiveConnection} connection */
@@ -56,7 +64,8 @@ export class LiveViews {
     scene.on(["masts", "options", "task", "turbines", "plan"], () => this.#follow());
   }
 
-  /** Calls `listener` before the next picture after each change. @param {() => void} listener */
+  /** Calls `listener` before the next picture after each change, with the windows of cells that have come where nothing
+   * else has changed. @param {(come: CellWindow[] | null) => void} listener */
   onChange(listener) {
     this.#listeners.push(listener);
   }
@@ -72,11 +81,12 @@ export class LiveViews {
 
   /** Whether all that was asked for has come. */
   get settled() {
-    return this.all.every((view) => view.done !== null || view.error !== "");
+    return this.all.every(({ late, done, error }) => !late && (done !== null || error !== ""));
   }
 
   #askAnew() {
     this.#views.clear();
+    this.#come = null;
     this.#follow();
   }
 
@@ -86,13 +96,14 @@ export class LiveViews {
       if (!wanted.some((some) => some.id === id)) this.#stop(id);
     }
     for (const view of wanted) this.#ask(view);
-    this.#tell();
+    this.#tellSoon();
   }
 
   /** @param {number} id */
   #stop(id) {
     this.connection.send({ type: "stop", id });
     this.#views.delete(id);
+    this.#come = null;
   }
 
   /** Sends what the server does not know yet of a view. @param {Wanted} wanted */
@@ -100,12 +111,19 @@ export class LiveViews {
     const options = JSON.stringify(wantedOptions);
     const observer = JSON.stringify(place);
     const known = this.#views.get(id);
+    if (known) known.late = false;
     if (known?.options === options && known.observer === observer) return;
+    // A move waits for a picture of the one before, for the browser may be slower than the server.
+    if (known?.options === options && !hasColours(known)) {
+      known.late = true;
+      return;
+    }
     const seq = ++this.#seq;
     const tooMany = tooManyCells(wantedOptions);
     if (tooMany) this.connection.send({ type: "stop", id });
     else if (known?.options === options) this.connection.send({ type: "move", id, seq, observer: place });
     else this.connection.send({ type: "view", id, seq, options: { ...wantedOptions, observer: place } });
+    if (known?.options !== options) this.#come = null;
     this.#views.set(id, {
       options,
       observer,
@@ -113,40 +131,53 @@ export class LiveViews {
       begun: known?.begun ?? null,
       cells: tooMany ? null : (known?.cells ?? null),
       done: null,
+      late: false,
       error: tooMany,
       field: tooMany ? "--cell" : "",
     });
   }
 
   /**
-   * Takes an answer to what the mast was asked last; a view that began before still shows, as the newest there is.
+   * Takes an answer to what the mast was asked last.
    * @param {Message} message
    * @param {(view: MastView) => void} take
    */
   #answered(message, take) {
     const view = this.#views.get(message.id ?? -1);
-    const newest = message.seq === view?.seq || message.type === "begun";
-    if (!view || !newest || OF_OTHERS.includes(message.of)) return;
+    if (!view || message.seq !== view.seq || OF_OTHERS.includes(message.of)) return;
     take(view);
-    if (view.error) view.cells = null;
-    this.#tell();
+    if (view.error) view.cells = this.#come = null;
+    this.#tellSoon();
   }
 
-  /** @param {import("../server/tile_message.js").Tile} tile */
+  /** Takes a tile of what its mast was asked last. What is on its way when a move is sent is let go, or pictures would
+   * fall behind the hand. @param {import("../server/tile_message.js").Tile} tile */
   #takeTile(tile) {
     const view = this.#views.get(tile.id);
-    if (view?.begun?.seq !== tile.seq) return;
+    if (!view || tile.seq !== view.seq || view.begun?.seq !== tile.seq) return;
+    if (view.cells !== view.begun) this.#come = null;
     view.cells = view.begun;
-    view.cells.take(tile);
-    this.#tell();
+    const come = view.cells.take(tile);
+    this.#come?.push(come);
+    this.#tellSoon();
   }
 
-  #tell() {
+  #tellSoon() {
     if (this.#told) return;
     this.#told = true;
     requestAnimationFrame(() => {
+      const come = this.#come;
       this.#told = false;
-      for (const listener of this.#listeners) listener();
+      this.#come = [];
+      for (const listener of this.#listeners) listener(come);
+      this.#askLate();
     });
+  }
+
+  /** Sends the moves that waited for a picture of the one before. */
+  #askLate() {
+    for (const wanted of wantedOf(this.scene.state)) {
+      if (this.#views.get(wanted.id)?.late) this.#ask(wanted);
+    }
   }
 }

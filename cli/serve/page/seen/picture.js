@@ -2,11 +2,13 @@
 
 import { CUT, NEAREST, UNDECIDED, VERDICT, VISIBLE } from "./seen_cells.js";
 import { HUES, SHARED, UNDECIDED_COLOUR, meanColour, rampColour } from "./palette.js";
+import { hullOf } from "./cell_window.js";
 import { classOf } from "./values.js";
 
 /** @typedef {import("./seen_cells.js").SeenCells} SeenCells */
 /** @typedef {import("./palette.js").Rgb} Rgb */
 /** @typedef {import("./values.js").ValueMode} ValueMode */
+/** @typedef {import("./cell_window.js").CellWindow} CellWindow */
 /** @typedef {{cells: SeenCells, hue: number, selected: boolean}} Source  What one mast sees. */
 /**
  * @typedef {object} Picture
@@ -14,6 +16,7 @@ import { classOf } from "./values.js";
  *   to 1.
  * @property {(row: number, column: number, classes: Uint16Array) => void} classify
  *   Adds to the classes of cells of a row from a column on.
+ * @property {CellWindow} extent  About all cells that may have a class.
  */
 
 /** The bit of a class that says that the verdict is that of a cell near by. */
@@ -41,6 +44,9 @@ function shareOfRow(cells, row, column, count) {
   return [from, to, r * cells.columns + column - cells.column];
 }
 
+/** @param {Source[]} sources @returns {CellWindow} */
+const extentOf = (sources) => sources.map(({ cells }) => /** @type {CellWindow} */ (cells)).reduce(hullOf);
+
 /** What each code of a cell of the mast with this bit adds to its class. @param {number} bit @returns {Uint16Array} */
 function classesOfCodes(bit) {
   const classes = new Uint16Array(VERDICT + NEAREST + 1);
@@ -57,6 +63,7 @@ function classesOfCodes(bit) {
 export function verdictPicture(sources, difference) {
   const tables = sources.map((_, bit) => classesOfCodes(bit));
   return {
+    extent: extentOf(sources),
     colours: difference ? differenceColours(sources) : togetherColours(sources),
     classify(row, column, classes) {
       for (let bit = 0; bit < sources.length; ++bit) {
@@ -79,6 +86,7 @@ export function valuePicture(sources, mode) {
   const colours = new Float32Array(4 * (mode.limits.length + 2));
   for (let i = 0; i <= mode.limits.length; ++i) put(colours, i + 1, rampColour(i, mode.limits.length + 1), 0.7);
   return {
+    extent: extentOf(sources),
     colours,
     classify(row, column, classes) {
       for (const { cells } of sources) {

@@ -2,6 +2,7 @@
 // by.
 
 /** @typedef {import("../server/tile_message.js").Tile} Tile */
+/** @typedef {import("./cell_window.js").CellWindow} CellWindow */
 /** @typedef {{seq: number, cell_m: number, column: number, row: number, columns: number, rows: number, kind: number,
  *    ground_m: number[]}} Begun  The server's word on the cells that tiles will be about. */
 
@@ -18,8 +19,11 @@ const SERVERS_OUTSIDE = 255;
 const COUNTS = 1; // the kind of values that are counts
 const COUNTED_OUTSIDE = 65535;
 
-/** @param {number} verdict as the server sends it */
-const codeOf = (verdict) => (verdict === SERVERS_OUTSIDE ? OUTSIDE : verdict);
+/** The cells that a tile's cells stand for. @param {Tile} tile @returns {CellWindow} */
+function windowOf({ step, column, row, columns, rows }) {
+  const half = (step - 1) / 2;
+  return { column: column - half, row: row - half, columns: columns * step, rows: rows * step };
+}
 
 export class SeenCells {
   /** @param {Begun} begun */
@@ -39,52 +43,64 @@ export class SeenCells {
   }
 
   /** Puts the tile's cells in their places, and around each the cells that it stands for until nearer ones are known.
-   * @param {Tile} tile */
+   * Returns the window of all these. @param {Tile} tile @returns {CellWindow} */
   take(tile) {
     this.step = tile.step;
-    if (tile.step > 1) this.#takeSquares(tile);
-    for (let j = 0, from = 0; j < tile.rows; ++j) {
-      let to = (tile.row + j * tile.step - this.row) * this.columns + tile.column - this.column;
-      for (let i = 0; i < tile.columns; ++i, ++from, to += tile.step) {
-        const code = codeOf(tile.verdicts[from]);
-        this.codes[to] = code;
-        this.verdicts |= 1 << code;
-        if (this.values && tile.values) this.values[to] = this.#valueOf(tile.values[from]);
-      }
+    const codes = this.#codesOf(tile.verdicts);
+    if (tile.step > 1) {
+      this.#spread(
+        tile,
+        codes.map((code) => code | NEAREST),
+        this.codes,
+      );
+    }
+    this.#put(tile, codes, this.codes);
+    if (this.values && tile.values) this.#spread(tile, this.#valuesOf(tile.values), this.values);
+    return windowOf(tile);
+  }
+
+  /** @param {Uint8Array} verdicts as the server sends them */
+  #codesOf(verdicts) {
+    const codes = new Uint8Array(verdicts.length);
+    let come = 0;
+    for (let i = 0; i < verdicts.length; ++i) {
+      codes[i] = verdicts[i] === SERVERS_OUTSIDE ? OUTSIDE : verdicts[i];
+      come |= 1 << codes[i];
+    }
+    this.verdicts |= come;
+    return codes;
+  }
+
+  /** A count of nothing is no value. @param {Uint16Array | Float32Array} values as the server sends them */
+  #valuesOf(values) {
+    const isNone = (/** @type {number} */ value) => this.counts && (value === 0 || value === COUNTED_OUTSIDE);
+    return Float32Array.from(values, (value) => (isNone(value) ? NaN : value));
+  }
+
+  /** Puts what is known of a tile's cells in their places.
+   * @param {Tile} tile @param {Uint8Array} found @param {Uint8Array} all */
+  #put({ step, column, row, columns, rows }, found, all) {
+    for (let j = 0, from = 0; j < rows; ++j) {
+      let to = (row + j * step - this.row) * this.columns + column - this.column;
+      for (const end = from + columns; from < end; ++from, to += step) all[to] = found[from];
     }
   }
 
-  /** A count of nothing is no value. @param {number} value as the server sends it */
-  #valueOf(value) {
-    return this.counts && (value === 0 || value === COUNTED_OUTSIDE) ? NaN : value;
-  }
-
-  /** @param {Tile} tile */
-  #takeSquares({ step, column, row, columns, rows, verdicts, values }) {
-    const half = (step - 1) / 2;
-    const west = column - this.column - half;
-    const north = row - this.row - half;
-    for (let j = 0, at = 0; j < rows; ++j) {
-      for (let i = 0; i < columns; ++i, ++at) {
-        this.#fill(
-          west + i * step,
-          north + j * step,
-          step,
-          codeOf(verdicts[at]) | NEAREST,
-          values ? this.#valueOf(values[at]) : NaN,
-        );
+  /** Puts it in all cells of the squares that a tile's cells are in the middle of, as far as these lie in the grid.
+   * @template {Uint8Array | Float32Array} Numbers @param {Tile} tile @param {Numbers} found @param {Numbers} all */
+  #spread(tile, found, all) {
+    const { column, row } = windowOf(tile);
+    const west = Math.max(0, column - this.column);
+    const east = Math.min(this.columns, column - this.column + tile.columns * tile.step);
+    const line = all.slice(0, Math.max(0, east - west));
+    for (let j = 0; j < tile.rows; ++j) {
+      const first = j * tile.columns;
+      for (let i = 0; i < line.length; ++i) {
+        line[i] = found[first + Math.floor((i + west + this.column - column) / tile.step)];
       }
-    }
-  }
-
-  /** Fills a square of cells, as far as it lies in the grid.
-   * @param {number} column @param {number} row @param {number} size @param {number} code @param {number} value */
-  #fill(column, row, size, code, value) {
-    const from = Math.max(0, column);
-    const to = Math.min(this.columns, column + size);
-    for (let r = Math.max(0, row); r < Math.min(this.rows, row + size); ++r) {
-      this.codes.fill(code, r * this.columns + from, r * this.columns + to);
-      this.values?.fill(value, r * this.columns + from, r * this.columns + to);
+      const north = row - this.row + j * tile.step;
+      const south = Math.min(this.rows, north + tile.step);
+      for (let r = Math.max(0, north); r < south; ++r) all.set(line, r * this.columns + west);
     }
   }
 
