@@ -122,7 +122,7 @@ class DwellingChooser {
     for (std::size_t t = 0; t < turbines.size(); ++t) {
       const double distance = horizontal_distance(dwelling.position, turbines[t].position);
       if (distance < dwelling.nearest_m) dwelling.nearest = t, dwelling.nearest_m = distance;
-      reached = reached || distance <= shadow_reach(request_.flicker, turbines[t]);
+      reached = reached || may_shade(request_.flicker, turbines[t], dwelling.position);
     }
     return reached;
   }
@@ -147,6 +147,11 @@ ChosenDwellings choose_dwellings(const DwellingsRequest& request, const StoreMet
 double shadow_reach(const FlickerRules& rules, const Turbine& turbine) {
   if (!turbine.hub_height || !turbine.rotor_diameter) return 0;
   return rules.blade_width ? kReachOfBlade * *rules.blade_width : rules.reach_diameters * *turbine.rotor_diameter;
+}
+
+bool may_shade(const FlickerRules& rules, const Turbine& turbine, Point2 place) {
+  const double reach = shadow_reach(rules, turbine);
+  return reach > 0 && horizontal_distance(place, turbine.position) <= reach;
 }
 
 double horizontal_distance(Point2 a, Point2 b) {

@@ -27,6 +27,9 @@ ChosenDwellings choose_dwellings(const DwellingsRequest& request, const StoreMet
 /// How far the turbine's shadow reaches, metres; 0 where its rotor is not known.
 double shadow_reach(const FlickerRules& rules, const Turbine& turbine);
 
+/// Tells whether the turbine's shadow may reach a place: never where its rotor is not known.
+bool may_shade(const FlickerRules& rules, const Turbine& turbine, Point2 place);
+
 /// The distance in plan.
 double horizontal_distance(Point2 a, Point2 b);
 

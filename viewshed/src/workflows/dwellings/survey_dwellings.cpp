@@ -248,7 +248,10 @@ class DwellingsSurveyor {
         facade.bare.resize(turbines().size());
         if (has_screens()) facade.screened.resize(turbines().size());
       }
-      for (std::size_t t = 0; t < turbines().size(); ++t) pairs.push_back({d, t, in_shadow(d, t), {}, {}});
+      for (std::size_t t = 0; t < turbines().size(); ++t) {
+        const bool in_shadow = may_shade(survey_.request.flicker, turbines()[t], survey_.dwellings[d].position);
+        pairs.push_back({d, t, in_shadow, {}, {}});
+      }
     }
     reach_ = sun_reach(store_, survey_.request.themes, survey_.request.earth, eyes, progress_);
     for (DwellingPair& pair : pairs) add_boxes(pair);
@@ -256,12 +259,6 @@ class DwellingsSurveyor {
   }
 
   bool has_screens() const { return survey_.request.themes.includes_raised(survey_.metadata.themes); }
-
-  /// Tells whether the turbine's shadow may reach the dwelling.
-  bool in_shadow(std::size_t dwelling, std::size_t turbine) const {
-    return horizontal_distance(survey_.dwellings[dwelling].position, turbines()[turbine].position) <=
-           shadow_reach(survey_.request.flicker, turbines()[turbine]);
-  }
 
   void add_boxes(DwellingPair& pair) const {
     const Turbine& turbine = turbines()[pair.turbine];
