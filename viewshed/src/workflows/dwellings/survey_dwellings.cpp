@@ -31,8 +31,7 @@
 #include "workflows/dwellings/dwelling_segments.hpp"
 #include "workflows/dwellings/dwelling_sights.hpp"
 #include "workflows/dwellings/sun_reach.hpp"
-#include "workflows/premises/premises_rules.hpp"
-#include "workflows/premises/premises_segments.hpp"
+#include "workflows/premises/each_building.hpp"
 #include "workflows/zone/study_document.hpp"
 
 namespace itin::viewshed {
@@ -98,9 +97,7 @@ class DwellingsSurveyor {
   DwellingsSurvey survey() && {
     progress_.step(0.05);
     place_turbines();
-    feet_ = building_feet(store_, survey_.request.themes, survey_.metadata.grid.box(survey_.metadata.bounds));
-    auto [dwellings, feet] = choose_dwellings(survey_.request, survey_.metadata, feet_, progress_);
-    survey_.dwellings = std::move(dwellings), foot_of_ = std::move(feet);
+    choose();
     find_facades();
     name_dwellings();
     year_.emplace(survey_.request.flicker.year, progress_);
@@ -133,6 +130,12 @@ class DwellingsSurveyor {
       without_rotor += shadow_reach(survey_.request.flicker, turbine) > 0 ? 0 : 1;
       placed.push_back(turbine), survey_.ground_m.push_back(*ground[i]);
     }
+  void choose() {
+    const Box all = survey_.metadata.grid.box(survey_.metadata.bounds);
+    const auto feet = building_feet(store_, survey_.request.themes, all);
+    survey_.dwellings = choose_dwellings(survey_.request, survey_.metadata, feet, progress_);
+  }
+
     if (placed.empty()) throw InputError("`turbines`: there is no data under any of them", "turbines");
     if (without_rotor > 0)
       survey_.warnings.push_back(fmt::format("{} without hub height or rotor diameter: no flicker is known of {}",
@@ -163,23 +166,15 @@ class DwellingsSurveyor {
   }
 
   void find_walls() {
-    std::vector<ReachedBuilding> buildings;
-    for (std::size_t i = 0; i < foot_of_.size(); ++i)
-      if (foot_of_[i]) buildings.push_back({i, box_about(premises_, feet_[*foot_of_[i]]), {}});
-    if (buildings.empty()) return;
-    const auto segments = premises_segments(store_, premises_, {}, std::move(buildings), progress_);
-    for (const PremisesSegment& segment : segments) {
-      SurfaceReader reader(store_, Detail::tolerance(0), survey_.statistics);
-      const PlacedSurface surface(reader.triangles(segment.surface, survey_.request.themes, progress_), progress_);
-      const PlacedSurface ground(reader.triangles(segment.ground, ThemeChoice::none(), progress_), progress_);
-      for_each_step(segment.buildings.size(), "facades", progress_, [&](std::size_t i) {
-        const std::size_t d = segment.buildings[i].foot;
-        const BuildingFoot& foot = feet_[*foot_of_[d]];
-        const MountRules rules = mount_rules(premises_, survey_.metadata, foot);
-        survey_.dwellings[d].facades = facades_of(mount_places(foot, surface, ground, rules, progress_).walls);
-        survey_.dwellings[d].foot = foot.rings;
-      });
-    }
+    std::vector<BuildingFoot> feet;
+    std::vector<Dwelling*> of_feet;
+    for (Dwelling& dwelling : survey_.dwellings)
+      if (dwelling.theme != 0)
+        feet.push_back({dwelling.theme, dwelling.feature, dwelling.foot}), of_feet.push_back(&dwelling);
+    for_each_building(store_, premises_, feet, {"facades", survey_.statistics}, progress_,
+                      [&](std::size_t i, const StandingBuilding& building) {
+                        of_feet[i]->facades = facades_of(wall_places(building, progress_));
+                      });
   }
 
   void find_open_ground() {
@@ -385,10 +380,7 @@ class DwellingsSurveyor {
   CallProgress progress_;
   const CelestialBody body_;
   DwellingsSurvey survey_;
-  PremisesRequest premises_;  ///< how walls are found
-  std::vector<BuildingFoot> feet_;
-  std::vector<std::optional<std::size_t>>
-      foot_of_;                ///< each dwelling's, until it has its facades; nothing: in the open
+  PremisesRequest premises_;   ///< how walls are found
   std::vector<SunEye> skies_;  ///< one for each dwelling
   std::optional<SunYear> year_;
   SunReach reach_;

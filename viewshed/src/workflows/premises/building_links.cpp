@@ -220,7 +220,7 @@ void survey_building(const BuildingToSurvey& building, const BuildingSurrounding
                      const Progress& progress, SurveyedBuilding& found) {
   const auto& [foot, rules, masts] = building;
   BuildingSurvey survey(foot, surroundings, progress, found);
-  survey.take(mount_places(foot, surroundings.scene.surface(), surroundings.ground, rules, progress));
+  survey.take(mount_places({foot, surroundings.scene.surface(), surroundings.ground, rules}, progress));
   for (const std::size_t mast : masts) survey.add(mast);
 }
 

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <itin/counted.hpp>
+#include <itin/in_ring.hpp>
 #include <itin/sources_in.hpp>
 #include <viewshed/result_sheet.hpp>
 
@@ -61,8 +62,7 @@ Box box_of_dwellings(const DwellingsSurvey& survey) {
   for (const Dwelling& dwelling : survey.dwellings) {
     box.extend(dwelling.position);
     box.extend(survey.request.turbines.turbines[dwelling.nearest].position);
-    for (const std::vector<Point2>& ring : dwelling.foot)
-      for (const Point2& p : ring) box.extend(p);
+    box.extend(box_of_rings(dwelling.foot));
   }
   const double margin = 0.05 * std::max(box.width(), box.height());
   return {box.xmin - margin, box.ymin - margin, box.xmax + margin, box.ymax + margin};

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <itin/counted.hpp>
+#include <itin/in_ring.hpp>
 #include <itin/sources_in.hpp>
 #include <viewshed/result_sheet.hpp>
 
@@ -64,11 +65,8 @@ std::vector<MapObjects> premises_objects(const PremisesSurvey& survey) {
 Box shown_box(const PremisesSurvey& survey) {
   Box box;
   for (const SitePosition& mast : survey.masts) box.extend(mast.position);
-  for (const Premises& p : survey.premises) {
-    if (p.links.empty()) continue;
-    for (const std::vector<Point2>& ring : p.foot)
-      for (const Point2& at : ring) box.extend(at);
-  }
+  for (const Premises& p : survey.premises)
+    if (!p.links.empty()) box.extend(box_of_rings(p.foot));
   const double margin = 0.03 * std::max(box.width(), box.height());
   return {box.xmin - margin, box.ymin - margin, box.xmax + margin, box.ymax + margin};
 }
