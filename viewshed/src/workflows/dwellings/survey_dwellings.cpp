@@ -30,6 +30,7 @@
 #include "workflows/dwellings/dwelling_facades.hpp"
 #include "workflows/dwellings/dwelling_segments.hpp"
 #include "workflows/dwellings/dwelling_sights.hpp"
+#include "workflows/dwellings/flicker_runs.hpp"
 #include "workflows/dwellings/sun_reach.hpp"
 #include "workflows/premises/each_building.hpp"
 #include "workflows/zone/study_document.hpp"
@@ -67,14 +68,6 @@ Box box_of_ends(Point2 from, Point2 towards, double half_angle, double length) {
       box.extend(Point2{from.x + far * std::cos(middle + side * half_angle),
                         from.y + far * std::sin(middle + side * half_angle)});
   return box;
-}
-
-/// The minutes of a year, of which some are lit, in runs that days end.
-void add_run_minute(std::uint32_t minute, std::vector<FlickerRun>& runs) {
-  const bool goes_on =
-      !runs.empty() && runs.back().first + runs.back().minutes == minute && minute % SunYear::kMinutesOfDay != 0;
-  if (!goes_on) runs.push_back({minute, 0});
-  ++runs.back().minutes;
 }
 
 class DwellingsSurveyor {
@@ -130,17 +123,17 @@ class DwellingsSurveyor {
       without_rotor += shadow_reach(survey_.request.flicker, turbine) > 0 ? 0 : 1;
       placed.push_back(turbine), survey_.ground_m.push_back(*ground[i]);
     }
-  void choose() {
-    const Box all = survey_.metadata.grid.box(survey_.metadata.bounds);
-    const auto feet = building_feet(store_, survey_.request.themes, all);
-    survey_.dwellings = choose_dwellings(survey_.request, survey_.metadata, feet, progress_);
-  }
-
     if (placed.empty()) throw InputError("`turbines`: there is no data under any of them", "turbines");
     if (without_rotor > 0)
       survey_.warnings.push_back(fmt::format("{} without hub height or rotor diameter: no flicker is known of {}",
                                              counted(without_rotor, "turbine"), without_rotor == 1 ? "it" : "them"));
     survey_.request.turbines.turbines = std::move(placed);
+  }
+
+  void choose() {
+    const Box all = survey_.metadata.grid.box(survey_.metadata.bounds);
+    const auto feet = building_feet(store_, survey_.request.themes, all);
+    survey_.dwellings = choose_dwellings(survey_.request, survey_.metadata, feet, progress_);
   }
 
   // Where their eyes are.
@@ -305,7 +298,7 @@ class DwellingsSurveyor {
     for_each_step(segment.pairs.size(), "sight lines", progress, [&](std::size_t i) {
       const DwellingPair& pair = segment.pairs[i];
       auto& facades = survey_.dwellings[pair.dwelling].facades;
-      const auto seen = look_at_turbine(scene, survey_, ends.at(pair.turbine), facades);
+      const auto seen = look_at_turbine(scene, survey_, ends.at(pair.turbine), facades, progress_);
       for (std::size_t f = 0; f < facades.size(); ++f) (facades[f].*sights)[pair.turbine] = seen[f];
     });
     survey_.statistics.lines_seconds += watch.lap();
@@ -335,7 +328,7 @@ class DwellingsSurveyor {
                                    std::uint64_t& lines) const {
     const Turbine& turbine = turbines()[pair.turbine];
     const Earth& earth = survey_.request.earth;
-    const Point3 eye{facade.position.x, facade.position.y, facade.ground_m + survey_.request.eye_height};
+    const Point3 eye = eye_of_facade(survey_, facade);
     const double distance = horizontal_distance(facade.position, turbine.position);
     const SeenRotor rotor{{turbine.position.x - eye.x, turbine.position.y - eye.y,
                            survey_.ground_m[pair.turbine] + *turbine.hub_height - earth.drop(distance) - eye.z},
@@ -344,20 +337,15 @@ class DwellingsSurveyor {
     sun.outward_deg = facade.outward_deg;
     const auto minutes = sun_behind(*year_, sun, rotor, survey_.request.flicker.least_elevation_deg);
     lines += minutes.size();
-    std::vector<FlickerRun> runs;
-    if (minutes.empty()) return runs;
-    const PlaceScene::View view = scene.view_past_voids(eye);
+    if (minutes.empty()) return {};
     const double length = farthest(facade);
-    for (std::size_t first = 0; first < minutes.size(); first += PlaceScene::kAtOnce) {
-      progress_.throw_if_cancelled();
-      std::array<Point3, PlaceScene::kAtOnce> ends;
-      const std::size_t count = std::min(PlaceScene::kAtOnce, minutes.size() - first);
-      for (std::size_t i = 0; i < count; ++i) ends[i] = end_of_ray(eye, minutes[first + i].direction, length);
-      const auto verdicts = scene.judge(view, std::span(ends).first(count));
-      for (std::size_t i = 0; i < count; ++i)
-        if (verdicts[i] != Verdict::kHidden) add_run_minute(minutes[first + i].minute, runs);
-    }
-    return runs;
+    std::vector<Point3> ends;
+    for (const SunMinute& minute : minutes) ends.push_back(end_of_ray(eye, minute.direction, length));
+    const std::vector<Verdict> verdicts = scene.judge_all(scene.view_past_voids(eye), ends, progress_);
+    std::vector<FlickerRun> lit;
+    for (std::size_t i = 0; i < minutes.size(); ++i)
+      if (verdicts[i] != Verdict::kHidden) lit.push_back({minutes[i].minute, 1});
+    return joined_runs(lit);
   }
 
   /// Where the ray to the sun is at a horizontal distance.
