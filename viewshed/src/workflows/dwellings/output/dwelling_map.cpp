@@ -95,12 +95,7 @@ profile::TitleBlock title_of_dwellings(const Store& store, const DwellingsSurvey
 std::string dwelling_map(const Store& store, const DwellingsSurvey& survey, const std::string& name,
                          Progress& progress) {
   const Box shown = box_of_dwellings(survey);
-  const double side = std::max({shown.width(), shown.height(), 1.0});
-  ResultSheet sheet{
-      RasterGrid({shown.xmin, shown.ymax}, side, side, 1, 1), shown, {}, "", {}, dwelling_objects(survey), {}};
-  sheet.map.cells = {kTransparent};
-  sheet.studied = [](Point2) { return true; };
-  sheet.title = title_of_dwellings(store, survey, shown);
+  const ResultSheet sheet = object_sheet(shown, dwelling_objects(survey), title_of_dwellings(store, survey, shown));
   return draw_result_sheet(store, sheet, profile::PaperSize::kA3, {}, name, progress);
 }
 

@@ -95,12 +95,7 @@ profile::TitleBlock title_of_premises(const Store& store, const PremisesSurvey& 
 std::string premises_map(const Store& store, const PremisesSurvey& survey, const std::string& name,
                          Progress& progress) {
   const Box shown = shown_box(survey);
-  const double side = std::max(shown.width(), shown.height());
-  ResultSheet sheet{
-      RasterGrid({shown.xmin, shown.ymax}, side, side, 1, 1), shown, {}, "", {}, premises_objects(survey), {}};
-  sheet.map.cells = {kTransparent};
-  sheet.studied = [](Point2) { return true; };
-  sheet.title = title_of_premises(store, survey, shown);
+  const ResultSheet sheet = object_sheet(shown, premises_objects(survey), title_of_premises(store, survey, shown));
   return draw_result_sheet(store, sheet, profile::PaperSize::kA3, {}, name, progress);
 }
 
