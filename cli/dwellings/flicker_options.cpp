@@ -1,7 +1,6 @@
 #include "dwellings/flicker_options.hpp"
 
 #include <algorithm>
-#include <cstdlib>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -49,11 +48,6 @@ void parse_limits(const std::string& text, viewshed::FlickerRules& rules) {
   rules.limit_minutes_day = number(all.substr(std::min(comma + 1, all.size())), "min");
 }
 
-int year_of_run() {
-  const std::string day = day_of_run();
-  return std::atoi(day.substr(day.rfind(' ')).c_str());
-}
-
 }  // namespace
 
 void FlickerOptions::declare(CLI::App& app) {
@@ -85,8 +79,8 @@ void FlickerOptions::declare(CLI::App& app) {
 }
 
 void FlickerOptions::validate() {
-  rules_.year.year =
-      year_text_.empty() ? year_of_run() : parse_whole("--year", year_text_, kFirstYearOfSun, kLastYearOfSun);
+  rules_.year.year = year_text_.empty() ? static_cast<int>(day_of_run().year())
+                                        : parse_whole("--year", year_text_, kFirstYearOfSun, kLastYearOfSun);
   if (!zone_text_.empty()) rules_.year.utc_offset_minutes = parse_time_zone(zone_text_);
   if (!limits_text_.empty()) parse_limits(limits_text_, rules_);
   if (!elevation_text_.empty()) rules_.least_elevation_deg = parse_number("--sun-elevation", elevation_text_);

@@ -27,7 +27,7 @@ void LosPeople::declare(CLI::App& app) {
 void LosPeople::validate(bool links) {
   if (links && !(from_name_.empty() && to_name_.empty()))
     throw InputError("--from-name and --to-name are those of one line; with --links give columns name1 and name2");
-  if (date_.empty() && !(project_.empty() && operator_.empty())) date_ = day_of_run();
+  if (date_.empty() && !(project_.empty() && operator_.empty())) date_ = day_text(day_of_run());
 }
 
 std::vector<std::pair<std::string, std::string>> LosPeople::facts() const {

@@ -1,12 +1,12 @@
-// The date that reports and maps on paper have where none is given.
+// The date that reports, maps on paper and years of the sun have where none is given.
 #pragma once
 
-#include <string>
+#include <itin/calendar_day.hpp>
 
 namespace itin::cli {
 
-/// Returns the day on which the program runs, UTC, or the one that SOURCE_DATE_EPOCH gives, like "3 November 2026".
+/// Returns the day on which the program runs, UTC, or the one that SOURCE_DATE_EPOCH gives.
 /// Throws InputError where SOURCE_DATE_EPOCH is no number.
-std::string day_of_run();
+CalendarDay day_of_run();
 
 }  // namespace itin::cli

@@ -53,7 +53,7 @@ void SheetOptions::validate() {
   for (const auto& [option, text] : {std::pair("--basemap", &choice_.basemap), std::pair("--sheet-scale", &scale_text_),
                                      std::pair("--project", &choice_.project), std::pair("--date", &choice_.date)})
     if (!text->empty() && papers_text_.empty()) throw InputError(fmt::format("{} works only with a sheet", option));
-  if (choice_.date.empty()) choice_.date = day_of_run();
+  if (choice_.date.empty()) choice_.date = day_text(day_of_run());
   if (!file_.empty()) profile::require_sheet_format(file_);
   if (!scale_text_.empty()) choice_.scale = parse_number("--sheet-scale", scale_text_, Range::kPositive);
   if (papers_text_.empty()) return;

@@ -165,7 +165,7 @@ class ZtvVerb final : public Verb {
   void complete_request(const StoreMetadata& metadata) {
     earth_.take_body_of(metadata);
     request_.zone.earth = earth_.earth();
-    turbines_.complete(request_, radius_.rule(), metadata);
+    request_.turbines = turbines_.read(radius_.rule(), metadata);
     radio_.complete(request_, turbines_.in_crs(), metadata);
     request_.zone.detail = detail_.detail({});
     request_.zone.themes = themes_.choice();

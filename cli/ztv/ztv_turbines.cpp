@@ -63,11 +63,6 @@ viewshed::TurbineTable TurbineOptions::read(const viewshed::RadiusRule& radius, 
   return table;
 }
 
-void TurbineOptions::complete(viewshed::ZoneStudyRequest& request, const viewshed::RadiusRule& radius,
-                              const StoreMetadata& metadata) const {
-  request.turbines = read(radius, metadata);
-}
-
 Document TurbineOptions::parameters() const {
   const viewshed::TurbineFile usual;
   Document parameters{{"turbines", file_.path}};

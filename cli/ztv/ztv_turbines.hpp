@@ -23,9 +23,6 @@ class TurbineOptions {
   const InCrs& in_crs() const { return in_crs_; }
   /// Reads the turbines. Throws FileError, InputError (no row can be used, or all lie off the data).
   viewshed::TurbineTable read(const viewshed::RadiusRule& radius, const StoreMetadata& metadata) const;
-  /// Adds the turbines to the request. Throws as read() does.
-  void complete(viewshed::ZoneStudyRequest& request, const viewshed::RadiusRule& radius,
-                const StoreMetadata& metadata) const;
   Document parameters() const;
 
  private:

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <random>
 #include <set>
 
@@ -103,6 +102,24 @@ TEST_F(SunBehindRotors, MindsWhereTheGridsNorthLies) {
   ASSERT_GT(straight.size(), 100U);
   ASSERT_EQ(turned.size(), straight.size());
   for (std::size_t i = 0; i < turned.size(); ++i) EXPECT_EQ(turned[i].minute, straight[i].minute);
+}
+
+TEST_F(SunBehindRotors, IsSeenFromAFacadeWhereItIsBeforeIt) {
+  SunEye eye{SkyAt({10, 50}, 0), in_radians(3)};
+  const SeenRotor rotor{hub_at(150, 120, 10), 60};
+  const auto open = sun_behind(year(), eye, rotor, 3);
+  bool some = false, none = false;
+  for (double outward = 0; outward < 360; outward += 9) {
+    eye.outward_deg = outward;
+    const double a = in_radians(outward);
+    std::vector<std::uint32_t> before, told;
+    for (const SunMinute& m : open)
+      if (m.direction.x * std::sin(a) + m.direction.y * std::cos(a) > 0) before.push_back(m.minute);
+    for (const SunMinute& m : sun_behind(year(), eye, rotor, 3)) told.push_back(m.minute);
+    EXPECT_EQ(told, before) << outward;
+    some = some || (!told.empty() && told.size() < open.size()), none = none || told.empty();
+  }
+  EXPECT_TRUE(some && none);
 }
 
 /// The sun by the series of the Astronomical Almanac (page C24) and the formulas of spherical triangles, lifted by the

@@ -1,8 +1,10 @@
-// Whether a ring encloses a position.
+// Whether rings enclose a position, and where they lie.
 //
 //   if (in_ring(outline, {318000, 176000}) && !in_ring(hole, {318000, 176000})) ...
+//   if (in_rings(foot.rings, {318000, 176000})) ...
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include <itin/geometry.hpp>
@@ -17,6 +19,19 @@ inline bool in_ring(const std::vector<Point2>& ring, Point2 p) {
     if ((a.y > p.y) != (b.y > p.y) && p.x < (b.x - a.x) * (p.y - a.y) / (b.y - a.y) + a.x) inside = !inside;
   }
   return inside;
+}
+
+/// Tells whether an odd number of the rings encloses the position.
+inline bool in_rings(const std::vector<std::vector<Point2>>& rings, Point2 p) {
+  return std::count_if(rings.begin(), rings.end(), [&](const auto& ring) { return in_ring(ring, p); }) % 2 != 0;
+}
+
+/// The box about all corners.
+inline Box box_of_rings(const std::vector<std::vector<Point2>>& rings) {
+  Box box;
+  for (const std::vector<Point2>& ring : rings)
+    for (const Point2& p : ring) box.extend(p);
+  return box;
 }
 
 }  // namespace itin

@@ -43,7 +43,7 @@ class SkyAt {
   Point3 apparent(const Point3& sun) const;
 
  private:
-  double height_m_;
+  double pressure_;  ///< air pressure, in units of 1010 hPa
   Point3 east_, north_, up_;
 };
 

@@ -51,6 +51,19 @@ double dot(const Point3& a, const Point3& b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
+/// The usual pressure of the air at a height, in units of 1010 hPa.
+double pressure_at(double height_m) {
+  return std::pow(std::max(0.0, 1 - 2.25577e-5 * height_m), 5.25588) * 1013.25 / 1010;
+}
+
+/// The refraction, degrees, under such a pressure.
+double refraction_under(double pressure, double true_elevation_deg) {
+  constexpr double kLowest = -1;
+  if (true_elevation_deg < kLowest) return 0;
+  const double minutes = 1.02 / std::tan(in_radians(true_elevation_deg + 10.3 / (true_elevation_deg + 5.11)));
+  return std::max(0.0, pressure * minutes / 60);
+}
+
 }  // namespace
 
 double julian_day(std::chrono::sys_seconds moment) {
@@ -68,14 +81,10 @@ Point3 sun_direction(double julian_day) {
 }
 
 double refraction_deg(double true_elevation_deg, double height_m) {
-  constexpr double kLowest = -1;
-  if (true_elevation_deg < kLowest) return 0;
-  const double pressure = std::pow(std::max(0.0, 1 - 2.25577e-5 * height_m), 5.25588) * 1013.25 / 1010;
-  const double minutes = 1.02 / std::tan(in_radians(true_elevation_deg + 10.3 / (true_elevation_deg + 5.11)));
-  return std::max(0.0, pressure * minutes / 60);
+  return refraction_under(pressure_at(height_m), true_elevation_deg);
 }
 
-SkyAt::SkyAt(Point2 lon_lat, double height_m) : height_m_(height_m) {
+SkyAt::SkyAt(Point2 lon_lat, double height_m) : pressure_(pressure_at(height_m)) {
   const double sine_lon = sine_of_degrees(lon_lat.x), cosine_lon = cosine_of_degrees(lon_lat.x);
   const double sine_lat = sine_of_degrees(lon_lat.y), cosine_lat = cosine_of_degrees(lon_lat.y);
   east_ = {-sine_lon, cosine_lon, 0};
@@ -97,7 +106,7 @@ Point3 SkyAt::apparent(const Point3& sun) const {
   const Point3 place = local(sun);
   const double level = std::hypot(place.x, place.y);
   const double seen_from_here = in_degrees(std::atan2(place.z, level)) - kParallaxDeg * level;
-  const double elevation = in_radians(seen_from_here + refraction_deg(seen_from_here, height_m_));
+  const double elevation = in_radians(seen_from_here + refraction_under(pressure_, seen_from_here));
   if (level == 0) return {0, 0, place.z};
   const double scale = std::cos(elevation) / level;
   return {place.x * scale, place.y * scale, std::sin(elevation)};

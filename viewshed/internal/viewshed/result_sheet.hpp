@@ -51,6 +51,9 @@ struct ResultSheet {
   std::string outside = {};  ///< the legend's name for faded ground; empty: none
 };
 
+/// A map of this box that has objects alone, and no cells.
+ResultSheet object_sheet(const Box& shown, std::vector<MapObjects> objects, profile::TitleBlock title);
+
 /// Returns a test that holds in the grid's cells for which `studied` holds.
 std::function<bool(Point2)> in_cells(const RasterGrid& grid, std::function<bool(std::size_t)> studied);
 

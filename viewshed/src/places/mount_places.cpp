@@ -19,11 +19,6 @@ Point2 in_millimetres(Point2 p) {
   return {std::round(p.x * 1000) / 1000, std::round(p.y * 1000) / 1000};
 }
 
-/// Tells whether rings hold a place, by the even-odd rule.
-bool hold(const std::vector<std::vector<Point2>>& rings, Point2 p) {
-  return std::count_if(rings.begin(), rings.end(), [&](const auto& ring) { return in_ring(ring, p); }) % 2 != 0;
-}
-
 /// A closed ring by the distance along it.
 class RingWalk {
  public:
@@ -69,15 +64,26 @@ class RingWalk {
 
 class PlaceFinder {
  public:
-  PlaceFinder(const BuildingFoot& foot, const PlacedSurface& surface, const PlacedSurface& ground,
-              const MountRules& rules, const Progress& progress)
-      : foot_(foot), surface_(surface), ground_(ground), rules_(rules), progress_(progress) {}
+  PlaceFinder(const StandingBuilding& building, const Progress& progress)
+      : foot_(building.foot),
+        surface_(building.surface),
+        ground_(building.ground),
+        rules_(building.rules),
+        progress_(progress) {}
 
-  MountPlaces find() && {
+  void walk_rings() {
     for (const std::vector<Point2>& ring : foot_.rings) walk(ring);
-    lay_roof();
-    return std::move(places_);
   }
+
+  void lay_roof() {
+    const Box box = box_of_rings(foot_.rings);
+    const auto first = [&](double low) { return std::floor(low / rules_.spacing) + 0.5; };
+    for (double row = first(box.ymin); row * rules_.spacing <= box.ymax; ++row)
+      for (double column = first(box.xmin); column * rules_.spacing <= box.xmax; ++column)
+        add_roof(in_millimetres({column * rules_.spacing, row * rules_.spacing}));
+  }
+
+  MountPlaces places() && { return std::move(places_); }
 
  private:
   void walk(const std::vector<Point2>& ring) {
@@ -121,7 +127,7 @@ class PlaceFinder {
   std::optional<WallPlace> wall_beside(const RingWalk::Step& step, double side) const {
     const Point2 before = in_millimetres(aside_of(step, side, rules_.reveal)),
                  behind = aside_of(step, -side, rules_.wall_offset + kBehindWall);
-    if (!hold(foot_.rings, behind)) return std::nullopt;
+    if (!in_rings(foot_.rings, behind)) return std::nullopt;
     const auto top = surface_.height(behind), ground = ground_.height(before), foot = foot_of_wall(before);
     if (!top || !ground || !foot || *top - *foot <= kLeastWall) return std::nullopt;
     return WallPlace{.stretch = {},
@@ -137,19 +143,9 @@ class PlaceFinder {
     return rules_.of_buildings[surface_.theme(before)] ? surface_.height(before) : ground_.height(before);
   }
 
-  void lay_roof() {
-    Box box;
-    for (const std::vector<Point2>& ring : foot_.rings)
-      for (const Point2& p : ring) box.extend(p);
-    const auto first = [&](double low) { return std::floor(low / rules_.spacing) + 0.5; };
-    for (double row = first(box.ymin); row * rules_.spacing <= box.ymax; ++row)
-      for (double column = first(box.xmin); column * rules_.spacing <= box.xmax; ++column)
-        add_roof(in_millimetres({column * rules_.spacing, row * rules_.spacing}));
-  }
-
   void add_roof(Point2 place) {
     progress_.throw_if_cancelled();
-    if (!hold(foot_.rings, place) || surface_.theme(place) != foot_.theme) return;
+    if (!in_rings(foot_.rings, place) || surface_.theme(place) != foot_.theme) return;
     if (const auto roof = surface_.height(place)) places_.roof.push_back({.position = place, .roof_m = *roof});
   }
 
@@ -172,9 +168,17 @@ std::uint16_t PlacedSurface::theme(Point2 position) const {
   return triangle ? tin.theme(tin.triangles[*triangle]) : std::uint16_t{0};
 }
 
-MountPlaces mount_places(const BuildingFoot& foot, const PlacedSurface& surface, const PlacedSurface& ground,
-                         const MountRules& rules, const Progress& progress) {
-  return PlaceFinder(foot, surface, ground, rules, progress).find();
+MountPlaces mount_places(const StandingBuilding& building, const Progress& progress) {
+  PlaceFinder finder(building, progress);
+  finder.walk_rings();
+  finder.lay_roof();
+  return std::move(finder).places();
+}
+
+std::vector<WallPlace> wall_places(const StandingBuilding& building, const Progress& progress) {
+  PlaceFinder finder(building, progress);
+  finder.walk_rings();
+  return std::move(finder).places().walls;
 }
 
 std::vector<double> mount_heights(const WallPlace& wall, double storey) {

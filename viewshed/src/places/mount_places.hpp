@@ -1,6 +1,6 @@
 // Where antennas may be mounted on a building: before its walls and on its roof.
 //
-//   const MountPlaces places = mount_places(foot, surface, ground, {.spacing = 1, .reveal = 0.3}, progress);
+//   const MountPlaces places = mount_places({foot, surface, ground, {.spacing = 1, .reveal = 0.3}}, progress);
 //
 // A foot is cut into equally long stretches. One of them has a wall where the surface rises by more than kLeastWall
 // from one side to the other, onto the building: so a party wall has none, but where one house is higher, and a wall
@@ -54,9 +54,17 @@ struct MountRules {
   std::vector<bool> of_buildings = {};  ///< by theme: whether it stands as buildings do
 };
 
-/// Finds the places of a building on `surface`, which stands on the bare `ground`. Throws Cancelled.
-MountPlaces mount_places(const BuildingFoot& foot, const PlacedSurface& surface, const PlacedSurface& ground,
-                         const MountRules& rules, const Progress& progress);
+/// A building on a surface, which stands on the bare ground.
+struct StandingBuilding {
+  const BuildingFoot& foot;
+  const PlacedSurface &surface, &ground;
+  MountRules rules;
+};
+
+/// Finds the places of a building. Throws Cancelled.
+MountPlaces mount_places(const StandingBuilding& building, const Progress& progress);
+/// Finds those before its walls alone.
+std::vector<WallPlace> wall_places(const StandingBuilding& building, const Progress& progress);
 
 /// The heights at which an antenna is mounted before a wall: multiples of a storey where the wall is, up to its top. A
 /// wall without any has one height, its top, to a centimetre.

@@ -55,6 +55,18 @@ PlaceScene::Verdicts PlaceScene::judge(const View& view, std::span<const Point3>
   return verdicts;
 }
 
+std::vector<Verdict> PlaceScene::judge_all(const View& view, std::span<const Point3> places,
+                                           const Progress& progress) const {
+  std::vector<Verdict> all;
+  while (all.size() < places.size()) {
+    progress.throw_if_cancelled();
+    const auto some = places.subspan(all.size()).first(std::min(kAtOnce, places.size() - all.size()));
+    const Verdicts verdicts = judge(view, some);
+    all.insert(all.end(), verdicts.begin(), verdicts.begin() + static_cast<std::ptrdiff_t>(some.size()));
+  }
+  return all;
+}
+
 std::optional<PlaceScene::Obstacle> PlaceScene::obstacle(const View& view, const Point3& place) const {
   constexpr double kWithin = 0.05;
   const Point3 from = in_units(place);

@@ -57,6 +57,8 @@ class PlaceScene {
   /// Judges the links to at most kAtOnce places in metres: kVisible, kZoneCut, kHidden or kUndecided. The closer
   /// together the places, the faster.
   Verdicts judge(const View& view, std::span<const Point3> places) const;
+  /// Judges the links to any number of places. Throws Cancelled.
+  std::vector<Verdict> judge_all(const View& view, std::span<const Point3> places, const Progress& progress) const;
 
   /// What is in the way of a link.
   struct Obstacle {

@@ -45,6 +45,9 @@ bool holds(std::uint64_t memory, std::uint64_t raster_bytes) {
   return raster_bytes <= std::max(memory / 4 * 3, kSmallRasters);
 }
 
+/// So little ground is never too much.
+constexpr std::uint64_t kLittleGround = 64 << 20;
+
 std::uint64_t bytes_of_rasters(const Store& store, const Request& request) {
   return bytes_per_cell(request) * cells_of(request, extent_of(store)).cell_count();
 }
@@ -55,6 +58,10 @@ bool takes_a_lattice(const Store& store, const Request& request) {
   // A lattice is the full surface, and at coarser levels nothing of that is looked at.
   return !needs_triangles(request) && !casts_rays(request) &&
          level_within(store.metadata(), request.detail.coarsest()) == 0;
+}
+
+bool holds_ground(std::uint64_t memory, std::uint64_t bytes) {
+  return bytes <= std::max(memory, kLittleGround);
 }
 
 std::uint64_t bytes_per_point(const Request& request) {

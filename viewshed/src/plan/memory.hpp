@@ -35,6 +35,10 @@ enum class SurfaceForm : std::uint8_t { kTriangles, kPosts };
 /// About how many bytes it takes to hold a surface, or to retrieve it.
 std::uint64_t bytes_held(const Store& store, const Detail& detail, const Box& area, SurfaceForm form);
 
+/// Tells whether the memory holds ground of so many bytes. A little is never too much: the program takes as much by
+/// itself.
+bool holds_ground(std::uint64_t memory, std::uint64_t bytes);
+
 /// The memory that keeps the ground of cells, beside surfaces that take this much: a quarter of all, or what is left.
 std::uint64_t memory_for_ground(std::uint64_t memory, std::uint64_t surfaces);
 

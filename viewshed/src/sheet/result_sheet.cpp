@@ -127,6 +127,15 @@ std::function<bool(Point2)> in_cells(const RasterGrid& grid, std::function<bool(
   };
 }
 
+ResultSheet object_sheet(const Box& shown, std::vector<MapObjects> objects, profile::TitleBlock title) {
+  const double side = std::max({shown.width(), shown.height(), 1.0});
+  ResultSheet sheet{RasterGrid({shown.xmin, shown.ymax}, side, side, 1, 1), shown, {}, "", {}, {}, {}};
+  sheet.map.cells = {kTransparent};
+  sheet.studied = [](Point2) { return true; };
+  sheet.objects = std::move(objects), sheet.title = std::move(title);
+  return sheet;
+}
+
 std::string statement_of(const StoreMetadata& metadata, const ThemeChoice& themes, const Detail& detail) {
   if (!themes.includes_raised(metadata.themes))
     return "Bare ground: the screening effect of buildings, walls and vegetation is not taken into account.";

@@ -24,6 +24,18 @@ Point3 turned(const Point3& v, double angle) {
   return {v.x * cosine + v.y * sine, v.y * cosine - v.x * sine, v.z};
 }
 
+/// Where the eye's wall looks, a unit vector; nothing in the open.
+std::optional<Point2> outward_of(const SunEye& eye) {
+  if (!eye.outward_deg) return std::nullopt;
+  const double azimuth = in_radians(*eye.outward_deg);
+  return Point2{std::sin(azimuth), std::cos(azimuth)};
+}
+
+/// How far a place lies before the wall that looks outward.
+double ahead_of(Point2 outward, const Point3& place) {
+  return place.x * outward.x + place.y * outward.y;
+}
+
 /// The minutes of a day, a superset of those in which the sun is within some angle of a fixed direction.
 class NearMinutes {
  public:
@@ -54,7 +66,7 @@ class NearMinutes {
  private:
   /// In half a day the sun's declination changes by 0.2 degrees and its time by 0.07; refraction differs by at most 0.5
   /// degrees across the sky.
-  static constexpr double kMargin = 0.9 / 180 * std::numbers::pi;
+  static constexpr double kMargin = in_radians(0.9);
 
   double sine_, cosine_, east_, least_cosine_;
 };
@@ -62,7 +74,7 @@ class NearMinutes {
 }  // namespace
 
 SunYear::SunYear(const FlickerYear& year, const Progress& progress) {
-  using std::chrono::year_month_day, std::chrono::sys_days;
+  using std::chrono::sys_days;
   const std::chrono::year first{year.year};
   const sys_days begin{first / 1 / 1}, end{(first + std::chrono::years{1}) / 1 / 1};
   const auto days = static_cast<std::size_t>((end - begin).count());
@@ -78,14 +90,16 @@ SunYear::SunYear(const FlickerYear& year, const Progress& progress) {
 
 std::vector<SunMinute> sun_behind(const SunYear& year, const SunEye& eye, const SeenRotor& rotor,
                                   double least_elevation_deg) {
+  constexpr double kSlack = 1e-6;
   std::vector<SunMinute> minutes;
+  const auto outward = outward_of(eye);
+  if (outward && ahead_of(*outward, rotor.hub) + rotor.radius < -kSlack) return minutes;
   const double distance = length_of(rotor.hub), reach = rotor.radius * rotor.radius;
   const Point3 hub = turned(rotor.hub, eye.convergence);  // to true east and north
   const double angle = distance > rotor.radius ? std::asin(rotor.radius / distance) : std::numbers::pi;
   // Elevations below the least are left out as soon as the true one is lower by more than any refraction.
   const double least = std::sin(in_radians(least_elevation_deg)),
                lowest = std::sin(in_radians(least_elevation_deg - 1));
-  const double facing = in_radians(eye.outward_deg.value_or(0));
   const auto add_if_behind = [&](std::uint32_t minute) {
     const Point3& sun = year.direction(minute);
     if (eye.sky.local(sun).z < lowest) return;
@@ -93,7 +107,7 @@ std::vector<SunMinute> sun_behind(const SunYear& year, const SunEye& eye, const 
     const double along = hub.x * seen.x + hub.y * seen.y + hub.z * seen.z;
     if (seen.z < least || along <= 0 || distance * distance - along * along > reach) return;
     const Point3 direction = turned(seen, -eye.convergence);
-    if (eye.outward_deg && direction.x * std::sin(facing) + direction.y * std::cos(facing) <= 0) return;
+    if (outward && ahead_of(*outward, direction) <= 0) return;
     minutes.push_back({minute, direction});
   };
   const Point3 unit = distance > 0 ? Point3{hub.x / distance, hub.y / distance, hub.z / distance} : Point3{0, 0, 1};

@@ -35,14 +35,7 @@ TurbineSight sight_to(const SectionSurface& surface, const Viewpoint& from, cons
   const bool tip_clear = seen.tip.visible_m > 0;
   sight.tip = judged(tip_clear);
   if (turbine.hub_height) sight.hub = judged(tip_clear && least <= *turbine.hub_height);
-  const double eye = from.ground + from.height;
-  const auto angle = [&](double height) {
-    return profile::apparent_angle_deg(request.earth, sight.distance, ground + height - eye);
-  };
-  sight.tip_deg = angle(turbine.tip_height);
-  if (sight.tip != TurbineSight::Verdict::kVisible) return sight;
-  sight.visible = turbine.tip_height - least;
-  sight.vertical_deg = sight.tip_deg - angle(least);
+  tell_angles({request.earth, ground, turbine.tip_height, from.ground + from.height}, least, sight);
   return sight;
 }
 
@@ -54,6 +47,16 @@ std::vector<TurbineSight> sights_to_all(const SectionSurface& surface, const Vie
     sights[k] = sight_to(surface, from, zone.request.turbines[k], zone.ground_m[k], zone.request);
   });
   return sights;
+}
+
+void tell_angles(const TurbineFromEye& turbine, double least, TurbineSight& sight) {
+  const auto angle = [&](double height) {
+    return profile::apparent_angle_deg(turbine.earth, sight.distance, turbine.ground_m + height - turbine.eye_m);
+  };
+  sight.tip_deg = angle(turbine.tip_height);
+  if (sight.tip != TurbineSight::Verdict::kVisible) return;
+  sight.visible = turbine.tip_height - least;
+  sight.vertical_deg = sight.tip_deg - angle(least);
 }
 
 }  // namespace itin::viewshed

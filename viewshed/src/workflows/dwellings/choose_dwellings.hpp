@@ -1,10 +1,8 @@
 // Which dwellings are studied: buildings of the store, or given places.
 //
-//   const ChosenDwellings chosen = choose_dwellings(request, metadata, feet, progress);
+//   const std::vector<Dwelling> chosen = choose_dwellings(request, metadata, feet, progress);
 #pragma once
 
-#include <cstddef>
-#include <optional>
 #include <vector>
 
 #include <itin/building_outlines.hpp>
@@ -14,18 +12,17 @@
 
 namespace itin::viewshed {
 
-struct ChosenDwellings {
-  std::vector<Dwelling> dwellings;               ///< without facades, and buildings without names of their own
-  std::vector<std::optional<std::size_t>> feet;  ///< the building that each is; nothing: in the open
-};
-
-/// Chooses the dwellings within reach of a turbine. `feet` are the buildings of the chosen themes. Throws InputError
-/// where there is none, and where a turbine stands within a building; Cancelled.
-ChosenDwellings choose_dwellings(const DwellingsRequest& request, const StoreMetadata& metadata,
-                                 const std::vector<BuildingFoot>& feet, const Progress& progress);
+/// Chooses the dwellings within reach of a turbine, without facades, and buildings without names of their own. `feet`
+/// are the buildings of the chosen themes. Throws InputError where there is none, and where a turbine stands within a
+/// building; Cancelled.
+std::vector<Dwelling> choose_dwellings(const DwellingsRequest& request, const StoreMetadata& metadata,
+                                       const std::vector<BuildingFoot>& feet, const Progress& progress);
 
 /// How far the turbine's shadow reaches, metres; 0 where its rotor is not known.
 double shadow_reach(const FlickerRules& rules, const Turbine& turbine);
+
+/// Tells whether the turbine's shadow may reach a place: never where its rotor is not known.
+bool may_shade(const FlickerRules& rules, const Turbine& turbine, Point2 place);
 
 /// The distance in plan.
 double horizontal_distance(Point2 a, Point2 b);

@@ -1,7 +1,6 @@
 // The facades of a building: straight runs of its walls that stand on open ground.
 //
-//   const MountPlaces places = mount_places(foot, surface, ground, rules, progress);
-//   for (const DwellingFacade& facade : facades_of(places.walls)) ...
+//   for (const DwellingFacade& facade : facades_of(wall_places(building, progress))) ...
 #pragma once
 
 #include <vector>

@@ -10,6 +10,7 @@
 
 #include <itin/error.hpp>
 
+#include "line/cell_tiles.hpp"
 #include "plan/ground_runs.hpp"
 #include "plan/ground_tiles.hpp"
 #include "plan/memory.hpp"
@@ -20,15 +21,9 @@ namespace {
 
 /// The surface with its triangles, its scene and its pyramid of heights, and the bare one, for each point of that.
 constexpr std::uint64_t kBytesOfSunlitPoint = kPointsWithFeatures * (kBytesPerSurfacePoint + 300) + 60;
-/// So little ground is never too much: the program takes as much by itself.
-constexpr std::uint64_t kLittleGround = 64 << 20;
 
 bool holds_pairs(const DwellingsRequest& request, std::uint64_t points) {
-  return points * kBytesOfSunlitPoint <= std::max(request.memory_bytes, kLittleGround);
-}
-
-Point2 middle_of(const Box& box) {
-  return {(box.xmin + box.xmax) / 2, (box.ymin + box.ymax) / 2};
+  return holds_ground(request.memory_bytes, points * kBytesOfSunlitPoint);
 }
 
 /// Adds the tiles of all lines from one box to another: those to the first from each corner of the second, and those

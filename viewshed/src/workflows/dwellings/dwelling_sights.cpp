@@ -8,28 +8,13 @@
 #include <itin/grazing.hpp>
 #include <itin/grid_units.hpp>
 #include <itin/same_place.hpp>
-#include <profile/wireline.hpp>
+#include <viewshed/turbine_sights.hpp>
 
 #include "places/raised_end.hpp"
 
 namespace itin::viewshed {
 
 namespace {
-
-Point3 eye_of(const DwellingsSurvey& survey, const DwellingFacade& facade) {
-  return {facade.position.x, facade.position.y, facade.ground_m + survey.request.eye_height};
-}
-
-/// Judges the lines from an end of the turbine to all eyes.
-std::vector<Verdict> judge_all(const PlaceScene& scene, const PlaceScene::View& end, const std::vector<Point3>& eyes) {
-  std::vector<Verdict> verdicts;
-  for (std::size_t first = 0; first < eyes.size(); first += PlaceScene::kAtOnce) {
-    const std::size_t count = std::min(PlaceScene::kAtOnce, eyes.size() - first);
-    const auto some = scene.judge(end, std::span(eyes).subspan(first, count));
-    verdicts.insert(verdicts.end(), some.begin(), some.begin() + static_cast<std::ptrdiff_t>(count));
-  }
-  return verdicts;
-}
 
 /// The least height of the turbine's axis that is seen, above its ground; no more than the tip's.
 double least_height_seen(const PlaceScene& scene, const Earth& earth, const Point3& eye, const Point3& foot,
@@ -55,6 +40,10 @@ TurbineEnds turbine_ends(const PlaceScene& scene, const DwellingsSurvey& survey,
   return ends;
 }
 
+Point3 eye_of_facade(const DwellingsSurvey& survey, const DwellingFacade& facade) {
+  return {facade.position.x, facade.position.y, facade.ground_m + survey.request.eye_height};
+}
+
 bool is_before(const DwellingFacade& facade, Point2 place) {
   if (!facade.outward_deg) return true;
   const double outward = in_radians(*facade.outward_deg);
@@ -62,14 +51,16 @@ bool is_before(const DwellingFacade& facade, Point2 place) {
 }
 
 std::vector<TurbineSight> look_at_turbine(const PlaceScene& scene, const DwellingsSurvey& survey,
-                                          const TurbineEnds& ends, std::span<const DwellingFacade> facades) {
+                                          const TurbineEnds& ends, std::span<const DwellingFacade> facades,
+                                          const Progress& progress) {
   const Turbine& turbine = survey.request.turbines.turbines[ends.turbine];
   const Earth& earth = survey.request.earth;
   const Point3 foot{turbine.position.x, turbine.position.y, survey.ground_m[ends.turbine]};
   std::vector<Point3> eyes;
-  for (const DwellingFacade& facade : facades) eyes.push_back(eye_of(survey, facade));
-  const std::vector<Verdict> tips = judge_all(scene, ends.tip, eyes),
-                             hubs = ends.hub ? judge_all(scene, *ends.hub, eyes) : std::vector<Verdict>();
+  for (const DwellingFacade& facade : facades) eyes.push_back(eye_of_facade(survey, facade));
+  const std::vector<Verdict> tips = scene.judge_all(ends.tip, eyes, progress);
+  std::vector<Verdict> hubs;
+  if (ends.hub) hubs = scene.judge_all(*ends.hub, eyes, progress);
   std::vector<TurbineSight> sights(facades.size());
   for (std::size_t f = 0; f < facades.size(); ++f) {
     TurbineSight& sight = sights[f];
@@ -79,14 +70,9 @@ std::vector<TurbineSight> look_at_turbine(const PlaceScene& scene, const Dwellin
     if (!is_before(facades[f], turbine.position)) continue;
     sight.tip = tips[f];
     if (ends.hub) sight.hub = hubs[f];
-    const auto angle = [&](double height) {
-      return profile::apparent_angle_deg(earth, sight.distance, foot.z + height - eyes[f].z);
-    };
-    sight.tip_deg = angle(turbine.tip_height);
-    if (sight.tip != Verdict::kVisible) continue;
-    const double least = least_height_seen(scene, earth, eyes[f], foot, turbine.tip_height);
-    sight.visible = turbine.tip_height - least;
-    sight.vertical_deg = sight.tip_deg - angle(least);
+    const bool seen = sight.tip == Verdict::kVisible;
+    const double least = seen ? least_height_seen(scene, earth, eyes[f], foot, turbine.tip_height) : 0;
+    tell_angles({earth, foot.z, turbine.tip_height, eyes[f].z}, least, sight);
   }
   return sights;
 }

@@ -42,14 +42,13 @@ std::optional<SightSummary> view_of(const DwellingsSurvey& survey, const Dwellin
 }
 
 std::optional<SightSummary> view_of(const DwellingsSurvey& survey, const Dwelling& dwelling, SightSurface surface) {
+  TurbineSight unseen;
+  unseen.tip = Verdict::kOutside;
   std::vector<TurbineSight> best;
   for (const DwellingFacade& facade : dwelling.facades) {
     const std::vector<TurbineSight>& sights = sights_over(facade, surface);
-    if (best.empty()) {
-      best = sights;
-    } else {
-      for (std::size_t t = 0; t < best.size(); ++t) improve(best[t], sights[t]);
-    }
+    best.resize(sights.size(), unseen);
+    for (std::size_t t = 0; t < best.size(); ++t) improve(best[t], sights[t]);
   }
   return summary_of(survey, best);
 }

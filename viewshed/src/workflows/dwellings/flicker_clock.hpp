@@ -9,8 +9,6 @@
 #include <itin/calendar_day.hpp>
 #include <viewshed/dwellings.hpp>
 
-#include "turbines/sun_behind_rotor.hpp"
-
 namespace itin::viewshed {
 
 /// The day that is so many days after the first of the year.

@@ -1,8 +1,4 @@
-// What flicker comes to: runs of a dwelling together, hours, days, and the likely part of them.
-
-#include <algorithm>
-#include <cmath>
-#include <span>
+// What flicker comes to: hours, days, and the likely part of them.
 
 #include <viewshed/dwellings.hpp>
 
@@ -11,37 +7,9 @@
 
 namespace itin::viewshed {
 
-namespace {
-
-constexpr std::uint32_t kDay = SunYear::kMinutesOfDay;
-
-std::uint32_t end_of(const FlickerRun& run) {
-  return run.first + run.minutes;
-}
-
-}  // namespace
-
-std::vector<FlickerRun> flicker_runs(const Dwelling& dwelling, const std::optional<std::size_t>& turbine) {
-  std::vector<FlickerRun> all;
-  for (const DwellingFacade& facade : dwelling.facades)
-    for (const TurbineFlicker& flicker : facade.flicker)
-      if (!turbine || flicker.turbine == *turbine) all.insert(all.end(), flicker.runs.begin(), flicker.runs.end());
-  std::sort(all.begin(), all.end(), [](const FlickerRun& a, const FlickerRun& b) { return a.first < b.first; });
-  std::vector<FlickerRun> merged;
-  for (const FlickerRun& run : all) {
-    const bool joins =
-        !merged.empty() && run.first <= end_of(merged.back()) && run.first / kDay == merged.back().first / kDay;
-    if (!joins) {
-      merged.push_back(run);
-    } else if (end_of(run) > end_of(merged.back())) {
-      merged.back().minutes = end_of(run) - merged.back().first;
-    }
-  }
-  return merged;
-}
-
 FlickerSum flicker_sum(const DwellingsSurvey& survey, const Dwelling& dwelling,
                        const std::optional<std::size_t>& turbine) {
+  constexpr std::uint32_t kDay = SunYear::kMinutesOfDay;
   const FlickerRules& rules = survey.request.flicker;
   FlickerSum sum;
   if (rules.months) sum.likely = 0;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include <itin/degrees.hpp>
+#include <itin/level_choice.hpp>
 #include <itin/triangulate.hpp>
 
 #include "line/infinity.hpp"
@@ -35,8 +36,7 @@ SunReach sun_reach(const Store& store, const ThemeChoice& themes, const Earth& e
   const StoreMetadata& metadata = store.metadata();
   const Box all = metadata.grid.box(metadata.bounds);
   const int level = static_cast<int>(metadata.levels.size()) - 1;
-  const Tin coarse =
-      triangulate(store, Window::box(all), Detail::tolerance(metadata.levels.back().tolerance), progress);
+  const Tin coarse = triangulate(store, Window::box(all), detail_of(metadata, level), progress);
   const auto error = store.certified_error(level, all);
   const double above = (error ? error->hi : 0) + store.greatest_feature_height(themes, all);
   const double slope = std::tan(in_radians(eyes.least_elevation_deg));

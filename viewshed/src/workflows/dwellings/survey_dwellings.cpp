@@ -30,9 +30,9 @@
 #include "workflows/dwellings/dwelling_facades.hpp"
 #include "workflows/dwellings/dwelling_segments.hpp"
 #include "workflows/dwellings/dwelling_sights.hpp"
+#include "workflows/dwellings/flicker_runs.hpp"
 #include "workflows/dwellings/sun_reach.hpp"
-#include "workflows/premises/premises_rules.hpp"
-#include "workflows/premises/premises_segments.hpp"
+#include "workflows/premises/each_building.hpp"
 #include "workflows/zone/study_document.hpp"
 
 namespace itin::viewshed {
@@ -70,14 +70,6 @@ Box box_of_ends(Point2 from, Point2 towards, double half_angle, double length) {
   return box;
 }
 
-/// The minutes of a year, of which some are lit, in runs that days end.
-void add_run_minute(std::uint32_t minute, std::vector<FlickerRun>& runs) {
-  const bool goes_on =
-      !runs.empty() && runs.back().first + runs.back().minutes == minute && minute % SunYear::kMinutesOfDay != 0;
-  if (!goes_on) runs.push_back({minute, 0});
-  ++runs.back().minutes;
-}
-
 class DwellingsSurveyor {
  public:
   DwellingsSurveyor(const Store& store, DwellingsRequest request, Progress& progress)
@@ -98,9 +90,7 @@ class DwellingsSurveyor {
   DwellingsSurvey survey() && {
     progress_.step(0.05);
     place_turbines();
-    feet_ = building_feet(store_, survey_.request.themes, survey_.metadata.grid.box(survey_.metadata.bounds));
-    auto [dwellings, feet] = choose_dwellings(survey_.request, survey_.metadata, feet_, progress_);
-    survey_.dwellings = std::move(dwellings), foot_of_ = std::move(feet);
+    choose();
     find_facades();
     name_dwellings();
     year_.emplace(survey_.request.flicker.year, progress_);
@@ -140,6 +130,12 @@ class DwellingsSurveyor {
     survey_.request.turbines.turbines = std::move(placed);
   }
 
+  void choose() {
+    const Box all = survey_.metadata.grid.box(survey_.metadata.bounds);
+    const auto feet = building_feet(store_, survey_.request.themes, all);
+    survey_.dwellings = choose_dwellings(survey_.request, survey_.metadata, feet, progress_);
+  }
+
   // Where their eyes are.
 
   void find_facades() {
@@ -163,23 +159,15 @@ class DwellingsSurveyor {
   }
 
   void find_walls() {
-    std::vector<ReachedBuilding> buildings;
-    for (std::size_t i = 0; i < foot_of_.size(); ++i)
-      if (foot_of_[i]) buildings.push_back({i, box_about(premises_, feet_[*foot_of_[i]]), {}});
-    if (buildings.empty()) return;
-    const auto segments = premises_segments(store_, premises_, {}, std::move(buildings), progress_);
-    for (const PremisesSegment& segment : segments) {
-      SurfaceReader reader(store_, Detail::tolerance(0), survey_.statistics);
-      const PlacedSurface surface(reader.triangles(segment.surface, survey_.request.themes, progress_), progress_);
-      const PlacedSurface ground(reader.triangles(segment.ground, ThemeChoice::none(), progress_), progress_);
-      for_each_step(segment.buildings.size(), "facades", progress_, [&](std::size_t i) {
-        const std::size_t d = segment.buildings[i].foot;
-        const BuildingFoot& foot = feet_[*foot_of_[d]];
-        const MountRules rules = mount_rules(premises_, survey_.metadata, foot);
-        survey_.dwellings[d].facades = facades_of(mount_places(foot, surface, ground, rules, progress_).walls);
-        survey_.dwellings[d].foot = foot.rings;
-      });
-    }
+    std::vector<BuildingFoot> feet;
+    std::vector<Dwelling*> of_feet;
+    for (Dwelling& dwelling : survey_.dwellings)
+      if (dwelling.theme != 0)
+        feet.push_back({dwelling.theme, dwelling.feature, dwelling.foot}), of_feet.push_back(&dwelling);
+    for_each_building(store_, premises_, feet, {"facades", survey_.statistics}, progress_,
+                      [&](std::size_t i, const StandingBuilding& building) {
+                        of_feet[i]->facades = facades_of(wall_places(building, progress_));
+                      });
   }
 
   void find_open_ground() {
@@ -248,7 +236,10 @@ class DwellingsSurveyor {
         facade.bare.resize(turbines().size());
         if (has_screens()) facade.screened.resize(turbines().size());
       }
-      for (std::size_t t = 0; t < turbines().size(); ++t) pairs.push_back({d, t, in_shadow(d, t), {}, {}});
+      for (std::size_t t = 0; t < turbines().size(); ++t) {
+        const bool in_shadow = may_shade(survey_.request.flicker, turbines()[t], survey_.dwellings[d].position);
+        pairs.push_back({d, t, in_shadow, {}, {}});
+      }
     }
     reach_ = sun_reach(store_, survey_.request.themes, survey_.request.earth, eyes, progress_);
     for (DwellingPair& pair : pairs) add_boxes(pair);
@@ -256,12 +247,6 @@ class DwellingsSurveyor {
   }
 
   bool has_screens() const { return survey_.request.themes.includes_raised(survey_.metadata.themes); }
-
-  /// Tells whether the turbine's shadow may reach the dwelling.
-  bool in_shadow(std::size_t dwelling, std::size_t turbine) const {
-    return horizontal_distance(survey_.dwellings[dwelling].position, turbines()[turbine].position) <=
-           shadow_reach(survey_.request.flicker, turbines()[turbine]);
-  }
 
   void add_boxes(DwellingPair& pair) const {
     const Turbine& turbine = turbines()[pair.turbine];
@@ -313,7 +298,7 @@ class DwellingsSurveyor {
     for_each_step(segment.pairs.size(), "sight lines", progress, [&](std::size_t i) {
       const DwellingPair& pair = segment.pairs[i];
       auto& facades = survey_.dwellings[pair.dwelling].facades;
-      const auto seen = look_at_turbine(scene, survey_, ends.at(pair.turbine), facades);
+      const auto seen = look_at_turbine(scene, survey_, ends.at(pair.turbine), facades, progress_);
       for (std::size_t f = 0; f < facades.size(); ++f) (facades[f].*sights)[pair.turbine] = seen[f];
     });
     survey_.statistics.lines_seconds += watch.lap();
@@ -343,7 +328,7 @@ class DwellingsSurveyor {
                                    std::uint64_t& lines) const {
     const Turbine& turbine = turbines()[pair.turbine];
     const Earth& earth = survey_.request.earth;
-    const Point3 eye{facade.position.x, facade.position.y, facade.ground_m + survey_.request.eye_height};
+    const Point3 eye = eye_of_facade(survey_, facade);
     const double distance = horizontal_distance(facade.position, turbine.position);
     const SeenRotor rotor{{turbine.position.x - eye.x, turbine.position.y - eye.y,
                            survey_.ground_m[pair.turbine] + *turbine.hub_height - earth.drop(distance) - eye.z},
@@ -352,20 +337,15 @@ class DwellingsSurveyor {
     sun.outward_deg = facade.outward_deg;
     const auto minutes = sun_behind(*year_, sun, rotor, survey_.request.flicker.least_elevation_deg);
     lines += minutes.size();
-    std::vector<FlickerRun> runs;
-    if (minutes.empty()) return runs;
-    const PlaceScene::View view = scene.view_past_voids(eye);
+    if (minutes.empty()) return {};
     const double length = farthest(facade);
-    for (std::size_t first = 0; first < minutes.size(); first += PlaceScene::kAtOnce) {
-      progress_.throw_if_cancelled();
-      std::array<Point3, PlaceScene::kAtOnce> ends;
-      const std::size_t count = std::min(PlaceScene::kAtOnce, minutes.size() - first);
-      for (std::size_t i = 0; i < count; ++i) ends[i] = end_of_ray(eye, minutes[first + i].direction, length);
-      const auto verdicts = scene.judge(view, std::span(ends).first(count));
-      for (std::size_t i = 0; i < count; ++i)
-        if (verdicts[i] != Verdict::kHidden) add_run_minute(minutes[first + i].minute, runs);
-    }
-    return runs;
+    std::vector<Point3> ends;
+    for (const SunMinute& minute : minutes) ends.push_back(end_of_ray(eye, minute.direction, length));
+    const std::vector<Verdict> verdicts = scene.judge_all(scene.view_past_voids(eye), ends, progress_);
+    std::vector<FlickerRun> lit;
+    for (std::size_t i = 0; i < minutes.size(); ++i)
+      if (verdicts[i] != Verdict::kHidden) lit.push_back({minutes[i].minute, 1});
+    return joined_runs(lit);
   }
 
   /// Where the ray to the sun is at a horizontal distance.
@@ -388,10 +368,7 @@ class DwellingsSurveyor {
   CallProgress progress_;
   const CelestialBody body_;
   DwellingsSurvey survey_;
-  PremisesRequest premises_;  ///< how walls are found
-  std::vector<BuildingFoot> feet_;
-  std::vector<std::optional<std::size_t>>
-      foot_of_;                ///< each dwelling's, until it has its facades; nothing: in the open
+  PremisesRequest premises_;   ///< how walls are found
   std::vector<SunEye> skies_;  ///< one for each dwelling
   std::optional<SunYear> year_;
   SunReach reach_;

@@ -1,7 +1,6 @@
 #include "workflows/premises/building_links.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <tuple>
 #include <utility>
@@ -73,18 +72,14 @@ class MastLinks {
   /// Judges the places at the height that height_of(place) numbers; the greatest comes first.
   template <class HeightOf>
   void ask(const std::vector<std::size_t>& places, const HeightOf& height_of) {
-    for (std::size_t first = 0; first < places.size(); first += PlaceScene::kAtOnce) {
-      progress_.throw_if_cancelled();
-      const auto some = std::span(places).subspan(first, std::min(PlaceScene::kAtOnce, places.size() - first));
-      std::array<Point3, PlaceScene::kAtOnce> ends;
-      for (std::size_t k = 0; k < some.size(); ++k) {
-        const Mount& m = mounts_[some[k]];
-        ends[k] = {m.position.x, m.position.y, m.base_m + m.heights[height_of(some[k])]};
-      }
-      const PlaceScene::Verdicts found = scene_.judge(mast_.view, std::span(ends).first(some.size()));
-      for (std::size_t k = 0; k < some.size(); ++k) note(some[k], {found[k], height_of(some[k])});
-      lines_ += some.size();
+    std::vector<Point3> ends;
+    for (const std::size_t place : places) {
+      const Mount& m = mounts_[place];
+      ends.push_back({m.position.x, m.position.y, m.base_m + m.heights[height_of(place)]});
     }
+    const std::vector<Verdict> found = scene_.judge_all(mast_.view, ends, progress_);
+    for (std::size_t k = 0; k < places.size(); ++k) note(places[k], {found[k], height_of(places[k])});
+    lines_ += places.size();
   }
 
   void note(std::size_t place, const MountVerdict& found) {
@@ -220,7 +215,7 @@ void survey_building(const BuildingToSurvey& building, const BuildingSurrounding
                      const Progress& progress, SurveyedBuilding& found) {
   const auto& [foot, rules, masts] = building;
   BuildingSurvey survey(foot, surroundings, progress, found);
-  survey.take(mount_places(foot, surroundings.scene.surface(), surroundings.ground, rules, progress));
+  survey.take(mount_places({foot, surroundings.scene.surface(), surroundings.ground, rules}, progress));
   for (const std::size_t mast : masts) survey.add(mast);
 }
 

@@ -1,7 +1,7 @@
 // The highest antennas that buildings may have, as targets of masts: to raise an antenna never hides it, so that a
 // building is served where one of these is.
 //
-//   const auto antennas = highest_antennas(store, request, feet, statistics, progress);   // antennas[i] of feet[i]
+//   const auto antennas = highest_antennas(store, request, feet, progress);   // antennas[i] of feet[i]
 #pragma once
 
 #include <vector>

@@ -6,6 +6,7 @@
 #include <fmt/ranges.h>
 
 #include <itin/error.hpp>
+#include <itin/in_ring.hpp>
 
 namespace itin::viewshed {
 
@@ -60,9 +61,7 @@ MountRules mount_rules(const PremisesRequest& request, const StoreMetadata& meta
 }
 
 Box box_about(const PremisesRequest& request, const BuildingFoot& foot) {
-  Box box;
-  for (const std::vector<Point2>& ring : foot.rings)
-    for (const Point2& p : ring) box.extend(p);
+  const Box box = box_of_rings(foot.rings);
   const double margin = std::max(request.reveal, request.setback.value_or(0)) + 0.01;
   return {box.xmin - margin, box.ymin - margin, box.xmax + margin, box.ymax + margin};
 }

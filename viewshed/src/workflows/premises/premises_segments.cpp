@@ -12,6 +12,7 @@
 
 #include <itin/error.hpp>
 
+#include "line/cell_tiles.hpp"
 #include "plan/ground_runs.hpp"
 #include "plan/ground_tiles.hpp"
 #include "plan/memory.hpp"
@@ -24,11 +25,8 @@ namespace {
 /// point of the bare one.
 constexpr std::uint64_t kBytesOfPlacedPoint = kPointsWithFeatures * (kBytesPerSurfacePoint + 300);
 
-/// So little ground is never too much: the program takes as much by itself.
-constexpr std::uint64_t kSmallGround = 64 << 20;
-
-bool holds_ground(const PremisesRequest& request, std::uint64_t points) {
-  return points * kBytesOfPlacedPoint <= std::max(request.memory_bytes, kSmallGround);
+bool holds_links(const PremisesRequest& request, std::uint64_t points) {
+  return holds_ground(request.memory_bytes, points * kBytesOfPlacedPoint);
 }
 
 /// Puts buildings near each other one after the other: there and back again in strips.
@@ -57,9 +55,8 @@ std::vector<PlannedLink> links_of(const std::vector<ReachedBuilding>& buildings,
   }
   const auto order = [&](const PlannedLink& link) {
     if (!link.mast) return std::pair(std::size_t{0}, 0.0);
-    const Point2 from = masts[*link.mast].position;
-    const Box& to = link.building->box;
-    return std::pair(*link.mast, std::atan2((to.ymin + to.ymax) / 2 - from.y, (to.xmin + to.xmax) / 2 - from.x));
+    const Point2 from = masts[*link.mast].position, to = middle_of(link.building->box);
+    return std::pair(*link.mast, std::atan2(to.y - from.y, to.x - from.x));
   };
   std::stable_sort(links.begin(), links.end(),
                    [&](const PlannedLink& a, const PlannedLink& b) { return order(a) < order(b); });
@@ -77,7 +74,7 @@ class LinkSegments {
     std::vector<std::size_t> numbers(links.size());
     std::iota(numbers.begin(), numbers.end(), std::size_t{0});
     const auto needed = [&](std::size_t i) { return tiles_of(links[i]); };
-    const auto fits = [&](const TileSet& tiles) { return holds_ground(request_, ground_.points(tiles)); };
+    const auto fits = [&](const TileSet& tiles) { return holds_links(request_, ground_.points(tiles)); };
     std::vector<PremisesSegment> segments;
     for (const GroundRun& run : ground_runs(numbers, ground_.count(), needed, fits)) {
       if (!fits(run.ground)) refuse(links[run.pieces.front()], run.ground);
@@ -145,7 +142,7 @@ std::vector<PremisesSegment> premises_segments(const Store& store, const Premise
   }
   all.extend(about_buildings);
   const std::uint64_t points = store.points_about(0, all);
-  if (!holds_ground(request, points))
+  if (!holds_links(request, points))
     return LinkSegments(store, request, masts, all, progress).of(links_of(buildings, masts));
   PremisesSegment segment{{}, Window::box(all), Window::box(about_buildings), points};
   for (ReachedBuilding& b : buildings) segment.buildings.push_back({b.foot, std::move(b.masts)});

@@ -6,7 +6,7 @@
 
 #include <viewshed/dwellings.hpp>
 
-#include "workflows/premises/output/wall_service.hpp"
+#include "files/vector_styles.hpp"
 
 namespace itin::viewshed {
 

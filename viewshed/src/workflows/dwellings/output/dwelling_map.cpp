@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <itin/counted.hpp>
+#include <itin/in_ring.hpp>
 #include <itin/sources_in.hpp>
 #include <viewshed/result_sheet.hpp>
 
@@ -61,8 +62,7 @@ Box box_of_dwellings(const DwellingsSurvey& survey) {
   for (const Dwelling& dwelling : survey.dwellings) {
     box.extend(dwelling.position);
     box.extend(survey.request.turbines.turbines[dwelling.nearest].position);
-    for (const std::vector<Point2>& ring : dwelling.foot)
-      for (const Point2& p : ring) box.extend(p);
+    box.extend(box_of_rings(dwelling.foot));
   }
   const double margin = 0.05 * std::max(box.width(), box.height());
   return {box.xmin - margin, box.ymin - margin, box.xmax + margin, box.ymax + margin};
@@ -95,12 +95,7 @@ profile::TitleBlock title_of_dwellings(const Store& store, const DwellingsSurvey
 std::string dwelling_map(const Store& store, const DwellingsSurvey& survey, const std::string& name,
                          Progress& progress) {
   const Box shown = box_of_dwellings(survey);
-  const double side = std::max({shown.width(), shown.height(), 1.0});
-  ResultSheet sheet{
-      RasterGrid({shown.xmin, shown.ymax}, side, side, 1, 1), shown, {}, "", {}, dwelling_objects(survey), {}};
-  sheet.map.cells = {kTransparent};
-  sheet.studied = [](Point2) { return true; };
-  sheet.title = title_of_dwellings(store, survey, shown);
+  const ResultSheet sheet = object_sheet(shown, dwelling_objects(survey), title_of_dwellings(store, survey, shown));
   return draw_result_sheet(store, sheet, profile::PaperSize::kA3, {}, name, progress);
 }
 

@@ -7,6 +7,7 @@
 #include <itin/table_columns.hpp>
 
 #include "files/vector_styles.hpp"
+#include "turbines/sun_behind_rotor.hpp"
 #include "workflows/dwellings/flicker_clock.hpp"
 #include "workflows/dwellings/output/dwelling_classes.hpp"
 

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <itin/counted.hpp>
+#include <itin/in_ring.hpp>
 #include <itin/sources_in.hpp>
 #include <viewshed/result_sheet.hpp>
 
@@ -64,11 +65,8 @@ std::vector<MapObjects> premises_objects(const PremisesSurvey& survey) {
 Box shown_box(const PremisesSurvey& survey) {
   Box box;
   for (const SitePosition& mast : survey.masts) box.extend(mast.position);
-  for (const Premises& p : survey.premises) {
-    if (p.links.empty()) continue;
-    for (const std::vector<Point2>& ring : p.foot)
-      for (const Point2& at : ring) box.extend(at);
-  }
+  for (const Premises& p : survey.premises)
+    if (!p.links.empty()) box.extend(box_of_rings(p.foot));
   const double margin = 0.03 * std::max(box.width(), box.height());
   return {box.xmin - margin, box.ymin - margin, box.xmax + margin, box.ymax + margin};
 }
@@ -97,12 +95,7 @@ profile::TitleBlock title_of_premises(const Store& store, const PremisesSurvey& 
 std::string premises_map(const Store& store, const PremisesSurvey& survey, const std::string& name,
                          Progress& progress) {
   const Box shown = shown_box(survey);
-  const double side = std::max(shown.width(), shown.height());
-  ResultSheet sheet{
-      RasterGrid({shown.xmin, shown.ymax}, side, side, 1, 1), shown, {}, "", {}, premises_objects(survey), {}};
-  sheet.map.cells = {kTransparent};
-  sheet.studied = [](Point2) { return true; };
-  sheet.title = title_of_premises(store, survey, shown);
+  const ResultSheet sheet = object_sheet(shown, premises_objects(survey), title_of_premises(store, survey, shown));
   return draw_result_sheet(store, sheet, profile::PaperSize::kA3, {}, name, progress);
 }
 
