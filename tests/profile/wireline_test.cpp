@@ -36,6 +36,15 @@ TEST(Wirelines, JoinACrestThatGoesOnInTheNextBand) {
   EXPECT_EQ(paths_of(draw_wireline(passing(11), "w.svg")), without);  // another crest
 }
 
+TEST(Wirelines, DrawAMeshWhereTheGroundRisesFromBandToBand) {
+  Wireline view = passing(10);
+  view.query.from_deg = 0;
+  const std::size_t without = paths_of(draw_wireline(view, "w.svg"));
+  // Beyond the near band the ground rises in four lines of sight, two of which are on whole degrees.
+  for (const std::size_t line : {4, 5, 6, 7}) view.bands[1].angle_deg[line] = 1.2F;
+  EXPECT_EQ(paths_of(draw_wireline(view, "w.svg")), without + 2);
+}
+
 TEST(Wirelines, DrawBladesAsTheyAreTurned) {
   Wireline view = passing(10);
   view.query.eye_elevation_m = 0;

@@ -36,12 +36,12 @@ std::vector<double> cylinder_centres(double centre_deg, int fields);
 std::string draw_cylindrical_sheets(const std::vector<WirelineField>& fields, const WirelineSheet& sheet,
                                     const std::string& path);
 
-/// The contents of a viewpoint's sheet besides a wireline of 90 degrees: facts, what is seen of each farm, and the
-/// location.
+/// The contents of a viewpoint's sheet besides a wireline of 90 degrees: facts, what is seen of each farm and of each
+/// turbine, as far as there is room, and the location.
 struct ViewpointSheet {
   WirelineSheet wireline;
-  std::vector<std::vector<std::string>> farms;  ///< a table, its header first
-  MapSheet map;                                 ///< gives the location map its layers, scale and middle
+  std::vector<std::vector<std::string>> farms, turbines;  ///< tables, their headers first
+  MapSheet map;                                           ///< gives the location map its layers, scale and middle
 };
 /// The ground that the sheet's map shows: what layers may fill.
 Box ground_in_location_map(const MapSheet& map);

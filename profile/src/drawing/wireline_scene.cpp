@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <span>
+#include <utility>
 
 #include <itin/azimuth.hpp>
 #include <itin/degrees.hpp>
@@ -17,7 +19,14 @@ namespace itin::profile {
 namespace {
 
 constexpr double kTellable = 0.06;    ///< points: a fiftieth of a millimetre
+constexpr double kMeshDegrees = 1;    ///< between lines of the terrain's mesh that lead away from the eye
 constexpr double kSteepestJoint = 4;  ///< a crest climbs no more from one line of sight to the next, angle over angle
+
+// Half the width of a tower, by its height; and the outline of a blade, along it and across, by the rotor's radius.
+// They are those of usual turbines, about.
+constexpr double kTowerFoot = 0.022, kTowerHead = 0.014;
+constexpr std::array<std::pair<double, double>, 6> kBlade{
+    {{0, -0.018}, {0.08, -0.018}, {0.22, -0.045}, {1, -0.004}, {1, 0.006}, {0, 0.018}}};
 
 double elevation_of(const WirelineQuery& query, const PlacedTurbine& placed, double height) {
   return apparent_angle_deg(query.earth, placed.distance, placed.turbine->ground_m + height - query.eye_elevation_m);
@@ -88,6 +97,7 @@ void WirelineScene::draw(Drawing& drawing) const {
     for (; turbine != turbines_.end() && turbine->distance >= band->to_m - 0.5; ++turbine)
       draw_turbine(drawing, *turbine, false);
     draw_band(drawing, *band);
+    draw_mesh(drawing, static_cast<std::size_t>(view_.bands.rend() - band) - 1);
     draw_joints(drawing, static_cast<std::size_t>(view_.bands.rend() - band) - 1);
   }
   for (; turbine != turbines_.end(); ++turbine) draw_turbine(drawing, *turbine, false);
@@ -108,6 +118,21 @@ void WirelineScene::draw_band(Drawing& drawing, const WirelineBand& band) const 
     while (last + 1 < lines && !std::isnan(band.angle_deg[last + 1])) ++last;
     draw_stretch(drawing, band, first, last);
     first = last + 1;
+  }
+}
+
+/// Draws the mesh's lines that lead from a band towards the eye, as far as the next nearer band, which covers the rest.
+void WirelineScene::draw_mesh(Drawing& drawing, std::size_t farther) const {
+  if (farther == 0) return;
+  const WirelineBand &far = view_.bands[farther], &near = view_.bands[farther - 1];
+  const WirelineQuery& query = view_.query;
+  const auto [begin, lines] = lines_within();
+  const double first = query.from_deg + static_cast<double>(begin) * query.step_deg;
+  for (double azimuth = std::ceil(first / kMeshDegrees) * kMeshDegrees;; azimuth += kMeshDegrees) {
+    const auto line = static_cast<std::size_t>(std::lround((azimuth - query.from_deg) / query.step_deg));
+    if (line >= lines) return;
+    if (far.angle_deg[line] > near.angle_deg[line])
+      drawing.polyline(std::array{place(line, far), place(line, near)}, mesh_stroke(far));
   }
 }
 
@@ -154,6 +179,7 @@ void WirelineScene::draw_stretch(Drawing& drawing, const WirelineBand& band, std
   outline.push_back({outline.back().x, below});
   outline.push_back({outline.front().x, below});
   drawing.polygon(outline, kPaper);
+  drawing.polyline(std::span(outline).first(outline.size() - 2), mesh_stroke(band));
   const Stroke stroke = stroke_of(band);
   std::vector<Point2> crest;
   for (std::size_t i = first; i <= last; ++i) {
@@ -171,33 +197,50 @@ Stroke WirelineScene::stroke_of(const WirelineBand& band) const {
   return {{grey, grey, grey}, part_.weight * (1.1 - 0.6 * std::clamp(far, 0.0, 1.0)), {}};
 }
 
+Stroke WirelineScene::mesh_stroke(const WirelineBand& band) const {
+  const double grey = 0.6 + 0.4 * stroke_of(band).colour.red;
+  return {{grey, grey, grey}, 0.3 * part_.weight, {}};
+}
+
 Colour WirelineScene::colour_of(const WirelineTurbine& turbine) const {
   return farm_colour(static_cast<std::size_t>(std::find(farms_.begin(), farms_.end(), turbine.farm) - farms_.begin()));
 }
 
 void WirelineScene::draw_turbine(Drawing& drawing, const PlacedTurbine& placed, bool dashed) const {
   const WirelineTurbine& t = *placed.turbine;
-  Stroke stroke{colour_of(t), 0.8 * part_.weight, {}};
-  if (dashed) stroke.width *= 0.5, stroke.dashes = {1.5, 1.5};
+  Stroke stroke{colour_of(t), 0.35 * part_.weight, {}};
+  if (dashed) stroke.dashes = {1.5, 1.5};
   // The place of a point of the rotor's disc, or of the mast, metres to the right of the axis and above the ground.
   const auto point = [&](double right, double height) {
     return at_(placed.across + in_degrees(std::atan2(right, placed.distance)),
                elevation_of(view_.query, placed, height));
   };
-  if (!t.hub_m || *t.hub_m >= t.tip_m) {
-    drawing.polyline(std::array{point(0, 0), point(0, t.tip_m)}, stroke);
-    return;
+  const auto draw_part = [&](const std::vector<Point2>& outline) {
+    if (!dashed) drawing.polygon(outline, stroke.colour);
+    std::vector<Point2> closed = outline;
+    closed.push_back(outline.front());
+    drawing.polyline(closed, stroke);
+  };
+  const bool has_rotor = t.hub_m && *t.hub_m < t.tip_m;
+  const double hub = has_rotor ? *t.hub_m : t.tip_m, radius = t.tip_m - hub;
+  draw_part({point(-kTowerFoot * hub, 0), point(kTowerFoot * hub, 0), point(kTowerHead * hub, hub),
+             point(-kTowerHead * hub, hub)});
+  if (!has_rotor) return;
+  for (const double thirds : {0.0, 1.0, 2.0}) {
+    const double turned = thirds * 2 * std::numbers::pi / 3 + in_radians(t.blade_deg);
+    std::vector<Point2> blade;
+    for (const auto& [along, aside] : kBlade)
+      blade.push_back(point(radius * (along * std::sin(turned) + aside * std::cos(turned)),
+                            hub + radius * (along * std::cos(turned) - aside * std::sin(turned))));
+    draw_part(blade);
   }
-  const double hub = *t.hub_m, radius = t.tip_m - hub;
-  drawing.polyline(std::array{point(0, 0), point(0, hub)}, stroke);
-  const auto on_rim = [&](double angle) { return point(radius * std::sin(angle), hub + radius * std::cos(angle)); };
-  for (const double sixths : {0.0, 2.0, 4.0})
-    drawing.polyline(std::array{point(0, hub), on_rim(sixths * std::numbers::pi / 3 + in_radians(t.blade_deg))},
-                     stroke);
   if (dashed) return;
   std::vector<Point2> circle;
-  for (int i = 0; i <= 48; ++i) circle.push_back(on_rim(i * 2 * std::numbers::pi / 48));
-  drawing.polyline(circle, {stroke.colour, 0.35 * part_.weight, {}});
+  for (int i = 0; i <= 48; ++i) {
+    const double angle = i * 2 * std::numbers::pi / 48;
+    circle.push_back(point(radius * std::sin(angle), hub + radius * std::cos(angle)));
+  }
+  drawing.polyline(circle, {stroke.colour, 0.25 * part_.weight, {}});
 }
 
 /// Draws numbers above the tips seen, each as low as it can stand beside the others, with a line down to its tip.

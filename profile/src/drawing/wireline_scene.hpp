@@ -49,6 +49,7 @@ class WirelineScene {
 
  private:
   void draw_band(Drawing& drawing, const WirelineBand& band) const;
+  void draw_mesh(Drawing& drawing, std::size_t farther) const;
   void draw_joints(Drawing& drawing, std::size_t nearer) const;
   void draw_stretch(Drawing& drawing, const WirelineBand& band, std::size_t first, std::size_t last) const;
   void draw_turbine(Drawing& drawing, const PlacedTurbine& placed, bool dashed) const;
@@ -58,6 +59,7 @@ class WirelineScene {
   /// The first line of sight of the part, and the one after its last.
   std::pair<std::size_t, std::size_t> lines_within() const;
   Stroke stroke_of(const WirelineBand& band) const;
+  Stroke mesh_stroke(const WirelineBand& band) const;
   Colour colour_of(const WirelineTurbine& turbine) const;
   bool within(double across) const { return across >= part_.from_deg && across <= part_.to_deg; }
 

@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <span>
 
 #include <fmt/format.h>
 
@@ -110,20 +111,36 @@ std::vector<double> cylinder_centres(double centre_deg, int fields) {
 
 namespace {
 
-void draw_table(Drawing& drawing, const std::vector<std::vector<std::string>>& rows, Point2 at, double width) {
-  if (rows.empty()) return;
+using TableRows = std::span<const std::vector<std::string>>;
+
+constexpr double kTableRow = 11;
+
+/// Draws rows from `top.y` on, the first of them as a header, and returns where the next row would be.
+double draw_table(Drawing& drawing, TableRows rows, Point2 top, double width) {
   const auto columns = static_cast<double>(rows.front().size());
   const double first = 0.26 * width, other = (width - first) / std::max(1.0, columns - 1);
   for (std::size_t r = 0; r < rows.size(); ++r) {
     const Lettering lettering{.size = 7.5, .colour = kInk, .bold = r == 0};
     for (std::size_t c = 0; c < rows[r].size(); ++c) {
-      const double x = at.x + (c == 0 ? 0 : first + other * (static_cast<double>(c) - 1));
-      drawing.text({x, at.y}, drawing.fitted(rows[r][c], (c == 0 ? first : other) - 4, lettering), lettering);
+      const double x = top.x + (c == 0 ? 0 : first + other * (static_cast<double>(c) - 1));
+      drawing.text({x, top.y}, drawing.fitted(rows[r][c], (c == 0 ? first : other) - 4, lettering), lettering);
     }
-    at.y += 11;
+    top.y += r == 0 ? kTableRow + 3 : kTableRow;
     if (r == 0)
-      drawing.polyline(std::array{Point2{at.x, at.y - 7.5}, Point2{at.x + width, at.y - 7.5}}, {kFaint, 0.5, {}});
+      drawing.polyline(std::array{Point2{top.x, top.y - 10}, Point2{top.x + width, top.y - 10}}, {kFaint, 0.5, {}});
   }
+  return top.y;
+}
+
+/// Draws a table with as many rows as there is room above `bottom`, and says how many are left out.
+void draw_table_within(Drawing& drawing, TableRows rows, Point2 top, double width, double bottom) {
+  const double room = std::floor((bottom - top.y) / kTableRow) - 1;  // a row for what is left out
+  if (rows.size() < 2 || room < 2) return;
+  const std::size_t shown = std::min(rows.size(), static_cast<std::size_t>(room));
+  const double end = draw_table(drawing, rows.first(shown), top, width);
+  if (shown < rows.size())
+    drawing.text({top.x, end}, fmt::format("and {} more, farther away", rows.size() - shown),
+                 {.size = 7.5, .colour = kFaint});
 }
 
 }  // namespace
@@ -133,7 +150,8 @@ Box ground_in_location_map(const MapSheet& map) {
 }
 
 std::string draw_viewpoint_sheet(const Wireline& view, const ViewpointSheet& sheet, const std::string& path) {
-  constexpr double k = kPointsPerMillimetre, kSheetWidth = 420, kSheetHeight = 297, kSheetMargin = 10, kStrip = 63;
+  constexpr double k = kPointsPerMillimetre, kSheetWidth = 420, kSheetHeight = 297, kSheetMargin = 10, kStripTop = 214,
+                   kStrip = 63;
   Drawing drawing = pdf(path, kSheetWidth, kSheetHeight);
   drawing.rectangle({0, 0, drawing.width(), drawing.height()}, kPaper);
   const double left = kSheetMargin * k, width = 230 * k;
@@ -155,7 +173,8 @@ std::string draw_viewpoint_sheet(const Wireline& view, const ViewpointSheet& she
     }
     y += 2;
   }
-  draw_table(drawing, sheet.farms, {left, y + 10}, width);
+  y = draw_table(drawing, sheet.farms, {left, y + 10}, width);
+  draw_table_within(drawing, sheet.turbines, {left, y + 14}, width, kStripTop * k - 8);
   Paper paper = paper_of(PaperSize::kA3);
   paper.frame = kLocationFrame;
   MapFrame map(drawing, paper, ground_in_location_map(sheet.map));
@@ -167,13 +186,15 @@ std::string draw_viewpoint_sheet(const Wireline& view, const ViewpointSheet& she
                name_of_fact);
   const double image = kSheetWidth - 2 * kSheetMargin, principal = image / (std::numbers::pi / 2);
   draw_strip(drawing, view,
-             {StripProjection::kCylindrical, box_mm(kSheetMargin, 214, image, kStrip), principal,
+             {StripProjection::kCylindrical, box_mm(kSheetMargin, kStripTop, image, kStrip), principal,
               sheet.wireline.centre_deg, kCylinderField});
   drawing.text(
-      {left, (214 + kStrip + 9) * k},
-      fmt::format("Wireline, cylindrical, 90°, principal distance {:.0f} mm at A3: for orientation; the sheets "
-                  "at full size are separate.",
-                  principal),
+      {left, (kStripTop + kStrip + 9) * k},
+      fmt::format("Wireline, cylindrical, horizontal field of view {:g}°, principal distance {:.0f} mm at A3: for "
+                  "orientation. Sheets of {:g} by {:g} mm are separate: planar, {:g}°, principal distance {:g} mm, and "
+                  "cylindrical, {:g}°, principal distance {:g} mm.",
+                  kCylinderField, principal, kPageWidth, kPageHeight, kPlanarField, kPlanarPrincipal, kCylinderField,
+                  kCylinderPrincipal),
       name_of_fact);
   return drawing.finish();
 }

@@ -95,7 +95,7 @@ using Facts = std::vector<std::pair<std::string, std::string>>;
 constexpr const char* kMiddle = "Bearing to the middle";
 
 std::string bearing_in_words(double degrees) {
-  return fmt::format("{:.1f}° from grid north", degrees);
+  return fmt::format("{:.1f}° from grid north, {}", degrees, compass_point(degrees));
 }
 
 /// Tells what a picture looks at where no turbine is in sight.
@@ -179,6 +179,31 @@ std::vector<std::vector<std::string>> farm_table(const Zone& zone, const std::ve
     add(farm.empty() ? "All turbines" : farm, own);
   }
   if (farms.size() > 1) add("All", all_turbines(zone));
+  return rows;
+}
+
+const char* verdict_in_words(const std::optional<TurbineSight::Verdict>& verdict) {
+  if (!verdict) return "unknown";
+  if (*verdict == TurbineSight::Verdict::kUndecided) return "undecided";
+  return *verdict == TurbineSight::Verdict::kVisible ? "visible" : "hidden";
+}
+
+/// Returns a row for each turbine, the nearest first.
+std::vector<std::vector<std::string>> table_of_turbines(const Zone& zone, const std::vector<TurbineSight>& sights) {
+  std::vector<std::vector<std::string>> rows{
+      {"Turbine", "Distance, km", "Bearing", "Hub", "Blade tip", "In sight", "Vertical angle"}};
+  std::vector<std::size_t> nearest = all_turbines(zone);
+  std::stable_sort(nearest.begin(), nearest.end(),
+                   [&](std::size_t a, std::size_t b) { return sights[a].distance < sights[b].distance; });
+  for (const std::size_t k : nearest) {
+    const TurbineSight& s = sights[k];
+    const Turbine& t = zone.request.turbines[k];
+    const bool seen = s.tip == TurbineSight::Verdict::kVisible;
+    rows.push_back({t.name.empty() ? fmt::format("{}", t.number) : t.name, fmt::format("{:.2f}", s.distance / 1000),
+                    fmt::format("{:.1f}°", s.azimuth), verdict_in_words(s.hub), verdict_in_words(s.tip),
+                    seen ? fmt::format("{:.0f} of {:.0f} m", s.visible, t.tip_height) : "",
+                    seen ? fmt::format("{:.2f}°", s.vertical_deg) : ""});
+  }
   return rows;
 }
 
@@ -305,7 +330,7 @@ void WirelineWriter::write(const Viewpoint& v, const ViewedSurface& view, const 
       profile::draw_viewpoint_sheet(
           narrow,
           {sheet_towards({bearing, kCylinder}, cylinders, sights, sheet), farm_table(zone_, sights),
-           location_map(store_, zone_, v, sights, sheets_.basemap, progress)},
+           table_of_turbines(zone_, sights), location_map(store_, zone_, v, sights, sheets_.basemap, progress)},
           name));
 }
 
