@@ -229,7 +229,11 @@ function watchedViews() {
   const scene = new Scene({ task: "masts", masts, selected: 0, options: { radius: "50", cell: "10" }, turbines: [] });
   const sent = [];
   const heard = {};
-  const connection = { on: (type, listener) => (heard[type] = listener), send: (message) => sent.push(message) };
+  const connection = {
+    live: true,
+    on: (type, listener) => (heard[type] = listener),
+    send: (message) => sent.push(message),
+  };
   const pictures = [];
   globalThis.requestAnimationFrame = (draw) => pictures.push(draw);
   const views = new LiveViews(scene, connection);
@@ -237,7 +241,7 @@ function watchedViews() {
   views.onChange((windows) => come.push(windows));
   const tile = (seq) => ({ id: 0, seq, ...pass(() => 1, 9), values: null });
   return {
-    ...{ scene, views, sent, heard, come, tile },
+    ...{ scene, views, sent, heard, come, tile, connection },
     take: (some) => connection.onTile(some),
     draw: () => pictures.splice(0).forEach((draw) => draw()),
     begin: (seq) => heard.begun({ ...GRID, type: "begun", id: 0, seq, kind: 0 }),
@@ -291,6 +295,21 @@ test("what comes for a place that the mast has left is let go", () => {
   draw();
   assert.equal(views.of(0).cells.seq, 2);
   assert.equal(come.at(-1), null);
+});
+
+test("without a server nothing is shown of a place that the mast has left", () => {
+  const { take, tile, begin, draw, moveTo, views, come, connection, heard, sent } = watchedViews();
+  begin(1);
+  take(tile(1));
+  draw();
+  connection.live = false;
+  moveTo(10);
+  draw();
+  assert.equal(views.of(0).cells, null);
+  assert.equal(come.at(-1), null);
+  connection.live = true;
+  heard.welcome({ type: "welcome" });
+  assert.equal(sent.at(-1).options.observer, "10,0,20");
 });
 
 test("a cell that both masts see has the mixture of their colours, in the difference a grey", () => {

@@ -4,7 +4,7 @@ import { Jobs, askInfo } from "./server/api.js";
 import { LiveConnection } from "./server/live_connection.js";
 import { addressOf, readAddress } from "./state/address.js";
 import { firstState } from "./state/first_state.js";
-import { takeKey } from "./state/key.js";
+import { followNewKeys, takeKey } from "./state/key.js";
 import { Scene } from "./state/scene.js";
 import { LiveViews } from "./seen/live_views.js";
 import { shownOf } from "./seen/shown.js";
@@ -38,7 +38,7 @@ import { makePremisesSurvey } from "./plan/premises_survey.js";
 import { makeSearchForm } from "./plan/search_form.js";
 import { makeSiteChoice } from "./plan/site_choice.js";
 import { makeReliefPanel } from "./relief/relief_panel.js";
-import { makeTasksForm } from "./plan/tasks_form.js";
+import { makeTasksForm, takeDrops } from "./plan/tasks_form.js";
 import { makeTurbinePanel } from "./plan/turbine_panel.js";
 import { makeWireline, makeZoneFiles } from "./plan/zone_files.js";
 
@@ -60,10 +60,11 @@ function keepAddress(scene) {
  *   jobs: Jobs}} world */
 function makePlans({ scene, views, map, info, jobs }) {
   makeResults(scene, views, jobs);
-  makeTurbinePanel(scene, views, jobs, map);
+  const layout = makeTurbinePanel(scene, views, jobs, map);
   makeZoneFiles(scene, jobs);
   makeWireline(scene, jobs, map);
-  makeSearchForm(scene, map, jobs, info);
+  const places = makeSearchForm(scene, map, jobs, info);
+  takeDrops(scene, { layout, places });
   makeSiteChoice(scene, views, jobs);
   makePremisesSurvey(scene, jobs);
 }
@@ -115,6 +116,7 @@ async function start() {
   makeReliefPanel({ scene, views, map, info });
   makePlans({ scene, views, map, info, jobs: new Jobs(key) });
   keepAddress(scene);
+  followNewKeys(() => addressOf(scene.state));
   connection.connect();
 }
 

@@ -5,6 +5,7 @@ import { lineFacts, verdictWords } from "./line_words.js";
 import { followSightLine } from "./sight_line.js";
 import { keepingPlace } from "../map/keeping_place.js";
 import { element, make } from "../panel/elements.js";
+import { inPageWords } from "../panel/page_words.js";
 
 /** @typedef {import("../state/scene.js").Scene} Scene */
 
@@ -43,7 +44,7 @@ export function makeLinePanel(scene, connection, map, layer, dark) {
       length = line?.distance_m ?? 0;
       verdict.textContent = line
         ? `${[scene.mast?.name, scene.farEnd?.name].filter(Boolean).join(" to ")}: ${verdictWords(line).replace(/^./, (letter) => letter.toLowerCase())}`
-        : error;
+        : inPageWords(error);
       verdict.dataset.verdict = line?.verdict ?? "";
       facts.replaceChildren(...(line ? lineFacts(line) : []).map(factElement));
       chart.show(line, scene.mast?.hue ?? 0);

@@ -31,6 +31,8 @@ export function makeReliefLayer(info, scene, tiles, dark, projection) {
     return canvas;
   };
   const source = new ImageTileSource({ loader, tileGrid: tileGridOf(info), projection, wrapX: false, transition: 0 });
+  // OpenLayers takes a source that never changed for one that it has not drawn, and would miss the first change.
+  source.refresh();
   const layer = new TileLayer({ source });
   dark.addEventListener("change", () => source.refresh());
   let drawn = scene.state.layers.relief;

@@ -2,7 +2,7 @@
 
 import { element, make } from "./elements.js";
 import { areaText, shareText } from "./words.js";
-import { CUT, UNDECIDED } from "../seen/seen_cells.js";
+import { CUT, UNDECIDED, VISIBLE } from "../seen/seen_cells.js";
 import { HUES, SHARED, UNDECIDED_COLOUR, cssColour, hueCss, meanColour, rampColour } from "../seen/palette.js";
 import { SLOPE_COLOURS, SLOPE_LIMITS } from "../map/shade.js";
 import { sourcesOf } from "../seen/shown.js";
@@ -97,10 +97,15 @@ function entryElement([colour, text, opacity = 0.65]) {
   return item;
 }
 
+const isClear = (/** @type {number} */ verdict) => verdict === VISIBLE;
+
 /** @param {Scene} scene @param {Source[]} sources */
 function sumText(scene, sources) {
-  const { any, all, onlySelected, looked, area } = tally(sources);
+  // As masts and sites count: with a frequency what has a clear Fresnel zone.
+  const { frequency } = scene.state.options;
+  const { any, all, onlySelected, looked, area } = tally(sources, frequency ? isClear : undefined);
   const part = (/** @type {number} */ cells) => `${areaText(cells * area)} (${shareText(cells, looked)})`;
+  const what = frequency ? "Zone clear from" : "From";
   if (showOf(scene.state) === "difference") return `${scene.mast?.name} alone adds ${part(onlySelected)}.`;
-  return `From any ${part(any)}, from all ${part(all)}.`;
+  return `${what} any ${part(any)}, ${frequency ? "" : "from "}all ${part(all)} of what any looks at.`;
 }

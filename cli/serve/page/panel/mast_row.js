@@ -2,6 +2,7 @@
 
 import { make } from "./elements.js";
 import { LineTo } from "./line_to.js";
+import { inPageWords } from "./page_words.js";
 import { areaText, shareText } from "./words.js";
 import { hueCss } from "../seen/palette.js";
 import { letterOf } from "../state/mast_letter.js";
@@ -82,7 +83,9 @@ export class MastRow {
   /** @param {import("../seen/live_views.js").MastView | undefined} view */
   summarise(view) {
     this.#summary.classList.toggle("problem", Boolean(view?.error));
-    this.#summary.textContent = view?.error || (view?.done ? summaryOf(view.done) : this.#summary.textContent);
+    // While a new answer comes, the one before stays, unless nothing of it is shown any more.
+    const before = view?.cells ? this.#summary.textContent : "";
+    this.#summary.textContent = view?.error ? inPageWords(view.error) : view?.done ? summaryOf(view.done) : before;
     this.#notes.textContent = view?.done ? notesOf(view.done) : "";
     this.item.classList.toggle("working", !view?.done && !view?.error);
   }
@@ -98,7 +101,9 @@ function summaryOf({ cells, area_m2 }) {
 /** What else the planner should know of the answer. @param {import("../server/live_connection.js").Message} done */
 function notesOf({ area_m2, warnings }) {
   const cut = area_m2.zone_cut ? [`${areaText(area_m2.zone_cut)} more are in sight with the Fresnel zone cut`] : [];
-  return [...cut, ...warnings].map((note) => `${note.slice(0, 1).toUpperCase()}${note.slice(1)}.`).join(" ");
+  return [...cut, ...warnings.map(inPageWords)]
+    .map((note) => `${note.slice(0, 1).toUpperCase()}${note.slice(1)}.`)
+    .join(" ");
 }
 
 /** @param {() => void} climb @param {() => void} remove */

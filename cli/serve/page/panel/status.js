@@ -10,7 +10,8 @@ const LINE_WORDS = {
   connecting: "",
   live: "",
   lost: "The server does not answer. Trying again …",
-  refused: "This address is of an earlier start of the server. Open the address that itin serve printed.",
+  refused:
+    "The server was started anew. Open the address that itin serve printed, in this tab: what is on the map stays.",
 };
 
 /** @param {LiveConnection} connection @param {LiveViews} views

@@ -30,8 +30,8 @@ function searchText(search) {
 /** A round distance between candidates that suits the area. @param {Search} search */
 export const usualSpacing = (search) => roundUp(Math.sqrt(areaIn(search)) / CANDIDATES_ACROSS);
 
-/** @param {Scene} scene @param {OlMap} map @param {import("../server/api.js").Jobs} jobs
- * @param {import("../server/api.js").Info} info */
+/** Returns what takes a file with places or an area. @param {Scene} scene @param {OlMap} map
+ * @param {import("../server/api.js").Jobs} jobs @param {import("../server/api.js").Info} info */
 export function makeSearchForm(scene, map, jobs, info) {
   const take = (/** @type {Search} */ search) => scene.change({ search, plan: null });
   makeDrawing(scene, map, (ring) => take({ ring }));
@@ -42,7 +42,7 @@ export function makeSearchForm(scene, map, jobs, info) {
     const [e, n] = [Math.min(east, xmax), Math.min(north, ymax)].map(Math.floor);
     if (w < e && s < n) take({ ring: [w, s, e, s, e, n, w, n] });
   });
-  takeFiles("candidates", element("candidates-problem"), async (file) => {
+  const takePlaces = takeFiles("candidates", element("candidates-problem"), async (file) => {
     const { name, places, rings } = await jobs.send(file.name, file);
     if (places.length === 0 && rings.length === 0) throw new Error(`${file.name}: has neither places nor an area`);
     const { search } = scene.state;
@@ -58,6 +58,7 @@ export function makeSearchForm(scene, map, jobs, info) {
     element("height-field").hidden = haveHeights(search);
     if (proposed) spacing.value = String(usualSpacing(search));
   });
+  return takePlaces;
 }
 
 /** @param {Scene} scene @param {OlMap} map @param {(ring: number[]) => void} take */

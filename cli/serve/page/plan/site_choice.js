@@ -75,11 +75,17 @@ export function makeSiteChoice(scene, views, jobs) {
   views.onChange(() => showNow(scene, views));
 }
 
-/** The sites become masts, in place of those there are. @param {Scene} scene */
+/** The sites become masts, beside those there are; all or none, for the map shows only so many. @param {Scene} scene */
 function keepAsMasts(scene) {
   const sites = scene.state.plan?.sites ?? [];
-  const masts = sites.slice(0, MOST_MASTS).map(({ name, hue, x, y, height }, id) => ({ id, name, hue, x, y, height }));
-  scene.change({ masts, selected: 0, target: null, task: "masts", show: "together" });
+  const room = MOST_MASTS - scene.state.masts.length;
+  if (sites.length > room) {
+    const most = `The map shows ${MOST_MASTS} masts, and ${scene.state.masts.length} are there: remove some first.`;
+    element("plan-now").textContent = most;
+    return;
+  }
+  for (const { name, x, y, height } of sites) scene.addMast({ x, y, name, height });
+  scene.change({ target: null, task: "masts", show: "together" });
 }
 
 /** @param {Scene} scene */

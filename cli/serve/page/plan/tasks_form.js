@@ -23,13 +23,11 @@ export function makeTasksForm(scene, info) {
   });
 }
 
-/** Calls `take` with each file that is chosen, and says what is wrong with it.
+/** Calls `take` with each file that is chosen, and says what is wrong with it. Returns what takes a file.
  * @param {string} id  Of the field for files. @param {HTMLElement} problem @param {(file: File) => Promise<void>} take */
 export function takeFiles(id, problem, take) {
   const input = /** @type {HTMLInputElement} */ (element(id));
-  input.addEventListener("change", async () => {
-    const file = input.files?.[0];
-    input.value = "";
+  const takeFile = async (/** @type {File | undefined} */ file) => {
     problem.textContent = "";
     if (!file) return;
     try {
@@ -38,5 +36,26 @@ export function takeFiles(id, problem, take) {
       // The planner knows the file by its own name.
       problem.textContent = messageOf(error).replace(/upload-\d+\.\w+/g, file.name);
     }
+  };
+  input.addEventListener("change", () => {
+    const file = input.files?.[0];
+    input.value = "";
+    takeFile(file);
+  });
+  return takeFile;
+}
+
+/** Takes files that are dropped anywhere on the page, which the browser would open in its place: places for sites where
+ * these are planned, else layouts of turbines.
+ * @param {Scene} scene @param {Record<"places" | "layout", (file: File) => void>} take */
+export function takeDrops(scene, take) {
+  addEventListener("dragover", (event) => event.preventDefault());
+  addEventListener("drop", (event) => {
+    event.preventDefault();
+    const file = event.dataTransfer?.files[0];
+    if (!file) return;
+    if (scene.state.task === "sites") return take.places(file);
+    scene.change({ task: "turbines", placing: false });
+    take.layout(file);
   });
 }

@@ -1,6 +1,7 @@
 // Wind turbines in the column: how many are seen from how much of the ground, their sizes, a layout from a file.
 
 import { element, make } from "../panel/elements.js";
+import { inPageWords } from "../panel/page_words.js";
 import { areaText, countedText, shareText } from "../panel/words.js";
 import { HUBS, TIPS } from "../seen/viewers.js";
 import {
@@ -20,8 +21,8 @@ import { takeFiles } from "./tasks_form.js";
 
 const input = (/** @type {string} */ id) => /** @type {HTMLInputElement} */ (element(id));
 
-/** @param {Scene} scene @param {LiveViews} views @param {import("../server/api.js").Jobs} jobs
- * @param {import("../vendor/ol.js").OlMap} map */
+/** Returns what takes a file with a layout. @param {Scene} scene @param {LiveViews} views
+ * @param {import("../server/api.js").Jobs} jobs @param {import("../vendor/ol.js").OlMap} map */
 export function makeTurbinePanel(scene, views, jobs, map) {
   makeParts(scene);
   makeSizes(scene);
@@ -34,7 +35,7 @@ export function makeTurbinePanel(scene, views, jobs, map) {
     button.disabled = turbines.length >= MOST_TURBINES;
     if (task === "turbines") element("map").classList.toggle("placing", placing || turbines.length === 0);
   });
-  takeFiles("layout", element("layout-problem"), async (file) => {
+  const takeLayoutFile = takeFiles("layout", element("layout-problem"), async (file) => {
     const upload = await jobs.send(file.name, file);
     jobs.forget(upload.name).catch(() => {});
     if (upload.places.length === 0) throw new Error(`${file.name}: has no points, where turbines stand`);
@@ -48,6 +49,7 @@ export function makeTurbinePanel(scene, views, jobs, map) {
   const tell = () => sum.replaceChildren(...sumParts(scene, views));
   views.onChange(tell);
   scene.on(["turbines"], tell);
+  return takeLayoutFile;
 }
 
 /** Brings all places into view. @param {import("../vendor/ol.js").OlMap} map @param {{x: number, y: number}[]} places */
@@ -62,9 +64,11 @@ function showAll(map, places) {
 
 /** @param {Scene} scene @param {LiveViews} views @returns {(HTMLElement | string)[]} */
 function sumParts({ state: { turbines } }, views) {
-  if (turbines.length === 0) return ["None yet. Click the map for each turbine, or load a layout."];
+  if (turbines.length === 0) {
+    return ["None yet. Click the map for the first one, and right-click it for more; or load a layout."];
+  }
   const error = [TIPS, HUBS].map((id) => views.of(id)?.error).find(Boolean);
-  if (error) return [make("span", "problem", error)];
+  if (error) return [make("span", "problem", inPageWords(error))];
   const seen = [
     { what: "a blade tip", done: views.of(TIPS)?.done },
     { what: "a hub", done: views.of(HUBS)?.done },

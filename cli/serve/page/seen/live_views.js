@@ -114,7 +114,7 @@ export class LiveViews {
     if (known) known.late = false;
     if (known?.options === options && known.observer === observer) return;
     // A move waits for a picture of the one before, for the browser may be slower than the server.
-    if (known?.options === options && !hasColours(known)) {
+    if (known?.options === options && !hasColours(known) && this.connection.live) {
       known.late = true;
       return;
     }
@@ -123,13 +123,13 @@ export class LiveViews {
     if (tooMany) this.connection.send({ type: "stop", id });
     else if (known?.options === options) this.connection.send({ type: "move", id, seq, observer: place });
     else this.connection.send({ type: "view", id, seq, options: { ...wantedOptions, observer: place } });
-    if (known?.options !== options) this.#come = null;
+    if (known?.options !== options || !this.connection.live) this.#come = null;
     this.#views.set(id, {
       options,
       observer,
       seq,
       begun: known?.begun ?? null,
-      cells: tooMany ? null : (known?.cells ?? null),
+      cells: tooMany || !this.connection.live ? null : (known?.cells ?? null),
       done: null,
       late: false,
       error: tooMany,

@@ -27,6 +27,11 @@ export class LiveConnection {
     this.key = key;
   }
 
+  /** Whether the server hears what is sent. */
+  get live() {
+    return this.#live;
+  }
+
   /** @param {string} type @param {(message: Message) => void} listener */
   on(type, listener) {
     this.#listeners.set(type, [...(this.#listeners.get(type) ?? []), listener]);

@@ -23,7 +23,7 @@ const FIRST_SITE = 32;
 /** @param {{id: string, x: number, y: number, height_m: number, gain: number}[]} chosen @returns {Site[]} */
 export function sitesOf(chosen) {
   return chosen.map(({ id, x, y, height_m, gain }, i) => ({
-    ...{ id: FIRST_SITE + i, hue: i, name: /^\d+$/.test(id) ? `Site ${id}` : id, x, y, height: height_m, gain },
+    ...{ id: FIRST_SITE + i, hue: i, name: /^\d+$/.test(id) ? `Site ${i + 1}` : id, x, y, height: height_m, gain },
     chosen: { x, y },
   }));
 }

@@ -67,7 +67,8 @@ export class Scene {
     return masts.find(({ id }) => id === target.mast && id !== selected) ?? null;
   }
 
-  /** Adds a mast as high as the one selected, and selects it. @param {Place} place */
+  /** Adds a mast, and selects it. It is as high as the one selected, unless its height is given.
+   * @param {Place & {name?: string, height?: number}} place */
   addMast(place) {
     const { masts } = this.state;
     if (masts.length >= MOST_MASTS) return;
