@@ -44,6 +44,10 @@ std::string failure_of(const std::vector<Written>& all) {
 
 }  // namespace
 
+LosReports::~LosReports() {
+  while (!folders_.empty()) folders_.pop_back();
+}
+
 void LosReports::declare(CLI::App& app) {
   begin_group(app, "Reports");
   writes(app.add_option("--report", paths_,
@@ -102,9 +106,9 @@ void LosReports::write(const LosCase& one, const Document& command, const std::v
 
 void LosReports::make_folder_of(const std::filesystem::path& path) {
   const std::filesystem::path folder = path.parent_path();
-  if (folder.empty() || folders_.contains(folder.string()) || std::filesystem::is_directory(folder)) return;
+  if (folder.empty() || std::filesystem::is_directory(folder)) return;
   make_folder_of(folder);
-  folders_.try_emplace(folder.string(), folder.string());
+  folders_.emplace_back(folder.string());
 }
 
 std::vector<LosReports::Job> LosReports::jobs(const std::vector<profile::Link>& links, OutputPolicy& policy) {

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <functional>
-#include <map>
+#include <list>
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,6 +23,10 @@ namespace itin::cli {
 
 class LosReports {
  public:
+  LosReports() = default;
+  LosReports(const LosReports&) = delete;
+  LosReports& operator=(const LosReports&) = delete;
+  ~LosReports();
   void declare(CLI::App& app);
   bool given() const { return !paths_.empty(); }
   const std::vector<std::string>& paths() const { return paths_; }
@@ -57,7 +61,7 @@ class LosReports {
   std::vector<std::string> paths_;
   std::string title_, table_spacing_text_;
   std::optional<double> table_spacing_m_;
-  std::map<std::string, NewFolder> folders_;  ///< destroyed from the last on: a folder after those within it
+  std::list<NewFolder> folders_;  ///< a folder before those within it
 };
 
 }  // namespace itin::cli

@@ -2,11 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <system_error>
 #include <unistd.h>
 
 #include <fmt/format.h>
+
+#include <itin/lower_case.hpp>
 
 #include "serve/uploads.hpp"
 
@@ -15,11 +16,6 @@ namespace itin::cli {
 namespace {
 
 constexpr std::uint16_t kHttpPort = 80;
-
-std::string in_lower_case(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
-  return text;
-}
 
 bool has_port(const std::string& name) {
   const std::size_t colon = name.rfind(':');

@@ -10,6 +10,8 @@
 #include <itin/silent_progress.hpp>
 #include <viewshed/relief.hpp>
 
+#include "options/half_posting.hpp"
+
 namespace itin::cli {
 
 namespace {

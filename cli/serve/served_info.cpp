@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "options/half_posting.hpp"
 #include "serve/ground_tiles.hpp"
 #include "serve/job_call.hpp"
 #include "serve/live_view.hpp"

@@ -4,6 +4,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "options/half_posting.hpp"
+
 namespace itin::cli {
 
 namespace {
@@ -35,13 +37,6 @@ std::optional<Box> TileGrid::box(const TileAddress& tile) const {
   const double west = origin.x + tile.column * side, north = origin.y - tile.row * side;
   const Box box{west, north - side, west + side, north};
   return box.meets(data) ? std::optional(box) : std::nullopt;
-}
-
-std::optional<double> least_spacing(const StoreMetadata& metadata) {
-  std::optional<double> least;
-  for (const SourceInfo& source : metadata.sources)
-    if (source.theme.empty() && source.spacing > 0) least = std::min(least.value_or(source.spacing), source.spacing);
-  return least;
 }
 
 TileGrid tile_grid(const StoreMetadata& metadata) {

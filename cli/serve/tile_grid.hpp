@@ -35,7 +35,4 @@ struct TileGrid {
 /// From one tile over all data, or four, down to pixels of half the spacing of the finest source.
 TileGrid tile_grid(const StoreMetadata& metadata);
 
-/// The least spacing of the sources of terrain, metres; nothing where none has one.
-std::optional<double> least_spacing(const StoreMetadata& metadata);
-
 }  // namespace itin::cli

@@ -34,7 +34,7 @@ std::string served_in_words(const viewshed::SitePlan& r) {
 
 std::string cost_in_words(const viewshed::SitePlan& r) {
   const viewshed::Choice& choice = r.choice;
-  if (r.request.turbines || (!r.request.share && !r.request.budget)) return {};
+  if (!r.request.share && !r.request.budget) return {};
   std::string text = fmt::format("the sites cost {:.10g} in all", choice.cost);
   if (r.request.budget) text += fmt::format(", of a budget of {:.10g}", *r.request.budget);
   if (choice.least_cost)

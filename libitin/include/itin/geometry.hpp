@@ -30,6 +30,11 @@ struct Point3 {
   friend bool operator==(const Point3&, const Point3&) = default;
 };
 
+/// The distance between two positions, metres.
+inline double distance(Point2 p, Point2 q) {
+  return std::hypot(q.x - p.x, q.y - p.y);
+}
+
 /// A closed axis-parallel box in metres. It is empty when a minimum exceeds its maximum, as in a default box.
 struct Box {
   double xmin = std::numeric_limits<double>::infinity();

@@ -1,9 +1,10 @@
 // The columns of a table, listed once for all formats: CSV, layers of a GIS, documents.
 //
 //   const std::vector<TableColumn<Mast>> columns{
-//       {"name", [](const Mast& m) { return m.name; }},
+//       {"name", &Mast::name},
 //       {"x", [](const Mast& m) { return m.position.x; }, kInCsv, "{:.3f}"},
-//       {"height_m", [](const Mast& m) { return m.height; }}};    // std::optional<double>: may be empty
+//       {"height_m", &Mast::height},    // std::optional<double>: may be empty
+//       {"beam_deg", [](const Mast& m) { return if_any(m.antenna, &Antenna::beam_deg); }}};
 //   write_file("masts.csv", csv_of(columns, masts), false);
 //   layer = layer_of("masts", VectorLayer::Shape::kPoints, columns, masts, [](const Mast& m) { return places_of(m); });
 //   document["masts"] = documents_of(columns, masts);
@@ -12,6 +13,7 @@
 #include <concepts>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -60,15 +62,21 @@ constexpr VectorLayer::Type field_type() {
     return field_type<std::remove_cvref_t<decltype(*std::declval<T>())>>();
 }
 
+/// Returns a value of what a row may not have; nothing where it has not. `of` is a function of it or a member.
+template <class Part, class Of>
+auto if_any(const Part& part, const Of& of) {
+  return part ? std::optional(std::invoke(of, *part)) : std::nullopt;
+}
+
 template <class Row>
 struct TableColumn {
-  /// `of` takes a row and returns a value as table_cell() takes it. A CSV has numbers in this format of fmt: by
-  /// default with every digit.
+  /// `of` is a function of a row or a member of it, of a value as table_cell() takes it. A CSV has numbers in this
+  /// format of fmt: by default with every digit.
   template <class Of>
   TableColumn(std::string column, Of of, int in_formats = kInAllFormats, const char* number_format = "{}")
       : name(std::move(column)),
         type(field_type<std::remove_cvref_t<std::invoke_result_t<Of, const Row&>>>()),
-        cell([of = std::move(of)](const Row& row) { return table_cell(of(row)); }),
+        cell([of = std::move(of)](const Row& row) { return table_cell(std::invoke(of, row)); }),
         formats(in_formats),
         number(number_format) {}
 
@@ -102,11 +110,12 @@ std::string csv_of(const std::vector<TableColumn<Row>>& columns, const Rows& row
   return csv;
 }
 
-/// Returns a layer with a feature for each of `rows`; `points_of` returns the points of one.
+/// Returns a layer with a feature for each of `rows`; `points_of` returns the points of one. `style` is that of
+/// VectorLayer.
 template <class Row, class Rows, class PointsOf>
 VectorLayer layer_of(std::string name, VectorLayer::Shape shape, const std::vector<TableColumn<Row>>& columns,
-                     const Rows& rows, const PointsOf& points_of) {
-  VectorLayer layer{std::move(name), shape, {}, {}};
+                     const Rows& rows, const PointsOf& points_of, std::string style = {}) {
+  VectorLayer layer{std::move(name), shape, {}, {}, std::move(style)};
   for (const TableColumn<Row>& column : columns)
     if ((column.formats & kInLayer) != 0) layer.fields.emplace_back(column.name, column.type);
   for (const Row& row : rows) {

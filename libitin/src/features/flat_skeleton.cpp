@@ -28,10 +28,6 @@ Point2 flat_point(const GridPoint& p) {
   return {static_cast<double>(p.x), static_cast<double>(p.y)};
 }
 
-double distance(Point2 p, Point2 q) {
-  return std::hypot(p.x - q.x, p.y - q.y);
-}
-
 double distance_to_segment(Point2 p, const GridPoint& from, const GridPoint& to) {
   return itin::distance_to_segment(p, flat_point(from), flat_point(to));
 }

@@ -176,7 +176,7 @@ Window Window::corridor(Point2 from, Point2 to, double width) {
   require_position("corridor", from);
   require_position("corridor", to);
   require_positive("corridor", "width", width);
-  const double length = std::hypot(to.x - from.x, to.y - from.y);
+  const double length = distance(from, to);
   if (length == 0) throw InputError(fmt::format("corridor: both ends are ({}, {}); it has no length", from.x, from.y));
   const double nx = -(to.y - from.y) / length * width / 2, ny = (to.x - from.x) / length * width / 2;
   Window window;

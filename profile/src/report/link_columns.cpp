@@ -58,7 +58,7 @@ class ColumnList {
     if (any(rows_, [](const LinkRow& r) { return r.found() == nullptr; }))
       columns_.emplace_back("message", [](const LinkRow& r) { return r.message; });
     of_geodesic("geodesic_distance_m", &LinkCourse::distance_m);
-    of_result("gap_m", [](const LinkResult& r) { return r.gap_m; });
+    of_result("gap_m", &LinkResult::gap_m);
     add_ends();
     add_tightest();
     if (radio_) add_radio();
@@ -81,17 +81,16 @@ class ColumnList {
   /// Fills only rows of links that have been computed.
   template <class Of>
   void of_result(const std::string& name, Of of) {
-    columns_.emplace_back(
-        name, [of](const LinkRow& r) { return r.found() != nullptr ? std::optional(of(*r.result)) : std::nullopt; });
+    columns_.emplace_back(name,
+                          [of](const LinkRow& r) { return if_any(r.found() != nullptr ? r.result : nullptr, of); });
   }
   void of_geodesic(const std::string& name, double LinkCourse::*member) {
-    columns_.emplace_back(
-        name, [member](const LinkRow& r) { return r.course ? std::optional((*r.course).*member) : std::nullopt; });
+    columns_.emplace_back(name, [member](const LinkRow& r) { return if_any(r.course, member); });
   }
 
   void add_verdict() {
     columns_.emplace_back("id", [](const LinkRow& r) { return r.id; });
-    of_result("distance_m", [](const LinkResult& r) { return r.distance_m; });
+    of_result("distance_m", &LinkResult::distance_m);
     columns_.emplace_back("verdict", verdict_of);
     of_result("clearance_m", [](const LinkResult& r) { return finite(r.found->least_clearance_m); });
     of_result("critical_m", [](const LinkResult& r) { return distance_to(r.found->lowest); });
@@ -102,40 +101,29 @@ class ColumnList {
     of_result("tightest_m", [](const LinkResult& r) { return distance_to(r.found->critical); });
   }
   static std::optional<double> distance_to(const std::optional<ProfilePoint>& p) {
-    return p ? std::optional(p->distance_m) : std::nullopt;
+    return if_any(p, &ProfilePoint::distance_m);
   }
   /// Fills only rows of results that have this part.
-  template <class Of>
-  void of_losses(const char* name, Of of) {
-    of_result(name, [of](const LinkResult& r) { return r.losses ? std::optional(of(*r.losses)) : std::nullopt; });
+  template <class Part, class Of>
+  void of_part(const std::string& name, Part part, Of of) {
+    of_result(name, [part, of](const LinkResult& r) { return if_any(std::invoke(part, r), of); });
   }
-  template <class Of>
-  void of_fresnel(const char* name, Of of) {
-    of_result(name, [of](const LinkResult& r) {
-      return r.found->fresnel ? std::optional(of(*r.found->fresnel)) : std::nullopt;
-    });
-  }
-  template <class Of>
-  void of_visible(const std::string& name, Of of) {
-    of_result(name, [of](const LinkResult& r) { return r.visible ? std::optional(of(*r.visible)) : std::nullopt; });
-  }
+  static const std::optional<FresnelClearance>& fresnel_of(const LinkResult& r) { return r.found->fresnel; }
 
   void add_fresnel() {
-    of_fresnel("fresnel_fraction", [](const auto& fresnel) { return fresnel.fraction; });
-    of_losses("ld_db", [](const PathLosses& losses) { return losses.ld_db; });
+    of_part("fresnel_fraction", fresnel_of, &FresnelClearance::fraction);
+    of_part("ld_db", &LinkResult::losses, &PathLosses::ld_db);
   }
   void add_object() {
     const auto add_part = [&](const std::string& name, const auto& part) {
       const auto add = [&](const char* what, double VisiblePart::*member) {
-        of_visible(name + what, [part, member](const VisibleHeight& seen) {
-          const std::optional<VisiblePart> of_object = part(seen);
-          return of_object ? std::optional((*of_object).*member) : std::nullopt;
-        });
+        of_part(name + what, &LinkResult::visible,
+                [part, member](const VisibleHeight& seen) { return if_any(part(seen), member); });
       };
       add("_visible_m", &VisiblePart::visible_m);
       add("_fraction", &VisiblePart::fraction);
     };
-    of_visible("hidden_below_m", [](const VisibleHeight& seen) { return seen.from_m; });
+    of_part("hidden_below_m", &LinkResult::visible, &VisibleHeight::from_m);
     add_part("hub", [](const VisibleHeight& seen) { return seen.hub; });
     add_part("tip", [](const VisibleHeight& seen) { return std::optional(seen.tip); });
   }
@@ -146,7 +134,7 @@ class ColumnList {
     };
     if (any(rows_, named)) {
       const auto name_at = [](std::string Link::*end) {
-        return [end](const LinkRow& r) { return r.link != nullptr ? std::optional(r.link->*end) : std::nullopt; };
+        return [end](const LinkRow& r) { return if_any(r.link, end); };
       };
       columns_.emplace_back("name1", name_at(&Link::from_name));
       columns_.emplace_back("name2", name_at(&Link::to_name));
@@ -178,20 +166,13 @@ class ColumnList {
     of_end("azimuth_magnetic2_deg", "declination2_deg", &LinkCourse::back_azimuth_deg, &LinkRow::to_declination_deg);
   }
   void add_radio() {
-    const auto of_radio = [&](const char* name, auto of) {
-      of_result(name, [of](const LinkResult& r) { return r.radio ? std::optional(of(*r.radio)) : std::nullopt; });
-    };
-    const auto of_reflection = [&](const char* name, auto of) {
-      of_result(name,
-                [of](const LinkResult& r) { return r.reflection ? std::optional(of(*r.reflection)) : std::nullopt; });
-    };
-    of_radio("frequency_ghz", [](const RadioPath& path) { return path.frequency_ghz; });
-    of_radio("polarisation",
-             [](const RadioPath& path) { return path.polarisation == Polarisation::kVertical ? "v" : "h"; });
-    of_fresnel("fresnel_fraction_at_m", [](const auto& fresnel) { return fresnel.distance_m; });
-    of_losses("free_space_db", [](const PathLosses& losses) { return losses.free_space_db; });
-    of_reflection("reflection_m", [](const Reflection& reflection) { return reflection.distance_m; });
-    of_reflection("reflected_path", name_of_path);
+    of_part("frequency_ghz", &LinkResult::radio, &RadioPath::frequency_ghz);
+    of_part("polarisation", &LinkResult::radio,
+            [](const RadioPath& path) { return path.polarisation == Polarisation::kVertical ? "v" : "h"; });
+    of_part("fresnel_fraction_at_m", fresnel_of, &FresnelClearance::distance_m);
+    of_part("free_space_db", &LinkResult::losses, &PathLosses::free_space_db);
+    of_part("reflection_m", &LinkResult::reflection, &Reflection::distance_m);
+    of_part("reflected_path", &LinkResult::reflection, name_of_path);
   }
 
   static std::string name_of_criterion(const Criterion& c) {
@@ -206,8 +187,7 @@ class ColumnList {
     const std::string name = name_of_criterion(criterion);
     const auto of_criterion = [&](const char* what, auto of) {
       columns_.emplace_back(name + what, [criterion, of](const LinkRow& row) {
-        const CriterionResult* c = row.found() != nullptr ? result_of(row, criterion) : nullptr;
-        return c != nullptr ? std::optional(of(*c)) : std::nullopt;
+        return if_any(row.found() != nullptr ? result_of(row, criterion) : nullptr, of);
       });
     };
     of_criterion("", [](const CriterionResult& c) { return profile::name_of(c.verdict); });

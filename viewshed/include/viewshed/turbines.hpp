@@ -165,6 +165,8 @@ struct Zone {
 
   /// Tells whether it may be undecided what is seen of the turbines.
   bool leaves_open() const { return crosses_voids && request.nodata == NoData::kUnknown; }
+  /// The area of so many cells, square kilometres.
+  double km2(std::uint64_t cells) const { return static_cast<double>(cells) * grid.cell_area() / 1e6; }
 };
 
 /// Surveys the turbines on given surfaces; `screened` may be null, and must cover what `ground` does. Turbines without

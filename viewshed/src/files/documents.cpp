@@ -29,26 +29,24 @@ Document of_verdicts(const Result& result, const auto& value) {
 
 /// The columns of the sky line. In directions without one, they are empty.
 std::vector<TableColumn<HorizonPoint>> sky_line_columns(const StoreMetadata& metadata) {
-  std::vector<TableColumn<HorizonPoint>> columns{
-      {"azimuth_deg", [](const HorizonPoint& p) { return p.azimuth_deg; }, kInAllFormats, "{:.10g}"}};
+  std::vector<TableColumn<HorizonPoint>> columns{{"azimuth_deg", &HorizonPoint::azimuth_deg, kInAllFormats, "{:.10g}"}};
   const auto add = [&](const char* name, auto of, const char* number = "{:.3f}") {
     columns.emplace_back(
-        name, [of](const HorizonPoint& p) { return p.sky ? std::optional(of(p)) : std::nullopt; }, kInAllFormats,
-        number);
+        name, [of](const HorizonPoint& p) { return if_any(p.sky, of); }, kInAllFormats, number);
   };
-  add(
-      "elevation_deg", [](const HorizonPoint& p) { return p.sky->elevation_deg; }, "{:.6f}");
-  add("distance_m", [](const HorizonPoint& p) { return p.sky->distance_m; });
-  add("x", [](const HorizonPoint& p) { return p.sky->position.x; });
-  add("y", [](const HorizonPoint& p) { return p.sky->position.y; });
-  add("z", [](const HorizonPoint& p) { return p.sky->position.z; });
-  add("theme", [&metadata](const HorizonPoint& p) {
-    return p.sky->theme == 0 ? "terrain" : metadata.themes[p.sky->theme - std::size_t{1}].name;
+  add("elevation_deg", &SkyPoint::elevation_deg, "{:.6f}");
+  add("distance_m", &SkyPoint::distance_m);
+  add("x", [](const SkyPoint& sky) { return sky.position.x; });
+  add("y", [](const SkyPoint& sky) { return sky.position.y; });
+  add("z", [](const SkyPoint& sky) { return sky.position.z; });
+  add("theme", [&metadata](const SkyPoint& sky) {
+    return sky.theme == 0 ? "terrain" : metadata.themes[sky.theme - std::size_t{1}].name;
   });
-  add(
-      "data_edge", [](const HorizonPoint& p) { return p.sky->data_edge; }, kFlagsAsNumbers);
-  add(
-      "over_missing", [](const HorizonPoint& p) { return p.over_missing; }, kFlagsAsNumbers);
+  add("data_edge", &SkyPoint::data_edge, kFlagsAsNumbers);
+  columns.emplace_back(
+      "over_missing",
+      [](const HorizonPoint& p) { return if_any(p.sky, [&](const SkyPoint&) { return p.over_missing; }); },
+      kInAllFormats, kFlagsAsNumbers);
   return columns;
 }
 

@@ -106,7 +106,6 @@ class AreaTable {
       ++found.all;
       if (classes.is_open(i)) ++found.open;
     }
-    const auto km2 = [&](std::uint64_t n) { return static_cast<double>(n) * zone_.grid.cell_area() / 1e6; };
     for (std::size_t r = 0; r < rings_.size(); ++r) {
       std::uint64_t all = 0;
       for (const Cells& of_class : cells[r]) all += of_class.all;
@@ -114,9 +113,9 @@ class AreaTable {
       const auto with_data = static_cast<double>(all);
       for (std::size_t c = 0; c < cells[r].size(); ++c)
         fmt::format_to(std::back_inserter(text_), "{},{},{},{:g},{:g},{:.6f},{:.3f},{:.3f},{:.6f}\n", surface, seen,
-                       classes.classes()[c].label, rings_.from(r), rings_.to(r), km2(cells[r][c].all),
+                       classes.classes()[c].label, rings_.from(r), rings_.to(r), zone_.km2(cells[r][c].all),
                        100.0 * static_cast<double>(cells[r][c].all) / with_data,
-                       100.0 * with_data / (with_data + without_ground_[r]), km2(cells[r][c].open));
+                       100.0 * with_data / (with_data + without_ground_[r]), zone_.km2(cells[r][c].open));
     }
   }
   std::string text() && { return std::move(text_); }

@@ -44,11 +44,9 @@ std::vector<AreaRow> rows_of_map(const ZoneMap& map) {
 
 std::string area_totals(const Zone& zone) {
   constexpr std::size_t kAnyCombination = 250;
-  const double cell = zone.grid.cell_area();
   // The decimals suffice to tell the km2 of one cell from those of two.
   const std::string number =
-      fmt::format("{{:.{}f}}", static_cast<int>(std::clamp(1 + std::ceil(-std::log10(cell / 1e6)), 2.0, 6.0)));
-  const auto km2 = [cell](std::uint64_t cells) { return static_cast<double>(cells) * cell / 1e6; };
+      fmt::format("{{:.{}f}}", static_cast<int>(std::clamp(1 + std::ceil(-std::log10(zone.km2(1))), 2.0, 6.0)));
   const auto percent = [](const AreaRow& row) {
     return 100.0 * static_cast<double>(row.cells.cells) / static_cast<double>(std::max<std::uint64_t>(1, row.all));
   };
@@ -56,9 +54,9 @@ std::string area_totals(const Zone& zone) {
       {"surface", [](const AreaRow& row) { return row.map.screened ? "screened" : "bare"; }},
       {"seen", [](const AreaRow& row) { return row.map.seen; }},
       {"class", [](const AreaRow& row) { return row.name; }},
-      {"area_km2", [&](const AreaRow& row) { return km2(row.cells.cells); }, kInCsv, number.c_str()},
+      {"area_km2", [&](const AreaRow& row) { return zone.km2(row.cells.cells); }, kInCsv, number.c_str()},
       {"share_percent", percent, kInCsv, "{:.2f}"},
-      {"undecided_km2", [&](const AreaRow& row) { return km2(row.cells.open_cells); }, kInCsv, number.c_str()}};
+      {"undecided_km2", [&](const AreaRow& row) { return zone.km2(row.cells.open_cells); }, kInCsv, number.c_str()}};
   const std::vector<ZoneMap> maps = zone_maps(zone, kAnyCombination);
   std::vector<AreaRow> rows;
   for (const ZoneMap& map : maps)

@@ -27,7 +27,6 @@ class CountClasses {
   /// Returns the classes: none seen; the bands of counts; and last, where the zone leaves_open(), the cells from which
   /// it is undecided whether any turbine is seen.
   const std::vector<ValueBand>& classes() const { return classes_; }
-  bool is_undecided(std::size_t of_class) const { return of_class == undecided_class_; }
   /// Returns the class of a cell; nothing where the cell has no value.
   std::optional<std::size_t> of(std::size_t cell) const;
   /// Tells whether ground without data leaves open how many turbines are seen from a cell.

@@ -152,9 +152,7 @@ std::string combination_table(const Zone& zone) {
   std::vector<TableColumn<Combination>> columns{{"value", [](const Combination& c) { return c.farms; }},
                                                 {"farms_seen", [](const Combination& c) { return c.name; }}};
   const auto add = [&](const char* name, const CombinationCells& cells) {
-    const auto km2 = [&zone, &cells](const Combination& c) {
-      return static_cast<double>(cells_of(cells, c)) * zone.grid.cell_area() / 1e6;
-    };
+    const auto km2 = [&zone, &cells](const Combination& c) { return zone.km2(cells_of(cells, c)); };
     columns.emplace_back(name, km2, kInCsv, "{:.6f}");
   };
   add("bare_km2", bare_cells);

@@ -27,8 +27,9 @@ bool has_proposal(const ZoneRequest& request) {
   return proposed > 0 && proposed < request.turbines.size();
 }
 
-std::size_t proposed_turbines(const ZoneRequest& request) {
-  return static_cast<std::size_t>(std::count_if(request.turbines.begin(), request.turbines.end(), is_proposed));
+std::size_t turbines_with(TurbineStatus status, const ZoneRequest& request) {
+  return static_cast<std::size_t>(std::count_if(request.turbines.begin(), request.turbines.end(),
+                                                [&](const Turbine& t) { return t.status == status; }));
 }
 
 std::vector<Turbine> turbines_of_study_area(const ZoneRequest& request) {

@@ -10,8 +10,11 @@
 
 namespace itin::viewshed {
 
-/// Returns the number of proposed turbines.
-std::size_t proposed_turbines(const ZoneRequest& request);
+/// Returns the number of turbines of this status.
+std::size_t turbines_with(TurbineStatus status, const ZoneRequest& request);
+inline std::size_t proposed_turbines(const ZoneRequest& request) {
+  return turbines_with(TurbineStatus::kProposed, request);
+}
 
 /// Tells whether a place lies within the study area: within the radius of a turbine, or, of a request with a proposal,
 /// of a proposed one.

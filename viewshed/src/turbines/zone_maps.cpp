@@ -18,26 +18,36 @@ namespace {
 constexpr const char* kNone = "None visible";
 constexpr const char* kUndecided = "Undecided, across ground without data";
 
-ZoneMap count_map(const Zone& zone, const Visibility& visibility, TurbinePart part) {
-  ZoneMap map;
-  const CountClasses classes(zone, visibility, part);
-  for (const ValueBand& b : classes.classes()) map.classes.push_back({b.label, b.colour});
-  map.classes.front().label = kNone;
-  if (zone.leaves_open()) map.classes.back().label = kUndecided, map.classes.back().undecided = true;
-  map.class_of_cell.assign(visibility.tip_count.size(), kNoMapClass);
+/// Puts the cells of the first class that leave something undecided into a last class, and counts all.
+void count_cells(const Zone& zone, const std::vector<std::uint16_t>& undecided, ZoneMap& map) {
+  if (zone.leaves_open()) map.classes.push_back({kUndecided, kUndecidedGrey, 0, 0, true});
+  const auto last = static_cast<std::uint8_t>(map.classes.size() - 1);
   for (std::size_t i = 0; i < map.class_of_cell.size(); ++i) {
-    const auto of_cell = classes.of(i);
-    if (!of_cell) continue;
-    map.class_of_cell[i] = static_cast<std::uint8_t>(*of_cell);
-    ++map.classes[*of_cell].cells;
-    if (classes.is_open(i)) ++map.classes[*of_cell].open_cells;
+    std::uint8_t& of_cell = map.class_of_cell[i];
+    if (of_cell == kNoMapClass) continue;
+    const bool open = zone.leaves_open() && undecided[i] > 0;
+    if (open && of_cell == 0) of_cell = last;
+    ++map.classes[of_cell].cells;
+    if (open) ++map.classes[of_cell].open_cells;
   }
+}
+
+/// Returns the map of counts in bands, the first of which has no more than 0.
+ZoneMap banded_map(const Zone& zone, const std::vector<ValueBand>& bands, const std::vector<std::uint16_t>& counts,
+                   const std::vector<std::uint16_t>& undecided) {
+  ZoneMap map;
+  for (const ValueBand& band : bands) map.classes.push_back({band.label, band.colour});
+  map.classes.front().label = kNone;
+  for (const std::uint16_t count : counts)
+    map.class_of_cell.push_back(count == kCountOutside ? kNoMapClass
+                                                       : static_cast<std::uint8_t>(band_of(bands, count)));
+  count_cells(zone, undecided, map);
   return map;
 }
 
 /// Returns the map of hubs, which says whose hubs are known where not all are.
 ZoneMap hub_map(const Zone& zone, const Visibility& visibility) {
-  ZoneMap map = count_map(zone, visibility, TurbinePart::kHub);
+  ZoneMap map = banded_map(zone, count_bands(zone, TurbinePart::kHub), visibility.hub_count, visibility.hub_undecided);
   const std::string known = of_known_hubs(zone);
   map.title = "Zone of theoretical visibility: hubs" + known;
   map.heading = "Turbines with their hub visible";
@@ -48,7 +58,7 @@ ZoneMap hub_map(const Zone& zone, const Visibility& visibility) {
 }
 
 ZoneMap tip_map(const Zone& zone, const Visibility& visibility) {
-  ZoneMap map = count_map(zone, visibility, TurbinePart::kTip);
+  ZoneMap map = banded_map(zone, count_bands(zone, TurbinePart::kTip), visibility.tip_count, visibility.tip_undecided);
   map.title = "Zone of theoretical visibility: blade tips", map.heading = "Turbines with their blade tip visible";
   return map;
 }
@@ -68,43 +78,16 @@ ZoneMap farm_map(const Zone& zone, const Visibility& visibility, std::size_t mos
     if (i == most) map.classes.push_back({"other combinations", {90, 90, 90}});
     class_of[present[i].farms] = static_cast<std::uint8_t>(map.classes.size() - 1);
   }
-  if (zone.leaves_open()) map.classes.push_back({kUndecided, kUndecidedGrey, 0, 0, true});
-  const auto last = static_cast<std::uint8_t>(map.classes.size() - 1);
-  for (std::size_t i = 0; i < farms.size(); ++i) {
-    const bool open = zone.leaves_open() && farms[i] != kOutsideFarms && visibility.tip_undecided[i] > 0;
-    map.class_of_cell.push_back(open && farms[i] == 0 ? last : class_of[farms[i]]);
-    if (farms[i] == kOutsideFarms) continue;
-    ZoneMap::Class& of_cell = map.classes[map.class_of_cell.back()];
-    ++of_cell.cells;
-    if (open) ++of_cell.open_cells;
-  }
+  for (const std::uint32_t of_cell : farms) map.class_of_cell.push_back(class_of[of_cell]);
+  count_cells(zone, visibility.tip_undecided, map);
   return map;
 }
 
-/// Puts the cells of the first class that leave some turbine undecided into a last class, and counts all.
-void count_cells(const Zone& zone, const Visibility& visibility, ZoneMap& map) {
-  if (zone.leaves_open()) map.classes.push_back({kUndecided, kUndecidedGrey, 0, 0, true});
-  const auto last = static_cast<std::uint8_t>(map.classes.size() - 1);
-  for (std::size_t i = 0; i < map.class_of_cell.size(); ++i) {
-    std::uint8_t& of_cell = map.class_of_cell[i];
-    if (of_cell == kNoMapClass) continue;
-    const bool open = zone.leaves_open() && visibility.tip_undecided[i] > 0;
-    if (open && of_cell == 0) of_cell = last;
-    ++map.classes[of_cell].cells;
-    if (open) ++map.classes[of_cell].open_cells;
-  }
-}
-
 ZoneMap proposal_map(const Zone& zone, const Visibility& visibility) {
-  ZoneMap map;
+  ZoneMap map = banded_map(zone, count_bands(proposed_turbines(zone.request), zone.request.count_bands),
+                           proposed_tips(zone, visibility), visibility.tip_undecided);
   map.title = "Zone of theoretical visibility of the proposal: blade tips";
   map.heading = "Proposed turbines with their blade tip visible";
-  const std::vector<ValueBand> bands = count_bands(proposed_turbines(zone.request), zone.request.count_bands);
-  for (const ValueBand& band : bands) map.classes.push_back({band.label, band.colour});
-  map.classes.front().label = kNone;
-  for (const std::uint16_t tips : proposed_tips(zone, visibility))
-    map.class_of_cell.push_back(tips == kCountOutside ? kNoMapClass : static_cast<std::uint8_t>(band_of(bands, tips)));
-  count_cells(zone, visibility, map);
   return map;
 }
 
@@ -115,7 +98,7 @@ ZoneMap addition_map(const Zone& zone, const Visibility& visibility) {
   for (const AdditionClass& c : kAdditions) map.classes.push_back({c.text, c.colour});
   map.classes.front().label = kNone;
   map.class_of_cell = additions(zone, visibility);
-  count_cells(zone, visibility, map);
+  count_cells(zone, visibility.tip_undecided, map);
   return map;
 }
 

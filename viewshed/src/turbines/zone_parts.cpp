@@ -1,7 +1,6 @@
 #include "turbines/zone_parts.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <numeric>
 #include <string>
@@ -30,8 +29,7 @@ Window::Polygon farm_disc(const std::vector<const Turbine*>& farm) {
   for (const Turbine* t : farm) box.extend(t->position);
   const Point2 middle = middle_of(box);
   double radius = 0;
-  for (const Turbine* t : farm)
-    radius = std::max(radius, std::hypot(t->position.x - middle.x, t->position.y - middle.y) + t->radius);
+  for (const Turbine* t : farm) radius = std::max(radius, distance(t->position, middle) + t->radius);
   return Window::disc(middle, radius).parts().front();
 }
 

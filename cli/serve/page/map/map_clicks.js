@@ -25,7 +25,7 @@ function add(scene, masts, turbines, place) {
 }
 
 /** @param {Scene} scene @param {number[]} coordinate */
-const roundedAt = ({ state: { options } }, [x, y]) => roundedPlace({ x, y }, Number(options.cell) || 1);
+const roundedAt = ({ cell }, [x, y]) => roundedPlace({ x, y }, cell);
 
 /** @param {Scene} scene @param {OlMap} map @param {number[]} coordinate @param {(place: Place) => void} addHere */
 function click(scene, map, coordinate, addHere) {

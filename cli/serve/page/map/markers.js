@@ -70,7 +70,7 @@ export class Markers {
     }
     follow(this.map, button, {
       place: find,
-      cell: () => Number(this.scene.state.options.cell) || 1,
+      cell: () => this.scene.cell,
       move: (to) => move(id, to),
       remove: () => remove(id),
     });

@@ -12,12 +12,11 @@ import { follow } from "./dragging.js";
  * @property {string} label  What the place is, for those who hear it.
  * @property {"target" | "viewpoint"} name  What of the scene's state has the place.
  * @property {(keyof SceneState)[]} keys   What the marker follows.
- * @property {() => Place | null} place
  * @property {() => Place | null} shown    The place, where the marker is to be seen.
  */
 
 /** @param {import("../vendor/ol.js").OlMap} map @param {Scene} scene @param {PlaceKind} kind */
-export function makePlaceMarker(map, scene, { className, label, name, keys, place, shown }) {
+export function makePlaceMarker(map, scene, { className, label, name, keys, shown }) {
   const button = document.createElement("button");
   button.type = "button";
   button.className = className;
@@ -25,8 +24,8 @@ export function makePlaceMarker(map, scene, { className, label, name, keys, plac
   const marker = new Overlay({ element: button, positioning: "center-center", stopEvent: true });
   map.addOverlay(marker);
   follow(map, button, {
-    place,
-    cell: () => Number(scene.state.options.cell) || 1,
+    place: shown,
+    cell: () => scene.cell,
     move: (to) => scene.change({ [name]: to }),
     remove: () => scene.change({ [name]: null }),
   });

@@ -9,6 +9,5 @@ export const makeTargetMarker = (map, scene) =>
     label: "Far end of the line of sight",
     name: "target",
     keys: ["target", "masts", "selected", "task"],
-    place: () => scene.farEnd,
     shown: () => (scene.farEnd?.name ? null : scene.farEnd),
   });

@@ -9,6 +9,5 @@ export const makeViewpointMarker = (map, scene) =>
     label: "Viewpoint of the wireline",
     name: "viewpoint",
     keys: ["viewpoint", "task"],
-    place: () => scene.state.viewpoint,
     shown: () => (scene.state.task === "turbines" ? scene.state.viewpoint : null),
   });

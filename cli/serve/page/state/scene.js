@@ -58,6 +58,11 @@ export class Scene {
     return this.state.masts.find((mast) => mast.id === this.state.selected) ?? null;
   }
 
+  /** The side of a cell, metres. */
+  get cell() {
+    return Number(this.state.options.cell) || 1;
+  }
+
   /** The far end of the line of sight: where it is, how high, and its name if it is a mast.
    * @returns {Place & {height: number | string, name: string} | null} */
   get farEnd() {

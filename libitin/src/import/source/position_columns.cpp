@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cctype>
 
+#include <itin/lower_case.hpp>
 #include <itin/position_columns.hpp>
 
 namespace itin {
@@ -31,10 +32,7 @@ std::string_view without_metres(std::string_view name) {
 /// Returns what of a name counts: letters in lower case, and digits.
 std::string letters_of(std::string_view name) {
   while (name.ends_with(' ')) name.remove_suffix(1);
-  std::string lower(name);
-  std::transform(lower.begin(), lower.end(), lower.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  std::string letters(without_metres(lower));
+  std::string letters(without_metres(in_lower_case(std::string(name))));
   std::erase_if(letters, [](unsigned char c) { return c < 0x80 && std::isalnum(c) == 0; });
   return letters;
 }

@@ -1,7 +1,6 @@
 #include "import/source/source_layer.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -12,6 +11,7 @@
 #include <fmt/ranges.h>
 
 #include <itin/error.hpp>
+#include <itin/lower_case.hpp>
 
 #include "gdal/archive.hpp"
 #include "gdal/crs.hpp"
@@ -24,8 +24,8 @@ namespace itin {
 namespace {
 
 /// Whether fields of such heights are often called so.
-bool is_called_height(std::string name, HeightOf what) {
-  std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return std::tolower(c); });
+bool is_called_height(const std::string& field, HeightOf what) {
+  const std::string name = in_lower_case(field);
   const auto is = [&](const char* other) { return name == other; };
   const auto has = [&](const char* part) { return name.find(part) != std::string::npos; };
   if (is("h") || has("height") || has("hoehe") || has("hoogte")) return true;

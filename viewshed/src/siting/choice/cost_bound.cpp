@@ -6,16 +6,15 @@
 #include <itin/parallel.hpp>
 
 #include "siting/choice/choice_state.hpp"
+#include "siting/choice/greatest_gain.hpp"
 
 namespace itin::viewshed {
 
 namespace {
 
 /// The least cost of gains that add up to `wanted`, where fractions of options count; all there is, where they do not.
-double least_cost_of(std::vector<std::pair<Weight, double>> gains_and_costs, double wanted) {
-  std::sort(gains_and_costs.begin(), gains_and_costs.end(), [](const auto& a, const auto& b) {
-    return static_cast<double>(a.first) * b.second > static_cast<double>(b.first) * a.second;
-  });
+double least_cost_of(std::vector<GainAtCost> gains_and_costs, double wanted) {
+  sort_by_gain_for_cost(gains_and_costs);
   double cost = 0;
   for (const auto& [gain, whole] : gains_and_costs) {
     if (wanted <= 0) break;
@@ -46,7 +45,7 @@ double bound_cost(const ChoiceProblem& problem, std::span<const std::size_t> cho
   for (std::size_t prefix = 0; prefix <= chosen.size(); ++prefix) {
     std::vector<Weight> gains(problem.options.size());
     parallel_for(gains.size(), [&](std::size_t i) { gains[i] = served.gain(problem.coverage.bounds(i).possible); });
-    std::vector<std::pair<Weight, double>> with_costs;
+    std::vector<GainAtCost> with_costs;
     for (std::size_t i = 0; i < gains.size(); ++i)
       if (gains[i] > 0) with_costs.emplace_back(gains[i], problem.options[i].cost);
     bound = std::max(bound, least_cost_of(std::move(with_costs), all - static_cast<double>(sum)) * (1 - 1e-12));

@@ -13,10 +13,8 @@ namespace itin::viewshed {
 namespace {
 
 /// An upper bound on the sum of gains within the budget, in which fractions of options count.
-Weight knapsack(std::vector<std::pair<Weight, double>> gains_and_costs, double budget) {
-  std::sort(gains_and_costs.begin(), gains_and_costs.end(), [](const auto& a, const auto& b) {
-    return static_cast<double>(a.first) * b.second > static_cast<double>(b.first) * a.second;
-  });
+Weight knapsack(std::vector<GainAtCost> gains_and_costs, double budget) {
+  sort_by_gain_for_cost(gains_and_costs);
   double sum = 0, rest = budget;
   for (const auto& [gain, cost] : gains_and_costs) {
     if (cost <= rest) {
@@ -32,6 +30,12 @@ Weight knapsack(std::vector<std::pair<Weight, double>> gains_and_costs, double b
 
 }  // namespace
 
+void sort_by_gain_for_cost(std::vector<GainAtCost>& options) {
+  std::sort(options.begin(), options.end(), [](const GainAtCost& a, const GainAtCost& b) {
+    return static_cast<double>(a.first) * b.second > static_cast<double>(b.first) * a.second;
+  });
+}
+
 GreatestGain greatest_gain(const ChoiceProblem& problem, const Served& served, const std::vector<bool>& open,
                            std::size_t count, double spent) {
   std::vector<Weight> gains(problem.options.size());
@@ -41,7 +45,7 @@ GreatestGain greatest_gain(const ChoiceProblem& problem, const Served& served, c
   });
   GreatestGain result;
   std::map<std::size_t, Weight> of_place;
-  std::vector<std::pair<Weight, double>> with_costs;
+  std::vector<GainAtCost> with_costs;
   for (std::size_t i = 0; i < gains.size(); ++i) {
     if (gains[i] == 0) continue;
     if (gains[i] > gains[result.best]) result.best = i;

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
@@ -60,7 +59,7 @@ Dwellings::Dwellings(std::vector<Point2> points, std::optional<Window> polygons)
 }
 
 bool Dwellings::any_within(Point2 position, double metres) const {
-  const auto point_within = [&](Point2 p) { return std::hypot(p.x - position.x, p.y - position.y) < metres; };
+  const auto point_within = [&](Point2 p) { return distance(p, position) < metres; };
   const auto polygon_within = [&](const Polygon& polygon) {
     if (squared_distance(position, polygon.bounds) > metres * metres) return false;
     const Window::Polygon& part = polygon.outline.parts().front();

@@ -117,8 +117,8 @@ class DwellingChooser {
     bool reached = false;
     dwelling.nearest_m = kInfinity;
     for (std::size_t t = 0; t < turbines.size(); ++t) {
-      const double distance = horizontal_distance(dwelling.position, turbines[t].position);
-      if (distance < dwelling.nearest_m) dwelling.nearest = t, dwelling.nearest_m = distance;
+      const double metres = distance(dwelling.position, turbines[t].position);
+      if (metres < dwelling.nearest_m) dwelling.nearest = t, dwelling.nearest_m = metres;
       reached = reached || may_shade(request_.flicker, turbines[t], dwelling.position);
     }
     return reached;
@@ -151,11 +151,7 @@ double shadow_reach(const FlickerRules& rules, const Turbine& turbine) {
 
 bool may_shade(const FlickerRules& rules, const Turbine& turbine, Point2 place) {
   const double reach = shadow_reach(rules, turbine);
-  return reach > 0 && horizontal_distance(place, turbine.position) <= reach;
-}
-
-double horizontal_distance(Point2 a, Point2 b) {
-  return std::hypot(a.x - b.x, a.y - b.y);
+  return reach > 0 && distance(place, turbine.position) <= reach;
 }
 
 }  // namespace itin::viewshed

@@ -24,7 +24,4 @@ double shadow_reach(const FlickerRules& rules, const Turbine& turbine);
 /// Tells whether the turbine's shadow may reach a place: never where its rotor is not known.
 bool may_shade(const FlickerRules& rules, const Turbine& turbine, Point2 place);
 
-/// The distance in plan.
-double horizontal_distance(Point2 a, Point2 b);
-
 }  // namespace itin::viewshed

@@ -254,8 +254,8 @@ class DwellingsSurveyor {
     for (const DwellingFacade& facade : survey_.dwellings[pair.dwelling].facades) {
       pair.eyes.extend(facade.position);
       if (!pair.in_shadow) continue;
-      const double distance = horizontal_distance(facade.position, turbine.position);
-      const double sine = *turbine.rotor_diameter / 2 / std::max(distance, *turbine.rotor_diameter / 2);
+      const double radius = *turbine.rotor_diameter / 2;
+      const double sine = radius / std::max(distance(facade.position, turbine.position), radius);
       pair.ends.extend(box_of_ends(facade.position, turbine.position, std::asin(sine), farthest(facade)));
     }
   }
@@ -329,9 +329,9 @@ class DwellingsSurveyor {
     const Turbine& turbine = turbines()[pair.turbine];
     const Earth& earth = survey_.request.earth;
     const Point3 eye = eye_of_facade(survey_, facade);
-    const double distance = horizontal_distance(facade.position, turbine.position);
+    const double drop = earth.drop(distance(facade.position, turbine.position));
     const SeenRotor rotor{{turbine.position.x - eye.x, turbine.position.y - eye.y,
-                           survey_.ground_m[pair.turbine] + *turbine.hub_height - earth.drop(distance) - eye.z},
+                           survey_.ground_m[pair.turbine] + *turbine.hub_height - drop - eye.z},
                           *turbine.rotor_diameter / 2};
     SunEye sun = skies_[pair.dwelling];
     sun.outward_deg = facade.outward_deg;

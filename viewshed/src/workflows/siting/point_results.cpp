@@ -1,7 +1,6 @@
 #include "workflows/siting/point_results.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include <itin/memory_shares.hpp>
@@ -17,10 +16,6 @@ LinkRules rules_of_points(const SitePlanRequest& request) {
   LinkRules rules = link_rules(request);
   rules.query.to_on_surface = request.demand.on_surface;
   return rules;
-}
-
-double metres_between(const SitePosition& a, const SitePosition& b) {
-  return std::hypot(b.position.x - a.position.x, b.position.y - a.position.y);
 }
 
 /// How near a line comes to serving its end: by its verdict, then by how much of it is clear.
@@ -68,10 +63,9 @@ class PointJudge {
     result.serving = serving.size();
     if (!serving.empty()) {
       const std::size_t nearest = *std::min_element(serving.begin(), serving.end(), [&](std::size_t a, std::size_t b) {
-        return metres_between(sites_[a], result.place) < metres_between(sites_[b], result.place);
+        return metres_to(a, result) < metres_to(b, result);
       });
-      result.line = told_line(nearest, metres_between(sites_[nearest], result.place),
-                              lines_.found(sites_[nearest], result.place));
+      result.line = told_line(nearest, metres_to(nearest, result), lines_.found(sites_[nearest], result.place));
       const bool enough = serving.size() >= static_cast<std::size_t>(request_.cover);
       result.service = enough ? PointService::kServed : PointService::kTooFew;
     } else {
@@ -81,10 +75,14 @@ class PointJudge {
   }
 
  private:
+  double metres_to(std::size_t site, const PointResult& result) const {
+    return distance(sites_[site].position, result.place.position);
+  }
+
   void find_nearest_to_serving(PointResult& result) const {
     std::optional<Nearness> best;
     for (std::size_t i = 0; i < sites_.size(); ++i) {
-      const double metres = metres_between(sites_[i], result.place);
+      const double metres = metres_to(i, result);
       if (metres > request_.radius) continue;
       const profile::LineFindings found = lines_.found(sites_[i], result.place);
       const Nearness nearness(lines_.rules(), found);

@@ -2,7 +2,6 @@
 // places are called.
 #pragma once
 
-#include <cmath>
 #include <string>
 #include <vector>
 
@@ -33,7 +32,7 @@ inline bool has_spacing(const SitePlanRequest& request) {
 
 /// Tells whether sites at both places may be chosen, as far as distances go.
 inline bool may_both_stand(const SitePlanRequest& request, Point2 a, Point2 b) {
-  if (request.min_spacing && std::hypot(a.x - b.x, a.y - b.y) < *request.min_spacing) return false;
+  if (request.min_spacing && distance(a, b) < *request.min_spacing) return false;
   return !request.turbines || !request.turbines->spacing || request.turbines->spacing->keeps_apart(a, b);
 }
 

@@ -1,7 +1,5 @@
 #include "workflows/siting/visible_heights.hpp"
 
-#include <cmath>
-
 #include <itin/cross_section.hpp>
 #include <itin/memory_shares.hpp>
 #include <viewshed/turbine_sights.hpp>
@@ -66,7 +64,7 @@ std::vector<double> heights_over_points(const Store& store, const ShownTurbines&
     std::vector<std::size_t> numbers;
     for (std::size_t i = 0; i < request.turbines.size(); ++i) {
       const Point2 foot = request.turbines[i].position;
-      if (std::hypot(foot.x - points[p].x, foot.y - points[p].y) > call.radius) continue;
+      if (distance(foot, points[p]) > call.radius) continue;
       near.request.turbines.push_back(request.turbines[i]);
       near.ground_m.push_back(inputs.positions[options[i]].ground);
       numbers.push_back(i);

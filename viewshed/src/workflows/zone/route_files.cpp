@@ -56,8 +56,7 @@ RouteTotals totals_of(const StudiedRoute& route, Found found) {
 /// Returns a cell of what is seen from a place; empty where there is no ground.
 template <class Of>
 auto of_found(Found found, Of of) {
-  return
-      [found, of](const RoutePlace& place) { return place.*found ? std::optional(of(*(place.*found))) : std::nullopt; };
+  return [found, of](const RoutePlace& place) { return if_any(place.*found, of); };
 }
 
 std::vector<TableColumn<RoutePlace>> place_columns(const Zone& zone, bool national) {
@@ -65,11 +64,7 @@ std::vector<TableColumn<RoutePlace>> place_columns(const Zone& zone, bool nation
   const auto add = [&](const char* name, auto of, const char* number = "{}") {
     columns.emplace_back(name, of, kInCsv, number);
   };
-  const auto hubs = [](const SightSummary& seen) { return seen.hubs; };
-  const auto tips = [](const SightSummary& seen) { return seen.tips; };
-  const auto undecided = [](const SightSummary& seen) { return seen.tips_undecided; };
-  add(
-      "distance_m", [](const RoutePlace& p) { return p.distance; }, "{:.0f}");
+  add("distance_m", &RoutePlace::distance, "{:.0f}");
   add(
       "x", [](const RoutePlace& p) { return p.position.x; }, "{:.1f}");
   add(
@@ -77,19 +72,20 @@ std::vector<TableColumn<RoutePlace>> place_columns(const Zone& zone, bool nation
   add("grid_reference",
       [national](const RoutePlace& p) { return national ? national_grid_reference(p.position) : std::nullopt; });
   add(
-      "ground_m", [](const RoutePlace& p) { return p.bare ? std::optional(p.ground) : std::nullopt; }, "{:.1f}");
-  add("hubs_visible", of_found(&RoutePlace::bare, hubs));
-  add("tips_visible", of_found(&RoutePlace::bare, tips));
+      "ground_m", [](const RoutePlace& p) { return if_any(p.bare, [&](const SightSummary&) { return p.ground; }); },
+      "{:.1f}");
+  add("hubs_visible", of_found(&RoutePlace::bare, &SightSummary::hubs));
+  add("tips_visible", of_found(&RoutePlace::bare, &SightSummary::tips));
   add("nearest_turbine", of_found(&RoutePlace::bare, [&zone](const SightSummary& seen) {
         return zone.request.turbines[seen.nearest].number;
       }));
-  add("nearest_m", of_found(&RoutePlace::bare, [](const SightSummary& seen) { return seen.nearest_m; }), "{:.0f}");
+  add("nearest_m", of_found(&RoutePlace::bare, &SightSummary::nearest_m), "{:.0f}");
   if (zone.screened) {
-    add("hubs_visible_screened", of_found(&RoutePlace::screened, hubs));
-    add("tips_visible_screened", of_found(&RoutePlace::screened, tips));
+    add("hubs_visible_screened", of_found(&RoutePlace::screened, &SightSummary::hubs));
+    add("tips_visible_screened", of_found(&RoutePlace::screened, &SightSummary::tips));
   }
-  add("tips_undecided", of_found(&RoutePlace::bare, undecided));
-  if (zone.screened) add("tips_undecided_screened", of_found(&RoutePlace::screened, undecided));
+  add("tips_undecided", of_found(&RoutePlace::bare, &SightSummary::tips_undecided));
+  if (zone.screened) add("tips_undecided_screened", of_found(&RoutePlace::screened, &SightSummary::tips_undecided));
   return columns;
 }
 

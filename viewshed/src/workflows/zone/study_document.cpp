@@ -23,9 +23,7 @@ Document proposal_areas(const Zone& zone, const Visibility& v) {
   std::array<std::uint64_t, kAdditions.size()> cells{};
   for (const std::uint8_t c : additions(zone, v))
     if (c != kNoAddition) ++cells[c];
-  const auto km2 = [&](Addition a) {
-    return static_cast<double>(cells[static_cast<std::size_t>(a)]) * zone.grid.cell_area() / 1e6;
-  };
+  const auto km2 = [&](Addition a) { return zone.km2(cells[static_cast<std::size_t>(a)]); };
   using enum Addition;
   return {{"proposal_seen", km2(kBoth) + km2(kProposalAlone)},
           {"others_seen", km2(kBoth) + km2(kOthersAlone)},
@@ -38,10 +36,9 @@ Document areas_of(const Zone& zone, const Visibility& v) {
     if (v.tip_count[i] == kCountOutside) continue;
     ++all, hubs += v.hub_count[i] > 0 ? 1U : 0U, tips += v.tip_count[i] > 0 ? 1U : 0U;
   }
-  const auto km2 = [&](std::uint64_t cells) { return static_cast<double>(cells) * zone.grid.cell_area() / 1e6; };
-  Document areas{{"any_tip_seen", km2(tips)}, {"any_hub_seen", nullptr}, {"studied", km2(all)}};
+  Document areas{{"any_tip_seen", zone.km2(tips)}, {"any_hub_seen", nullptr}, {"studied", zone.km2(all)}};
   const bool hubs_known = known_hubs(zone) > 0;
-  if (hubs_known) areas["any_hub_seen"] = km2(hubs);
+  if (hubs_known) areas["any_hub_seen"] = zone.km2(hubs);
   const UndecidedArea of_tips = undecided_area(zone, v.tip_count, v.tip_undecided);
   if (has_proposal(zone.request)) areas["proposal"] = proposal_areas(zone, v);
   areas.update({{"any_tip_undecided", of_tips.any_m2 / 1e6}, {"more_tips_undecided", of_tips.more_m2 / 1e6}});
@@ -55,7 +52,7 @@ Document areas_of(const Zone& zone, const Visibility& v) {
 Document areas_in_season(const Zone& zone, const SeasonCounts& counts) {
   const auto km2 = [&](const std::vector<std::uint16_t>& seen) {
     const auto cells = std::count_if(seen.begin(), seen.end(), [](auto n) { return n > 0 && n != kCountOutside; });
-    return static_cast<double>(cells) * zone.grid.cell_area() / 1e6;
+    return zone.km2(static_cast<std::uint64_t>(cells));
   };
   return {{"any_tip_seen", km2(counts.tip_count)},
           {"any_hub_seen", known_hubs(zone) > 0 ? Document(km2(counts.hub_count)) : Document(nullptr)}};

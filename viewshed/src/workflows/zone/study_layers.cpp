@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include <itin/table_columns.hpp>
 #include <viewshed/link_exclusion.hpp>
 #include <viewshed/zone_files.hpp>
 
@@ -13,18 +14,11 @@
 #include "turbines/value_bands.hpp"
 #include "workflows/zone/sight_summary.hpp"
 #include "workflows/zone/study_radio.hpp"
-#include "workflows/zone/study_sheets.hpp"
 #include "workflows/zone/turbine_rows.hpp"
 
 namespace itin::viewshed {
 
 namespace {
-
-using Type = VectorLayer::Type;
-
-VectorLayer::Value optional_number(const std::optional<double>& number) {
-  return number ? VectorLayer::Value(*number) : VectorLayer::Value();
-}
 
 std::vector<Point3> at_zero(const std::vector<Point2>& line) {
   std::vector<Point3> points;
@@ -32,75 +26,54 @@ std::vector<Point3> at_zero(const std::vector<Point2>& line) {
   return points;
 }
 
-/// Returns a layer of lines that are all drawn in one colour, with the field `what`, and `label` for the label.
-VectorLayer layer_of_lines(const char* name, const std::vector<profile::SheetLine>& lines, const Rgba& colour,
-                           double width_mm) {
-  const std::array<ServiceClass, 1> all{{{name, name, colour}}};
-  VectorLayer layer{name,
-                    VectorLayer::Shape::kLines,
-                    {{"what", Type::kText}, {"label", Type::kText}},
-                    {},
-                    line_style("what", all, width_mm)};
-  for (const profile::SheetLine& line : lines)
-    layer.features.push_back({at_zero(line.points), {std::string(name), line.label}});
-  return layer;
+/// Returns a layer of lines in their colour, with the field `what`, and `label` for the label.
+VectorLayer layer_of_lines(const char* name, const profile::SheetLines& lines, double width_mm) {
+  const std::array<ServiceClass, 1> all{{{name, name, lines.colour}}};
+  const std::vector<TableColumn<profile::SheetLine>> columns{
+      {"what", [name](const profile::SheetLine&) { return name; }}, {"label", &profile::SheetLine::label}};
+  return layer_of(
+      name, VectorLayer::Shape::kLines, columns, lines.lines,
+      [](const profile::SheetLine& line) { return at_zero(line.points); }, line_style("what", all, width_mm));
 }
 
-/// The turbines in colours by their status where there is a proposal, else by their farms.
-VectorLayer layer_of_turbines(const Zone& zone) {
-  VectorLayer layer{"turbines",
-                    VectorLayer::Shape::kPoints,
-                    {{"number", Type::kWhole},
-                     {"name", Type::kText},
-                     {"farm", Type::kText},
-                     {"planning_status", Type::kText},
-                     {"hub_height_m", Type::kNumber},
-                     {"rotor_diameter_m", Type::kNumber},
-                     {"tip_height_m", Type::kNumber},
-                     {"radius_km", Type::kNumber}},
-                    {}};
-  for (std::size_t k = 0; k < zone.request.turbines.size(); ++k) {
-    const Turbine& t = zone.request.turbines[k];
-    layer.features.push_back(
-        {{{t.position.x, t.position.y, zone.ground_m[k]}},
-         {static_cast<std::int64_t>(t.number), t.name, t.farm, std::string(planning_word(t)),
-          optional_number(t.hub_height), optional_number(t.rotor_diameter), t.tip_height, t.radius / 1000}});
-  }
-  constexpr std::array<ServiceClass, 3> kStatus{{{"proposed", "Proposed", {213, 94, 0}},
-                                                 {"consented", "Consented", {204, 121, 167}},
-                                                 {"existing", "Existing", {60, 60, 60}}}};
-  if (has_proposal(zone.request)) {
-    layer.style = point_style("planning_status", kStatus);
-    return layer;
-  }
+std::string style_of_farms(const Zone& zone) {
   const std::vector<std::string> farms = farms_of(zone);
   std::vector<ServiceClass> classes;
   for (std::size_t f = 0; f < farms.size(); ++f)
     classes.push_back({farms[f].c_str(), farms[f].empty() ? "Turbine" : farms[f].c_str(), distinct_colour(f)});
-  layer.style = point_style("farm", classes);
-  return layer;
+  return point_style("farm", classes);
+}
+
+/// The turbines in colours by their status where there is a proposal, else by their farms.
+VectorLayer layer_of_turbines(const ZoneStudy& study) {
+  const Zone& zone = study.zone;
+  const auto place = [&](const TurbineRow& row) {
+    return std::vector<Point3>{{row.turbine->position.x, row.turbine->position.y, zone.ground_m[row.index]}};
+  };
+  return layer_of("turbines", VectorLayer::Shape::kPoints, turbine_row_columns(study), rows_of_turbines(zone), place,
+                  has_proposal(zone.request) ? point_style("planning_status", kTurbineStatuses) : style_of_farms(zone));
 }
 
 VectorLayer layer_of_viewpoints(const ZoneStudy& study) {
   constexpr std::array<ServiceClass, 1> kAll{{{"viewpoint", "Viewpoint", {20, 60, 140}}}};
-  VectorLayer layer{"viewpoints",
-                    VectorLayer::Shape::kPoints,
-                    {{"what", Type::kText},
-                     {"number", Type::kWhole},
-                     {"name", Type::kText},
-                     {"height_m", Type::kNumber},
-                     {"tips_seen", Type::kWhole},
-                     {"nearest_m", Type::kNumber}},
-                    {},
-                    point_style("what", kAll)};
-  for (const StudiedViewpoint& studied : study.viewpoints) {
-    const Viewpoint& v = studied.viewpoint;
-    const SightSummary seen = seen_of(study.zone, studied.bare, all_turbines(study.zone));
-    layer.features.push_back({{{v.position.x, v.position.y, v.ground}},
-                              {std::string("viewpoint"), static_cast<std::int64_t>(v.number), v.name, v.height,
-                               static_cast<std::int64_t>(seen.tips), seen.nearest_m}});
-  }
-  return layer;
+  struct Row {
+    const Viewpoint& viewpoint;
+    SightSummary seen;
+  };
+  const std::vector<TableColumn<Row>> columns{{"what", [](const Row&) { return "viewpoint"; }},
+                                              {"number", [](const Row& row) { return row.viewpoint.number; }},
+                                              {"name", [](const Row& row) { return row.viewpoint.name; }},
+                                              {"height_m", [](const Row& row) { return row.viewpoint.height; }},
+                                              {"tips_seen", [](const Row& row) { return row.seen.tips; }},
+                                              {"nearest_m", [](const Row& row) { return row.seen.nearest_m; }}};
+  std::vector<Row> rows;
+  for (const StudiedViewpoint& studied : study.viewpoints)
+    rows.push_back({studied.viewpoint, seen_of(study.zone, studied.bare, all_turbines(study.zone))});
+  const auto place = [](const Row& row) {
+    const Viewpoint& v = row.viewpoint;
+    return std::vector<Point3>{{v.position.x, v.position.y, v.ground}};
+  };
+  return layer_of("viewpoints", VectorLayer::Shape::kPoints, columns, rows, place, point_style("what", kAll));
 }
 
 /// The outline of the area that rotors must stay out of, in plan: the second Fresnel zone and a rotor's radius about
@@ -132,29 +105,25 @@ std::vector<Point2> exclusion_outline(const RadioLink& link, const LinkStudy& st
   return outline;
 }
 
-std::vector<profile::SheetLine> lines_of(const MapObjects& objects, std::size_t layer) {
-  return std::get<profile::SheetLines>(objects.layers[layer]).lines;
+profile::SheetLines exclusion_outlines(const ZoneStudy& study, const Rgba& colour) {
+  const LinkStudy radio = exclusion_of(study);
+  profile::SheetLines outlines{{}, colour};
+  for (const RadioLink& link : radio.links)
+    if (std::vector<Point2> outline = exclusion_outline(link, radio); !outline.empty())
+      outlines.lines.push_back({std::move(outline), link.id});
+  return outlines;
 }
 
 }  // namespace
 
-std::vector<VectorLayer> study_layers(const ZoneStudy& study) {
-  std::vector<VectorLayer> layers{layer_of_turbines(study.zone)};
-  if (!study.viewpoints.empty()) layers.push_back(layer_of_viewpoints(study));
-  std::vector<profile::SheetLine> routes, links, excluded;
-  for (const StudiedRoute& route : study.routes) routes.push_back({route.route.corners, route.title()});
-  const LinkStudy radio = exclusion_of(study);
-  for (const RadioLink& link : radio.links) {
-    links.push_back({{link.from, link.to}, link.id});
-    if (std::vector<Point2> outline = exclusion_outline(link, radio); !outline.empty())
-      excluded.push_back({std::move(outline), link.id});
-  }
-  if (!routes.empty()) layers.push_back(layer_of_lines("routes", routes, {0, 110, 60}, 0.6));
-  if (!links.empty()) layers.push_back(layer_of_lines("radio_links", links, {150, 20, 110}, 0.4));
-  if (!excluded.empty()) layers.push_back(layer_of_lines("exclusion", excluded, {150, 20, 110}, 0.2));
-  const MapObjects distances = distance_objects(study.zone.request);
-  layers.push_back(layer_of_lines("rings", lines_of(distances, 0), {70, 70, 70}, 0.2));
-  layers.push_back(layer_of_lines("study_area", lines_of(distances, 1), {20, 20, 20}, 0.6));
+std::vector<VectorLayer> study_layers(const ZoneStudy& study, const StudyLines& lines) {
+  std::vector<VectorLayer> layers{layer_of_turbines(study),
+                                  layer_of_viewpoints(study),
+                                  layer_of_lines("routes", lines.routes, 0.6),
+                                  layer_of_lines("radio_links", lines.radio_links, 0.4),
+                                  layer_of_lines("exclusion", exclusion_outlines(study, lines.radio_links.colour), 0.2),
+                                  layer_of_lines("rings", lines.rings, 0.2),
+                                  layer_of_lines("study_area", lines.study_area, 0.6)};
   std::erase_if(layers, [](const VectorLayer& layer) { return layer.features.empty(); });
   return layers;
 }

@@ -6,9 +6,11 @@
 #include <itin/vector_export.hpp>
 #include <viewshed/zone_study.hpp>
 
+#include "workflows/zone/study_lines.hpp"
+
 namespace itin::viewshed {
 
 /// Returns the layers that the study has, the topmost first, with styles for QGIS.
-std::vector<VectorLayer> study_layers(const ZoneStudy& study);
+std::vector<VectorLayer> study_layers(const ZoneStudy& study, const StudyLines& lines);
 
 }  // namespace itin::viewshed

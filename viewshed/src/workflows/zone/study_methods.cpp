@@ -178,18 +178,14 @@ std::string missing_in_words(const ZoneStudy& study, const std::string& decides)
 }
 
 std::string proposal_in_words(const ZoneRequest& request) {
-  std::size_t consented = 0, existing = 0;
-  for (const Turbine& t : request.turbines) {
-    consented += t.status == TurbineStatus::kConsented;
-    existing += t.status == TurbineStatus::kExisting;
-  }
   return fmt::format(
       "The proposal is {}; {} consented and {} existing turbines are assessed with it. The study area is that of the "
       "proposal alone. Within it, `tip-count.tif` and the other rasters are cumulative: they count all turbines. "
       "`proposal-tip-count.tif` counts the proposed ones, and `additional.tif` tells where tips of the proposal are "
       "seen "
       "and those of no other turbine: the additional area.",
-      counted(proposed_turbines(request), "turbine"), consented, existing);
+      counted(proposed_turbines(request), "turbine"), turbines_with(TurbineStatus::kConsented, request),
+      turbines_with(TurbineStatus::kExisting, request));
 }
 
 std::string radius_in_words(const ZoneStudy& study) {

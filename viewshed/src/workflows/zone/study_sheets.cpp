@@ -1,16 +1,13 @@
 #include "workflows/zone/study_sheets.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <string_view>
 
 #include <fmt/format.h>
 
-#include <itin/contour_lines.hpp>
 #include <itin/counted.hpp>
 #include <itin/output_file.hpp>
-#include <itin/parallel.hpp>
 #include <itin/sources_in.hpp>
 #include <viewshed/area_text.hpp>
 #include <viewshed/result_map.hpp>
@@ -24,66 +21,8 @@ namespace {
 
 using profile::SheetKey;
 
-constexpr Rgba kRing{70, 70, 70, 255}, kStudyArea{20, 20, 20, 255}, kViewpoint{20, 60, 140, 255},
-    kRoute{0, 110, 60, 255}, kLink{150, 20, 110, 255}, kRadar{90, 40, 150, 255};
+constexpr Rgba kViewpoint{20, 60, 140, 255}, kRadar{90, 40, 150, 255};
 constexpr std::size_t kMostFarmColours = 8;
-
-/// Returns the least distance of `p` beyond the radius of a turbine, metres: not above 0 in the study area.
-double beyond_study_area(const std::vector<Turbine>& turbines, Point2 p) {
-  double least = std::numeric_limits<double>::infinity();
-  for (const Turbine& t : turbines)
-    least = std::min(least, std::hypot(t.position.x - p.x, t.position.y - p.y) - t.radius);
-  return least;
-}
-
-double nearest_turbine(const std::vector<Turbine>& turbines, Point2 p) {
-  double least = std::numeric_limits<double>::infinity();
-  for (const Turbine& t : turbines) least = std::min(least, std::hypot(t.position.x - p.x, t.position.y - p.y));
-  return least;
-}
-
-Box study_area(const std::vector<Turbine>& turbines) {
-  Box box;
-  for (const Turbine& t : turbines) {
-    box.extend(Point2{t.position.x - t.radius, t.position.y - t.radius});
-    box.extend(Point2{t.position.x + t.radius, t.position.y + t.radius});
-  }
-  return box;
-}
-
-/// Values of a function of the position over a box, close enough for smooth lines.
-struct PlaneField {
-  RasterGrid grid;
-  std::vector<float> values;
-
-  template <class Value>
-  PlaneField(const Box& box, const Value& value) {
-    constexpr double kAcross = 800;
-    const double step = std::max(box.width(), box.height()) / kAcross;
-    grid = {{box.xmin - 2 * step, box.ymax + 2 * step},
-            step,
-            step,
-            static_cast<std::int64_t>(box.width() / step) + 5,
-            static_cast<std::int64_t>(box.height() / step) + 5};
-    values.resize(grid.cell_count());
-    parallel_for(static_cast<std::size_t>(grid.rows()), [&](std::size_t row) {
-      for (std::int64_t column = 0; column < grid.columns(); ++column) {
-        const RasterGrid::Cell cell{column, static_cast<std::int64_t>(row)};
-        values[grid.index(cell)] = static_cast<float>(value(grid.centre(cell.column, cell.row)));
-      }
-    });
-  }
-
-  void add_lines(double level, const std::string& label, profile::SheetLines& lines) const {
-    for (auto& points : contour_lines(grid, values, level)) lines.lines.push_back({std::move(points), label});
-  }
-};
-
-/// Returns the step of the rings of distance to the nearest turbine: 5 km; 1 km in small study areas, 10 km in large
-/// ones.
-double ring_step(double farthest) {
-  return farthest <= 7500 ? 1000 : farthest <= 50000 ? 5000 : 10000;
-}
 
 Rgba farm_colour(std::size_t farm) {
   constexpr Rgba kColours[kMostFarmColours] = {{170, 20, 20},  {20, 40, 110}, {0, 90, 60}, {110, 50, 0},
@@ -128,16 +67,17 @@ MapObjects viewpoint_objects(const std::vector<StudiedViewpoint>& viewpoints) {
   return {{std::move(marks)}, {{SheetKey::Sample::kMark, {kViewpoint}, "Viewpoint", profile::SheetSymbol::kViewpoint}}};
 }
 
-MapObjects route_objects(const std::vector<StudiedRoute>& routes) {
-  profile::SheetLines lines{{}, kRoute, 0.6, false};
-  for (const StudiedRoute& route : routes) lines.lines.push_back({route.route.corners, route.title()});
-  return {{std::move(lines)}, {{SheetKey::Sample::kLine, {kRoute}, "Route"}}};
-}
-
-MapObjects radio_link_objects(const std::vector<profile::Link>& links) {
-  profile::SheetLines lines{{}, kLink, 0.3, true};
-  for (const profile::Link& link : links) lines.lines.push_back({{link.from, link.to}, link.id});
-  return {{std::move(lines)}, {{SheetKey::Sample::kDashes, {kLink}, "Radio link"}}};
+/// Returns the rings of distance and the study area's edge. There are no rings where all radii are shorter than the
+/// first.
+MapObjects distance_objects(const ZoneRequest& request, const StudyLines& lines) {
+  MapObjects objects{{lines.rings, lines.study_area},
+                     {{SheetKey::Sample::kDashes, {lines.study_area.colour}, "Study area"}}};
+  if (!lines.rings.lines.empty())
+    objects.keys.push_back({SheetKey::Sample::kLine,
+                            {lines.rings.colour},
+                            fmt::format("Distance to the nearest {}turbine, every {:g} km",
+                                        has_proposal(request) ? "proposed " : "", lines.ring_step / 1000)});
+  return objects;
 }
 
 MapObjects radar_objects(const Observer& radar) {
@@ -146,10 +86,12 @@ MapObjects radar_objects(const Observer& radar) {
 }
 
 /// Returns the objects that a map of hubs, or of what else is seen of the zone, has above its classes.
-std::vector<MapObjects> objects_of(const ZoneStudy& study, const MapObjects& distances, bool of_hubs) {
-  std::vector<MapObjects> objects{distances};
-  if (!study.routes.empty()) objects.push_back(route_objects(study.routes));
-  if (!study.request.links.links.empty()) objects.push_back(radio_link_objects(study.request.links.links));
+std::vector<MapObjects> objects_of(const ZoneStudy& study, const StudyLines& lines, bool of_hubs) {
+  std::vector<MapObjects> objects{distance_objects(study.zone.request, lines)};
+  if (!lines.routes.lines.empty())
+    objects.push_back({{lines.routes}, {{SheetKey::Sample::kLine, {lines.routes.colour}, "Route"}}});
+  if (!lines.radio_links.lines.empty())
+    objects.push_back({{lines.radio_links}, {{SheetKey::Sample::kDashes, {lines.radio_links.colour}, "Radio link"}}});
   objects.push_back(turbine_objects(study.zone, of_hubs));
   if (study.zone.request.radar) objects.push_back(radar_objects(*study.zone.request.radar));
   if (!study.viewpoints.empty()) objects.push_back(viewpoint_objects(study.viewpoints));
@@ -236,33 +178,12 @@ profile::TitleBlock title_block(const ZoneStudy& study, const ZoneMap& map) {
 
 }  // namespace
 
-MapObjects distance_objects(const ZoneRequest& request) {
-  const std::vector<Turbine> turbines = turbines_of_study_area(request);
-  const Box box = study_area(turbines);
-  double farthest = 0;
-  for (const Turbine& t : turbines) farthest = std::max(farthest, t.radius);
-  const double step = ring_step(farthest);
-  profile::SheetLines rings{{}, kRing, 0.15, false}, edge{{}, kStudyArea, 0.4, true};
-  const PlaneField distance(box, [&](Point2 p) { return nearest_turbine(turbines, p); });
-  for (double at = step; at < farthest; at += step) distance.add_lines(at, fmt::format("{:g} km", at / 1000), rings);
-  PlaneField(box, [&](Point2 p) { return beyond_study_area(turbines, p); }).add_lines(0, "", edge);
-  MapObjects objects{{}, {{SheetKey::Sample::kDashes, {kStudyArea}, "Study area"}}};
-  // There are no rings where all radii are shorter than the first ring.
-  if (!rings.lines.empty())
-    objects.keys.push_back({SheetKey::Sample::kLine,
-                            {kRing},
-                            fmt::format("Distance to the nearest {}turbine, every {:g} km",
-                                        has_proposal(request) ? "proposed " : "", step / 1000)});
-  objects.layers = {std::move(rings), std::move(edge)};
-  return objects;
-}
-
 std::vector<ZoneFile> write_study_sheets(const std::string& folder, const Store& store, const ZoneStudy& study,
-                                         const profile::SheetChoice& choice, Progress& progress) {
+                                         const StudyLines& lines, const profile::SheetChoice& choice,
+                                         Progress& progress) {
   const Zone& zone = study.zone;
   std::vector<ZoneFile> files;
   const std::vector<ZoneMap> maps = zone_maps(zone);
-  const MapObjects distances = distance_objects(zone.request);
   const std::vector<Turbine> own = turbines_of_study_area(zone.request);
   const MissingOnSheet missing = missing_on_sheet(places_without_ground(zone), study.missing, "the study area");
   const auto content_of = [&](const ZoneMap& map) {
@@ -271,7 +192,7 @@ std::vector<ZoneFile> write_study_sheets(const std::string& folder, const Store&
                        classes_of(zone, map),
                        map.heading + ", and share of the area that has terrain data",
                        [&](Point2 p) { return beyond_study_area(own, p) <= 0; },
-                       objects_of(study, distances, shows_hubs(map)),
+                       objects_of(study, lines, shows_hubs(map)),
                        title_block(study, map),
                        missing};
   };

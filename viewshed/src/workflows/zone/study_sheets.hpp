@@ -9,14 +9,13 @@
 #include <viewshed/result_sheet.hpp>
 #include <viewshed/zone_study.hpp>
 
-namespace itin::viewshed {
+#include "workflows/zone/study_lines.hpp"
 
-/// Returns rings of distance to the nearest turbine, or of a proposal, and the study area's edge: a layer of lines
-/// each.
-MapObjects distance_objects(const ZoneRequest& request);
+namespace itin::viewshed {
 
 /// Writes sheet-NAME-A3.pdf and .png of each map. Throws FileError, InputError (a scale that is too large), Cancelled.
 std::vector<ZoneFile> write_study_sheets(const std::string& folder, const Store& store, const ZoneStudy& study,
-                                         const profile::SheetChoice& choice, Progress& progress);
+                                         const StudyLines& lines, const profile::SheetChoice& choice,
+                                         Progress& progress);
 
 }  // namespace itin::viewshed

@@ -1,12 +1,15 @@
 // The table of the turbines.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <string>
 #include <vector>
 
 #include <itin/table_columns.hpp>
 #include <viewshed/zone_study.hpp>
+
+#include "files/vector_styles.hpp"
 
 namespace itin::viewshed {
 
@@ -21,13 +24,21 @@ struct TurbineRow {
 /// Returns a cell that is empty in rows that were not used; `of` takes a row that was.
 template <class Of>
 auto of_turbine(Of of) {
-  return [of](const TurbineRow& row) { return row.turbine != nullptr ? std::optional(of(row)) : std::nullopt; };
+  return [of](const TurbineRow& row) { return if_any(row.turbine, [&](const Turbine&) { return of(row); }); };
 }
+
+/// The classes of TurbineStatus, in its order.
+inline constexpr std::array<ServiceClass, 3> kTurbineStatuses{{{"proposed", "Proposed", {213, 94, 0}},
+                                                               {"consented", "Consented", {204, 121, 167}},
+                                                               {"existing", "Existing", {60, 60, 60}}}};
+
+/// Returns the rows of the turbines of the zone, in its order.
+std::vector<TurbineRow> rows_of_turbines(const Zone& zone);
+
+/// Returns the columns that turbines.csv and the layer of turbines have.
+std::vector<TableColumn<TurbineRow>> turbine_row_columns(const ZoneStudy& study);
 
 /// Returns a row for each row of the turbines' file, as CSV: what was used, and why a row was not.
 std::string turbine_rows(const ZoneStudy& study);
-
-/// Returns "proposed", "consented" or "existing"; empty where the status is not known.
-const char* planning_word(const Turbine& turbine);
 
 }  // namespace itin::viewshed

@@ -1,6 +1,5 @@
 // Reads turbines: rows of a file, understood or named as bad.
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <map>
 #include <utility>
@@ -11,6 +10,7 @@
 #include <itin/decimal_comma.hpp>
 #include <itin/error.hpp>
 #include <itin/file_digest.hpp>
+#include <itin/lower_case.hpp>
 #include <itin/parsed_number.hpp>
 #include <itin/position_columns.hpp>
 #include <itin/progress.hpp>
@@ -54,8 +54,7 @@ void warn_of_likely_sizes(const std::string& file, const LayerFields& layer, con
   for (const std::string& name : layer.names()) {
     const auto is_it = [&](const SiteField& field) { return same_column_name(field.name, name); };
     if (std::any_of(read.begin(), read.end(), is_it)) continue;
-    std::string lower = name;
-    std::transform(lower.begin(), lower.end(), lower.begin(), [](unsigned char c) { return std::tolower(c); });
+    const std::string lower = in_lower_case(name);
     const auto size = std::find_if(std::begin(kSizes), std::end(kSizes),
                                    [&](const auto& s) { return lower.find(s.first) != std::string::npos; });
     if (size != std::end(kSizes))
@@ -92,7 +91,7 @@ TurbineSize size_in_row(const SiteRow& row, const TurbineSize& otherwise) {
 }
 
 /// Returns the status that a word of planners stands for.
-std::optional<TurbineStatus> status_of(std::string word) {
+std::optional<TurbineStatus> status_of(const std::string& word) {
   using enum TurbineStatus;
   static const std::map<std::string, TurbineStatus> kWords{{"proposed", kProposed},
                                                            {"proposal", kProposed},
@@ -108,8 +107,7 @@ std::optional<TurbineStatus> status_of(std::string word) {
                                                            {"existing", kExisting},
                                                            {"built", kExisting},
                                                            {"operational", kExisting}};
-  std::transform(word.begin(), word.end(), word.begin(), [](unsigned char c) { return std::tolower(c); });
-  const auto known = kWords.find(word);
+  const auto known = kWords.find(in_lower_case(word));
   return known == kWords.end() ? std::nullopt : std::optional(known->second);
 }
 

@@ -34,12 +34,7 @@ template <class SightOf>
 void add_seen(SightColumns& columns, const std::string& ending, const SightOf& sight_of) {
   const auto add = [&](const std::string& name, auto of, const char* number = "{}") {
     columns.emplace_back(
-        name,
-        [sight_of, of](const SightRow& row) {
-          const TurbineSight* sight = sight_of(row);
-          return sight != nullptr ? std::optional(of(*sight)) : std::nullopt;
-        },
-        kInCsv, number);
+        name, [sight_of, of](const SightRow& row) { return if_any(sight_of(row), of); }, kInCsv, number);
   };
   const auto if_known = [](double TurbineSight::*part) {
     return [part](const TurbineSight& s) {
@@ -102,10 +97,7 @@ std::optional<SeenOver> seen_over(const ViewRow& row, bool screened) {
 /// Returns the cells of a column about one of the two surfaces.
 template <class Of>
 auto of_surface(bool screened, Of of) {
-  return [screened, of](const ViewRow& row) {
-    const std::optional<SeenOver> over = seen_over(row, screened);
-    return over ? std::optional(of(*over)) : std::nullopt;
-  };
+  return [screened, of](const ViewRow& row) { return if_any(seen_over(row, screened), of); };
 }
 
 /// Adds how much is seen over one of the two surfaces. `ending` goes before the unit.
@@ -114,17 +106,22 @@ void add_summary(ViewColumns& columns, const Zone& zone, bool screened) {
   const auto add = [&](const std::string& name, auto of, const char* number = "{}") {
     columns.emplace_back(name, of_surface(screened, of), kInCsv, number);
   };
-  const auto if_seen = [](auto of) {
-    return [of](const SeenOver& over) { return over.seen.nearest_seen ? std::optional(of(over)) : std::nullopt; };
-  };
   add("hubs_visible" + ending, [](const SeenOver& over) { return over.seen.hubs; });
   add("tips_visible" + ending, [](const SeenOver& over) { return over.seen.tips; });
-  add("nearest_visible_turbine" + ending,
-      if_seen([&zone](const SeenOver& over) { return zone.request.turbines[*over.seen.nearest_seen].number; }));
-  add("nearest_visible" + ending + "_m",
-      if_seen([](const SeenOver& over) { return over.sights[*over.seen.nearest_seen].distance; }), "{:.0f}");
-  add("horizontal_from" + ending + "_deg", if_seen([](const SeenOver& over) { return over.seen.arc->from; }), "{:.1f}");
-  add("horizontal_extent" + ending + "_deg", if_seen([](const SeenOver& over) { return over.seen.arc->width; }),
+  add("nearest_visible_turbine" + ending, [&zone](const SeenOver& over) {
+    return if_any(over.seen.nearest_seen, [&](std::size_t k) { return zone.request.turbines[k].number; });
+  });
+  add(
+      "nearest_visible" + ending + "_m",
+      [](const SeenOver& over) {
+        return if_any(over.seen.nearest_seen, [&](std::size_t k) { return over.sights[k].distance; });
+      },
+      "{:.0f}");
+  add(
+      "horizontal_from" + ending + "_deg", [](const SeenOver& over) { return if_any(over.seen.arc, &Arc::from); },
+      "{:.1f}");
+  add(
+      "horizontal_extent" + ending + "_deg", [](const SeenOver& over) { return if_any(over.seen.arc, &Arc::width); },
       "{:.1f}");
   add("vertical_angle" + ending + "_deg", [](const SeenOver& over) {
     return over.seen.nearest_seen ? fmt::format("{:.3f}", over.seen.vertical_deg) : "0";

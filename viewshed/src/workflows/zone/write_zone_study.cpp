@@ -16,6 +16,7 @@
 #include "workflows/zone/study_document.hpp"
 #include "workflows/zone/study_folder.hpp"
 #include "workflows/zone/study_layers.hpp"
+#include "workflows/zone/study_lines.hpp"
 #include "workflows/zone/study_methods.hpp"
 #include "workflows/zone/study_radio.hpp"
 #include "workflows/zone/study_sheets.hpp"
@@ -55,7 +56,8 @@ class StudyWriter {
     write_maps();
     if (has_viewpoints(study_.request)) write_viewpoints();
     if (!study_.routes.empty()) add(write_routes(folder_, study_));
-    if (!options_.sheets.papers.empty()) add(write_study_sheets(folder_, store_, study_, options_.sheets, progress_));
+    if (!options_.sheets.papers.empty())
+      add(write_study_sheets(folder_, store_, study_, lines_, options_.sheets, progress_));
     write_tables();
     return std::move(files_);
   }
@@ -109,7 +111,7 @@ class StudyWriter {
     if (const std::optional<RadiusRule>& rule = study_.request.turbines.radius)
       add("radius-preset.json", "the radii used, to edit and give by `radius_rule`",
           json_text(radius_document(*rule), 2) + "\n");
-    write_geopackage(folder_ + "/layers.gpkg", study_.metadata.crs_wkt, study_layers(study_), true);
+    write_geopackage(folder_ + "/layers.gpkg", study_.metadata.crs_wkt, study_layers(study_, lines_), true);
     files_.push_back({"layers.gpkg",
                       "turbines, viewpoints, routes, radio links and what they exclude, rings and study area as layers "
                       "for a GIS, with styles for QGIS"});
@@ -119,6 +121,7 @@ class StudyWriter {
   std::string folder_;
   const Store& store_;
   const ZoneStudy& study_;
+  const StudyLines lines_ = study_lines(study_);
   const ZoneStudyFileOptions& options_;
   Progress& progress_;
   std::vector<ZoneFile> files_;

@@ -106,7 +106,7 @@ void add_flicker(std::vector<TableColumn<Row>>& columns) {
   add("over_limit", [](const Row& row) { return limits_word(row.sum); });
   add(
       "likely_hours",
-      [](const Row& row) { return row.sum.likely ? std::optional(*row.sum.likely / 60) : std::nullopt; }, "{:.2f}");
+      [](const Row& row) { return if_any(row.sum.likely, [](double minutes) { return minutes / 60; }); }, "{:.2f}");
 }
 
 /// Adds what is seen over one of the surfaces. `ending` goes before the unit.
@@ -115,39 +115,33 @@ void add_view(std::vector<TableColumn<Row>>& columns, const std::string& ending,
               std::optional<SightSummary> Views::*surface) {
   const auto add = [&](const std::string& name, auto of, const char* number = "{}") {
     columns.emplace_back(
+        name, [surface, of](const Row& row) { return if_any(row.views.*surface, of); }, kInAllFormats, number);
+  };
+  const auto add_nearest = [&](const std::string& name, auto of, const char* number = "{}") {
+    columns.emplace_back(
         name,
         [surface, of](const Row& row) {
-          const std::optional<SightSummary>& view = row.views.*surface;
-          return view ? std::optional(of(*view, row)) : std::nullopt;
+          const auto& turbines = row.survey.request.turbines.turbines;
+          const auto nearest = if_any(row.views.*surface, &SightSummary::nearest_seen);
+          return if_any(nearest, [&](std::size_t turbine) { return of(turbines[turbine], row); });
         },
         kInAllFormats, number);
   };
-  const auto if_seen = [](auto of) {
-    return [of](const SightSummary& view, const Row& row) {
-      return view.nearest_seen ? std::optional(of(view, row)) : std::nullopt;
-    };
-  };
-  const auto nearest = [](const SightSummary& view, const Row& row) -> const Turbine& {
-    return row.survey.request.turbines.turbines[*view.nearest_seen];
-  };
-  add("hubs_visible" + ending, [](const SightSummary& view, const Row&) { return view.hubs; });
-  add("tips_visible" + ending, [](const SightSummary& view, const Row&) { return view.tips; });
-  add("hubs_undecided" + ending, [](const SightSummary& view, const Row&) { return view.hubs_undecided; });
-  add("tips_undecided" + ending, [](const SightSummary& view, const Row&) { return view.tips_undecided; });
-  add("nearest_visible_turbine" + ending,
-      if_seen([nearest](const SightSummary& view, const Row& row) { return nearest(view, row).number; }));
-  add("nearest_visible" + ending + "_m", if_seen([nearest](const SightSummary& view, const Row& row) {
-        const Point2 to = nearest(view, row).position, from = row.position();
-        return std::hypot(to.x - from.x, to.y - from.y);
-      }),
-      "{:.1f}");
-  add("horizontal_from" + ending + "_deg", if_seen([](const SightSummary& view, const Row&) { return view.arc->from; }),
-      "{:.2f}");
-  add("horizontal_extent" + ending + "_deg",
-      if_seen([](const SightSummary& view, const Row&) { return view.arc->width; }), "{:.2f}");
+  add("hubs_visible" + ending, &SightSummary::hubs);
+  add("tips_visible" + ending, &SightSummary::tips);
+  add("hubs_undecided" + ending, &SightSummary::hubs_undecided);
+  add("tips_undecided" + ending, &SightSummary::tips_undecided);
+  add_nearest("nearest_visible_turbine" + ending, [](const Turbine& nearest, const Row&) { return nearest.number; });
+  add_nearest(
+      "nearest_visible" + ending + "_m",
+      [](const Turbine& nearest, const Row& row) { return distance(nearest.position, row.position()); }, "{:.1f}");
   add(
-      "vertical_angle" + ending + "_deg", [](const SightSummary& view, const Row&) { return view.vertical_deg; },
-      "{:.3f}");
+      "horizontal_from" + ending + "_deg", [](const SightSummary& view) { return if_any(view.arc, &Arc::from); },
+      "{:.2f}");
+  add(
+      "horizontal_extent" + ending + "_deg", [](const SightSummary& view) { return if_any(view.arc, &Arc::width); },
+      "{:.2f}");
+  add("vertical_angle" + ending + "_deg", &SightSummary::vertical_deg, "{:.3f}");
 }
 
 template <class Row>
@@ -287,13 +281,12 @@ std::string calendar_csv(const DwellingsSurvey& survey) {
 }
 
 VectorLayer layer_of_dwellings(const DwellingsSurvey& survey) {
-  VectorLayer layer = layer_of("dwellings", VectorLayer::Shape::kPoints, dwelling_columns(), dwelling_rows(survey),
-                               [](const DwellingRow& row) {
-                                 const Point2 at = row.position();
-                                 return std::vector<Point3>{{at.x, at.y, row.dwelling.facades.front().ground_m}};
-                               });
-  layer.style = point_style("flicker", kFlickerClasses);
-  return layer;
+  const auto place = [](const DwellingRow& row) {
+    const Point2 at = row.position();
+    return std::vector<Point3>{{at.x, at.y, row.dwelling.facades.front().ground_m}};
+  };
+  return layer_of("dwellings", VectorLayer::Shape::kPoints, dwelling_columns(), dwelling_rows(survey), place,
+                  point_style("flicker", kFlickerClasses));
 }
 
 VectorLayer layer_of_facades(const DwellingsSurvey& survey) {

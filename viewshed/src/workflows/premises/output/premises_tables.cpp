@@ -74,19 +74,15 @@ template <class Row>
 void add_mounting(Columns<Row>& columns) {
   const auto add = [&](const char* name, auto of, int formats = kInCsv, const char* number = kMillimetres) {
     columns.emplace_back(
-        name,
-        [of](const Row& row) { return row.mounting != nullptr ? std::optional(of(*row.mounting)) : std::nullopt; },
-        formats, number);
+        name, [of](const Row& row) { return if_any(row.mounting, of); }, formats, number);
   };
   add("on", [](const Mounting& m) { return word_of(m.on); });
   add("x", [](const Mounting& m) { return m.position.x; });
   add("y", [](const Mounting& m) { return m.position.y; });
-  add(
-      "height_m", [](const Mounting& m) { return m.height_m; }, kInCsv | kInLayer, kAsGiven);
-  add("base_m", [](const Mounting& m) { return m.base_m; });
-  add("elevation_m", [](const Mounting& m) { return m.elevation_m(); });
-  add(
-      "distance_m", [](const Mounting& m) { return m.distance_m; }, kInCsv | kInLayer);
+  add("height_m", &Mounting::height_m, kInCsv | kInLayer, kAsGiven);
+  add("base_m", &Mounting::base_m);
+  add("elevation_m", &Mounting::elevation_m);
+  add("distance_m", &Mounting::distance_m, kInCsv | kInLayer);
 }
 
 /// Adds what blocks the row's link. Layers have its names.
@@ -146,14 +142,13 @@ Columns<PremisesRow> premises_columns(const PremisesSurvey& survey) {
 }
 
 Columns<PremisesLinkRow> premises_link_columns(const PremisesSurvey& survey) {
-  const auto height = [](const std::optional<Mounting>& m) { return m ? std::optional(m->height_m) : std::nullopt; };
   Columns<PremisesLinkRow> columns;
   const auto add = [&](const char* name, auto of) { columns.emplace_back(name, of, kInCsv, kAsGiven); };
   add_building(survey, columns, kInCsv);
   add("mast", [&survey](const PremisesLinkRow& row) { return survey.masts[row.link.mast].name; });
   add("verdict", [](const PremisesLinkRow& row) { return word_of(row.link.verdict); });
-  add("wall_height_m", [height](const PremisesLinkRow& row) { return height(row.link.wall); });
-  add("pole_m", [height](const PremisesLinkRow& row) { return height(row.link.roof); });
+  add("wall_height_m", [](const PremisesLinkRow& row) { return if_any(row.link.wall, &Mounting::height_m); });
+  add("pole_m", [](const PremisesLinkRow& row) { return if_any(row.link.roof, &Mounting::height_m); });
   add_mounting(columns);
   add_blocker(survey, columns);
   return columns;
@@ -163,16 +158,15 @@ Columns<PremisesLinkRow> premises_link_columns(const PremisesSurvey& survey) {
 void add_street(const PremisesSurvey& survey, Columns<RoofRow>& columns) {
   const auto add = [&](const char* name, auto of) {
     columns.emplace_back(
-        name,
-        [of](const RoofRow& row) { return row.place.street ? std::optional(of(*row.place.street)) : std::nullopt; },
-        kInCsv, kMillimetres);
+        name, [of](const RoofRow& row) { return if_any(row.place.street, of); }, kInCsv, kMillimetres);
   };
   const auto add_edge = [&](const char* name, auto of) {
     columns.emplace_back(
         name,
         [of](const RoofRow& row) {
-          const auto& street = row.place.street;
-          return street && street->edge ? std::optional(of(*street->edge, row.place)) : std::nullopt;
+          const StreetSight::Edge* edge =
+              row.place.street && row.place.street->edge ? &*row.place.street->edge : nullptr;
+          return if_any(edge, [&](const StreetSight::Edge& e) { return of(e, row.place); });
         },
         kInCsv, kMillimetres);
   };
@@ -196,15 +190,16 @@ Columns<RoofRow> roof_columns(const PremisesSurvey& survey) {
     columns.emplace_back(name, of, kInCsv, number);
   };
   const auto if_served = [](auto of) {
-    return [of](const RoofRow& row) { return row.place.mast ? std::optional(of(row.place)) : std::nullopt; };
+    return
+        [of](const RoofRow& row) { return if_any(row.place.mast, [&](auto) { return std::invoke(of, row.place); }); };
   };
   add_building(survey, columns, kInCsv);
   add("x", [](const RoofRow& row) { return row.place.position.x; });
   add("y", [](const RoofRow& row) { return row.place.position.y; });
   add("roof_m", [](const RoofRow& row) { return row.place.roof_m; });
   add("mast", if_served([&survey](const RoofPlace& place) { return survey.masts[*place.mast].name; }));
-  add("pole_m", if_served([](const RoofPlace& place) { return place.height_m; }), kAsGiven);
-  add("distance_m", if_served([](const RoofPlace& place) { return place.distance_m; }));
+  add("pole_m", if_served(&RoofPlace::height_m), kAsGiven);
+  add("distance_m", if_served(&RoofPlace::distance_m));
   add_street(survey, columns);
   return columns;
 }
@@ -215,34 +210,31 @@ VectorLayer layer_of_premises(const PremisesSurvey& survey) {
     if (row.mounting == nullptr) return {{foot.x, foot.y, 0}};
     return {{row.mounting->position.x, row.mounting->position.y, row.mounting->elevation_m()}};
   };
-  VectorLayer layer =
-      layer_of("premises", VectorLayer::Shape::kPoints, premises_columns(survey), premises_rows(survey), place);
-  layer.style = point_style("service", kPremisesServices);
-  return layer;
+  return layer_of("premises", VectorLayer::Shape::kPoints, premises_columns(survey), premises_rows(survey), place,
+                  point_style("service", kPremisesServices));
 }
 
 VectorLayer layer_of_facades(const PremisesSurvey& survey) {
   const auto if_served = [](auto of) {
-    return [of](const WallRow& row) { return row.wall.mast ? std::optional(of(row.wall)) : std::nullopt; };
+    return [of](const WallRow& row) { return if_any(row.wall.mast, [&](auto) { return std::invoke(of, row.wall); }); };
   };
   const Columns<WallRow> columns{
       {"name", [](const WallRow& row) { return row.premises.name; }},
       {"service", [&](const WallRow& row) { return class_of(service_of(row.wall, survey.request.storey)).name; }},
       {"mast", if_served([&](const WallPlace& wall) { return survey.masts[*wall.mast].name; })},
-      {"least_height_m", if_served([](const WallPlace& wall) { return wall.height_m; })},
+      {"least_height_m", if_served(&WallPlace::height_m)},
       {"wall_m", [](const WallRow& row) { return row.wall.most_m; }},
       {"x", [](const WallRow& row) { return row.wall.position.x; }},
       {"y", [](const WallRow& row) { return row.wall.position.y; }}};
   std::vector<WallRow> rows;
   for (const Premises& p : survey.premises)
     for (const WallPlace& wall : p.walls) rows.push_back({p, wall});
-  VectorLayer layer = layer_of("facades", VectorLayer::Shape::kLines, columns, rows, [](const WallRow& row) {
-    std::vector<Point3> top;
-    for (const Point3& at : row.wall.stretch) top.push_back({at.x, at.y, row.wall.ground_m + row.wall.most_m});
-    return top;
-  });
-  layer.style = line_style("service", kWallServices, 0.8);
-  return layer;
+  const auto top = [](const WallRow& row) {
+    std::vector<Point3> line;
+    for (const Point3& at : row.wall.stretch) line.push_back({at.x, at.y, row.wall.ground_m + row.wall.most_m});
+    return line;
+  };
+  return layer_of("facades", VectorLayer::Shape::kLines, columns, rows, top, line_style("service", kWallServices, 0.8));
 }
 
 VectorLayer layer_of_best_links(const PremisesSurvey& survey) {
@@ -261,9 +253,8 @@ VectorLayer layer_of_best_links(const PremisesSurvey& survey) {
     return std::vector<Point3>{{a.position.x, a.position.y, a.elevation()},
                                {b.position.x, b.position.y, b.elevation_m()}};
   };
-  VectorLayer layer = layer_of("links", VectorLayer::Shape::kLines, columns, rows, line);
-  layer.style = line_style("service", std::span(kPremisesServices).first(2), 0.15);
-  return layer;
+  return layer_of("links", VectorLayer::Shape::kLines, columns, rows, line,
+                  line_style("service", std::span(kPremisesServices).first(2), 0.15));
 }
 
 /// Returns one for each mast.

@@ -25,7 +25,7 @@ std::vector<LinkRow> link_rows(const SitePlan& r) {
 }
 
 std::optional<double> fraction_of(const SiteLink& link) {
-  return link.found().fresnel ? std::optional(link.found().fresnel->fraction) : std::nullopt;
+  return if_any(link.found().fresnel, &profile::FresnelClearance::fraction);
 }
 
 std::vector<TableColumn<LinkRow>> link_columns(const SitePlan& r) {
@@ -33,10 +33,7 @@ std::vector<TableColumn<LinkRow>> link_columns(const SitePlan& r) {
   const auto to = [](const LinkRow& row) { return row.to.name; };
   const auto gap = [](const LinkRow& row) { return row.link.line.gap_m; };
   const auto critical = [](double profile::ProfilePoint::*coordinate) {
-    return [coordinate](const LinkRow& row) {
-      const auto& place = row.link.found().critical;
-      return place ? std::optional((*place).*coordinate) : std::nullopt;
-    };
+    return [coordinate](const LinkRow& row) { return if_any(row.link.found().critical, coordinate); };
   };
   const bool radio = r.request.frequency_ghz.has_value();
   std::vector<TableColumn<LinkRow>> columns{
@@ -77,7 +74,7 @@ std::vector<TableColumn<HopRow>> hop_columns(const SitePlan& r) {
   const auto end = [&network](std::size_t i) { return network.ends[i].place.name; };
   // What a row without a hop has not.
   const auto of_hop = [](auto value) {
-    return [value](const HopRow& row) { return row.hop != nullptr ? std::optional(value(row)) : std::nullopt; };
+    return [value](const HopRow& row) { return if_any(row.hop, [&](const RouteHop&) { return value(row); }); };
   };
   const auto of_link = [&network, of_hop](auto value) {
     return of_hop([&network, value](const HopRow& row) { return value(network.links[row.hop->link]); });

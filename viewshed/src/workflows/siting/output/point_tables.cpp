@@ -28,14 +28,6 @@ constexpr std::array<ServiceClass, 7> kPointServices{{{"served", "Point served",
 
 using PointColumns = std::vector<TableColumn<PointResult>>;
 
-/// Adds what is known of the line to a site; empty where there is none.
-template <class Of>
-void add_of_line(PointColumns& columns, const char* name, Of of, const char* number) {
-  columns.emplace_back(
-      name, [of](const PointResult& p) { return p.line ? std::optional(of(*p.line)) : std::nullopt; }, kInAllFormats,
-      number);
-}
-
 PointColumns point_columns(const SitePlan& r) {
   PointColumns columns{
       {"id", [](const PointResult& p) { return p.point.name; }},
@@ -45,15 +37,15 @@ PointColumns point_columns(const SitePlan& r) {
       {"weight", [](const PointResult& p) { return p.point.weight; }},
       {"service", [](const PointResult& p) { return name_of(p.service); }},
       {"site", [&r](const PointResult& p) { return p.line ? r.network.ends[p.line->site].place.name : ""; }},
-      {"sites_serving", [](const PointResult& p) { return p.serving; }}};
-  add_of_line(
-      columns, "distance_m", [](const ServingLine& line) { return line.distance_m; }, "{:.3f}");
-  add_of_line(
-      columns, "tightest_clearance_m", [](const ServingLine& line) { return line.tightest_clearance_m; }, "{:.3f}");
-  add_of_line(
-      columns, "fresnel_fraction", [](const ServingLine& line) { return line.fresnel_fraction; }, "{:.4f}");
-  add_of_line(
-      columns, "tightest_m", [](const ServingLine& line) { return line.tightest_m; }, "{:.3f}");
+      {"sites_serving", &PointResult::serving}};
+  const auto add_of_line = [&](const char* name, auto member, const char* number = "{:.3f}") {
+    columns.emplace_back(
+        name, [member](const PointResult& p) { return if_any(p.line, member); }, kInAllFormats, number);
+  };
+  add_of_line("distance_m", &ServingLine::distance_m);
+  add_of_line("tightest_clearance_m", &ServingLine::tightest_clearance_m);
+  add_of_line("fresnel_fraction", &ServingLine::fresnel_fraction, "{:.4f}");
+  add_of_line("tightest_m", &ServingLine::tightest_m);
   return columns;
 }
 
@@ -68,12 +60,11 @@ std::string points_csv(const SitePlan& r) {
 }
 
 VectorLayer points_layer(const SitePlan& r) {
-  VectorLayer layer =
-      layer_of("demand", VectorLayer::Shape::kPoints, point_columns(r), r.points, [](const PointResult& p) {
-        return std::vector<Point3>{{p.place.position.x, p.place.position.y, p.place.ground}};
-      });
-  layer.style = point_style("service", kPointServices);
-  return layer;
+  const auto place = [](const PointResult& p) {
+    return std::vector<Point3>{{p.place.position.x, p.place.position.y, p.place.ground}};
+  };
+  return layer_of("demand", VectorLayer::Shape::kPoints, point_columns(r), r.points, place,
+                  point_style("service", kPointServices));
 }
 
 Document points_document(const SitePlan& r) {
