@@ -34,8 +34,8 @@ class DwellingsVerb final : public Verb {
     viewshed::require_dwellings_folder(options_.directory, options_.policy.overwrite);
     const Store store(options_.store, cache_within(options_.memory_bytes()));
     CallProgress call(progress);
-    const viewshed::DwellingsSurvey survey =
-        viewshed::survey_dwellings(store, options_.complete_request(store, call), call.step(0.95));
+    const viewshed::DwellingsSurvey survey = viewshed::survey_dwellings(
+        store, options_.complete_request(store, call), call.step(options_.sheets().given() ? 0.5 : 0.95));
     Result result;
     result.warnings = survey.warnings;
     warn_of_grid(store.metadata(), result.warnings);
@@ -46,6 +46,7 @@ class DwellingsVerb final : public Verb {
       return folder_document(*this, result);
     };
     files.overwrite = options_.policy.overwrite;
+    files.sheets = options_.sheets().choice(), files.sheets_of = options_.sheets_of();
     viewshed::write_dwellings(options_.directory, store, survey, files, call.step(1));
     call.finish();
     result.text = text(survey, result.document);

@@ -34,6 +34,7 @@
 #include <itin/progress.hpp>
 #include <itin/store.hpp>
 #include <itin/theme.hpp>
+#include <profile/sheet_choice.hpp>
 #include <viewshed/result.hpp>
 #include <viewshed/site_plan.hpp>
 #include <viewshed/zone_study.hpp>
@@ -167,11 +168,16 @@ struct DwellingsFileOptions {
   /// Returns the text of dwellings.json, given the other files; empty: what json_of() returns, and the files.
   std::function<std::string(const std::vector<PlanFile>& files)> manifest = {};
   bool overwrite = false;
+  /// A sheet for each dwelling, on these papers as PDF and PNG: a map, what its facades see, a calendar of its flicker.
+  profile::SheetChoice sheets = {};
+  /// Only for these dwellings, by their names, ids or rows in dwellings.csv; empty: for all.
+  std::vector<std::string> sheets_of = {};
 };
 
-/// Writes dwellings.csv, facades.csv, flicker.csv, calendar.csv, dwellings.gpkg and dwellings.png into a folder, which
-/// appears complete or not at all, and returns what is in it besides dwellings.json. Files of an earlier survey there
-/// are replaced if `overwrite`; foreign ones are kept. Throws FileError, Cancelled.
+/// Writes dwellings.csv, facades.csv, flicker.csv, calendar.csv, calendar.png, dwellings.gpkg, dwellings.png and the
+/// sheets into a folder, which appears complete or not at all, and returns what is in it besides dwellings.json. Files
+/// of an earlier survey there are replaced if `overwrite`; foreign ones are kept. Throws InputError where no dwelling
+/// has a name of `sheets_of`, and for a scale of sheets that is too large; FileError, Cancelled.
 std::vector<PlanFile> write_dwellings(const std::string& folder, const Store& store, const DwellingsSurvey& survey,
                                       const DwellingsFileOptions& options, Progress& progress);
 

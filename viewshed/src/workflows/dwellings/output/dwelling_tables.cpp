@@ -1,7 +1,6 @@
 #include "workflows/dwellings/output/dwelling_tables.hpp"
 
 #include <cmath>
-#include <set>
 
 #include <itin/calendar_day.hpp>
 #include <itin/table_columns.hpp>
@@ -10,6 +9,7 @@
 #include "turbines/sun_behind_rotor.hpp"
 #include "workflows/dwellings/flicker_clock.hpp"
 #include "workflows/dwellings/output/dwelling_classes.hpp"
+#include "workflows/dwellings/output/dwelling_names.hpp"
 
 namespace itin::viewshed {
 
@@ -236,14 +236,6 @@ std::vector<FacadeRow> facade_rows(const DwellingsSurvey& survey) {
   return rows;
 }
 
-/// The turbines with flicker at a dwelling, ascending.
-std::set<std::size_t> flickering(const Dwelling& dwelling) {
-  std::set<std::size_t> turbines;
-  for (const DwellingFacade& facade : dwelling.facades)
-    for (const TurbineFlicker& flicker : facade.flicker) turbines.insert(flicker.turbine);
-  return turbines;
-}
-
 }  // namespace
 
 DwellingCounts counts_of(const DwellingsSurvey& survey) {
@@ -273,14 +265,14 @@ std::string facades_csv(const DwellingsSurvey& survey) {
 std::string flicker_csv(const DwellingsSurvey& survey) {
   std::vector<FlickerRow> rows;
   for (const Dwelling& dwelling : survey.dwellings)
-    for (const std::size_t turbine : flickering(dwelling)) rows.emplace_back(survey, dwelling, turbine);
+    for (const std::size_t turbine : flickering_turbines(dwelling)) rows.emplace_back(survey, dwelling, turbine);
   return csv_of(flicker_columns(), rows);
 }
 
 std::string calendar_csv(const DwellingsSurvey& survey) {
   std::vector<RunRow> rows;
   for (const Dwelling& dwelling : survey.dwellings)
-    for (const std::size_t turbine : flickering(dwelling))
+    for (const std::size_t turbine : flickering_turbines(dwelling))
       for (const FlickerRun& run : flicker_runs(dwelling, turbine))
         rows.push_back({survey, dwelling, survey.request.turbines.turbines[turbine], run});
   return csv_of(calendar_columns(), rows);
