@@ -41,6 +41,7 @@ void DwellingsOptions::declare(CLI::App& app) {
                  "Sheets only of the dwellings with these names or ids, or of these rows of dwellings.csv")
       ->type_name("NAME,NAME");
   themes_.declare(app);
+  foliage_.declare_of_seasons(app);
   earth_.declare(app);
   nodata_.declare(app);
   memory_.declare(app,
@@ -52,6 +53,8 @@ void DwellingsOptions::validate() {
   turbines_.validate();
   flicker_.validate();
   themes_.validate();
+  foliage_.validate();
+  if (foliage_.given()) request_.foliage = {foliage_.foliage().extinction, foliage_.foliage().least_transmittance};
   earth_.validate();
   sheets_.validate();
   if (!sheets_of_text_.empty() && !sheets_.given()) throw InputError("--sheets-of works only with --sheets");
@@ -102,6 +105,7 @@ Document DwellingsOptions::parameters() const {
   p["observer_height_m"] = request_.eye_height;
   p.update(flicker_.parameters());
   p.update(themes_.parameters());
+  p.update(foliage_.parameters());
   p["nodata"] = nodata_.text();
   p.update(sheets_.parameters());
   if (!sheets_of_.empty()) p["sheets_of"] = sheets_of_;

@@ -12,6 +12,7 @@
 
 #include "dwellings/flicker_options.hpp"
 #include "options/earth_options.hpp"
+#include "options/foliage_options.hpp"
 #include "options/memory_option.hpp"
 #include "options/nodata_option.hpp"
 #include "options/sheet_options.hpp"
@@ -47,6 +48,7 @@ class DwellingsOptions {
   FlickerOptions flicker_;
   SheetOptions sheets_;
   ThemeOptions themes_;
+  FoliageOptions foliage_;
   EarthOptions earth_;
   NoDataOption nodata_;
   MemoryOption memory_;

@@ -80,6 +80,7 @@ struct DwellingsRequest {
   Earth earth = {};
   ThemeChoice themes = ThemeChoice::all();  ///< what stands on the ground
   NoData nodata = NoData::kUnknown;         ///< what ground without data does to sights of turbines
+  std::optional<ZoneFoliage> foliage = {};  ///< with it, what is seen through woods is told as well
   /// Changes the speed, never the result. Of the ground at most this much is in memory at once, or 64 MB.
   std::uint64_t memory_bytes = std::uint64_t{1} << 30;
 };
@@ -107,6 +108,9 @@ struct DwellingFacade {
   /// What is seen of each turbine, over the bare ground, and over the surface with the themes: empty where none of them
   /// stands on the ground. A turbine behind the facade is Verdict::kOutside.
   std::vector<TurbineSight> bare = {}, screened = {};
+  /// What is seen over the surface through its woods, in leaf and in winter; empty without foliage in the request, or
+  /// where `screened` is.
+  std::vector<TurbineSight> summer = {}, winter = {};
 };
 
 struct Dwelling {
@@ -149,7 +153,8 @@ FlickerSum flicker_sum(const DwellingsSurvey& survey, const Dwelling& dwelling,
 /// Merges the runs of a dwelling's facades, of all turbines or of one. Days end runs.
 std::vector<FlickerRun> flicker_runs(const Dwelling& dwelling, const std::optional<std::size_t>& turbine = {});
 
-enum class SightSurface : std::uint8_t { kBare, kScreened };
+/// The bare ground, what stands on it, and the same with woods that are seen through, in leaf and in winter.
+enum class SightSurface : std::uint8_t { kBare, kScreened, kSummer, kWinter };
 
 /// Sums up what a facade sees of the turbines before it; nothing where none is, or nothing was looked at.
 std::optional<SightSummary> view_of(const DwellingsSurvey& survey, const DwellingFacade& facade, SightSurface surface);

@@ -200,6 +200,7 @@ class Dwellings(Task):
         *TURBINE_FIELDS,
         Text("FARM", "Farm of those that give none", "--farm", advanced=True),
         Text("SHEETS_OF", "Sheets of these dwellings only: names or ids", "--sheets-of", advanced=True),
+        *shared.SEASONS,
         shared.NODATA,
         *shared.EARTH,
         *shared.PAPER_MAPS,

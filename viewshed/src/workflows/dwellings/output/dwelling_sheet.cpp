@@ -1,6 +1,5 @@
 #include "workflows/dwellings/output/dwelling_sheet.hpp"
 
-#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -85,6 +84,9 @@ Facts facts_of_dwelling(const DwellingsSurvey& survey, const Dwelling& dwelling)
               {"Seen over bare ground", view_text(view_of(survey, dwelling, SightSurface::kBare))}};
   if (request.themes.includes_raised(survey.metadata.themes))
     facts.emplace_back("Seen past what stands", view_text(view_of(survey, dwelling, SightSurface::kScreened)));
+  for (const auto& [name, season] : {std::pair("Seen through woods, summer", SightSurface::kSummer),
+                                     std::pair("Seen through woods, winter", SightSurface::kWinter)})
+    if (request.foliage) facts.emplace_back(name, view_text(view_of(survey, dwelling, season)));
   facts.emplace_back("Shadow flicker, worst", flicker_text(survey, sum));
   if (sum.likely) facts.emplace_back("Shadow flicker, likely", fmt::format("{:.1f} h", *sum.likely / 60));
   facts.emplace_back("Sun", rules_text(request.flicker));
@@ -93,16 +95,26 @@ Facts facts_of_dwelling(const DwellingsSurvey& survey, const Dwelling& dwelling)
   return facts;
 }
 
-/// What a table tells of a view.
-constexpr std::array kViewColumns{"Hubs", "Tips", "Extent", "From, to", "Height"};
+/// What a table tells of views, of which it has room for two with their bearings.
+std::vector<std::string> columns_of_view(std::size_t views) {
+  std::vector<std::string> columns{"Hubs", "Tips", "Extent", "Height"};
+  if (views <= 2) columns.emplace_back("From, to");
+  return columns;
+}
 
-void add_view_cells(const std::optional<SightSummary>& view, std::vector<std::string>& row) {
+std::vector<std::string> cells_of_view(const std::optional<SightSummary>& view, std::size_t columns) {
   const bool arc = view && view->arc;
-  row.push_back(view ? hubs_text(*view) : "–");
-  row.push_back(view ? tips_text(*view) : "–");
-  row.push_back(arc ? fmt::format("{:.1f}°", view->arc->width) : "–");
-  row.push_back(arc ? fmt::format("{:.0f}°, {:.0f}°", view->arc->from, bearing_behind(*view->arc)) : "–");
-  row.push_back(arc ? fmt::format("{:.2f}°", view->vertical_deg) : "–");
+  std::vector<std::string> cells{
+      view ? hubs_text(*view) : "–", view ? tips_text(*view) : "–",
+      arc ? fmt::format("{:.1f}°", view->arc->width) : "–", arc ? fmt::format("{:.2f}°", view->vertical_deg) : "–",
+      arc ? fmt::format("{:.0f}°, {:.0f}°", view->arc->from, bearing_behind(*view->arc)) : "–"};
+  cells.resize(columns);
+  return cells;
+}
+
+const char* name_of_view(SightSurface surface) {
+  if (surface == SightSurface::kBare) return "over the bare ground";
+  return surface == SightSurface::kScreened ? "past what stands on it" : "through woods in winter";
 }
 
 profile::SheetTable table_of_facades(const DwellingsSurvey& survey, const Dwelling& dwelling) {
@@ -112,18 +124,23 @@ profile::SheetTable table_of_facades(const DwellingsSurvey& survey, const Dwelli
   table.elsewhere = "facades.csv";
   std::vector<SightSurface> surfaces{SightSurface::kBare};
   if (survey.request.themes.includes_raised(survey.metadata.themes)) surfaces.push_back(SightSurface::kScreened);
-  table.headings = {{"", 4}, {"over the bare ground", kViewColumns.size()}};
-  if (surfaces.size() > 1) table.headings.push_back({"past what stands on it", kViewColumns.size()});
+  if (survey.request.foliage) surfaces.push_back(SightSurface::kWinter);
+  const std::vector<std::string> columns = columns_of_view(surfaces.size());
+  table.headings = {{"", 4}};
+  for (const SightSurface surface : surfaces) table.headings.push_back({name_of_view(surface), columns.size()});
   table.rows = {{"Facade", "Looks to", "Length", "Turbines"}};
   for (std::size_t s = 0; s < surfaces.size(); ++s)
-    table.rows[0].insert(table.rows[0].end(), kViewColumns.begin(), kViewColumns.end());
+    table.rows[0].insert(table.rows[0].end(), columns.begin(), columns.end());
   for (const DwellingFacade& facade : dwelling.facades) {
     const auto bare = view_of(survey, facade, SightSurface::kBare);
     std::vector<std::string> row{fmt::format("{}", table.rows.size()),
                                  facade.outward_deg ? fmt::format("{:.0f}°", *facade.outward_deg) : "all round",
                                  facade.outward_deg ? fmt::format("{:.1f} m", facade.length_m) : "",
                                  fmt::format("{}", bare ? bare->turbines : 0)};
-    for (const SightSurface surface : surfaces) add_view_cells(view_of(survey, facade, surface), row);
+    for (const SightSurface surface : surfaces) {
+      const auto cells = cells_of_view(view_of(survey, facade, surface), columns.size());
+      row.insert(row.end(), cells.begin(), cells.end());
+    }
     table.rows.push_back(std::move(row));
   }
   return table;
