@@ -61,7 +61,7 @@ std::vector<PlanFile> write_dwelling_sheets(const std::string& folder, const Sto
           dwelling_sheet(of, dwelling, paper, call.step(1.0 / static_cast<double>(left--)));
       for (const std::string& file : sheet_names(map, paper)) {
         call.throw_if_cancelled();
-        write_file(folder + "/" + file, profile::draw_dwelling_sheet(sheet, file), true);
+        write_file(fmt::format("{}/{}", folder, file), profile::draw_dwelling_sheet(sheet, file), true);
         files.push_back({file, fmt::format("sheet on {}: {}", profile::name_of(paper), sheet.title)});
       }
     }
