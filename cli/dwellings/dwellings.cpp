@@ -34,8 +34,8 @@ class DwellingsVerb final : public Verb {
     viewshed::require_dwellings_folder(options_.directory, options_.policy.overwrite);
     const Store store(options_.store, cache_within(options_.memory_bytes()));
     CallProgress call(progress);
-    const viewshed::DwellingsSurvey survey =
-        viewshed::survey_dwellings(store, options_.complete_request(store, call), call.step(0.95));
+    const viewshed::DwellingsSurvey survey = viewshed::survey_dwellings(
+        store, options_.complete_request(store, call), call.step(options_.sheets().given() ? 0.5 : 0.95));
     Result result;
     result.warnings = survey.warnings;
     warn_of_grid(store.metadata(), result.warnings);
@@ -46,6 +46,7 @@ class DwellingsVerb final : public Verb {
       return folder_document(*this, result);
     };
     files.overwrite = options_.policy.overwrite;
+    files.sheets = options_.sheets().choice(), files.sheets_of = options_.sheets_of();
     viewshed::write_dwellings(options_.directory, store, survey, files, call.step(1));
     call.finish();
     result.text = text(survey, result.document);
@@ -62,14 +63,23 @@ class DwellingsVerb final : public Verb {
                                      : fmt::format(", from {} past what stands on it", count("see_a_tip_screened"));
     return fmt::format(
         "a blade tip is seen over the bare ground from {} of {}{}\n"
+        "{}"
         "shadow flicker in {}, worst case: {} have some\n"
         "more than {:g} hours in the year: {}; more than {:g} minutes on a day: {}\n"
         "{}, {}, {}; {}\n{}: open dwellings.csv and facades.csv; calendar.csv has the times, by {}\n",
-        count("see_a_tip"), counted(survey.dwellings.size(), "dwelling"), screened, rules.year.year,
-        count("with_flicker"), rules.limit_minutes_year / 60, count("over_year"), rules.limit_minutes_day,
-        count("over_day"), counted(survey.request.turbines.turbines.size(), "turbine"),
+        count("see_a_tip"), counted(survey.dwellings.size(), "dwelling"), screened, seasons_text(document),
+        rules.year.year, count("with_flicker"), rules.limit_minutes_year / 60, count("over_year"),
+        rules.limit_minutes_day, count("over_day"), counted(survey.request.turbines.turbines.size(), "turbine"),
         counted(survey.statistics.triangles, "triangle"), counted(survey.statistics.lines, "sight line"),
         survey.request.earth.convention(), options_.directory, document["flicker"]["clock"].get<std::string>());
+  }
+
+  static std::string seasons_text(const Document& document) {
+    if (!document.contains("foliage")) return "";
+    const Document& foliage = document["foliage"];
+    return fmt::format("through foliage: a blade tip is seen from {} in summer; from {} in winter\n",
+                       grouped(foliage["see_a_tip_summer"].get<std::uint64_t>()),
+                       grouped(foliage["see_a_tip_winter"].get<std::uint64_t>()));
   }
 
   DwellingsOptions options_;

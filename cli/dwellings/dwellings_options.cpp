@@ -1,5 +1,7 @@
 #include "dwellings/dwellings_options.hpp"
 
+#include <sstream>
+
 #include <itin/site_list.hpp>
 
 #include "options/off_the_data.hpp"
@@ -32,7 +34,14 @@ void DwellingsOptions::declare(CLI::App& app) {
   begin_group(app, kOutputs);
   replaces(app.add_option("-o,--output", directory, "The folder to write")->type_name("DIR")->required());
   policy.declare(app);
+  sheets_.declare(app,
+                  "A sheet for each dwelling, with a map, what its facades see and a calendar of its shadow "
+                  "flicker, as PDF and PNG on A3, A1 or both (default: none)");
+  app.add_option("--sheets-of", sheets_of_text_,
+                 "Sheets only of the dwellings with these names or ids, or of these rows of dwellings.csv")
+      ->type_name("NAME,NAME");
   themes_.declare(app);
+  foliage_.declare_of_seasons(app);
   earth_.declare(app);
   nodata_.declare(app);
   memory_.declare(app,
@@ -44,7 +53,13 @@ void DwellingsOptions::validate() {
   turbines_.validate();
   flicker_.validate();
   themes_.validate();
+  foliage_.validate();
+  if (foliage_.given()) request_.foliage = {foliage_.foliage().extinction, foliage_.foliage().least_transmittance};
   earth_.validate();
+  sheets_.validate();
+  if (!sheets_of_text_.empty() && !sheets_.given()) throw InputError("--sheets-of works only with --sheets");
+  std::istringstream names(sheets_of_text_);
+  for (std::string name; std::getline(names, name, ',');) sheets_of_.push_back(name);
   request_.flicker = flicker_.rules();
   request_.nodata = nodata_.rule();
   request_.memory_bytes = memory_.bytes().value_or(request_.memory_bytes);
@@ -90,7 +105,10 @@ Document DwellingsOptions::parameters() const {
   p["observer_height_m"] = request_.eye_height;
   p.update(flicker_.parameters());
   p.update(themes_.parameters());
+  p.update(foliage_.parameters());
   p["nodata"] = nodata_.text();
+  p.update(sheets_.parameters());
+  if (!sheets_of_.empty()) p["sheets_of"] = sheets_of_;
   return p;
 }
 

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
@@ -11,8 +12,10 @@
 
 #include "dwellings/flicker_options.hpp"
 #include "options/earth_options.hpp"
+#include "options/foliage_options.hpp"
 #include "options/memory_option.hpp"
 #include "options/nodata_option.hpp"
+#include "options/sheet_options.hpp"
 #include "options/surface_options.hpp"
 #include "output/output_path.hpp"
 #include "program/verb.hpp"
@@ -29,6 +32,9 @@ class DwellingsOptions {
   /// Adds to the request what takes the store and the files. Throws InputError, FileError, CorruptStore, Cancelled.
   viewshed::DwellingsRequest complete_request(const Store& read, Progress& progress);
 
+  const SheetOptions& sheets() const { return sheets_; }
+  /// The dwellings that sheets are for; empty: all.
+  const std::vector<std::string>& sheets_of() const { return sheets_of_; }
   std::uint64_t memory_bytes() const { return request_.memory_bytes; }
 
   std::string store, directory;
@@ -40,11 +46,14 @@ class DwellingsOptions {
   viewshed::DwellingsRequest request_;
   TurbineOptions turbines_{TurbineOptions::Use::dwellings};
   FlickerOptions flicker_;
+  SheetOptions sheets_;
   ThemeOptions themes_;
+  FoliageOptions foliage_;
   EarthOptions earth_;
   NoDataOption nodata_;
   MemoryOption memory_;
-  std::string places_, radius_text_, observer_text_;
+  std::string places_, radius_text_, observer_text_, sheets_of_text_;
+  std::vector<std::string> sheets_of_;
 };
 
 }  // namespace itin::cli

@@ -30,11 +30,21 @@ void FoliageOptions::declare_of_seasons(CLI::App& app) {
 
 void FoliageOptions::declare(CLI::App& app) {
   declare_foliage(app);
+  declare_leaf_area(app);
+  declare_transmittance(app);
+}
+
+void FoliageOptions::declare_of_paths(CLI::App& app) {
+  of_paths_ = true;
+  declare_foliage(app);
+  declare_leaf_area(app);
+}
+
+void FoliageOptions::declare_leaf_area(CLI::App& app) {
   app.add_option("--leaf-area", leaf_area_text_,
                  "Square metres of leaves in a cubic metre of wood: on (1, the default), off (0.1, a winter without a "
                  "source), or the field that features have theirs in")
       ->type_name("on|off|FIELD");
-  declare_transmittance(app);
 }
 
 void FoliageOptions::validate() {
@@ -62,7 +72,7 @@ Document FoliageOptions::parameters() const {
   if (!of_seasons_)
     parameters["leaf_area"] =
         foliage_.leaf_area_field.empty() ? Document(foliage_.leaf_area) : Document(foliage_.leaf_area_field);
-  parameters["transmittance"] = foliage_.least_transmittance;
+  if (!of_paths_) parameters["transmittance"] = foliage_.least_transmittance;
   return parameters;
 }
 

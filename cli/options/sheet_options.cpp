@@ -15,13 +15,10 @@
 
 namespace itin::cli {
 
-void SheetOptions::declare(CLI::App& app) {
+void SheetOptions::declare(CLI::App& app, const std::string& what) {
   begin_group(app, kMapsOnPaper);
   papers_option_ = "--sheets";
-  app.add_option(papers_option_, papers_text_,
-                 "Maps on paper, to scale, with title block, legend, grid references and sources, as PDF and PNG on "
-                 "A3, A1 or both (default: none)")
-      ->type_name("A3,A1");
+  app.add_option(papers_option_, papers_text_, what)->type_name("A3,A1");
   declare_title_block(app);
 }
 

@@ -15,8 +15,10 @@ namespace itin::cli {
 
 class SheetOptions {
  public:
-  /// Declares `--sheets`: every map on every paper.
-  void declare(CLI::App& app);
+  /// Declares `--sheets`: every map on every paper, or what `what` says.
+  void declare(CLI::App& app, const std::string& what =
+                                  "Maps on paper, to scale, with title block, legend, grid references and "
+                                  "sources, as PDF and PNG on A3, A1 or both (default: none)");
   /// Declares `--sheet` and `--paper`: one map in a file of its own.
   void declare_file(CLI::App& app);
   /// Throws InputError.

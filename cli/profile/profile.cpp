@@ -15,8 +15,10 @@
 #include <itin/store_scale.hpp>
 #include <itin/tin_export.hpp>
 #include <profile/documents.hpp>
+#include <profile/foliage_text.hpp>
 #include <profile/path_profiles.hpp>
 
+#include "options/foliage_options.hpp"
 #include "options/in_crs.hpp"
 #include "options/memory_option.hpp"
 #include "options/off_the_data.hpp"
@@ -82,6 +84,7 @@ class ProfileVerb final : public Verb {
                ->type_name("FILE"));
     picture_.declare(app, "the triangles that the line crosses");
     themes_.declare(app);
+    foliage_.declare_of_paths(app);
     memory_.declare(app, kKeptOfTheStore);
     policy_.declare(app);
   }
@@ -112,6 +115,7 @@ class ProfileVerb final : public Verb {
           "--triangles, --image: profiles of several tolerances cross different triangles; give one --tolerance");
     picture_.validate();
     themes_.validate();
+    foliage_.validate();
     memory_.bytes();
   }
 
@@ -132,6 +136,7 @@ class ProfileVerb final : public Verb {
       }
     }
     parameters.update(themes_.parameters());
+    parameters.update(foliage_.parameters());
     return parameters;
   }
 
@@ -180,6 +185,7 @@ class ProfileVerb final : public Verb {
   profile::PathQuery query(const std::vector<Point2>& corners) const {
     profile::PathQuery query{.corners = corners, .details = {}, .themes = themes_.choice()};
     query.with_ground = std::any_of(outputs_.begin(), outputs_.end(), shows_ground);
+    if (foliage_.given()) query.foliage = foliage_.foliage();
     for (const double t : tolerances_) query.details.push_back(Detail::tolerance(t));
     if (rings_.empty()) return query;
     query.details = {Detail::rings(corners.front(), rings_)};
@@ -223,6 +229,7 @@ class ProfileVerb final : public Verb {
           fmt::format("{}: {:.2f} m, {}", surface.name, surface.profile.length_m, counted(points.size(), "breakpoint"));
       if (!points.empty()) text += fmt::format(", {:.2f} to {:.2f} m", low->ground_m, high->ground_m);
       for (const auto& [from, to] : surface.profile.gaps) text += fmt::format(", no data {:.2f} to {:.2f} m", from, to);
+      if (surface.foliage) text += "; " + profile::foliage_text(*surface.foliage);
       text += "\n";
     }
     for (const std::string& output : outputs()) text += output + "\n";
@@ -238,6 +245,7 @@ class ProfileVerb final : public Verb {
   InCrs in_crs_;
   PictureOptions picture_;
   ThemeOptions themes_;
+  FoliageOptions foliage_;
   MemoryOption memory_;
   OutputPolicy policy_;
 };

@@ -79,6 +79,7 @@ constexpr std::array kNames{
     Names{"sea_area", "--sea-area"},
     Names{"sea_level", "--sea-level"},
     Names{"setback", "--setback"},
+    Names{"sheets_of", "--sheets-of"},
     Names{"spacing", "--spacing"},
     Names{"stay", "--stay"},
     Names{"storey", "--storey"},

@@ -11,6 +11,7 @@
 #include <itin/triangulate.hpp>
 #include <itin/wood_loss.hpp>
 #include <profile/foliage.hpp>
+#include <profile/path_profiles.hpp>
 
 #include "support/rolling_hill.hpp"
 
@@ -186,6 +187,42 @@ TEST_F(ThroughFoliage, TakesLeafAreasOfFeatures) {
   refused({.leaf_area = -1});
   refused({.extinction = -0.5});
   refused({.least_transmittance = 1.5});
+}
+
+/// Woods on a path with a corner, which keeps to the ground.
+class FoliageOnPaths : public test::RollingHill {
+ protected:
+  PathFoliage on_path(const Foliage& foliage, const ThemeChoice& themes = ThemeChoice::all()) {
+    PathQuery query{.corners = {{300050, 199900}, {300350, 199900}, {300350, 199600}}, .themes = themes};
+    query.foliage = foliage;
+    return *profiles_along(Store(path()), query, progress_).profiles.front().foliage;
+  }
+};
+
+TEST_F(FoliageOnPaths, IsAsLongAsTheWoodsAreWide) {
+  add_houses();
+  test::LineFeature thin = test::box(300100, 199850, 300140, 199950, 12),
+                    dense = test::box(300300, 199700, 300400, 199760, 8);
+  test::import_raised(path(), directory_.file("woods.geojson"), ThemeKind::Vegetation, "woods", {thin, dense});
+  const PathFoliage leaves = on_path({.leaf_area = kLeavesOn}, ThemeChoice::parse("woods"));
+  ASSERT_EQ(leaves.stretches.size(), 2U);
+  EXPECT_NEAR(leaves.stretches[0].from_m, 50, 0.02);
+  EXPECT_NEAR(leaves.stretches[0].to_m, 90, 0.02);
+  EXPECT_NEAR(leaves.stretches[1].from_m, 300 + 140, 0.02);
+  EXPECT_NEAR(leaves.length_m, 40 + 60, 0.03);
+  EXPECT_NEAR(std::log(leaves.transmittance), -0.5 * leaves.length_m, 1e-9);
+  EXPECT_NEAR(std::log(on_path({.leaf_area = kLeavesOff}).transmittance), -0.05 * leaves.length_m, 0.01);
+  EXPECT_TRUE(on_path({}, ThemeChoice::none()).stretches.empty());
+  EXPECT_EQ(on_path({}, ThemeChoice::none()).transmittance, 1);
+  EXPECT_THROW(on_path({.extinction = -1}), InputError);
+}
+
+TEST_F(FoliageOnPaths, TakesLeafAreasOfFeatures) {
+  test::LineFeature thin = test::box(300100, 199850, 300140, 199950, 12),
+                    dense = test::box(300140, 199850, 300160, 199950, 12);
+  thin.properties = R"({"h":12,"lad":0.01})", dense.properties = R"({"h":12,"lad":0.2})";
+  import_woods("woods", {thin, dense});
+  EXPECT_NEAR(on_path({.leaf_area_field = "lad"}).transmittance, std::exp(-0.5 * (40 * 0.01 + 20 * 0.2)), 1e-3);
 }
 
 }  // namespace

@@ -404,6 +404,14 @@ class ZoneStudy(_OverGrid):
         return self._core.visibility(True)
 
     @property
+    def seasons(self) -> dict[str, dict[str, NDArray[np.uint16]]] | None:
+        """What is seen through woods in ``summer`` and in ``winter``; None where they are solid.
+
+        Each has ``hub_count`` and ``tip_count``, as ``bare`` has them.
+        """
+        return self._core.seasons
+
+    @property
     def radar_height_m(self) -> NDArray[np.float32] | None:
         """The least height above the ground that the radar sees, a view of shape (rows, columns); None without a radar.
 

@@ -594,6 +594,8 @@ class Store:
         tolerance: float = 0.0,
         themes: Themes = "all",
         nodata: NoData = "unknown",
+        foliage: float | None = None,
+        transmittance: float = 0.5,
         memory_bytes: int | None = None,
         progress: Progress | None = None,
     ) -> ZoneStudy:
@@ -610,6 +612,9 @@ class Store:
             radius: How far turbines are looked for, metres. None: by their tips, or each turbine's own.
             observer_height: Of the eyes above the bare ground.
             cell_size: Metres; 50 where neither it nor ``grid`` is given.
+            foliage: The extinction k by which themes of vegetation are seen through in summer and in winter, as in
+                ``itin ztv --foliage``; 0.5 for leaves turned at random. None: they are solid. See ``ZoneStudy.seasons``.
+            transmittance: The least share of the light by which something is seen through woods.
 
         Raises:
             InputError: No turbine that can be used, an unusable size, ...

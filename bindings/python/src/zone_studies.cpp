@@ -114,6 +114,11 @@ viewshed::ZoneStudyRequest study_request_of(const py::dict& fields, const Store&
   zone.detail = detail_of(fields);
   zone.themes = themes_of(fields);
   zone.nodata = nodata_of(fields);
+  if (fields.contains("foliage")) {
+    zone.foliage.emplace();
+    take(fields, "foliage", zone.foliage->extinction);
+    take(fields, "transmittance", zone.foliage->least_transmittance);
+  }
   take(fields, "memory_bytes", zone.memory_bytes);
   return request;
 }
@@ -146,6 +151,22 @@ py::object visibility_of(const py::object& self, bool screened) {
   return views;
 }
 
+/// Views of what is seen through woods in summer and in winter; None where they are solid.
+py::object seasons_of(const py::object& self) {
+  const viewshed::Zone& zone = self.cast<const Study&>().study.zone;
+  if (!zone.seasons) return py::none();
+  const Shape shape = shape_of(zone.grid);
+  py::dict seasons;
+  for (const auto& [name, counts] :
+       {std::pair("summer", &zone.seasons->summer), std::pair("winter", &zone.seasons->winter)}) {
+    py::dict views;
+    views["hub_count"] = view_of(counts->hub_count.data(), shape, self);
+    views["tip_count"] = view_of(counts->tip_count.data(), shape, self);
+    seasons[name] = views;
+  }
+  return seasons;
+}
+
 /// A view of the least height above its ground that the radar sees in each cell; None without a radar.
 py::object radar_of(const py::object& self) {
   const viewshed::Zone& zone = self.cast<const Study&>().study.zone;
@@ -168,6 +189,7 @@ py::list write_study(const Study& s, const std::string& folder, bool overwrite, 
 void bind_zone_studies(py::module_& module) {
   py::class_<Study, std::shared_ptr<Study>>(module, "ZoneStudy")
       .def("visibility", [](const py::object& self, bool screened) { return visibility_of(self, screened); })
+      .def_property_readonly("seasons", &seasons_of)
       .def_property_readonly("radar_height_m", &radar_of)
       .def_property_readonly("grid", [](const Study& s) { return tuple_of(s.study.zone.grid); })
       .def_property_readonly("crs_wkt", [](const Study& s) { return s.study.metadata.crs_wkt; })

@@ -6,7 +6,7 @@ import json
 from pathlib import Path
 
 import numpy as np
-from conftest import run
+from conftest import DATA, run
 
 import itin
 
@@ -71,6 +71,30 @@ def test_a_wind_farm_is_the_command_line_s(cardiff: itin.Store, tmp_path: Path) 
         np.testing.assert_array_equal(values, again.bare[name], err_msg=name)
     assert study.screened is None or study.screened.keys() == study.bare.keys()
     assert study.bare["tip_count"].shape == study.grid.shape
+
+
+def test_a_wind_farm_s_seasons_are_the_command_line_s(tmp_path: Path) -> None:
+    path = tmp_path / "wooded.itin"
+    itin.import_terrain(path, DATA / "alexandria-dtm.tif")
+    (tmp_path / "trees.geojson").write_text(
+        '{"type":"FeatureCollection","features":[{"type":"Feature","properties":{},"geometry":{"type":"Polygon","coordinates":'
+        "[[[321810,4297600],[321830,4297600],[321830,4297780],[321810,4297780],[321810,4297600]]]}}]}"
+    )
+    run("import", path, tmp_path / "trees.geojson", "--crs", "EPSG:26918", "--kind", "vegetation", "--height", "15")
+    (tmp_path / "turbines.csv").write_text("x,y,hub_height,rotor_diameter\n321950,4297690,20,10\n")
+    study = itin.Store(path).ztv(tmp_path / "turbines.csv", radius=300, cell_size=5, foliage=0.4, transmittance=0.3)
+    files = study.write(tmp_path / "ours")
+    options = ["--radius", "300", "--cell", "5", "--foliage=0.4", "--transmittance", "0.3", "-o", tmp_path / "theirs"]
+    run("ztv", path, "--turbines", tmp_path / "turbines.csv", *options)
+    for name in ("tip-count-summer.tif", "hub-count-winter.tif", "areas.csv"):
+        assert name in {file.path for file in files}
+        assert (tmp_path / "ours" / name).read_bytes() == (tmp_path / "theirs" / name).read_bytes()
+    seasons = study.seasons
+    assert seasons is not None and study.screened is not None
+    seen = [int((counts == 1).sum()) for counts in (study.screened["tip_count"], seasons["winter"]["tip_count"])]
+    assert 0 < seen[0] < seen[1]
+    solid = itin.Store(path).ztv(tmp_path / "turbines.csv", radius=300, cell_size=5)
+    assert solid.seasons is None
 
 
 def test_a_wind_farm_s_viewpoints_routes_and_radar_are_the_command_line_s(cardiff: itin.Store, tmp_path: Path) -> None:

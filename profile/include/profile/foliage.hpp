@@ -66,6 +66,13 @@ struct FoliageSight {
 std::vector<FoliageStretch> foliage_along(const Profile& surface, const Antennas& antennas, const Earth& earth,
                                           const std::vector<bool>& vegetation);
 
+/// The foliage that a path runs through which keeps to the ground, whatever rises and falls there.
+struct PathFoliage {
+  std::vector<FoliageStretch> stretches;  ///< one for each run of a theme, lengths in plan
+  double length_m = 0;                    ///< in plan
+  double transmittance = 1;               ///< the share of the light that would come along all of it
+};
+
 /// Analyses a line through the vegetation of `line.themes`. Throws InputError for an extinction or a leaf area that is
 /// negative, for a least transmittance outside 0 to 1, and for a field that no theme of vegetation has; and what
 /// analyse() throws.

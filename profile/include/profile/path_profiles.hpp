@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,7 @@
 #include <itin/progress.hpp>
 #include <itin/store.hpp>
 #include <itin/theme.hpp>
+#include <profile/foliage.hpp>
 #include <profile/profile.hpp>
 
 namespace itin::profile {
@@ -24,6 +26,7 @@ struct SurfaceProfile {
   Detail detail;
   std::string name;  ///< "tolerance 2 m"
   Profile profile;
+  std::optional<PathFoliage> foliage = {};  ///< where it was asked for
 };
 
 struct PathQuery {
@@ -32,6 +35,7 @@ struct PathQuery {
   std::vector<std::string> names = {};                   ///< what the profiles are called; empty: by their tolerance
   ThemeChoice themes = ThemeChoice::none();              ///< raised features on the surface
   bool with_ground = true;                               ///< whether charts and text show the ground under features
+  std::optional<Foliage> foliage = {};                   ///< tells the foliage along the path by these leaf areas
 };
 
 struct PathProfiles {
@@ -44,8 +48,8 @@ struct PathProfiles {
   StoreMetadata metadata;
 };
 
-/// Follows a path. Throws InputError for a path or a query without what it needs and for themes that the store does not
-/// have, CorruptStore, Cancelled.
+/// Follows a path. Throws InputError for a path or a query without what it needs, for themes that the store does not
+/// have and for foliage as through_foliage() does, CorruptStore, Cancelled.
 PathProfiles profiles_along(const Store& store, const PathQuery& query, Progress& progress);
 
 /// The JSON document that `itin profile --json` prints, without the call and its outputs. `surface` in it is the

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include <itin/document.hpp>
 #include <profile/foliage.hpp>
@@ -12,5 +13,10 @@ namespace itin::profile {
 Document foliage_document(const FoliageSight& sight, const Foliage& foliage);
 /// Returns the same in a sentence, without a full stop.
 std::string foliage_text(const FoliageSight& sight, const Foliage& foliage);
+
+/// Returns `foliage` of a profile's document, with the names of themes by ProfilePoint::theme.
+Document foliage_document(const PathFoliage& path, const std::vector<std::string>& themes);
+/// Returns the same in a sentence, without a full stop.
+std::string foliage_text(const PathFoliage& path);
 
 }  // namespace itin::profile

@@ -4,7 +4,10 @@
 #include <fmt/format.h>
 
 #include <itin/error.hpp>
+#include <profile/leaf_areas.hpp>
 #include <profile/path_profiles.hpp>
+
+#include "lines/foliage_on_path.hpp"
 
 namespace itin::profile {
 
@@ -62,10 +65,13 @@ void require_complete(const PathQuery& query) {
 PathProfiles profiles_along(const Store& store, const PathQuery& query, Progress& progress) {
   require_complete(query);
   PathProfiles all{query, {}, {}, {}, 0, store.path(), store.metadata()};
+  std::optional<LeafAreas> leaves;
+  if (query.foliage) leaves.emplace(store, query.themes, *query.foliage);
   for (std::size_t i = 0; i < query.details.size(); ++i) {
     const Detail& detail = query.details[i];
     const std::string name = query.names.empty() ? name_of(detail) : query.names[i];
     all.profiles.push_back({detail, name, along(store, detail, query.themes, all, progress)});
+    if (leaves) all.profiles.back().foliage = foliage_on_path(all.profiles.back().profile, *leaves);
   }
   if (query.with_ground && query.themes.includes_raised(all.metadata.themes))
     all.ground = along(store, query.details.front(), ThemeChoice::none(), all, progress);

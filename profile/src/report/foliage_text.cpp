@@ -14,16 +14,19 @@ Document loss_document(const std::optional<WoodLoss>& loss) {
           {"loss_db", loss->loss_db}};
 }
 
+Document stretches_document(const std::vector<FoliageStretch>& stretches, const std::vector<std::string>& themes) {
+  Document document = Document::array();
+  for (const FoliageStretch& s : stretches)
+    document.push_back({{"from_m", s.from_m},
+                        {"to_m", s.to_m},
+                        {"length_m", s.length_m},
+                        {"theme", s.theme < themes.size() ? Document(themes[s.theme]) : Document(nullptr)}});
+  return document;
+}
+
 }  // namespace
 
 Document foliage_document(const FoliageSight& sight, const Foliage& foliage) {
-  Document stretches = Document::array();
-  for (const FoliageStretch& s : sight.stretches)
-    stretches.push_back(
-        {{"from_m", s.from_m},
-         {"to_m", s.to_m},
-         {"length_m", s.length_m},
-         {"theme", s.theme < sight.solid.themes.size() ? Document(sight.solid.themes[s.theme]) : Document(nullptr)}});
   Document document{
       {"length_m", sight.length_m},
       {"transmittance", sight.transmittance},
@@ -32,9 +35,20 @@ Document foliage_document(const FoliageSight& sight, const Foliage& foliage) {
       {"leaf_area_m2_per_m3", foliage.leaf_area},
       {"leaf_area_field", foliage.leaf_area_field.empty() ? Document(nullptr) : Document(foliage.leaf_area_field)},
       {"verdict_without_foliage", name_of(sight.solid.verdict)},
-      {"stretches", stretches}};
+      {"stretches", stretches_document(sight.stretches, sight.solid.themes)}};
   if (sight.solid.query.radio) document["p833"] = loss_document(sight.loss);
   return document;
+}
+
+Document foliage_document(const PathFoliage& path, const std::vector<std::string>& themes) {
+  return {{"length_m", path.length_m},
+          {"transmittance", path.transmittance},
+          {"stretches", stretches_document(path.stretches, themes)}};
+}
+
+std::string foliage_text(const PathFoliage& path) {
+  return fmt::format("{:.2f} m of foliage on the path; {:.3g} % of the light would come along it", path.length_m,
+                     100 * path.transmittance);
 }
 
 std::string foliage_text(const FoliageSight& sight, const Foliage& foliage) {

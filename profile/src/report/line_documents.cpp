@@ -1,6 +1,7 @@
 #include <itin/coordinates.hpp>
 #include <itin/error.hpp>
 #include <profile/documents.hpp>
+#include <profile/foliage_text.hpp>
 
 namespace itin::profile {
 
@@ -24,6 +25,7 @@ Document profile_document(const StoreMetadata& metadata, const ThemeChoice& them
     Document entry{{"tolerance_m", surface.detail.coarsest()}, {"certified_error_m", about["certified_error_m"]}};
     if (about.contains("rings")) entry["rings"] = about["rings"];
     entry["gaps"] = gaps_document(surface.profile);
+    if (surface.foliage) entry["foliage"] = foliage_document(*surface.foliage, names);
     entry["breakpoints"] = Document::array();
     for (const ProfilePoint& p : surface.profile.points) {
       entry["breakpoints"].push_back(

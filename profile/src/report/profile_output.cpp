@@ -12,6 +12,7 @@
 #include <itin/paths.hpp>
 #include <profile/chart.hpp>
 #include <profile/documents.hpp>
+#include <profile/foliage_text.hpp>
 #include <profile/path_profiles.hpp>
 #include <profile/profile_text.hpp>
 
@@ -107,6 +108,7 @@ std::string profiles_chart(const PathProfiles& all, const std::string& title, co
   chart.corners_m = turns_of(all);
   chart.note = fmt::format("{}; {}; itin {}", std::filesystem::path(all.store).filename().string(),
                            crs_title(all.metadata.crs_wkt), ITIN_VERSION);
+  if (const auto& foliage = all.profiles.front().foliage) chart.note = foliage_text(*foliage) + "; " + chart.note;
   for (const SurfaceProfile& surface : all.profiles) chart.series.push_back({surface.name, surface.profile});
   chart.ground = all.ground;
   chart.themes = theme_names(all.metadata);

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -17,7 +16,6 @@ namespace itin::profile {
 
 namespace {
 
-constexpr double kPixelsPerPoint = 200 / 72.0;
 /// The longer side of a picture's frame, points, and the coarsest that its letters can be read at.
 constexpr double kPictureFrame = 560, kLeastPixelsPerPoint = 1.4;
 
@@ -44,28 +42,10 @@ double panel_height(const MapSheet& sheet, const Paper& picture, double pixels_p
   return panel.height();
 }
 
-/// The metres of ground that a metre of the frame must hold.
-double least_scale(const MapSheet& sheet) {
-  const Box frame = paper_of(sheet.paper).frame;
-  const double metre = 1000 * kPointsPerMillimetre;
-  return std::max(sheet.area.width() / frame.width(), sheet.area.height() / frame.height()) * metre;
-}
-
 }  // namespace
 
 double scale_of(const MapSheet& sheet) {
-  const double least = least_scale(sheet);
-  if (sheet.scale > 0) {
-    if (sheet.scale < least * (1 - 1e-9))
-      throw InputError(fmt::format("at `scale` 1:{:.0f} the study area does not fit on {}; give at least {:.0f}",
-                                   sheet.scale, name_of(sheet.paper), std::ceil(least / 100) * 100),
-                       "scale");
-    return sheet.scale;
-  }
-  constexpr std::array<double, 11> kUsual{10, 12.5, 15, 20, 25, 30, 40, 50, 60, 75, 80};
-  for (double decade = 1;; decade *= 10)
-    for (const double usual : kUsual)
-      if (usual * decade >= least) return usual * decade;
+  return scale_within(paper_of(sheet.paper).frame, sheet);
 }
 
 Box ground_in_frame(const MapSheet& sheet) {
@@ -82,7 +62,7 @@ void require_sheet_format(const std::string& path) {
 std::string draw_map_sheet(const MapSheet& sheet, const std::string& path) {
   require_sheet_format(path);
   const Paper paper = paper_of(sheet.paper);
-  Drawing drawing(*Drawing::format_of(path), paper.width, paper.height, kPixelsPerPoint);
+  Drawing drawing(*Drawing::format_of(path), paper.width, paper.height, kPixelsPerPointOfSheets);
   draw(sheet, paper, ground_in_frame(sheet), drawing);
   return drawing.finish();
 }

@@ -1,7 +1,12 @@
 #include "sheet/paper.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+
+#include <fmt/format.h>
+
+#include <itin/error.hpp>
 
 namespace itin::profile {
 
@@ -46,6 +51,22 @@ Paper with_panel(Paper picture, double height) {
   picture.panel.ymax = std::max(picture.panel.ymax, picture.panel.ymin + height);
   picture.height = picture.panel.ymax + margin;
   return picture;
+}
+
+double scale_within(const Box& frame, const MapSheet& sheet) {
+  const double metre = 1000 * kPointsPerMillimetre;
+  const double least = std::max(sheet.area.width() / frame.width(), sheet.area.height() / frame.height()) * metre;
+  if (sheet.scale > 0) {
+    if (sheet.scale < least * (1 - 1e-9))
+      throw InputError(fmt::format("at `scale` 1:{:.0f} the study area does not fit on {}; give at least {:.0f}",
+                                   sheet.scale, name_of(sheet.paper), std::ceil(least / 100) * 100),
+                       "scale");
+    return sheet.scale;
+  }
+  constexpr std::array<double, 11> kUsual{10, 12.5, 15, 20, 25, 30, 40, 50, 60, 75, 80};
+  for (double decade = 1;; decade *= 10)
+    for (const double usual : kUsual)
+      if (usual * decade >= least) return usual * decade;
 }
 
 Box ground_in(const Box& frame, const Box& area, double scale) {

@@ -10,6 +10,8 @@
 namespace itin::profile {
 
 inline constexpr double kPointsPerMillimetre = 72 / 25.4;
+/// The resolution of sheets that are pictures: 200 dots per inch.
+inline constexpr double kPixelsPerPointOfSheets = 200 / 72.0;
 
 struct Paper {
   double width, height;
@@ -25,6 +27,10 @@ Paper paper_of(PaperSize size);
 Paper picture_of(const Box& area, int pixels, double pixels_per_point);
 /// Returns the picture with a panel of this height, if that is more than the frame's.
 Paper with_panel(Paper picture, double height);
+
+/// The scale at which a frame shows the sheet's area: that given, or the largest usual one. Throws InputError for a
+/// given scale at which the area does not fit.
+double scale_within(const Box& frame, const MapSheet& sheet);
 
 /// The ground, in metres, that a frame shows at 1 : scale, with the middle of `area` in its middle.
 Box ground_in(const Box& frame, const Box& area, double scale);

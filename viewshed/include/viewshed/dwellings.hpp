@@ -34,6 +34,7 @@
 #include <itin/progress.hpp>
 #include <itin/store.hpp>
 #include <itin/theme.hpp>
+#include <profile/sheet_choice.hpp>
 #include <viewshed/result.hpp>
 #include <viewshed/site_plan.hpp>
 #include <viewshed/zone_study.hpp>
@@ -79,6 +80,7 @@ struct DwellingsRequest {
   Earth earth = {};
   ThemeChoice themes = ThemeChoice::all();  ///< what stands on the ground
   NoData nodata = NoData::kUnknown;         ///< what ground without data does to sights of turbines
+  std::optional<ZoneFoliage> foliage = {};  ///< with it, what is seen through woods is told as well
   /// Changes the speed, never the result. Of the ground at most this much is in memory at once, or 64 MB.
   std::uint64_t memory_bytes = std::uint64_t{1} << 30;
 };
@@ -106,6 +108,9 @@ struct DwellingFacade {
   /// What is seen of each turbine, over the bare ground, and over the surface with the themes: empty where none of them
   /// stands on the ground. A turbine behind the facade is Verdict::kOutside.
   std::vector<TurbineSight> bare = {}, screened = {};
+  /// What is seen over the surface through its woods, in leaf and in winter; empty without foliage in the request, or
+  /// where `screened` is.
+  std::vector<TurbineSight> summer = {}, winter = {};
 };
 
 struct Dwelling {
@@ -148,7 +153,8 @@ FlickerSum flicker_sum(const DwellingsSurvey& survey, const Dwelling& dwelling,
 /// Merges the runs of a dwelling's facades, of all turbines or of one. Days end runs.
 std::vector<FlickerRun> flicker_runs(const Dwelling& dwelling, const std::optional<std::size_t>& turbine = {});
 
-enum class SightSurface : std::uint8_t { kBare, kScreened };
+/// The bare ground, what stands on it, and the same with woods that are seen through, in leaf and in winter.
+enum class SightSurface : std::uint8_t { kBare, kScreened, kSummer, kWinter };
 
 /// Sums up what a facade sees of the turbines before it; nothing where none is, or nothing was looked at.
 std::optional<SightSummary> view_of(const DwellingsSurvey& survey, const DwellingFacade& facade, SightSurface surface);
@@ -167,11 +173,16 @@ struct DwellingsFileOptions {
   /// Returns the text of dwellings.json, given the other files; empty: what json_of() returns, and the files.
   std::function<std::string(const std::vector<PlanFile>& files)> manifest = {};
   bool overwrite = false;
+  /// A sheet for each dwelling, on these papers as PDF and PNG: a map, what its facades see, a calendar of its flicker.
+  profile::SheetChoice sheets = {};
+  /// Only for these dwellings, by their names, ids or rows in dwellings.csv; empty: for all.
+  std::vector<std::string> sheets_of = {};
 };
 
-/// Writes dwellings.csv, facades.csv, flicker.csv, calendar.csv, dwellings.gpkg and dwellings.png into a folder, which
-/// appears complete or not at all, and returns what is in it besides dwellings.json. Files of an earlier survey there
-/// are replaced if `overwrite`; foreign ones are kept. Throws FileError, Cancelled.
+/// Writes dwellings.csv, facades.csv, flicker.csv, calendar.csv, calendar.png, dwellings.gpkg, dwellings.png and the
+/// sheets into a folder, which appears complete or not at all, and returns what is in it besides dwellings.json. Files
+/// of an earlier survey there are replaced if `overwrite`; foreign ones are kept. Throws InputError where no dwelling
+/// has a name of `sheets_of`, and for a scale of sheets that is too large; FileError, Cancelled.
 std::vector<PlanFile> write_dwellings(const std::string& folder, const Store& store, const DwellingsSurvey& survey,
                                       const DwellingsFileOptions& options, Progress& progress);
 

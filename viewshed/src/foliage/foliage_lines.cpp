@@ -98,7 +98,23 @@ FoliageLines::FoliageLines(const Store& store, Surface surface, const profile::L
 
 std::vector<LightThrough> FoliageLines::between(const Tin& tin, const Point3& eye, std::span<const Point3> targets,
                                                 Progress& progress) const {
-  const Walk walk(*this, tin, eye);
+  return from(tin, eye).to(targets, progress);
+}
+
+FoliageLines::FromEye FoliageLines::from(const Tin& tin, const Point3& eye) const {
+  return {*this, tin, eye};
+}
+
+FoliageLines::FromEye::FromEye(const FoliageLines& lines, const Tin& tin, const Point3& eye)
+    : lines_(lines), eye_(eye), walk_(std::make_unique<const Walk>(lines, tin, eye)) {}
+FoliageLines::FromEye::~FromEye() = default;
+
+std::vector<LightThrough> FoliageLines::FromEye::to(std::span<const Point3> targets, Progress& progress) const {
+  return lines_.walked(*walk_, eye_, targets, progress);
+}
+
+std::vector<LightThrough> FoliageLines::walked(const Walk& walk, const Point3& eye, std::span<const Point3> targets,
+                                               Progress& progress) const {
   std::vector<LightThrough> light(targets.size());
   std::vector<Stretches> stretches(targets.size());
   std::vector<std::size_t> order(targets.size());

@@ -4,6 +4,7 @@
 //   const std::vector<LightThrough> light = lines.between(tin, eye, targets, progress);
 #pragma once
 
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -38,13 +39,35 @@ class FoliageLines {
   std::vector<LightThrough> between(const Tin& tin, const Point3& eye, std::span<const Point3> targets,
                                     Progress& progress) const;
 
+  /// Lines from one eye that are asked for one after the other.
+  class FromEye;
+  /// Prepares them. `tin` must outlive the result, as this object must.
+  FromEye from(const Tin& tin, const Point3& eye) const;
+
  private:
   class Walk;
+  std::vector<LightThrough> walked(const Walk& walk, const Point3& eye, std::span<const Point3> targets,
+                                   Progress& progress) const;
 
   Surface surface_;
   const profile::LeafAreas& leaves_;
   double least_;
   SectionSurface sections_;
+};
+
+class FoliageLines::FromEye {
+ public:
+  ~FromEye();
+  /// As between() has it.
+  std::vector<LightThrough> to(std::span<const Point3> targets, Progress& progress) const;
+
+ private:
+  friend class FoliageLines;
+  FromEye(const FoliageLines& lines, const Tin& tin, const Point3& eye);
+
+  const FoliageLines& lines_;
+  Point3 eye_;
+  std::unique_ptr<const Walk> walk_;
 };
 
 }  // namespace itin::viewshed

@@ -132,12 +132,13 @@ class AreaTable {
 
 std::string area_table(const Zone& zone) {
   AreaTable table(zone);
-  const auto add = [&](const char* surface, const Visibility& v) {
-    if (known_hubs(zone) > 0) table.add(surface, "hub", {zone, v, TurbinePart::kHub});
-    table.add(surface, "tip", {zone, v, TurbinePart::kTip});
+  const auto add = [&](const char* surface, const auto& seen) {
+    if (known_hubs(zone) > 0) table.add(surface, "hub", {zone, seen, TurbinePart::kHub});
+    table.add(surface, "tip", {zone, seen, TurbinePart::kTip});
   };
   add("bare", zone.bare);
   if (zone.screened) add("screened", *zone.screened);
+  if (zone.seasons) add("summer", zone.seasons->summer), add("winter", zone.seasons->winter);
   return std::move(table).text();
 }
 

@@ -35,6 +35,11 @@ CountClasses::CountClasses(const Zone& zone, const Visibility& visibility, Turbi
   classes_.push_back({kInfinity, kUndecidedSeen, kUndecidedGrey});
 }
 
+CountClasses::CountClasses(const Zone& zone, const SeasonCounts& season, TurbinePart part)
+    : counts_(part == TurbinePart::kHub ? season.hub_count : season.tip_count),
+      undecided_(counts_),
+      classes_(count_bands(zone, part)) {}
+
 std::optional<std::size_t> CountClasses::of(std::size_t cell) const {
   if (counts_[cell] == kCountOutside) return std::nullopt;
   const bool undecided = undecided_class_ && counts_[cell] == 0 && undecided_[cell] > 0;

@@ -23,6 +23,8 @@ class CountClasses {
  public:
   /// Takes the counts of hubs or of tips. Zone and visibility must outlive the classes.
   CountClasses(const Zone& zone, const Visibility& visibility, TurbinePart part);
+  /// Does so for what is seen through woods, of which nothing is undecided.
+  CountClasses(const Zone& zone, const SeasonCounts& season, TurbinePart part);
 
   /// Returns the classes: none seen; the bands of counts; and last, where the zone leaves_open(), the cells from which
   /// it is undecided whether any turbine is seen.

@@ -1,6 +1,8 @@
 #include <functional>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include <itin/parallel.hpp>
 #include <itin/raster_regions.hpp>
 #include <viewshed/zone_files.hpp>
@@ -77,12 +79,31 @@ void add_files(const Zone& zone, const Visibility& seen, const std::string& suff
        [&](const std::string& path) { write_farm_polygons(path, zone, farm_combinations(zone, seen), options); }});
 }
 
+/// Adds the files of what is seen through woods in a season. Both the zone and the options must outlive them.
+void add_season_files(const Zone& zone, const SeasonCounts& counts, const std::string& season,
+                      const ZoneFileOptions& options, std::vector<PolygonFile>& files) {
+  const auto add = [&](const std::string& part, TurbinePart which, const std::string& of) {
+    files.push_back(
+        {{fmt::format("{}-count-{}.gpkg", part, season),
+          fmt::format("where a band of turbines has its {} seen through woods in {}: polygons, m²", of, season)},
+         [&, part, which](const std::string& path) {
+           write_bands(path, part + "-count", zone, {zone, counts, which}, options);
+         }});
+  };
+  add("tip", TurbinePart::kTip, "tips");
+  if (known_hubs(zone) > 0) add("hub", TurbinePart::kHub, "hubs" + of_known_hubs(zone));
+}
+
 }  // namespace
 
 std::vector<ZoneFile> write_zone_polygons(const std::string& folder, const Zone& zone, const ZoneFileOptions& options) {
   std::vector<PolygonFile> files;
   add_files(zone, zone.bare, "", options, files);
   if (zone.screened) add_files(zone, *zone.screened, "-screened", options, files);
+  if (zone.seasons) {
+    add_season_files(zone, zone.seasons->summer, "summer", options, files);
+    add_season_files(zone, zone.seasons->winter, "winter", options, files);
+  }
   parallel_for(files.size(), [&](std::size_t i) { files[i].write(folder + "/" + files[i].file.name); });
   std::vector<ZoneFile> written;
   for (PolygonFile& f : files) written.push_back(std::move(f.file));

@@ -1,6 +1,5 @@
 #include "turbines/zone_seasons.hpp"
 
-#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -10,6 +9,7 @@
 #include <profile/leaf_areas.hpp>
 
 #include "foliage/foliage_lines.hpp"
+#include "foliage/season_light.hpp"
 #include "line/cell_tiles.hpp"
 #include "turbines/zone_parts.hpp"
 #include "turbines/zone_request.hpp"
@@ -121,6 +121,7 @@ class SeasonSurvey {
     if (cells.empty()) return;
     const Tin surface = triangulate(store_, part.window, zone_.request.detail, call.step(0.4), themes_);
     const std::vector<Point3> eyes = eyes_at(cells, call);
+    const ZoneFoliage& foliage = *zone_.request.foliage;
     for (std::size_t k = 0; k < turbines.size(); ++k) {
       std::vector<std::size_t> to;
       std::vector<Point3> targets;
@@ -130,15 +131,10 @@ class SeasonSurvey {
       const auto light = lines_.between(surface, top_of(turbines[k]), targets,
                                         call.step(1.0 / static_cast<double>(turbines.size() - k)));
       for (std::size_t i = 0; i < to.size(); ++i) {
-        if (comes_through(light[i].length_m, profile::kLeavesOn)) ++summer[to[i]];
-        if (comes_through(light[i].length_m, profile::kLeavesOff)) ++winter[to[i]];
+        if (comes_through(foliage, profile::kLeavesOn, light[i].length_m)) ++summer[to[i]];
+        if (comes_through(foliage, profile::kLeavesOff, light[i].length_m)) ++winter[to[i]];
       }
     }
-  }
-
-  bool comes_through(double length_m, double leaf_area) const {
-    const ZoneFoliage& foliage = *zone_.request.foliage;
-    return std::exp(-foliage.extinction * leaf_area * length_m) >= foliage.least_transmittance;
   }
 
   std::vector<std::size_t> cells_between(const ZonePart& part, const std::vector<Turbine>& turbines,

@@ -207,6 +207,7 @@ class Profile(Task):
             advanced=True,
             filter="GeoPackages (*.gpkg);;GeoJSON (*.geojson);;Mesh layers (*.2dm)",
         ),
+        *shared.ON_PATHS,
         shared.RINGS,
         *_MEMORY,
     )

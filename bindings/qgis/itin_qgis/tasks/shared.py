@@ -52,11 +52,12 @@ _TRANSMITTANCE = Number(
     minimum=0,
     advanced=True,
 )
-FOLIAGE: tuple[Parameter, ...] = (
+ON_PATHS: tuple[Parameter, ...] = (
     _SEEN_THROUGH,
     Text("LEAF_AREA", "Leaf area of woods: on, off (winter), or a field", "--leaf-area", advanced=True),
-    _TRANSMITTANCE,
 )
+"""How much foliage is on a path."""
+FOLIAGE: tuple[Parameter, ...] = (*ON_PATHS, _TRANSMITTANCE)
 """How woods are seen through, in one season."""
 SEASONS: tuple[Parameter, ...] = (_SEEN_THROUGH, _TRANSMITTANCE)
 """How woods are seen through, in leaf and in winter alike."""

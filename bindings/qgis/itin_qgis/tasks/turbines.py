@@ -199,8 +199,11 @@ class Dwellings(Task):
         Number("BLADE_WIDTH", "Mean width of a blade, for the reach instead", "--blade-width", unit="m", advanced=True),
         *TURBINE_FIELDS,
         Text("FARM", "Farm of those that give none", "--farm", advanced=True),
+        Text("SHEETS_OF", "Sheets of these dwellings only: names or ids", "--sheets-of", advanced=True),
+        *shared.SEASONS,
         shared.NODATA,
         *shared.EARTH,
+        *shared.PAPER_MAPS,
         *shared.running("1G"),
     )
 

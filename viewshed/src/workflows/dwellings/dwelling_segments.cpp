@@ -22,8 +22,15 @@ namespace {
 /// The surface with its triangles, its scene and its pyramid of heights, and the bare one, for each point of that.
 constexpr std::uint64_t kBytesOfSunlitPoint = kPointsWithFeatures * (kBytesPerSurfacePoint + 300) + 60;
 
+/// The surface without woods, which waits while another is judged, and the foliage about an eye on each thread.
+constexpr std::uint64_t kBytesOfSeasons = kPointsWithFeatures * 160;
+
+std::uint64_t bytes_of(const DwellingsRequest& request, std::uint64_t points) {
+  return points * (kBytesOfSunlitPoint + (request.foliage ? kBytesOfSeasons : 0));
+}
+
 bool holds_pairs(const DwellingsRequest& request, std::uint64_t points) {
-  return holds_ground(request.memory_bytes, points * kBytesOfSunlitPoint);
+  return holds_ground(request.memory_bytes, bytes_of(request, points));
 }
 
 /// Adds the tiles of all lines from one box to another: those to the first from each corner of the second, and those
@@ -52,7 +59,7 @@ void sort_by_azimuth(std::vector<DwellingPair>& pairs) {
   throw InputError(
       fmt::format("the ground between turbine {} and the dwelling at {:.10g},{:.10g} takes about {} MB, more than the "
                   "{} MB of memory: give more `memory_bytes`",
-                  request.turbines.turbines[pair.turbine].number, at.x, at.y, points * kBytesOfSunlitPoint / kMega,
+                  request.turbines.turbines[pair.turbine].number, at.x, at.y, bytes_of(request, points) / kMega,
                   request.memory_bytes / kMega),
       "memory_bytes");
 }

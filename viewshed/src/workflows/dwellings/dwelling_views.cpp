@@ -9,7 +9,17 @@ namespace itin::viewshed {
 namespace {
 
 const std::vector<TurbineSight>& sights_over(const DwellingFacade& facade, SightSurface surface) {
-  return surface == SightSurface::kBare ? facade.bare : facade.screened;
+  switch (surface) {
+    case SightSurface::kBare:
+      return facade.bare;
+    case SightSurface::kScreened:
+      return facade.screened;
+    case SightSurface::kSummer:
+      return facade.summer;
+    case SightSurface::kWinter:
+      break;
+  }
+  return facade.winter;
 }
 
 /// Visible before undecided, before hidden, before not looked at.

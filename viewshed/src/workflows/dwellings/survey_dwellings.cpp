@@ -31,6 +31,7 @@
 #include "workflows/dwellings/dwelling_segments.hpp"
 #include "workflows/dwellings/dwelling_sights.hpp"
 #include "workflows/dwellings/flicker_runs.hpp"
+#include "workflows/dwellings/sights_in_season.hpp"
 #include "workflows/dwellings/sun_reach.hpp"
 #include "workflows/premises/each_building.hpp"
 #include "workflows/zone/study_document.hpp"
@@ -85,6 +86,8 @@ class DwellingsSurveyor {
     const auto& more = survey_.request.dwellings.warnings;
     survey_.warnings.insert(survey_.warnings.end(), more.begin(), more.end());
     premises_.themes = survey_.request.themes, premises_.memory_bytes = survey_.request.memory_bytes;
+    if (survey_.request.foliage) seasons_.emplace(store, survey_);
+    if (!has_screens()) seasons_.reset();
   }
 
   DwellingsSurvey survey() && {
@@ -235,6 +238,7 @@ class DwellingsSurveyor {
         eyes.lowest_m = std::min(eyes.lowest_m, facade.ground_m + survey_.request.eye_height);
         facade.bare.resize(turbines().size());
         if (has_screens()) facade.screened.resize(turbines().size());
+        if (seasons_) facade.summer.resize(turbines().size()), facade.winter.resize(turbines().size());
       }
       for (std::size_t t = 0; t < turbines().size(); ++t) {
         const bool in_shadow = may_shade(survey_.request.flicker, turbines()[t], survey_.dwellings[d].position);
@@ -273,13 +277,21 @@ class DwellingsSurveyor {
     SurfaceReader reader(store_, Detail::tolerance(0), survey_.statistics);
     const LinkJudgement rules{survey_.request.earth, survey_.request.nodata, {}};
     Tin surface = reader.triangles(segment.surface, survey_.request.themes, progress.reading(has_screens() ? 0.6 : 1));
-    Tin ground;
+    Tin ground, without_woods;
+    if (seasons_)
+      without_woods =
+          reader.triangles(segment.surface, survey_.request.themes.without_vegetation(), progress.reading(0.5));
     if (has_screens()) ground = reader.triangles(segment.surface, ThemeChoice::none(), progress.reading());
     CallProgress judging(progress.judging());
+    if (seasons_) {
+      const PlaceScene scene(std::move(without_woods), rules, progress_);
+      find_sights(segment, scene, &DwellingFacade::winter, judging.step(0.2));
+    }
     {
       const PlaceScene scene(std::move(surface), rules, progress_);
       find_flicker(segment, scene, judging.step(0.6));
       find_sights(segment, scene, has_screens() ? &DwellingFacade::screened : &DwellingFacade::bare, judging.step(0.5));
+      if (seasons_) find_seasons(segment, scene.surface().tin, judging.step(0.5));
     }
     if (!has_screens()) return;
     const PlaceScene scene(std::move(ground), rules, progress_);
@@ -300,6 +312,19 @@ class DwellingsSurveyor {
       auto& facades = survey_.dwellings[pair.dwelling].facades;
       const auto seen = look_at_turbine(scene, survey_, ends.at(pair.turbine), facades, progress_);
       for (std::size_t f = 0; f < facades.size(); ++f) (facades[f].*sights)[pair.turbine] = seen[f];
+    });
+    survey_.statistics.lines_seconds += watch.lap();
+  }
+
+  void find_seasons(const DwellingSegment& segment, const Tin& surface, Progress& progress) {
+    Stopwatch watch;
+    std::map<std::size_t, std::vector<std::size_t>> turbines_of;
+    for (const DwellingPair& pair : segment.pairs) turbines_of[pair.dwelling].push_back(pair.turbine);
+    std::vector<std::size_t> seen_from;
+    for (const auto& [dwelling, turbines] : turbines_of) seen_from.push_back(dwelling);
+    for_each_step(seen_from.size(), "looking through foliage", progress, [&](std::size_t i) {
+      for (DwellingFacade& facade : survey_.dwellings[seen_from[i]].facades)
+        seasons_->look(surface, turbines_of.at(seen_from[i]), facade, progress_);
     });
     survey_.statistics.lines_seconds += watch.lap();
   }
@@ -371,6 +396,7 @@ class DwellingsSurveyor {
   PremisesRequest premises_;   ///< how walls are found
   std::vector<SunEye> skies_;  ///< one for each dwelling
   std::optional<SunYear> year_;
+  std::optional<SightsInSeason> seasons_;  ///< where woods are seen through
   SunReach reach_;
 };
 

@@ -1,7 +1,6 @@
 #include "workflows/dwellings/output/dwelling_tables.hpp"
 
 #include <cmath>
-#include <set>
 
 #include <itin/calendar_day.hpp>
 #include <itin/table_columns.hpp>
@@ -10,19 +9,22 @@
 #include "turbines/sun_behind_rotor.hpp"
 #include "workflows/dwellings/flicker_clock.hpp"
 #include "workflows/dwellings/output/dwelling_classes.hpp"
+#include "workflows/dwellings/output/dwelling_names.hpp"
 
 namespace itin::viewshed {
 
 namespace {
 
-/// What is seen from a place over the bare ground, and over the surface with the themes; nothing where nothing was
-/// looked at.
+/// What is seen from a place over the bare ground, over the surface with the themes, and over that with woods that are
+/// seen through; nothing where nothing was looked at.
 struct Views {
   template <class Looker>
   Views(const DwellingsSurvey& survey, const Looker& looker)
       : bare(view_of(survey, looker, SightSurface::kBare)),
-        screened(view_of(survey, looker, SightSurface::kScreened)) {}
-  std::optional<SightSummary> bare, screened;
+        screened(view_of(survey, looker, SightSurface::kScreened)),
+        summer(view_of(survey, looker, SightSurface::kSummer)),
+        winter(view_of(survey, looker, SightSurface::kWinter)) {}
+  std::optional<SightSummary> bare, screened, summer, winter;
 };
 
 struct DwellingRow {
@@ -145,12 +147,15 @@ void add_view(std::vector<TableColumn<Row>>& columns, const std::string& ending,
 }
 
 template <class Row>
-void add_views(std::vector<TableColumn<Row>>& columns) {
+void add_views(const DwellingsSurvey& survey, std::vector<TableColumn<Row>>& columns) {
   add_view(columns, "", &Views::bare);
   add_view(columns, "_screened", &Views::screened);
+  if (!survey.request.foliage) return;
+  add_view(columns, "_summer", &Views::summer);
+  add_view(columns, "_winter", &Views::winter);
 }
 
-std::vector<TableColumn<DwellingRow>> dwelling_columns() {
+std::vector<TableColumn<DwellingRow>> dwelling_columns(const DwellingsSurvey& survey) {
   auto columns = columns_of_dwelling<DwellingRow>();
   const auto add = [&](const char* name, auto of, int formats = kInAllFormats, const char* number = "{}") {
     columns.emplace_back(name, of, formats, number);
@@ -175,11 +180,11 @@ std::vector<TableColumn<DwellingRow>> dwelling_columns() {
   add(
       "flicker", [](const DwellingRow& row) { return std::string(class_of(class_of(row.sum)).name); }, kInLayer);
   add_flicker(columns);
-  add_views(columns);
+  add_views(survey, columns);
   return columns;
 }
 
-std::vector<TableColumn<FacadeRow>> facade_columns() {
+std::vector<TableColumn<FacadeRow>> facade_columns(const DwellingsSurvey& survey) {
   auto columns = columns_of_dwelling<FacadeRow>();
   const auto add = [&](const char* name, auto of, int formats = kInAllFormats, const char* number = "{}") {
     columns.emplace_back(name, of, formats, number);
@@ -196,7 +201,7 @@ std::vector<TableColumn<FacadeRow>> facade_columns() {
   add(
       "length_m", [](const FacadeRow& row) { return row.facade.length_m; }, kInAllFormats, "{:.1f}");
   add("turbines_before", [](const FacadeRow& row) { return row.views.bare ? row.views.bare->turbines : 0; });
-  add_views(columns);
+  add_views(survey, columns);
   return columns;
 }
 
@@ -230,14 +235,6 @@ std::vector<FacadeRow> facade_rows(const DwellingsSurvey& survey) {
   return rows;
 }
 
-/// The turbines with flicker at a dwelling, ascending.
-std::set<std::size_t> flickering(const Dwelling& dwelling) {
-  std::set<std::size_t> turbines;
-  for (const DwellingFacade& facade : dwelling.facades)
-    for (const TurbineFlicker& flicker : facade.flicker) turbines.insert(flicker.turbine);
-  return turbines;
-}
-
 }  // namespace
 
 DwellingCounts counts_of(const DwellingsSurvey& survey) {
@@ -252,29 +249,31 @@ DwellingCounts counts_of(const DwellingsSurvey& survey) {
     };
     counts.see_a_tip += sees_a_tip(SightSurface::kBare),
         counts.see_a_tip_screened += sees_a_tip(SightSurface::kScreened);
+    counts.see_a_tip_summer += sees_a_tip(SightSurface::kSummer),
+        counts.see_a_tip_winter += sees_a_tip(SightSurface::kWinter);
   }
   return counts;
 }
 
 std::string dwellings_csv(const DwellingsSurvey& survey) {
-  return csv_of(dwelling_columns(), dwelling_rows(survey));
+  return csv_of(dwelling_columns(survey), dwelling_rows(survey));
 }
 
 std::string facades_csv(const DwellingsSurvey& survey) {
-  return csv_of(facade_columns(), facade_rows(survey));
+  return csv_of(facade_columns(survey), facade_rows(survey));
 }
 
 std::string flicker_csv(const DwellingsSurvey& survey) {
   std::vector<FlickerRow> rows;
   for (const Dwelling& dwelling : survey.dwellings)
-    for (const std::size_t turbine : flickering(dwelling)) rows.emplace_back(survey, dwelling, turbine);
+    for (const std::size_t turbine : flickering_turbines(dwelling)) rows.emplace_back(survey, dwelling, turbine);
   return csv_of(flicker_columns(), rows);
 }
 
 std::string calendar_csv(const DwellingsSurvey& survey) {
   std::vector<RunRow> rows;
   for (const Dwelling& dwelling : survey.dwellings)
-    for (const std::size_t turbine : flickering(dwelling))
+    for (const std::size_t turbine : flickering_turbines(dwelling))
       for (const FlickerRun& run : flicker_runs(dwelling, turbine))
         rows.push_back({survey, dwelling, survey.request.turbines.turbines[turbine], run});
   return csv_of(calendar_columns(), rows);
@@ -285,12 +284,12 @@ VectorLayer layer_of_dwellings(const DwellingsSurvey& survey) {
     const Point2 at = row.position();
     return std::vector<Point3>{{at.x, at.y, row.dwelling.facades.front().ground_m}};
   };
-  return layer_of("dwellings", VectorLayer::Shape::kPoints, dwelling_columns(), dwelling_rows(survey), place,
+  return layer_of("dwellings", VectorLayer::Shape::kPoints, dwelling_columns(survey), dwelling_rows(survey), place,
                   point_style("flicker", kFlickerClasses));
 }
 
 VectorLayer layer_of_facades(const DwellingsSurvey& survey) {
-  return layer_of("facades", VectorLayer::Shape::kPoints, facade_columns(), facade_rows(survey),
+  return layer_of("facades", VectorLayer::Shape::kPoints, facade_columns(survey), facade_rows(survey),
                   [](const FacadeRow& row) {
                     const Point2 at = row.position();
                     return std::vector<Point3>{{at.x, at.y, row.facade.ground_m}};

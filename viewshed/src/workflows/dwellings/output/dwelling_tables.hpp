@@ -12,7 +12,7 @@ namespace itin::viewshed {
 /// How many dwellings there are, with flicker, beyond the limits, and with a blade tip in sight.
 struct DwellingCounts {
   std::size_t all = 0, with_flicker = 0, over_year = 0, over_day = 0;
-  std::size_t see_a_tip = 0, see_a_tip_screened = 0;
+  std::size_t see_a_tip = 0, see_a_tip_screened = 0, see_a_tip_summer = 0, see_a_tip_winter = 0;
 };
 DwellingCounts counts_of(const DwellingsSurvey& survey);
 

@@ -1,4 +1,5 @@
 #include <itin/coordinates.hpp>
+#include <profile/foliage.hpp>
 #include <viewshed/documents.hpp>
 #include <viewshed/dwellings_document.hpp>
 
@@ -25,24 +26,36 @@ Document flicker_document(const FlickerRules& rules) {
   return document;
 }
 
+/// How woods are seen through, and from how many of the dwellings a tip is seen so.
+Document seasons_document(const ZoneFoliage& foliage, const DwellingCounts& counts) {
+  return {{"extinction", foliage.extinction},
+          {"least_transmittance", foliage.least_transmittance},
+          {"leaf_area_summer_m2_per_m3", profile::kLeavesOn},
+          {"leaf_area_winter_m2_per_m3", profile::kLeavesOff},
+          {"see_a_tip_summer", counts.see_a_tip_summer},
+          {"see_a_tip_winter", counts.see_a_tip_winter}};
+}
+
 }  // namespace
 
 Document dwellings_document(const DwellingsSurvey& survey) {
   const DwellingCounts counts = counts_of(survey);
   const bool screened = survey.request.themes.includes_raised(survey.metadata.themes);
-  return {{"crs", crs_identifier(survey.metadata.crs_wkt)},
-          {"surface", surface_document(survey.metadata, Detail::tolerance(0), survey.request.themes)},
-          {"refraction", earth_document(survey.request.earth)},
-          {"turbines", survey.request.turbines.turbines.size()},
-          {"flicker", flicker_document(survey.request.flicker)},
-          {"dwellings",
-           {{"all", counts.all},
-            {"with_flicker", counts.with_flicker},
-            {"over_year", counts.over_year},
-            {"over_day", counts.over_day},
-            {"see_a_tip", counts.see_a_tip},
-            {"see_a_tip_screened", screened ? Document(counts.see_a_tip_screened) : Document()}}},
-          {"statistics", statistics_document(survey.statistics)}};
+  Document document{{"crs", crs_identifier(survey.metadata.crs_wkt)},
+                    {"surface", surface_document(survey.metadata, Detail::tolerance(0), survey.request.themes)},
+                    {"refraction", earth_document(survey.request.earth)},
+                    {"turbines", survey.request.turbines.turbines.size()},
+                    {"flicker", flicker_document(survey.request.flicker)},
+                    {"dwellings",
+                     {{"all", counts.all},
+                      {"with_flicker", counts.with_flicker},
+                      {"over_year", counts.over_year},
+                      {"over_day", counts.over_day},
+                      {"see_a_tip", counts.see_a_tip},
+                      {"see_a_tip_screened", screened ? Document(counts.see_a_tip_screened) : Document()}}},
+                    {"statistics", statistics_document(survey.statistics)}};
+  if (survey.request.foliage && screened) document["foliage"] = seasons_document(*survey.request.foliage, counts);
+  return document;
 }
 
 std::string json_of(const DwellingsSurvey& survey) {
