@@ -166,7 +166,7 @@ PathLosses in_sight(double free_space_db, double diffraction_db = 0) {
 }
 
 constexpr RadioPath k18{.frequency_ghz = 18, .polarisation = Polarisation::kVertical};
-constexpr BudgetCourse kNineKm{9000, {320, 290}, 51.5};
+constexpr BudgetCourse kNineKm{9000, {320, 290}, 40.0, 51.5};
 /// 18 dBm, 38 dBi, 1 dB; 38 dBi, 1.5 dB; -72 dBm.
 BudgetQuery radios() {
   return {.power_dbm = 18,
@@ -220,7 +220,7 @@ TEST(LinkBudget, AddsTheOutagesOfRainAndMultipath) {
 TEST(LinkBudget, WithoutALatitudeTheYearIsAsBadAsTheWorstMonth) {
   BudgetQuery query = radios();
   query.geoclimatic_factor = 1e-4;
-  const LinkBudget budget = link_budget(in_sight(136.635), k18, {9000, {320, 290}, {}}, query);
+  const LinkBudget budget = link_budget(in_sight(136.635), k18, {9000, {320, 290}}, query);
   EXPECT_DOUBLE_EQ(budget.multipath_outage->percent, *budget.multipath->worst_month_percent);
   EXPECT_TRUE(budget.multipath_outage->at_most);
   EXPECT_TRUE(budget.availability->at_least);
@@ -229,7 +229,7 @@ TEST(LinkBudget, WithoutALatitudeTheYearIsAsBadAsTheWorstMonth) {
 TEST(LinkBudget, ShortPathsDoNotFade) {
   BudgetQuery query = radios();
   query.geoclimatic_factor = 1e-4;
-  const LinkBudget budget = link_budget(in_sight(130), k18, {5000, {320, 290}, {}}, query);
+  const LinkBudget budget = link_budget(in_sight(130), k18, {5000, {320, 290}}, query);
   EXPECT_EQ(budget.multipath->occurrence_percent, 0);
   EXPECT_EQ(budget.multipath_outage->percent, 0);
   EXPECT_EQ(budget.availability->percent, 100);
@@ -247,7 +247,7 @@ std::string left_out_of(const PathLosses& losses, double ghz, const BudgetCourse
 TEST(LinkBudget, NamesTheRangesThatItIsOutside) {
   BudgetQuery query = radios();
   query.rain_rate_mm_h = 28, query.geoclimatic_factor = 1e-4;
-  const BudgetCourse seventy{70000, {900, 800}, 51.5};
+  const BudgetCourse seventy{70000, {900, 800}, 40.0, 51.5};
   EXPECT_EQ(left_out_of(in_sight(120), 0.45, kNineKm, query),
             "gases (0.45 GHz is outside of 1 to 1000 GHz, the range of P.676); "
             "rain (0.45 GHz is outside of 1 to 100 GHz, the range of P.530); "

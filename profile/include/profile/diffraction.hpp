@@ -22,8 +22,10 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <itin/earth.hpp>
@@ -126,18 +128,38 @@ struct Reflection {
 std::optional<Reflection> reflection(const Profile& profile, const Antennas& antennas, const RadioPath& path,
                                      const Profile* bare = nullptr);
 
+/// How much less an antenna has away from its axis than the gain there, in decibels by degrees of [0, 360).
+struct AntennaPattern {
+  using Cut = std::vector<std::pair<double, double>>;  ///< ascending in degrees, at least one
+  Cut horizontal;                                      ///< clockwise from the axis
+  Cut vertical;                                        ///< downwards from the axis
+  std::optional<double> gain_dbi = {};                 ///< the one that the file states
+};
+/// Reads a pattern: MSI (Planet; .msi, .pln), or that of Radio Mobile (.ant; 360, 541 or 720 numbers). Gains without a
+/// unit are dBd, as MSI has it. Throws FileError, and InputError with the line for what is neither.
+AntennaPattern read_antenna_pattern(const std::string& path);
+
+/// An antenna with a pattern, and where its axis points.
+struct AimedAntenna {
+  std::shared_ptr<const AntennaPattern> pattern = {};  ///< null: the gain towards the other end, wherever it is
+  std::optional<double> azimuth_deg = {};              ///< from grid north; nothing: towards the other end
+  std::optional<double> tilt_deg = {};                 ///< below the horizontal; nothing: towards the other end
+};
+
 /// What the budget of a link needs besides its path. What is nothing is left out, and the budget says so.
 struct BudgetQuery {
   // The first end sends. One of the two asks for a budget:
   std::optional<double> power_dbm = {};  ///< what the transmitter gives to the feeder
   std::optional<double> eirp_dbm = {};   ///< what the antenna radiates; the first end's gain and feeder are in it
 
-  std::optional<double> from_gain_dbi = {}, to_gain_dbi = {};    ///< nothing: 0
+  std::optional<double> from_gain_dbi = {}, to_gain_dbi = {};    ///< nothing: that of the pattern's file, or 0
   std::optional<double> from_feeder_db = {}, to_feeder_db = {};  ///< losses; nothing: 0
   std::optional<double> sensitivity_dbm = {};                    ///< the least level that the receiver works with
   std::optional<double> rain_rate_mm_h = {};         ///< exceeded for 0.01 % of an average year; nothing: no rain
   std::optional<double> geoclimatic_factor = {};     ///< K of P.530-17; nothing: by the gradient
   std::optional<double> refractivity_gradient = {};  ///< dN1 of P.453, N-units per km, negative; nothing: no multipath
+
+  AimedAntenna from_antenna = {}, to_antenna = {};
 
   bool asks() const { return power_dbm || eirp_dbm; }
   /// Returns the query with what `own` has in place of what this one has. A power takes the place of an EIRP, and an
@@ -152,6 +174,7 @@ struct BudgetQuery {
 struct BudgetCourse {
   double length_m = 0;
   Antennas antennas = {};                   ///< elevations
+  std::optional<double> azimuth_deg = {};   ///< from the first end to the second, from grid north
   std::optional<double> latitude_deg = {};  ///< the middle's; nothing: the year fades as the worst month does
 };
 
@@ -179,7 +202,9 @@ struct Availability {
 };
 
 struct LinkBudget {
-  double eirp_dbm = 0;
+  double eirp_dbm = 0;                              ///< on the axis of the antenna
+  double from_gain_dbi = 0, to_gain_dbi = 0;        ///< on the axes; the first is 0 where it is in the EIRP
+  double from_off_axis_db = 0, to_off_axis_db = 0;  ///< what is lost because the other end is not on the axis
   double free_space_db = 0, diffraction_db = 0;
   std::optional<double> gases_db;   ///< P.676-13, air of 1013.25 hPa, 15 degrees Celsius, 7.5 g of vapour per m3
   double level_dbm = 0;             ///< at the receiver, in clear air
@@ -193,7 +218,7 @@ struct LinkBudget {
 };
 /// What no budget counts, in words.
 inline constexpr const char* kNeverInBudgets =
-    "interference, selective fading, cross-polarisation, diversity, wet antennas, how antennas are aligned";
+    "interference, selective fading, cross-polarisation, diversity, wet antennas, misaligned antennas";
 
 /// Adds up a link. Outside of the ranges of their recommendations, gases, rain and multipath are left out. Throws what
 /// validate() throws. Precondition: the query asks for a budget.

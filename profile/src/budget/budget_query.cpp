@@ -40,12 +40,31 @@ void require_power(const BudgetQuery& query) {
   if (query.asks()) return;
   for (const auto& [name, member] : kWithPower)
     if (query.*member) refuse(name, " works only with `power_dbm` or `eirp_dbm`");
+  for (const auto& [name, antenna] :
+       {std::pair("from_antenna", &query.from_antenna), {"to_antenna", &query.to_antenna}})
+    if (antenna->pattern) refuse(name, " works only with `power_dbm` or `eirp_dbm`");
 }
 
 void require_one_first_end(const BudgetQuery& query) {
   if (!query.eirp_dbm) return;
-  if (query.from_gain_dbi) refuse("gain_dbi", ": the first end's gain is in `eirp_dbm` already; give the second end's alone");
-  if (query.from_feeder_db) refuse("feeder_loss_db", ": the first end's loss is in `eirp_dbm` already; give the second end's alone");
+  if (query.from_gain_dbi)
+    refuse("gain_dbi", ": the first end's gain is in `eirp_dbm` already; give the second end's alone");
+  if (query.from_feeder_db)
+    refuse("feeder_loss_db", ": the first end's loss is in `eirp_dbm` already; give the second end's alone");
+}
+
+void require_patterns(const BudgetQuery& query) {
+  for (const auto& [name, antenna] :
+       {std::pair("from_antenna", &query.from_antenna), {"to_antenna", &query.to_antenna}}) {
+    for (const auto& [aim, value] :
+         {std::pair("antenna_azimuth", antenna->azimuth_deg), {"antenna_tilt", antenna->tilt_deg}}) {
+      if (!value) continue;
+      if (!antenna->pattern) refuse(aim, fmt::format(" of that end needs `{}`, its pattern", name));
+      if (!std::isfinite(*value)) refuse(aim, ": give a finite number");
+    }
+    if (const auto tilt = antenna->tilt_deg; tilt && std::abs(*tilt) > 90)
+      refuse("antenna_tilt", fmt::format(" {:g}: give -90 to 90 degrees", *tilt));
+  }
 }
 
 void require_likely(const BudgetQuery& query) {
@@ -76,6 +95,8 @@ BudgetQuery BudgetQuery::with(const BudgetQuery& own) const {
       if (own.*member) query.*member = own.*member;
   };
   take(kPowers), take(kWithPower);
+  if (own.from_antenna.pattern) query.from_antenna = own.from_antenna;
+  if (own.to_antenna.pattern) query.to_antenna = own.to_antenna;
   return query;
 }
 
@@ -86,6 +107,7 @@ void BudgetQuery::validate() const {
   require_one_first_end(*this);
   if (geoclimatic_factor && refractivity_gradient)
     refuse("refractivity_gradient", " and `geoclimatic_factor`: give one; the gradient serves to estimate the factor");
+  require_patterns(*this);
   require_likely(*this);
 }
 

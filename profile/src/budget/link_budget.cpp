@@ -3,8 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <itin/degrees.hpp>
 #include <itin/error.hpp>
 #include <itin/precondition.hpp>
+#include <profile/antenna_loss.hpp>
 #include <profile/diffraction.hpp>
 #include <profile/gas_loss.hpp>
 #include <profile/multipath_fading.hpp>
@@ -31,9 +33,35 @@ BudgetPath budget_path(const PathLosses& losses, const RadioPath& path, const Bu
           !losses.horizons.trans_horizon};
 }
 
-double radiated_dbm(const BudgetQuery& query) {
-  if (query.eirp_dbm) return *query.eirp_dbm;
-  return *query.power_dbm + query.from_gain_dbi.value_or(0) - query.from_feeder_db.value_or(0);
+double gain_of(const AimedAntenna& antenna, const std::optional<double>& given) {
+  if (given || !antenna.pattern) return given.value_or(0);
+  if (!antenna.pattern->gain_dbi)
+    throw InputError("`gain_dbi`: the file of the antenna's pattern has no gain; give it", "gain_dbi");
+  return *antenna.pattern->gain_dbi;
+}
+
+/// What an antenna loses towards the other end, which is at this azimuth and `rise_m` higher.
+double off_axis_of(const AimedAntenna& antenna, const std::optional<double>& azimuth_deg, double rise_m,
+                   const BudgetCourse& course, const RadioPath& path) {
+  if (!antenna.pattern) return 0;
+  if (antenna.azimuth_deg && !azimuth_deg)
+    throw InputError("`antenna_azimuth` needs a line whose ends have positions; a profile from a file has none",
+                     "antenna_azimuth");
+  const double drop = course.length_m / (2000 * path.effective_earth_km);
+  const double elevation = in_degrees(std::atan(rise_m / course.length_m - drop));
+  const double beside = antenna.azimuth_deg ? *azimuth_deg - *antenna.azimuth_deg : 0;
+  return off_axis_db(*antenna.pattern, {beside, elevation}, antenna.tilt_deg.value_or(-elevation));
+}
+
+void add_antennas(const BudgetQuery& query, const BudgetCourse& course, const RadioPath& path, LinkBudget& budget) {
+  const double rise = course.antennas.to_m - course.antennas.from_m;
+  const auto back = course.azimuth_deg ? std::optional(*course.azimuth_deg + 180) : std::nullopt;
+  if (query.power_dbm) budget.from_gain_dbi = gain_of(query.from_antenna, query.from_gain_dbi);
+  budget.to_gain_dbi = gain_of(query.to_antenna, query.to_gain_dbi);
+  budget.eirp_dbm =
+      query.eirp_dbm ? *query.eirp_dbm : *query.power_dbm + budget.from_gain_dbi - query.from_feeder_db.value_or(0);
+  budget.from_off_axis_db = off_axis_of(query.from_antenna, course.azimuth_deg, rise, course, path);
+  budget.to_off_axis_db = off_axis_of(query.to_antenna, back, -rise, course, path);
 }
 
 void add_gases(const BudgetPath& path, LinkBudget& budget) {
@@ -133,11 +161,12 @@ LinkBudget link_budget(const PathLosses& losses, const RadioPath& path, const Bu
   query.validate();
   const BudgetPath of = budget_path(losses, path, course);
   LinkBudget budget;
-  budget.eirp_dbm = radiated_dbm(query);
+  add_antennas(query, course, path, budget);
   budget.free_space_db = losses.free_space_db, budget.diffraction_db = losses.ld_db;
   add_gases(of, budget);
-  budget.level_dbm = budget.eirp_dbm - budget.free_space_db - budget.diffraction_db - budget.gases_db.value_or(0) +
-                     query.to_gain_dbi.value_or(0) - query.to_feeder_db.value_or(0);
+  budget.level_dbm = budget.eirp_dbm - budget.from_off_axis_db - budget.free_space_db - budget.diffraction_db -
+                     budget.gases_db.value_or(0) + budget.to_gain_dbi - budget.to_off_axis_db -
+                     query.to_feeder_db.value_or(0);
   if (query.sensitivity_dbm) budget.margin_db = budget.level_dbm - *query.sensitivity_dbm;
   add_rain(of, query, budget);
   add_multipath(of, course, query, budget);
