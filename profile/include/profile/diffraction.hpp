@@ -221,7 +221,8 @@ inline constexpr const char* kNeverInBudgets =
     "interference, selective fading, cross-polarisation, diversity, wet antennas, misaligned antennas";
 
 /// Adds up a link. Outside of the ranges of their recommendations, gases, rain and multipath are left out. Throws what
-/// validate() throws. Precondition: the query asks for a budget.
+/// validate() throws, and InputError where neither the query nor the file of a pattern has the gain, and where an
+/// antenna has an azimuth but the course has none. Precondition: the query asks for a budget.
 LinkBudget link_budget(const PathLosses& losses, const RadioPath& path, const BudgetCourse& course,
                        const BudgetQuery& query);
 
