@@ -19,6 +19,7 @@
 #include "los/los_query.hpp"
 #include "los/los_reports.hpp"
 #include "los/los_store.hpp"
+#include "options/budget_options.hpp"
 #include "options/earth_options.hpp"
 #include "options/memory_option.hpp"
 #include "options/radio_options.hpp"
@@ -49,6 +50,7 @@ class LosVerb final : public Verb {
     earth_.declare(app);
     earth_.declare_radius(app);
     radio_.declare(app);
+    budget_.declare(app);
     reports_.declare(app);
     people_.declare(app);
     policy_.declare(app);
@@ -58,6 +60,7 @@ class LosVerb final : public Verb {
   void validate() override {
     earth_.validate();
     radio_.validate();
+    budget_.validate();
     people_.validate(links_.given());
     if (links_.given()) {
       if (store_.empty() || line_.given())
@@ -68,7 +71,12 @@ class LosVerb final : public Verb {
     } else {
       validate_line();
     }
-    query_ = query_of(earth_, radio_, people_);
+    query_ = query_of(earth_, radio_, budget_, people_);
+    if (links_.given()) {
+      budget_.require_for_links();
+    } else {
+      budget_.require_frequency(query_.radio ? std::optional(query_.radio->frequency_ghz) : std::nullopt);
+    }
   }
 
   Document parameters() const override {
@@ -82,6 +90,7 @@ class LosVerb final : public Verb {
       parameters.update(links_.given() ? line_.surface_parameters() : line_.parameters());
     }
     parameters.update(radio_.parameters());
+    parameters.update(budget_.parameters());
     parameters.update(people_.parameters());
     return parameters;
   }
@@ -153,7 +162,7 @@ class LosVerb final : public Verb {
     const Store store(store_, cache_within(line_.memory_bytes()));
     line_.complete(store, progress);
     earth_.take_body_of(store.metadata());
-    query_ = query_of(earth_, radio_, people_);
+    query_ = query_of(earth_, radio_, budget_, people_);
     LosCase one = los_case(store, line_.run(store, query_), header());
     warn_of_grid(store.metadata(), one.result.warnings);
     warn_of_date(one.result);
@@ -165,16 +174,17 @@ class LosVerb final : public Verb {
     const Store store(store_, cache_within(line_.memory_bytes()));
     line_.complete(store, progress);
     earth_.take_body_of(store.metadata());
-    query_ = query_of(earth_, radio_, people_);
+    query_ = query_of(earth_, radio_, budget_, people_);
     profile::LinkTable table = links_.table(store, line_);
+    const bool radio = query_.radio || std::any_of(table.links.begin(), table.links.end(),
+                                                   [](const profile::Link& l) { return l.frequency_ghz.has_value(); });
+    if (query_.budget.asks() && !radio) throw InputError("a link budget needs a --frequency, or a column frequency");
     std::vector<LosReports::Job> jobs = reports_.jobs(table.links, policy_);
     const profile::LinkSurvey survey =
         profile::survey_link_table(store, std::move(table), LosLinks::query(query_, line_), progress);
     profile::write_link_table(survey, links_.outputs(), {reports_.title(), people_.facts(), policy_.overwrite});
     Result result = links_.result_of(survey);
     const std::vector<profile::Link>& links = survey.table.links;
-    const bool radio = query_.radio || std::any_of(links.begin(), links.end(),
-                                                   [](const profile::Link& l) { return l.frequency_ghz.has_value(); });
     if (radio) warn_of_refraction(profile::effective_earth_km(query_.earth), result);
     warn_of_grid(store.metadata(), result.warnings);
     warn_of_date(result);
@@ -212,6 +222,7 @@ class LosVerb final : public Verb {
   LosPeople people_;
   EarthOptions earth_;
   RadioOptions radio_;
+  BudgetOptions budget_;
   OutputPolicy policy_;
   profile::LosQuery query_;
 };

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <itin/celestial_body.hpp>
+#include <profile/budget_text.hpp>
 #include <profile/documents.hpp>
 #include <profile/radio_text.hpp>
 #include <profile/report_text.hpp>
@@ -25,8 +26,10 @@ void add_facts(profile::LosReport& report) {
   report.facts.emplace_back("Refraction", report.query.earth.convention());
   if (report.query.radio) {
     add_radio_fact(report);
-    report.facts.emplace_back("Not considered",
-                              "antenna gains and feeder losses, absorption by gases, rain, multipath and availability");
+    report.facts.emplace_back(
+        "Not considered",
+        report.budget ? profile::not_counted_text(*report.budget)
+                      : "antenna gains and feeder losses, absorption by gases, rain, multipath and availability");
   }
   report.facts.emplace_back("Program", "itin " ITIN_VERSION);
 }
@@ -117,6 +120,8 @@ std::string text_of(const profile::LosReport& report) {
     text += fmt::format("free space {:.1f} dB, diffraction (delta-Bullington) {:.1f} dB; least clearance {:.2f} F1\n",
                         l.free_space_db, l.ld_db, report.fresnel ? report.fresnel->fraction : 0);
   }
+  if (report.budget)
+    for (const std::string& line : profile::budget_lines(*report.budget)) text += line + "\n";
   if (report.reflection)
     text += fmt::format("reflection point at {:.1f} m; reflected path {}\n", report.reflection->distance_m,
                         screen_text(report));

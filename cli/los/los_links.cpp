@@ -39,7 +39,9 @@ void LosLinks::declare(CLI::App& app) {
                "--links", path_,
                "Many links: a table id,x1,y1,h1,x2,y2,h2 (.csv; also lon1,lat1,lon2,lat2, or position1,position2 with "
                "grid references; without id, name or link: rows are numbered from 1; and "
-               "name1,name2,frequency,polarisation,criteria of each), or a file of lines")
+               "name1,name2,frequency,polarisation,criteria of each, and its link budget: power_dbm, gain1_dbi, "
+               "gain2_dbi, "
+               "...), or a file of lines")
             ->type_name("FILE"));
   app.add_option("--link-height", height_text_,
                  "Height of both ends of the lines of a file (default: 2, and at the second end the tip of "
@@ -89,6 +91,7 @@ profile::LinkQuery LosLinks::query(const profile::LosQuery& line, const LosStore
           .from_on_surface = surface.from_on_surface(),
           .to_on_surface = surface.to_on_surface(),
           .radio = line.radio,
+          .budget = line.budget,
           .criteria = line.criteria,
           .object = line.object,
           .nodata = surface.nodata(),

@@ -9,6 +9,7 @@
 #include "los/los_people.hpp"
 #include "los/los_query.hpp"
 #include "los/los_store.hpp"
+#include "options/budget_options.hpp"
 #include "options/earth_options.hpp"
 #include "options/radio_options.hpp"
 #include "program/verb.hpp"
@@ -28,11 +29,13 @@ class LineOptions {
     earth_.declare(app);
     earth_.declare_radius(app);
     radio_.declare(app);
+    budget_.declare(app);
     people_.declare(app);
     take_arguments(app, arguments);
     refuse_files(app);
     earth_.validate();
     radio_.validate();
+    budget_.validate();
     people_.validate(false);
     line_.validate(radio_.object() ? std::optional(radio_.object()->tip_m) : std::nullopt);
     radio_.require_frequency();
@@ -40,7 +43,8 @@ class LineOptions {
 
   LosCase over(const Store& store) {
     earth_.take_body_of(store.metadata());
-    const profile::LosQuery query = query_of(earth_, radio_, people_);
+    const profile::LosQuery query = query_of(earth_, radio_, budget_, people_);
+    budget_.require_frequency(query.radio ? std::optional(query.radio->frequency_ghz) : std::nullopt);
     LosCase one = los_case(store, line_.run(store, query), {"", people_.facts()});
     warn_of_grid(store.metadata(), one.result.warnings);
     if (query.radio) earth_.warn_of_light(one.result.warnings);
@@ -51,6 +55,7 @@ class LineOptions {
   LosStoreOptions line_;
   EarthOptions earth_;
   RadioOptions radio_;
+  BudgetOptions budget_;
   LosPeople people_;
 };
 

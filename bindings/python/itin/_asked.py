@@ -243,6 +243,8 @@ def _plain(value: Any) -> Any:
         return (value.curvature, value.refraction, value.radius, value.effective_factor)
     if isinstance(value, Grid):
         return tuple_of(value)
+    if isinstance(value, os.PathLike):
+        return os.fspath(value)
     return value
 
 

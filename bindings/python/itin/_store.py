@@ -323,6 +323,18 @@ class Store:
         frequency_ghz: float | None = None,
         polarisation: Polarisation = "h",
         over_sea: float = 0.0,
+        power_dbm: float | None = None,
+        eirp_dbm: float | None = None,
+        gain_dbi: float | tuple[float, float] | None = None,
+        feeder_loss_db: float | tuple[float, float] | None = None,
+        sensitivity_dbm: float | None = None,
+        rain_rate_mm_h: float | None = None,
+        geoclimatic_factor: float | None = None,
+        refractivity_gradient: float | None = None,
+        from_antenna: Path | None = None,
+        to_antenna: Path | None = None,
+        antenna_azimuth: float | tuple[float | None, float | None] | None = None,
+        antenna_tilt: float | tuple[float | None, float | None] | None = None,
         criteria: Sequence[tuple[float, float]] = (),
         earth: Earth = Earth(),
         tolerance: float = 0.0,
@@ -336,6 +348,18 @@ class Store:
             start: (x, y, height), the height above what it stands on.
             end: Likewise.
             frequency_ghz: Gives Fresnel clearances and losses.
+            power_dbm: Of the transmitter at the first end; gives a link budget, in ``document["radio"]["budget"]``.
+            eirp_dbm: What the first end radiates, instead.
+            gain_dbi: Of both antennas, or of each; with ``eirp_dbm``, of the second alone.
+            feeder_loss_db: Likewise.
+            sensitivity_dbm: The least level that the receiver works with; gives the margin for fades.
+            rain_rate_mm_h: Exceeded for 0.01 % of an average year; gives the outage by rain.
+            geoclimatic_factor: K of P.530-17; gives the outage by multipath.
+            refractivity_gradient: dN1 of P.453, N-units per km, from which K is made.
+            from_antenna: The file of the pattern of the first end's antenna, .msi or .ant.
+            to_antenna: Likewise of the second end.
+            antenna_azimuth: Where the first antenna points, degrees from grid north, or both; None: at the other end.
+            antenna_tilt: Likewise, degrees below the horizontal.
             criteria: Rules of two-criterion planning, (K, fraction of F1).
 
         Raises:
@@ -390,6 +414,18 @@ class Store:
         frequency_ghz: float | None = None,
         polarisation: Polarisation = "h",
         over_sea: float = 0.0,
+        power_dbm: float | None = None,
+        eirp_dbm: float | None = None,
+        gain_dbi: float | tuple[float, float] | None = None,
+        feeder_loss_db: float | tuple[float, float] | None = None,
+        sensitivity_dbm: float | None = None,
+        rain_rate_mm_h: float | None = None,
+        geoclimatic_factor: float | None = None,
+        refractivity_gradient: float | None = None,
+        from_antenna: Path | None = None,
+        to_antenna: Path | None = None,
+        antenna_azimuth: float | tuple[float | None, float | None] | None = None,
+        antenna_tilt: float | tuple[float | None, float | None] | None = None,
         earth: Earth = Earth(),
         tolerance: float = 0.0,
         themes: Themes = "all",
@@ -406,6 +442,7 @@ class Store:
             layer: The layer of a file of lines; empty: all.
             where: Only lines that this SQL condition holds for.
             crs: The CRS of a file that states none; empty: the store's.
+            power_dbm: Gives link budgets, as do the fields after it; see ``line_of_sight()``.
         """
         fields = given({k: v for k, v in locals().items() if k not in ("self", "path", "outputs", "progress")})
         fields["themes"] = names_of(themes)

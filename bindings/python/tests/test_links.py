@@ -7,6 +7,7 @@ import json
 from pathlib import Path
 
 import numpy as np
+import pytest
 from conftest import run
 from numpy.typing import NDArray
 
@@ -85,6 +86,30 @@ def test_a_line_is_that_of_the_command_line(town: itin.Store, tmp_path: Path) ->
     assert line.profile.length == line.distance == document["distance_m"]
     line.write(tmp_path / "report.pdf")
     assert (tmp_path / "report.pdf").read_bytes().startswith(b"%PDF")
+
+
+def test_a_link_budget_is_that_of_the_command_line(town: itin.Store) -> None:
+    ends = ["--from", "321590,4297655,10", "--to", "321790,4297662,12"]
+    cases: tuple[tuple[float | tuple[float, float], str], ...] = (((30.0, 31.0), "30,31"), (32.0, "32"))
+    for gains, text in cases:
+        line = town.line_of_sight(
+            (321590, 4297655, 10),
+            (321790, 4297662, 12),
+            frequency_ghz=26,
+            power_dbm=18,
+            gain_dbi=gains,
+            feeder_loss_db=1,
+            sensitivity_dbm=-70,
+            rain_rate_mm_h=42,
+            refractivity_gradient=-200,
+        )
+        radio = ["--frequency", "26", "--power-dbm", "18", "--gain-dbi", text, "--feeder-loss-db", "1"]
+        climate = ["--sensitivity-dbm", "-70", "--rain-rate-mm-h", "42", "--refractivity-gradient", "-200"]
+        document = json.loads(run("los", town.path, *ends, *radio, *climate, "--json"))
+        assert line.document["radio"]["budget"] == document["radio"]["budget"]
+    with pytest.raises(itin.InputError) as caught:
+        town.line_of_sight((321590, 4297655, 10), (321790, 4297662, 12), frequency_ghz=26, sensitivity_dbm=-70)
+    assert caught.value.field == "sensitivity_dbm"
 
 
 def test_one_link_is_one_line(cardiff: itin.Store) -> None:

@@ -1,11 +1,14 @@
 // Losses of a radio path over a profile: free space, knife edges, and delta-Bullington with its smooth and spherical
-// parts, every intermediate value included. Further, the edges that they were computed from, and the point of
-// reflection.
+// parts, every intermediate value included. Further, the edges that they were computed from, the point of reflection,
+// and the budget of a link with these losses.
 //
 //   profile::RadioPath path;
 //   path.frequency_ghz = 2.5;
 //   const profile::PathLosses losses = profile::path_losses(line, {619, 538}, path);  // elevations of the antennas
 //   std::cout << losses.free_space_db + losses.ld_db << " dB\n";
+//   const profile::BudgetQuery radios{.power_dbm = 20, .from_gain_dbi = 34, .to_gain_dbi = 34, .sensitivity_dbm = -75};
+//   const profile::LinkBudget budget = profile::link_budget(losses, path, {line.length_m, {619, 538}}, radios);
+//   std::cout << budget.level_dbm << " dBm, " << *budget.margin_db << " dB to spare\n";
 //
 // Sources: ITU-R P.525-4 (free space), P.526-15 section 4.1 (knife edge), P.452-17 section 4.2 and attachment 2, which
 // P.1812-6 section 4.3 and its attachment 1 repeat word for word (delta-Bullington), P.526-12 section 4.4.2 (cascaded
@@ -19,8 +22,10 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <itin/earth.hpp>
@@ -122,6 +127,104 @@ struct Reflection {
 /// each other over it. `bare` is as for path_losses(). O(n).
 std::optional<Reflection> reflection(const Profile& profile, const Antennas& antennas, const RadioPath& path,
                                      const Profile* bare = nullptr);
+
+/// How much less an antenna has away from its axis than the gain there, in decibels by degrees of [0, 360).
+struct AntennaPattern {
+  using Cut = std::vector<std::pair<double, double>>;  ///< ascending in degrees, at least one
+  Cut horizontal;                                      ///< clockwise from the axis
+  Cut vertical;                                        ///< downwards from the axis
+  std::optional<double> gain_dbi = {};                 ///< the one that the file states
+};
+/// Reads a pattern: MSI (Planet; .msi, .pln), or that of Radio Mobile (.ant; 360, 541 or 720 numbers). Gains without a
+/// unit are dBd, as MSI has it. Throws FileError, and InputError with the line for what is neither.
+AntennaPattern read_antenna_pattern(const std::string& path);
+
+/// An antenna with a pattern, and where its axis points.
+struct AimedAntenna {
+  std::shared_ptr<const AntennaPattern> pattern = {};  ///< null: the gain towards the other end, wherever it is
+  std::optional<double> azimuth_deg = {};              ///< from grid north; nothing: towards the other end
+  std::optional<double> tilt_deg = {};                 ///< below the horizontal; nothing: towards the other end
+};
+
+/// What the budget of a link needs besides its path. What is nothing is left out, and the budget says so.
+struct BudgetQuery {
+  // The first end sends. One of the two asks for a budget:
+  std::optional<double> power_dbm = {};  ///< what the transmitter gives to the feeder
+  std::optional<double> eirp_dbm = {};   ///< what the antenna radiates; the first end's gain and feeder are in it
+
+  std::optional<double> from_gain_dbi = {}, to_gain_dbi = {};    ///< nothing: that of the pattern's file, or 0
+  std::optional<double> from_feeder_db = {}, to_feeder_db = {};  ///< losses; nothing: 0
+  std::optional<double> sensitivity_dbm = {};                    ///< the least level that the receiver works with
+  std::optional<double> rain_rate_mm_h = {};         ///< exceeded for 0.01 % of an average year; nothing: no rain
+  std::optional<double> geoclimatic_factor = {};     ///< K of P.530-17; nothing: by the gradient
+  std::optional<double> refractivity_gradient = {};  ///< dN1 of P.453, N-units per km, negative; nothing: no multipath
+
+  AimedAntenna from_antenna = {}, to_antenna = {};
+
+  bool asks() const { return power_dbm || eirp_dbm; }
+  /// Returns the query with what `own` has in place of what this one has. A power takes the place of an EIRP, and an
+  /// EIRP that of a power and of the first end; likewise the factor and the gradient.
+  BudgetQuery with(const BudgetQuery& own) const;
+  /// Throws InputError for what contradicts itself, for values that none can have, and for what works only with a power
+  /// where there is none.
+  void validate() const;
+};
+
+/// The line that a budget is for.
+struct BudgetCourse {
+  double length_m = 0;
+  Antennas antennas = {};                   ///< elevations
+  std::optional<double> azimuth_deg = {};   ///< from the first end to the second, from grid north
+  std::optional<double> latitude_deg = {};  ///< the middle's; nothing: the year fades as the worst month does
+};
+
+/// Attenuation by rain, P.838-3 and P.530-18 section 2.4.1.
+struct RainLoss {
+  double specific_db_km = 0;  ///< over a kilometre of rain of the rate given
+  double effective_km = 0;    ///< the length that rain of this rate would have to cover
+  double exceeded_db = 0;     ///< what is exceeded for 0.01 % of an average year
+};
+/// Multipath fading in clear air, P.530-17 section 2.3, its method for quick planning.
+struct MultipathFading {
+  double geoclimatic_factor = 0;              ///< K
+  double occurrence_percent = 0;              ///< p0, of the average worst month; 0 up to 5 km
+  std::optional<double> worst_month_percent;  ///< the part with fades deeper than the margin; nothing without one
+};
+/// The part of an average year in which a link is out.
+struct Outage {
+  double percent = 0;
+  bool at_most = false;  ///< whether it may be less, because a formula ends there
+};
+struct Availability {
+  double percent = 0;         ///< the part of an average year
+  double outage_minutes = 0;  ///< in a year of 365.25 days
+  bool at_least = false;      ///< whether it may be more, because a formula ends there
+};
+
+struct LinkBudget {
+  double eirp_dbm = 0;                              ///< on the axis of the antenna
+  double from_gain_dbi = 0, to_gain_dbi = 0;        ///< on the axes; the first is 0 where it is in the EIRP
+  double from_off_axis_db = 0, to_off_axis_db = 0;  ///< what is lost because the other end is not on the axis
+  double free_space_db = 0, diffraction_db = 0;
+  std::optional<double> gases_db;   ///< P.676-13, air of 1013.25 hPa, 15 degrees Celsius, 7.5 g of vapour per m3
+  double level_dbm = 0;             ///< at the receiver, in clear air
+  std::optional<double> margin_db;  ///< the level over the sensitivity, for fades; nothing without a sensitivity
+  std::optional<RainLoss> rain;
+  std::optional<Outage> rain_outage;
+  std::optional<MultipathFading> multipath;
+  std::optional<Outage> multipath_outage;
+  std::optional<Availability> availability;  ///< the outages by rain and by multipath added, so far as they are known
+  std::vector<std::string> left_out;         ///< what is not counted, and why: "rain (no rate is given)"
+};
+/// What no budget counts, in words.
+inline constexpr const char* kNeverInBudgets =
+    "interference, selective fading, cross-polarisation, diversity, wet antennas, misaligned antennas";
+
+/// Adds up a link. Outside of the ranges of their recommendations, gases, rain and multipath are left out. Throws what
+/// validate() throws, and InputError where neither the query nor the file of a pattern has the gain, and where an
+/// antenna has an azimuth but the course has none. Precondition: the query asks for a budget.
+LinkBudget link_budget(const PathLosses& losses, const RadioPath& path, const BudgetCourse& course,
+                       const BudgetQuery& query);
 
 /// Adds points until no two neighbours are farther apart than `most_m`, in metres. A triangulated surface is straight
 /// between breakpoints, but the Earth below it is not, and the formulas look at points only.

@@ -39,6 +39,7 @@ struct Link {
   std::optional<double> frequency_ghz = {};
   std::optional<Polarisation> polarisation = {};
   std::vector<Criterion> criteria = {};
+  BudgetQuery budget = {};               ///< in place of what the query's has
   std::vector<std::string> others = {};  ///< the cells of LinkTable::other_columns
 };
 
@@ -73,12 +74,14 @@ struct LinkTable {
 /// file of lines, whose ends are the links' ends at `heights` above the surface.
 ///
 /// A table may have a header. If that has these names, the columns may come in another order, and there may be
-/// others: `name1`, `name2`, `frequency`, `polarisation` and `criteria` (with blanks between several) of each link, and
-/// further ones that are kept. `name` or `link` may stand for `id`; where none of the three is there, links have the
-/// numbers of their rows from 1. Easting and northing, or lon and lat, each with 1 or 2 behind it, may stand for x and
-/// y; so may `position1` and `position2` (or `gridref1` and `gridref2`) with grid references, with latitudes and
-/// longitudes in degrees and their letters or as "54.523388, -3.145489", or with `x,y`. Semicolons or tabs may separate
-/// the columns, and a comma that cannot part thousands is decimal.
+/// others: `name1`, `name2`, `frequency`, `polarisation` and `criteria` (with blanks between several) of each link,
+/// those of its budget (`power_dbm` or `eirp_dbm`, `gain1_dbi`, `gain2_dbi`, `feeder_loss1_db`, `feeder_loss2_db`,
+/// `sensitivity_dbm`, `rain_rate_mm_h`, `geoclimatic_factor` or `refractivity_gradient`), and further ones that are
+/// kept. `name` or `link` may stand for `id`; where none of the three is there, links have the numbers of their rows
+/// from 1. Easting and northing, or lon and lat, each with 1 or 2 behind it, may stand for x and y; so may `position1`
+/// and `position2` (or `gridref1` and `gridref2`) with grid references, with latitudes and longitudes in degrees and
+/// their letters or as "54.523388, -3.145489", or with `x,y`. Semicolons or tabs may separate the columns, and a comma
+/// that cannot part thousands is decimal.
 ///
 /// The links are in the CRS `to_crs` (WKT). CSV tables, and layers whose CRS is missing, not defined or
 /// cannot be theirs, are taken to be in `csv_crs`; if that is empty, in longitude and
@@ -97,6 +100,7 @@ struct LinkQuery {
   bool from_on_surface = false, to_on_surface = false;
   // These are for links that have none of their own:
   std::optional<RadioPath> radio = {};    ///< gives Fresnel clearances and losses
+  BudgetQuery budget = {};                ///< gives budgets of links with a frequency
   std::vector<Criterion> criteria = {};   ///< with a fraction > 0 only for links with a frequency
   std::optional<TallObject> object = {};  ///< the object at each second end; gives LinkResult::visible
   NoData nodata = NoData::kUnknown;
@@ -128,7 +132,7 @@ struct LinkResult {
 std::vector<LinkResult> survey_links(const Store& store, const std::vector<Link>& links, const LinkQuery& query,
                                      Progress& progress);
 
-/// The query of one link: its own frequency, polarisation and criteria, or those of `query`.
+/// The query of one link: its own frequency, polarisation, criteria and budget, or those of `query`.
 LosQuery los_query(const Link& link, const LinkQuery& query);
 
 /// Computes one link by itself. Throws InputError where it cannot be computed, CorruptStore, FileError.
@@ -148,7 +152,9 @@ struct LinkSurvey {
   LinkQuery query;
   std::vector<LinkResult> results;                 ///< one per link of the table, in order
   std::vector<std::optional<LinkCourse>> courses;  ///< likewise; nothing where an end is no place on the Earth
-  std::string store;                               ///< the store's path
+  /// Likewise; nothing without LinkResult::losses, and where none is asked for.
+  std::vector<std::optional<LinkBudget>> budgets;
+  std::string store;  ///< the store's path
   StoreMetadata metadata;
   std::vector<std::string> warnings;  ///< those of the table, and about columns and ground without data, a line each
 };

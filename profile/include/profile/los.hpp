@@ -91,6 +91,7 @@ struct LosQuery {
   bool from_on_surface = false, to_on_surface = false;
   Earth earth = {};
   std::optional<RadioPath> radio = {};
+  BudgetQuery budget = {};                ///< asks for something only if there is a frequency
   std::vector<Criterion> criteria = {};   ///< with fraction > 0 only if there is a frequency
   std::optional<TallObject> object = {};  ///< at the second end
   /// How far, in metres, the clearance over the full surface may lie from the one on this profile: the width of the
@@ -159,6 +160,7 @@ struct LosReport : LineFindings {
   Antennas antennas;                 ///< elevations
   LosEnd from, to;
   std::optional<PathLosses> losses;  ///< nothing without a frequency or a length, or with an antenna within a feature
+  std::optional<LinkBudget> budget;  ///< nothing without `losses`, and where none is asked for
   std::optional<Reflection> reflection;  ///< nothing without a frequency, and where there is none
   std::optional<VisibleHeight> visible;
 
@@ -187,7 +189,7 @@ EndGrounds stands_on(const Profile& profile, const Profile& ground, const LosQue
 /// Analyses a line over a profile. `ground` is the same line without raised features, for a profile that has them. The
 /// clutter of a profile without `ground` stands on that profile, except nearer to an end than kClutterFreeM. Throws
 /// InputError where there is no ground at an end, a height is negative, or a criterion asks for a part of the Fresnel
-/// zone without a frequency. O(n) except for logarithmic factors.
+/// zone without a frequency, and what BudgetQuery::validate() throws. O(n) except for logarithmic factors.
 LosReport analyse(Profile profile, const LosQuery& query, Profile ground = {});
 
 /// Finds what analyse() finds on a profile without clutter, except obstructions and required heights: whether a line is

@@ -103,6 +103,7 @@ void require_valid(const Profile& profile, const LosQuery& query, const Profile&
       throw InputError("a criterion with a fraction of the Fresnel zone needs a frequency", "radio");
     }
   }
+  query.budget.validate();
 }
 
 double fade_factor(double length_m) {

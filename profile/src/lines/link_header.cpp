@@ -35,6 +35,35 @@ constexpr ExtraName kExtraNames[] = {
     {"criterion", LinkExtra::kCriteria},
 };
 
+struct BudgetName {
+  const char* name;
+  std::optional<double> BudgetQuery::*value;
+};
+constexpr BudgetName kBudgetNames[] = {
+    {"power_dbm", &BudgetQuery::power_dbm},
+    {"tx_power_dbm", &BudgetQuery::power_dbm},
+    {"eirp_dbm", &BudgetQuery::eirp_dbm},
+    {"gain1_dbi", &BudgetQuery::from_gain_dbi},
+    {"gain1", &BudgetQuery::from_gain_dbi},
+    {"gain2_dbi", &BudgetQuery::to_gain_dbi},
+    {"gain2", &BudgetQuery::to_gain_dbi},
+    {"feeder_loss1_db", &BudgetQuery::from_feeder_db},
+    {"feeder_loss2_db", &BudgetQuery::to_feeder_db},
+    {"sensitivity_dbm", &BudgetQuery::sensitivity_dbm},
+    {"threshold_dbm", &BudgetQuery::sensitivity_dbm},
+    {"rain_rate_mm_h", &BudgetQuery::rain_rate_mm_h},
+    {"geoclimatic_factor", &BudgetQuery::geoclimatic_factor},
+    {"refractivity_gradient", &BudgetQuery::refractivity_gradient},
+};
+
+/// The entry of such a list that a column's name stands for; null where it is none of them.
+template <class Named, std::size_t count>
+const Named* entry_of(const std::string& column, const Named (&list)[count]) {
+  const auto found =
+      std::find_if(list, list + count, [&](const Named& entry) { return same_column_name(column, entry.name); });
+  return found == list + count ? nullptr : found;
+}
+
 /// The column of an antenna's height at an end, "1" or "2".
 std::optional<std::size_t> height_column(const std::vector<std::string>& names, const std::string& end) {
   for (const char* name : {"h", "height", "antenna_height", "ant_height", "mast_height", "agl", "hagl", "height_agl"})
@@ -53,10 +82,10 @@ std::optional<std::size_t> id_column(const std::vector<std::string>& names) {
 void add_further(const std::vector<std::string>& names, LinkHeader& header) {
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (names[i].empty() || std::find(header.of.begin(), header.of.end(), i) != header.of.end()) continue;
-    const auto extra = std::find_if(std::begin(kExtraNames), std::end(kExtraNames),
-                                    [&](const ExtraName& e) { return same_column_name(names[i], e.name); });
-    if (extra != std::end(kExtraNames)) {
+    if (const ExtraName* extra = entry_of(names[i], kExtraNames)) {
       header.extras.emplace_back(i, extra->extra);
+    } else if (const BudgetName* budget = entry_of(names[i], kBudgetNames)) {
+      header.budget.emplace_back(i, budget->value);
     } else {
       header.others.push_back(i);
     }

@@ -3,9 +3,12 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
+
+#include <profile/diffraction.hpp>
 
 namespace itin::profile {
 
@@ -23,6 +26,7 @@ struct LinkHeader {
   bool written = false;              ///< whether x1 and y1 are one cell, as written_position() reads it
   std::size_t width = kLinkColumns;  ///< cells of a row
   std::vector<std::pair<std::size_t, LinkExtra>> extras;
+  std::vector<std::pair<std::size_t, std::optional<double> BudgetQuery::*>> budget;
   std::vector<std::size_t> others;    ///< columns that have a name that is not understood
   std::vector<std::string> warnings;  ///< a line about columns that are taken by their place
 };

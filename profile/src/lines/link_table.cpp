@@ -117,6 +117,12 @@ class LinkReader {
     if (!value || !std::isfinite(*value)) throw InputError(fmt::format("{} '{}' is no number", kLinkNames[i], text));
     return *value;
   }
+  static std::optional<double> optional_number(const std::string& cell) {
+    if (cell.empty()) return std::nullopt;
+    const auto value = number_in(with_points(cell));
+    if (!value) throw InputError(fmt::format("'{}' is no number", cell));
+    return value;
+  }
   double height_of(const std::vector<std::string>& cells, std::size_t i) const {
     const double height = number_of(cells, i);
     require_height(height, kLinkNames[i]);
@@ -168,6 +174,7 @@ class LinkReader {
         throw InputError(fmt::format("'{}': {}", cells[i], error.what()));
       }
     }
+    for (const auto& [i, value] : header_.budget) link.budget.*value = optional_number(cells[i]);
     link.others = others_of(cells);
     return link;
   }

@@ -152,6 +152,7 @@ LosQuery los_query(const Link& link, const LinkQuery& all) {
   query.earth = all.earth, query.nodata = all.nodata, query.object = all.object;
   query.criteria = link.criteria.empty() ? all.criteria : link.criteria;
   query.radio = all.radio, query.day = all.day;
+  query.budget = all.budget.with(link.budget);
   if (link.frequency_ghz) {
     if (!query.radio) query.radio.emplace().effective_earth_km = effective_earth_km(all.earth);
     query.radio->frequency_ghz = *link.frequency_ghz;

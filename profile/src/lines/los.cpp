@@ -106,6 +106,7 @@ LosReport analyse(Profile profile, const LosQuery& query, Profile ground) {
   const Profile* under = report.ground.points.empty() ? nullptr : &report.ground;
   report.losses =
       losses_over(clutter ? report.ground : report.profile, report.antennas, query, clutter ? nullptr : under);
+  report.budget = budget_over(report.losses, query, {report.profile.length_m, report.antennas});
   if (query.radio) report.reflection = reflection(report.profile, report.antennas, *query.radio, under);
   describe_ends(report);
   if (query.object) {

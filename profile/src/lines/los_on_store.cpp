@@ -1,3 +1,5 @@
+#include <utility>
+
 #include <fmt/format.h>
 
 #include <itin/cross_section.hpp>
@@ -8,6 +10,7 @@
 #include <profile/los.hpp>
 
 #include "lines/los_header.hpp"
+#include "lines/losses.hpp"
 
 namespace itin::profile {
 
@@ -67,12 +70,19 @@ LosReport analyse(const Store& store, const StoreLine& line, LosQuery query) {
   if (line.to_is_elevation) query.to_height_m = height_above("to", grounds.to_m, query.to_height_m);
   query.clearance_error_m += clearance_error(store, line.detail, line.themes, line.from, line.to);
 
+  // The budget follows below, for a profile knows neither latitude nor azimuth.
+  query.budget.validate();
+  const BudgetQuery budget = std::exchange(query.budget, {});
   LosReport report = analyse(std::move(profile), query, std::move(ground));
+  report.query.budget = budget;
   const EndGrounds surface = ends_of(report.profile);
   report.from.surface_m = surface.from_m, report.to.surface_m = surface.to_m;
   report.statistics = section.statistics;
   report.triangles = section.triangles;
   add_header(store, line, report);
+  const double latitude = (report.from.site->lon_lat.y + report.to.site->lon_lat.y) / 2;
+  report.budget = budget_over(report.losses, report.query,
+                              {report.profile.length_m, report.antennas, report.from.site->azimuth_grid_deg, latitude});
   return report;
 }
 

@@ -15,4 +15,10 @@ std::optional<PathLosses> losses_over(const Profile& profile, const Antennas& an
   return path_losses(with_spacing(profile, greatest_spacing_m(profile.length_m)), above, *query.radio, bare);
 }
 
+std::optional<LinkBudget> budget_over(const std::optional<PathLosses>& losses, const LosQuery& query,
+                                      const BudgetCourse& course) {
+  if (!losses || !query.budget.asks()) return std::nullopt;
+  return link_budget(*losses, *query.radio, course, query.budget);
+}
+
 }  // namespace itin::profile

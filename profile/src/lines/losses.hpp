@@ -1,4 +1,4 @@
-// Computes the losses of a line, at the points that a report uses.
+// Computes the losses of a line, at the points that a report uses, and its budget.
 #pragma once
 
 #include <optional>
@@ -11,5 +11,9 @@ namespace itin::profile {
 /// ground under raised features, if there are any.
 std::optional<PathLosses> losses_over(const Profile& profile, const Antennas& antennas, const LosQuery& query,
                                       const Profile* bare);
+
+/// Returns the budget of a line with these losses; nothing where none is asked for.
+std::optional<LinkBudget> budget_over(const std::optional<PathLosses>& losses, const LosQuery& query,
+                                      const BudgetCourse& course);
 
 }  // namespace itin::profile

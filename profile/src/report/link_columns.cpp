@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "lines/magnetic_azimuth.hpp"
+#include "report/budget_columns.hpp"
 
 namespace itin::profile {
 
@@ -62,6 +63,8 @@ class ColumnList {
     add_ends();
     add_tightest();
     if (radio_) add_radio();
+    const BudgetQuery& budget = survey_.query.budget;
+    add_budget_columns(rows_, budget.from_antenna.pattern || budget.to_antenna.pattern, columns_);
     const std::vector<Criterion> criteria = criteria_of(rows_);
     for (const Criterion& c : criteria) add_criterion(c);
     if (radio_ || !criteria.empty()) add_required("line_of_sight", [](const LinkRow&) { return std::size_t{0}; });
@@ -250,13 +253,14 @@ std::vector<LinkRow> link_rows(const LinkSurvey& survey) {
   auto bad = survey.table.bad.begin();
   for (std::size_t row = 1, i = 0; i < survey.results.size() || bad != survey.table.bad.end(); ++row) {
     if (bad != survey.table.bad.end() && bad->row == row) {
-      rows.push_back({bad->id, nullptr, nullptr, fmt::format("{}: {}", bad->place, bad->message), &bad->others, {}});
+      rows.push_back({bad->id, nullptr, nullptr, fmt::format("{}: {}", bad->place, bad->message), &bad->others});
       ++bad;
       continue;
     }
     const Link& link = survey.table.links[i];
     const LinkResult& result = survey.results[i];
-    rows.push_back({link.id, &link, &result, result.message, &link.others, {}});
+    rows.push_back({link.id, &link, &result, result.message, &link.others});
+    if (i < survey.budgets.size() && survey.budgets[i]) rows.back().budget = &*survey.budgets[i];
     add_directions(rows.back(), survey.courses[i], survey.query);
     ++i;
   }

@@ -17,7 +17,8 @@ struct LinkRow {
   const LinkResult* result = nullptr;  ///< null: the row could not be read
   std::string message;                 ///< what went wrong, where there was an error
   const std::vector<std::string>* others = nullptr;
-  std::optional<LinkCourse> course;  ///< nothing where the link could not be computed
+  const LinkBudget* budget = nullptr;     ///< null where there is none
+  std::optional<LinkCourse> course = {};  ///< nothing where the link could not be computed
   /// The declination of magnetic north at the ends, on the survey's day.
   std::optional<double> from_declination_deg = {}, to_declination_deg = {};
 

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <itin/coordinates.hpp>
+#include <profile/budget_text.hpp>
 #include <profile/radio_text.hpp>
 #include <profile/report_text.hpp>
 
@@ -62,6 +63,14 @@ std::string kilometres(double metres) {
   return fmt::format("{:.3f}", metres / 1000);
 }
 
+/// The cells of a budget: the margin for fades, and the availability.
+std::vector<std::string> budget_cells(const LinkRow& row) {
+  if (row.budget == nullptr) return {"", ""};
+  const LinkBudget& budget = *row.budget;
+  return {budget.margin_db ? fmt::format("{:.1f}", *budget.margin_db) : "",
+          budget.availability ? availability_text(*budget.availability) : ""};
+}
+
 std::vector<std::string> cells_of(const LinkRow& row) {
   if (row.found() == nullptr) return {row.id, ends_text(row), "", "", "error: " + row.message, "", "", "", ""};
   const LineFindings& found = *row.found();
@@ -97,6 +106,11 @@ std::string counts_text(const std::vector<LinkRow>& rows) {
   return text;
 }
 
+/// Whether any link has a budget.
+bool has_budgets(const std::vector<LinkRow>& rows) {
+  return std::any_of(rows.begin(), rows.end(), [](const LinkRow& row) { return row.budget != nullptr; });
+}
+
 Table table_of(const std::vector<LinkRow>& rows) {
   std::vector<std::pair<std::pair<int, double>, const LinkRow*>> order;
   for (const LinkRow& row : rows) order.emplace_back(urgency(row), &row);
@@ -107,7 +121,14 @@ Table table_of(const std::vector<LinkRow>& rows) {
               {},
               "The order is by verdict, then by metres. Clearance is that at the critical point, clearance / F1 the "
               "least over the line."};
-  for (const auto& [rank, row] : order) table.rows.push_back(cells_of(*row));
+  const bool budgets = has_budgets(rows);
+  if (budgets) table.header.insert(table.header.end(), {"margin dB", "availability"});
+  for (const auto& [rank, row] : order) {
+    std::vector<std::string>& cells = table.rows.emplace_back(cells_of(*row));
+    const std::vector<std::string> further = budgets ? budget_cells(*row) : std::vector<std::string>();
+    cells.insert(cells.end(), further.begin(), further.end());
+  }
+  if (budgets) table.note += fmt::format(" Budgets do not count {}.", kNeverInBudgets);
   if (const std::string note = fade_note_of(rows); !note.empty()) table.note += " " + note;
   return table;
 }

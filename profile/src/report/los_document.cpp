@@ -7,6 +7,7 @@
 #include <profile/fresnel.hpp>
 
 #include "lines/path_cover.hpp"
+#include "report/budget_document.hpp"
 
 namespace itin::profile {
 
@@ -155,6 +156,7 @@ Document radio_document(const LosReport& report) {
                         {"ldsph", losses.ldsph_db},
                         {"ld", losses.ld_db},
                         {"deygout", losses.deygout_db}};
+  if (report.budget) radio["budget"] = budget_document(report);
   radio["edges"] = edges_document(losses);
   radio["reflection"] = reflection_document(report);
   return radio;

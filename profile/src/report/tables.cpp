@@ -8,6 +8,7 @@
 #include <profile/radio_text.hpp>
 #include <profile/report_text.hpp>
 
+#include "report/budget_table.hpp"
 #include "report/path_tables.hpp"
 
 namespace itin::profile {
@@ -196,6 +197,7 @@ std::vector<Table> result_tables(const LosReport& report) {
   if (report.bare && !report.required.empty()) tables.push_back(heights_table(report, *report.bare, kBareGround));
   const std::vector<Table> along = path_tables(report);
   if (report.losses) tables.push_back(geometry_table(report)), tables.push_back(losses_table(report));
+  if (report.budget) tables.push_back(budget_table(report));
   tables.insert(tables.end(), along.begin(), along.end());
   if (report.visible) tables.push_back(object_table(report));
   return tables;

@@ -1,0 +1,79 @@
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <profile/budget_text.hpp>
+
+namespace itin::profile {
+
+namespace {
+
+/// Names what is lost besides the path: " with 0.2 dB lost to gases and 3.0 dB off the axes of antennas"; or nothing.
+std::string small_losses_text(const LinkBudget& budget) {
+  std::vector<std::string> losses;
+  if (budget.gases_db) losses.push_back(fmt::format("{:.1f} dB lost to gases", *budget.gases_db));
+  if (const double off = budget.from_off_axis_db + budget.to_off_axis_db; off != 0)
+    losses.push_back(fmt::format("{:.1f} dB lost off the axes of antennas", off));
+  return losses.empty() ? "" : fmt::format(" with {}", fmt::join(losses, " and "));
+}
+
+std::string level_line(const LinkBudget& budget) {
+  const std::string line = fmt::format("link budget: EIRP {:.1f} dBm, level {:.1f} dBm{}", budget.eirp_dbm,
+                                       budget.level_dbm, small_losses_text(budget));
+  if (!budget.margin_db) return line;
+  return line + fmt::format("; {:.1f} dB {} the sensitivity", std::abs(*budget.margin_db),
+                            *budget.margin_db < 0 ? "below" : "above");
+}
+
+std::string rain_line(const LinkBudget& budget) {
+  std::string line = fmt::format("rain: {:.1f} dB exceeded for 0.01 % of the year", budget.rain->exceeded_db);
+  if (budget.rain_outage) line += fmt::format("; out for {} of the year", outage_text(*budget.rain_outage));
+  return line;
+}
+
+std::string multipath_line(const LinkBudget& budget) {
+  if (budget.multipath->occurrence_percent == 0) return "multipath: none up to 5 km";
+  std::string line = fmt::format("multipath: occurrence {:.3g} %", budget.multipath->occurrence_percent);
+  if (!budget.multipath_outage) return line;
+  return line + fmt::format("; out for {:.2g} % of the worst month, {} of the year",
+                            *budget.multipath->worst_month_percent, outage_text(*budget.multipath_outage));
+}
+
+}  // namespace
+
+std::string outage_text(const Outage& outage) {
+  return fmt::format("{}{:.2g} %", outage.at_most ? "at most " : "", outage.percent);
+}
+
+std::string availability_text(const Availability& availability) {
+  constexpr double kLeastDigits = 2, kMostDigits = 9;
+  const double out = 100 - availability.percent;
+  const double digits = out > 0 ? std::clamp(1 + std::ceil(-std::log10(out)), kLeastDigits, kMostDigits) : 0;
+  return fmt::format("{}{:.{}f} %", availability.at_least ? "at least " : "", availability.percent,
+                     static_cast<int>(digits));
+}
+
+std::string minutes_text(const Availability& availability) {
+  return fmt::format("{}{:.3g} minutes a year", availability.at_least ? "at most " : "", availability.outage_minutes);
+}
+
+std::string not_counted_text(const LinkBudget& budget) {
+  std::vector<std::string> all = budget.left_out;
+  all.emplace_back(kNeverInBudgets);
+  return fmt::format("{}", fmt::join(all, "; "));
+}
+
+std::vector<std::string> budget_lines(const LinkBudget& budget) {
+  std::vector<std::string> lines{level_line(budget)};
+  if (budget.rain) lines.push_back(rain_line(budget));
+  if (budget.multipath) lines.push_back(multipath_line(budget));
+  if (budget.availability)
+    lines.push_back(fmt::format("availability {}, out for {}", availability_text(*budget.availability),
+                                minutes_text(*budget.availability)));
+  lines.push_back("not counted: " + not_counted_text(budget));
+  return lines;
+}
+
+}  // namespace itin::profile
