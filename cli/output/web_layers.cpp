@@ -60,6 +60,10 @@ std::string clear_picture(const profile::SheetCells& cells) {
   return embedded(cells.grid, samples, 4, "png");
 }
 
+std::string web_colour(const Rgba& c) {
+  return fmt::format("#{:02x}{:02x}{:02x}", c.red, c.green, c.blue);
+}
+
 class WebLayer {
  public:
   WebLayer(const Box& frame, WebPicture picture) : frame_(frame), picture_(picture) {}
@@ -113,10 +117,6 @@ class WebLayer {
 
 std::string web_layer(const Box& frame, const profile::SheetLayer& layer, WebPicture picture) {
   return std::visit(WebLayer(frame, picture), layer);
-}
-
-std::string web_colour(const Rgba& c) {
-  return fmt::format("#{:02x}{:02x}{:02x}", c.red, c.green, c.blue);
 }
 
 std::string web_percent(double share) {

@@ -21,9 +21,6 @@ enum class WebPicture { kGround, kCells };
 /// Draws what a layer shows of a frame, without the labels of marks. Throws FileError where a picture cannot be made.
 std::string web_layer(const Box& frame, const profile::SheetLayer& layer, WebPicture picture);
 
-/// Writes a colour: "#d55e00".
-std::string web_colour(const Rgba& colour);
-
 /// Writes a share from 0 to 1: "23.40%".
 std::string web_percent(double share);
 

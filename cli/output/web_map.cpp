@@ -1,7 +1,6 @@
 #include "output/web_map.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <set>
 
 #include <fmt/format.h>

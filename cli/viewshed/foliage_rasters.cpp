@@ -1,7 +1,9 @@
 #include "viewshed/foliage_rasters.hpp"
 
+#include <array>
 #include <limits>
 #include <span>
+#include <vector>
 
 #include <itin/document.hpp>
 #include <itin/raster.hpp>
@@ -9,6 +11,15 @@
 namespace itin::cli {
 
 namespace {
+
+struct FoliageRaster {
+  const char* ending;
+  const char* band;
+  std::vector<float> viewshed::FoliageView::*values;
+};
+constexpr std::array kFoliageRasters{
+    FoliageRaster{"foliage", "metres of foliage on the sight line", &viewshed::FoliageView::length_m},
+    FoliageRaster{"transmittance", "share of the light that comes through", &viewshed::FoliageView::transmittance}};
 
 /// NAME-ending.tif beside NAME.tif.
 std::string raster_beside(const std::string& raster, const std::string& ending) {
@@ -20,7 +31,7 @@ std::string raster_beside(const std::string& raster, const std::string& ending) 
 
 void claim_foliage_rasters(ViewshedOutputs& outputs) {
   for (const std::string& raster : outputs.given_rasters())
-    for (const char* ending : {"foliage", "transmittance"}) outputs.claim_beside(raster_beside(raster, ending));
+    for (const FoliageRaster& kind : kFoliageRasters) outputs.claim_beside(raster_beside(raster, kind.ending));
 }
 
 void write_foliage_rasters(const ViewshedOutputs& outputs, const StoreMetadata& metadata,
@@ -36,12 +47,11 @@ void write_foliage_rasters(const ViewshedOutputs& outputs, const StoreMetadata& 
       {"foliage", foliage}};
   description.overwrite = outputs.overwrite();
   for (const std::string& raster : outputs.given_rasters()) {
-    description.band_name = "metres of foliage on the sight line";
-    write_raster(raster_beside(raster, "foliage"), result.grid, std::span<const float>(through.foliage.length_m),
-                 description, progress);
-    description.band_name = "share of the light that comes through";
-    write_raster(raster_beside(raster, "transmittance"), result.grid,
-                 std::span<const float>(through.foliage.transmittance), description, progress);
+    for (const FoliageRaster& kind : kFoliageRasters) {
+      description.band_name = kind.band;
+      write_raster(raster_beside(raster, kind.ending), result.grid,
+                   std::span<const float>(through.foliage.*kind.values), description, progress);
+    }
   }
 }
 

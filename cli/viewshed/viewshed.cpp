@@ -97,14 +97,14 @@ class ViewshedVerb final : public Verb {
     outputs_.prepare(request);
     for (const std::string& raster : features_.paths()) outputs_.claim_style(raster);
     const FoliageOptions& foliage = view_.foliage();
+    const std::string woods = foliage.text();
     if (foliage.given()) claim_foliage_rasters(outputs_);
     compute_options_.whole_surface = outputs_.draws_map() || !horizon_.paths().empty();
     viewshed::ThroughFoliage through = survey(store, request, progress);
     viewshed::ViewshedWithSurface& computed = through.computed;
     const viewshed::MissingGround missing = viewshed::missing_ground(store, computed.result, progress);
     const std::vector<SourceInfo> sources = sources_in(store, looked_at(computed.result), request.themes);
-    const ViewshedOutputs::Context context{metadata, view_.certified(), missing, described(sources, metadata),
-                                           foliage.text()};
+    const ViewshedOutputs::Context context{metadata, view_.certified(), missing, described(sources, metadata), woods};
     add_view_warnings(metadata, view_, computed.result, missing, result.warnings);
     // Certified and exact answers are about the full surface.
     viewshed::Request answered = computed.result.request;
@@ -113,9 +113,9 @@ class ViewshedVerb final : public Verb {
     const Document targets =
         horizon_.write(store, computed, answered, compute_options_, outputs_.overwrite(), progress, result.warnings);
     outputs_.write(store, computed, context, progress);
-    if (foliage.given()) write_foliage_rasters(outputs_, metadata, through, foliage.text(), progress);
-    write_viewshed_sheet(store, computed.result, sheet_, {missing, context.sources, foliage.text()},
-                         outputs_.overwrite(), progress);
+    if (foliage.given()) write_foliage_rasters(outputs_, metadata, through, woods, progress);
+    write_viewshed_sheet(store, computed.result, sheet_, {missing, context.sources, woods}, outputs_.overwrite(),
+                         progress);
     outputs_.write_each([&](std::size_t i) { return compute_for_observer(store, computed, i, progress); }, context,
                         progress);
     if (!answered.observers_on_surface)
@@ -134,7 +134,7 @@ class ViewshedVerb final : public Verb {
       result.document["blockers"] = viewshed::blockers_document(store, computed.result);
     if (!targets.empty()) result.document["horizon_targets"] = targets;
     result.text = text(metadata, computed.result, missing);
-    if (foliage.given()) result.text += "through foliage: " + foliage.text() + "\n";
+    if (foliage.given()) result.text += "through foliage: " + woods + "\n";
     if (!view_.certified() && viewshed::exact_costs_no_more(store, computed.result.request))
       result.text += "the exact answer takes no longer over this raster: leave out --tolerance\n";
     return result;

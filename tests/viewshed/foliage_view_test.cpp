@@ -1,6 +1,7 @@
 // Viewsheds through woods: each cell is what a line of sight to it says, small steps along lines agree, and what must
 // hold of any wood does.
 #include <algorithm>
+#include <atomic>
 #include <cctype>
 #include <cmath>
 #include <filesystem>
@@ -261,6 +262,17 @@ TEST_F(FoliageViews, AreThoseWithoutFoliageWhereNoLightIsLost) {
   EXPECT_EQ(all.computed.result.visible, compute(store, asked, progress_).visible);
   asked.mode = Mode::kAngle;
   EXPECT_THROW(seen(store, asked, {}), InputError);
+}
+
+TEST_F(FoliageViews, RefuseAWrongFieldBeforeTheyAreComputed) {
+  struct Counting final : Progress {
+    std::atomic<int> reports = 0;
+    void report(std::string_view, double) override { ++reports; }
+  } counting;
+  add_woods("woods", 2);
+  const Store store(path());
+  EXPECT_THROW(compute_through_foliage(store, request(), {.leaf_area_field = "none"}, {}, counting), InputError);
+  EXPECT_EQ(counting.reports, 0);
 }
 
 // Real woods.

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include <itin/error.hpp>
+#include <itin/section_themes.hpp>
 
 namespace itin {
 
@@ -18,12 +19,6 @@ struct Met : SectionCrossing {
   std::uint16_t theme = 0;
   bool at_vertex = false;
 };
-
-/// Returns the theme of an edge from the themes of its ends, or of a triangle from those of two of its corners. An
-/// outline's edges have no theme, as their ends have none. Two different themes come together in a party wall only.
-std::uint16_t either(std::uint16_t a, std::uint16_t b) {
-  return a == 0 || b == 0 ? std::max(a, b) : std::min(a, b);
-}
 
 /// Consecutive breakpoints over ground without a gap.
 struct Stretch {
@@ -114,7 +109,7 @@ class SectionWalk {
     if (in.place == Place::kWithin) stretch.add(in);
     while (!at_end(in) && !(exit && lies_on(edge, *exit))) {
       const SectionVertex c = triangles_.beyond(edge);
-      const std::uint16_t theme = either(either(edge.left.theme, edge.right.theme), c.theme);
+      const std::uint16_t theme = theme_of_edge(theme_of_edge(edge.left.theme, edge.right.theme), c.theme);
       const Int128 side = line_.side(c);
       if (counts_as_left(side, on_line_)) {
         edge.left = c, edge.left_side = side;
@@ -135,7 +130,7 @@ class SectionWalk {
 
   Met met(const SidedEdge& edge) const {
     Met result{line_.crossing(edge.left, edge.left_side, edge.right, edge.right_side)};
-    result.theme = either(edge.left.theme, edge.right.theme);
+    result.theme = theme_of_edge(edge.left.theme, edge.right.theme);
     if (edge.left_side == 0) result.theme = edge.left.theme, result.at_vertex = true;
     if (edge.right_side == 0) result.theme = edge.right.theme, result.at_vertex = true;
     return result;
@@ -146,7 +141,7 @@ class SectionWalk {
     const std::optional<SectionPiece> piece = line_.clip(in, out);
     if (!piece) return;
     ++stretch.triangles;
-    if (in.at_vertex && out.at_vertex) theme = either(in.theme, out.theme);  // along an edge, or without length
+    if (in.at_vertex && out.at_vertex) theme = theme_of_edge(in.theme, out.theme);  // along an edge, or without length
     stretch.add({piece->from, in.place == Place::kWithin ? in.theme : piece->from.t == out.t ? out.theme : theme});
     stretch.add({piece->to, out.place == Place::kWithin ? out.theme : piece->to.t == in.t ? in.theme : theme});
   }

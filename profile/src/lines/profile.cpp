@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include <itin/error.hpp>
+#include <itin/section_themes.hpp>
 #include <itin/store.hpp>
 #include <profile/profile.hpp>
 
@@ -22,8 +23,7 @@ bool Profile::joined(std::size_t i) const {
 
 std::uint16_t Profile::theme_between(std::size_t i) const {
   const ProfilePoint &a = points[i], &b = points[i + 1];
-  if (a.theme == 0 || b.theme == 0) return std::max(a.theme, b.theme);
-  return a.ground_m >= b.ground_m ? a.theme : b.theme;
+  return theme_of_piece(a.theme, a.ground_m, b.theme, b.ground_m);
 }
 
 std::vector<FeatureRun> feature_runs(const Profile& profile) {

@@ -56,7 +56,7 @@ void draw_patch(Drawing& drawing, const std::vector<Rgba>& colours, const Box& b
 /// Stripes a patch as void_colour() stripes the map's pixels.
 void draw_void(Drawing& drawing, const Box& box) {
   constexpr double kPixel = kSheetPixelMm * kPointsPerMillimetre, kApart = kVoidStripePixels * kPixel,
-                   kWide = std::max(2, kVoidStripePixels / 4) * kPixel;
+                   kWide = void_stripe_width(kVoidStripePixels) * kPixel;
   drawing.rectangle(box, drawn(kVoid));
   // The ends of the line x + y = sum within the box.
   const auto upper = [&](double sum) {

@@ -1,10 +1,9 @@
 // The base of every map sheet: the shaded relief and contours of a store's ground, or a picture given instead.
 //
 //   const MapBase base = map_base(store, profile::ground_in_frame(sheet), profile::scale_of(sheet), basemap, progress);
-//   sheet.layers = layers_of(faded(base, studied), std::move(cells));
+//   sheet.layers = layers_of(base, std::move(cells));
 #pragma once
 
-#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -31,10 +30,6 @@ MapBase plain_base(const Relief& ground);
 
 /// Names the picture in a title block.
 std::pair<std::string, std::string> basemap_fact(const std::string& basemap);
-
-/// Returns the base with its picture faded where `studied` does not hold. `studied` is called with positions on any
-/// thread.
-MapBase faded(MapBase base, const std::function<bool(Point2)>& studied);
 
 /// Returns the layers: the picture, the cells shown over it, and contours.
 std::vector<profile::SheetLayer> layers_of(const MapBase& base, profile::SheetCells shown);

@@ -32,7 +32,7 @@ MapObjects mast_objects(std::vector<profile::SheetMark> masts, std::string key);
 MapObjects dot_objects(const MapDots& dots);
 
 /// The places where the map is striped as without ground, and what the legend says about them; both empty if there are
-/// none.
+/// none. `there` is called on any thread.
 struct MissingOnSheet {
   std::function<bool(Point2)> there;
   std::string text;
@@ -41,12 +41,13 @@ MissingOnSheet missing_on_sheet(PlacesWithoutGround places, const MissingGround&
 
 struct ResultSheet {
   RasterGrid grid;
-  Box area;                             ///< the least area that the map shows, metres
-  ResultMap map;                        ///< colours and keys of the cells
-  std::string heading;                  ///< the heading over the map's keys
-  std::function<bool(Point2)> studied;  ///< whether a place is part of the study; elsewhere the relief is faded
-  std::vector<MapObjects> objects;      ///< over the cells, the lowest first
-  profile::TitleBlock title;            ///< without the parts that every sheet has: coordinates, project, date
+  Box area;             ///< the least area that the map shows, metres
+  ResultMap map;        ///< colours and keys of the cells
+  std::string heading;  ///< the heading over the map's keys
+  /// Whether a place is part of the study; elsewhere the relief is faded. It is called on any thread.
+  std::function<bool(Point2)> studied;
+  std::vector<MapObjects> objects;  ///< over the cells, the lowest first
+  profile::TitleBlock title;        ///< without the parts that every sheet has: coordinates, project, date
   MissingOnSheet missing = {};
   std::string outside = {};  ///< the legend's name for faded ground; empty: none
 };

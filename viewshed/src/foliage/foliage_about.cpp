@@ -10,6 +10,8 @@
 #include <itin/clearance.hpp>
 #include <itin/grazing.hpp>
 #include <itin/parallel.hpp>
+#include <itin/section_themes.hpp>
+#include <itin/segment_distance.hpp>
 
 #include "line/infinity.hpp"
 #include "line/rounded_outwards.hpp"
@@ -32,18 +34,6 @@ constexpr double kMostDirections = 1 << 16;
 
 /// How many triangles of a direction have one bound on their height.
 constexpr std::size_t kFew = 16;
-
-double squared_distance_to_edge(const Point2& a, const Point2& b) {
-  const double dx = b.x - a.x, dy = b.y - a.y, squared = dx * dx + dy * dy;
-  const double t = squared > 0 ? std::clamp(-(a.x * dx + a.y * dy) / squared, 0.0, 1.0) : 0;
-  const double x = a.x + t * dx, y = a.y + t * dy;
-  return x * x + y * y;
-}
-
-/// The theme of an edge from those of its ends, as cross-sections have it.
-std::uint16_t theme_of_edge(std::uint16_t a, std::uint16_t b) {
-  return a == 0 || b == 0 ? std::max(a, b) : std::min(a, b);
-}
 
 /// Bounds the slope at which anything that high above the eye appears, between two distances.
 double slope_bound(double above, double nearest, double farthest, double drop) {
@@ -134,7 +124,8 @@ FoliageAbout::Entry FoliageAbout::entry_of(std::uint32_t triangle) const {
   bool about_eye = true;
   for (std::size_t i = 0; i < 3; ++i) {
     const Point2 &a = at[i], &b = at[(i + 1) % 3];
-    nearest = std::min(nearest, squared_distance_to_edge(a, b));
+    const Point2 way = way_from_segment({0, 0}, a, b);
+    nearest = std::min(nearest, way.x * way.x + way.y * way.y);
     about_eye = about_eye && a.x * b.y - a.y * b.x >= 0;
   }
   // So near to the eye, angles are matters of rounding.
@@ -206,10 +197,7 @@ bool FoliageAbout::add_piece(const Line& line, std::uint32_t triangle, std::vect
     crosses = true;
   }
   if (!crosses || out.at.distance <= in.at.distance || out.at.distance <= 0 || in.at.distance >= 1) return true;
-  const bool higher_in = in.at.z >= out.at.z;
-  const std::uint16_t theme = in.theme == 0 || out.theme == 0 ? std::max(in.theme, out.theme)
-                              : higher_in                     ? in.theme
-                                                              : out.theme;
+  const std::uint16_t theme = theme_of_piece(in.theme, in.at.z, out.theme, out.at.z);
   if (theme >= vegetation_.size() || !vegetation_[theme]) return true;
   ClearancePiece piece = line.over.piece(in.at, out.at);
   piece.from = std::max(piece.from, 0.0), piece.to = std::min(piece.to, 1.0);

@@ -89,11 +89,10 @@ class FoliageLines::Walk {
   FoliageAbout about_;
 };
 
-FoliageLines::FoliageLines(const Store& store, Surface surface, const profile::LeafAreas& leaves,
-                           double least_transmittance)
+FoliageLines::FoliageLines(const Store& store, Surface surface, const profile::Foliage& foliage)
     : surface_(std::move(surface)),
-      leaves_(leaves),
-      least_(least_transmittance),
+      leaves_(store, surface_.themes, foliage),
+      least_(foliage.least_transmittance),
       sections_(store, surface_.detail, surface_.themes) {}
 
 std::vector<LightThrough> FoliageLines::between(const Tin& tin, const Point3& eye, std::span<const Point3> targets,

@@ -1,6 +1,6 @@
 // The lines of one observer to cells that woods may hide, and what comes through to each.
 //
-//   const FoliageLines lines(store, {detail, themes, earth}, leaves, 0.5);
+//   const FoliageLines lines(store, {detail, themes, earth}, foliage);
 //   const std::vector<LightThrough> light = lines.between(tin, eye, targets, progress);
 #pragma once
 
@@ -30,8 +30,8 @@ class FoliageLines {
     ThemeChoice themes;
     Earth earth;
   };
-  /// `leaves` are those of the surface's vegetation. Store and leaves must outlive it.
-  FoliageLines(const Store& store, Surface surface, const profile::LeafAreas& leaves, double least_transmittance);
+  /// The store must outlive it. Throws InputError as profile::through_foliage() does, CorruptStore.
+  FoliageLines(const Store& store, Surface surface, const profile::Foliage& foliage);
 
   /// Returns what comes through on the lines from an eye to targets, all in metres. `tin` has the surface under the
   /// lines. Where a decision is within rounding, the line is walked as `itin los` walks it. Throws CorruptStore,
@@ -50,7 +50,7 @@ class FoliageLines {
                                    Progress& progress) const;
 
   Surface surface_;
-  const profile::LeafAreas& leaves_;
+  profile::LeafAreas leaves_;
   double least_;
   SectionSurface sections_;
 };

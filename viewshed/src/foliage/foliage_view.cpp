@@ -10,18 +10,21 @@
 #include <itin/level_choice.hpp>
 #include <itin/silent_progress.hpp>
 #include <itin/triangulate.hpp>
-#include <profile/leaf_areas.hpp>
+#include <profile/foliage.hpp>
 #include <viewshed/foliage_view.hpp>
 #include <viewshed/surface.hpp>
 
+#include "exact/compute.hpp"
 #include "foliage/foliage_lines.hpp"
+#include "foliage/raised_centres.hpp"
 #include "line/cell_tiles.hpp"
+#include "line/verdicts.hpp"
 #include "plan/azimuth_order.hpp"
 #include "plan/ground_runs.hpp"
 #include "plan/ground_tiles.hpp"
 #include "plan/memory.hpp"
 #include "progress/stopwatch.hpp"
-#include "request/request.hpp"
+#include "request/request_window.hpp"
 #include "scene/exact_scene.hpp"
 
 namespace itin::viewshed {
@@ -33,9 +36,10 @@ constexpr float kUntold = std::numeric_limits<float>::quiet_NaN();
 /// The parts of the time that the viewsheds with and without woods, and the lines between the two take, about.
 constexpr double kFullShare = 0.4, kSolidShare = 0.4;
 
-/// What one observer sees, without foliage and through it.
+/// What one observer sees, by cell.
 struct SeenThrough {
-  std::vector<double> length_m, transmittance;
+  std::vector<Verdict> solid;       ///< without foliage
+  std::vector<LightThrough> light;  ///< through it; not numbers where FoliageView has none
 };
 
 /// The cells of one tile that are between the two viewsheds.
@@ -47,14 +51,13 @@ struct CellsBetween {
 /// Both viewsheds, and what light comes through from one observer after another.
 class FoliageSurvey {
  public:
-  FoliageSurvey(const Store& store, const ViewshedWithSurface& full, const profile::Foliage& foliage,
+  /// `lines` run over the surface with the woods. Store, viewshed and lines must outlive the survey.
+  FoliageSurvey(const Store& store, const ViewshedWithSurface& full, const FoliageLines& lines,
                 const ComputeOptions& options, Progress& progress)
       : store_(store),
         full_(full),
         options_(options),
-        leaves_(store, full.result.request.themes, foliage),
-        lines_(store, {full.result.request.detail, full.result.request.themes, full.result.request.earth}, leaves_,
-               foliage.least_transmittance),
+        lines_(lines),
         grid_(full.result.grid),
         tiles_(grid_of_tiles(grid_)) {
     Request request = full.result.request;
@@ -62,26 +65,30 @@ class FoliageSurvey {
     request.grid = grid_;
     request.themes = request.themes.without_vegetation();
     solid_ = compute_with_surface(store, request, options, progress);
+    statistics_ = solid_.result.statistics;
     if (solid_.whole) find_grounds();
+    if (!full.whole)
+      tiles_of_ground_.emplace(store, level_within(store.metadata(), request.detail.finest()),
+                               box_of_window(store, request));
   }
 
-  const Result& solid() const { return solid_.result; }
+  /// The work that was done beside the viewshed with the woods.
+  const Statistics& statistics() const { return statistics_; }
 
-  /// Computes what an observer's lines come to. `verdicts` get those without foliage.
-  SeenThrough from_observer(std::size_t i, std::vector<Verdict>& verdicts, Statistics& statistics, Progress& progress) {
+  /// Computes what an observer's lines come to.
+  SeenThrough from_observer(std::size_t i, Progress& progress) {
     CallProgress call(progress);
     const Result full = of_observer(full_, i, call.step(0.3)), solid = of_observer(solid_, i, call.step(0.4));
     Stopwatch watch;
     const std::vector<CellsBetween> between = cells_between(full, solid);
-    SeenThrough seen = without_foliage(solid);
+    SeenThrough seen{solid.visible, without_foliage(solid.visible)};
     const Observer& observer = solid.request.observers.front();
     const Point3 eye{observer.position.x, observer.position.y,
                      observer.absolute ? observer.height : solid.ground_m.front() + observer.height};
     for_each_surface(observer.position, between, call, [&](const Tin& surface, std::span<const CellsBetween> some) {
-      walk(surface, eye, some, solid.request, statistics, call, seen);
+      walk(surface, eye, some, solid.request, call, seen.light);
     });
-    statistics.lines_seconds += watch.lap();
-    verdicts = solid.visible;
+    statistics_.lines_seconds += watch.lap();
     call.finish();
     return seen;
   }
@@ -90,7 +97,8 @@ class FoliageSurvey {
   Result of_observer(const ViewshedWithSurface& all, std::size_t i, Progress& progress) const {
     if (all.result.request.observers.size() == 1) return all.result;
     const Request request = request_for_observer(all.result, i);
-    return all.whole ? compute_on_surface(store_, all, request, progress) : compute(store_, request, progress);
+    return all.whole ? compute_on_surface(store_, all, request, progress)
+                     : compute_result(store_, request, options_, progress);
   }
 
   /// Lists the cells that nothing solid hides, but woods may, by tiles.
@@ -111,14 +119,13 @@ class FoliageSurvey {
     return between;
   }
 
-  SeenThrough without_foliage(const Result& solid) const {
-    SeenThrough seen{std::vector<double>(grid_.cell_count(), NAN), std::vector<double>(grid_.cell_count(), NAN)};
-    for (std::size_t cell = 0; cell < solid.visible.size(); ++cell) {
-      if (solid.visible[cell] == Verdict::kHidden) seen.transmittance[cell] = 0;
-      if (solid.visible[cell] == Verdict::kVisible || solid.visible[cell] == Verdict::kUndecided)
-        seen.length_m[cell] = 0, seen.transmittance[cell] = 1;
+  static std::vector<LightThrough> without_foliage(const std::vector<Verdict>& solid) {
+    std::vector<LightThrough> light(solid.size(), {NAN, NAN});
+    for (std::size_t cell = 0; cell < solid.size(); ++cell) {
+      if (solid[cell] == Verdict::kHidden) light[cell].transmittance = 0;
+      if (solid[cell] == Verdict::kVisible || solid[cell] == Verdict::kUndecided) light[cell] = {0, 1};
     }
-    return seen;
+    return light;
   }
 
   /// Calls visit(surface, cells) for surfaces with the woods under the lines to some cells: the one that was read, or
@@ -131,7 +138,7 @@ class FoliageSurvey {
       return;
     }
     const Request& request = full_.result.request;
-    const GroundTiles ground(store_, level_within(store_.metadata(), request.detail.finest()), extent_of(store_));
+    const GroundTiles& ground = *tiles_of_ground_;
     std::vector<TileSet> needed;
     std::vector<std::size_t> order;
     for (const CellsBetween& some : between) {
@@ -157,41 +164,26 @@ class FoliageSurvey {
     }
   }
 
+  /// Enters the light that comes from cells.
   void walk(const Tin& surface, const Point3& eye, std::span<const CellsBetween> between, const Request& request,
-            Statistics& statistics, Progress& progress, SeenThrough& seen) {
-    std::vector<std::uint32_t> cells;
+            Progress& progress, std::vector<LightThrough>& light) {
+    std::vector<std::size_t> cells;
     for (const CellsBetween& some : between) cells.insert(cells.end(), some.cells.begin(), some.cells.end());
-    const std::vector<Point3> targets = targets_of(between, request, progress);
-    const std::vector<LightThrough> light = lines_.between(surface, eye, targets, progress);
-    statistics.lines += cells.size();
-    for (std::size_t i = 0; i < cells.size(); ++i)
-      seen.length_m[cells[i]] = light[i].length_m, seen.transmittance[cells[i]] = light[i].transmittance;
+    const std::vector<Point3> targets =
+        raised_centres(grid_, cells, grounds_of(between, cells, request, progress),
+                       request.observers.front().target_height.value_or(request.target_height));
+    const std::vector<LightThrough> found = lines_.between(surface, eye, targets, progress);
+    statistics_.lines += cells.size();
+    for (std::size_t i = 0; i < cells.size(); ++i) light[cells[i]] = found[i];
   }
 
-  std::vector<Point3> targets_of(std::span<const CellsBetween> between, const Request& request, Progress& progress) {
-    const double height = request.observers.front().target_height.value_or(request.target_height);
-    std::vector<Point3> targets;
-    std::vector<Point2> places;
-    for (const CellsBetween& some : between) {
-      for (const std::uint32_t cell : some.cells) {
-        const RasterGrid::Cell place = place_of(grid_, cell);
-        places.push_back(grid_.centre(place.column, place.row));
-        targets.push_back({places.back().x, places.back().y, height});
-      }
-    }
-    if (request.target_absolute) return targets;
-    const std::vector<double> grounds = grounds_ ? grounds_in_memory(between) : grounds_of(places, request, progress);
-    for (std::size_t i = 0; i < targets.size(); ++i) targets[i].z += grounds[i];
-    return targets;
-  }
-
-  std::vector<double> grounds_of(const std::vector<Point2>& places, const Request& request, Progress& progress) const {
-    SilentProgress reading(progress);
-    const auto heights = heights_at(store_, places, request.detail,
-                                    request.targets_on_surface ? request.themes : ThemeChoice::none(), reading);
-    std::vector<double> grounds;
-    for (const auto& height : heights) grounds.push_back(*height);
-    return grounds;
+  /// Returns what the heights of targets count from. `cells` are all those of `between`.
+  std::vector<double> grounds_of(std::span<const CellsBetween> between, std::span<const std::size_t> cells,
+                                 const Request& request, Progress& progress) const {
+    if (request.target_absolute) return std::vector<double>(cells.size(), 0);
+    if (grounds_) return grounds_in_memory(between);
+    return heights_at_centres(store_, grid_, cells, request.detail,
+                              request.targets_on_surface ? request.themes : ThemeChoice::none(), progress);
   }
 
   std::vector<double> grounds_in_memory(std::span<const CellsBetween> between) const {
@@ -220,11 +212,12 @@ class FoliageSurvey {
   const Store& store_;
   const ViewshedWithSurface& full_;
   ComputeOptions options_;
-  profile::LeafAreas leaves_;
-  FoliageLines lines_;
+  const FoliageLines& lines_;
   RasterGrid grid_, tiles_;
   ViewshedWithSurface solid_;
-  std::unique_ptr<const ExactScene> grounds_;  ///< none where the surface was not read as a whole
+  Statistics statistics_;
+  std::optional<GroundTiles> tiles_of_ground_;  ///< none where the surface with the woods was read as a whole
+  std::unique_ptr<const ExactScene> grounds_;   ///< none where the surface was not read as a whole
 };
 
 /// Whether light comes through better than before.
@@ -234,13 +227,6 @@ bool is_better(double transmittance, double before) {
 
 Verdict verdict_of(double transmittance, Verdict solid, double least) {
   return solid != Verdict::kOutside && transmittance < least ? Verdict::kHidden : solid;
-}
-
-/// The better of two verdicts on a cell by different observers.
-Verdict better_of(Verdict a, Verdict b) {
-  for (const Verdict best : {Verdict::kVisible, Verdict::kUndecided, Verdict::kHidden})
-    if (a == best || b == best) return best;
-  return Verdict::kOutside;
 }
 
 void count_again(Result& result) {
@@ -256,6 +242,7 @@ void count_again(Result& result) {
 ThroughFoliage compute_through_foliage(const Store& store, const Request& request, const profile::Foliage& foliage,
                                        const ComputeOptions& options, Progress& progress) {
   if (request.mode != Mode::kVisible) throw InputError("`foliage`: only mode visible sees through woods", "foliage");
+  const FoliageLines lines(store, {request.detail, request.themes, request.earth}, foliage);
   CallProgress call(progress);
   // Both surfaces are in memory together, and lines are walked over all of the one with the woods.
   ComputeOptions half = options;
@@ -264,26 +251,25 @@ ThroughFoliage compute_through_foliage(const Store& store, const Request& reques
   half.sink = {};
   ThroughFoliage through{compute_with_surface(store, request, half, call.step(kFullShare)), {}};
   Result& result = through.computed.result;
-  FoliageSurvey survey(store, through.computed, foliage, half, call.step(kSolidShare / (1 - kFullShare)));
+  FoliageSurvey survey(store, through.computed, lines, half, call.step(kSolidShare / (1 - kFullShare)));
   const std::size_t cells = result.visible.size(), observers = result.request.observers.size();
   FoliageView& view = through.foliage;
   view = {std::vector<float>(cells, kUntold), std::vector<float>(cells, kUntold)};
-  std::vector<Verdict> verdicts(cells, Verdict::kOutside), solid;
-  Statistics statistics = survey.solid().statistics;
+  std::vector<Verdict> verdicts(cells, Verdict::kOutside);
   for (std::size_t i = 0; i < observers; ++i) {
-    const SeenThrough seen =
-        survey.from_observer(i, solid, statistics, call.step(1.0 / static_cast<double>(observers - i)));
+    const SeenThrough seen = survey.from_observer(i, call.step(1.0 / static_cast<double>(observers - i)));
     for (std::size_t cell = 0; cell < cells; ++cell) {
-      if (is_better(seen.transmittance[cell], view.transmittance[cell])) {
-        view.transmittance[cell] = static_cast<float>(seen.transmittance[cell]);
-        view.length_m[cell] = static_cast<float>(seen.length_m[cell]);
+      const LightThrough& light = seen.light[cell];
+      if (is_better(light.transmittance, view.transmittance[cell])) {
+        view.transmittance[cell] = static_cast<float>(light.transmittance);
+        view.length_m[cell] = static_cast<float>(light.length_m);
       }
       verdicts[cell] =
-          better_of(verdicts[cell], verdict_of(seen.transmittance[cell], solid[cell], foliage.least_transmittance));
+          better_of(verdicts[cell], verdict_of(light.transmittance, seen.solid[cell], foliage.least_transmittance));
     }
   }
   result.visible = std::move(verdicts);
-  result.statistics += statistics;
+  result.statistics += survey.statistics();
   count_again(result);
   call.finish();
   return through;

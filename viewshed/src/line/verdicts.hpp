@@ -38,8 +38,17 @@ inline std::uint64_t count_of(const TileValues<Verdict>& values, Verdict verdict
   return all;
 }
 
-/// Every observer's verdict on a cell, made one: the first of visible, undecided, zone cut, hidden and outside that any
-/// of them has. At first every cell is outside.
+/// Returns the better of two observers' verdicts on a cell: the first of visible, undecided, zone cut, hidden and
+/// outside.
+constexpr Verdict better_of(Verdict known, Verdict of_observer) {
+  // There are no branches, so that many cells are judged at once.
+  const bool kept = of_observer == Verdict::kOutside || known == Verdict::kVisible ||
+                    (of_observer == Verdict::kHidden && known != Verdict::kOutside) ||
+                    (of_observer == Verdict::kZoneCut && known == Verdict::kUndecided);
+  return kept ? known : of_observer;
+}
+
+/// Every observer's verdict on a cell, made one: the best of them. At first every cell is outside.
 class Verdicts {
  public:
   Verdicts() { values_.fill(Verdict::kOutside); }
@@ -48,14 +57,7 @@ class Verdicts {
   /// A cell that one observer certainly sees need not be judged for the others.
   bool open(std::size_t cell) const { return values_[cell] != Verdict::kVisible; }
 
-  void add(std::size_t cell, Verdict of_observer) {
-    // There are no branches, so that many cells are added at once.
-    const Verdict value = values_[cell];
-    const bool kept = of_observer == Verdict::kOutside || value == Verdict::kVisible ||
-                      (of_observer == Verdict::kHidden && value != Verdict::kOutside) ||
-                      (of_observer == Verdict::kZoneCut && value == Verdict::kUndecided);
-    values_[cell] = kept ? value : of_observer;
-  }
+  void add(std::size_t cell, Verdict of_observer) { values_[cell] = better_of(values_[cell], of_observer); }
   void add(const TileValues<Verdict>& of_observer) {
     for (std::size_t cell = 0; cell < values_.size(); ++cell) add(cell, of_observer[cell]);
   }

@@ -7,7 +7,6 @@
 
 #include <itin/contour_lines.hpp>
 #include <itin/map_picture.hpp>
-#include <itin/parallel.hpp>
 #include <viewshed/map_base.hpp>
 #include <viewshed/relief.hpp>
 
@@ -93,12 +92,6 @@ MapBase picture_base(const std::string& basemap, const RasterGrid& pixels, const
   return {{pixels, picture_at(basemap, pixels, crs_wkt)}, {}, {}, {}};
 }
 
-Rgba paler(const Rgba& c) {
-  constexpr double kFade = 0.6;
-  const auto part = [](std::uint8_t v) { return static_cast<std::uint8_t>(std::lround(v + kFade * (255 - v))); };
-  return {part(c.red), part(c.green), part(c.blue), c.alpha};
-}
-
 }  // namespace
 
 MapBase plain_base(const Relief& ground) {
@@ -116,18 +109,6 @@ MapBase map_base(const Store& store, const Box& frame, double scale, const std::
 
 std::pair<std::string, std::string> basemap_fact(const std::string& basemap) {
   return {"Base map", std::filesystem::path(basemap).filename().string()};
-}
-
-MapBase faded(MapBase base, const std::function<bool(Point2)>& studied) {
-  profile::SheetCells& picture = base.picture;
-  parallel_for(static_cast<std::size_t>(picture.grid.rows()), [&](std::size_t r) {
-    const auto row = static_cast<std::int64_t>(r);
-    for (std::int64_t column = 0; column < picture.grid.columns(); ++column) {
-      Rgba& colour = picture.colours[picture.grid.index({column, row})];
-      if (colour.alpha > 0 && !studied(picture.grid.centre(column, row))) colour = paler(colour);
-    }
-  });
-  return base;
 }
 
 std::vector<profile::SheetLayer> layers_of(const MapBase& base, profile::SheetCells shown) {

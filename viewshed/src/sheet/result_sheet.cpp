@@ -1,10 +1,12 @@
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <itin/coordinates.hpp>
+#include <itin/parallel.hpp>
 #include <itin/surface_text.hpp>
 #include <itin/void_stripes.hpp>
 #include <viewshed/result_sheet.hpp>
@@ -80,6 +82,23 @@ std::string beyond_the_map(const MapObjects& objects, const SheetKey& key, const
     names.push_back(fmt::format("{} more", all - names.size()));
   }
   return fmt::format("{}: {}", count, fmt::join(names, ", "));
+}
+
+Rgba paler(const Rgba& c) {
+  constexpr double kFade = 0.6;
+  const auto part = [](std::uint8_t v) { return static_cast<std::uint8_t>(std::lround(v + kFade * (255 - v))); };
+  return {part(c.red), part(c.green), part(c.blue), c.alpha};
+}
+
+/// Calls visit(pixel, centre, colour) for each pixel, on any thread.
+template <class Visit>
+void for_each_pixel(profile::SheetCells& picture, const Visit& visit) {
+  const RasterGrid& grid = picture.grid;
+  parallel_for(static_cast<std::size_t>(grid.rows()), [&](std::size_t r) {
+    RasterGrid::Cell pixel{0, static_cast<std::int64_t>(r)};
+    for (; pixel.column < grid.columns(); ++pixel.column)
+      visit(pixel, grid.centre(pixel.column, pixel.row), picture.colours[grid.index(pixel)]);
+  });
 }
 
 bool has_clear_pixels(const profile::SheetCells& picture) {
@@ -158,12 +177,13 @@ std::pair<std::string, std::string> terrain_fact(const StoreMetadata& metadata, 
 }
 
 MapBase fitted(MapBase base, const ResultSheet& content, int stripes) {
-  base = faded(std::move(base), content.studied);
-  const RasterGrid& pixels = base.picture.grid;
-  for (std::int64_t row = 0; row < pixels.rows() && content.missing.there; ++row)
-    for (std::int64_t column = 0; column < pixels.columns(); ++column)
-      if (content.missing.there(pixels.centre(column, row)))
-        base.picture.colours[pixels.index({column, row})] = void_colour(column, row, stripes);
+  for_each_pixel(base.picture, [&](RasterGrid::Cell pixel, Point2 centre, Rgba& colour) {
+    if (content.missing.there && content.missing.there(centre)) {
+      colour = void_colour(pixel.column, pixel.row, stripes);
+    } else if (colour.alpha > 0 && !content.studied(centre)) {
+      colour = paler(colour);
+    }
+  });
   return base;
 }
 

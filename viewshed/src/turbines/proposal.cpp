@@ -38,14 +38,6 @@ std::vector<Turbine> turbines_of_study_area(const ZoneRequest& request) {
   return turbines;
 }
 
-bool in_study_area(const ZoneRequest& request, Point2 place) {
-  const bool of_proposal = has_proposal(request);
-  return std::any_of(request.turbines.begin(), request.turbines.end(), [&](const Turbine& t) {
-    const double dx = t.position.x - place.x, dy = t.position.y - place.y;
-    return (!of_proposal || is_proposed(t)) && dx * dx + dy * dy <= t.radius * t.radius;
-  });
-}
-
 std::vector<std::uint16_t> proposed_tips(const Zone& zone, const Visibility& visibility) {
   const std::vector<std::uint32_t> own = bits_of_proposal(zone);
   std::vector<std::uint16_t> tips(visibility.tip_count.size(), kCountOutside);

@@ -16,10 +16,6 @@ inline std::size_t proposed_turbines(const ZoneRequest& request) {
   return turbines_with(TurbineStatus::kProposed, request);
 }
 
-/// Tells whether a place lies within the study area: within the radius of a turbine, or, of a request with a proposal,
-/// of a proposed one.
-bool in_study_area(const ZoneRequest& request, Point2 place);
-
 /// Returns how many tips of proposed turbines are seen; kCountOutside outside.
 std::vector<std::uint16_t> proposed_tips(const Zone& zone, const Visibility& visibility);
 

@@ -4,15 +4,14 @@
 #include <utility>
 
 #include <itin/call_progress.hpp>
-#include <itin/silent_progress.hpp>
 #include <itin/triangulate.hpp>
-#include <profile/leaf_areas.hpp>
+#include <profile/foliage.hpp>
 
 #include "foliage/foliage_lines.hpp"
+#include "foliage/raised_centres.hpp"
 #include "foliage/season_light.hpp"
 #include "line/cell_tiles.hpp"
 #include "turbines/zone_parts.hpp"
-#include "turbines/zone_request.hpp"
 
 namespace itin::viewshed {
 
@@ -38,11 +37,9 @@ class SeasonSurvey {
         zone_(zone),
         survey_(survey),
         themes_(zone.request.themes.value_or(ThemeChoice::none())),
-        leaves_(store, themes_,
-                {.extinction = zone.request.foliage->extinction,
-                 .least_transmittance = zone.request.foliage->least_transmittance}),
-        lines_(store, {zone.request.detail, themes_, zone.request.earth}, leaves_,
-               zone.request.foliage->least_transmittance),
+        lines_(store, {zone.request.detail, themes_, zone.request.earth},
+               {.extinction = zone.request.foliage->extinction,
+                .least_transmittance = zone.request.foliage->least_transmittance}),
         tiles_(grid_of_tiles(zone.grid)) {
     request_ = zone.request;
     request_.cell_size.reset(), request_.grid = zone.grid;
@@ -119,9 +116,12 @@ class SeasonSurvey {
                     CallProgress& call, std::vector<std::uint16_t>& summer, std::vector<std::uint16_t>& winter) {
     const std::vector<std::size_t> cells = cells_between(part, turbines, bounds);
     if (cells.empty()) return;
-    const Tin surface = triangulate(store_, part.window, zone_.request.detail, call.step(0.4), themes_);
-    const std::vector<Point3> eyes = eyes_at(cells, call);
-    const ZoneFoliage& foliage = *zone_.request.foliage;
+    const ZoneRequest& request = zone_.request;
+    const Tin surface = triangulate(store_, part.window, request.detail, call.step(0.4), themes_);
+    const std::vector<double> grounds =
+        heights_at_centres(store_, zone_.grid, cells, request.detail, ThemeChoice::none(), call);
+    const std::vector<Point3> eyes = raised_centres(zone_.grid, cells, grounds, request.observer_height);
+    const ZoneFoliage& foliage = *request.foliage;
     for (std::size_t k = 0; k < turbines.size(); ++k) {
       std::vector<std::size_t> to;
       std::vector<Point3> targets;
@@ -153,21 +153,6 @@ class SeasonSurvey {
     return cells;
   }
 
-  /// The eyes at the centres of cells, metres.
-  std::vector<Point3> eyes_at(const std::vector<std::size_t>& cells, Progress& progress) const {
-    std::vector<Point2> places;
-    for (const std::size_t cell : cells) {
-      const RasterGrid::Cell place = place_of(zone_.grid, cell);
-      places.push_back(zone_.grid.centre(place.column, place.row));
-    }
-    SilentProgress quiet(progress);
-    const auto grounds = heights_at(store_, places, zone_.request.detail, ThemeChoice::none(), quiet);
-    std::vector<Point3> eyes;
-    for (std::size_t i = 0; i < places.size(); ++i)
-      eyes.push_back({places[i].x, places[i].y, *grounds[i] + zone_.request.observer_height});
-    return eyes;
-  }
-
   Point3 top_of(const Turbine& turbine) const {
     const auto& all = zone_.request.turbines;
     std::size_t k = 0;
@@ -179,7 +164,6 @@ class SeasonSurvey {
   const Zone& zone_;
   const SolidSurvey& survey_;
   ThemeChoice themes_;
-  profile::LeafAreas leaves_;
   FoliageLines lines_;
   RasterGrid tiles_;
   ZoneRequest request_;  ///< that of the zone, with woods that are solid

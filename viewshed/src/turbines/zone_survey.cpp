@@ -56,6 +56,7 @@ ZoneSurvey::ZoneSurvey(const ExactScene& ground, const Zone& zone) : ground_(gro
     axis.position = t.position;
     axis.radius_squared = t.radius * t.radius;
   }
+  if (has_proposal(zone.request)) proposed_ = turbines_of_study_area(zone.request);
 }
 
 std::uint64_t ZoneSurvey::run(const Screen& screen, std::span<const std::size_t> tiles, Visibility& result,
@@ -129,6 +130,12 @@ bool ZoneSurvey::in_reach(const Axis& axis, const Tile& tile) const {
   return squared_distance(axis.position, box_of_centres(zone_.grid, tile)) <= axis.radius_squared;
 }
 
+/// Tells whether a cell in reach of a turbine is in reach of one of the study area.
+bool ZoneSurvey::in_study_area(RasterGrid::Cell place) const {
+  return proposed_.empty() || std::any_of(proposed_.begin(), proposed_.end(),
+                                          [&](const Turbine& t) { return viewshed::in_reach(t, zone_.grid, place); });
+}
+
 void ZoneSurvey::observe(std::size_t turbine, const Screen& screen, const RadialSweep::View& view,
                          TileSightings& work) const {
   const Axis& axis = axes_[turbine];
@@ -174,11 +181,10 @@ void ZoneSurvey::record(std::size_t turbine, std::size_t cell, double distance, 
 
 void ZoneSurvey::store(const TileSightings& work, Visibility& result) const {
   const double all = static_cast<double>(zone_.request.turbines.size());
-  const bool of_proposal = has_proposal(zone_.request);
   std::vector<Arc> arcs;
   for_each_cell(work.tile, [&](std::size_t from, RasterGrid::Cell place) {
     if (work.tips[from] == kCountOutside) return;
-    if (of_proposal && !in_study_area(zone_.request, zone_.grid.centre(place.column, place.row))) return;
+    if (!in_study_area(place)) return;
     const std::size_t to = zone_.grid.index(place);
     result.hub_count[to] = work.hubs[from];
     result.tip_count[to] = work.tips[from];

@@ -50,6 +50,7 @@ class ZoneSurvey {
                        std::vector<double>& sums) const;
   void add_sums(const std::vector<std::vector<double>>& of_tiles, Visibility& result) const;
   bool in_reach(const Axis& axis, const Tile& tile) const;
+  bool in_study_area(RasterGrid::Cell place) const;
   void observe(std::size_t turbine, const Screen& screen, const RadialSweep::View& view, TileSightings& work) const;
   void take_open_lines(std::size_t turbine, const Visibility& open, TileSightings& work) const;
   void record(std::size_t turbine, std::size_t cell, double distance, double least, TileSightings& work) const;
@@ -60,6 +61,7 @@ class ZoneSurvey {
   const ExactScene& ground_;
   const Zone& zone_;
   std::vector<Axis> axes_;
+  std::vector<Turbine> proposed_;  ///< the turbines of the study area, where these are not all; otherwise none
 };
 
 }  // namespace itin::viewshed

@@ -111,11 +111,9 @@ class SightsInSeason::Look {
 
 SightsInSeason::SightsInSeason(const Store& store, const DwellingsSurvey& survey)
     : survey_(survey),
-      leaves_(store, survey.request.themes,
-              {.extinction = survey.request.foliage->extinction,
-               .least_transmittance = survey.request.foliage->least_transmittance}),
-      lines_(store, {Detail::tolerance(0), survey.request.themes, survey.request.earth}, leaves_,
-             survey.request.foliage->least_transmittance) {}
+      lines_(store, {Detail::tolerance(0), survey.request.themes, survey.request.earth},
+             {.extinction = survey.request.foliage->extinction,
+              .least_transmittance = survey.request.foliage->least_transmittance}) {}
 
 void SightsInSeason::look(const Tin& surface, std::span<const std::size_t> turbines, DwellingFacade& facade,
                           Progress& progress) const {

@@ -10,7 +10,6 @@
 #include <itin/progress.hpp>
 #include <itin/store.hpp>
 #include <itin/tin.hpp>
-#include <profile/leaf_areas.hpp>
 #include <viewshed/dwellings.hpp>
 
 #include "foliage/foliage_lines.hpp"
@@ -33,7 +32,6 @@ class SightsInSeason {
   class Look;
 
   const DwellingsSurvey& survey_;
-  profile::LeafAreas leaves_;
   FoliageLines lines_;
 };
 

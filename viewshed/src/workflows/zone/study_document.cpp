@@ -30,32 +30,31 @@ Document proposal_areas(const Zone& zone, const Visibility& v) {
           {"additional", km2(kProposalAlone)}};
 }
 
-Document areas_of(const Zone& zone, const Visibility& v) {
-  std::uint64_t hubs = 0, tips = 0, all = 0;
-  for (std::size_t i = 0; i < v.tip_count.size(); ++i) {
-    if (v.tip_count[i] == kCountOutside) continue;
-    ++all, hubs += v.hub_count[i] > 0 ? 1U : 0U, tips += v.tip_count[i] > 0 ? 1U : 0U;
-  }
-  Document areas{{"any_tip_seen", zone.km2(tips)}, {"any_hub_seen", nullptr}, {"studied", zone.km2(all)}};
-  const bool hubs_known = known_hubs(zone) > 0;
-  if (hubs_known) areas["any_hub_seen"] = zone.km2(hubs);
-  const UndecidedArea of_tips = undecided_area(zone, v.tip_count, v.tip_undecided);
-  if (has_proposal(zone.request)) areas["proposal"] = proposal_areas(zone, v);
-  areas.update({{"any_tip_undecided", of_tips.any_m2 / 1e6}, {"more_tips_undecided", of_tips.more_m2 / 1e6}});
-  if (!hubs_known) return areas;
-  const UndecidedArea of_hubs = undecided_area(zone, v.hub_count, v.hub_undecided);
-  areas.update({{"any_hub_undecided", of_hubs.any_m2 / 1e6}, {"more_hubs_undecided", of_hubs.more_m2 / 1e6}});
+/// The area of the cells whose count passes a test.
+template <class Test>
+double km2_where(const Zone& zone, const std::vector<std::uint16_t>& counts, const Test& test) {
+  return zone.km2(static_cast<std::uint64_t>(std::count_if(counts.begin(), counts.end(), test)));
+}
+
+/// The areas from which turbines are seen; `counts` are a Visibility, or those of a season.
+template <class Counts>
+Document seen_areas(const Zone& zone, const Counts& counts) {
+  const auto seen = [](std::uint16_t n) { return n > 0 && n != kCountOutside; };
+  Document areas{{"any_tip_seen", km2_where(zone, counts.tip_count, seen)}, {"any_hub_seen", nullptr}};
+  if (known_hubs(zone) > 0) areas["any_hub_seen"] = km2_where(zone, counts.hub_count, seen);
   return areas;
 }
 
-/// The areas from which turbines are seen through woods in a season.
-Document areas_in_season(const Zone& zone, const SeasonCounts& counts) {
-  const auto km2 = [&](const std::vector<std::uint16_t>& seen) {
-    const auto cells = std::count_if(seen.begin(), seen.end(), [](auto n) { return n > 0 && n != kCountOutside; });
-    return zone.km2(static_cast<std::uint64_t>(cells));
-  };
-  return {{"any_tip_seen", km2(counts.tip_count)},
-          {"any_hub_seen", known_hubs(zone) > 0 ? Document(km2(counts.hub_count)) : Document(nullptr)}};
+Document areas_of(const Zone& zone, const Visibility& v) {
+  Document areas = seen_areas(zone, v);
+  areas["studied"] = km2_where(zone, v.tip_count, [](std::uint16_t n) { return n != kCountOutside; });
+  const UndecidedArea of_tips = undecided_area(zone, v.tip_count, v.tip_undecided);
+  if (has_proposal(zone.request)) areas["proposal"] = proposal_areas(zone, v);
+  areas.update({{"any_tip_undecided", of_tips.any_m2 / 1e6}, {"more_tips_undecided", of_tips.more_m2 / 1e6}});
+  if (known_hubs(zone) == 0) return areas;
+  const UndecidedArea of_hubs = undecided_area(zone, v.hub_count, v.hub_undecided);
+  areas.update({{"any_hub_undecided", of_hubs.any_m2 / 1e6}, {"more_hubs_undecided", of_hubs.more_m2 / 1e6}});
+  return areas;
 }
 
 Document turbines_document(const ZoneStudy& study) {
@@ -70,8 +69,8 @@ Document area_document(const Zone& zone) {
   Document document{{"bare", areas_of(zone, zone.bare)}};
   if (zone.screened) document["screened"] = areas_of(zone, *zone.screened);
   if (zone.seasons) {
-    document["summer"] = areas_in_season(zone, zone.seasons->summer);
-    document["winter"] = areas_in_season(zone, zone.seasons->winter);
+    document["summer"] = seen_areas(zone, zone.seasons->summer);
+    document["winter"] = seen_areas(zone, zone.seasons->winter);
   }
   return document;
 }
