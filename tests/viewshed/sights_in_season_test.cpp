@@ -51,11 +51,15 @@ class SightsOfSeasons : public test::RollingHill {
                    double leaf_area) {
     const auto clear = [&](double height) { return sees(store, facade, turbine, height, leaf_area); };
     EXPECT_EQ(sight.tip == Verdict::kVisible, clear(turbine.tip_height));
-    if (turbine.hub_height) EXPECT_EQ(sight.hub == Verdict::kVisible, clear(*turbine.hub_height));
+    if (turbine.hub_height) {
+      EXPECT_EQ(sight.hub == Verdict::kVisible, clear(*turbine.hub_height));
+    }
     if (sight.tip != Verdict::kVisible) return;
     const double least = turbine.tip_height - sight.visible;
     EXPECT_TRUE(clear(std::min(least + 0.02, turbine.tip_height))) << least;
-    if (least > 0.03) EXPECT_FALSE(clear(least - 0.03)) << least;
+    if (least > 0.03) {
+      EXPECT_FALSE(clear(least - 0.03)) << least;
+    }
   }
 
   /// Counts the sights that differ between woods that are solid and none, as all others are told without a walk.
