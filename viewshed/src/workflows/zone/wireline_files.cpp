@@ -189,7 +189,7 @@ const char* verdict_in_words(const std::optional<TurbineSight::Verdict>& verdict
 }
 
 /// Returns a row for each turbine, the nearest first.
-std::vector<std::vector<std::string>> table_of_turbines(const Zone& zone, const std::vector<TurbineSight>& sights) {
+std::vector<std::vector<std::string>> table_of_sights(const Zone& zone, const std::vector<TurbineSight>& sights) {
   std::vector<std::vector<std::string>> rows{
       {"Turbine", "Distance, km", "Bearing", "Hub", "Blade tip", "In sight", "Vertical angle"}};
   std::vector<std::size_t> nearest = all_turbines(zone);
@@ -330,7 +330,7 @@ void WirelineWriter::write(const Viewpoint& v, const ViewedSurface& view, const 
       profile::draw_viewpoint_sheet(
           narrow,
           {sheet_towards({bearing, kCylinder}, cylinders, sights, sheet), farm_table(zone_, sights),
-           table_of_turbines(zone_, sights), location_map(store_, zone_, v, sights, sheets_.basemap, progress)},
+           table_of_sights(zone_, sights), location_map(store_, zone_, v, sights, sheets_.basemap, progress)},
           name));
 }
 
