@@ -7,7 +7,6 @@
 
 #include <itin/degrees.hpp>
 
-#include "workflows/dwellings/choose_dwellings.hpp"
 #include "workflows/dwellings/output/dwelling_calendar.hpp"
 #include "workflows/dwellings/output/dwelling_names.hpp"
 
@@ -90,8 +89,7 @@ Box area_about(const DwellingsSurvey& survey, const Dwelling& dwelling) {
   area.extend(dwelling.position);
   area.extend(turbines[dwelling.nearest].position);
   for (const Turbine& turbine : turbines)
-    if (horizontal_distance(dwelling.position, turbine.position) <= survey.request.radius)
-      area.extend(turbine.position);
+    if (distance(dwelling.position, turbine.position) <= survey.request.radius) area.extend(turbine.position);
   for (const std::size_t turbine : flickering_turbines(dwelling)) area.extend(turbines[turbine].position);
   constexpr double kLeastRoom = 50, kRoom = 0.12;
   return widened(area, std::max(kLeastRoom, kRoom * std::max(area.width(), area.height())));
