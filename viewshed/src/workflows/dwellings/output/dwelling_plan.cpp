@@ -7,7 +7,6 @@
 
 #include <itin/degrees.hpp>
 
-#include "workflows/dwellings/choose_dwellings.hpp"
 #include "workflows/dwellings/output/dwelling_calendar.hpp"
 #include "workflows/dwellings/output/dwelling_names.hpp"
 

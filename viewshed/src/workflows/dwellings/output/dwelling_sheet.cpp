@@ -146,7 +146,7 @@ profile::SheetTable table_of_facades(const DwellingsSurvey& survey, const Dwelli
   return table;
 }
 
-profile::SheetTable table_of_turbines(const DwellingsSurvey& survey, const Dwelling& dwelling) {
+profile::SheetTable table_of_flicker(const DwellingsSurvey& survey, const Dwelling& dwelling) {
   profile::SheetTable table{.title = "Shadow flicker by turbine, worst case", .first_column = 0.2};
   table.elsewhere = "flicker.csv";
   table.rows = {{"Turbine", "Distance", "Bearing", "Hours", "Days", "Worst day", "Minutes", "Likely hours"}};
@@ -203,7 +203,7 @@ profile::DwellingSheet dwelling_sheet(const SheetOfSurvey& of, std::size_t numbe
   return {sheet_title(of.survey, number),
           facts_of_dwelling(of.survey, dwelling),
           table_of_facades(of.survey, dwelling),
-          table_of_turbines(of.survey, dwelling),
+          table_of_flicker(of.survey, dwelling),
           of.calendars.of(dwelling),
           map_about(of, dwelling, paper, progress),
           plan_of(dwelling, paper)};
