@@ -88,7 +88,9 @@ def test_a_line_is_that_of_the_command_line(town: itin.Store, tmp_path: Path) ->
     assert (tmp_path / "report.pdf").read_bytes().startswith(b"%PDF")
 
 
-def test_a_link_budget_is_that_of_the_command_line(town: itin.Store) -> None:
+def test_a_link_budget_is_that_of_the_command_line(town: itin.Store, tmp_path: Path) -> None:
+    pattern = tmp_path / "sector.msi"
+    pattern.write_text("HORIZONTAL 2\n0 0\n180 20\nVERTICAL 2\n0 1\n180 20\n")
     ends = ["--from", "321590,4297655,10", "--to", "321790,4297662,12"]
     cases: tuple[tuple[float | tuple[float, float], str], ...] = (((30.0, 31.0), "30,31"), (32.0, "32"))
     for gains, text in cases:
@@ -102,10 +104,14 @@ def test_a_link_budget_is_that_of_the_command_line(town: itin.Store) -> None:
             sensitivity_dbm=-70,
             rain_rate_mm_h=42,
             refractivity_gradient=-200,
+            from_antenna=pattern,
+            antenna_azimuth=60,
+            antenna_tilt=(2, None),
         )
         radio = ["--frequency", "26", "--power-dbm", "18", "--gain-dbi", text, "--feeder-loss-db", "1"]
         climate = ["--sensitivity-dbm", "-70", "--rain-rate-mm-h", "42", "--refractivity-gradient", "-200"]
-        document = json.loads(run("los", town.path, *ends, *radio, *climate, "--json"))
+        antenna = ["--from-antenna", str(pattern), "--antenna-azimuth", "60", "--antenna-tilt", "2,aim"]
+        document = json.loads(run("los", town.path, *ends, *radio, *climate, *antenna, "--json"))
         assert line.document["radio"]["budget"] == document["radio"]["budget"]
     with pytest.raises(itin.InputError) as caught:
         town.line_of_sight((321590, 4297655, 10), (321790, 4297662, 12), frequency_ghz=26, sensitivity_dbm=-70)
