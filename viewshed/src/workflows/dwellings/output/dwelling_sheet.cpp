@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <itin/counted.hpp>
 #include <itin/sources_in.hpp>
 #include <viewshed/map_base.hpp>
 #include <viewshed/result_sheet.hpp>
@@ -52,7 +53,7 @@ std::string date_on_sheet(const DwellingsSurvey& survey, std::uint32_t day) {
 std::string flicker_text(const DwellingsSurvey& survey, const FlickerSum& sum) {
   const FlickerRules& rules = survey.request.flicker;
   if (sum.minutes == 0) return "none";
-  return fmt::format("{:.1f} h on {} days, {}; {} min on {}, {}", sum.hours(), sum.days,
+  return fmt::format("{:.1f} h on {}, {}; {} min on {}, {}", sum.hours(), counted(sum.days, "day"),
                      limit_text(rules.limit_minutes_year / 60, "h in the year", sum.over_year), sum.worst_minutes,
                      date_on_sheet(survey, sum.worst_day),
                      limit_text(rules.limit_minutes_day, "min on a day", sum.over_day));
@@ -82,11 +83,12 @@ Facts facts_of_dwelling(const DwellingsSurvey& survey, const Dwelling& dwelling)
                                    dwelling.theme == 0 ? "" : ", before each facade")},
               {"Nearest turbine", fmt::format("{}, {:.0f} m away", name_of_turbine(nearest), dwelling.nearest_m)},
               {"Seen over bare ground", view_text(view_of(survey, dwelling, SightSurface::kBare))}};
-  if (request.themes.includes_raised(survey.metadata.themes))
+  const DwellingFacade& any = dwelling.facades.front();
+  if (!any.screened.empty())
     facts.emplace_back("Seen past what stands", view_text(view_of(survey, dwelling, SightSurface::kScreened)));
   for (const auto& [name, season] : {std::pair("Seen through woods, summer", SightSurface::kSummer),
                                      std::pair("Seen through woods, winter", SightSurface::kWinter)})
-    if (request.foliage) facts.emplace_back(name, view_text(view_of(survey, dwelling, season)));
+    if (!any.winter.empty()) facts.emplace_back(name, view_text(view_of(survey, dwelling, season)));
   facts.emplace_back("Shadow flicker, worst", flicker_text(survey, sum));
   if (sum.likely) facts.emplace_back("Shadow flicker, likely", fmt::format("{:.1f} h", *sum.likely / 60));
   facts.emplace_back("Sun", rules_text(request.flicker));
@@ -117,14 +119,20 @@ const char* name_of_view(SightSurface surface) {
   return surface == SightSurface::kScreened ? "past what stands on it" : "through woods in winter";
 }
 
+/// The views that a table of facades has room for.
+std::vector<SightSurface> views_in_table(const DwellingFacade& facade) {
+  std::vector<SightSurface> views{SightSurface::kBare};
+  if (!facade.screened.empty()) views.push_back(SightSurface::kScreened);
+  if (!facade.winter.empty()) views.push_back(SightSurface::kWinter);
+  return views;
+}
+
 profile::SheetTable table_of_facades(const DwellingsSurvey& survey, const Dwelling& dwelling) {
   profile::SheetTable table{
       .title = "What each facade sees of the turbines before it (?: undecided across ground without data)",
       .first_column = 0.06};
   table.elsewhere = "facades.csv";
-  std::vector<SightSurface> surfaces{SightSurface::kBare};
-  if (survey.request.themes.includes_raised(survey.metadata.themes)) surfaces.push_back(SightSurface::kScreened);
-  if (survey.request.foliage) surfaces.push_back(SightSurface::kWinter);
+  const std::vector<SightSurface> surfaces = views_in_table(dwelling.facades.front());
   const std::vector<std::string> columns = columns_of_view(surfaces.size());
   table.headings = {{"", 4}};
   for (const SightSurface surface : surfaces) table.headings.push_back({name_of_view(surface), columns.size()});
