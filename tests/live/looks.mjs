@@ -15,7 +15,7 @@ import {
   until,
   MIDDLE,
 } from "./planner.mjs";
-import { keepPicture, world } from "./served_map.mjs";
+import { keepPicture, openPage, world } from "./served_map.mjs";
 
 test("modes with values have classes in the legend, and each place its value", async () => {
   const page = await pageWithMast();
@@ -44,8 +44,8 @@ test("layers change the picture under the masts, and houses are drawn where they
   await page.waitForNetworkIdle();
   await keepPicture(page, "town");
   const changes = [
-    ["#contours", "click"],
     ["#relief", "slope"],
+    ["#contours", "click"],
     ["#relief", "none"],
     ["#drawn-themes input", "click"],
   ];
@@ -67,6 +67,16 @@ test("layers change the picture under the masts, and houses are drawn where they
   await settled(page);
   assert(Number(await share()) > Number(withHouses));
   await until(() => /themes=none|draw=/.test(page.url()), "the address has the layers");
+  await closed(page);
+});
+
+test("the slope is drawn when it is first asked for", async () => {
+  const page = await openPage(world.browser, world.hills.address);
+  const ground = { clip: { x: 400, y: 100, width: 500, height: 400 } };
+  await page.waitForNetworkIdle();
+  const before = await stillPicture(page, ground);
+  await page.select("#relief", "slope");
+  await changed(page, before, ground, "the slope is drawn");
   await closed(page);
 });
 

@@ -67,15 +67,30 @@ test("a file that takes too long is cancelled", async () => {
   await closed(page);
 });
 
-test("the page says when the server has gone, and when another has come", async () => {
-  const first = await serve(world.folder, "town.itin");
-  const page = await openPage(world.browser, first.address);
+test("the page says when the server has gone, and goes on with the address of the next one", async () => {
+  const first = await serve(world.folder, "hills.itin");
+  const page = await pageWithMast(first);
   const says = (words) =>
     page.waitForFunction((wanted) => document.querySelector("#status").textContent.includes(wanted), {}, words);
   await first.stop();
   await says("does not answer");
-  const second = await serve(world.folder, "town.itin", new URL(first.address).port);
-  await says("an earlier start");
+  const second = await serve(world.folder, "hills.itin", new URL(first.address).port);
+  await says("no key to the server");
+  const place = await mastAt(page);
+  await page.evaluate((address) => (location.href = address), second.address);
+  // The page starts anew meanwhile.
+  const again = await until(
+    () =>
+      page
+        .$eval("#status", ({ hidden }) => hidden)
+        .then(
+          (live) => live && mastAt(page),
+          () => null,
+        ),
+    "the page goes on",
+  );
+  assert.deepEqual(again, place);
+  await settled(page);
   await page.close();
   await second.stop();
 });

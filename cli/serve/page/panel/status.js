@@ -11,7 +11,7 @@ const LINE_WORDS = {
   live: "",
   lost: "The server does not answer. Trying again …",
   refused:
-    "The server was started anew. Open the address that itin serve printed, in this tab: what is on the map stays.",
+    "This page has no key to the server that runs. Open the address that itin serve printed; in this tab, what is on the map stays.",
 };
 
 /** @param {LiveConnection} connection @param {LiveViews} views
