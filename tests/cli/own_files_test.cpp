@@ -17,10 +17,11 @@ namespace {
 
 /// Options that name what a call reads. Another one that names files is taken to be an output: add a new one here.
 const std::set<std::string> kInputs = {
-    "STORE",      "SOURCE",          "--profile-csv", "--links",      "--observers",   "--horizon-targets",
-    "--path",     "--route",         "--params",      "--candidates", "--search-area", "--demand",
-    "--existing", "--radius-preset", "--like",        "--turbines",   "--viewpoints",  "--forbidden",
-    "--polygon",  "--sea-area",      "--basemap",     "--dwellings",  "--masts",       "--months"};
+    "STORE",          "SOURCE",          "--profile-csv", "--links",      "--observers",   "--horizon-targets",
+    "--path",         "--route",         "--params",      "--candidates", "--search-area", "--demand",
+    "--existing",     "--radius-preset", "--like",        "--turbines",   "--viewpoints",  "--forbidden",
+    "--polygon",      "--sea-area",      "--basemap",     "--dwellings",  "--masts",       "--months",
+    "--from-antenna", "--to-antenna"};
 
 struct FileOption {
   std::string name;
