@@ -48,7 +48,7 @@ export async function startWorld() {
 
 export async function stopWorld() {
   await world.browser?.close();
-  await Promise.all([world.hills?.stop(), world.town?.stop()]);
+  await Promise.all(Array.from(servers, (stop) => stop()));
   if (world.folder) rmSync(world.folder, { recursive: true });
 }
 
@@ -60,6 +60,9 @@ function freePort() {
     });
   });
 }
+
+/** Servers that run: a test that fails does not stop its own, and the run would wait for it. */
+const servers = new Set();
 
 /** Serves a store of the folder until it is stopped. */
 export async function serve(folder, store, port) {
@@ -79,7 +82,9 @@ export async function serve(folder, store, port) {
     child.on("exit", () => reject(new Error(`itin serve ended: ${said}`)));
   });
   const ended = new Promise((resolve) => child.on("exit", resolve));
-  return { address, pid: child.pid, stop: () => (child.kill("SIGINT"), ended) };
+  const stop = () => (servers.delete(stop), child.kill("SIGINT"), ended);
+  servers.add(stop);
+  return { address, pid: child.pid, stop };
 }
 
 /** Starts Chromium; `drawing` are arguments that say how it draws. */
