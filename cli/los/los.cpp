@@ -75,7 +75,7 @@ class LosVerb final : public Verb {
     if (links_.given()) {
       budget_.require_for_links();
     } else {
-      budget_.require_frequency(query_.radio ? std::optional(query_.radio->frequency_ghz) : std::nullopt);
+      budget_.require_frequency(query_.radio);
     }
   }
 

@@ -111,13 +111,12 @@ void BudgetOptions::validate() {
   take_degrees("--antenna-tilt", tilt_text_, from.tilt_deg, to.tilt_deg);
 }
 
-void BudgetOptions::require_frequency(std::optional<double> frequency_ghz) const {
+void BudgetOptions::require_frequency(const std::optional<profile::RadioPath>& radio) const {
   query_.validate();
   if (!query_.asks()) return;
-  if (!frequency_ghz)
-    throw InputError(fmt::format("{} needs a --frequency", query_.power_dbm ? "--power-dbm" : "--eirp-dbm"));
+  if (!radio) throw InputError(fmt::format("{} needs a --frequency", query_.power_dbm ? "--power-dbm" : "--eirp-dbm"));
   using namespace profile;
-  const double ghz = *frequency_ghz;
+  const double ghz = radio->frequency_ghz;
   if (query_.rain_rate_mm_h && (ghz < kRainFrom || ghz > kRainTo))
     throw InputError(
         fmt::format("--rain-rate-mm-h is for {:g} to {:g} GHz, the range of P.530, not for {:g} GHz; leave "

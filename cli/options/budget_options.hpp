@@ -21,7 +21,7 @@ class BudgetOptions {
   void validate();
   /// Requires a frequency where a budget is asked for. Throws InputError where there is none, and for a frequency for
   /// which there is no rain or multipath, where these are asked for.
-  void require_frequency(std::optional<double> frequency_ghz) const;
+  void require_frequency(const std::optional<profile::RadioPath>& radio) const;
   /// Requires what links can be asked, which may bring the power and everything else themselves. Throws InputError.
   void require_for_links() const;
   const profile::BudgetQuery& query() const { return query_; }

@@ -82,7 +82,7 @@ Document LiveProbe::answer(const Document& options, Point2 position) {
   answer["ground_m"] = report.to.ground_m;
   answer["surface_m"] = ends_of(report.profile).to_m;
   answer["lacks_m"] = lack(report);
-  answer["clearance_m"] = report.least_clearance_m ? Document(*report.least_clearance_m) : Document(nullptr);
+  answer["clearance_m"] = number_or_null(report.least_clearance_m);
   answer["blocker"] = blocker(served_.store(), report);
   return answer;
 }

@@ -44,7 +44,7 @@ class LineOptions {
   LosCase over(const Store& store) {
     earth_.take_body_of(store.metadata());
     const profile::LosQuery query = query_of(earth_, radio_, budget_, people_);
-    budget_.require_frequency(query.radio ? std::optional(query.radio->frequency_ghz) : std::nullopt);
+    budget_.require_frequency(query.radio);
     LosCase one = los_case(store, line_.run(store, query), {"", people_.facts()});
     warn_of_grid(store.metadata(), one.result.warnings);
     if (query.radio) earth_.warn_of_light(one.result.warnings);

@@ -33,7 +33,7 @@ Document served_info(const ServedStore& served, const TileGrid& grid) {
                 {"store", std::filesystem::path(served.store().path()).filename().string()},
                 {"crs_wkt", metadata.crs_wkt}};
   info.update(info_document(served.store(), StatedHeights(metadata)));
-  info["data_spacing_m"] = spacing ? Document(*spacing) : Document(nullptr);
+  info["data_spacing_m"] = number_or_null(spacing);
   info["memory_bytes"] = served.memory_bytes();
   info["most_cells"] = served.most_cells();
   info["modes"] = live_modes();

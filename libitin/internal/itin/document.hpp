@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,8 @@ std::string json_text(const Document& document, int indent = -1);
 /// Writes a result by itself: the document after the version of this program, with a newline.
 std::string result_text(const Document& document);
 
+/// Returns a number; null where there is none, or one that JSON does not have.
+Document number_or_null(const std::optional<double>& number);
 /// Returns [lo, hi] of a certificate.
 Document error_interval(const CertifiedError& error);
 /// Returns `surface`: tolerance, certified error and themes of the surface that a query at this detail sees. With rings

@@ -7,6 +7,7 @@
 
 #include <itin/error.hpp>
 #include <itin/file_ending.hpp>
+#include <itin/lower_case.hpp>
 #include <itin/store.hpp>
 #include <itin/tin_export.hpp>
 #include <itin/vector_export.hpp>
@@ -45,12 +46,6 @@ Value widened(const Value& value, Type type) {
   return value;
 }
 
-std::string in_capitals(std::string name) {
-  std::transform(name.begin(), name.end(), name.begin(),
-                 [](char c) { return 'a' <= c && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; });
-  return name;
-}
-
 /// The columns of all themes, and the columns of each theme's attributes.
 class Columns {
  public:
@@ -84,9 +79,9 @@ class Columns {
   /// own.
   std::string unused(std::string name) const {
     const auto is_used = [&](const std::string& wanted) {
-      const std::string capitals = in_capitals(wanted);
-      return capitals == "FID" || capitals == "GEOM" || std::any_of(fields_.begin(), fields_.end(), [&](const auto& f) {
-               return in_capitals(f.first) == capitals;
+      const std::string lower = in_lower_case(wanted);
+      return lower == "fid" || lower == "geom" || std::any_of(fields_.begin(), fields_.end(), [&](const auto& f) {
+               return in_lower_case(f.first) == lower;
              });
     };
     while (is_used(name)) name += '_';

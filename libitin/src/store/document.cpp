@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include <itin/document.hpp>
 #include <itin/level_choice.hpp>
 
@@ -11,6 +13,10 @@ std::string result_text(const Document& document) {
   Document result{{"itin", ITIN_VERSION}};
   result.update(document);
   return json_text(result, 2) + "\n";
+}
+
+Document number_or_null(const std::optional<double>& number) {
+  return number && std::isfinite(*number) ? Document(*number) : Document(nullptr);
 }
 
 Document error_interval(const CertifiedError& error) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <profile/map_sheet.hpp>
+#include <profile/sheet_table.hpp>
 #include <profile/wireline.hpp>
 
 namespace itin::profile {
@@ -40,8 +41,8 @@ std::string draw_cylindrical_sheets(const std::vector<WirelineField>& fields, co
 /// turbine, as far as there is room, and the location.
 struct ViewpointSheet {
   WirelineSheet wireline;
-  std::vector<std::vector<std::string>> farms, turbines;  ///< tables, their headers first
-  MapSheet map;                                           ///< gives the location map its layers, scale and middle
+  SheetTable farms, turbines;
+  MapSheet map;  ///< gives the location map its layers, scale and middle
 };
 /// The ground that the sheet's map shows: what layers may fill.
 Box ground_in_location_map(const MapSheet& map);

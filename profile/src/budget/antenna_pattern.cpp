@@ -1,6 +1,5 @@
 // Reads patterns of antennas.
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -9,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <itin/error.hpp>
+#include <itin/lower_case.hpp>
 #include <itin/parsed_number.hpp>
 #include <profile/diffraction.hpp>
 
@@ -29,11 +29,6 @@ std::vector<std::string> words_of(const std::string& line) {
   std::vector<std::string> words;
   for (std::string word; text >> word;) words.push_back(word);
   return words;
-}
-
-std::string in_capitals(std::string word) {
-  for (char& c : word) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-  return word;
 }
 
 /// The lines of a file that are not blank, one after the other, as words.
@@ -71,9 +66,9 @@ class PatternFile {
 /// Reads a gain with its unit, which is dBd unless it is stated.
 double gain_in(const PatternFile& file) {
   const double gain = file.number(1);
-  const std::string unit = file.words().size() > 2 ? in_capitals(file.words()[2]) : "DBD";
-  if (unit != "DBD" && unit != "DBI") file.fail(fmt::format("'{}' is neither dBd nor dBi", file.words()[2]));
-  return unit == "DBD" ? gain + kDipole : gain;
+  const std::string unit = file.words().size() > 2 ? in_lower_case(file.words()[2]) : "dbd";
+  if (unit != "dbd" && unit != "dbi") file.fail(fmt::format("'{}' is neither dBd nor dBi", file.words()[2]));
+  return unit == "dbd" ? gain + kDipole : gain;
 }
 
 /// Reads the lines of a cut, degrees and loss; a loss may be written with a minus.
@@ -96,10 +91,10 @@ AntennaPattern::Cut cut_in(PatternFile& file) {
 AntennaPattern msi_pattern(PatternFile& file) {
   AntennaPattern pattern;
   do {
-    const std::string key = in_capitals(file.words().front());
-    if (key == "GAIN") pattern.gain_dbi = gain_in(file);
-    if (key == "HORIZONTAL") pattern.horizontal = cut_in(file);
-    if (key == "VERTICAL") pattern.vertical = cut_in(file);
+    const std::string key = in_lower_case(file.words().front());
+    if (key == "gain") pattern.gain_dbi = gain_in(file);
+    if (key == "horizontal") pattern.horizontal = cut_in(file);
+    if (key == "vertical") pattern.vertical = cut_in(file);
   } while (file.next());
   if (pattern.horizontal.empty() || pattern.vertical.empty())
     file.fail("the file is no antenna pattern: MSI has HORIZONTAL and VERTICAL, .ant has numbers");

@@ -97,8 +97,9 @@ void WirelineScene::draw(Drawing& drawing) const {
     for (; turbine != turbines_.end() && turbine->distance >= band->to_m - 0.5; ++turbine)
       draw_turbine(drawing, *turbine, false);
     draw_band(drawing, *band);
-    draw_mesh(drawing, static_cast<std::size_t>(view_.bands.rend() - band) - 1);
-    draw_joints(drawing, static_cast<std::size_t>(view_.bands.rend() - band) - 1);
+    const auto number = static_cast<std::size_t>(view_.bands.rend() - band) - 1;
+    draw_mesh(drawing, number);
+    draw_joints(drawing, number);
   }
   for (; turbine != turbines_.end(); ++turbine) draw_turbine(drawing, *turbine, false);
   if (view_.query.hidden_dashed)

@@ -10,7 +10,7 @@ Document loss_document(const std::optional<WoodLoss>& loss) {
   if (!loss) return nullptr;
   return {{"section", loss->end_within ? "2" : "3, as a preset"},
           {"through_db", loss->through_db},
-          {"over_db", loss->over_db ? Document(*loss->over_db) : Document(nullptr)},
+          {"over_db", number_or_null(loss->over_db)},
           {"loss_db", loss->loss_db}};
 }
 

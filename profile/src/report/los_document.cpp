@@ -1,4 +1,3 @@
-#include <cmath>
 #include <optional>
 
 #include <itin/coordinates.hpp>
@@ -12,10 +11,6 @@
 namespace itin::profile {
 
 namespace {
-
-Document number_or_null(const std::optional<double>& value) {
-  return value && std::isfinite(*value) ? Document(*value) : Document(nullptr);
-}
 
 Document cause(const LosReport& report, std::uint16_t theme) {
   return cause_of(report, theme);

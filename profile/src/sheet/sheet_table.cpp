@@ -23,7 +23,7 @@ class TablePage {
       : drawing_(drawing), table_(table), box_(box), type_(type), y_(box.ymin) {}
 
   void draw() {
-    add_line(table_.title, {.size = kTitleSize * type_, .colour = kInk, .bold = true});
+    if (!table_.title.empty()) add_line(table_.title, {.size = kTitleSize * type_, .colour = kInk, .bold = true});
     draw_headings();
     const auto rows = static_cast<std::size_t>(std::max(0.0, std::floor((box_.ymax - y_) / row_height() + 0.01)));
     const bool all = table_.rows.size() <= rows;
@@ -91,7 +91,8 @@ void draw_sheet_table(Drawing& drawing, const SheetTable& table, const Box& box,
 
 double height_of_table(const SheetTable& table, double type) {
   const std::size_t rows = table.rows.size() + (table.headings.empty() ? 0 : 1);
-  return (kLineHeight * kTitleSize + kRowHeight * static_cast<double>(rows)) * type;
+  const double title = table.title.empty() ? 0 : kLineHeight * kTitleSize;
+  return (title + kRowHeight * static_cast<double>(rows)) * type;
 }
 
 }  // namespace itin::profile

@@ -1,7 +1,8 @@
-// A table on a sheet of paper.
+// Draws tables on sheets of paper.
 #pragma once
 
-#include <profile/dwelling_sheet.hpp>
+#include <itin/geometry.hpp>
+#include <profile/sheet_table.hpp>
 
 #include "drawing/drawing.hpp"
 

@@ -1,8 +1,6 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
-#include <span>
 
 #include <fmt/format.h>
 
@@ -14,6 +12,7 @@
 #include "drawing/wireline_scene.hpp"
 #include "sheet/map_frame.hpp"
 #include "sheet/paper.hpp"
+#include "sheet/sheet_table.hpp"
 #include "sheet/wireline_strip.hpp"
 
 namespace itin::profile {
@@ -109,42 +108,6 @@ std::vector<double> cylinder_centres(double centre_deg, int fields) {
   return centres;
 }
 
-namespace {
-
-using TableRows = std::span<const std::vector<std::string>>;
-
-constexpr double kTableRow = 11;
-
-/// Draws rows from `top.y` on, the first of them as a header, and returns where the next row would be.
-double draw_table(Drawing& drawing, TableRows rows, Point2 top, double width) {
-  const auto columns = static_cast<double>(rows.front().size());
-  const double first = 0.26 * width, other = (width - first) / std::max(1.0, columns - 1);
-  for (std::size_t r = 0; r < rows.size(); ++r) {
-    const Lettering lettering{.size = 7.5, .colour = kInk, .bold = r == 0};
-    for (std::size_t c = 0; c < rows[r].size(); ++c) {
-      const double x = top.x + (c == 0 ? 0 : first + other * (static_cast<double>(c) - 1));
-      drawing.text({x, top.y}, drawing.fitted(rows[r][c], (c == 0 ? first : other) - 4, lettering), lettering);
-    }
-    top.y += r == 0 ? kTableRow + 3 : kTableRow;
-    if (r == 0)
-      drawing.polyline(std::array{Point2{top.x, top.y - 10}, Point2{top.x + width, top.y - 10}}, {kFaint, 0.5, {}});
-  }
-  return top.y;
-}
-
-/// Draws a table with as many rows as there is room above `bottom`, and says how many are left out.
-void draw_table_within(Drawing& drawing, TableRows rows, Point2 top, double width, double bottom) {
-  const double room = std::floor((bottom - top.y) / kTableRow) - 1;  // a row for what is left out
-  if (rows.size() < 2 || room < 2) return;
-  const std::size_t shown = std::min(rows.size(), static_cast<std::size_t>(room));
-  const double end = draw_table(drawing, rows.first(shown), top, width);
-  if (shown < rows.size())
-    drawing.text({top.x, end}, fmt::format("and {} more, farther away", rows.size() - shown),
-                 {.size = 7.5, .colour = kFaint});
-}
-
-}  // namespace
-
 Box ground_in_location_map(const MapSheet& map) {
   return ground_in(kLocationFrame, map.area, map.scale);
 }
@@ -173,8 +136,11 @@ std::string draw_viewpoint_sheet(const Wireline& view, const ViewpointSheet& she
     }
     y += 2;
   }
-  y = draw_table(drawing, sheet.farms, {left, y + 10}, width);
-  draw_table_within(drawing, sheet.turbines, {left, y + 14}, width, kStripTop * k - 8);
+  constexpr double kLetters = 7.5 / 7, kLeastRoom = 40;
+  const double bottom = kStripTop * k - 8, below = y + height_of_table(sheet.farms, kLetters) + 14;
+  draw_sheet_table(drawing, sheet.farms, {left, y, left + width, bottom}, kLetters);
+  if (bottom - below > kLeastRoom)
+    draw_sheet_table(drawing, sheet.turbines, {left, below, left + width, bottom}, kLetters);
   Paper paper = paper_of(PaperSize::kA3);
   paper.frame = kLocationFrame;
   MapFrame map(drawing, paper, ground_in_location_map(sheet.map));

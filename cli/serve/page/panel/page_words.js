@@ -7,7 +7,7 @@ function namesOfFields() {
   const fields = /** @type {NodeListOf<HTMLInputElement>} */ (element("options").querySelectorAll("[name]"));
   return new Map(
     [...fields].map(({ name, labels }) => {
-      const label = labels?.[0]?.querySelector("span:not([hidden])")?.textContent ?? name;
+      const label = labels?.[0]?.querySelector("span")?.textContent ?? name;
       return [name, label.replace(/^or /, "")];
     }),
   );

@@ -160,16 +160,20 @@ std::string hubs_in_words(const SightSummary& seen) {
   return and_undecided(*seen.hubs, *seen.hubs_undecided) + of;
 }
 
+constexpr double kFirstColumn = 0.26;  ///< the part of a table's width that its first column has
+
 /// Returns a row for each farm, and one for all turbines where there are several farms.
-std::vector<std::vector<std::string>> farm_table(const Zone& zone, const std::vector<TurbineSight>& sights) {
-  std::vector<std::vector<std::string>> rows{
+profile::SheetTable farm_table(const Zone& zone, const std::vector<TurbineSight>& sights) {
+  profile::SheetTable table{.first_column = kFirstColumn, .elsewhere = "viewpoints.csv, turbine by turbine"};
+  table.rows = {
       {"Wind farm", "Turbines", "Hubs visible", "Tips visible", "Nearest, km", "Horizontal extent", "Vertical angle"}};
   const auto add = [&](const std::string& name, const std::vector<std::size_t>& turbines) {
     const SightSummary s = seen_of(zone, sights, turbines);
-    rows.push_back({name, fmt::format("{}", s.turbines), hubs_in_words(s), and_undecided(s.tips, s.tips_undecided),
-                    fmt::format("{:.2f}", sights[s.nearest].distance / 1000),
-                    s.arc ? fmt::format("{:.1f}°", s.arc->width) : "none",
-                    s.tips > 0 ? fmt::format("{:.2f}°", s.vertical_deg) : "none"});
+    table.rows.push_back({name, fmt::format("{}", s.turbines), hubs_in_words(s),
+                          and_undecided(s.tips, s.tips_undecided),
+                          fmt::format("{:.2f}", sights[s.nearest].distance / 1000),
+                          s.arc ? fmt::format("{:.1f}°", s.arc->width) : "none",
+                          s.tips > 0 ? fmt::format("{:.2f}°", s.vertical_deg) : "none"});
   };
   const std::vector<std::string> farms = farms_of(zone);
   for (const std::string& farm : farms) {
@@ -179,7 +183,7 @@ std::vector<std::vector<std::string>> farm_table(const Zone& zone, const std::ve
     add(farm.empty() ? "All turbines" : farm, own);
   }
   if (farms.size() > 1) add("All", all_turbines(zone));
-  return rows;
+  return table;
 }
 
 const char* verdict_in_words(const std::optional<TurbineSight::Verdict>& verdict) {
@@ -189,9 +193,9 @@ const char* verdict_in_words(const std::optional<TurbineSight::Verdict>& verdict
 }
 
 /// Returns a row for each turbine, the nearest first.
-std::vector<std::vector<std::string>> table_of_sights(const Zone& zone, const std::vector<TurbineSight>& sights) {
-  std::vector<std::vector<std::string>> rows{
-      {"Turbine", "Distance, km", "Bearing", "Hub", "Blade tip", "In sight", "Vertical angle"}};
+profile::SheetTable table_of_sights(const Zone& zone, const std::vector<TurbineSight>& sights) {
+  profile::SheetTable table{.first_column = kFirstColumn, .elsewhere = "viewpoints.csv"};
+  table.rows = {{"Turbine", "Distance, km", "Bearing", "Hub", "Blade tip", "In sight", "Vertical angle"}};
   std::vector<std::size_t> nearest = all_turbines(zone);
   std::stable_sort(nearest.begin(), nearest.end(),
                    [&](std::size_t a, std::size_t b) { return sights[a].distance < sights[b].distance; });
@@ -199,12 +203,13 @@ std::vector<std::vector<std::string>> table_of_sights(const Zone& zone, const st
     const TurbineSight& s = sights[k];
     const Turbine& t = zone.request.turbines[k];
     const bool seen = s.tip == TurbineSight::Verdict::kVisible;
-    rows.push_back({t.name.empty() ? fmt::format("{}", t.number) : t.name, fmt::format("{:.2f}", s.distance / 1000),
-                    fmt::format("{:.1f}°", s.azimuth), verdict_in_words(s.hub), verdict_in_words(s.tip),
-                    seen ? fmt::format("{:.0f} of {:.0f} m", s.visible, t.tip_height) : "",
-                    seen ? fmt::format("{:.2f}°", s.vertical_deg) : ""});
+    table.rows.push_back({t.name.empty() ? fmt::format("{}", t.number) : t.name,
+                          fmt::format("{:.2f}", s.distance / 1000), fmt::format("{:.1f}°", s.azimuth),
+                          verdict_in_words(s.hub), verdict_in_words(s.tip),
+                          seen ? fmt::format("{:.0f} of {:.0f} m", s.visible, t.tip_height) : "",
+                          seen ? fmt::format("{:.2f}°", s.vertical_deg) : ""});
   }
-  return rows;
+  return table;
 }
 
 /// Returns the direction of a picture that is too narrow for all turbines: to the nearest whose tip is seen, else to
