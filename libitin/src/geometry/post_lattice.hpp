@@ -8,17 +8,31 @@
 #include <compare>
 #include <cstdint>
 #include <numeric>
+#include <optional>
 
 #include "geometry/common_divisor.hpp"
 #include "geometry/whole_division.hpp"
 
 namespace itin {
 
+/// A place on a lattice, by its column and row.
+struct LatticePlace {
+  std::int64_t column = 0, row = 0;
+  friend bool operator==(const LatticePlace&, const LatticePlace&) = default;
+};
+
 /// The places (x + i step_x, y + j step_y), grid units. A step is 1 where all points have the same coordinate.
 struct PostLattice {
   std::int64_t x = 0, y = 0;
   std::int64_t step_x = 1, step_y = 1;
 
+  /// Returns the place of a position, which is anything with x and y; nothing off the lattice.
+  template <class Point>
+  std::optional<LatticePlace> place_of(const Point& p) const {
+    const std::int64_t east = p.x - x, north = p.y - y;
+    if (east % step_x != 0 || north % step_y != 0) return std::nullopt;
+    return LatticePlace{east / step_x, north / step_y};
+  }
   /// Returns the side of the widest squares that have all places among their corners.
   std::int64_t side() const { return std::gcd(step_x, step_y); }
   /// Returns the same places, counted from the first one whose coordinates are not negative: equal lattices are then

@@ -16,6 +16,7 @@
 
 #include "pyramid/cell_verification.hpp"
 #include "pyramid/changed_by_lines.hpp"
+#include "pyramid/fine_bounds.hpp"
 #include "pyramid/whole_levels.hpp"
 #include "triangulate/triangle_box.hpp"
 
@@ -99,8 +100,7 @@ unsigned levels_of_tasks(const std::vector<Task>& tasks) {
 }
 
 struct Raise {
-  std::uint64_t code;
-  int from, to;
+  RaisedPoint point;
   Task by;  ///< the task whose bounds take it into account
 };
 
@@ -118,9 +118,9 @@ void leaves_under(const WorkingIndex& index, const std::array<Position, 3>& corn
 /// A raised vertex changes the surface within its star, for every level it newly belongs to.
 void mark_star(const WorkingIndex& index, const std::vector<std::int32_t>& tolerances, const Raise& raise,
                Disturbed& disturbed) {
-  const Position p = position_of(raise.code);
+  const Position p = position_of(raise.point.code);
   std::vector<std::uint32_t> leaves;
-  for (int k = raise.from + 1; k <= raise.to; ++k) {
+  for (int k = raise.point.from + 1; k <= raise.point.to; ++k) {
     leaves.clear();
     const RegionMesh star = triangulate_region(index, levels_from(k, tolerances), {p.x, p.y, p.x, p.y});
     for (std::uint32_t t = 0; t < star.mesh.triangles.size(); ++t) leaves_under(index, star.corners(t), leaves);
@@ -167,10 +167,17 @@ void apply(const RaisedLevels& raised, const Task& task, WorkingIndex& index, st
   for (RawPoint& p : points) {
     const auto found = raised.find(p.code);
     if (found == raised.end() || found->second <= p.level) continue;
-    raises.push_back({p.code, p.level, found->second, task});
+    raises.push_back({{p.code, p.level, found->second}, task});
     p.level = static_cast<std::uint16_t>(found->second);
   }
   index.write(task.cell, points);
+}
+
+/// Raises what the hierarchy needs with these raises, and notes it with them.
+void close_levels(WorkingIndex& index, const PostHierarchy& posts, std::vector<Raise>& raises) {
+  std::vector<LevelRaise> raised;
+  for (const Raise& raise : raises) raised.push_back({raise.point.code, raise.point.to});
+  for (const RaisedPoint& point : index.promote(posts.closing(raised))) raises.push_back({point, {}});
 }
 
 /// Marks the leaves that fail, and returns whether there are any.
@@ -198,17 +205,22 @@ std::vector<LineHierarchy::Shortcut> failing_shortcuts(const std::vector<CellOut
 /// The share of the time that a round takes which looks at everything. Where coarse triangles are long, mending takes
 /// longer.
 constexpr double kFirstRound = 0.6, kFirstRoundOfLong = 0.3;
+/// The share of the time that fine levels of rasters take before that.
+constexpr double kFineLevels = 0.15;
 
 }  // namespace
 
-LeafBounds certify(WorkingIndex& index, const std::vector<std::int32_t>& tolerances, bool long_triangles,
-                   const RestoreLines& restore, Progress& progress) {
+LeafBounds certify(WorkingIndex& index, const std::vector<std::int32_t>& tolerances, const PostHierarchy& posts,
+                   bool long_triangles, const RestoreLines& restore, Progress& progress) {
   index.keep_coarse_points();
   const int levels = static_cast<int>(tolerances.size());
   LeafBounds bounds(index.ranges().size(), levels);
   CallProgress call(progress);
   Disturbed disturbed(index.ranges().size());
-  for (std::uint32_t leaf = 0; leaf < index.ranges().size(); ++leaf) disturbed.mark(leaf, (1u << levels) - 2);
+  const std::vector<unsigned> known =
+      measure_fine_levels(index, index.work_tiles(), posts, bounds, call.step(kFineLevels));
+  for (std::uint32_t leaf = 0; leaf < index.ranges().size(); ++leaf)
+    disturbed.mark(leaf, ((1u << levels) - 2) & ~known[leaf]);
 
   bool mend = false;    // points are raised once no shortcut is too far off along itself
   bool changed = true;  // since all failing leaves were marked
@@ -240,6 +252,7 @@ LeafBounds certify(WorkingIndex& index, const std::vector<std::int32_t>& toleran
 
     std::vector<Raise> raises;
     for (std::size_t i = 0; i < tasks.size(); ++i) apply(outcomes[i].raised, tasks[i], index, raises);
+    close_levels(index, posts, raises);
     const std::vector<LineHierarchy::Shortcut> shortcuts = failing_shortcuts(outcomes);
     std::vector<LineHierarchy::Restored> lines;
     if (!shortcuts.empty()) lines = restore(shortcuts);

@@ -9,6 +9,7 @@
 
 #include "features/line_hierarchy.hpp"
 #include "pyramid/leaf_bounds.hpp"
+#include "pyramid/post_hierarchy.hpp"
 #include "pyramid/working_index.hpp"
 
 namespace itin {
@@ -26,9 +27,11 @@ using RestoreLines = std::function<std::vector<LineHierarchy::Restored>(const st
 /// lines were put back, are verified again. So the outcome depends on the points alone, not on threads. Throws Error
 /// where a level fails and nothing is left to put back.
 ///
+/// Where posts of the hierarchy are raised, its fine levels stay closed.
+///
 /// `long_triangles`: coarse triangles are long, as across the sea. Then coarse levels are held as a whole
 /// (whole_levels.hpp) in the first rounds. In the later rounds the levels change, and few cells are left.
-LeafBounds certify(WorkingIndex& index, const std::vector<std::int32_t>& tolerances, bool long_triangles,
-                   const RestoreLines& restore, Progress& progress);
+LeafBounds certify(WorkingIndex& index, const std::vector<std::int32_t>& tolerances, const PostHierarchy& posts,
+                   bool long_triangles, const RestoreLines& restore, Progress& progress);
 
 }  // namespace itin

@@ -37,7 +37,7 @@ std::vector<std::uint32_t> hull_of(std::span<const SelectedVertex> vertices, std
 
 template <class Ground>
 std::vector<std::uint8_t> levels_over(Ground& ground, std::span<const Candidacy> candidacy,
-                                      std::span<const double> tolerances) {
+                                      std::span<const double> tolerances, std::size_t finest) {
   const std::vector<SelectedVertex>& vertices = ground.vertices();
   const std::size_t coarsest = tolerances.size() - 1;
   std::vector<std::uint8_t> levels(candidacy.size(), 0);
@@ -54,7 +54,7 @@ std::vector<std::uint8_t> levels_over(Ground& ground, std::span<const Candidacy>
   for (const std::uint32_t v : first) levels[v] = static_cast<std::uint8_t>(coarsest);
   GreedyInsertion<Ground> greedy(ground, candidacy, tolerances);
   if (!greedy.start(std::move(first))) return levels;
-  for (std::size_t k = coarsest; k >= 1; --k) {
+  for (std::size_t k = coarsest; k >= finest; --k) {
     greedy.begin_level(k);
     greedy.insert_given(given[k]);
     greedy.refine([&](std::uint32_t v) { levels[v] = static_cast<std::uint8_t>(k); });
@@ -65,15 +65,16 @@ std::vector<std::uint8_t> levels_over(Ground& ground, std::span<const Candidacy>
 }  // namespace
 
 std::vector<std::uint8_t> greedy_levels(const RegionMesh& fine, std::span<const Candidacy> candidacy,
-                                        std::span<const double> tolerances) {
-  MeshGround ground(fine);
-  return levels_over(ground, candidacy, tolerances);
+                                        std::span<const double> tolerances, std::size_t finest) {
+  MeshGround ground(fine, candidacy);
+  return levels_over(ground, candidacy, tolerances, finest);
 }
 
 std::vector<std::uint8_t> greedy_levels(const std::vector<SelectedVertex>& vertices, const LatticePosts& posts,
-                                        std::span<const Candidacy> candidacy, std::span<const double> tolerances) {
+                                        std::span<const Candidacy> candidacy, std::span<const double> tolerances,
+                                        std::size_t finest) {
   LatticeGround ground(vertices, posts, candidacy);
-  return levels_over(ground, candidacy, tolerances);
+  return levels_over(ground, candidacy, tolerances, finest);
 }
 
 }  // namespace itin

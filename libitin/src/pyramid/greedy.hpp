@@ -14,6 +14,7 @@ namespace itin {
 enum class Candidacy : std::uint8_t {
   kNone,    ///< beyond the fringe, or isolated
   kFree,    ///< gets a level, in the fringe only a proposed one
+  kSpare,   ///< is taken only where no free vertex would do
   kCorner,  ///< belongs to the coarsest level from the start
 };
 
@@ -25,15 +26,16 @@ enum class Candidacy : std::uint8_t {
 ///
 /// Vertices that have a level in `fine` keep it, or get a coarser one.
 ///
-/// `tolerances` are in grid units, ascending, the first one 0. Ties go to the first vertex in order. O(n log n)
-/// expected.
+/// `tolerances` are in grid units, ascending, the first one 0. Levels finer than `finest` stay as they are. Ties go to
+/// the first vertex in order. O(n log n) expected.
 std::vector<std::uint8_t> greedy_levels(const RegionMesh& fine, std::span<const Candidacy> candidacy,
-                                        std::span<const double> tolerances);
+                                        std::span<const double> tolerances, std::size_t finest = 1);
 
 /// Returns the levels where the full surface is the Delaunay triangulation of these vertices, which are posts of a
 /// lattice. Needs no triangles. Edges of the full surface that are no sides of the lattice's triangles, as beside gaps,
 /// are passed over.
 std::vector<std::uint8_t> greedy_levels(const std::vector<SelectedVertex>& vertices, const LatticePosts& posts,
-                                        std::span<const Candidacy> candidacy, std::span<const double> tolerances);
+                                        std::span<const Candidacy> candidacy, std::span<const double> tolerances,
+                                        std::size_t finest = 1);
 
 }  // namespace itin

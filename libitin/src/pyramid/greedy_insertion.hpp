@@ -7,7 +7,8 @@
 //   begin(mesh, open)           called before the first face is looked at, with the open vertices
 //   take(faces, v)              called when the star about vertex v has replaced these faces of the mesh
 //   assign_to_star(mesh, star)  called after that, with the star's faces: they share the vertices of the faces replaced
-//   worst_point(face, corners)  the open vertex in the face that is farthest off it
+//   worst_point(face, corners)  how far open vertices in the face are off it, and the one to take: the farthest free
+//                               one, or the farthest of all where none is free
 //   compare_edge(a, b, worst)   offers worst what would break up edge ab where it crosses full edges
 #pragma once
 
@@ -30,7 +31,7 @@
 
 namespace itin {
 
-/// A vertex and how far it is off; kNoVertex where there is none.
+/// How far vertices are off, and the one to take; kNoVertex where there is none.
 struct WorstPoint {
   double error = 0;
   std::uint32_t point = kNoVertex;
@@ -205,11 +206,17 @@ class GreedyInsertion {
     bool asks_for(double error) const {
       return error > worst_.error && greedy_.insertions_.asks_for(error + kCrossingError);
     }
-    /// Offers a place; the first of these vertices that is open is the remedy. To be called after asks_for(error).
+    /// Offers a place; the first of these vertices that is open and free, or else open, is the remedy. To be called
+    /// after asks_for(error).
     void offer(double error, std::initializer_list<std::uint32_t> vertices) {
-      const auto remedy = std::find_if(vertices.begin(), vertices.end(),
-                                       [&](std::uint32_t v) { return v != kNoVertex && greedy_.is_open(v); });
-      if (remedy != vertices.end()) worst_ = {error, *remedy};
+      std::uint32_t remedy = kNoVertex;
+      for (const std::uint32_t v : vertices) {
+        if (v == kNoVertex || !greedy_.is_open(v)) continue;
+        const bool spare = greedy_.candidacy_[v] == Candidacy::kSpare;
+        if (!spare || remedy == kNoVertex) remedy = v;
+        if (!spare) break;
+      }
+      if (remedy != kNoVertex) worst_ = {error, remedy};
     }
     const WorstPoint& found() const { return worst_; }
 

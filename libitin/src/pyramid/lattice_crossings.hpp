@@ -2,22 +2,19 @@
 //
 //   for_each_crossing(from, to, columns, rows, [](const LatticeSide& side, double part, double along) { ... });
 //
-// A square between four posts is two triangles, on either side of the diagonal from lower right to upper left
-// (triangulate/lattice_squares.hpp). Their sides lie on columns, on rows and on diagonals.
+// Places are counted from the lattice's lower left post, which is {0, 0}. A square between four posts is two triangles,
+// on either side of the diagonal from lower right to upper left (triangulate/lattice_squares.hpp). Their sides lie on
+// columns, on rows and on diagonals.
 #pragma once
 
 #include <algorithm>
 #include <cstdint>
 #include <utility>
 
+#include "geometry/post_lattice.hpp"
 #include "geometry/whole_division.hpp"
 
 namespace itin {
-
-/// A place on a lattice, counted from its lower left post, which is {0, 0}.
-struct LatticePlace {
-  std::int64_t column = 0, row = 0;
-};
 
 /// A side from post u to post v. It belongs to the lower left triangle of one square, and the upper right triangle of
 /// another.

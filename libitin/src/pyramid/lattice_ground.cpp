@@ -11,7 +11,11 @@ LatticeGround::LatticeGround(const std::vector<SelectedVertex>& vertices, const 
     : vertices_(vertices), posts_(posts), heights_(posts.places(), kMissing) {
   for (std::size_t i = 0; i < heights_.size(); ++i) {
     const std::uint32_t v = posts.vertex_at(i);
-    if (v != kNoVertex && candidacy[v] != Candidacy::kNone) heights_[i] = point(v).z;
+    if (v == kNoVertex || candidacy[v] == Candidacy::kNone) continue;
+    heights_[i] = point(v).z;
+    if (candidacy[v] != Candidacy::kSpare) continue;
+    spare_.resize(heights_.size(), 0);
+    spare_[i] = 1;
   }
 }
 
@@ -46,8 +50,8 @@ WorstPoint LatticeGround::worst_point(std::uint32_t, const std::array<std::uint3
   }
   // Another post is farther from a side than this, and rounding is less.
   constexpr double kSlack = 1e-7;
-  WorstPoint worst;
-  std::size_t worst_post = 0;
+  double error_of_free = 0, error_of_spare = 0;
+  std::size_t free_post = 0, spare_post = 0;
   const double south = std::min({a.row, b.row, c.row}), north = std::max({a.row, b.row, c.row});
   for (double row = south; row <= north; ++row) {
     double from = west[0].at(row), to = east[0].at(row);
@@ -59,14 +63,18 @@ WorstPoint LatticeGround::worst_point(std::uint32_t, const std::array<std::uint3
     for (std::int64_t column = first; column <= last; ++column) {
       const std::int32_t z = heights_[start + static_cast<std::size_t>(column)];
       const double error = std::abs(z - (at_row + (static_cast<double>(column) - a.column) * rise_x));
-      if (error > worst.error && z != kMissing) {
-        worst.error = error;
-        worst_post = start + static_cast<std::size_t>(column);
+      if (error <= error_of_free || z == kMissing) continue;
+      const std::size_t post = start + static_cast<std::size_t>(column);
+      if (spare_.empty() || spare_[post] == 0) {
+        error_of_free = error, free_post = post;
+      } else if (error > error_of_spare) {
+        error_of_spare = error, spare_post = post;
       }
     }
   }
-  if (worst.error > 0) worst.point = posts_.vertex_at(worst_post);
-  return worst;
+  const double error = std::max(error_of_free, error_of_spare);
+  if (error == 0) return {};
+  return {error, posts_.vertex_at(error_of_free > 0 ? free_post : spare_post)};
 }
 
 }  // namespace itin

@@ -60,6 +60,7 @@ class LatticeGround {
   const std::vector<SelectedVertex>& vertices_;
   const LatticePosts& posts_;
   std::vector<std::int32_t> heights_;  ///< by place, grid units; kMissing where no candidate is
+  std::vector<std::uint8_t> spare_;    ///< by place; empty where no candidate is spare
 };
 
 }  // namespace itin

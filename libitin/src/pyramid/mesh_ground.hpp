@@ -1,6 +1,7 @@
 // The full surface that greedy insertion approximates (greedy_insertion.hpp), by its triangles.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -17,8 +18,9 @@ namespace itin {
 /// Lists the open vertices of each coarse face, and walks along coarse edges from triangle to triangle.
 class MeshGround {
  public:
-  /// The surface must outlive it.
-  explicit MeshGround(const RegionMesh& fine) : fine_(fine), walk_(fine), next_(fine.vertices.size(), kNoVertex) {}
+  /// All arguments must outlive it.
+  MeshGround(const RegionMesh& fine, std::span<const Candidacy> candidacy)
+      : fine_(fine), candidacy_(candidacy), walk_(fine), next_(fine.vertices.size(), kNoVertex) {}
 
   const std::vector<SelectedVertex>& vertices() const { return fine_.vertices; }
 
@@ -60,14 +62,15 @@ class MeshGround {
                  cz = static_cast<double>(c.z) - a.z;
     const double area = bx * cy - by * cx;
     const double sx = (bz * cy - cz * by) / area, sy = (bx * cz - cx * bz) / area;
-    WorstPoint worst{-1, kNoVertex};
+    WorstPoint free{-1, kNoVertex}, spare{-1, kNoVertex};
     for (std::uint32_t q = first; q != kNoVertex; q = next_[q]) {
       const GridPoint& p = point(q);
       const double error = std::abs(static_cast<double>(p.z) - a.z - sx * (static_cast<double>(p.x) - a.x) -
                                     sy * (static_cast<double>(p.y) - a.y));
+      WorstPoint& worst = candidacy_[q] == Candidacy::kSpare ? spare : free;
       if (error > worst.error || (error == worst.error && q < worst.point)) worst = {error, q};
     }
-    return worst;
+    return {std::max(free.error, spare.error), free.point != kNoVertex ? free.point : spare.point};
   }
 
   /// Offers, at a crossing with a full edge, the end of that edge nearer to it, or the other end, or a corner opposite.
@@ -107,6 +110,7 @@ class MeshGround {
   }
 
   const RegionMesh& fine_;
+  std::span<const Candidacy> candidacy_;
   VertexWalk walk_;
   std::vector<std::uint32_t> first_;     ///< by face: the first open vertex in it
   std::vector<std::uint32_t> next_;      ///< by vertex: the next one in its face

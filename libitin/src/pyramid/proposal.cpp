@@ -19,26 +19,49 @@ struct TileProposal {
   std::vector<LevelRaise> beyond;  ///< points across the border
 };
 
-std::vector<std::uint8_t> levels_of(const TileSurvey& survey, std::span<const double> tolerances) {
-  return survey.posts ? greedy_levels(survey.surface.vertices, *survey.posts, survey.candidacy, tolerances)
-                      : greedy_levels(survey.surface, survey.candidacy, tolerances);
+std::vector<std::uint8_t> levels_of(const TileSurvey& survey, std::span<const double> tolerances, std::size_t finest) {
+  return survey.posts ? greedy_levels(survey.surface.vertices, *survey.posts, survey.candidacy, tolerances, finest)
+                      : greedy_levels(survey.surface, survey.candidacy, tolerances, finest);
 }
 
-TileProposal propose(WorkingIndex& index, const CurveRange& tile, TileSurvey survey,
-                     std::span<const double> tolerances) {
+/// Makes spare vertices of the posts that the hierarchy left out of the fine levels. Returns the finest level that is
+/// still to be chosen.
+std::size_t leave_fine_levels(const PostHierarchy& posts, TileSurvey& survey) {
+  if (posts.coarsest_level() == 0) return 1;
+  bool all = true;
+  for (std::size_t v = 0; v < survey.candidacy.size(); ++v) {
+    if (survey.candidacy[v] == Candidacy::kNone) continue;
+    const SelectedVertex& vertex = survey.surface.vertices[v];
+    if (!posts.has(vertex.position())) {
+      all = false;
+    } else if (survey.candidacy[v] == Candidacy::kFree && vertex.level < posts.coarsest_level()) {
+      survey.candidacy[v] = Candidacy::kSpare;
+    }
+  }
+  return all ? static_cast<std::size_t>(posts.coarsest_level()) + 1 : 1;
+}
+
+TileProposal propose(WorkingIndex& index, const CurveRange& tile, TileSurvey survey, std::span<const double> tolerances,
+                     const PostHierarchy& posts) {
+  const std::size_t finest = leave_fine_levels(posts, survey);
   const std::vector<SelectedVertex>& vertices = survey.surface.vertices;
-  const std::vector<std::uint8_t> levels = levels_of(survey, tolerances);
-  TileProposal proposal{{std::move(survey.outline), std::move(survey.isolated)}, {}};
+  const std::vector<std::uint8_t> levels = levels_of(survey, tolerances, finest);
+  TileProposal proposal{{std::move(survey.outline), std::move(survey.isolated), {}}, {}};
   std::vector<RawPoint> points = index.read(tile);
   auto p = points.begin();
   for (std::size_t v = 0; v < vertices.size(); ++v) {
     const std::uint64_t code = code_of(vertices[v]);
-    if (tile.cell.contains(code)) {
+    const bool own = tile.cell.contains(code);
+    if (own) {
       while (p->code < code) ++p;
       p->level = levels[v];
     } else if (levels[v] > vertices[v].level && survey.verge.contains(vertices[v].point.x, vertices[v].point.y)) {
       proposal.beyond.push_back({code, levels[v]});
+    } else {
+      continue;
     }
+    if (levels[v] > vertices[v].level && vertices[v].level < posts.coarsest_level())
+      proposal.coverage.raised.push_back({code, levels[v]});
   }
   index.write(tile, points);
   return proposal;
@@ -78,8 +101,8 @@ void raise_in_proposed(WorkingIndex& index, const std::vector<CurveRange>& tiles
 /// Proposes levels for all tiles, one wave after another; `survey(tile)` gives the surface about a tile.
 template <class Survey>
 std::vector<TileProposal> propose_in_waves(WorkingIndex& index, const std::vector<CurveRange>& tiles,
-                                           std::span<const double> tolerances, Progress& progress,
-                                           const Survey& survey) {
+                                           std::span<const double> tolerances, const PostHierarchy& posts,
+                                           Progress& progress, const Survey& survey) {
   std::vector<TileProposal> proposals(tiles.size());
   std::vector<std::uint8_t> proposed(tiles.size(), 0);
   std::atomic<std::size_t> done = 0;
@@ -87,7 +110,7 @@ std::vector<TileProposal> propose_in_waves(WorkingIndex& index, const std::vecto
     parallel_for(wave.size(), [&](std::size_t i) {
       progress.throw_if_cancelled();
       const CurveRange& tile = tiles[wave[i]];
-      proposals[wave[i]] = propose(index, tile, survey(tile), tolerances);
+      proposals[wave[i]] = propose(index, tile, survey(tile), tolerances, posts);
       progress.report("choosing the levels", static_cast<double>(++done) / static_cast<double>(tiles.size()));
     });
     for (const std::size_t tile : wave) raise_in_proposed(index, tiles, proposed, proposals[tile].beyond);
@@ -101,6 +124,7 @@ Proposal together(const std::vector<TileProposal>& proposals) {
   for (const TileProposal& p : proposals) {
     result.outline.insert(result.outline.end(), p.coverage.outline.begin(), p.coverage.outline.end());
     result.isolated.insert(result.isolated.end(), p.coverage.isolated.begin(), p.coverage.isolated.end());
+    result.raised.insert(result.raised.end(), p.coverage.raised.begin(), p.coverage.raised.end());
   }
   return result;
 }
@@ -109,8 +133,8 @@ Proposal together(const std::vector<TileProposal>& proposals) {
 
 Proposal propose_levels(WorkingIndex& index, const std::vector<CurveRange>& tiles,
                         const std::vector<std::array<double, 4>>& gap_bases, std::span<const double> tolerances,
-                        Progress& progress) {
-  return together(propose_in_waves(index, tiles, tolerances, progress,
+                        const PostHierarchy& posts, Progress& progress) {
+  return together(propose_in_waves(index, tiles, tolerances, posts, progress,
                                    [&](const CurveRange& tile) { return survey_tile(index, tile, gap_bases); }));
 }
 
@@ -123,16 +147,16 @@ Proposal find_ground(const WorkingIndex& index, const std::vector<CurveRange>& t
   parallel_for(tiles.size(), [&](std::size_t i) {
     progress.throw_if_cancelled();
     TileSurvey survey = survey_tile(index, tiles[i], gap_bases, points ? &*points : nullptr);
-    proposals[i].coverage = {std::move(survey.outline), std::move(survey.isolated)};
+    proposals[i].coverage = {std::move(survey.outline), std::move(survey.isolated), {}};
     progress.report("finding the ground", static_cast<double>(++done) / static_cast<double>(tiles.size()));
   });
   return together(proposals);
 }
 
-void propose_levels_with_lines(WorkingIndex& index, const std::vector<CurveRange>& tiles,
-                               std::span<const double> tolerances, Progress& progress) {
-  propose_in_waves(index, tiles, tolerances, progress,
-                   [&](const CurveRange& tile) { return survey_surface(index, tile); });
+Proposal propose_levels_with_lines(WorkingIndex& index, const std::vector<CurveRange>& tiles,
+                                   std::span<const double> tolerances, const PostHierarchy& posts, Progress& progress) {
+  return together(propose_in_waves(index, tiles, tolerances, posts, progress,
+                                   [&](const CurveRange& tile) { return survey_surface(index, tile); }));
 }
 
 }  // namespace itin

@@ -8,6 +8,7 @@
 
 #include <itin/progress.hpp>
 
+#include "pyramid/post_hierarchy.hpp"
 #include "pyramid/source_index.hpp"
 #include "pyramid/working_index.hpp"
 
@@ -16,6 +17,7 @@ namespace itin {
 struct Proposal {
   std::vector<Segment> outline;         ///< the outline of the ground, in short pieces (coverage.hpp)
   std::vector<std::uint64_t> isolated;  ///< Morton codes of points that no ground triangle has
+  std::vector<LevelRaise> raised;       ///< posts of the hierarchy that it had left to finer levels
 };
 
 /// Writes the levels that the points should have, as far as one tile can tell; certify.hpp has the last word.
@@ -25,10 +27,12 @@ struct Proposal {
 /// outcome depends on the points alone, not on threads. A tile may also raise points just across its border that
 /// earlier waves left too fine.
 ///
+/// Posts of the hierarchy have their fine levels already.
+///
 /// `gap_bases` (per source) and `tolerances` (per level) are in grid units.
 Proposal propose_levels(WorkingIndex& index, const std::vector<CurveRange>& tiles,
                         const std::vector<std::array<double, 4>>& gap_bases, std::span<const double> tolerances,
-                        Progress& progress);
+                        const PostHierarchy& posts, Progress& progress);
 
 /// Finds the coverage alone, by the points of the given sources, or of all.
 Proposal find_ground(const WorkingIndex& index, const std::vector<CurveRange>& tiles,
@@ -36,7 +40,7 @@ Proposal find_ground(const WorkingIndex& index, const std::vector<CurveRange>& t
 
 /// Proposes the levels alone, where the index has its lines already. Points that have a level keep it, or get a coarser
 /// one.
-void propose_levels_with_lines(WorkingIndex& index, const std::vector<CurveRange>& tiles,
-                               std::span<const double> tolerances, Progress& progress);
+Proposal propose_levels_with_lines(WorkingIndex& index, const std::vector<CurveRange>& tiles,
+                                   std::span<const double> tolerances, const PostHierarchy& posts, Progress& progress);
 
 }  // namespace itin

@@ -17,6 +17,7 @@
 #include "pyramid/coverage.hpp"
 #include "pyramid/level_writer.hpp"
 #include "pyramid/part_masks.hpp"
+#include "pyramid/post_hierarchy.hpp"
 #include "pyramid/proposal.hpp"
 #include "pyramid/replacement.hpp"
 #include "pyramid/set_points_aside.hpp"
@@ -160,12 +161,15 @@ class PyramidBuild {
 
   PyramidReport run() {
     const bool alone = lines_.empty();
+    drop_replaced_points();
+    if (alone) find_fine_levels();
     progress_.step(!alone ? kGroundUnderLines : sea_ ? kGroundBesideSea : kGroundAlone);
     find_coverage();
     progress_.step(alone ? 0 : kLines);
     place();
     repair_contours();
     generalise();
+    if (!alone) find_fine_levels();
     progress_.step(alone ? 0 : kProposal);
     propose_with_lines();
     progress_.step(kCertificates);
@@ -186,7 +190,7 @@ class PyramidBuild {
   static constexpr std::uint64_t kPointsPerCopy = 8;
   /// About the share that a step takes of the time that is left.
   static constexpr double kGroundAlone = 0.8, kGroundBesideSea = 0.4, kGroundUnderLines = 0.2, kLines = 0.1,
-                          kProposal = 0.7, kCertificates = 0.85;
+                          kReplacement = 0.05, kFineLevels = 0.15, kProposal = 0.7, kCertificates = 0.85;
 
   void index_points() {
     index_.emplace(points_, levels_, kLeafCapacity);
@@ -196,12 +200,23 @@ class PyramidBuild {
   /// All points that were imported, even where the surface's points have become more.
   const SortedPoints& imported() const { return imported_ ? *imported_ : points_; }
 
+  /// Drops points that make way for finer ones. It comes before all else that looks at points.
+  void drop_replaced_points() {
+    Progress& step = progress_.step(kReplacement);
+    report_.replaced = drop_replaced(*index_, tiles_, sources_, bases_, terrain_codes(lines_), step);
+  }
+
+  /// Finds the fine levels of rasters; goes before the other levels are proposed.
+  void find_fine_levels() {
+    posts_in_squares_ = PostHierarchy(*index_, tiles_, whole_units_, progress_.step(kFineLevels));
+  }
+
   /// Step 1: finds the coverage. Without lines the levels are proposed in the same go.
   void find_coverage() {
-    report_.replaced = drop_replaced(*index_, tiles_, sources_, bases_, terrain_codes(lines_), progress_);
     const Sources* const only = ground_.size() < sources_.size() ? &ground_ : nullptr;
-    Proposal proposal = lines_.empty() ? propose_levels(*index_, tiles_, bases_, units_, progress_)
+    Proposal proposal = lines_.empty() ? propose_levels(*index_, tiles_, bases_, units_, posts_in_squares_, progress_)
                                        : find_ground(*index_, tiles_, bases_, only, progress_);
+    close_levels(proposal.raised);
     report_.isolated = index_->drop(std::move(proposal.isolated));
     outline_ = join_collinear(std::move(proposal.outline));
   }
@@ -259,10 +274,14 @@ class PyramidBuild {
       ends.push_back({code_of(s.a()), levels_ - 1});
       ends.push_back({code_of(s.b()), levels_ - 1});
     }
+    close_levels(ends);
     index_->promote(std::move(ends));
-    propose_levels_with_lines(*index_, tiles_, units_, progress_);
+    close_levels(propose_levels_with_lines(*index_, tiles_, units_, posts_in_squares_, progress_).raised);
     if (hierarchy_) lead_lines_through();
   }
+
+  /// Raises what the hierarchy of posts needs where these posts are raised.
+  void close_levels(const std::vector<LevelRaise>& raised) { index_->promote(posts_in_squares_.closing(raised)); }
 
   /// Leads a line through those of its vertices that a level has.
   void lead_lines_through() {
@@ -289,7 +308,8 @@ class PyramidBuild {
   /// Step 6: certifies the levels.
   LeafBounds certify_levels() {
     return certify(
-        *index_, whole_units_, sea_, [&](const auto& shortcuts) { return restore(shortcuts); }, progress_);
+        *index_, whole_units_, posts_in_squares_, sea_, [&](const auto& shortcuts) { return restore(shortcuts); },
+        progress_);
   }
 
   /// Returns the first level whose vertices are stored a second time: the finest that has few enough.
@@ -380,6 +400,7 @@ class PyramidBuild {
   std::optional<SortedPoints> imported_;  ///< where `points_` has become the points of the surface
   std::optional<WorkingIndex> index_;
   std::vector<CurveRange> tiles_;
+  PostHierarchy posts_in_squares_;
   std::vector<Segment> outline_;
   PlacedLines placed_;
   std::optional<LineHierarchy> hierarchy_;

@@ -240,7 +240,8 @@ std::uint64_t WorkingIndex::drop(std::vector<std::uint64_t> codes) {
   return codes.size();
 }
 
-void WorkingIndex::promote(std::vector<LevelRaise> raises) {
+std::vector<RaisedPoint> WorkingIndex::promote(std::vector<LevelRaise> raises) {
+  std::vector<RaisedPoint> raised;
   std::sort(raises.begin(), raises.end(), [](const LevelRaise& a, const LevelRaise& b) { return a.code < b.code; });
   for (auto at = raises.begin(); at != raises.end();) {
     const CurveRange& leaf = ranges_[leaf_of(at->code)];
@@ -248,10 +249,13 @@ void WorkingIndex::promote(std::vector<LevelRaise> raises) {
     for (auto p = points.begin(); at != raises.end() && at->code < leaf.cell.end(); ++at) {
       while (p != points.end() && p->code < at->code) ++p;
       if (p == points.end() || p->code != at->code || p->level == kDropped) continue;
-      p->level = std::max(p->level, static_cast<std::uint16_t>(at->level));
+      if (p->level >= at->level) continue;
+      raised.push_back({p->code, p->level, at->level});
+      p->level = static_cast<std::uint16_t>(at->level);
     }
     write(leaf, points);
   }
+  return raised;
 }
 
 void WorkingIndex::leaves_along(Point2 p, Point2 q, std::vector<std::uint32_t>& out) const {

@@ -30,6 +30,12 @@ struct LevelRaise {
   int level;
 };
 
+/// A point, by its Morton code, that has been raised from one level to a coarser one.
+struct RaisedPoint {
+  std::uint64_t code;
+  int from, to;
+};
+
 /// Any thread may read. Several threads may call write() at once, each for ranges of its own. Meanwhile nobody may read
 /// those ranges, and only level 0 of other ranges.
 class WorkingIndex final : public PointIndex {
@@ -60,8 +66,9 @@ class WorkingIndex final : public PointIndex {
   /// Leaves these points out of the surface; codes may come in any order and may repeat. Returns the number of points
   /// left out. Not thread-safe.
   std::uint64_t drop(std::vector<std::uint64_t> codes);
-  /// Raises these points' levels; they may come in any order and may repeat, and need not exist. Not thread-safe.
-  void promote(std::vector<LevelRaise> raises);
+  /// Raises these points' levels; they may come in any order and may repeat, and need not exist. Returns those that had
+  /// finer ones. Not thread-safe.
+  std::vector<RaisedPoint> promote(std::vector<LevelRaise> raises);
 
   /// Makes a block of its own of a leaf's points of level 1 and coarser, from now on, for where coarse levels are read.
   /// These blocks are kept in memory: coarse surfaces need few points of each of many leaves. Not thread-safe.

@@ -21,23 +21,18 @@
 #include <itin/geometry.hpp>
 
 #include "store/point_index.hpp"
-#include "triangulate/delaunay.hpp"
+#include "triangulate/known_triangles.hpp"
 
 namespace itin {
 
-class LatticeSquares {
+class LatticeSquares final : public KnownTriangles {
  public:
-  LatticeSquares() = default;
   /// Takes all positions and segments within `known`, and perhaps others. Where there are few squares, finds none.
   LatticeSquares(std::span<const Position> positions, std::span<const Segment> segments, const GridBox& known);
 
-  /// Returns the number of triangles that fill() puts first.
-  std::uint32_t triangle_count() const { return count_; }
-  /// Returns the indices of the positions that belong to triangles elsewhere or are ends of segments, ascending.
-  const std::vector<std::uint32_t>& rest() const { return rest_; }
-  /// Turns the triangulation of rest(), of the segments and of vertices outside `known` into that of all vertices.
-  /// Vertices of the mesh have their numbers here.
-  void fill(PlaneMesh& mesh) const;
+  std::uint32_t triangle_count() const override { return count_; }
+  const std::vector<std::uint32_t>& rest() const override { return rest_; }
+  void fill(PlaneMesh& mesh) const override;
 
  private:
   static constexpr std::uint32_t kNone = kNoTriangle;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numeric>
 #include <set>
 #include <span>
@@ -21,6 +22,7 @@
 #include "triangulate/growing_mesh.hpp"
 #include "triangulate/lattice_squares.hpp"
 #include "triangulate/region_reader.hpp"
+#include "triangulate/right_triangles.hpp"
 #include "triangulate/triangle_box.hpp"
 
 namespace itin {
@@ -47,7 +49,12 @@ class RegionTriangulation {
  public:
   RegionTriangulation(const PointIndex& index, const Selection& selection, const GridBox& tile,
                       const GridWindow* window)
-      : index_(index), window_(window), read_(index, selection), search_(index, selection), grown_(read_.vertices()) {
+      : index_(index),
+        window_(window),
+        finest_(selection.finest()),
+        read_(index, selection),
+        search_(index, selection),
+        grown_(read_.vertices()) {
     tile_ = intersection(tile, index.bounds());
     if (window != nullptr) tile_ = intersection(tile_, window->bounds());
     if (window != nullptr && window->holds(tile_)) window_ = nullptr;
@@ -124,7 +131,7 @@ class RegionTriangulation {
     std::vector<Position> positions(read_.vertices().size());
     std::transform(read_.vertices().begin(), read_.vertices().end(), positions.begin(),
                    [](const SelectedVertex& v) { return v.position(); });
-    squares_ = LatticeSquares(positions, segments, bare_beyond_);
+    known_triangles_ = find_known_triangles(positions, segments);
     constraints_.clear();
     outline_changed_ = true;
     grown_.start({});
@@ -134,16 +141,27 @@ class RegionTriangulation {
     for (const Constraint& c : constraints_) grown_.lay(c.from, c.to, c.theme);
   }
 
-  /// Triangulates all vertices except those inside squares.
+  /// Finds the triangles that need no triangulation. Fine levels of rasters are right triangles on posts; where nearly
+  /// all posts are there, their squares tell as much sooner.
+  std::unique_ptr<KnownTriangles> find_known_triangles(std::span<const Position> positions,
+                                                       std::span<const Segment> segments) const {
+    if (finest_ > 0) {
+      auto triangles = std::make_unique<RightTriangles>(positions, segments, bare_beyond_);
+      if (triangles->triangle_count() > 0) return triangles;
+    }
+    return std::make_unique<LatticeSquares>(positions, segments, bare_beyond_);
+  }
+
+  /// Triangulates all vertices except those that have known triangles only.
   void triangulate_vertices() {
-    std::vector<std::uint32_t> numbers = squares_.rest();
+    std::vector<std::uint32_t> numbers = known_triangles_->rest();
     for (std::uint32_t v = read_.in_order(); v < read_.vertices().size(); ++v) numbers.push_back(v);
     std::vector<Position> positions(numbers.size());
     std::transform(numbers.begin(), numbers.end(), positions.begin(), [&](std::uint32_t v) { return position(v); });
     Delaunay delaunay;
     delaunay.insert(positions, numbers);
     PlaneMesh mesh = delaunay.mesh();
-    squares_.fill(mesh);
+    known_triangles_->fill(mesh);
     grown_.start(std::move(mesh));
   }
 
@@ -312,8 +330,9 @@ class RegionTriangulation {
     Enclosure enclosure(mesh(), read_.vertices(), known_, index_.bounds());
     for (const std::uint32_t t : open_) {
       if (ground_[t] != Ground::kYes || grown_.is_proved(t)) continue;
-      if (t < squares_.triangle_count() || circumdisc_in(corner(t, 0), corner(t, 1), corner(t, 2), bare_beyond_) ||
-          !in_region(t) || (lines && enclosure.holds(t))) {
+      if (t < known_triangles_->triangle_count() ||
+          circumdisc_in(corner(t, 0), corner(t, 1), corner(t, 2), bare_beyond_) || !in_region(t) ||
+          (lines && enclosure.holds(t))) {
         grown_.mark_proved(t);
       } else if (lines) {
         enclosure.add_missing(missing);
@@ -432,6 +451,7 @@ class RegionTriangulation {
 
   const PointIndex& index_;
   const GridWindow* window_;
+  const int finest_;  ///< the finest level that is asked for anywhere
   RegionReader read_;
   ApexSearch search_;
   GridBox tile_;  ///< the region's box
@@ -444,8 +464,8 @@ class RegionTriangulation {
   int log2_cell_side_ = 0;
   std::uint64_t most_known_ = 0;  ///< points that may still be read into known_
   std::vector<Constraint> constraints_;
-  LatticeSquares squares_;  ///< the squares of the points read at first
-  GrowingMesh grown_;       ///< its proved triangles need no more proof
+  std::unique_ptr<KnownTriangles> known_triangles_;  ///< those of the points read at first
+  GrowingMesh grown_;                                ///< its proved triangles need no more proof
   std::vector<Ground> ground_;
   std::vector<SegmentEdge> outline_;
   bool outline_changed_ = true;  ///< the outline has changed since all triangles were marked

@@ -83,7 +83,7 @@ TEST_F(Verify, FindsBoundsThatAreTooTightByOneStep) {
   const auto with_void = [&](int c, int r) {
     return std::hypot(c - 20, r - 25) < 6 ? std::nan("") : terrain_(c + 150, r + 250);
   };
-  add_terrain(50, 46, 44, with_void);
+  add_terrain(50, 66, 64, with_void);
   expect_sound();
   const Store store(store_);
   const StoreMetadata& metadata = store.metadata();
