@@ -1,5 +1,7 @@
 #include "export/buffered_file.hpp"
 
+#include <unistd.h>
+
 #include <cerrno>
 #include <system_error>
 
@@ -21,6 +23,12 @@ void BufferedFile::flush() {
 void BufferedFile::close() {
   flush();
   if (std::fclose(file_.release()) != 0) fail();
+}
+
+void BufferedFile::close_synced() {
+  flush();
+  if (::fsync(::fileno(file_.get())) != 0) fail();
+  close();
 }
 
 void BufferedFile::fail() const {

@@ -38,8 +38,10 @@ class BufferedFile {
     fmt::format_to(std::back_inserter(buffer_), format, std::forward<Arguments>(arguments)...);
     flush_if_large();
   }
-  /// Completes the file. Must be called: without it the end of the file is missing.
+  /// Completes the file. This or close_synced() must be called: without it the end of the file is missing.
   void close();
+  /// Completes the file, and waits until it is on disk.
+  void close_synced();
 
  private:
   struct Closer {

@@ -6,9 +6,11 @@
 #include <xxhash.h>
 
 #include <itin/error.hpp>
-#include <itin/output_file.hpp>
 #include <itin/packed_file.hpp>
 
+#include "base/disk_sync.hpp"
+#include "export/buffered_file.hpp"
+#include "export/pending_file.hpp"
 #include "store/byte_stream.hpp"
 #include "store/zstd_frame.hpp"
 
@@ -50,7 +52,12 @@ std::uint64_t content_hash(std::string_view bytes) {
 
 void write_packed(const std::string& path, std::string_view bytes) {
   const std::string frame = text_of(compress(bytes_of(bytes)));
-  write_file(path, std::string(kMagic) + hash_of(frame) + frame, true);
+  PendingFile output(path, true);
+  BufferedFile file(output);
+  file.write(std::string(kMagic) + hash_of(frame) + frame);
+  file.close_synced();
+  output.commit();
+  sync_folder_of(path);
 }
 
 std::string read_packed(const std::string& path) {

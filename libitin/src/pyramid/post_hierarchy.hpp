@@ -26,7 +26,7 @@
 
 namespace itin {
 
-/// Which of a block's single squares are sound, by column and row within the block.
+/// Which of a block's single squares are sound (post_window.hpp), by column and row within the block.
 class SoundSquares {
  public:
   void set(std::int64_t column, std::int64_t row) {

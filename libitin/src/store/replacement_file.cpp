@@ -10,6 +10,8 @@
 
 #include <itin/error.hpp>
 
+#include "base/disk_sync.hpp"
+
 namespace itin {
 
 namespace fs = std::filesystem;
@@ -68,11 +70,7 @@ void ReplacementFile::commit() {
     if (::rename(temporary_.c_str(), target_.c_str()) != 0)
       fail(std::string("cannot be replaced: ") + std::strerror(errno));
   });
-  const fs::path parent = fs::path(target_).parent_path();
-  const int directory = ::open(parent.empty() ? "." : parent.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (directory < 0) return;  // a directory that may be written but not read: its entry is synced with the next flush
-  ::fsync(directory);
-  ::close(directory);
+  sync_folder_of(target_);
 }
 
 void ReplacementFile::fail(const std::string& what) const {

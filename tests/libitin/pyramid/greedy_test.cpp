@@ -157,6 +157,36 @@ TEST_F(Greedy, KeepsToTolerancesAtPostsAndSidesOfLatticesWithGaps) {
   }
 }
 
+TEST_F(Greedy, TakesSpareVerticesOnlyWhereNoFreeOneWouldDo) {
+  step_x_ = step_y_ = 40;
+  std::vector<test::LevelPoint> scattered;
+  for (const GridPoint& p : test::make_points(test::Pattern::kRandom, 900, random_)) scattered.push_back({p, 0});
+  for (const std::vector<test::LevelPoint>& points : {posts(hills()), scattered}) {
+    test::TestIndex index(points, 1, 64);
+    const RegionMesh fine = surface(index, 0);
+    std::vector<Candidacy> candidacy = all_of(fine);
+    for (Candidacy& c : candidacy) c = draw(0, 1) == 0 ? Candidacy::kSpare : Candidacy::kFree;
+    const auto lattice = LatticePosts::of(fine.vertices);
+    const Levels levels = lattice ? greedy_levels(fine.vertices, *lattice, candidacy, kGreedyTolerances)
+                                  : greedy_levels(fine, candidacy, kGreedyTolerances);
+    expect_kept(fine, levels);
+    std::size_t spare = 0, free = 0;
+    for (std::size_t v = 0; v < levels.size(); ++v)
+      if (levels[v] >= 2) (candidacy[v] == Candidacy::kSpare ? spare : free) += 1;
+    EXPECT_LT(4 * spare, free);
+  }
+}
+
+TEST_F(Greedy, LeavesLevelsFinerThanAskedForAsTheyAre) {
+  test::TestIndex index(posts(hills()), 1, 64);
+  const RegionMesh fine = surface(index, 0);
+  const Levels all = levels_of_posts(fine);
+  Levels coarse = all;
+  for (std::uint8_t& level : coarse)
+    if (level < 2) level = 0;
+  EXPECT_EQ(greedy_levels(fine.vertices, *LatticePosts::of(fine.vertices), all_of(fine), kGreedyTolerances, 2), coarse);
+}
+
 TEST_F(Greedy, KeepsLevelsThatAreGiven) {
   std::vector<test::LevelPoint> points = posts([](auto, auto) { return 0; });
   for (test::LevelPoint& p : points) p.level = draw(0, 40) == 0 ? draw(1, 3) : 0;

@@ -1,0 +1,12 @@
+// What was written is on disk, and stays there whatever happens to the machine.
+#pragma once
+
+#include <string>
+
+namespace itin {
+
+/// Waits until the folder that has this path is on disk, with the file's name. A folder that may be written but not read
+/// is passed over: its entry is on disk with the next flush.
+void sync_folder_of(const std::string& path);
+
+}  // namespace itin
