@@ -1,9 +1,8 @@
 #include "base/disk_sync.hpp"
 
 #include <fcntl.h>
-#include <unistd.h>
-
 #include <filesystem>
+#include <unistd.h>
 
 namespace itin {
 

@@ -5,8 +5,8 @@
 
 namespace itin {
 
-/// Waits until the folder that has this path is on disk, with the file's name. A folder that may be written but not read
-/// is passed over: its entry is on disk with the next flush.
+/// Waits until the folder that has this path is on disk, with the file's name. A folder that may be written but not
+/// read is passed over: its entry is on disk with the next flush.
 void sync_folder_of(const std::string& path);
 
 }  // namespace itin

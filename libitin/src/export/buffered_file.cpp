@@ -1,9 +1,8 @@
 #include "export/buffered_file.hpp"
 
-#include <unistd.h>
-
 #include <cerrno>
 #include <system_error>
+#include <unistd.h>
 
 #include <itin/error.hpp>
 

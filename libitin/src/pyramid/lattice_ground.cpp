@@ -74,7 +74,8 @@ WorstPoint LatticeGround::worst_point(std::uint32_t, const std::array<std::uint3
   }
   const double error = std::max(error_of_free, error_of_spare);
   if (error == 0) return {};
-  return {error, posts_.vertex_at(error_of_free > 0 ? free_post : spare_post)};
+  // Corners of the face are off it by rounding alone.
+  return {error, posts_.vertex_at(error_of_free > kPointError ? free_post : spare_post)};
 }
 
 }  // namespace itin

@@ -18,8 +18,10 @@ namespace {
 
 /// Tiles whose levels are held until they are written, because tiles read each other's heights.
 constexpr std::size_t kTilesAtOnce = 32;
-/// A level is fine where it has one in so many posts, or more.
+/// A level is fine where it has one in so many posts, or more, of so many tiles that lie evenly along the curve; of all
+/// tiles where they are fewer than twice as many.
 constexpr std::uint64_t kPostsPerFinePost = 2;
+constexpr std::size_t kSampledTiles = 16;
 
 /// The levels that the hierarchy gives to the posts of a window.
 ///
@@ -146,50 +148,46 @@ void write_levels(WorkingIndex& index, const CurveRange& tile, const std::vector
   index.write(tile, points);
 }
 
+/// Finds the coarsest level that has half of all posts.
+int coarsest_fine_level(const WorkingIndex& index, const std::vector<CurveRange>& tiles,
+                        std::span<const std::int32_t> tolerances, Progress& progress) {
+  const std::size_t stride = std::max<std::size_t>(tiles.size() / kSampledTiles, 1);
+  std::vector<TileLevels> sample((tiles.size() + stride - 1) / stride);
+  parallel_for(sample.size(), [&](std::size_t i) {
+    progress.throw_if_cancelled();
+    sample[i] = levels_of_tile(index, tiles[i * stride], tolerances);
+  });
+  std::vector<std::uint64_t> posts(tolerances.size(), 0);
+  for (const TileLevels& tile : sample)
+    for (const std::uint8_t level : tile.levels)
+      if (level != kNoLevel) posts[level] += 1;
+  const std::uint64_t all = std::accumulate(posts.begin(), posts.end(), std::uint64_t{0});
+  std::uint64_t selected = 0;
+  for (std::size_t k = posts.size(); k-- > 1;) {
+    selected += posts[k];
+    if (all > 0 && selected * kPostsPerFinePost >= all) return static_cast<int>(k);
+  }
+  return 0;
+}
+
 }  // namespace
 
 PostHierarchy::PostHierarchy(WorkingIndex& index, const std::vector<CurveRange>& tiles,
-                             std::span<const std::int32_t> tolerances, Progress& progress) {
-  std::vector<std::uint64_t> posts_of_level(tolerances.size(), 0);
+                             std::span<const std::int32_t> tolerances, Progress& progress)
+    : coarsest_(coarsest_fine_level(index, tiles, tolerances, progress)) {
+  if (coarsest_ == 0) return;
   std::atomic<std::size_t> done = 0;
   for (std::size_t first = 0; first < tiles.size(); first += kTilesAtOnce) {
     std::vector<TileLevels> found(std::min(kTilesAtOnce, tiles.size() - first));
     parallel_for(found.size(), [&](std::size_t i) {
       progress.throw_if_cancelled();
-      found[i] = levels_of_tile(index, tiles[first + i], tolerances);
+      found[i] = levels_of_tile(index, tiles[first + i], tolerances.first(static_cast<std::size_t>(coarsest_) + 1));
       progress.report("finding fine levels", static_cast<double>(++done) / static_cast<double>(tiles.size()));
     });
     parallel_for(found.size(), [&](std::size_t i) { write_levels(index, tiles[first + i], found[i].levels); });
-    for (const TileLevels& tile : found) {
-      blocks_[tile.lattice].insert(tile.blocks.begin(), tile.blocks.end());
-      for (const std::uint8_t level : tile.levels)
-        if (level != kNoLevel) posts_of_level[level] += 1;
-    }
+    for (const TileLevels& tile : found)
+      if (!tile.blocks.empty()) blocks_[tile.lattice].insert(tile.blocks.begin(), tile.blocks.end());
   }
-  choose_coarsest(posts_of_level);
-  parallel_for(tiles.size(), [&](std::size_t i) { keep_fine_levels(index, tiles[i]); });
-  if (coarsest_ == 0) blocks_.clear();
-}
-
-/// Chooses the coarsest level that has half of all posts. `posts`: how many have each level and none coarser.
-void PostHierarchy::choose_coarsest(const std::vector<std::uint64_t>& posts) {
-  const std::uint64_t all = std::accumulate(posts.begin(), posts.end(), std::uint64_t{0});
-  std::uint64_t selected = 0;
-  for (std::size_t k = posts.size(); k-- > 1 && coarsest_ == 0;) {
-    selected += posts[k];
-    if (selected * kPostsPerFinePost >= all && all > 0) coarsest_ = static_cast<int>(k);
-  }
-}
-
-/// Holds the levels of a tile's posts down to the coarsest fine one.
-void PostHierarchy::keep_fine_levels(WorkingIndex& index, const CurveRange& tile) const {
-  if (blocks_.empty()) return;
-  std::vector<RawPoint> points = index.read(tile);
-  for (RawPoint& p : points) {
-    if (p.level != kDropped && p.level > coarsest_ && has(position_of(p.code)))
-      p.level = static_cast<std::uint16_t>(coarsest_);
-  }
-  index.write(tile, points);
 }
 
 bool PostHierarchy::has(Position p) const {

@@ -56,7 +56,7 @@ class PostHierarchy {
   PostHierarchy(WorkingIndex& index, const std::vector<CurveRange>& tiles, std::span<const std::int32_t> tolerances,
                 Progress& progress);
 
-  /// Returns the coarsest fine level; 0 where there is none. Fine levels have at least half of all posts.
+  /// Returns the coarsest fine level; 0 where there is none. Fine levels have about half of all posts, or more.
   int coarsest_level() const { return coarsest_; }
   /// Tells whether a position is a post of a sound square.
   bool has(Position p) const;
@@ -71,8 +71,6 @@ class PostHierarchy {
   };
   using Blocks = std::unordered_map<LatticePlace, SoundSquares, HashOfPlace>;  ///< by their columns and rows of blocks
 
-  void choose_coarsest(const std::vector<std::uint64_t>& posts);
-  void keep_fine_levels(WorkingIndex& index, const CurveRange& tile) const;
   static bool is_sound(const Blocks& blocks, std::int64_t column, std::int64_t row, std::int64_t side);
   static std::vector<std::uint64_t> corners_needed(const PostLattice& lattice, const Blocks& blocks,
                                                    std::uint64_t code);
