@@ -7,18 +7,17 @@
 #include <tuple>
 #include <utility>
 
+#include <itin/feature_style.hpp>
 #include <itin/table_columns.hpp>
 #include <viewshed/site_maps.hpp>
 #include <viewshed/site_wording.hpp>
-
-#include "files/vector_styles.hpp"
 
 namespace itin::viewshed {
 
 namespace {
 
 /// The classes of PointService, in its order.
-constexpr std::array<ServiceClass, 7> kPointServices{{{"served", "Point served", {0, 114, 178}},
+constexpr std::array<FeatureClass, 7> kPointServices{{{"served", "Point served", {0, 114, 178}},
                                                       {"too few", "Point served by too few sites", {86, 180, 233}},
                                                       {"undecided", "Point undecided", {140, 140, 140}},
                                                       {"zone cut", "Point in sight, Fresnel zone cut", {230, 159, 0}},
