@@ -155,9 +155,10 @@ class ImportVerb final : public Verb {
                          "Buildings, walls, vegetation: a raster of a digital surface model in the store's CRS, over "
                          "the terrain, from which features have their height that have none in a field")
               ->type_name("FILE"));
-    app.add_option("--height-percentile", percentile_,
-                   "Which of the model's cells within a footprint counts, from 0, the lowest, to 100, the highest "
-                   "(default: 50, their median)")
+    app.add_option(
+           "--height-percentile", percentile_,
+           "Which of the model's cells within a footprint counts, from 0, the lowest, over 50, their median, to "
+           "100, the highest (default: 50)")
         ->type_name("PERCENT");
     app.add_option("--height", height_, "Height of features that have none in the fields and from the model")
         ->type_name("METRES");

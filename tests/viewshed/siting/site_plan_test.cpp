@@ -328,7 +328,7 @@ TEST_F(SitePlans, ServeByLevelWhatBudgetsOfSingleLinesServe) {
   }
 }
 
-/// The cells that a site serves are those of a viewshed in mode kLevel.
+/// The cells that sites serve are those of a viewshed in mode kLevel.
 TEST_F(SitePlans, ServeByLevelTheCellsOfTheViewshed) {
   SitePlanRequest asked = request();
   asked.nodata = NoData::kClear;
@@ -336,10 +336,9 @@ TEST_F(SitePlans, ServeByLevelTheCellsOfTheViewshed) {
   asked.frequency_ghz = 5.8;
   asked.link_budget = {.power_dbm = 0, .sensitivity_dbm = -85};
   const SitePlan made = plan(asked);
-  ASSERT_EQ(made.network.ends.size(), 1U);
-  const SitePosition& site = made.network.ends[0].place;
   Request request;
-  request.observers = {{site.name, site.position, site.height}};
+  for (const LinkEnd& end : made.network.ends)
+    request.observers.push_back({end.place.name, end.place.position, end.place.height});
   request.target_height = asked.demand.height;
   request.radius = asked.radius;
   request.grid = made.rasters.grid;

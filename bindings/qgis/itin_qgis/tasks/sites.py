@@ -100,7 +100,11 @@ class SiteMasts(Task):
         shared.FRESNEL,
         *shared.LEVELS,
         Number(
-            "MARGIN_DB", "Link budget: margin over the sensitivity that serves [dB]", "--margin-db", advanced=True
+            "MARGIN_DB",
+            "Link budget: margin over the sensitivity that serves [dB]",
+            "--margin-db",
+            default=0,
+            advanced=True,
         ),
         FolderOutput(
             "OUTPUT",

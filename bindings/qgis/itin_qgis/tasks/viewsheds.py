@@ -175,6 +175,7 @@ class RadioCoverage(Task):
             "MARGIN_DB",
             "Margins over the sensitivity that polygons tell apart [dB]",
             "--margin-db",
+            default="0",
             advanced=True,
             help="Several with commas between, such as 0,10,20",
         ),

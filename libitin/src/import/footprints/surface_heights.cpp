@@ -106,7 +106,7 @@ template <class Visit>
 void SurfaceHeights::for_each_cell(const Box& box, const Visit& visit) const {
   const Point2 &across = lattice_.across, &down = lattice_.down;
   const double area = across.x * down.y - across.y * down.x;
-  Box cells;  // of columns and rows
+  Box cells;  // in columns and rows
   for (const Point2 corner :
        {Point2{box.xmin, box.ymin}, {box.xmin, box.ymax}, {box.xmax, box.ymin}, {box.xmax, box.ymax}}) {
     const double dx = corner.x - lattice_.corner.x, dy = corner.y - lattice_.corner.y;

@@ -19,7 +19,7 @@ namespace itin {
 
 struct SurfaceHeightsQuery {
   std::string path;                  ///< a raster of elevations in the CRS of the store
-  double percentile = 50;            ///< of the cells within a footprint, 0 to 100; 50: their median
+  double percentile = 50;            ///< which of the cells within a footprint counts, 0 to 100; 50: the median
   VerticalDatums* datums = nullptr;  ///< elevations must share their datum; null: they need not
   std::uint64_t memory_bytes = 0;
 };
