@@ -249,7 +249,7 @@ TEST_F(RadioModes, LevelsAreThoseOfLinesByEveryKindOfBudget) {
       request.budget = budget;
       request.nodata = nodata;
       request.observers = {observer_on(store, middle_of_hills())};
-      request.cell_size = 90;
+      request.cell_size = 120;
       expect_levels_of_lines(store, request);
     }
   }

@@ -143,7 +143,7 @@ Table table_of(const std::vector<LinkRow>& rows) {
               "The order is by verdict, then by metres. Clearance is that at the critical point, clearance / F1 the "
               "least over the line."};
   const bool budgets = has_budgets(rows), frequencies = has_frequencies(rows) && shared_frequency(rows).empty();
-  if (frequencies) table.header.push_back("frequency");
+  if (frequencies) table.header.emplace_back("frequency");
   if (budgets) table.header.insert(table.header.end(), {"margin dB", "availability"});
   for (const auto& [rank, row] : order) {
     std::vector<std::string>& cells = table.rows.emplace_back(cells_of(*row));
