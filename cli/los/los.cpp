@@ -50,7 +50,7 @@ class LosVerb final : public Verb {
     earth_.declare(app);
     earth_.declare_radius(app);
     radio_.declare(app);
-    budget_.declare(app);
+    budget_.declare(app, {});
     reports_.declare(app);
     people_.declare(app);
     policy_.declare(app);

@@ -48,11 +48,13 @@ void take_degrees(const char* option, const std::string& text, std::optional<dou
 
 }  // namespace
 
-void BudgetOptions::declare(CLI::App& app) {
+void BudgetOptions::declare(CLI::App& app, const Ends& ends) {
   begin_group(app, "Link budget");
-  app.add_option("--power-dbm", power_text_, "Power of the transmitter at the first end; asks for a link budget")
+  app.add_option("--power-dbm", power_text_,
+                 fmt::format("Power of the transmitter at {}; asks for a link budget", ends.first))
       ->type_name("DBM");
-  app.add_option("--eirp-dbm", eirp_text_, "What the first end radiates, its antenna and feeder included, instead")
+  app.add_option("--eirp-dbm", eirp_text_,
+                 fmt::format("What {} radiates, its antenna and feeder included, instead", ends.first))
       ->type_name("DBM");
   app.add_option("--gain-dbi", gain_text_,
                  "Gain of both antennas, or of each; with --eirp-dbm, of the second alone; 0 unless the file of a "
@@ -60,16 +62,38 @@ void BudgetOptions::declare(CLI::App& app) {
       ->type_name("DBI[,DBI]");
   app.add_option("--feeder-loss-db", feeder_text_, "Loss between each radio and its antenna, likewise")
       ->type_name("DB[,DB]");
-  app.add_option(
-         "--sensitivity-dbm", sensitivity_text_,
-         "Least level that the receiver works with: gives the margin for fades and, with rain or multipath, the "
-         "availability")
+  app.add_option("--sensitivity-dbm", sensitivity_text_,
+                 fmt::format("Least level that the receiver works with: gives the margin for fades{}",
+                             ends.single ? " and, with rain or multipath, the availability"
+                             : ends.rain ? " and, with rain, the minutes of outage"
+                                         : ""))
       ->type_name("DBM");
+  if (ends.rain) declare_rain(app);
+  if (ends.single) declare_multipath(app);
+  for (const auto& [option, end, path] : {std::tuple("--from-antenna", ends.first, &from_antenna_path_),
+                                          {"--to-antenna", ends.second, &to_antenna_path_}})
+    reads(app.add_option(option, *path, fmt::format("Pattern of the antenna at {}: MSI (.msi, .pln), or .ant", end))
+              ->type_name("FILE"));
+  app.add_option("--antenna-azimuth", azimuth_text_,
+                 fmt::format("Where the antenna at {} points, from grid north, and the one at {}: degrees, or aim for "
+                             "the other end. {}",
+                             ends.first, ends.second,
+                             ends.single ? "Without it, both aim"
+                                         : "A pattern of the first needs it; without it, the second aims"))
+      ->type_name("DEG[,DEG]");
+  app.add_option("--antenna-tilt", tilt_text_, "How far they are tilted below the horizontal, likewise")
+      ->type_name("DEG[,DEG]");
+}
+
+void BudgetOptions::declare_rain(CLI::App& app) {
   app.add_option(
          "--rain-rate-mm-h", rain_text_,
          "Rate of rain that is exceeded for 0.01 % of an average year (P.837): gives losses and outage by rain, "
          "P.838-3 and P.530-18; 1 to 100 GHz, up to 60 km")
       ->type_name("MM/H");
+}
+
+void BudgetOptions::declare_multipath(CLI::App& app) {
   app.add_option("--geoclimatic-factor", factor_text_,
                  "Geoclimatic factor K of P.530-17: gives outage by multipath, by its method for quick planning; up to "
                  "45 GHz")
@@ -78,18 +102,6 @@ void BudgetOptions::declare(CLI::App& app) {
                  "Gradient of refractivity in the lowest 65 m that is not exceeded for 1 % of an average year (dN1 of "
                  "P.453), in N-units per km, such as -300; instead, K = 10^(-4.6 - 0.0027 dN1)")
       ->type_name("N/KM");
-  for (const auto& [option, end, path] :
-       {std::tuple("--from-antenna", "first", &from_antenna_path_), {"--to-antenna", "second", &to_antenna_path_}})
-    reads(app.add_option(option, *path,
-                         fmt::format("Pattern of the antenna at the {} end: MSI (.msi, .pln), or .ant", end))
-              ->type_name("FILE"));
-  app.add_option(
-         "--antenna-azimuth", azimuth_text_,
-         "Where the antenna at the first end points, from grid north, and the one at the second: degrees, or aim "
-         "for the other end. Without it, both aim")
-      ->type_name("DEG[,DEG]");
-  app.add_option("--antenna-tilt", tilt_text_, "How far they are tilted below the horizontal, likewise")
-      ->type_name("DEG[,DEG]");
 }
 
 void BudgetOptions::validate() {

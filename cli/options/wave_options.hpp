@@ -32,6 +32,8 @@ class WaveOptions {
   /// Throws InputError.
   void validate();
   bool has_frequency() const { return wave_.has_value(); }
+  /// The wave without the Earth that it runs over; nothing without a frequency.
+  const std::optional<RadioPath>& wave() const { return wave_; }
   /// Whether more than a frequency was given.
   bool is_detailed() const { return !polarisation_text_.empty() || !over_sea_text_.empty(); }
   /// The radio path, with the effective radius of this Earth; nothing without a frequency. Throws what require_curved()

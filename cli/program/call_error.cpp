@@ -68,7 +68,17 @@ std::string bad_flag(const CLI::App& verb) {
 
 }  // namespace
 
+std::string option_as_value(const CLI::App& verb) {
+  for (const CLI::Option* option : verb.get_options())
+    for (const std::string& value : option->results())
+      if (is_option(value) && verb.get_option_no_throw(value) != nullptr)
+        return fmt::format("{} has no value: the option {} follows it; give {}", option->get_name(), value,
+                           named(*option));
+  return "";
+}
+
 std::string call_error(const CLI::App& verb, const CLI::ParseError& error) {
+  if (std::string message = option_as_value(verb); !message.empty()) return message;
   const std::vector<std::string> rest = verb.remaining();
   if (std::any_of(rest.begin(), rest.end(), is_option)) return unexpected(verb, rest);
   if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr) return mismatch(verb, error);

@@ -148,8 +148,10 @@ void print(const std::string& text) {
   if (!std::cout) throw FileError("standard output", "could not be written; check the disk or pipe behind it");
 }
 
-/// Refuses an empty value, which an unset variable of a script gives; it must not silently mean the default.
+/// Refuses an option in place of a value, and an empty value, which an unset variable of a script gives; it must not
+/// silently mean the default.
 void require_values(const CLI::App& verb) {
+  if (const std::string message = option_as_value(verb); !message.empty()) throw InputError(message);
   for (const CLI::Option* option : verb.get_options()) {
     const std::vector<std::string>& values = option->results();
     if (std::find(values.begin(), values.end(), "") != values.end())

@@ -51,6 +51,7 @@ void with_values(const viewshed::ModeValues& values, const auto& visit) {
   if (const auto* of = std::get_if<viewshed::LeastHeights>(&values)) visit(of->height_m);
   if (const auto* of = std::get_if<viewshed::Probabilities>(&values)) visit(of->probability);
   if (const auto* of = std::get_if<viewshed::Losses>(&values)) visit(of->diffraction_db);
+  if (const auto* of = std::get_if<viewshed::Levels>(&values)) visit(of->level_dbm);
 }
 
 std::int32_t cell_number(double number) {

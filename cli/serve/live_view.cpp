@@ -124,8 +124,8 @@ class ShownCells {
 
 std::vector<std::string> live_modes() {
   std::vector<std::string> names;
-  // The modes of radio come last, and have options of their own.
-  const auto modes = viewshed::mode_names().first(viewshed::mode_names().size() - 2);
+  // The modes of radio have options of their own.
+  const auto modes = viewshed::modes_of_sight();
   for (std::size_t i = 0; i < modes.size(); ++i)
     if (is_live(static_cast<viewshed::Mode>(i))) names.emplace_back(modes[i]);
   return names;

@@ -29,7 +29,7 @@ class LineOptions {
     earth_.declare(app);
     earth_.declare_radius(app);
     radio_.declare(app);
-    budget_.declare(app);
+    budget_.declare(app, {});
     people_.declare(app);
     take_arguments(app, arguments);
     refuse_files(app);

@@ -63,10 +63,11 @@ void PlacementOptions::validate() {
 
 void PlacementOptions::refuse_others() const {
   if (app_->get_option("--count")->count() == 0) throw InputError("--turbines: give their number by --count K");
-  require_not_given(*app_,
-                    {"--height-field", "--cost-field", "--mast-height", "--mast-cost", "--observer-on", "--frequency",
-                     "--fresnel", "--budget", "--share", "--k-cover", "--intervisible", "--hub", "--exact-final"},
-                    "cannot be combined with --turbines; leave it out");
+  require_not_given(
+      *app_,
+      {"--height-field", "--cost-field", "--mast-height", "--mast-cost", "--observer-on", "--frequency", "--fresnel",
+       "--power-dbm", "--eirp-dbm", "--budget", "--share", "--k-cover", "--intervisible", "--hub", "--exact-final"},
+      "cannot be combined with --turbines; leave it out");
 }
 
 void PlacementOptions::validate_spacing() {

@@ -2,11 +2,16 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
 #include <itin/building_outlines.hpp>
+#include <itin/contour_lines.hpp>
+#include <itin/parallel.hpp>
 #include <viewshed/result_sheet.hpp>
 #include <viewshed/site_links.hpp>
 #include <viewshed/site_maps.hpp>
 #include <viewshed/site_wording.hpp>
+#include <viewshed/turbine_layout.hpp>
 
 namespace itin::cli {
 
@@ -16,6 +21,7 @@ using profile::SheetKey;
 using profile::SheetSymbol;
 using Sample = SheetKey::Sample;
 
+constexpr Rgba kSearchArea{20, 90, 160, 255}, kForbidden{190, 30, 30, 255}, kSetback{200, 110, 0, 255};
 constexpr Rgba kBuilding{70, 60, 55, 255}, kBackhaul{160, 55, 0, 255}, kExistingSite{110, 50, 130, 255},
     kHubMark{25, 25, 25, 255};
 
@@ -28,6 +34,52 @@ viewshed::MapObjects building_objects(const Store& store, const viewshed::SitePl
   for (auto& ring : building_outlines(store, r.request.themes, frame, {0.1 * pixel, 2 * pixel}))
     lines.lines.push_back({std::move(ring), ""});
   return {{std::move(lines)}, {{Sample::kLine, {kBuilding}, "Building outline"}}};
+}
+
+viewshed::MapObjects dashed_lines(std::vector<std::vector<Point2>> outlines, const Rgba& colour, std::string what) {
+  profile::SheetLines lines{{}, colour, 0.4, true};
+  for (std::vector<Point2>& outline : outlines) lines.lines.push_back({std::move(outline), ""});
+  return {{std::move(lines)}, {{Sample::kDashes, {colour}, std::move(what)}}};
+}
+
+/// Returns the outlines of an area; none where there is none.
+std::vector<std::vector<Point2>> outlines_of(const std::optional<Window>& area) {
+  std::vector<std::vector<Point2>> outlines;
+  const auto add = [&](Window::Ring ring) {
+    ring.push_back(ring.front());
+    outlines.push_back(std::move(ring));
+  };
+  if (!area) return outlines;
+  for (const Window::Polygon& part : area->parts()) {
+    add(part.outer);
+    for (const Window::Ring& hole : part.holes) add(hole);
+  }
+  return outlines;
+}
+
+/// Returns the outlines of the ground on which no turbine stands because dwellings are near, as fine as maps show them.
+std::vector<std::vector<Point2>> outlines_of_setback(const viewshed::SitePlan& r) {
+  constexpr double kAcross = 400;
+  if (!r.request.turbines || !r.request.turbines->dwellings) return {};
+  const viewshed::SiteDwellings& given = *r.request.turbines->dwellings;
+  const viewshed::Dwellings dwellings(given.points, given.polygons);
+  const Box area = shown_area(r);
+  const RasterGrid grid = RasterGrid::aligned(area, std::max(area.width(), area.height()) / kAcross);
+  std::vector<float> metres(grid.cell_count());
+  parallel_for(static_cast<std::size_t>(grid.rows()), [&](std::size_t row) {
+    for (std::int64_t column = 0; column < grid.columns(); ++column) {
+      const RasterGrid::Cell cell{column, static_cast<std::int64_t>(row)};
+      const Point2 centre = grid.centre(cell.column, cell.row);
+      metres[grid.index(cell)] = static_cast<float>(dwellings.metres_to(centre, given.setback + 4 * grid.cell_width()));
+    }
+  });
+  return contour_lines(grid, metres, given.setback);
+}
+
+viewshed::MapObjects setback_objects(const viewshed::SitePlan& r) {
+  const auto& turbines = r.request.turbines;
+  const double setback = turbines && turbines->dwellings ? turbines->dwellings->setback : 0;
+  return dashed_lines(outlines_of_setback(r), kSetback, fmt::format("{:g} m from dwellings", setback));
 }
 
 viewshed::MapObjects link_objects(const viewshed::SitePlan& r) {
@@ -79,7 +131,10 @@ std::vector<viewshed::MapObjects> site_map_objects(const Store& store, const vie
   const viewshed::SiteWording wording = viewshed::wording_of(r.request);
   const std::vector<std::size_t> through = routes_through_ends(network, r.routes);
   const auto is = [&](std::size_t i, viewshed::LinkEnd::Kind kind) { return network.ends[i].kind == kind; };
-  std::vector<viewshed::MapObjects> objects{building_objects(store, r), link_objects(r)};
+  std::vector<viewshed::MapObjects> objects{
+      building_objects(store, r), dashed_lines(outlines_of(r.request.search_area), kSearchArea, "Search area"),
+      dashed_lines(outlines_of(r.request.forbidden), kForbidden, "No " + wording.one + " here"), setback_objects(r),
+      link_objects(r)};
   for (const viewshed::MapDots& dots : viewshed::dots_of_points(r)) objects.push_back(viewshed::dot_objects(dots));
   const auto add = [&](SheetSymbol symbol, const Rgba& colour, const std::string& what, const auto& is_one) {
     objects.push_back(marks(network, symbol, colour, what, is_one));

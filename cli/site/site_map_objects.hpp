@@ -12,7 +12,8 @@ namespace itin::cli {
 /// Returns the area of the cells, and of all sites and the hub with some ground about them.
 Box shown_area(const viewshed::SitePlan& r);
 
-/// Returns outlines of the buildings that screen, links, and marks for each kind of site. With a hub the links are
+/// Returns outlines of the buildings that screen, of the search area, of forbidden ground and of the ground too near to
+/// dwellings, links, and marks for each kind of site. With a hub the links are
 /// those on the routes to it; with links that hold the choice together but no hub, all links that meet the rules. Kinds
 /// without an object are left out.
 std::vector<viewshed::MapObjects> site_map_objects(const Store& store, const viewshed::SitePlan& r);

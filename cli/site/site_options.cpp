@@ -35,6 +35,7 @@ void SiteOptions::declare(CLI::App& app) {
   placement.declare(app);
   declare_demand(app);
   declare_antennas(app);
+  declare_radios(app);
   declare_choice(app);
   declare_outputs(app);
   declare_work(app);
@@ -96,6 +97,14 @@ void SiteOptions::declare_demand(CLI::App& app) {
 void SiteOptions::declare_antennas(CLI::App& app) {
   begin_group(app, "Antennas, with --demand premises");
   antennas.declare(app, "--place-spacing");
+}
+
+void SiteOptions::declare_radios(CLI::App& app) {
+  radios.declare(app, {"a site", "the receiver", false, false});
+  app.add_option("--margin-db", margin_text_,
+                 "With a link budget, a target is served, in sight or not, where its level is the sensitivity and this "
+                 "much more (default: 0); links among sites are judged by sight and --fresnel still")
+      ->type_name("DB");
 }
 
 void SiteOptions::declare_choice(CLI::App& app) {
@@ -234,15 +243,28 @@ void SiteOptions::validate_demand() {
 void SiteOptions::validate_links() {
   if (!frequency_text_.empty()) request.frequency_ghz = parse_frequency(frequency_text_);
   require_frequency_of_zone(fresnel_text_, request.frequency_ghz.has_value());
+  validate_radios();
   if (!request.frequency_ghz) return;
   if (!fresnel_text_.empty()) request.fresnel = parse_fresnel(fresnel_text_);
   require_curved(earth.earth());
+  if (request.by_level()) return;
   // A Fresnel zone that ends on the ground has no clearance at all.
   if (request.demand.height == 0)
     throw InputError("--frequency needs a --target-height above 0: no link to the ground is clear");
   for (const viewshed::Mast& mast : request.masts)
     if (mast.height == 0)
       throw InputError("--frequency needs a --mast-height above 0: no link from the ground is clear");
+}
+
+void SiteOptions::validate_radios() {
+  radios.validate();
+  request.link_budget = radios.query();
+  std::optional<RadioPath> wave;
+  if (request.frequency_ghz) wave.emplace().frequency_ghz = *request.frequency_ghz;
+  radios.require_frequency(wave);
+  if (margin_text_.empty()) return;
+  if (!radios.given()) throw InputError("--margin-db works only with a link budget: give --power-dbm or --eirp-dbm");
+  request.margin_db = parse_number("--margin-db", margin_text_, Range::kAny);
 }
 
 void SiteOptions::take_posting(const StoreMetadata& metadata) {
@@ -330,6 +352,7 @@ Document SiteOptions::parameters() const {
   p["radius_m"] = request.radius;
   p["cell_m"] = request.cell_size;
   if (request.frequency_ghz) p["frequency_ghz"] = *request.frequency_ghz, p["fresnel"] = request.fresnel;
+  if (request.by_level()) p.update(radios.parameters()), p["margin_db"] = request.margin_db;
   if (request.count) p["count"] = *request.count;
   if (request.budget) p["budget"] = *request.budget;
   if (request.share) p["share"] = *request.share;

@@ -12,6 +12,7 @@
 #include <viewshed/site_plan.hpp>
 
 #include "options/antenna_options.hpp"
+#include "options/budget_options.hpp"
 #include "options/earth_options.hpp"
 #include "options/engine_option.hpp"
 #include "options/in_crs.hpp"
@@ -60,6 +61,7 @@ class SiteOptions {
   /// Tells whether the demand is in a file.
   bool reads_demand() const { return demand != "cells" && demand != "premises"; }
   AntennaOptions antennas;
+  BudgetOptions radios;
   std::string weight_field;
   std::string demand_height_field;  ///< the field of the demand's points that holds heights; empty: there is none
   std::string existing, existing_height_field, forbidden;
@@ -76,6 +78,7 @@ class SiteOptions {
   void declare_candidates(CLI::App& app);
   void declare_demand(CLI::App& app);
   void declare_antennas(CLI::App& app);
+  void declare_radios(CLI::App& app);
   void declare_choice(CLI::App& app);
   void declare_outputs(CLI::App& app);
   void declare_work(CLI::App& app);
@@ -83,6 +86,7 @@ class SiteOptions {
   void validate_masts();
   void validate_demand();
   void validate_links();
+  void validate_radios();
   void validate_choice();
   void validate_work();
 
@@ -95,7 +99,7 @@ class SiteOptions {
   std::string target_height_text_, target_on_ = "ground", radius_text_, cell_text_;
   std::string count_text_, budget_text_, share_text_, min_spacing_text_, cover_text_, hub_text_;
   std::string exact_final_text_, swap_text_, tolerance_text_;
-  std::string frequency_text_, fresnel_text_;
+  std::string frequency_text_, fresnel_text_, margin_text_;
 };
 
 }  // namespace itin::cli

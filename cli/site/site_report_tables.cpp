@@ -89,8 +89,13 @@ std::string turbines_html(const viewshed::SitePlan& r) {
 
 std::string points_html(const viewshed::SitePlan& r) {
   constexpr std::size_t kMostRows = 100;
-  HtmlTable table({"Point", "", "Nearest to serving it", "Easting", "Northing", "Weight", "km", "Clearance m", "of F1"},
-                  3);
+  const bool by_level = r.request.by_level();
+  std::vector<std::string> head{"Point", "", "Nearest to serving it", "Easting", "Northing", "Weight", "km"};
+  if (by_level)
+    head.insert(head.end(), {"Level dBm", "Margin dB"});
+  else
+    head.insert(head.end(), {"Clearance m", "of F1"});
+  HtmlTable table(head, 3);
   std::size_t unserved = 0;
   for (const viewshed::PointResult& p : r.points) {
     if (p.service == viewshed::PointService::kServed || ++unserved > kMostRows) continue;
@@ -102,6 +107,12 @@ std::string points_html(const viewshed::SitePlan& r) {
                                  amount(p.point.weight)};
     row.resize(9);
     if (p.line) row[6] = fmt::format("{:.2f}", p.line->distance_m / 1000);
+    if (by_level) {
+      if (p.line && p.line->level_dbm) row[7] = fmt::format("{:.1f}", *p.line->level_dbm);
+      if (p.line && p.line->margin_db) row[8] = fmt::format("{:.1f}", *p.line->margin_db);
+      table.add(row);
+      continue;
+    }
     if (p.line && p.line->tightest_clearance_m) row[7] = fmt::format("{:.2f}", *p.line->tightest_clearance_m);
     if (p.line && p.line->fresnel_fraction) row[8] = fmt::format("{:.2f}", *p.line->fresnel_fraction);
     table.add(row);

@@ -70,6 +70,8 @@ class ImportVerb final : public Verb {
     given("z_field", options_.z_field);
     given("height_field", options_.height_field);
     if (options_.height) parameters["height_m"] = *options_.height;
+    given("height_from", options_.height_from);
+    if (options_.height_percentile) parameters["height_percentile"] = *options_.height_percentile;
     given("eaves_field", options_.eaves_field);
     given("base_field", options_.base_field);
     given("base", base_);
@@ -149,7 +151,17 @@ class ImportVerb final : public Verb {
                    "Buildings, walls, vegetation: the field of their height above the base, in the unit of the CRS's "
                    "heights (metres or feet)")
         ->type_name("FIELD");
-    app.add_option("--height", height_, "Height of features that have none in the fields")->type_name("METRES");
+    reads(app.add_option("--height-from", options_.height_from,
+                         "Buildings, walls, vegetation: a raster of a digital surface model in the store's CRS, over "
+                         "the terrain, from which features have their height that have none in a field")
+              ->type_name("FILE"));
+    app.add_option(
+           "--height-percentile", percentile_,
+           "Which of the model's cells within a footprint counts, from 0, the lowest, over 50, their median, to "
+           "100, the highest (default: 50)")
+        ->type_name("PERCENT");
+    app.add_option("--height", height_, "Height of features that have none in the fields and from the model")
+        ->type_name("METRES");
     app.add_option("--eaves-field", options_.eaves_field, "Buildings: the field of the eaves' height above the base")
         ->type_name("FIELD");
     app.add_option("--base-field", options_.base_field, "Buildings: the field of the base's elevation")
@@ -263,6 +275,8 @@ class ImportVerb final : public Verb {
 
   void validate_raised() {
     if (!height_.empty()) options_.height = parse_height("--height", height_, Range::kPositive);
+    if (!percentile_.empty())
+      options_.height_percentile = parse_number("--height-percentile", percentile_, Range::kNotNegative);
     if (!storey_.empty()) options_.storey = parse_number("--storey", storey_, Range::kPositive);
     if (!thickness_.empty()) options_.thickness = parse_number("--thickness", thickness_, Range::kPositive);
     if (!wall_offset_.empty()) options_.wall_offset = parse_number("--wall-offset", wall_offset_, Range::kPositive);
@@ -379,8 +393,8 @@ class ImportVerb final : public Verb {
   bool no_repair_ = false;
   std::string classes_, band_, sea_level_, max_gap_, levels_, resolution_;
   MemoryOption memory_;
-  std::string height_, base_, foundation_, roof_, storey_, thickness_, wall_offset_, height_step_, height_threshold_,
-      height_rounding_;
+  std::string height_, percentile_, base_, foundation_, roof_, storey_, thickness_, wall_offset_, height_step_,
+      height_threshold_, height_rounding_;
   std::vector<std::string> attributes_;
   ImportOptions options_;
 };

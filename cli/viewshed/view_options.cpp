@@ -75,8 +75,8 @@ void ViewOptions::validate_foliage() {
 void ViewOptions::parse_mode() {
   if (radio_.is_given())
     throw InputError("--frequency judges Fresnel zones, or losses with --loss, and nothing else: leave out --mode");
-  // The modes of radio come last, and have options of their own.
-  const auto modes = viewshed::mode_names().first(viewshed::mode_names().size() - 2);
+  // The modes of radio have options of their own.
+  const auto modes = viewshed::modes_of_sight();
   std::vector<std::string_view> choices(modes.begin(), modes.end());
   choices.emplace_back("certified");  // the name by which certificates tell the visible
   const std::size_t mode = parse_choice("--mode", mode_text_, choices);

@@ -23,7 +23,7 @@ namespace itin::cli {
 namespace {
 
 bool is_polygons(const std::string& path) {
-  return ending_of(path) == ".gpkg";
+  return ending_of(path) == ".gpkg" || ending_of(path) == ".geojson";
 }
 
 }  // namespace
@@ -34,7 +34,8 @@ void ViewshedOutputs::declare(CLI::App& app) {
       app.add_option(
              "-o,--output", outputs_,
              "A raster to write, a GeoTIFF (.tif), with a QGIS style beside it (.qml) but for the modes angle, height "
-             "and nearest; or the regions of its classes as polygons, a GeoPackage (.gpkg); may be given again")
+             "and nearest; or the regions of its classes as polygons, a GeoPackage (.gpkg) or GeoJSON (.geojson); may "
+             "be given again")
           ->type_name("FILE")
           ->expected(1)
           ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll));
@@ -52,7 +53,7 @@ void ViewshedOutputs::validate(const std::vector<std::string>& others) {
         "FILE.csv, or --features FILE.tif");
   for (const std::string& path : outputs_)
     if (!names_geotiff(path) && !is_polygons(path))
-      throw InputError(fmt::format("--output '{}': a viewshed is written as .tif or .gpkg", path));
+      throw InputError(fmt::format("--output '{}': a viewshed is written as .tif, .gpkg or .geojson", path));
   if (!image_.empty()) viewshed::require_image_format(image_);
 }
 

@@ -4,6 +4,7 @@
 
 #include <itin/error.hpp>
 #include <itin/precondition.hpp>
+#include <profile/budget_text.hpp>
 #include <viewshed/area_text.hpp>
 #include <viewshed/documents.hpp>
 
@@ -31,15 +32,28 @@ std::string zone_text(const viewshed::Result& result) {
       area(cells.visible), grouped(cells.zone_cut), percent(cells.zone_cut, decided), area(cells.zone_cut));
 }
 
-std::string loss_text(const viewshed::Result& result) {
-  const std::uint64_t in_view = result.cells.in_view(), without = viewshed::cells_without_value(result)->cells;
+/// In how many cells the loss, or the level, is known, and why not in the others.
+std::string known_text(const char* value, const viewshed::Result& result) {
+  const std::uint64_t in_view = result.cells.in_view();
+  const viewshed::CellsWithoutValue without = *viewshed::cells_without_value(result);
   std::string text =
-      fmt::format("diffraction loss known in {} of {}\n", grouped(in_view - without), counted(in_view, "cell"));
-  if (without > 0)
+      fmt::format("{} known in {} of {}\n", value, grouped(in_view - without.cells), counted(in_view, "cell"));
+  if (without.cells > 0)
     text += fmt::format(
-        "without a loss: {} ({:.1f} %): the line crosses ground without data (--nodata block or clear decides that), "
+        "without a {}: {} ({:.1f} %): the line crosses ground without data (--nodata block or clear decides that), "
         "an end lies within a feature, or the cell is the observer's own\n",
-        counted(without, "cell"), percent(without, in_view));
+        without.value, counted(without.cells, "cell"), percent(without.cells, in_view));
+  return text;
+}
+
+std::string level_text(const viewshed::Result& result) {
+  std::string text = known_text("level", result);
+  const std::uint64_t known = result.cells.in_view() - viewshed::cells_without_value(result)->cells;
+  for (const viewshed::CellsWithMargin& with : viewshed::cells_with_margins(result))
+    text += fmt::format("at or above the sensitivity{}: {} of {} ({:.1f} %), {}\n",
+                        with.margin_db == 0 ? "" : fmt::format(" with {:g} dB to spare", with.margin_db),
+                        grouped(with.cells), counted(known, "cell"), percent(with.cells, known),
+                        viewshed::area_text(static_cast<double>(with.cells) * result.grid.cell_area()));
   return text;
 }
 
@@ -53,41 +67,82 @@ void ViewshedRadio::declare(CLI::App& app) {
   declare_fresnel(app, fresnel_text_);
   app.add_flag("--loss", loss_,
                "With --frequency, what a radio path to each cell loses instead, dB, in two bands: diffraction "
-               "(ITU-R P.526 delta-Bullington), and free space; of several observers that with the least sum");
+               "(ITU-R P.526 delta-Bullington), and free space; of several observers that with the least sum. With "
+               "--power-dbm or --eirp-dbm, which need no --loss, the level that a receiver gets, dBm");
+  budget_.declare(app, {"an observer", "the receiver", false});
+  app.add_option("--margin-db", margins_text_,
+                 "Margins over the sensitivity by which regions (-o .gpkg, .geojson), styles and legends tell levels "
+                 "apart (default: 0)")
+      ->type_name("DB[,DB...]");
 }
 
 void ViewshedRadio::validate() {
   wave_.validate();
+  budget_.validate();
   require_frequency_of_zone(fresnel_text_, wave_.has_frequency());
   if (!wave_.has_frequency() && loss_) throw InputError("--loss needs a --frequency: losses depend on it");
-  if (loss_ && !fresnel_text_.empty())
-    throw InputError("--loss and --fresnel exclude each other: a loss is of the whole path; give one of them");
-  if (!loss_ && wave_.is_detailed()) throw InputError("--polarisation and --over-sea work only with --loss");
+  budget_.require_frequency(wave_.wave());
+  loss_ = loss_ || budget_.given();
+  validate_losses();
   if (!fresnel_text_.empty()) fraction_ = parse_fresnel(fresnel_text_);
+  if (!margins_text_.empty()) take_margins();
+}
+
+void ViewshedRadio::validate_losses() const {
+  if (loss_ && !fresnel_text_.empty())
+    throw InputError(fmt::format("{} and --fresnel exclude each other: a loss is of the whole path; give one of them",
+                                 budget_.given() ? "a link budget" : "--loss"));
+  if (!loss_ && wave_.is_detailed())
+    throw InputError("--polarisation and --over-sea work only with --loss or a link budget (--power-dbm, --eirp-dbm)");
+}
+
+void ViewshedRadio::take_margins() {
+  if (!budget_.query().sensitivity_dbm)
+    throw InputError("--margin-db is over the sensitivity: give --sensitivity-dbm, and --power-dbm or --eirp-dbm");
+  margins_db_ = parse_numbers("--margin-db", margins_text_);
 }
 
 void ViewshedRadio::complete(viewshed::Request& request) const {
   ITIN_PRECONDITION(is_given());
-  request.mode = loss_ ? viewshed::Mode::kLoss : viewshed::Mode::kFresnel;
+  request.mode = budget_.given() ? viewshed::Mode::kLevel : loss_ ? viewshed::Mode::kLoss : viewshed::Mode::kFresnel;
   request.radio = *wave_.path(request.earth);
   request.fresnel = {wavelength_m(request.radio.frequency_ghz), fraction_};
+  request.budget = budget_.query();
+  request.margins_db = margins_db_;
 }
 
 Document ViewshedRadio::parameters() const {
   Document parameters = wave_.parameters();
-  if (!is_given() || loss_) return parameters;
-  return {{"frequency_ghz", parameters["frequency_ghz"]}, {"fresnel", fraction_}};
+  if (!is_given()) return parameters;
+  if (!loss_) return {{"frequency_ghz", parameters["frequency_ghz"]}, {"fresnel", fraction_}};
+  parameters.update(budget_.parameters());
+  if (!margins_db_.empty()) parameters["margins_db"] = margins_db_;
+  return parameters;
 }
 
 std::optional<std::string> radio_criterion(const viewshed::Request& request) {
-  if (request.mode == viewshed::Mode::kFresnel)
-    return fmt::format("clear: {:g} of the first Fresnel zone's radius", request.fresnel.fraction);
-  if (request.mode == viewshed::Mode::kLoss) return "ITU-R P.526, delta-Bullington";
-  return std::nullopt;
+  switch (request.mode) {
+    case viewshed::Mode::kFresnel:
+      return fmt::format("clear: {:g} of the first Fresnel zone's radius", request.fresnel.fraction);
+    case viewshed::Mode::kLoss:
+      return "ITU-R P.526, delta-Bullington";
+    case viewshed::Mode::kLevel:
+      return profile::radios_text(request.budget) +
+             "; free space, diffraction (ITU-R P.526, delta-Bullington), gases (P.676)";
+    default:
+      return std::nullopt;
+  }
 }
 
 std::string radio_text(const viewshed::Result& result) {
-  return result.request.mode == viewshed::Mode::kLoss ? loss_text(result) : zone_text(result);
+  switch (result.request.mode) {
+    case viewshed::Mode::kLevel:
+      return level_text(result);
+    case viewshed::Mode::kLoss:
+      return known_text("diffraction loss", result);
+    default:
+      return zone_text(result);
+  }
 }
 
 }  // namespace itin::cli

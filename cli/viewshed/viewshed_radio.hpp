@@ -1,11 +1,14 @@
-// A viewshed of radio: `--frequency`, `--fresnel`, `--loss`, `--polarisation`, `--over-sea`.
+// A viewshed of radio: `--frequency`, `--fresnel`, `--loss`, `--polarisation`, `--over-sea`, link budgets,
+// `--margin-db`.
 #pragma once
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <viewshed/result.hpp>
 
+#include "options/budget_options.hpp"
 #include "options/wave_options.hpp"
 
 namespace itin::cli {
@@ -22,8 +25,13 @@ class ViewshedRadio {
   Document parameters() const;
 
  private:
+  void validate_losses() const;
+  void take_margins();
+
   WaveOptions wave_;
-  std::string fresnel_text_;
+  BudgetOptions budget_;
+  std::string fresnel_text_, margins_text_;
+  std::vector<double> margins_db_;
   bool loss_ = false;
   double fraction_ = 0.6;
 };

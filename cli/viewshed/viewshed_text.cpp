@@ -42,7 +42,8 @@ std::string plain_text(const viewshed::Result& result) {
   const double share = decided == 0 ? 0 : 100.0 * static_cast<double>(cells.visible) / static_cast<double>(decided);
   const viewshed::Mode mode = result.request.mode;
   std::string text;
-  if (mode == viewshed::Mode::kFresnel || mode == viewshed::Mode::kLoss) text += radio_text(result);
+  const bool paths = mode == viewshed::Mode::kLoss || mode == viewshed::Mode::kLevel;
+  if (mode == viewshed::Mode::kFresnel || paths) text += radio_text(result);
   if (mode != viewshed::Mode::kFresnel)
     text += fmt::format("visible{}: {} of {} ({:.1f} %), {}\n",
                         mode == viewshed::Mode::kProbability ? " if all heights are exact" : "", grouped(cells.visible),
@@ -51,7 +52,7 @@ std::string plain_text(const viewshed::Result& result) {
   if (cells.undecided > 0)
     text += fmt::format("undecided: {}, across ground without data; --nodata block or clear decides them\n",
                         counted(cells.undecided, "cell"));
-  return mode == viewshed::Mode::kLoss ? text : text + unknown_values_text(result);
+  return paths ? text : text + unknown_values_text(result);
 }
 
 }  // namespace

@@ -29,6 +29,8 @@ std::string title_of_mode(const viewshed::Result& result) {
       return fmt::format("Fresnel zones at {:.6g} GHz", kSpeedOfLight / request.fresnel.wavelength);
     case Mode::kLoss:
       return fmt::format("Diffraction loss at {:.6g} GHz", request.radio.frequency_ghz);
+    case Mode::kLevel:
+      return fmt::format("Received level at {:.6g} GHz", request.radio.frequency_ghz);
     case Mode::kVisible:
       break;
   }

@@ -20,7 +20,7 @@ namespace itin::test {
 inline constexpr viewshed::Mode kEveryMode[] = {
     viewshed::Mode::kVisible, viewshed::Mode::kCount,   viewshed::Mode::kWhich,  viewshed::Mode::kAngle,
     viewshed::Mode::kNearest, viewshed::Mode::kBlocker, viewshed::Mode::kHeight, viewshed::Mode::kProbability,
-    viewshed::Mode::kFresnel, viewshed::Mode::kLoss};
+    viewshed::Mode::kFresnel, viewshed::Mode::kLoss,    viewshed::Mode::kLevel};
 
 class HillsAndTown {
  public:
@@ -57,11 +57,11 @@ class HillsAndTown {
     return request;
   }
 
-  /// Returns the request in this mode; for losses, which take all triangles under each line, with half of the
-  /// observers.
+  /// Returns the request in this mode; for losses and levels, which take all triangles under each line, with half of
+  /// the observers.
   static viewshed::Request in_mode(viewshed::Mode mode, viewshed::Request request) {
     request.mode = mode;
-    if (mode != viewshed::Mode::kLoss) return request;
+    if (mode != viewshed::Mode::kLoss && mode != viewshed::Mode::kLevel) return request;
     for (std::size_t i = 0; i < request.observers.size(); ++i)
       request.observers.erase(request.observers.begin() + static_cast<std::ptrdiff_t>(i));
     return request;
@@ -90,6 +90,7 @@ class HillsAndTown {
     request.radio.frequency_ghz = 2.5;
     request.radio.effective_earth_km = effective_earth_km(request.earth);
     request.fresnel.wavelength = wavelength_m(request.radio.frequency_ghz);
+    request.budget = {.power_dbm = 20, .to_gain_dbi = 8, .sensitivity_dbm = -85, .rain_rate_mm_h = 30};
   }
 
   const TemporaryDirectory directory_;

@@ -41,6 +41,9 @@ struct SameModeValues {
   bool operator()(const viewshed::Losses& a, const viewshed::Losses& b) const {
     return same_values(a.diffraction_db, b.diffraction_db) && same_values(a.free_space_db, b.free_space_db);
   }
+  bool operator()(const viewshed::Levels& a, const viewshed::Levels& b) const {
+    return same_values(a.level_dbm, b.level_dbm) && same_values(a.outage_minutes, b.outage_minutes);
+  }
   template <class A, class B>
   bool operator()(const A&, const B&) const {
     return false;

@@ -47,6 +47,10 @@ class CellCopy {
     copy(from.diffraction_db, to.diffraction_db);
     copy(from.free_space_db, to.free_space_db);
   }
+  void operator()(const Levels& from, Levels& to) const {
+    copy(from.level_dbm, to.level_dbm);
+    copy(from.outage_minutes, to.outage_minutes);
+  }
   template <class A, class B>
   void operator()(const A&, const B&) const {
     ADD_FAILURE() << "the values are of different modes";

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <random>
 
@@ -69,15 +70,20 @@ class RadioModes : public ::testing::Test {
     return request;
   }
 
-  /// The answers of itin los for the lines from the first observer to every cell of the result.
-  std::vector<profile::LinkResult> lines_of(const Store& store, const Result& result) {
-    const Request& request = result.request;
-    const Observer& observer = request.observers.front();
+  /// The lines from the first observer to every cell of the result.
+  static std::vector<profile::Link> links_of(const Result& result) {
+    const Observer& observer = result.request.observers.front();
     std::vector<profile::Link> links;
     for (std::int64_t row = 0; row < result.grid.rows(); ++row)
       for (std::int64_t column = 0; column < result.grid.columns(); ++column)
         links.push_back(
-            {"", observer.position, observer.height, result.grid.centre(column, row), request.target_height});
+            {"", observer.position, observer.height, result.grid.centre(column, row), result.request.target_height});
+    return links;
+  }
+
+  /// The answers of itin los for these lines.
+  std::vector<profile::LinkResult> lines_of(const Store& store, const Result& result) {
+    const Request& request = result.request;
     profile::LinkQuery query;
     query.earth = request.earth;
     query.themes = request.themes;
@@ -85,7 +91,7 @@ class RadioModes : public ::testing::Test {
     query.nodata = request.nodata;
     query.from_on_surface = request.observers_on_surface;
     query.to_on_surface = request.targets_on_surface;
-    return survey_links(store, links, query, progress_);
+    return survey_links(store, links_of(result), query, progress_);
   }
 
   void expect_zones_of_lines(const Store& store, const Request& request) {
@@ -135,6 +141,31 @@ class RadioModes : public ::testing::Test {
     found_ += result.cells;
   }
 
+  /// Levels, margins and outages are those that itin los --links tells of the lines.
+  void expect_levels_of_lines(const Store& store, const Request& request) {
+    const Result result = compute(store, request, progress_);
+    const std::vector<profile::LinkResult> lines = lines_of(store, result);
+    const std::vector<profile::Link> links = links_of(result);
+    const auto& levels = result.get<Levels>();
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      const bool known = result.visible[i] != Verdict::kOutside && lines[i].losses &&
+                         (lines[i].gap_m == 0 || request.nodata == NoData::kClear);
+      ASSERT_EQ(!std::isnan(levels.level_dbm[i]), known) << i;
+      if (!known) continue;
+      const profile::LinkQuery query{.earth = request.earth, .radio = request.radio, .budget = request.budget};
+      const profile::LinkBudget budget = *link_budget_of(links[i], lines[i], query);
+      expect_near(levels.level_dbm[i], budget.level_dbm);
+      ++with_level_;
+      const float outage = levels.outage_minutes.empty() ? std::nanf("") : levels.outage_minutes[i];
+      ASSERT_EQ(!std::isnan(outage), budget.availability.has_value());
+      if (budget.availability) {
+        EXPECT_NEAR(outage, budget.availability->outage_minutes, 1e-4 * budget.availability->outage_minutes);
+        ++with_outage_;
+      }
+      if (HasFailure()) return;
+    }
+  }
+
   static void expect_least_loss(const std::vector<Result>& each, const Result& all, std::size_t cell) {
     float least = std::numeric_limits<float>::infinity();
     bool unknown = false;
@@ -155,7 +186,7 @@ class RadioModes : public ::testing::Test {
   std::mt19937 random_{test::seed()};
   NoProgress progress_;
   CellCounts found_;
-  std::size_t with_loss_ = 0, without_loss_ = 0;
+  std::size_t with_loss_ = 0, without_loss_ = 0, with_level_ = 0, with_outage_ = 0;
 };
 
 TEST_F(RadioModes, ZonesAreThoseOfLinesOverHillsAndAcrossMissingGround) {
@@ -187,6 +218,64 @@ TEST_F(RadioModes, LossesAreThoseOfLinesOverHillsAndAcrossMissingGround) {
   EXPECT_GT(without_loss_, 20U);
 }
 
+/// An antenna whose beam is 60 degrees wide, with 20 dB less behind.
+std::shared_ptr<const profile::AntennaPattern> sector() {
+  auto pattern = std::make_shared<profile::AntennaPattern>();
+  for (int degrees = 0; degrees < 360; ++degrees) {
+    const double off = std::min(degrees, 360 - degrees);
+    pattern->horizontal.emplace_back(degrees, std::min(3 * off * off / 900, 20.0));
+    pattern->vertical.emplace_back(degrees, std::min(3 * off * off / 25, 20.0));
+  }
+  pattern->gain_dbi = 17;
+  return pattern;
+}
+
+TEST_F(RadioModes, LevelsAreThoseOfLinesByEveryKindOfBudget) {
+  const Store store(hills());
+  const profile::BudgetQuery bare{.eirp_dbm = 40};
+  const profile::BudgetQuery rainy{.power_dbm = 18,
+                                   .from_gain_dbi = 16,
+                                   .to_gain_dbi = 12,
+                                   .from_feeder_db = 1.5,
+                                   .to_feeder_db = 0.5,
+                                   .sensitivity_dbm = -90,
+                                   .rain_rate_mm_h = 35};
+  profile::BudgetQuery aimed{.power_dbm = 20, .sensitivity_dbm = -85};
+  aimed.from_antenna = {sector(), 40, 3}, aimed.to_antenna = {sector(), {}, {}};
+  for (const NoData nodata : {NoData::kUnknown, NoData::kBlock, NoData::kClear}) {
+    for (const profile::BudgetQuery& budget : {bare, rainy, aimed}) {
+      Request request = at_random(Mode::kLevel);
+      request.radio.frequency_ghz *= 2;
+      request.budget = budget;
+      request.nodata = nodata;
+      request.observers = {observer_on(store, middle_of_hills())};
+      request.cell_size = 120;
+      expect_levels_of_lines(store, request);
+    }
+  }
+  EXPECT_GT(with_level_, 3000U);
+  EXPECT_GT(with_outage_, 100U);
+}
+
+TEST_F(RadioModes, OfSeveralObserversTheGreatestLevelCounts) {
+  const Store store(hills());
+  Request request = at_random(Mode::kLevel);
+  request.budget = {.power_dbm = 20, .sensitivity_dbm = -85};
+  request.budget.from_antenna = {sector(), 250, 0};
+  request.nodata = NoData::kBlock;
+  for (int i = 0; i < 3; ++i) request.observers.push_back(observer_on(store, middle_of_hills()));
+  request.cell_size = 110;
+  const Result all = compute(store, request, progress_);
+  std::vector<Result> each;
+  for (std::size_t i = 0; i < 3; ++i) each.push_back(compute(store, request_for_observer(all, i), progress_));
+  for (std::size_t cell = 0; cell < all.visible.size(); ++cell) {
+    float greatest = std::nanf("");
+    for (const Result& one : each) greatest = std::fmax(greatest, one.get<Levels>().level_dbm[cell]);
+    const float level = all.get<Levels>().level_dbm[cell];
+    ASSERT_TRUE(level == greatest || (std::isnan(level) && std::isnan(greatest)));
+  }
+}
+
 /// Houses stand in the way of both; the smooth surface under a path is that of the ground.
 TEST_F(RadioModes, AreThoseOfLinesAmongHouses) {
   const test::HillsAndTown stores;
@@ -202,6 +291,9 @@ TEST_F(RadioModes, AreThoseOfLinesAmongHouses) {
     request.mode = Mode::kLoss;
     request.cell_size = 7.3;
     expect_losses_of_lines(store, request);
+    request.mode = Mode::kLevel;
+    request.budget = {.power_dbm = 20, .sensitivity_dbm = -85};
+    expect_levels_of_lines(store, request);
   }
   EXPECT_GT(found_.zone_cut, 100U);
   EXPECT_GT(with_loss_, 1000U);
@@ -337,6 +429,18 @@ TEST_F(RadioModes, RefuseWhatHasNoAnswer) {
   refused([](Request& r) { r.mode = Mode::kLoss, r.radio.frequency_ghz = 0; });
   refused([](Request& r) { r.mode = Mode::kLoss, r.radio.over_sea = 1.5; });
   refused([](Request& r) { r.mode = Mode::kLoss, r.radio.effective_earth_km = 8500; });
+  const auto level_refused = [&](const auto& change) {
+    refused([&](Request& r) {
+      r.mode = Mode::kLevel, r.budget = {.power_dbm = 20, .sensitivity_dbm = -85};
+      change(r);
+    });
+  };
+  level_refused([](Request& r) { r.budget = {}; });
+  level_refused([](Request& r) { r.budget.geoclimatic_factor = 1e-4; });
+  level_refused([](Request& r) { r.budget.from_antenna = {sector(), {}, 2}; });
+  level_refused([](Request& r) { r.budget.from_antenna = {sector(), 20, {}}; });
+  level_refused([](Request& r) { r.margins_db = {10, 10}; });
+  level_refused([](Request& r) { r.budget.sensitivity_dbm.reset(), r.margins_db = {10}; });
 }
 
 }  // namespace

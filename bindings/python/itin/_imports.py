@@ -88,6 +88,8 @@ def import_features(
     z_field: str = "",
     height_field: str = "",
     eaves_field: str = "",
+    height_from: Path = "",
+    height_percentile: float | None = None,
     height: float | None = None,
     base_field: str = "",
     base: Literal["minimum", "mean", "maximum", "terrain-following"] | None = None,
@@ -114,7 +116,10 @@ def import_features(
         height_field: The field of the height of the highest point above the base. With it, ``eaves_field`` or
             ``height`` buildings, vegetation and walls stand on the ground; else they are lines on it.
         eaves_field: The field of the height of the eaves.
-        height: Of features that have none in the fields, metres.
+        height_from: A raster of a digital surface model in the store's CRS, over the terrain. Features that have no
+            height in a field have theirs from it.
+        height_percentile: Which of the model's cells within a footprint counts, 0 to 100; None: 50, their median.
+        height: Of features that have none in the fields and from the model, metres.
         base_field: The field of the elevation of the base.
         base: What heights count from, of the terrain under a footprint.
         roof: The kind of roof.
@@ -133,6 +138,7 @@ def import_features(
     The other arguments are those of ``import_terrain()``, and it raises the same.
     """
     fields = given({k: v for k, v in locals().items() if k not in ("store", "sources", "progress")})
+    fields["height_from"] = os.fspath(height_from)
     if attributes is not None:
         fields["attributes"] = list(attributes)
     return _import(store, sources, fields, progress)

@@ -236,6 +236,7 @@ class Viewshed(_OverGrid):
         - ``height``: ``height_m``, float32: the least height at which a target is seen
         - ``probability``: ``probability``, float32
         - ``loss``: ``diffraction_db`` and ``free_space_db``, float32
+        - ``level``: ``level_dbm``, float32; with rain and a sensitivity also ``outage_minutes`` a year, float32
         """
         return self._core.values
 
@@ -271,7 +272,7 @@ class Viewshed(_OverGrid):
         """Writes the bytes that ``itin viewshed -o`` writes.
 
         A GeoTIFF (.tif), with a QGIS style beside it (.qml) but for the modes angle, height and nearest; or the regions
-        of its classes as polygons (.gpkg).
+        of its classes as polygons (.gpkg, .geojson).
 
         Raises:
             InputError: Another ending.

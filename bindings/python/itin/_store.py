@@ -55,8 +55,10 @@ Mode = Literal[
     "probability",
     "fresnel",
     "loss",
+    "level",
 ]
-"""What each cell has, as ``itin viewshed --mode``; ``fresnel`` and ``loss`` are what ``--frequency`` and ``--loss`` ask."""
+"""What each cell has, as ``itin viewshed --mode``; ``fresnel``, ``loss`` and ``level`` are what ``--frequency``, ``--loss``
+and ``--power-dbm`` ask."""
 
 Engine = Literal["auto", "sweep", "rays"]
 """The algorithm; the result never depends on it."""
@@ -477,6 +479,17 @@ class Store:
         fresnel: float = 0.6,
         polarisation: Polarisation = "h",
         over_sea: float = 0.0,
+        power_dbm: float | None = None,
+        eirp_dbm: float | None = None,
+        gain_dbi: float | tuple[float, float] | None = None,
+        feeder_loss_db: float | tuple[float, float] | None = None,
+        sensitivity_dbm: float | None = None,
+        rain_rate_mm_h: float | None = None,
+        from_antenna: Path | None = None,
+        to_antenna: Path | None = None,
+        antenna_azimuth: float | tuple[float | None, float | None] | None = None,
+        antenna_tilt: float | tuple[float | None, float | None] | None = None,
+        margins_db: Sequence[float] = (),
         memory_bytes: int = 1 << 30,
         progress: Progress | None = None,
     ) -> Viewshed:
@@ -499,8 +512,13 @@ class Store:
                 the full surface at this tolerance.
             vertical_error: Standard deviation of heights, metres; with the mode ``probability``.
             error_correlation: L: errors x apart are correlated as exp(-x / L), metres.
-            frequency_ghz: With the modes ``fresnel`` and ``loss``.
+            frequency_ghz: With the modes ``fresnel``, ``loss`` and ``level``.
             fresnel: The share of the first Fresnel zone's radius that must be clear.
+            power_dbm: Of the observers' transmitter; with the mode ``level``, as are the fields after it. The first end
+                of a link is the observer, the second the receiver in a cell; see ``line_of_sight()``.
+            antenna_azimuth: An observer's antenna with a pattern needs it, and ``antenna_tilt``: it cannot aim at all
+                cells.
+            margins_db: Margins over the sensitivity by which polygons and styles tell levels apart, ascending.
             memory_bytes: Bounds the memory; the result does not depend on it.
 
         Raises:
@@ -510,10 +528,13 @@ class Store:
         The result, and so ``Viewshed.write()``, is that of ``itin viewshed`` with the options of the same names.
         """
         fields = given({k: v for k, v in locals().items() if k not in ("self", "observers", "progress")})
-        if mode in ("fresnel", "loss") and frequency_ghz is None:
+        radio = ("fresnel", "loss", "level")
+        if mode in radio and frequency_ghz is None:
             raise InputError(f"`frequency_ghz`: the mode {mode} needs a frequency", "frequency_ghz")
-        if mode not in ("fresnel", "loss") and frequency_ghz is not None:
-            raise InputError(f"`mode`: {mode} needs no frequency; give fresnel or loss", "mode")
+        if mode not in radio and frequency_ghz is not None:
+            raise InputError(f"`mode`: {mode} needs no frequency; give fresnel, loss or level", "mode")
+        if mode != "level" and (power_dbm is not None or eirp_dbm is not None):
+            raise InputError(f"`mode`: {mode} needs no link budget; give level", "mode")
         fields["observers"] = _observers(observers)
         fields["themes"] = names_of(themes)
         fields |= _rings(fields.pop("rings"), tolerance, fields["observers"])
@@ -557,6 +578,16 @@ class Store:
         cell_size: float = 50.0,
         frequency_ghz: float | None = None,
         fresnel: float = 0.6,
+        power_dbm: float | None = None,
+        eirp_dbm: float | None = None,
+        gain_dbi: float | tuple[float, float] | None = None,
+        feeder_loss_db: float | tuple[float, float] | None = None,
+        sensitivity_dbm: float | None = None,
+        from_antenna: Path | None = None,
+        to_antenna: Path | None = None,
+        antenna_azimuth: float | tuple[float | None, float | None] | None = None,
+        antenna_tilt: float | tuple[float | None, float | None] | None = None,
+        margin_db: float = 0.0,
         count: int | None = None,
         budget: float | None = None,
         share: float | None = None,
@@ -587,6 +618,9 @@ class Store:
             radius: How far a site serves.
             cell_size: Of the cells of the demand and of the rasters.
             frequency_ghz: Serve only what is in sight with ``fresnel`` of its first Fresnel zone clear.
+            power_dbm: Of the sites' transmitters; gives a link budget, as do the fields after it (see
+                ``line_of_sight()``). Then a target is served, in sight or not, where it gets the sensitivity and more.
+            margin_db: How much more than ``sensitivity_dbm`` serves.
             count: How many sites to choose. The choice ends at the first of ``count``, ``budget`` and ``share``.
             budget: The most that the sites may cost together.
             share: The part of the demand that is to be served, 0 to 1.

@@ -16,6 +16,7 @@
 #include <itin/raster.hpp>
 #include <itin/store.hpp>
 #include <itin/theme.hpp>
+#include <profile/diffraction.hpp>
 
 namespace itin::python {
 
@@ -45,6 +46,8 @@ Earth earth_of(const py::dict& fields, const std::string& crs_wkt);
 NoData nodata_of(const py::dict& fields);
 /// Reads `polarisation`: "h" by default, or "v".
 Polarisation polarisation_of(const py::dict& fields);
+/// Reads what a link budget needs, by the names of the options of `itin los`.
+profile::BudgetQuery budget_of(const py::dict& fields);
 /// Returns the index of a field's text among the choices. Throws InputError.
 std::size_t choice_of(const std::string& text, const std::vector<std::string>& choices, const char* field);
 

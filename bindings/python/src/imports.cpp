@@ -23,6 +23,8 @@ void take_standing(const py::dict& fields, ImportOptions& o) {
   take_named(fields, "kind", o.kind, &theme_kind);
   take(fields, "theme", o.theme);
   take(fields, "height_field", o.height_field);
+  take(fields, "height_from", o.height_from);
+  take(fields, "height_percentile", o.height_percentile);
   take(fields, "eaves_field", o.eaves_field);
   take(fields, "height", o.height);
   take(fields, "base_field", o.base_field);

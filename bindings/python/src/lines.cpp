@@ -45,53 +45,6 @@ std::optional<RadioPath> radio_of(const py::dict& fields, const Earth& earth) {
   return path;
 }
 
-/// Reads a value for both ends, or a pair. With an EIRP, a single value is that of the second end.
-void take_of_ends(const py::dict& fields, const char* name, std::optional<double>& from, std::optional<double>& to) {
-  if (!fields.contains(name)) return;
-  const py::object given = fields[name];
-  if (py::isinstance<py::sequence>(given)) {
-    std::tie(from, to) = given.cast<std::pair<double, double>>();
-  } else {
-    to = given.cast<double>();
-    if (!fields.contains("eirp_dbm")) from = to;
-  }
-}
-
-/// Reads `antenna_azimuth` or `antenna_tilt`: of the first end, or a pair in which None stands for the other end.
-void take_aim(const py::dict& fields, const char* name, std::optional<double>& from, std::optional<double>& to) {
-  if (!fields.contains(name)) return;
-  const py::object given = fields[name];
-  if (py::isinstance<py::sequence>(given)) {
-    std::tie(from, to) = given.cast<std::pair<std::optional<double>, std::optional<double>>>();
-  } else {
-    from = given.cast<double>();
-  }
-}
-
-/// Reads the file of an antenna's pattern.
-void take_pattern(const py::dict& fields, const char* name, profile::AimedAntenna& antenna) {
-  std::string path;
-  take(fields, name, path);
-  if (!path.empty())
-    antenna.pattern = std::make_shared<const profile::AntennaPattern>(profile::read_antenna_pattern(path));
-}
-
-/// Reads what a link budget needs, by the names of the options of `itin los`.
-profile::BudgetQuery budget_of(const py::dict& fields) {
-  profile::BudgetQuery budget;
-  take(fields, "power_dbm", budget.power_dbm), take(fields, "eirp_dbm", budget.eirp_dbm);
-  take_of_ends(fields, "gain_dbi", budget.from_gain_dbi, budget.to_gain_dbi);
-  take_of_ends(fields, "feeder_loss_db", budget.from_feeder_db, budget.to_feeder_db);
-  take(fields, "sensitivity_dbm", budget.sensitivity_dbm), take(fields, "rain_rate_mm_h", budget.rain_rate_mm_h);
-  take(fields, "geoclimatic_factor", budget.geoclimatic_factor);
-  take(fields, "refractivity_gradient", budget.refractivity_gradient);
-  profile::AimedAntenna &first = budget.from_antenna, &second = budget.to_antenna;
-  take_pattern(fields, "from_antenna", first), take_pattern(fields, "to_antenna", second);
-  take_aim(fields, "antenna_azimuth", first.azimuth_deg, second.azimuth_deg);
-  take_aim(fields, "antenna_tilt", first.tilt_deg, second.tilt_deg);
-  return budget;
-}
-
 std::vector<profile::Criterion> criteria_of(const py::dict& fields) {
   std::vector<std::pair<double, double>> given;
   take(fields, "criteria", given);

@@ -112,6 +112,8 @@ viewshed::SitePlanRequest plan_request_of(const py::dict& fields, const Store& s
   take(fields, "cell_size", request.cell_size);
   take(fields, "frequency_ghz", request.frequency_ghz);
   take(fields, "fresnel", request.fresnel);
+  request.link_budget = budget_of(fields);
+  take(fields, "margin_db", request.margin_db);
   take(fields, "count", request.count);
   take(fields, "budget", request.budget);
   take(fields, "share", request.share);

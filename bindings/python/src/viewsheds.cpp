@@ -77,6 +77,8 @@ bool take_mode(const py::dict& fields, Request& request) {
   request.radio.effective_earth_km = effective_earth_km(request.earth);
   request.fresnel.wavelength = wavelength_m(request.radio.frequency_ghz);
   take(fields, "fresnel", request.fresnel.fraction);
+  request.budget = budget_of(fields);
+  take(fields, "margins_db", request.margins_db);
   return false;
 }
 
@@ -204,6 +206,10 @@ py::dict values_of(const py::object& self) {
     add(values, "height_m", v->height_m, shape, self);
   if (const auto* v = std::get_if<viewshed::Probabilities>(&result.values))
     add(values, "probability", v->probability, shape, self);
+  if (const auto* v = std::get_if<viewshed::Levels>(&result.values)) {
+    add(values, "level_dbm", v->level_dbm, shape, self);
+    add(values, "outage_minutes", v->outage_minutes, shape, self);
+  }
   if (const auto* v = std::get_if<viewshed::Losses>(&result.values)) {
     add(values, "diffraction_db", v->diffraction_db, shape, self);
     add(values, "free_space_db", v->free_space_db, shape, self);
@@ -226,11 +232,12 @@ py::dict cells_of(const Viewshed& v) {
 
 void write_viewshed(const Viewshed& v, const std::string& path, bool overwrite, const py::object& show) {
   const std::string ending = ending_of(path);
-  if (ending != ".tif" && ending != ".tiff" && ending != ".gpkg")
-    throw InputError("`path` '" + path + "': a viewshed is written as .tif or .gpkg", "path");
+  const bool polygons = ending == ".gpkg" || ending == ".geojson";
+  if (ending != ".tif" && ending != ".tiff" && !polygons)
+    throw InputError("`path` '" + path + "': a viewshed is written as .tif, .gpkg or .geojson", "path");
   const StoreMetadata& metadata = *v.metadata;
   run(show, [&](Progress& progress) {
-    if (ending == ".gpkg") {
+    if (polygons) {
       // Of an array it is not known which cells an observer looks at.
       const auto no_data =
           v.store ? viewshed::cells_without_ground(*v.store, v.result, progress) : std::vector<std::uint8_t>();

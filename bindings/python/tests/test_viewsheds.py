@@ -36,6 +36,12 @@ QUESTIONS: list[tuple[dict[str, Any], list[str]]] = [
     ),
     ({"mode": "fresnel", "frequency_ghz": 5.8}, ["--frequency", "5.8"]),
     ({"mode": "loss", "frequency_ghz": 5.8, "polarisation": "v"}, ["--frequency", "5.8", "--loss", "--polarisation", "v"]),
+    (
+        {"mode": "level", "frequency_ghz": 18, "eirp_dbm": 43, "gain_dbi": 12, "sensitivity_dbm": -78, "margins_db": [0, 10]}
+        | {"rain_rate_mm_h": 28, "feeder_loss_db": 1},
+        ["--frequency", "18", "--eirp-dbm", "43", "--gain-dbi", "12", "--sensitivity-dbm", "-78", "--margin-db", "0,10"]
+        + ["--rain-rate-mm-h", "28", "--feeder-loss-db", "1"],
+    ),
     ({"azimuth": (350, 80), "elevation": (-3, 2)}, ["--azimuth", "350,80", "--elevation=-3,2"]),
     ({"earth": itin.Earth.effective_earth(4 / 3)}, ["--effective-earth", "4/3"]),
     ({"earth": itin.Earth.flat(), "nodata": "block"}, ["--curvature", "off", "--nodata", "block"]),

@@ -47,11 +47,15 @@ struct ImportOptions {
       {};                        ///< fields; default: all with numbers, texts, dates and times
   std::optional<int> band = {};  ///< the band of rasters that holds heights, from 1; default: their only one
 
-  // These are for raised features only: CityJSON, and buildings, vegetation and walls for which one of the first three
+  // These are for raised features only: CityJSON, and buildings, vegetation and walls for which one of the first four
   // is given.
   std::string height_field = {};      ///< height of the highest point above the base
   std::string eaves_field = {};       ///< height of the eaves above the base
-  std::optional<double> height = {};  ///< metres; for features that have none in the fields
+  std::string height_from = {};       ///< a raster of elevations (DSM) in the store's CRS, over the terrain: gives
+                                      ///< heights to features that have none in the fields
+  std::optional<double> height = {};  ///< metres; for features that have none in the fields and in height_from
+  /// Which of the cells of height_from within a footprint gives its height, 0 to 100; default: 50, their median.
+  std::optional<double> height_percentile = {};
   std::string base_field = {};        ///< elevation of the base
   std::optional<BaseRule> base = {};  ///< for buildings without base_field; default: minimum, or the floors of CityJSON
   std::optional<RoofKind> roof = {};  ///< default: flat

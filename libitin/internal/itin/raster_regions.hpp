@@ -29,11 +29,12 @@ struct RegionDescription {
   bool overwrite = false;
 };
 
-/// Writes a GeoPackage with one multipolygon per class that has cells, in the order of the classes. Its fields are
-/// `value`, `class` (the class's name) and `area_m2` (the area of its cells). Outlines follow the cells' edges; cells
-/// that meet only at a corner are apart. A second table, `layer_styles`, has QGIS open the layer in the classes'
-/// colours. Precondition: values.size() == grid.cell_count(). Equal calls write equal bytes. Throws FileError if the
-/// file exists and may not be replaced, or cannot be written.
+/// Writes a GeoPackage, or GeoJSON where the name ends in .geojson, with one multipolygon per class that has cells, in
+/// the order of the classes. Its fields are `value`, `class` (the class's name) and `area_m2` (the area of its cells).
+/// Outlines follow the cells' edges; cells that meet only at a corner are apart. A second table of a GeoPackage,
+/// `layer_styles`, has QGIS open the layer in the classes' colours. Precondition: values.size() == grid.cell_count().
+/// Equal calls write equal bytes. Throws FileError if the file exists and may not be replaced, or cannot be written,
+/// and InputError for GeoJSON in a CRS without EPSG code.
 void write_regions(const std::string& path, const RasterGrid& grid, std::span<const std::uint8_t> values,
                    const RegionDescription& description);
 void write_regions(const std::string& path, const RasterGrid& grid, std::span<const std::uint16_t> values,

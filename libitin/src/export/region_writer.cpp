@@ -6,9 +6,12 @@
 #include <gdal_priv.h>
 
 #include <itin/error.hpp>
+#include <itin/file_ending.hpp>
 #include <itin/precondition.hpp>
 #include <itin/raster_regions.hpp>
 
+#include "export/buffered_file.hpp"
+#include "export/export_metadata.hpp"
 #include "export/geopackage.hpp"
 #include "export/polygon_style.hpp"
 #include "gdal/drivers.hpp"
@@ -87,6 +90,30 @@ void write_layer(const PendingFile& output, const RasterGrid& grid, Regions& reg
   package.close();
 }
 
+void write_geojson_layer(const PendingFile& output, const RasterGrid& grid, const Regions& regions,
+                         const RegionDescription& description) {
+  const std::string urn = crs_urn(description.crs_wkt);
+  BufferedFile file(output);
+  file.print(R"({{"type":"FeatureCollection","name":{},)", dumped(description.layer));
+  if (!urn.empty()) file.print(R"("crs":{{"type":"name","properties":{{"name":"{}"}}}},)", urn);
+  file.write("\"features\":[");
+  const char* separator = "\n";
+  for (const RegionClass& c : description.classes) {
+    const Region& region = regions.at(c.value);
+    if (region.cells == 0) continue;
+    const nlohmann::ordered_json properties{
+        {"value", c.value}, {"class", c.name}, {"area_m2", static_cast<double>(region.cells) * grid.cell_area()}};
+    const std::unique_ptr<char, decltype(&VSIFree)> shape(region.shape->exportToJson(), &VSIFree);
+    require(shape != nullptr, output.path(), "its regions cannot be written");
+    file.print(R"({}{{"type":"Feature","properties":{},"geometry":)", separator, dumped(properties));
+    file.write(shape.get());
+    file.write("}");
+    separator = ",\n";
+  }
+  file.write("\n]}\n");
+  file.close();
+}
+
 template <class T>
 void write_polygons(const std::string& path, const RasterGrid& grid, std::span<const T> values, GDALDataType type,
                     const RegionDescription& description) {
@@ -96,7 +123,11 @@ void write_polygons(const std::string& path, const RasterGrid& grid, std::span<c
   Regions regions;
   for (const RegionClass& c : description.classes) regions[c.value];
   trace(path, grid, values, type, regions);
-  write_layer(output, grid, regions, description);
+  if (ending_of(path) == ".geojson") {
+    write_geojson_layer(output, grid, regions, description);
+  } else {
+    write_layer(output, grid, regions, description);
+  }
   output.commit();
 }
 

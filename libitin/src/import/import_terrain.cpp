@@ -88,7 +88,7 @@ void report_counts(const SetAsideCounts& before, const SetAsideCounts& now, Impo
 Additions plan_additions(const ImportOptions& options, const Store* store, Progress& progress) {
   Additions additions;
   if (builds_features(options)) {
-    additions.footprints = read_footprint_files(options, store->metadata(), progress);
+    additions.footprints = read_footprint_files(options, *store, progress);
     additions.plan = plan_nothing(store->metadata());
     for (FootprintFile& file : additions.footprints) {
       std::vector<std::string>& warnings = file.footprints.warnings;

@@ -132,6 +132,15 @@ struct LinkResult {
 std::vector<LinkResult> survey_links(const Store& store, const std::vector<Link>& links, const LinkQuery& query,
                                      Progress& progress);
 
+/// Finds what survey_links() finds of a line whose profiles are known, without required heights and what was read;
+/// see judge().
+LinkResult judge_link(const Profile& profile, const LosQuery& query, const Profile& ground = {});
+
+/// The budget of a link that was surveyed by this query; nothing without losses, and where none is asked for. Without
+/// the latitude of its middle, the year fades as the worst month does.
+std::optional<LinkBudget> link_budget_of(const Link& link, const LinkResult& result, const LinkQuery& query,
+                                         std::optional<double> latitude_deg = {});
+
 /// The query of one link: its own frequency, polarisation, criteria and budget, or those of `query`.
 LosQuery los_query(const Link& link, const LinkQuery& query);
 

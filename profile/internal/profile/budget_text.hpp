@@ -19,6 +19,10 @@ std::string minutes_text(const Availability& availability);
 /// Names what the budget does not count: "rain (no rate is given); interference, ...".
 std::string not_counted_text(const LinkBudget& budget);
 
+/// Names what the radios of a budget have, without their frequency: "power 20 dBm, gain 17 dBi, gain of the receiver
+/// 8 dBi, sensitivity -85 dBm".
+std::string radios_text(const BudgetQuery& query);
+
 /// Returns the budget as lines of text.
 std::vector<std::string> budget_lines(const LinkBudget& budget);
 

@@ -16,7 +16,9 @@ struct SheetTable {
   std::string title = {};                           ///< may be empty
   std::vector<Heading> headings = {};               ///< over the header, from the first column on
   std::vector<std::vector<std::string>> rows = {};  ///< the header first
-  double first_column = 0.2;                        ///< its part of the width; the others share the rest
+  /// Its part of the width, while the others share the rest alike. Where that would cut a text, columns are as wide as
+  /// their texts are.
+  double first_column = 0.2;
   std::string elsewhere = {};                       ///< the file that has all rows
 };
 

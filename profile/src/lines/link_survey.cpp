@@ -31,16 +31,16 @@ void warn_of_gaps(const LinkSurvey& survey, std::vector<std::string>& warnings) 
                                      : "leaves those undecided that known ground does not hide"));
 }
 
-std::optional<LinkBudget> budget_of(const Link& link, const LinkResult& result, const std::optional<LinkCourse>& course,
-                                    const LinkQuery& query) {
-  BudgetCourse line{result.distance_m,
-                    {result.stands_on.from_m + link.from_height, result.stands_on.to_m + link.to_height},
-                    grid_azimuth_deg(link.from, link.to)};
-  if (course) line.latitude_deg = (course->from.y + course->to.y) / 2;
-  return budget_over(result.losses, los_query(link, query), line);
-}
-
 }  // namespace
+
+std::optional<LinkBudget> link_budget_of(const Link& link, const LinkResult& result, const LinkQuery& query,
+                                         std::optional<double> latitude_deg) {
+  const BudgetCourse course{result.distance_m,
+                            {result.stands_on.from_m + link.from_height, result.stands_on.to_m + link.to_height},
+                            grid_azimuth_deg(link.from, link.to),
+                            latitude_deg};
+  return budget_over(result.losses, los_query(link, query), course);
+}
 
 LinkSurvey survey_link_table(const Store& store, LinkTable table, const LinkQuery& query, Progress& progress) {
   LinkSurvey survey{std::move(table), query, {}, {}, {}, store.path(), store.metadata(), {}};
@@ -48,8 +48,11 @@ LinkSurvey survey_link_table(const Store& store, LinkTable table, const LinkQuer
       beside([&] { return link_courses(survey.table.links, survey.metadata.crs_wkt, progress); });
   survey.results = survey_links(store, survey.table.links, query, progress);
   survey.courses = courses.get();
-  for (std::size_t i = 0; i < survey.results.size(); ++i)
-    survey.budgets.push_back(budget_of(survey.table.links[i], survey.results[i], survey.courses[i], query));
+  for (std::size_t i = 0; i < survey.results.size(); ++i) {
+    const std::optional<LinkCourse>& course = survey.courses[i];
+    const auto latitude = course ? std::optional((course->from.y + course->to.y) / 2) : std::nullopt;
+    survey.budgets.push_back(link_budget_of(survey.table.links[i], survey.results[i], query, latitude));
+  }
   survey.warnings = survey.table.warnings;
   warn_of_columns(survey.table, survey.warnings);
   warn_of_gaps(survey, survey.warnings);

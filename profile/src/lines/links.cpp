@@ -22,33 +22,6 @@ namespace itin::profile {
 
 namespace {
 
-/// The line's surface and, where features stand on it, the ground under them.
-struct Sections {
-  Profile surface;
-  Profile ground;
-};
-
-LinkResult result_of(const Sections& sections, const LosQuery& query) {
-  require_valid(sections.surface, query, sections.ground);
-  LinkResult result;
-  result.distance_m = sections.surface.length_m;
-  result.gap_m = sections.surface.gap_length_m();
-  result.radio = query.radio;
-  result.stands_on = stands_on(sections.surface, sections.ground, query);
-  const Antennas antennas = antennas_on(result.stands_on, query);
-  const Sight sight{sections.surface, antennas, result.stands_on};
-  result.found = findings(sight, query);
-  if (query.radio || !query.criteria.empty()) add_required_heights(sight, query, *result.found);
-  const Profile* under = sections.ground.points.empty() ? nullptr : &sections.ground;
-  result.losses = losses_over(sections.surface, antennas, query, under);
-  if (query.radio) result.reflection = reflection(sections.surface, antennas, *query.radio, under);
-  if (query.object) {
-    result.visible =
-        visible_height(sections.surface, query.from_height_m, *query.object, query.earth, result.stands_on);
-  }
-  return result;
-}
-
 void require_ground_at_ends(const Profile& profile, const Link& link) {
   if (has_ground_at_ends(profile)) return;
   const bool first = profile.points.empty() || profile.points.front().distance_m > 0;
@@ -61,16 +34,19 @@ template <class Along>
 LinkResult survey(const Store& store, const LinkQuery& query, const Link& link, const Along& along) {
   const CrossSection section = along(false);
   RetrievalStatistics statistics = section.statistics;
-  Sections sections{from_section(section), {}};
-  require_ground_at_ends(sections.surface, link);
+  const Profile surface = from_section(section);
+  Profile ground;
+  require_ground_at_ends(surface, link);
   if (query.themes.includes_raised(store.metadata().themes)) {
     const CrossSection bare = along(true);
     statistics += bare.statistics;
-    sections.ground = from_section(bare);
+    ground = from_section(bare);
   }
   LosQuery own = los_query(link, query);
   own.clearance_error_m = clearance_error(store, query.detail, query.themes, link.from, link.to);
-  LinkResult result = result_of(sections, own);
+  LinkResult result = judge_link(surface, own, ground);
+  if (own.radio || !own.criteria.empty())
+    add_required_heights({surface, antennas_on(result.stands_on, own), result.stands_on}, own, *result.found);
   result.statistics = statistics;
   result.triangles = section.triangles;
   return result;
@@ -117,6 +93,23 @@ std::vector<std::size_t> by_place(const std::vector<Link>& links) {
 }
 
 }  // namespace
+
+LinkResult judge_link(const Profile& profile, const LosQuery& query, const Profile& ground) {
+  require_valid(profile, query, ground);
+  LinkResult result;
+  result.distance_m = profile.length_m;
+  result.gap_m = profile.gap_length_m();
+  result.radio = query.radio;
+  result.stands_on = stands_on(profile, ground, query);
+  const Antennas antennas = antennas_on(result.stands_on, query);
+  result.found = findings({profile, antennas, result.stands_on}, query);
+  const Profile* under = ground.points.empty() ? nullptr : &ground;
+  result.losses = losses_over(profile, antennas, query, under);
+  if (query.radio) result.reflection = reflection(profile, antennas, *query.radio, under);
+  if (query.object)
+    result.visible = visible_height(profile, query.from_height_m, *query.object, query.earth, result.stands_on);
+  return result;
+}
 
 std::vector<LinkResult> survey_links(const Store& store, const std::vector<Link>& links, const LinkQuery& query,
                                      Progress& progress) {

@@ -65,6 +65,20 @@ std::string not_counted_text(const LinkBudget& budget) {
   return fmt::format("{}", fmt::join(all, "; "));
 }
 
+std::string radios_text(const BudgetQuery& query) {
+  std::string text =
+      query.eirp_dbm ? fmt::format("EIRP {:g} dBm", *query.eirp_dbm) : fmt::format("power {:g} dBm", *query.power_dbm);
+  const auto add = [&](const char* what, const char* unit, const std::optional<double>& value) {
+    if (value) text += fmt::format(", {} {:g} {}", what, *value, unit);
+  };
+  add("gain", "dBi", query.from_gain_dbi);
+  add("feeder loss", "dB", query.from_feeder_db);
+  add("gain of the receiver", "dBi", query.to_gain_dbi);
+  add("its feeder loss", "dB", query.to_feeder_db);
+  if (query.sensitivity_dbm) text += fmt::format(", sensitivity {:g} dBm", *query.sensitivity_dbm);
+  return text;
+}
+
 std::vector<std::string> budget_lines(const LinkBudget& budget) {
   std::vector<std::string> lines{level_line(budget)};
   if (budget.rain) lines.push_back(rain_line(budget));

@@ -6,9 +6,8 @@
 
 namespace itin::profile {
 
-const char* verdict_colour(SightVerdict verdict) {
-  constexpr const char* kColours[] = {"ff20a020", "ff2020d0", "ff20a0e0"};
-  return kColours[static_cast<int>(verdict)];
+std::string kml_colour(const Rgba& colour) {
+  return fmt::format("ff{:02x}{:02x}{:02x}", colour.blue, colour.green, colour.red);
 }
 
 Kml::Kml(const std::string& crs_wkt, const std::string& name, const std::string& description)

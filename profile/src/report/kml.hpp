@@ -1,7 +1,7 @@
 // A KML document: points and lines at their elevations, for globes.
 //
 //   Kml kml(crs_wkt, "Backhaul");
-//   kml.style("ray", verdict_colour(SightVerdict::kVisible), 3);
+//   kml.style("ray", kml_colour(class_of(SightVerdict::kVisible).colour), 3);
 //   kml.line("Garth to Caerphilly", "ray", {a, b}, {{"distance_m", "7434.5"}});
 //   write(kml.finish());
 #pragma once
@@ -12,12 +12,13 @@
 
 #include <itin/coordinates.hpp>
 #include <itin/geometry.hpp>
+#include <itin/raster.hpp>
 #include <profile/los.hpp>
 
 namespace itin::profile {
 
-/// The colour of a verdict in KML's order, aabbggrr: green, red, amber.
-const char* verdict_colour(SightVerdict verdict);
+/// A colour in KML's order, aabbggrr.
+std::string kml_colour(const Rgba& colour);
 
 class Kml {
  public:

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -46,6 +48,16 @@ bool any(const std::vector<LinkRow>& rows, const std::function<bool(const LinkRo
   return std::any_of(rows.begin(), rows.end(), holds);
 }
 
+/// Returns the format of a column's numbers in CSV: the decimals that mean something in the unit that its name ends in.
+const char* number_of(std::string_view column) {
+  constexpr std::pair<std::string_view, const char*> kNumbers[] = {
+      {"_m", "{:.3f}"},  {"_deg", "{:.4f}"},      {"_db", "{:.2f}"},      {"_dbm", "{:.2f}"},     {"_dbi", "{:.2f}"},
+      {"_f1", "{:.4f}"}, {"_fraction", "{:.4f}"}, {"_percent", "{:.8g}"}, {"_minutes", "{:.5g}"}, {"_km", "{:.3f}"}};
+  for (const auto& [unit, number] : kNumbers)
+    if (column.ends_with(unit)) return number;
+  return "{}";
+}
+
 /// Builds the list of columns. Columns that the contract names come first, in its order.
 class ColumnList {
  public:
@@ -74,6 +86,7 @@ class ColumnList {
       });
     }
     for (const Criterion& c : criteria) add_required(name_of_criterion(c), place_of(c));
+    for (LinkColumn& column : columns_) column.number = number_of(column.name);
     add_others();
     return std::move(columns_);
   }

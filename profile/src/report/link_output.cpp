@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <filesystem>
 #include <iterator>
@@ -11,6 +12,7 @@
 #include <profile/links.hpp>
 
 #include "report/kml.hpp"
+#include "report/line_classes.hpp"
 #include "report/link_columns.hpp"
 
 namespace itin::profile {
@@ -33,15 +35,82 @@ std::vector<Point3> line_of(const LinkRow& row) {
           {link.to.x, link.to.y, ground.to_m + link.to_height}};
 }
 
+/// An antenna of a link.
+struct LinkEndRow {
+  const LinkRow& link;
+  bool first;
+};
+
+VectorLayer layer_of_ends(const std::vector<LinkRow>& rows) {
+  constexpr std::array<FeatureClass, 2> kEnds{{{"1", "First end", {20, 60, 140}}, {"2", "Second end", {86, 180, 233}}}};
+  const auto height = [](const LinkEndRow& row) {
+    return row.first ? row.link.link->from_height : row.link.link->to_height;
+  };
+  const auto stands_on = [](const LinkEndRow& row) {
+    const EndGrounds& grounds = row.link.result->stands_on;
+    return row.first ? grounds.from_m : grounds.to_m;
+  };
+  const std::vector<TableColumn<LinkEndRow>> columns{
+      {"id", [](const LinkEndRow& row) { return row.link.id; }},
+      {"end", [](const LinkEndRow& row) { return row.first ? "1" : "2"; }},
+      {"name", [](const LinkEndRow& row) { return row.first ? row.link.link->from_name : row.link.link->to_name; }},
+      {"height_m", height},
+      {"stands_on_m", stands_on}};
+  std::vector<LinkEndRow> ends;
+  for (const LinkRow& row : rows) ends.push_back({row, true}), ends.push_back({row, false});
+  const auto place = [&](const LinkEndRow& row) {
+    const Point2 at = row.first ? row.link.link->from : row.link.link->to;
+    return std::vector<Point3>{{at.x, at.y, stands_on(row) + height(row)}};
+  };
+  return layer_of("ends", VectorLayer::Shape::kPoints, columns, ends, place, point_style("end", kEnds));
+}
+
+/// The tightest place of each link: what hides it or, where nothing does, comes nearest to it.
+VectorLayer layer_of_obstacles(const std::vector<LinkRow>& rows, const StoreMetadata& metadata) {
+  constexpr std::array<FeatureClass, 2> kObstacles{
+      {{"hides", "Hides the link", {208, 32, 32}}, {"nearest", "Comes nearest to the line", {32, 160, 32}}}};
+  const auto point = [](const LinkRow& row) -> const ProfilePoint& { return *row.found()->critical; };
+  const std::vector<LinkColumn> columns{
+      {"id", [](const LinkRow& row) { return row.id; }},
+      {"what", [](const LinkRow& row) { return *row.found()->clearance_m < 0 ? "hides" : "nearest"; }},
+      {"distance_m", [&](const LinkRow& row) { return point(row).distance_m; }},
+      {"clearance_m", [](const LinkRow& row) { return *row.found()->clearance_m; }},
+      {"theme",
+       [&](const LinkRow& row) {
+         const std::uint16_t theme = point(row).theme;
+         return theme == 0 ? std::string("terrain") : metadata.themes[theme - std::size_t{1}].name;
+       }},
+      {"feature", [&](const LinkRow& row) {
+         const std::int64_t feature = point(row).feature;
+         return feature < 0 ? std::optional<std::int64_t>() : std::optional(feature);
+       }}};
+  std::vector<LinkRow> told;
+  std::copy_if(rows.begin(), rows.end(), std::back_inserter(told),
+               [](const LinkRow& row) { return row.found()->critical && row.found()->clearance_m; });
+  const auto place = [&](const LinkRow& row) {
+    return std::vector<Point3>{{point(row).x, point(row).y, point(row).ground_m}};
+  };
+  return layer_of("obstacles", VectorLayer::Shape::kPoints, columns, told, place, point_style("what", kObstacles));
+}
+
+/// The links, their ends, and what is in their way, in colours.
+std::vector<VectorLayer> link_layers(const LinkSurvey& survey, const std::vector<LinkRow>& rows,
+                                     const std::vector<LinkColumn>& columns) {
+  const std::vector<LinkRow> lines = computed(rows);
+  return {layer_of("links", VectorLayer::Shape::kLines, columns, lines, line_of,
+                   line_style("verdict", kVerdictClasses, 0.6)),
+          layer_of_ends(lines), layer_of_obstacles(lines, survey.metadata)};
+}
+
 std::string links_kml(const std::string& crs_wkt, const std::string& title, const std::vector<LinkRow>& rows,
                       const std::vector<LinkColumn>& columns) {
   Kml kml(crs_wkt, title);
   for (const SightVerdict verdict : {SightVerdict::kVisible, SightVerdict::kHidden, SightVerdict::kUndecided})
-    kml.style(name_of(verdict), verdict_colour(verdict), 3);
+    kml.style(name_of(verdict), kml_colour(class_of(verdict).colour), 3);
   kml.style("error", "ff909090", 3);
   for (const LinkRow& row : computed(rows)) {
     Kml::Data data;
-    for (const LinkColumn& column : columns) data.emplace_back(column.name, cell_text(column.cell(row)));
+    for (const LinkColumn& column : columns) data.emplace_back(column.name, cell_text(column.cell(row), column.number));
     kml.line(row.id, verdict_of(row), line_of(row), data);
   }
   return kml.finish();
@@ -66,8 +135,7 @@ void write_link_table(const LinkSurvey& survey, const std::vector<std::string>& 
   for (const std::string& path : paths) {
     const std::string ending = ending_of(path);
     if (ending == ".gpkg") {
-      write_geopackage(path, crs, {layer_of("links", VectorLayer::Shape::kLines, columns, computed(rows), line_of)},
-                       options.overwrite);
+      write_geopackage(path, crs, link_layers(survey, rows, columns), options.overwrite);
     } else {
       write_file(path,
                  ending == ".pdf"   ? link_summary(survey, rows, options)

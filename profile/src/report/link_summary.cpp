@@ -3,6 +3,7 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -63,6 +64,26 @@ std::string kilometres(double metres) {
   return fmt::format("{:.3f}", metres / 1000);
 }
 
+/// "7.5 GHz, horizontal" of a link; empty without a frequency.
+std::string frequency_of(const LinkRow& row) {
+  if (row.result == nullptr || !row.result->radio) return "";
+  const RadioPath& path = *row.result->radio;
+  return fmt::format("{:.6g} GHz, {}", path.frequency_ghz,
+                     path.polarisation == Polarisation::kVertical ? "vertical" : "horizontal");
+}
+
+/// The frequency and polarisation that all links with one share; empty where there are several or none.
+std::string shared_frequency(const std::vector<LinkRow>& rows) {
+  std::set<std::string> frequencies;
+  for (const LinkRow& row : rows) frequencies.insert(frequency_of(row));
+  frequencies.erase("");
+  return frequencies.size() == 1 ? *frequencies.begin() : "";
+}
+
+bool has_frequencies(const std::vector<LinkRow>& rows) {
+  return std::any_of(rows.begin(), rows.end(), [](const LinkRow& row) { return !frequency_of(row).empty(); });
+}
+
 /// The cells of a budget: the margin for fades, and the availability.
 std::vector<std::string> budget_cells(const LinkRow& row) {
   if (row.budget == nullptr) return {"", ""};
@@ -121,10 +142,12 @@ Table table_of(const std::vector<LinkRow>& rows) {
               {},
               "The order is by verdict, then by metres. Clearance is that at the critical point, clearance / F1 the "
               "least over the line."};
-  const bool budgets = has_budgets(rows);
+  const bool budgets = has_budgets(rows), frequencies = has_frequencies(rows) && shared_frequency(rows).empty();
+  if (frequencies) table.header.emplace_back("frequency");
   if (budgets) table.header.insert(table.header.end(), {"margin dB", "availability"});
   for (const auto& [rank, row] : order) {
     std::vector<std::string>& cells = table.rows.emplace_back(cells_of(*row));
+    if (frequencies) cells.push_back(frequency_of(*row));
     const std::vector<std::string> further = budgets ? budget_cells(*row) : std::vector<std::string>();
     cells.insert(cells.end(), further.begin(), further.end());
   }
@@ -134,13 +157,16 @@ Table table_of(const std::vector<LinkRow>& rows) {
 }
 
 /// The inputs and the settings.
-std::vector<std::pair<std::string, std::string>> facts_of(const LinkSurvey& survey, const LinkFileOptions& options) {
+std::vector<std::pair<std::string, std::string>> facts_of(const LinkSurvey& survey, const std::vector<LinkRow>& rows,
+                                                          const LinkFileOptions& options) {
   const std::string& crs = survey.metadata.crs_wkt;
   std::vector<std::pair<std::string, std::string>> facts = options.facts;
   facts.insert(facts.end(), {{"Store", std::filesystem::path(survey.store).filename().string()},
                              {"CRS", fmt::format("{} ({})", crs_title(crs), crs_identifier(crs))},
-                             {"Refraction", survey.query.earth.convention()},
-                             {"Program", "itin " ITIN_VERSION}});
+                             {"Refraction", survey.query.earth.convention()}});
+  if (const std::string frequency = shared_frequency(rows); !frequency.empty())
+    facts.emplace_back("Frequency", frequency);
+  facts.emplace_back("Program", "itin " ITIN_VERSION);
   return facts;
 }
 
@@ -152,7 +178,7 @@ std::string link_summary(const LinkSurvey& survey, const std::vector<LinkRow>& r
     Drawing& drawing = pages.drawing();
     draw_title(drawing, options.title);
     const double top = draw_headline(drawing, counts_text(rows)) + 14;
-    const Facts facts = fact_lines(drawing, facts_of(survey, options));
+    const Facts facts = fact_lines(drawing, facts_of(survey, rows, options));
     const double bottom = kHeight - kMargin - kFactRow * static_cast<double>(facts.size());
     draw_facts(drawing, facts, bottom + 12);
     std::size_t row = PageColumn(drawing, kMargin, kWidth - 2 * kMargin, top).set_rows(table, 0, bottom - 30);

@@ -10,6 +10,7 @@
 
 #include "report/formats.hpp"
 #include "report/kml.hpp"
+#include "report/line_classes.hpp"
 #include "report/tables.hpp"
 
 namespace itin::profile {
@@ -85,7 +86,7 @@ class Path {
 
 Kml kml_of(const LosReport& report) {
   Kml kml(report.crs_wkt, report.title, verdict_line(report));
-  kml.style("ray", verdict_colour(report.verdict), 3);
+  kml.style("ray", kml_colour(class_of(report.verdict).colour), 3);
   kml.style("ground", "ff335577", 2);
   kml.style("cut", "ff0000ff", 5);
   kml.style("zone", "66e08040", 1);
@@ -96,6 +97,14 @@ Kml kml_of(const LosReport& report) {
 Point3 place_of(const ProfilePoint& p) {
   return {p.x, p.y, p.ground_m};
 }
+
+/// The points of a report's layer.
+constexpr std::array<FeatureClass, 6> kPointClasses{{{"from", "First end", {20, 60, 140}},
+                                                     {"to", "Second end", {86, 180, 233}},
+                                                     {"critical", "Critical point", {208, 32, 32}},
+                                                     {"reflection", "Reflection", {0, 158, 115}},
+                                                     {"bullington", "Bullington's edge", {204, 121, 167}},
+                                                     {"deygout", "Deygout's edge", {230, 159, 0}}}};
 
 /// A point that the losses or the reflection name.
 struct PointOfPath {
@@ -172,14 +181,19 @@ std::vector<VectorLayer> report_layers(const LosReport& report) {
                     {"geodesic_distance_m", kNumber},
                     {"gap_m", kNumber},
                     {"known_verdict", kText}},
-                   {}};
+                   {},
+                   line_style("verdict", kVerdictClasses, 0.8)};
   line.features.push_back(
       {path.ray_line(),
        {std::string(name_of(report.verdict)), report.profile.length_m, metres(report.clearance_m),
         metres(report.fresnel ? std::optional(report.fresnel->fraction) : std::nullopt),
         metres(report.losses ? std::optional(report.losses->ld_db) : std::nullopt), metres(report.geodesic_m),
         report.profile.gap_length_m(), std::string(name_of(report.known_verdict))}});
-  VectorLayer ends{"points", Shape::kPoints, {{"what", kText}, {"distance_m", kNumber}, {"height_m", kNumber}}, {}};
+  VectorLayer ends{"points",
+                   Shape::kPoints,
+                   {{"what", kText}, {"distance_m", kNumber}, {"height_m", kNumber}},
+                   {},
+                   point_style("what", kPointClasses)};
   ends.features.push_back({{path.ray(0)}, {std::string("from"), 0.0, report.query.from_height_m}});
   ends.features.push_back(
       {{path.ray(report.profile.length_m)}, {std::string("to"), report.profile.length_m, report.query.to_height_m}});
@@ -187,20 +201,33 @@ std::vector<VectorLayer> report_layers(const LosReport& report) {
     ends.features.push_back({{place_of(*report.critical)}, {std::string("critical"), report.critical->distance_m, {}}});
   for (const PointOfPath& p : path_points(report))
     ends.features.push_back({{p.place}, {std::string(p.what), p.distance_m, {}}});
-  VectorLayer ground{"ground", Shape::kLines, {{"points", kWhole}}, {}};
+  VectorLayer ground{
+      "ground", Shape::kLines, {{"what", kText}, {"points", kWhole}}, {}, line_style("what", kGroundClass, 0.4)};
   for (const std::vector<Point3>& stretch : path.ground_lines())
-    ground.features.push_back({stretch, {static_cast<std::int64_t>(stretch.size())}});
-  VectorLayer cuts{
-      "obstructions",
-      Shape::kLines,
-      {{"from_m", kNumber}, {"to_m", kNumber}, {"peak_at_m", kNumber}, {"depth_m", kNumber}, {"cause", kText}},
-      {}};
+    ground.features.push_back(
+        {stretch, {std::string(kGroundClass[0].name), static_cast<std::int64_t>(stretch.size())}});
+  VectorLayer cuts{"obstructions",
+                   Shape::kLines,
+                   {{"what", kText},
+                    {"from_m", kNumber},
+                    {"to_m", kNumber},
+                    {"peak_at_m", kNumber},
+                    {"depth_m", kNumber},
+                    {"cause", kText}},
+                   {},
+                   line_style("what", kObstructionClass, 1.6)};
   for (const Obstruction& o : report.obstructions) {
-    cuts.features.push_back(
-        {path.obstruction_line(o), {o.from_m, o.to_m, o.peak_at_m, o.depth_m, cause_of(report, o.theme, o.feature)}});
+    cuts.features.push_back({path.obstruction_line(o),
+                             {std::string(kObstructionClass[0].name), o.from_m, o.to_m, o.peak_at_m, o.depth_m,
+                              cause_of(report, o.theme, o.feature)}});
   }
-  VectorLayer gaps{"gaps", Shape::kLines, {{"from_m", kNumber}, {"to_m", kNumber}}, {}};
-  for (const auto& [from, to] : report.profile.gaps) gaps.features.push_back({path.ray_line(from, to), {from, to}});
+  VectorLayer gaps{"gaps",
+                   Shape::kLines,
+                   {{"what", kText}, {"from_m", kNumber}, {"to_m", kNumber}},
+                   {},
+                   line_style("what", kGapClass, 1.6)};
+  for (const auto& [from, to] : report.profile.gaps)
+    gaps.features.push_back({path.ray_line(from, to), {std::string(kGapClass[0].name), from, to}});
   return {line, ends, ground, cuts, gaps};
 }
 

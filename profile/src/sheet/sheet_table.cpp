@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
+#include <numeric>
+#include <span>
 
 #include <fmt/format.h>
 
@@ -20,7 +23,14 @@ constexpr double kTitleSize = 9, kCellSize = 7, kRowHeight = 9.6, kLineHeight = 
 class TablePage {
  public:
   TablePage(Drawing& drawing, const SheetTable& table, const Box& box, double type)
-      : drawing_(drawing), table_(table), box_(box), type_(type), y_(box.ymin) {}
+      : drawing_(drawing), table_(table), box_(box), type_(type), y_(box.ymin) {
+    const std::vector<double> wanted = wanted_widths();
+    std::vector<double> widths = equal_widths();
+    const bool cut = std::ranges::mismatch(wanted, widths, std::ranges::less_equal()).in1 != wanted.end();
+    if (cut) widths = shared_out(wanted, box.width());
+    columns_.push_back(box.xmin);
+    for (const double width : widths) columns_.push_back(columns_.back() + width);
+  }
 
   void draw() {
     if (!table_.title.empty()) add_line(table_.title, {.size = kTitleSize * type_, .colour = kInk, .bold = true});
@@ -38,11 +48,58 @@ class TablePage {
   double row_height() const { return kRowHeight * type_; }
 
   /// Where a column begins; the one behind the last is the table's end.
-  double column(std::size_t c) const {
+  double column(std::size_t c) const { return columns_[c]; }
+  double gap() const { return 3 * type_; }
+  Lettering cell_lettering(std::size_t row) const {
+    return {.size = kCellSize * type_, .colour = kInk, .bold = row == 0};
+  }
+  Lettering heading_lettering() const { return {.size = kCellSize * type_, .colour = kFaint}; }
+
+  /// The first column has its part of the width, and the others have equal ones.
+  std::vector<double> equal_widths() const {
+    const std::size_t count = table_.rows[0].size();
     const double first = table_.first_column * box_.width();
-    const double other =
-        (box_.width() - first) / static_cast<double>(std::max<std::size_t>(table_.rows[0].size(), 2) - 1);
-    return box_.xmin + (c == 0 ? 0 : first + other * static_cast<double>(c - 1));
+    std::vector<double> widths(count,
+                               (box_.width() - first) / static_cast<double>(std::max<std::size_t>(count, 2) - 1));
+    widths.front() = first;
+    return widths;
+  }
+
+  /// The widths at which no cell and no heading is cut.
+  std::vector<double> wanted_widths() const {
+    std::vector<double> widths(table_.rows[0].size());
+    for (std::size_t r = 0; r < table_.rows.size(); ++r)
+      for (std::size_t c = 0; c < std::min(widths.size(), table_.rows[r].size()); ++c)
+        widths[c] = std::max(widths[c], drawing_.text_width(table_.rows[r][c], cell_lettering(r)) + gap());
+    std::size_t from = 0;
+    for (const SheetTable::Heading& heading : table_.headings) {
+      const std::span<double> under = std::span(widths).subspan(from, heading.columns);
+      const double wide = drawing_.text_width(heading.text, heading_lettering()) + gap();
+      const double lack = wide - std::accumulate(under.begin(), under.end(), 0.0);
+      for (double& width : under) width += std::max(lack, 0.0) / static_cast<double>(heading.columns);
+      from += heading.columns;
+    }
+    return widths;
+  }
+
+  /// Shares out a width among columns: what is left over goes to all alike, and what is lacking is taken from the
+  /// widest.
+  static std::vector<double> shared_out(std::vector<double> wanted, double width) {
+    const double left = width - std::accumulate(wanted.begin(), wanted.end(), 0.0);
+    if (left >= 0) {
+      for (double& column : wanted) column += left / static_cast<double>(wanted.size());
+      return wanted;
+    }
+    std::vector<double> ascending = wanted;
+    std::ranges::sort(ascending);
+    double most = 0, rest = width;
+    for (std::size_t i = 0; i < ascending.size(); ++i) {
+      most = rest / static_cast<double>(ascending.size() - i);
+      if (ascending[i] > most) break;
+      rest -= ascending[i];
+    }
+    for (double& column : wanted) column = std::min(column, most);
+    return wanted;
   }
 
   void add_line(const std::string& text, const Lettering& lettering) {
@@ -52,10 +109,10 @@ class TablePage {
 
   void draw_headings() {
     if (table_.headings.empty()) return;
-    const Lettering lettering{.size = kCellSize * type_, .colour = kFaint};
+    const Lettering lettering = heading_lettering();
     std::size_t from = 0;
     for (const SheetTable::Heading& heading : table_.headings) {
-      const double left = column(from), right = column(from + heading.columns) - 3 * type_;
+      const double left = column(from), right = column(from + heading.columns) - gap();
       from += heading.columns;
       if (heading.text.empty()) continue;
       drawing_.text({left, y_ + 7 * type_}, drawing_.fitted(heading.text, right - left, lettering), lettering);
@@ -65,10 +122,10 @@ class TablePage {
   }
 
   void draw_row(std::size_t r) {
-    const Lettering lettering{.size = kCellSize * type_, .colour = kInk, .bold = r == 0};
+    const Lettering lettering = cell_lettering(r);
     for (std::size_t c = 0; c < table_.rows[r].size(); ++c)
       drawing_.text({column(c), y_ + 7 * type_},
-                    drawing_.fitted(table_.rows[r][c], column(c + 1) - column(c) - 3 * type_, lettering), lettering);
+                    drawing_.fitted(table_.rows[r][c], column(c + 1) - column(c) - gap(), lettering), lettering);
     y_ += row_height();
     if (r == 0) draw_rule(box_.xmin, box_.xmax, y_ - 0.6 * type_);
   }
@@ -81,6 +138,7 @@ class TablePage {
   const SheetTable& table_;
   Box box_;
   double type_, y_;
+  std::vector<double> columns_;  ///< where they begin, and where the last ends
 };
 
 }  // namespace

@@ -87,5 +87,26 @@ TEST_F(RasterRegions, OfLargeValuesAndTheSameBytesTwice) {
   EXPECT_THROW(bytes("a.gpkg"), FileError);
 }
 
+TEST_F(RasterRegions, GeoJsonHasTheRegionsOfTheGeoPackage) {
+  const RasterGrid grid({300000, 200000}, 10, 20, 17, 13);
+  std::mt19937 random(6);
+  std::vector<std::uint8_t> values(grid.cell_count());
+  for (std::uint8_t& v : values) v = static_cast<std::uint8_t>(random() % 3);
+  const RegionDescription description{"EPSG:27700", "seen", {{2, "\"two\""}, {0, "none"}, {9, "absent"}}, false};
+  write_regions(path("a.gpkg"), grid, std::span<const std::uint8_t>(values), description);
+  write_regions(path("a.geojson"), grid, std::span<const std::uint8_t>(values), description);
+  const auto expected = read(path("a.gpkg"), "seen"), regions = read(path("a.geojson"), "seen");
+  ASSERT_EQ(regions.size(), expected.size());
+  for (const auto& [value, region] : expected) {
+    EXPECT_EQ(regions.at(value).name, region.name);
+    EXPECT_EQ(regions.at(value).area, region.area);
+    EXPECT_TRUE(regions.at(value).shape->Equals(region.shape.get()));
+  }
+  EXPECT_THROW(write_regions(path("a.geojson"), grid, std::span<const std::uint8_t>(values), description), FileError);
+  const RegionDescription local{"LOCAL_CS[\"a plan\"]", "seen", {{2, "two"}}, false};
+  EXPECT_THROW(write_regions(path("b.geojson"), grid, std::span<const std::uint8_t>(values), local), InputError);
+  EXPECT_FALSE(std::filesystem::exists(path("b.geojson")));
+}
+
 }  // namespace
 }  // namespace itin

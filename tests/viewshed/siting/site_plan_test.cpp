@@ -278,6 +278,88 @@ TEST_F(SitePlans, TellOfEveryPointWhatSingleLinesTell) {
   }
 }
 
+/// A point is served where the budget of itin los for a line from a site gives it enough.
+TEST_F(SitePlans, ServeByLevelWhatBudgetsOfSingleLinesServe) {
+  for (const NoData rule : {NoData::kClear, NoData::kUnknown}) {
+    SitePlanRequest asked = request();
+    asked.nodata = rule;
+    asked.count = 2;
+    asked.frequency_ghz = 5.8;
+    asked.link_budget = {.power_dbm = 0, .from_gain_dbi = 10, .to_gain_dbi = 3, .sensitivity_dbm = -85};
+    asked.margin_db = 4;
+    asked.demand.points.emplace();
+    for (int i = 0; i < 120; ++i)
+      asked.demand.points->places.push_back({.name = "P" + std::to_string(i),
+                                             .position = {300055.0 + i * 37 % 690, 200745.0 - i * 53 % 690},
+                                             .height = 1.0 + i % 9});
+    const SitePlan made = plan(asked);
+    ASSERT_EQ(made.points.size(), 120U);
+    profile::LinkQuery query = link_rules(made.request).query;
+    query.to_on_surface = asked.demand.on_surface;
+    query.budget = asked.link_budget;
+    std::size_t served = 0, weak = 0;
+    for (const PointResult& point : made.points) {
+      SCOPED_TRACE(point.point.name);
+      std::size_t serving = 0;
+      double greatest = -std::numeric_limits<double>::infinity();
+      for (const LinkEnd& end : made.network.ends) {
+        if (distance(end.place.position, point.place.position) > asked.radius) continue;
+        if (point.service == PointService::kNoGround) continue;
+        const profile::Link link = link_between(end.place, point.place);
+        const profile::LinkResult line = survey_link(*store_, link, query);
+        const auto budget = link_budget_of(link, line, query);
+        if (!budget) continue;
+        const bool known = line.gap_m == 0 || rule == NoData::kClear;
+        if (known && budget->level_dbm >= -81) ++serving;
+        if (known || point.serving == 0) greatest = std::max(greatest, budget->level_dbm);
+      }
+      EXPECT_EQ(point.serving, serving);
+      EXPECT_EQ(point.service == PointService::kServed, serving > 0);
+      if (point.line && point.line->level_dbm) {
+        EXPECT_NEAR(*point.line->level_dbm, greatest, 1e-6);
+        EXPECT_NEAR(*point.line->margin_db, greatest + 85, 1e-6);
+      }
+      served += point.service == PointService::kServed ? 1 : 0;
+      weak += point.service == PointService::kTooWeak ? 1 : 0;
+    }
+    EXPECT_EQ(static_cast<double>(served), made.served());
+    EXPECT_GT(served, 0U);
+    EXPECT_GT(weak, 0U);
+  }
+}
+
+/// The cells that sites serve are those of a viewshed in mode kLevel.
+TEST_F(SitePlans, ServeByLevelTheCellsOfTheViewshed) {
+  SitePlanRequest asked = request();
+  asked.nodata = NoData::kClear;
+  asked.count = 1;
+  asked.frequency_ghz = 5.8;
+  asked.link_budget = {.power_dbm = 0, .sensitivity_dbm = -85};
+  const SitePlan made = plan(asked);
+  Request request;
+  for (const LinkEnd& end : made.network.ends)
+    request.observers.push_back({end.place.name, end.place.position, end.place.height});
+  request.target_height = asked.demand.height;
+  request.radius = asked.radius;
+  request.grid = made.rasters.grid;
+  request.mode = Mode::kLevel;
+  request.nodata = asked.nodata;
+  request.earth = asked.earth;
+  request.radio = *link_rules(asked).query.radio;
+  request.budget = asked.link_budget;
+  const Result levels = compute(*store_, request, progress_);
+  std::size_t served = 0, unserved = 0;
+  for (std::size_t cell = 0; cell < levels.visible.size(); ++cell) {
+    if (made.rasters.served[cell] == Verdict::kOutside || levels.visible[cell] == Verdict::kOutside) continue;
+    const float level = levels.get<Levels>().level_dbm[cell];
+    if (std::isnan(level)) continue;
+    ASSERT_EQ(made.rasters.served[cell] == Verdict::kVisible, level >= -85) << cell;
+    ++(level >= -85 ? served : unserved);
+  }
+  EXPECT_GT(served, 0U);
+  EXPECT_GT(unserved, 0U);
+}
+
 TEST_F(SitePlans, WriteWhatTheyList) {
   SitePlanRequest asked = request();
   asked.hub = SitePlace{.position = {300390, 200390}, .height = 70};

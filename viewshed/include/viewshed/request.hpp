@@ -22,6 +22,7 @@
 #include <itin/geometry.hpp>
 #include <itin/raster.hpp>
 #include <itin/theme.hpp>
+#include <profile/diffraction.hpp>
 
 namespace itin::viewshed {
 
@@ -67,7 +68,8 @@ enum class Mode {
   kHeight,       ///< the least height above what targets stand on at which one is seen by any of them
   kProbability,  ///< how probably any of them does where heights are uncertain: the greatest of theirs
   kFresnel,      ///< whether any does with its first Fresnel zone clear
-  kLoss          ///< what a radio path loses by diffraction: of the observer with the least loss in all
+  kLoss,         ///< what a radio path loses by diffraction: of the observer with the least loss in all
+  kLevel         ///< the level that a receiver in the cell gets, by a link budget: of the observer with the greatest
 };
 
 /// The errors of the surface's vertices are normal, with this standard deviation. The errors of vertices x apart are
@@ -110,7 +112,13 @@ struct Request {
   Mode mode = Mode::kVisible;
   VerticalError vertical_error = {};  ///< kProbability
   FresnelCriterion fresnel = {};      ///< kFresnel: a visible cell is one whose zone is clear
-  RadioPath radio = {};               ///< kLoss; its effective radius is that of `earth`
+  RadioPath radio = {};               ///< kLoss, kLevel; its effective radius is that of `earth`
+  /// kLevel: the first end of each link is an observer, the second is in a cell. Antennas with a pattern at observers
+  /// need an azimuth and a tilt, for they cannot aim at all cells. Multipath is of single links, and refused.
+  profile::BudgetQuery budget = {};
+  /// kLevel: the margins over the sensitivity between which regions and legends tell cells apart, ascending, dB;
+  /// none: 0 alone. They need a sensitivity, and no value depends on them.
+  std::vector<double> margins_db = {};
 };
 
 inline constexpr int kDefaultCells = 2048;

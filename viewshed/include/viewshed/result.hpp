@@ -133,9 +133,18 @@ struct Losses {
   std::vector<float> diffraction_db;
   std::vector<float> free_space_db;
 };
+/// kLevel: the level at the receiver in clear air, by profile::link_budget() with the losses of kLoss, of the observer
+/// for whom it is greatest; NaN where kLoss has no value.
+struct Levels {
+  std::vector<float> level_dbm;
+  /// With rain and a sensitivity: the minutes of an average year in which rain takes more than the margin; less than
+  /// 0.001 % of the year counts as 0.001 %, 5.26 minutes. NaN where the level is not above the sensitivity, where rain
+  /// takes more for over 1 % of the year, and beyond the lengths and frequencies of P.530. Otherwise empty.
+  std::vector<float> outage_minutes;
+};
 /// The values of a mode; kVisible and kFresnel have none.
 using ModeValues = std::variant<std::monostate, Counts, ObserverSets, Angles, NearestObservers, Blockers, LeastHeights,
-                                Probabilities, Losses>;
+                                Probabilities, Losses, Levels>;
 
 struct Result {
   Request request;  ///< as understood

@@ -30,13 +30,15 @@ struct GeotiffOptions {
 
 /// Writes the result with write_raster(). Byte: classes (Verdict, nodata 255; also for kFresnel). UInt16: counts
 /// (nodata 65535). UInt32: bits without nodata (0 where none sees, a band for every 32 observers). Float32 (nodata
-/// NaN): angles, bands of distance and number of the nearest, and bands of both losses. Throws FileError, Cancelled.
+/// NaN): angles, bands of distance and number of the nearest, bands of both losses, and bands of the level, of its
+/// margin over a sensitivity and of outages. Throws FileError, Cancelled.
 void write_geotiff(const std::string& path, const Result& result, const GeotiffOptions& options,
                    const Progress& progress = NoProgress());
 
-/// Writes what is seen as polygons to a GeoPackage, one per class as write_regions() does. The classes are visible,
-/// hidden and undecided; in sight with the zone cut; one for every count, nearest observer or theme that hides; and the
-/// cells where `no_data`, if it is given, is 1. Throws FileError.
+/// Writes what is seen as polygons to a GeoPackage or as GeoJSON, one per class as write_regions() does. The classes
+/// are visible, hidden and undecided; in sight with the zone cut; one for every count, nearest observer or theme that
+/// hides; the bands of levels, whose limits are the request's margins; and the cells where `no_data`, if it is given,
+/// is 1. Throws FileError, and InputError as write_regions() does.
 void write_polygons(const std::string& path, const Result& result, const std::string& crs_wkt, bool overwrite,
                     std::span<const std::uint8_t> no_data = {});
 

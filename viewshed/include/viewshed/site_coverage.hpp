@@ -23,6 +23,9 @@
 // With a FresnelCriterion the Fresnel zone is judged over the same surfaces, after the line (over coarse surfaces only
 // where the memory does not hold the full one). A target whose zone the lower surface cuts is not served; a target
 // whose zone clears the upper surface is. The last stage agrees with fresnel_clearance() on each link's profile.
+//
+// With a ServingLevel a target is served where a link budget gives its receiver enough. That takes all of the profile
+// under each line, and is exact at once; no option can be left out by bounds, except by its radius.
 #pragma once
 
 #include <cstdint>
@@ -34,6 +37,7 @@
 
 #include <itin/raster.hpp>
 #include <itin/store.hpp>
+#include <profile/diffraction.hpp>
 #include <viewshed/result.hpp>
 #include <viewshed/siting.hpp>
 
@@ -74,6 +78,14 @@ enum class OpenTargets {
   kServed     ///< the bounds are of what may be served: the worst case for sites that are to be hidden
 };
 
+/// By what level at its receiver a target is served, in sight or not. The first end of each link is a site.
+struct ServingLevel {
+  RadioPath radio = {};  ///< its effective radius is that of the survey's Earth
+  profile::BudgetQuery budget = {};
+  double least_dbm = 0;           ///< a target is served from this level on
+  bool sites_on_surface = false;  ///< heights of sites are above the surface with the themes
+};
+
 struct SiteSurvey {
   std::vector<SitePosition> positions = {};  ///< one per option
   SiteTargets targets = {};
@@ -85,6 +97,9 @@ struct SiteSurvey {
   ThemeChoice themes = ThemeChoice::none();
   /// With a criterion, a target in sight is served only if its link meets the criterion, too.
   std::optional<FresnelCriterion> fresnel = {};
+  /// In place of sight and of Fresnel zones: levels, which have one stage. They are those of compute() in mode kLevel
+  /// for cells, and of survey_links() for points.
+  std::optional<ServingLevel> level = {};
   // The following change the speed, never what is exact.
   Engine engine = Engine::kAuto;         ///< judges cells at full detail; points are decided by rays
   std::optional<double> tolerance = {};  ///< tolerance of the first stage; nothing: chosen by the number of points

@@ -143,6 +143,11 @@ struct SitePlanRequest {
   /// clear. Links among sites are judged so, too.
   std::optional<double> frequency_ghz = {};
   double fresnel = 0.6;
+  /// With a link budget, which needs a frequency and a sensitivity, a target is served instead where its receiver gets
+  /// the sensitivity and `margin_db` more, in sight or not. Not for `turbines` and premises; without rain and
+  /// multipath.
+  profile::BudgetQuery link_budget = {};
+  double margin_db = 0;
 
   // The choice ends at the first of these that is reached; at least one is given.
   std::optional<std::size_t> count = {};
@@ -172,6 +177,9 @@ struct SitePlanRequest {
   Objective objective() const { return turbines ? Objective::kLeast : Objective::kMost; }
   bool sums_heights() const { return turbines && turbines->minimised == Minimised::kHeight; }
   bool has_links() const { return intervisible || hub; }
+  bool by_level() const { return link_budget.asks(); }
+  /// The least level that serves. Precondition: by_level().
+  double least_dbm() const { return *link_budget.sensitivity_dbm + margin_db; }
 };
 
 /// A place where a site may stand.
@@ -286,6 +294,7 @@ enum class PointService : std::uint8_t {
   kTooFew,     ///< fewer sites serve it than SitePlanRequest::cover asks for
   kUndecided,  ///< it is served if ground without data hides nothing, or was not surveyed exactly (`exact_chosen`)
   kZoneCut,    ///< it is in sight, with too little of the Fresnel zone clear
+  kTooWeak,    ///< the greatest level that a site gives it is too low
   kHidden,
   kOutOfReach,  ///< it lies beyond the radius of all sites
   kNoGround     ///< there is no data under it
@@ -299,6 +308,9 @@ struct ServingLine {
   std::optional<double> tightest_clearance_m = {};
   std::optional<double> tightest_m = {};        ///< the distance of that place from the site
   std::optional<double> fresnel_fraction = {};  ///< nothing without a frequency
+  // With a link budget; nothing where an antenna is within a feature:
+  std::optional<double> level_dbm = {};
+  std::optional<double> margin_db = {};  ///< over the sensitivity
 };
 
 /// What the chosen and the existing masts are to a point of the demand.
@@ -307,7 +319,8 @@ struct PointResult {
   SitePosition place = {};  ///< its ground is 0 where there is none
   PointService service = PointService::kOutOfReach;
   std::size_t serving = 0;  ///< how many sites serve it
-  /// The line to the nearest site that serves it; else to the one within reach that comes nearest to serving it.
+  /// The line to the nearest site that serves it, or with a link budget to the one that gives it most; else to the one
+  /// within reach that comes nearest to serving it.
   std::optional<ServingLine> line = {};
 };
 

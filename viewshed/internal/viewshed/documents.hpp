@@ -26,11 +26,21 @@ double decided_percent(const CellCounts& cells);
 
 /// How many cells in view a mode has no value for.
 struct CellsWithoutValue {
-  const char* value;  ///< height, probability or loss
+  const char* value;  ///< height, probability, loss or level
   std::uint64_t cells = 0;
 };
-/// Returns the cells without a value in kHeight, kProbability or kLoss; nothing in other modes.
+/// Returns the cells without a value in kHeight, kProbability, kLoss or kLevel; nothing in other modes.
 std::optional<CellsWithoutValue> cells_without_value(const Result& result);
+
+/// How many cells have a margin over the sensitivity.
+struct CellsWithMargin {
+  double margin_db = 0;
+  std::size_t band = 0;  ///< the weakest of the levels' bands that has it
+  std::uint64_t cells = 0;
+};
+/// Returns the cells with each of the request's margins in kLevel, or with none to spare; nothing in other modes and
+/// without a sensitivity.
+std::vector<CellsWithMargin> cells_with_margins(const Result& result);
 
 /// Returns `crs`, `surface`, `refraction`, `grid`, `cells`, `area_m2` and `statistics`, and for a certified result
 /// `decided_percent` and `decided_exactly`.

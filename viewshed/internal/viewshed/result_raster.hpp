@@ -22,6 +22,8 @@ struct ResultRasterOptions {
 
 /// The command line's names of the modes, in their order; those of radio come last.
 std::span<const std::string_view> mode_names();
+/// The names of the modes that need no frequency.
+std::span<const std::string_view> modes_of_sight();
 /// Returns the command line's name of what cells have: "visible", "certified", "count", ...
 std::string mode_name(Mode mode, bool certified);
 

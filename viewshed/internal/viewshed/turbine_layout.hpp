@@ -25,8 +25,10 @@ class Dwellings {
  public:
   Dwellings(std::vector<Point2> points, std::optional<Window> polygons);
 
+  /// Returns how far the nearest dwelling is, 0 within one, or `most` where none is nearer.
+  double metres_to(Point2 position, double most) const;
   /// Tells whether a dwelling is nearer than `metres`, or the position lies within one.
-  bool any_within(Point2 position, double metres) const;
+  bool any_within(Point2 position, double metres) const { return metres_to(position, metres) < metres; }
 
  private:
   std::vector<Point2> points_;

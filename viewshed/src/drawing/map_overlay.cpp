@@ -17,6 +17,7 @@
 
 #include "line/infinity.hpp"
 #include "modes/feature_names.hpp"
+#include "request/request.hpp"
 #include "turbines/value_bands.hpp"
 
 namespace itin::viewshed {
@@ -146,6 +147,8 @@ double MapOverlay::value(std::size_t cell) const {
       return result_.get<Probabilities>().probability[cell];
     case Mode::kLoss:
       return result_.get<Losses>().diffraction_db[cell];
+    case Mode::kLevel:
+      return result_.get<Levels>().level_dbm[cell];
     case Mode::kVisible:
     case Mode::kFresnel:
       break;
@@ -189,6 +192,8 @@ void MapOverlay::make_scale(const MapOptions& options) {
       return scale_probabilities();
     case Mode::kLoss:
       return scale_losses();
+    case Mode::kLevel:
+      return scale_levels();
     case Mode::kVisible:
     case Mode::kFresnel:
       return;
@@ -311,6 +316,12 @@ void MapOverlay::scale_losses() {
   add_step(kInfinity, {kPalette[3], kOpacity}, fmt::format("> {:.10g}", from));
 }
 
+void MapOverlay::scale_levels() {
+  const std::optional<double>& sensitivity = result_.request.budget.sensitivity_dbm;
+  title_ = sensitivity ? fmt::format("Level over a sensitivity of {:g} dBm", *sensitivity) : "Received level";
+  for (const ValueBand& band : level_bands(result_.request)) add_step(band.to, {band.colour, kOpacity}, band.label);
+}
+
 /// Adds a key with the cells' share of those with data in view.
 void MapOverlay::add_key(std::vector<Tint> tints, const std::string& what, std::uint64_t cells) {
   const double decided = static_cast<double>(std::max<std::uint64_t>(1, result_.cells.in_view()));
@@ -332,12 +343,24 @@ std::string MapOverlay::area_of(std::uint64_t cells) const {
 
 void MapOverlay::make_keys(const MapOptions& options) {
   const CellCounts& cells = result_.cells;
-  if (result_.request.mode != Mode::kLoss) add_verdict_keys(options);
+  if (result_.request.mode == Mode::kLevel) add_margin_keys();
+  if (!studies_paths(result_.request)) add_verdict_keys(options);
   // Undecided cells have no value, either, but a key of their own.
   if (const auto without = cells_without_value(result_); without && without->cells > cells.undecided)
     add_key({}, fmt::format("No {} known", without->value), without->cells - cells.undecided);
   if (cells.undecided > 0 || result_.certified)
     add_key({{kUndecidedColour, kOpacity}}, "Undecided", cells.undecided, options, &ClassShares::undecided);
+}
+
+void MapOverlay::add_margin_keys() {
+  for (const CellsWithMargin& with : cells_with_margins(result_)) {
+    std::vector<Tint> tints;
+    for (std::size_t i = with.band; i < steps_.size(); ++i) tints.push_back(steps_[i].tint);
+    add_key(
+        std::move(tints),
+        with.margin_db == 0 ? "At or above the sensitivity" : fmt::format("Margin of {:g} dB or more", with.margin_db),
+        with.cells);
+  }
 }
 
 void MapOverlay::add_verdict_keys(const MapOptions& options) {

@@ -59,6 +59,7 @@ class MapOverlay {
   void scale_heights();
   void scale_probabilities();
   void scale_losses();
+  void scale_levels();
   double blocker_value(std::uint32_t theme) const;
   void add_step(double most, Tint tint, std::string text);
   void add_key(std::vector<Tint> tints, const std::string& what, std::uint64_t cells);
@@ -66,6 +67,7 @@ class MapOverlay {
                double ClassShares::*share);
   std::string area_of(std::uint64_t cells) const;
   void make_keys(const MapOptions& options);
+  void add_margin_keys();
   void add_verdict_keys(const MapOptions& options);
 
   const Result& result_;

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -10,6 +11,8 @@
 #include <itin/table_columns.hpp>
 #include <viewshed/documents.hpp>
 #include <viewshed/site_plan.hpp>
+
+#include "turbines/value_bands.hpp"
 
 namespace itin::viewshed {
 
@@ -80,7 +83,24 @@ std::optional<CellsWithoutValue> cells_without_value(const Result& result) {
   if (const auto* of = std::get_if<LeastHeights>(&result.values)) return without("height", of->height_m);
   if (const auto* of = std::get_if<Probabilities>(&result.values)) return without("probability", of->probability);
   if (const auto* of = std::get_if<Losses>(&result.values)) return without("loss", of->diffraction_db);
+  if (const auto* of = std::get_if<Levels>(&result.values)) return without("level", of->level_dbm);
   return std::nullopt;
+}
+
+std::vector<CellsWithMargin> cells_with_margins(const Result& result) {
+  const auto* levels = std::get_if<Levels>(&result.values);
+  if (levels == nullptr || !result.request.budget.sensitivity_dbm) return {};
+  const std::vector<ValueBand> bands = level_bands(result.request);
+  std::vector<std::uint64_t> cells(bands.size());
+  for (const float level : levels->level_dbm)
+    if (!std::isnan(level)) ++cells[band_of(bands, level)];
+  const std::vector<double> none{0}, &margins = result.request.margins_db.empty() ? none : result.request.margins_db;
+  std::vector<CellsWithMargin> with;
+  for (std::size_t i = 0; i < margins.size(); ++i)
+    with.push_back(
+        {margins[i], i + 1,
+         std::accumulate(cells.begin() + static_cast<std::ptrdiff_t>(i) + 1, cells.end(), std::uint64_t{0})});
+  return with;
 }
 
 Document viewshed_document(const StoreMetadata& metadata, const Result& result) {
@@ -93,6 +113,9 @@ Document viewshed_document(const StoreMetadata& metadata, const Result& result) 
   document["grid"] = grid_document(result.grid);
   document["cells"] = of_verdicts(result, [](std::uint64_t cells) { return cells; });
   document["area_m2"] = of_verdicts(result, [&](std::uint64_t cells) { return static_cast<double>(cells) * area; });
+  for (const CellsWithMargin& with : cells_with_margins(result))
+    document["margins"].push_back(
+        {{"margin_db", with.margin_db}, {"cells", with.cells}, {"area_m2", static_cast<double>(with.cells) * area}});
   if (result.certified) {
     document["decided_percent"] = decided_percent(result.cells);
     document["decided_exactly"] = result.decided_exactly;

@@ -50,6 +50,24 @@ void add_of_observers(const std::string& name, const Request& request, std::opti
   if (texts != std::vector<std::string>{"-"}) items.emplace_back(name, fmt::format("{}", fmt::join(texts, " ")));
 }
 
+void add_budget(const profile::BudgetQuery& budget, Metadata& items) {
+  const auto add = [&](const char* name, const std::optional<double>& value) {
+    if (value) items.emplace_back(name, text_of(*value));
+  };
+  add("power_dbm", budget.power_dbm);
+  add("eirp_dbm", budget.eirp_dbm);
+  add("gain1_dbi", budget.from_gain_dbi);
+  add("gain2_dbi", budget.to_gain_dbi);
+  add("feeder_loss1_db", budget.from_feeder_db);
+  add("feeder_loss2_db", budget.to_feeder_db);
+  add("sensitivity_dbm", budget.sensitivity_dbm);
+  add("rain_rate_mm_h", budget.rain_rate_mm_h);
+  add("antenna1_azimuth_deg", budget.from_antenna.azimuth_deg);
+  add("antenna1_tilt_deg", budget.from_antenna.tilt_deg);
+  add("antenna2_azimuth_deg", budget.to_antenna.azimuth_deg);
+  add("antenna2_tilt_deg", budget.to_antenna.tilt_deg);
+}
+
 Metadata metadata_of(const Result& result) {
   const Request& r = result.request;
   Metadata items{{"observers", observers_text(r.observers)},
@@ -73,12 +91,13 @@ Metadata metadata_of(const Result& result) {
     items.emplace_back("wavelength_m", fmt::format("{:.12g}", r.fresnel.wavelength));
     items.emplace_back("fresnel", fmt::format("{:.12g}", r.fresnel.fraction));
   }
-  if (r.mode == Mode::kLoss) {
+  if (studies_paths(r)) {
     items.emplace_back("frequency_ghz", fmt::format("{:.12g}", r.radio.frequency_ghz));
     items.emplace_back("effective_earth_km", fmt::format("{:.12g}", r.radio.effective_earth_km));
     items.emplace_back("polarisation", r.radio.polarisation == Polarisation::kVertical ? "v" : "h");
     items.emplace_back("over_sea", fmt::format("{:.12g}", r.radio.over_sea));
   }
+  if (r.mode == Mode::kLevel) add_budget(r.budget, items);
   if (r.mode == Mode::kBlocker) {
     for (std::size_t i = 0; i < result.theme_names.size(); ++i)
       items.emplace_back(fmt::format("theme_{}", i + 1), result.theme_names[i]);
@@ -104,6 +123,20 @@ class Writer {
     std::vector<float> values = losses.diffraction_db;
     values.insert(values.end(), losses.free_space_db.begin(), losses.free_space_db.end());
     write<float>({"diffraction loss (ITU-R P.526, delta-Bullington), dB", "free-space loss, dB"}, kNaN, values);
+  }
+  void levels() {
+    const auto& levels = result_.get<Levels>();
+    std::vector<std::string> bands{"received level, dBm"};
+    std::vector<float> values = levels.level_dbm;
+    if (const std::optional<double>& sensitivity = result_.request.budget.sensitivity_dbm) {
+      bands.emplace_back("margin over the sensitivity, dB");
+      for (const float level : levels.level_dbm) values.push_back(static_cast<float>(level - *sensitivity));
+    }
+    if (!levels.outage_minutes.empty()) {
+      bands.emplace_back("outage by rain, minutes a year; 5.26 and less counts as 5.26");
+      values.insert(values.end(), levels.outage_minutes.begin(), levels.outage_minutes.end());
+    }
+    write<float>(bands, kNaN, values);
   }
   void counts() { write<std::uint16_t>({"observers that see the cell"}, kCountOutside, result_.get<Counts>().count); }
   void angles() {
@@ -213,6 +246,8 @@ void write_geotiff(const std::string& path, const Result& result, const GeotiffO
       return writer.verdicts("first Fresnel zone");
     case Mode::kLoss:
       return writer.losses();
+    case Mode::kLevel:
+      return writer.levels();
   }
 }
 

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <set>
 #include <span>
@@ -58,6 +59,26 @@ RegionClasses classes_of_blockers(const Result& result) {
   return classes;
 }
 
+/// The band of each cell in view, from 1; 0 where no level is known.
+std::vector<std::uint8_t> codes_of_levels(const Result& result, const std::vector<ValueBand>& bands) {
+  const std::vector<float>& levels = result.get<Levels>().level_dbm;
+  std::vector<std::uint8_t> codes(levels.size());
+  for (std::size_t i = 0; i < levels.size(); ++i) {
+    if (result.visible[i] == Verdict::kOutside) codes[i] = code_of(Verdict::kOutside);
+    if (!std::isnan(levels[i])) codes[i] = static_cast<std::uint8_t>(band_of(bands, levels[i]) + 1);
+  }
+  return codes;
+}
+
+/// The strongest come first, the unknown last.
+RegionClasses classes_of_levels(const std::vector<ValueBand>& bands) {
+  RegionClasses classes;
+  for (std::size_t i = bands.size(); i-- > 0;)
+    classes.push_back({static_cast<std::uint32_t>(i + 1), bands[i].label, bands[i].colour});
+  classes.push_back({0, "level not known", kUndecidedGrey});
+  return classes;
+}
+
 }  // namespace
 
 void write_polygons(const std::string& path, const Result& result, const std::string& crs_wkt, bool overwrite,
@@ -76,7 +97,8 @@ void write_polygons(const std::string& path, const Result& result, const std::st
       values = marked;
     }
     description.classes = std::move(classes);
-    for (std::size_t i = 0; i < description.classes.size() && description.classes.size() > 1; ++i)
+    const bool ordered = result.request.mode == Mode::kLevel;
+    for (std::size_t i = 0; i < description.classes.size() && description.classes.size() > 1 && !ordered; ++i)
       description.classes[i].colour = distinct_colour(i);
     if (!no_data.empty()) description.classes.push_back({kNoData, "no ground data", {160, 160, 160}});
     write_regions(path, result.grid, values, description);
@@ -88,6 +110,10 @@ void write_polygons(const std::string& path, const Result& result, const std::st
       return write(result.get<NearestObservers>().number, classes_of_observers(result));
     case Mode::kBlocker:
       return write(result.get<Blockers>().theme, classes_of_blockers(result));
+    case Mode::kLevel: {
+      const std::vector<ValueBand> bands = level_bands(result.request);
+      return write(codes_of_levels(result, bands), classes_of_levels(bands));
+    }
     case Mode::kFresnel:
     case Mode::kVisible:
     case Mode::kWhich:

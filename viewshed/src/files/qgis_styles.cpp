@@ -89,6 +89,8 @@ std::string qgis_style(const Result& result) {
       return banded_style(limit_bands({0.05, 0.25, 0.5, 0.75, 0.95}, "of the surfaces"));
     case Mode::kLoss:
       return banded_style(loss_bands());
+    case Mode::kLevel:
+      return banded_style(level_bands(result.request));
     case Mode::kHeight:
       return banded_style(height_bands());
     case Mode::kAngle:

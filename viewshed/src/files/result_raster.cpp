@@ -11,8 +11,8 @@ namespace itin::viewshed {
 namespace {
 
 /// In the order of Mode.
-constexpr std::array<std::string_view, 10> kModeNames{"visible", "count",  "which",       "angle",   "nearest",
-                                                      "blocker", "height", "probability", "fresnel", "loss"};
+constexpr std::array<std::string_view, 11> kModeNames{
+    "visible", "count", "which", "angle", "nearest", "blocker", "height", "probability", "fresnel", "loss", "level"};
 
 const char* standing_on(bool surface) {
   return surface ? "surface" : "ground";
@@ -22,6 +22,10 @@ const char* standing_on(bool surface) {
 
 std::span<const std::string_view> mode_names() {
   return kModeNames;
+}
+
+std::span<const std::string_view> modes_of_sight() {
+  return mode_names().first(static_cast<std::size_t>(Mode::kFresnel));
 }
 
 std::string mode_name(Mode mode, bool certified) {

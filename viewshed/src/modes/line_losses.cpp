@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <itin/azimuth.hpp>
 #include <itin/grid_units.hpp>
 #include <itin/section_line.hpp>
 
@@ -58,7 +59,8 @@ LineLosses::LineLosses(std::shared_ptr<const SurfacePieces> surface, std::shared
 LineLosses::Outcome LineLosses::of_line(const Line& line, Scratch& scratch) const {
   const Grid& grid = surface_->grid();
   const auto metres = [&](const Point3& end) { return place_in_metres(grid, {end.x, end.y}); };
-  const SectionLine section(grid, metres(line.from), metres(line.to));
+  const Point2 from = metres(line.from), to = metres(line.to);
+  const SectionLine section(grid, from, to);
   const double length = section.length();
   const auto profile = [&](const SurfacePieces& over, double most_m, std::vector<PathPoint>& points) {
     over.along(section, scratch.pieces_);
@@ -74,7 +76,8 @@ LineLosses::Outcome LineLosses::of_line(const Line& line, Scratch& scratch) cons
   if (bare_) profile(*bare_, kInfinity, scratch.ground_);
   const std::vector<PathPoint>& ground = bare_ ? scratch.ground_ : scratch.tops_;
   outcome.loss = Loss{delta_bullington(scratch.tops_, ground, *ends, path_).ld_db,
-                      free_space_db(std::hypot(length, ends->to_m - ends->from_m), wavelength_m(path_.frequency_ghz))};
+                      free_space_db(std::hypot(length, ends->to_m - ends->from_m), wavelength_m(path_.frequency_ghz)),
+                      *ends, grid_azimuth_deg(from, to)};
   return outcome;
 }
 

@@ -32,6 +32,8 @@ class LineLosses {
   struct Loss {
     double diffraction_db = 0;  ///< delta-Bullington
     double free_space_db = 0;
+    PathEnds ends = {};
+    double azimuth_deg = 0;  ///< from the first end to the second, from grid north
   };
   struct Outcome {
     std::optional<Loss> loss;   ///< over known ground; nothing where an end is within a raised feature

@@ -14,30 +14,17 @@ constexpr float kNoLoss = kFloatInfinity;
 
 }  // namespace
 
-LossObservation::LossObservation(NoData nodata) : nodata_(nodata) {
+LossObservation::LossObservation(NoData nodata) : PathObservation(nodata) {
   diffraction_.fill(kNoLoss);
   free_space_.fill(kNoLoss);
 }
 
-std::uint64_t LossObservation::observe(const TileView& tile) {
-  const std::uint64_t lines = Observation::observe(tile);
-  scratch_ = {};
-  return lines;
-}
-
-void LossObservation::study(const TileView& tile, const CellView& view, const Sight& sight) {
-  if (sight.verdict == Verdict::kUndecided) {
-    unknown_.set(view.cell);
-    return;
-  }
-  const LineLosses::Outcome outcome = tile.studies->losses->of_line({sight.from, sight.to}, scratch_);
-  if (outcome.over_missing && nodata_ == NoData::kUnknown) unknown_.set(view.cell);
-  if (!outcome.loss || (outcome.over_missing && nodata_ != NoData::kClear)) return;
-  const auto diffraction = static_cast<float>(outcome.loss->diffraction_db);
-  const auto free_space = static_cast<float>(outcome.loss->free_space_db);
+void LossObservation::take(std::size_t cell, const LineLosses::Loss& loss) {
+  const auto diffraction = static_cast<float>(loss.diffraction_db);
+  const auto free_space = static_cast<float>(loss.free_space_db);
   // If observers have equal sums, the one with the clearer line counts, whichever comes first.
-  float& least = diffraction_[view.cell];
-  float& beside = free_space_[view.cell];
+  float& least = diffraction_[cell];
+  float& beside = free_space_[cell];
   if (std::pair(diffraction + free_space, diffraction) < std::pair(least + beside, least))
     least = diffraction, beside = free_space;
 }
@@ -46,7 +33,7 @@ void LossObservation::store_row(const StoredRow& row, Result& result) const {
   constexpr float kNoValue = std::numeric_limits<float>::quiet_NaN();
   auto& losses = result.get<Losses>();
   row.for_each([&](std::size_t cell, std::size_t place) {
-    const bool known = !unknown_[cell] && !std::isinf(diffraction_[cell]);
+    const bool known = !unknown(cell) && !std::isinf(diffraction_[cell]);
     losses.diffraction_db[place] = known ? diffraction_[cell] : kNoValue;
     losses.free_space_db[place] = known ? free_space_[cell] : kNoValue;
   });

@@ -2,6 +2,8 @@
 
 #include <limits>
 
+#include "request/request.hpp"
+
 namespace itin::viewshed {
 
 ModeValues values_outside(const Request& request, std::size_t cells) {
@@ -26,6 +28,8 @@ ModeValues values_outside(const Request& request, std::size_t cells) {
       return Probabilities{none()};
     case Mode::kLoss:
       return Losses{none(), none()};
+    case Mode::kLevel:
+      return Levels{none(), tells_outage(request) ? none() : std::vector<float>()};
   }
   return {};
 }

@@ -9,6 +9,7 @@
 #include "line/tile_parts.hpp"
 #include "modes/blocker_observation.hpp"
 #include "modes/least_height_observation.hpp"
+#include "modes/level_observation.hpp"
 #include "modes/loss_observation.hpp"
 #include "modes/mode_values.hpp"
 #include "modes/probability_observation.hpp"
@@ -193,6 +194,8 @@ std::unique_ptr<Observation> Observations::of_tile() {
       return std::make_unique<ZoneObservation>();
     case Mode::kLoss:
       return std::make_unique<LossObservation>(request_.nodata);
+    case Mode::kLevel:
+      return std::make_unique<LevelObservation>(request_);
     case Mode::kVisible:
       break;
   }

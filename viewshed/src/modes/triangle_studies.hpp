@@ -11,6 +11,7 @@
 #include "modes/line_losses.hpp"
 #include "modes/triangle_finders.hpp"
 #include "modes/visibility_probability.hpp"
+#include "request/request.hpp"
 
 namespace itin::viewshed {
 
@@ -25,7 +26,7 @@ struct TriangleStudies {
       odds.emplace(surface.pyramid(progress), request.earth, request.vertical_error);
     if (request.mode == Mode::kFresnel)
       zone.emplace(surface.pyramid(progress), nullptr, request.earth, request.fresnel);
-    if (request.mode == Mode::kLoss)
+    if (studies_paths(request))
       losses.emplace(surface.pieces(progress), bare != nullptr ? bare->pieces(progress) : nullptr, request.radio);
   }
 

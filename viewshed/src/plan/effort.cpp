@@ -20,6 +20,7 @@ double effort_of_cell(const Request& request, SurfaceForm form) {
     case Mode::kProbability:
       return kOdds;
     case Mode::kLoss:
+    case Mode::kLevel:
       return kLosses;
     default:
       return form == SurfaceForm::kPosts ? kSweptCell : casts_rays(request) ? kRay : kCellOverTriangles;

@@ -30,6 +30,7 @@ std::uint64_t bytes_per_cell(const Request& request) {
       return kVerdict + 8;
     case Mode::kProbability:
     case Mode::kLoss:
+    case Mode::kLevel:
     case Mode::kNearest:
       return kVerdict + 20;
     case Mode::kBlocker:

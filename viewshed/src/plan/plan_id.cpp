@@ -65,6 +65,18 @@ class Text {
     const auto& [frequency_ghz, effective_earth_km, polarisation, over_sea] = v;
     add(frequency_ghz, effective_earth_km, polarisation, over_sea);
   }
+  void put(const profile::AntennaPattern& v) { add(v.horizontal, v.vertical, v.gain_dbi); }
+  void put(const std::pair<double, double>& v) { add(v.first, v.second); }
+  void put(const profile::AimedAntenna& v) {
+    const auto& [pattern, azimuth_deg, tilt_deg] = v;
+    add(pattern ? std::optional(*pattern) : std::nullopt, azimuth_deg, tilt_deg);
+  }
+  void put(const profile::BudgetQuery& v) {
+    const auto& [power, eirp, from_gain, to_gain, from_feeder, to_feeder, sensitivity, rain, factor, gradient,
+                 from_antenna, to_antenna] = v;
+    add(power, eirp, from_gain, to_gain, from_feeder, to_feeder, sensitivity, rain, factor, gradient, from_antenna,
+        to_antenna);
+  }
   void put(const OmittedFeature& v) {
     const auto& [theme, number, theme_name, name, id] = v;
     add(std::uint64_t{theme}, number, theme_name, name, id);
@@ -80,11 +92,12 @@ class Text {
 void add_request(Text& text, const Request& request, const std::vector<ThemeInfo>& themes) {
   const auto& [observers, target_height, target_absolute, radius, min_radius, azimuth, elevation, cell_size, grid,
                finest_default_cell, earth, detail, choice, observers_on_surface, targets_on_surface, nodata, engine,
-               mode, vertical_error, fresnel, radio] = request;
+               mode, vertical_error, fresnel, radio, budget, margins] = request;
   // The plan's grid has the cells that `grid` and `finest_default_cell` lead to.
   text.add(observers, target_height, target_absolute, radius, min_radius, azimuth, elevation, cell_size,
            grid.has_value(), earth, detail.centre(), detail.rings(), choice.names(themes), choice.omitted(),
-           observers_on_surface, targets_on_surface, nodata, engine, mode, vertical_error, fresnel, radio);
+           observers_on_surface, targets_on_surface, nodata, engine, mode, vertical_error, fresnel, radio, budget,
+           margins);
 }
 
 /// What tells a store from others is what was imported, and what became of it; not when it was imported. A digest of

@@ -88,6 +88,10 @@ class Merge::Rasters {
     copy(segment, from.diffraction_db, to.diffraction_db);
     copy(segment, from.free_space_db, to.free_space_db);
   }
+  void add(const Segment& segment, const Levels& from, Levels& to) {
+    copy(segment, from.level_dbm, to.level_dbm);
+    copy(segment, from.outage_minutes, to.outage_minutes);
+  }
   /// Renumbers the observers, which have other numbers among all than among the segment's.
   void add(const Segment& segment, const NearestObservers& from, NearestObservers& to) {
     copy(segment, from.distance_m, to.distance_m);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -153,6 +154,19 @@ void validate_radio(const Request& request) {
                      "radio");
 }
 
+void validate_margins(const Request& request) {
+  constexpr std::size_t kMostMargins = 20;
+  const std::vector<double>& margins = request.margins_db;
+  if (margins.empty()) return;
+  if (!request.budget.sensitivity_dbm)
+    throw InputError("`margins_db`: a margin is over the sensitivity; give `sensitivity_dbm`", "margins_db");
+  if (margins.size() > kMostMargins)
+    throw InputError(fmt::format("{} margins: give at most {}", margins.size(), kMostMargins), "margins_db");
+  for (std::size_t i = 0; i < margins.size(); ++i)
+    if (!std::isfinite(margins[i]) || (i > 0 && margins[i] <= margins[i - 1]))
+      throw InputError("`margins_db`: give numbers of dB, each greater than the one before", "margins_db");
+}
+
 }  // namespace
 
 bool casts_rays(const Request& request) {
@@ -161,11 +175,19 @@ bool casts_rays(const Request& request) {
 
 bool needs_triangles(const Request& request) {
   return request.mode == Mode::kBlocker || request.mode == Mode::kProbability || request.mode == Mode::kFresnel ||
-         request.mode == Mode::kLoss;
+         studies_paths(request);
 }
 
 bool needs_bare_lines(const Request& request) {
-  return request.mode == Mode::kLoss;
+  return studies_paths(request);
+}
+
+bool studies_paths(const Request& request) {
+  return request.mode == Mode::kLoss || request.mode == Mode::kLevel;
+}
+
+bool tells_outage(const Request& request) {
+  return request.mode == Mode::kLevel && request.budget.rain_rate_mm_h && request.budget.sensitivity_dbm;
 }
 
 std::optional<double> radius_of(const Request& request, const Observer& observer) {
@@ -192,7 +214,28 @@ void validate(const Request& request) {
   request.earth.validate();
   if (request.mode == Mode::kProbability) validate_errors(request.vertical_error);
   if (request.mode == Mode::kFresnel) validate_zones(request);
-  if (request.mode == Mode::kLoss) validate_radio(request);
+  if (studies_paths(request)) validate_radio(request);
+  if (request.mode != Mode::kLevel) return;
+  validate_budget_of_area(request.budget);
+  validate_margins(request);
+}
+
+void validate_budget_of_area(const profile::BudgetQuery& budget) {
+  budget.validate();
+  if (!budget.asks()) throw InputError("a level depends on what is sent: give `power_dbm` or `eirp_dbm`", "power_dbm");
+  for (const auto& [field, value] : {std::pair("geoclimatic_factor", &budget.geoclimatic_factor),
+                                     {"refractivity_gradient", &budget.refractivity_gradient}})
+    if (*value)
+      throw InputError(fmt::format("`{}`: multipath is of a single link in sight, not of an area; leave it out", field),
+                       field);
+  const profile::AimedAntenna& antenna = budget.from_antenna;
+  if (antenna.pattern && !antenna.azimuth_deg)
+    throw InputError("`antenna_azimuth`: the antenna of an observer cannot aim at all cells; say where it points",
+                     "antenna_azimuth");
+  if (antenna.pattern && !antenna.tilt_deg)
+    throw InputError(
+        "`antenna_tilt`: the antenna of an observer cannot aim at all cells; say how far it is tilted, or 0",
+        "antenna_tilt");
 }
 
 void validate_certified(const Request& request) {

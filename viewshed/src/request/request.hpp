@@ -27,6 +27,13 @@ bool casts_rays(const Request& request);
 bool needs_triangles(const Request& request);
 /// Whether the request's mode asks about the ground under raised features, too, all along its lines.
 bool needs_bare_lines(const Request& request);
+/// Throws InputError for a link budget that is none of an area: without a power, with multipath, or with an antenna at
+/// its first end that points nowhere.
+void validate_budget_of_area(const profile::BudgetQuery& budget);
+/// Whether the request's mode studies each line as a radio path.
+bool studies_paths(const Request& request);
+/// Whether the request's levels come with outages by rain.
+bool tells_outage(const Request& request);
 
 /// How far the observer looks; nothing where it looks as far as there is ground.
 std::optional<double> radius_of(const Request& request, const Observer& observer);

@@ -33,6 +33,21 @@ void colour_bands(std::vector<ValueBand>& bands) {
   for (std::size_t i = 1; i < bands.size(); ++i) bands[i].colour = kBands[(i - 1) % kBands.size()];
 }
 
+/// The colour of levels that are not enough.
+constexpr Rgba kTooWeak{225, 225, 225};
+
+/// Returns the colour of class i of n in an order: from pale yellow over green to dark blue (after ColorBrewer).
+Rgba darkening_colour(std::size_t i, std::size_t n) {
+  constexpr std::array<Rgba, 4> kStops{{{237, 248, 177}, {127, 205, 187}, {44, 127, 184}, {8, 29, 88}}};
+  const double at = n < 2 ? 0 : static_cast<double>(i) / static_cast<double>(n - 1) * (kStops.size() - 1);
+  const std::size_t stop = std::min(static_cast<std::size_t>(at), kStops.size() - 2);
+  const Rgba &a = kStops[stop], &b = kStops[stop + 1];
+  const auto mixed = [&](std::uint8_t from, std::uint8_t to) {
+    return static_cast<std::uint8_t>(std::lround(from + (to - from) * (at - static_cast<double>(stop))));
+  };
+  return {mixed(a.red, b.red), mixed(a.green, b.green), mixed(a.blue, b.blue)};
+}
+
 /// Returns the colour after so many golden angles on the circle of hues.
 Rgba hue_after(std::size_t turn) {
   const double hue = std::fmod(static_cast<double>(turn) * 0.61803398875, 1.0) * 6;
@@ -86,6 +101,30 @@ std::vector<ValueBand> limit_bands(const std::vector<double>& limits, const std:
   }
   bands.push_back({kInfinity, fmt::format("above {:g} {}", from, unit)});
   colour_bands(bands);
+  return bands;
+}
+
+std::vector<ValueBand> level_bands(const Request& request) {
+  const std::optional<double>& sensitivity = request.budget.sensitivity_dbm;
+  std::vector<double> limits(kLevelLimitsDbm.begin(), kLevelLimitsDbm.end());
+  if (sensitivity) limits = request.margins_db.empty() ? std::vector<double>{0} : request.margins_db;
+  const char* unit = sensitivity ? "dB" : "dBm";
+  const char* of = sensitivity ? "margin " : "";
+  std::vector<ValueBand> bands;
+  const auto add_below = [&](double limit, std::string label) {
+    const auto level = static_cast<float>(sensitivity.value_or(0) + limit);
+    bands.push_back({std::nextafter(level, -kFloatInfinity), std::move(label)});
+  };
+  const bool served = sensitivity && limits.front() == 0;
+  add_below(limits.front(),
+            served ? "below the sensitivity" : fmt::format("{}below {:g} {}", of, limits.front(), unit));
+  for (std::size_t i = 1; i < limits.size(); ++i)
+    add_below(limits[i], fmt::format("{}{:g} to {:g} {}", of, limits[i - 1], limits[i], unit));
+  bands.push_back({kInfinity, served && limits.size() == 1
+                                  ? "at or above the sensitivity"
+                                  : fmt::format("{}{:g} {} or more", of, limits.back(), unit)});
+  for (std::size_t i = 0; i < bands.size(); ++i) bands[i].colour = darkening_colour(i, bands.size());
+  if (sensitivity) bands.front().colour = kTooWeak;
   return bands;
 }
 

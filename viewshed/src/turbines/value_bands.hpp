@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <itin/raster.hpp>
+#include <viewshed/request.hpp>
 
 namespace itin::viewshed {
 
@@ -31,6 +32,11 @@ std::vector<ValueBand> count_bands(std::size_t most, std::vector<std::size_t> li
 std::vector<ValueBand> limit_bands(const std::vector<double>& limits, const std::string& unit);
 /// Limits of bands of diffraction losses, from slight to beyond use; dB.
 inline constexpr std::array<double, 4> kLossLimitsDb{6, 15, 30, 50};
+/// Limits of bands of levels at a receiver whose sensitivity is not known; dBm.
+inline constexpr std::array<double, 6> kLevelLimitsDbm{-100, -90, -80, -70, -60, -50};
+/// Returns the bands of levels at a receiver, from the weakest on: by the margins over the sensitivity where the
+/// request has one. A level at a limit is in the band above it.
+std::vector<ValueBand> level_bands(const Request& request);
 /// Limits of bands of least heights that are seen: those of usual masts; metres.
 inline constexpr std::array<double, 5> kMastHeightLimits{5, 10, 20, 30, 50};
 /// Returns the bands of shares of the ground, 0 to 1.

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from . import shared
 from .parameters import (
-    File,
     FileOutput,
     Flag,
     FolderOutput,
@@ -42,24 +41,8 @@ _RADIO: tuple[Parameter, ...] = (
     shared.OVER_SEA,
 )
 _BUDGET: tuple[Parameter, ...] = (
-    Number("POWER_DBM", "Power of the transmitter [dBm], for a link budget", "--power-dbm", advanced=True),
-    Number("EIRP_DBM", "EIRP of the first end [dBm], in place of the power", "--eirp-dbm", advanced=True),
-    Text(
-        "GAIN_DBI",
-        "Gain of both antennas [dBi], or of each with a comma between",
-        "--gain-dbi",
-        advanced=True,
-        help="With an EIRP, of the second antenna alone",
-    ),
-    Text("FEEDER_LOSS_DB", "Losses of feeders [dB], likewise", "--feeder-loss-db", advanced=True),
-    Number("SENSITIVITY_DBM", "Sensitivity of the receiver [dBm]", "--sensitivity-dbm", advanced=True),
-    Number(
-        "RAIN_RATE_MM_H",
-        "Rate of rain exceeded for 0.01 % of the year [mm/h]",
-        "--rain-rate-mm-h",
-        minimum=0,
-        advanced=True,
-    ),
+    *shared.LEVELS,
+    shared.RAIN,
     Number("GEOCLIMATIC_FACTOR", "Geoclimatic factor K of P.530-17", "--geoclimatic-factor", minimum=0, advanced=True),
     Number(
         "REFRACTIVITY_GRADIENT",
@@ -68,28 +51,6 @@ _BUDGET: tuple[Parameter, ...] = (
         advanced=True,
         help="Not exceeded for 1 % of an average year in the lowest 65 m; negative",
     ),
-    File(
-        "FROM_ANTENNA",
-        "Pattern of the antenna at the first end",
-        "--from-antenna",
-        advanced=True,
-        filter="Patterns of antennas (*.msi *.pln *.ant)",
-    ),
-    File(
-        "TO_ANTENNA",
-        "Pattern of the antenna at the second end",
-        "--to-antenna",
-        advanced=True,
-        filter="Patterns of antennas (*.msi *.pln *.ant)",
-    ),
-    Text(
-        "ANTENNA_AZIMUTH",
-        "Azimuth of the antenna at the first end, or of both with a comma between",
-        "--antenna-azimuth",
-        advanced=True,
-        help="Degrees from grid north; aim, or nothing, for the other end",
-    ),
-    Text("ANTENNA_TILT", "Tilt of these antennas below the horizontal", "--antenna-tilt", advanced=True),
 )
 _EARTH: tuple[Parameter, ...] = (shared.CURVATURE, shared.REFRACTION, shared.EARTH_RADIUS)
 _ENDS: tuple[Parameter, ...] = (

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from .parameters import (
     Choice,
+    File,
     FileOutput,
     Flag,
     Further,
@@ -126,6 +127,48 @@ PAPER_MAPS = (
     *_OF_MAPS,
 )
 
+LEVELS: tuple[Parameter, ...] = (
+    Number("POWER_DBM", "Power of the transmitter [dBm], for a link budget", "--power-dbm", advanced=True),
+    Number("EIRP_DBM", "EIRP of the first end [dBm], in place of the power", "--eirp-dbm", advanced=True),
+    Text(
+        "GAIN_DBI",
+        "Gain of both antennas [dBi], or of each with a comma between",
+        "--gain-dbi",
+        advanced=True,
+        help="With an EIRP, of the second antenna alone",
+    ),
+    Text("FEEDER_LOSS_DB", "Losses of feeders [dB], likewise", "--feeder-loss-db", advanced=True),
+    Number("SENSITIVITY_DBM", "Sensitivity of the receiver [dBm]", "--sensitivity-dbm", advanced=True),
+    File(
+        "FROM_ANTENNA",
+        "Pattern of the antenna at the first end",
+        "--from-antenna",
+        advanced=True,
+        filter="Patterns of antennas (*.msi *.pln *.ant)",
+    ),
+    File(
+        "TO_ANTENNA",
+        "Pattern of the antenna at the second end",
+        "--to-antenna",
+        advanced=True,
+        filter="Patterns of antennas (*.msi *.pln *.ant)",
+    ),
+    Text(
+        "ANTENNA_AZIMUTH",
+        "Azimuth of the antenna at the first end, or of both with a comma between",
+        "--antenna-azimuth",
+        advanced=True,
+        help="Degrees from grid north; aim, or nothing, for the other end",
+    ),
+    Text("ANTENNA_TILT", "Tilt of these antennas below the horizontal", "--antenna-tilt", advanced=True),
+)
+RAIN = Number(
+    "RAIN_RATE_MM_H",
+    "Rate of rain exceeded for 0.01 % of the year [mm/h]",
+    "--rain-rate-mm-h",
+    minimum=0,
+    advanced=True,
+)
 FRESNEL = Number(
     "FRESNEL", "Share of the first Fresnel zone that must be clear", "--fresnel", default=0.6, minimum=0, maximum=1
 )

@@ -98,6 +98,14 @@ class SiteMasts(Task):
         *DEMAND,
         Number("FREQUENCY", "Frequency [GHz]", "--frequency", unit="GHz", minimum=0, help="Left blank: light"),
         shared.FRESNEL,
+        *shared.LEVELS,
+        Number(
+            "MARGIN_DB",
+            "Link budget: margin over the sensitivity that serves [dB]",
+            "--margin-db",
+            default=0,
+            advanced=True,
+        ),
         FolderOutput(
             "OUTPUT",
             "Folder of results",

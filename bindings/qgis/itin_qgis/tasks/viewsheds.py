@@ -153,7 +153,9 @@ class RadioCoverage(Task):
     guide = "viewsheds.md"
     summary = (
         "Tells where the first Fresnel zone about the line to a mast is clear, where it is cut, and what is hidden; "
-        "or what a radio path to each cell loses by diffraction (ITU-R P.526) and in free space, in dB. Each cell has "
+        "or what a radio path to each cell loses by diffraction (ITU-R P.526) and in free space, in dB; or, with a link "
+        "budget, the level that a receiver in each cell gets, in dBm. The first end is then the mast, the second the "
+        "receiver, and polygons have the levels by their margins over the sensitivity. Each cell has "
         "the answer that a line of sight to it has."
     )
     parameters = (
@@ -167,6 +169,16 @@ class RadioCoverage(Task):
         RasterOutput("OUTPUT", "Radio coverage", "--output", required=True),
         shared.POLARISATION,
         shared.OVER_SEA,
+        *shared.LEVELS,
+        shared.RAIN,
+        Text(
+            "MARGIN_DB",
+            "Margins over the sensitivity that polygons tell apart [dB]",
+            "--margin-db",
+            default="0",
+            advanced=True,
+            help="Several with commas between, such as 0,10,20",
+        ),
         *_OF_THE_LAYER,
         *_FIELD_OF_VIEW,
         *(parameter for parameter in _MORE_DETAIL if parameter is not shared.EFFECTIVE_EARTH),

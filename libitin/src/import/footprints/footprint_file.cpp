@@ -16,6 +16,7 @@
 #include "gdal/source_path.hpp"
 #include "import/footprints/city_json.hpp"
 #include "import/footprints/height_raster.hpp"
+#include "import/footprints/surface_heights.hpp"
 #include "import/points/scattered_source.hpp"
 #include "import/source/source_options.hpp"
 
@@ -98,7 +99,7 @@ FootprintSource read_layer(const std::string& path, const FootprintImport& impor
   query.base_field = options.base_field;
   query.kept = feature_query(options);
   query.crs = options.crs;
-  query.height = options.height;
+  if (options.height_from.empty()) query.height = options.height;
   query.storey = options.storey;
   query.kind = feature_kind(*options.kind);
   query.roof = options.roof.value_or(query.roof);
@@ -153,7 +154,8 @@ std::string why_empty(const std::vector<std::string>& warnings) {
 bool builds_features(const ImportOptions& options) {
   if (options.kind == ThemeKind::Surface) return true;
   if (!options.kind || !may_be_raised(*options.kind)) return false;
-  return options.height || !options.height_field.empty() || !options.eaves_field.empty() ||
+  return options.height || !options.height_from.empty() || !options.height_field.empty() ||
+         !options.eaves_field.empty() ||
          std::any_of(options.sources.begin(), options.sources.end(),
                      [&](const std::string& path) { return is_city_json(path) || is_height_raster(path, options); });
 }
@@ -170,13 +172,19 @@ std::pair<double, double> height_error_of(const ImportOptions& options) {
   }
 }
 
-std::vector<FootprintFile> read_footprint_files(const ImportOptions& options, const StoreMetadata& store,
-                                                Progress& progress) {
+std::vector<FootprintFile> read_footprint_files(const ImportOptions& options, const Store& store, Progress& progress) {
+  if (options.height_percentile && options.height_from.empty())
+    throw InputError("`height_percentile` works only with `height_from`", "height_percentile");
   std::vector<SourceKind> kinds;
   for (const std::string& path : options.sources) kinds.push_back(kind_of(path, options));
   require_useful_options(options, kinds);
-  VerticalDatums datums(store);
-  const FootprintImport import{options, store, options.allow_mixed_vertical ? nullptr : &datums};
+  VerticalDatums datums(store.metadata());
+  const FootprintImport import{options, store.metadata(), options.allow_mixed_vertical ? nullptr : &datums};
+  std::optional<SurfaceHeights> surface;
+  if (!options.height_from.empty())
+    surface.emplace(SurfaceHeightsQuery{options.height_from, options.height_percentile.value_or(50), import.datums,
+                                        options.memory_bytes},
+                    store, progress);
   std::vector<FootprintFile> files;
   for (std::size_t i = 0; i < kinds.size(); ++i) {
     const std::string& path = options.sources[i];
@@ -186,6 +194,9 @@ std::vector<FootprintFile> read_footprint_files(const ImportOptions& options, co
       feature.base_rule = options.base.value_or(BaseRule::minimum);
       feature.flat_foundation = options.foundation == Foundation::flat;
     }
+    if (surface) surface->complete(file.footprints, progress);
+    for (FootprintFeature& feature : file.footprints.features)
+      if (surface && !feature.height && !feature.eaves) feature.height = options.height;
     file.info.path = path;
     file.info.kind = name_of(*options.kind);
     file.info.theme = options.theme;

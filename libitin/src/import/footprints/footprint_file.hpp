@@ -20,8 +20,7 @@ struct FootprintFile {
 };
 
 /// Reads options.sources: CityJSON, rasters, or vector layers. Throws FileError, InputError, Cancelled.
-std::vector<FootprintFile> read_footprint_files(const ImportOptions& options, const StoreMetadata& store,
-                                                Progress& progress);
+std::vector<FootprintFile> read_footprint_files(const ImportOptions& options, const Store& store, Progress& progress);
 
 /// The errors, in metres, by which cells of rasters imported with these options may stand lower, and higher, than they
 /// should.

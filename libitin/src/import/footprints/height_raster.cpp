@@ -31,7 +31,6 @@ namespace {
 constexpr double kMillimetresInMetre = 1000;
 constexpr double kHighestStep = 1000;         ///< metres
 constexpr double kHighestAboveGround = 1000;  ///< metres: a greater height is an elevation
-constexpr int kPartSide = 64;                 ///< cells: patches end where parts do
 constexpr std::uint64_t kBytesPerCell = 16;   ///< while a raster is read, and afterwards in features
 
 std::int32_t whole_millimetres(double metres, double least, const char* field) {
@@ -147,14 +146,14 @@ class HeightRasterReading {
   }
 
   void cut_into_parts() {
-    for (int row = 0; row < rows_; row += kPartSide)
-      for (int column = 0; column < columns_; column += kPartSide) add_part(column, row);
+    for (int row = 0; row < rows_; row += kHeightPartSide)
+      for (int column = 0; column < columns_; column += kHeightPartSide) add_part(column, row);
   }
 
   void add_part(int column, int row) {
     HeightCells part = rule_;
     part.first_column = column, part.first_row = row;
-    part.columns = std::min(kPartSide, columns_ - column), part.rows = std::min(kPartSide, rows_ - row);
+    part.columns = std::min(kHeightPartSide, columns_ - column), part.rows = std::min(kHeightPartSide, rows_ - row);
     for (int r = 0; r < part.rows; ++r) {
       const auto first = heights_.begin() + static_cast<std::ptrdiff_t>(index(column, row + r));
       part.heights.insert(part.heights.end(), first, first + part.columns);

@@ -18,6 +18,9 @@
 
 namespace itin {
 
+/// Parts of rasters have this many columns and rows of cells, but the last ones.
+inline constexpr int kHeightPartSide = 64;
+
 struct HeightRasterQuery {
   std::string path;
   std::string crs;                 ///< overrides the raster's own

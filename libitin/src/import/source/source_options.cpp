@@ -54,6 +54,7 @@ constexpr std::array kOptions{
     Option{"where", [](const ImportOptions& o) { return !o.where.empty(); }, kPoints | kLines | kFootprints},
     Option{"height", [](const ImportOptions& o) { return o.height.has_value(); }, kFootprints},
     Option{"height_field", [](const ImportOptions& o) { return !o.height_field.empty(); }, kFootprints},
+    Option{"height_from", [](const ImportOptions& o) { return !o.height_from.empty(); }, kFootprints},
     Option{"eaves_field", [](const ImportOptions& o) { return !o.eaves_field.empty(); }, kFootprints},
     Option{"name_field", [](const ImportOptions& o) { return !o.name_field.empty(); },
            kLines | kFootprints | kCityModels},

@@ -28,7 +28,8 @@ GroupSurfaces::GroupSurfaces(const Store& store, const SiteSurvey& survey, const
 }
 
 bool GroupSurfaces::read_whole_lattice(Progress& progress) {
-  if (stages_.themed() || survey_.fresnel || !survey_.targets.grid || stages_.casts_rays()) return false;
+  if (stages_.themed() || survey_.level || survey_.fresnel || !survey_.targets.grid || stages_.casts_rays())
+    return false;
   const std::uint64_t memory = stages_.memory();
   whole_lattice_ = SurfaceReader(store_, Detail::tolerance(0), statistics_)
                        .lattice(window_about(survey_, all_options(survey_)), ThemeChoice::none(),
@@ -38,6 +39,7 @@ bool GroupSurfaces::read_whole_lattice(Progress& progress) {
 
 std::unique_ptr<GroupSurvey> GroupSurfaces::survey_of(const std::vector<std::size_t>& group,
                                                       const StageSurface& surface, Progress& progress) {
+  if (survey_.level) return survey_levels(store_, survey_);
   if (surface.binned()) return binned(progress);
   return stages_.judges_cells_exactly(surface.level) ? exact_cells(group, surface.themed(), progress)
                                                      : enveloped(group, surface, progress);

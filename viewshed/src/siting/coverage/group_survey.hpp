@@ -52,6 +52,10 @@ std::unique_ptr<GroupSurvey> survey_points(const SiteSurvey& survey, const Reque
 std::unique_ptr<GroupSurvey> survey_by_bins(const Store& store, const SiteSurvey& survey, std::uint64_t bytes,
                                             Statistics& statistics, Progress& progress);
 
+/// Returns an exact survey of the levels that sites give to cells or points. It reads the surface about each site
+/// itself.
+std::unique_ptr<GroupSurvey> survey_levels(const Store& store, const SiteSurvey& survey);
+
 /// Returns the request of one option or several, for the parts of viewsheds that take one.
 Request request_of(const SiteSurvey& survey, std::span<const std::size_t> options);
 

@@ -52,6 +52,10 @@ bool SurveyStages::whole_fits_as_triangles() const {
 void SurveyStages::choose(bool whole_fits) {
   whole_fits_ = whole_fits;
   stages_.clear();
+  if (survey_.level) {
+    stages_.push_back({.kind = themed_ ? StageSurface::Kind::kThemed : StageSurface::Kind::kBareLevel});
+    return;
+  }
   // Where foundations cut into the ground, a target that the bare ground hides may be seen.
   if (themed_ && (!survey_.tolerance || cut_)) {
     // Over a surface in memory, judging a site exactly takes no longer than bounding it.
@@ -92,7 +96,7 @@ std::uint64_t SurveyStages::points_of(Options options, int level) const {
 }
 
 std::vector<SiteGroup> SurveyStages::groups(std::vector<std::size_t> options, const StageSurface& surface) const {
-  if (surface.binned()) return {{std::move(options), points_}};
+  if (surface.binned() || survey_.level) return {{std::move(options), points_}};
   const int level = surface.level;
   const auto fit_or_is_one = [&](Options some) {
     return some.size() < 2 || fits(points_of(some, level), some.size(), level);

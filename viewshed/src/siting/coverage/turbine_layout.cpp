@@ -10,6 +10,7 @@
 #include <viewshed/turbine_layout.hpp>
 
 #include "line/cell_tiles.hpp"
+#include "line/infinity.hpp"
 
 namespace itin::viewshed {
 
@@ -17,10 +18,11 @@ namespace {
 
 constexpr double kMostPlaces = 1e6;
 
-bool any_edge_within(const Window::Ring& ring, Point2 position, double metres) {
+double metres_to(const Window::Ring& ring, Point2 position) {
+  double least = kInfinity;
   for (std::size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++)
-    if (distance_to_segment(position, ring[j], ring[i]) < metres) return true;
-  return false;
+    least = std::min(least, distance_to_segment(position, ring[j], ring[i]));
+  return least;
 }
 
 }  // namespace
@@ -58,17 +60,17 @@ Dwellings::Dwellings(std::vector<Point2> points, std::optional<Window> polygons)
   }
 }
 
-bool Dwellings::any_within(Point2 position, double metres) const {
-  const auto point_within = [&](Point2 p) { return distance(p, position) < metres; };
-  const auto polygon_within = [&](const Polygon& polygon) {
-    if (squared_distance(position, polygon.bounds) > metres * metres) return false;
+double Dwellings::metres_to(Point2 position, double most) const {
+  double least = most;
+  for (const Point2& point : points_) least = std::min(least, distance(point, position));
+  for (const Polygon& polygon : polygons_) {
+    if (squared_distance(position, polygon.bounds) >= least * least) continue;
+    if (polygon.outline.contains(position)) return 0;
     const Window::Polygon& part = polygon.outline.parts().front();
-    return polygon.outline.contains(position) || any_edge_within(part.outer, position, metres) ||
-           std::any_of(part.holes.begin(), part.holes.end(),
-                       [&](const Window::Ring& hole) { return any_edge_within(hole, position, metres); });
-  };
-  return std::any_of(points_.begin(), points_.end(), point_within) ||
-         std::any_of(polygons_.begin(), polygons_.end(), polygon_within);
+    least = std::min(least, viewshed::metres_to(part.outer, position));
+    for (const Window::Ring& hole : part.holes) least = std::min(least, viewshed::metres_to(hole, position));
+  }
+  return least;
 }
 
 }  // namespace itin::viewshed

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <viewshed/site_links.hpp>
+
 #include "workflows/siting/request_rules.hpp"
 
 namespace itin::viewshed {
@@ -50,7 +52,12 @@ SiteSurvey survey_of_all(const SitePlanRequest& request, const SiteInputs& input
   survey.nodata = request.nodata;
   survey.open = open_targets(request);
   survey.themes = request.themes;
-  if (request.frequency_ghz) survey.fresnel = FresnelCriterion{wavelength_m(*request.frequency_ghz), request.fresnel};
+  if (request.by_level()) {
+    survey.level =
+        ServingLevel{*link_rules(request).query.radio, request.link_budget, request.least_dbm(), request.on_surface};
+  } else if (request.frequency_ghz) {
+    survey.fresnel = FresnelCriterion{wavelength_m(*request.frequency_ghz), request.fresnel};
+  }
   survey.tolerance = request.tolerance;
   survey.engine = request.engine;
   survey.memory_bytes = request.memory_bytes;

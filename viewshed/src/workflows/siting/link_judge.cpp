@@ -11,11 +11,24 @@ LinkJudge::LinkJudge(const Store& store, LinkRules rules, const SectionSurface::
 }
 
 profile::LineFindings LinkJudge::found(const SitePosition& from, const SitePosition& to) const {
-  const profile::LosQuery query = los_query(link_between(from, to), rules_.query);
+  const auto [line, ground] = profiles(from, to);
+  return profile::judge(line, los_query(link_between(from, to), rules_.query), ground);
+}
+
+std::pair<profile::LineFindings, std::optional<profile::LinkBudget>> LinkJudge::measured(const SitePosition& from,
+                                                                                         const SitePosition& to) const {
+  const auto [line, ground] = profiles(from, to);
+  const profile::Link link = link_between(from, to);
+  profile::LinkResult result = profile::judge_link(line, los_query(link, rules_.query), ground);
+  auto budget = link_budget_of(link, result, rules_.query);
+  return {std::move(*result.found), std::move(budget)};
+}
+
+std::pair<profile::Profile, profile::Profile> LinkJudge::profiles(const SitePosition& from,
+                                                                  const SitePosition& to) const {
   profile::Profile ground;
   if (ground_) ground = profile::from_section(ground_->between(from.position, to.position));
-  const profile::Profile line = profile::from_section(surface_.between(from.position, to.position));
-  return profile::judge(line, query, ground);
+  return {profile::from_section(surface_.between(from.position, to.position)), std::move(ground)};
 }
 
 }  // namespace itin::viewshed

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <optional>
+#include <utility>
 
 #include <itin/cross_section.hpp>
 #include <itin/store.hpp>
@@ -21,11 +22,18 @@ class LinkJudge {
   /// Judges the line as `itin los` does. May be called from several threads. Throws InputError where an end has no
   /// ground.
   profile::LineFindings found(const SitePosition& from, const SitePosition& to) const;
+  /// Judges the line, and works out its budget: nothing where the rules ask for none, or an antenna is within a
+  /// feature. Throws as found() does.
+  std::pair<profile::LineFindings, std::optional<profile::LinkBudget>> measured(const SitePosition& from,
+                                                                                const SitePosition& to) const;
   /// Tells whether the line meets the rules.
   bool linked(const SitePosition& from, const SitePosition& to) const { return rules_.met_by(found(from, to)); }
   const LinkRules& rules() const { return rules_; }
 
  private:
+  /// The profiles of the line over the surface and, under raised features, over the ground; else that is empty.
+  std::pair<profile::Profile, profile::Profile> profiles(const SitePosition& from, const SitePosition& to) const;
+
   LinkRules rules_;
   SectionSurface surface_;
   std::optional<SectionSurface> ground_;  ///< under the raised features

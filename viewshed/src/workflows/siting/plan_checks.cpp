@@ -1,11 +1,14 @@
 #include "workflows/siting/plan_checks.hpp"
 
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include <itin/counted.hpp>
 #include <itin/error.hpp>
 #include <viewshed/site_maps.hpp>
 
+#include "request/request.hpp"
 #include "workflows/siting/joint_coverage.hpp"
 
 namespace itin::viewshed {
@@ -14,6 +17,18 @@ namespace {
 
 void require_that(bool holds, const char* field, const char* what) {
   if (!holds) throw InputError(what, field);
+}
+
+void check_budget(const SitePlanRequest& r) {
+  validate_budget_of_area(r.link_budget);
+  require_that(r.frequency_ghz.has_value(), "frequency_ghz", "a link budget needs `frequency_ghz`");
+  require_that(r.link_budget.sensitivity_dbm.has_value(), "sensitivity_dbm",
+               "a link budget needs `sensitivity_dbm`: it says what level serves");
+  require_that(!r.link_budget.rain_rate_mm_h, "rain_rate_mm_h",
+               "`rain_rate_mm_h`: a choice of sites looks at levels in clear air; leave it out");
+  require_that(std::isfinite(r.margin_db), "margin_db", "`margin_db`: give a finite number");
+  require_that(!r.turbines && !r.demand.premises, "power_dbm",
+               "a link budget is for masts that serve cells or points, not for `turbines` or premises");
 }
 
 }  // namespace
@@ -33,6 +48,7 @@ void check(const SitePlanRequest& r) {
   require_that(r.radius > 0, "radius", "`radius` must be positive");
   require_that(r.cell_size > 0, "cell_size", "`cell_size` must be positive");
   require_that(!r.frequency_ghz || *r.frequency_ghz > 0, "frequency_ghz", "`frequency_ghz` must be positive");
+  if (r.by_level() || r.link_budget.sensitivity_dbm) check_budget(r);
   require_that(!r.share || (*r.share > 0 && *r.share <= 1), "share", "`share` must be above 0 and at most 1");
   require_that(r.cover >= 1 && r.cover <= 255, "cover", "`cover` must be 1 to 255");
   require_that(!r.turbines || (r.turbines->hub_height > 0 && r.turbines->tip_height >= r.turbines->hub_height),

@@ -15,6 +15,7 @@ namespace {
 LinkRules rules_of_points(const SitePlanRequest& request) {
   LinkRules rules = link_rules(request);
   rules.query.to_on_surface = request.demand.on_surface;
+  rules.query.budget = request.link_budget;
   return rules;
 }
 
@@ -45,6 +46,14 @@ ServingLine told_line(std::size_t site, double distance_m, const profile::LineFi
   return line;
 }
 
+/// The line between a site and a point with what it gives the receiver.
+struct MeasuredLine {
+  ServingLine line;
+  PointService unserved = PointService::kHidden;  ///< what the point is where nothing serves it
+  /// Greater levels come nearer to serving, and no level at all is farthest from it.
+  double level() const { return line.level_dbm.value_or(-std::numeric_limits<double>::infinity()); }
+};
+
 class PointJudge {
  public:
   PointJudge(const Store& store, const SitePlanRequest& request, const SiteInputs& inputs, const Choice& choice,
@@ -61,15 +70,19 @@ class PointJudge {
     for (std::size_t i = 0; i < sites_.size(); ++i)
       if (coverage_.certain[i].contains(element)) serving.push_back(i);
     result.serving = serving.size();
-    if (!serving.empty()) {
+    if (request_.by_level()) {
+      find_strongest(serving, result);
+    } else if (!serving.empty()) {
       const std::size_t nearest = *std::min_element(serving.begin(), serving.end(), [&](std::size_t a, std::size_t b) {
         return metres_to(a, result) < metres_to(b, result);
       });
       result.line = told_line(nearest, metres_to(nearest, result), lines_.found(sites_[nearest], result.place));
-      const bool enough = serving.size() >= static_cast<std::size_t>(request_.cover);
-      result.service = enough ? PointService::kServed : PointService::kTooFew;
     } else {
       find_nearest_to_serving(result);
+    }
+    if (!serving.empty()) {
+      const bool enough = serving.size() >= static_cast<std::size_t>(request_.cover);
+      result.service = enough ? PointService::kServed : PointService::kTooFew;
     }
     if (coverage_.undecided.contains(element)) result.service = PointService::kUndecided;
   }
@@ -91,6 +104,29 @@ class PointJudge {
       result.line = told_line(i, metres, found);
     }
     if (best) result.service = best->service();
+  }
+
+  /// Takes the line of the greatest level: among those of the sites that serve, where any does.
+  void find_strongest(const std::vector<std::size_t>& serving, PointResult& result) const {
+    std::optional<MeasuredLine> best;
+    for (std::size_t i = 0; i < sites_.size(); ++i) {
+      if (metres_to(i, result) > request_.radius) continue;
+      if (!serving.empty() && !std::binary_search(serving.begin(), serving.end(), i)) continue;
+      MeasuredLine measured = measured_line(i, result);
+      if (!best || best->level() < measured.level()) best = std::move(measured);
+    }
+    if (!best) return;
+    result.line = best->line;
+    result.service = best->unserved;
+  }
+
+  MeasuredLine measured_line(std::size_t site, const PointResult& result) const {
+    const auto [found, budget] = lines_.measured(sites_[site], result.place);
+    MeasuredLine measured{told_line(site, metres_to(site, result), found)};
+    if (!budget) return measured;
+    measured.line.level_dbm = budget->level_dbm, measured.line.margin_db = budget->margin_db;
+    measured.unserved = PointService::kTooWeak;
+    return measured;
   }
 
   const SitePlanRequest& request_;

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <profile/budget_text.hpp>
 #include <viewshed/site_plan.hpp>
 #include <viewshed/site_wording.hpp>
 
@@ -40,6 +41,14 @@ std::string meaning_of_served(const SitePlanRequest& request) {
   if (request.turbines)
     return fmt::format("To be least: the demand that has a clear line of sight to {} of at least one turbine",
                        minimised_part(*request.turbines));
+  if (request.by_level())
+    return fmt::format(
+        "A target is served if its receiver gets at least {:g} dBm from a site in clear air, the sensitivity of {:g} "
+        "dBm "
+        "and {:g} dB more, at {:g} GHz: {}, less free space, diffraction (ITU-R P.526, delta-Bullington) and gases "
+        "(P.676)",
+        request.least_dbm(), *request.link_budget.sensitivity_dbm, request.margin_db, *request.frequency_ghz,
+        profile::radios_text(request.link_budget));
   if (!request.frequency_ghz) return "A target is served if it has a clear line of sight to a site";
   return fmt::format(
       "A target is served if it has a clear line of sight to a site that leaves at least {:g} of the first Fresnel "

@@ -6,11 +6,11 @@
 #include <string>
 #include <utility>
 
+#include <itin/feature_style.hpp>
 #include <itin/table_columns.hpp>
 #include <viewshed/link_exclusion.hpp>
 #include <viewshed/zone_files.hpp>
 
-#include "files/vector_styles.hpp"
 #include "turbines/value_bands.hpp"
 #include "workflows/zone/sight_summary.hpp"
 #include "workflows/zone/study_radio.hpp"
@@ -28,7 +28,7 @@ std::vector<Point3> at_zero(const std::vector<Point2>& line) {
 
 /// Returns a layer of lines in their colour, with the field `what`, and `label` for the label.
 VectorLayer layer_of_lines(const char* name, const profile::SheetLines& lines, double width_mm) {
-  const std::array<ServiceClass, 1> all{{{name, name, lines.colour}}};
+  const std::array<FeatureClass, 1> all{{{name, name, lines.colour}}};
   const std::vector<TableColumn<profile::SheetLine>> columns{
       {"what", [name](const profile::SheetLine&) { return name; }}, {"label", &profile::SheetLine::label}};
   return layer_of(
@@ -38,7 +38,7 @@ VectorLayer layer_of_lines(const char* name, const profile::SheetLines& lines, d
 
 std::string style_of_farms(const Zone& zone) {
   const std::vector<std::string> farms = farms_of(zone);
-  std::vector<ServiceClass> classes;
+  std::vector<FeatureClass> classes;
   for (std::size_t f = 0; f < farms.size(); ++f)
     classes.push_back({farms[f].c_str(), farms[f].empty() ? "Turbine" : farms[f].c_str(), distinct_colour(f)});
   return point_style("farm", classes);
@@ -55,7 +55,7 @@ VectorLayer layer_of_turbines(const ZoneStudy& study) {
 }
 
 VectorLayer layer_of_viewpoints(const ZoneStudy& study) {
-  constexpr std::array<ServiceClass, 1> kAll{{{"viewpoint", "Viewpoint", {20, 60, 140}}}};
+  constexpr std::array<FeatureClass, 1> kAll{{{"viewpoint", "Viewpoint", {20, 60, 140}}}};
   struct Row {
     const Viewpoint& viewpoint;
     SightSummary seen;

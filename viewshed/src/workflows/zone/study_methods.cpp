@@ -35,8 +35,7 @@ std::string origin_in_words(const TurbineTable& table) {
     text = fmt::format(" Positions and heights are those of the file `{}` (SHA-256 {}).", table.path, table.sha256);
   const std::size_t bad = table.bad.size();
   if (bad == 0) return text;
-  return text + fmt::format(" {} of its {} could not be used and {} named in `turbines.csv`.", counted(bad, "row"),
-                            table.rows, bad == 1 ? "is" : "are");
+  return text + fmt::format(" {} of its {} could not be used.", counted(bad, "row"), table.rows);
 }
 
 std::string turbines_in_words(const ZoneStudy& study) {
@@ -120,7 +119,7 @@ std::string screening_in_words(const ZoneStudy& study) {
                            tolerance);
   const std::string omitted = omitted_text(*zone.request.themes);
   return fmt::format(
-      "The results are given for bare ground and, with `-screened` in their names, with the screening effect of these "
+      "The results are given for bare ground and, where they are called screened, with the screening effect of these "
       "features: {}.{}{} Their heights are as they were imported: by a field, by one height for all, or by a raster in "
       "whole steps. They are taken as solid in all seasons. The observer "
       "stands on the ground in both cases; an observer within a feature that is higher than the eye sees nothing.",
@@ -138,8 +137,8 @@ constexpr const char* kSheets =
 
 std::string foliage_in_words(const ZoneFoliage& foliage) {
   return fmt::format(
-      "Rasters with `-summer` and `-winter` in their names count turbines that are seen through the woods, which are "
-      "not taken as solid there. Of the light along a line exp(-{:g} a d) comes through d metres of foliage of the "
+      "The results for summer and for winter count turbines that are seen through the woods, which are not taken as "
+      "solid there. Of the light along a line exp(-{:g} a d) comes through d metres of foliage of the "
       "leaf "
       "area a, which is {:g} m²/m³ in summer and {:g} m²/m³ in winter, for which there is no source. A blade tip or "
       "hub "
@@ -149,7 +148,7 @@ std::string foliage_in_words(const ZoneFoliage& foliage) {
 }
 
 /// Tells how sight lines that cross ground without data are judged.
-std::string crossings_in_words(const Zone& zone, const std::string& decides) {
+std::string crossings_in_words(const Zone& zone) {
   if (zone.request.nodata == NoData::kClear)
     return "Where sight lines cross ground without data, it is taken as clear.";
   if (zone.request.nodata == NoData::kBlock)
@@ -161,31 +160,68 @@ std::string crossings_in_words(const Zone& zone, const std::string& decides) {
   };
   std::string text =
       "Where ground without data alone could hide a turbine, it is undecided whether that is visible. Maps, areas and "
-      "numbers of turbines count those that are certainly visible; those that are undecided are counted apart, in "
-      "`undecided.tif`. It is undecided " +
+      "numbers of turbines count those that are certainly visible; those that are undecided are counted apart. It is "
+      "undecided " +
       open(zone.bare);
   if (zone.screened) text += "; with the screening effect of features, " + open(*zone.screened);
-  return text + fmt::format(". The option `{}` decides it.", decides);
+  return text + ".";
 }
 
-std::string missing_in_words(const ZoneStudy& study, const std::string& decides) {
+std::string missing_in_words(const ZoneStudy& study) {
   const MissingGround& missing = study.missing;
   if (missing.share() == 0) return "The terrain data cover the whole study area: all places within the radii.";
   return fmt::format(
       "{} of the study area, {:.1f} km² within the radii, has no terrain data. Nothing is known of places there; they "
       "are no part of the areas and percentages given, which are of the area with data. {}",
-      missing.text(), missing.study_m2() / 1e6, crossings_in_words(study.zone, decides));
+      missing.text(), missing.study_m2() / 1e6, crossings_in_words(study.zone));
 }
 
 std::string proposal_in_words(const ZoneRequest& request) {
   return fmt::format(
       "The proposal is {}; {} consented and {} existing turbines are assessed with it. The study area is that of the "
-      "proposal alone. Within it, `tip-count.tif` and the other rasters are cumulative: they count all turbines. "
-      "`proposal-tip-count.tif` counts the proposed ones, and `additional.tif` tells where tips of the proposal are "
-      "seen "
-      "and those of no other turbine: the additional area.",
+      "proposal alone. Within it, maps and areas are cumulative, and count all turbines, unless they are called those "
+      "of "
+      "the proposal, which count the proposed ones. The additional area is where tips of the proposal are seen and "
+      "those "
+      "of no other turbine.",
       counted(proposed_turbines(request), "turbine"), turbines_with(TurbineStatus::kConsented, request),
       turbines_with(TurbineStatus::kExisting, request));
+}
+
+std::string combinations_in_words(const ZoneStudy& study) {
+  return fmt::format(
+      "Every cell is classed by the combination of wind farms of which at least one blade tip is visible from it, and "
+      "the area of each combination is given: where one of the {} is seen alone, where two are, and so on.{}",
+      counted(farms_of(study.zone).size(), "wind farm"),
+      study.zone.screened ? " This is done for bare ground, and again with the screening effect of features." : "");
+}
+
+std::string viewpoints_in_words(const ZoneStudy& study) {
+  const auto& viewpoints = study.viewpoints;
+  const auto [least, most] =
+      std::minmax_element(viewpoints.begin(), viewpoints.end(),
+                          [](const auto& a, const auto& b) { return a.viewpoint.height < b.viewpoint.height; });
+  return fmt::format(
+      "{} {} assessed, with the eyes {} above the ground. From each, every turbine is judged by itself, in the way "
+      "that "
+      "is described under Visibility, however far it is: its horizontal distance, its bearing from grid north, whether "
+      "its hub and its tip are visible, and how much of it is. A viewpoint is judged where it is, not at the centre of "
+      "its cell, so that it may differ from the maps about it.",
+      counted(viewpoints.size(), "viewpoint"), viewpoints.size() == 1 ? "is" : "are",
+      range(least->viewpoint.height, most->viewpoint.height, "m"));
+}
+
+std::string routes_in_words(const ZoneStudy& study) {
+  double length = 0;
+  std::size_t places = 0;
+  for (const StudiedRoute& route : study.routes) length += route.length, places += route.places.size();
+  return fmt::format(
+      "{}, {:.1f} km long{}, {} looked at from {} along {}, in the middle of equal stretches of at most {:g} m, with "
+      "the eyes {:g} m above the ground. What is seen from such a place counts for its whole stretch; lengths in sight "
+      "are sums of stretches, and every turbine counts, however far it is.",
+      counted(study.routes.size(), "route"), length / 1000, study.routes.size() == 1 ? "" : " in all",
+      study.routes.size() == 1 ? "is" : "are", counted(places, "place"), study.routes.size() == 1 ? "it" : "them",
+      study.request.route_step, study.zone.request.observer_height);
 }
 
 std::string radius_in_words(const ZoneStudy& study) {
@@ -234,7 +270,7 @@ std::string methods_text(const ZoneStudy& study, const ZoneStudyFileOptions& opt
                 " Distances are horizontal; beyond its own distance a turbine is not counted on maps and in "
                 "areas. Tables and sheets of viewpoints and routes count every turbine, however far it is.");
   if (has_proposal(request)) paragraph("Cumulative assessment", proposal_in_words(request));
-  paragraph("Ground without data", missing_in_words(study, options.decides_missing_ground));
+  paragraph("Ground without data", missing_in_words(study));
   paragraph("Curvature and refraction", refraction_in_words(request.earth));
   paragraph(
       "Visibility",
@@ -247,10 +283,13 @@ std::string methods_text(const ZoneStudy& study, const ZoneStudyFileOptions& opt
       "turbine above this point. Rotors are taken to face the observer. Haze, light and the acuity of the eye are not "
       "taken into account.");
   paragraph("Screening", screening_in_words(study));
+  if (farms_of(zone).size() > 1) paragraph("Combinations of wind farms", combinations_in_words(study));
+  if (!study.viewpoints.empty()) paragraph("Viewpoints", viewpoints_in_words(study));
+  if (!study.routes.empty()) paragraph("Routes", routes_in_words(study));
   if (zone.seasons) paragraph("Foliage", foliage_in_words(*request.foliage));
   if (has_viewpoints(study.request) && !options.wirelines.none)
     paragraph("Wirelines", std::string(kWirelines) + (options.sheets.papers.empty() ? "" : kSheets));
-  for (const std::string& further : radio_methods(study, options.decides_missing_ground)) text += further + "\n\n";
+  for (const std::string& further : radio_methods(study)) text += further + "\n\n";
   text += fmt::format("Computed with itin {}.\n", ITIN_VERSION);
   return text;
 }

@@ -44,22 +44,24 @@ std::vector<BadRow> bad_links(const profile::LinkTable& table) {
   return bad;
 }
 
-std::string radar_methods(const ZoneStudy& study, const std::string& decides) {
+std::string radar_methods(const ZoneStudy& study) {
   const Observer& place = *study.zone.request.radar;
   const RadarView& radar = *study.zone.radar;
   std::string text = fmt::format(
-      "## Radar\n\nA radar at {:.0f}, {:.0f}, {:g} m above its ground of {:.1f} m. `radar-height.tif` is the least "
-      "height above the ground that it sees over bare ground, with curvature and refraction as stated; "
-      "`turbines.csv` says how many metres of each turbine rise above its horizon. The heights are exact for the "
-      "surface; between the "
-      "terrain's points they depend on its triangles.",
+      "## Radar\n\nA radar at {:.0f}, {:.0f}, {:g} m above its ground of {:.1f} m. Mapped is the least height above "
+      "the "
+      "ground that it sees over bare ground, with curvature and refraction as stated; for each turbine is told how "
+      "many "
+      "metres of it rise above the radar's horizon. The heights are exact for the surface; between the terrain's "
+      "points "
+      "they depend on its triangles.",
       place.position.x, place.position.y, place.height, radar.ground_m);
   if (radar.leaves_open())
     text += fmt::format(
         " Where ground without data alone could hide something from the radar, it is undecided whether that is seen: "
-        "of {}, and from the heights of `radar-height-undecided.tif` on. What must stay out of the radar's sight has "
-        "to stay below these, too; the option `{}` decides it.",
-        counted(seen_in(radar.undecided_turbine_m), "turbine"), decides);
+        "of {}, and from the heights on that are mapped as undecided. What must stay out of the radar's sight has to "
+        "stay below these, too.",
+        counted(seen_in(radar.undecided_turbine_m), "turbine"));
   return text;
 }
 
@@ -69,8 +71,8 @@ std::string link_methods(const ZoneStudy& study) {
       radius > 0 ? fmt::format("the greatest rotor, {:g} m in radius", radius) : "the axis alone, as no rotor is known";
   return fmt::format(
       "## Radio links\n\n{} of `{}` at {:g} GHz (wavelength 0.299792458 / f). After Bacon (2002) a rotor must stay "
-      "out of the second Fresnel zone, of radius sqrt(2 lambda d1 d2 / d), in plan: `link-exclusion.tif` for {}; "
-      "`turbines.csv` for each turbine's own. Heights are not taken into account, so that ground without data leaves "
+      "out of the second Fresnel zone, of radius sqrt(2 lambda d1 d2 / d), in plan. The area is mapped for {}; each "
+      "turbine is judged by its own rotor. Heights are not taken into account, so that ground without data leaves "
       "nothing open.",
       counted(study.request.links.links.size(), "link"), study.request.links.path, study.request.frequency_ghz, rotor);
 }
@@ -157,9 +159,9 @@ Document radio_document(const ZoneStudy& study) {
   return document;
 }
 
-std::vector<std::string> radio_methods(const ZoneStudy& study, const std::string& decides) {
+std::vector<std::string> radio_methods(const ZoneStudy& study) {
   std::vector<std::string> paragraphs;
-  if (study.zone.radar) paragraphs.push_back(radar_methods(study, decides));
+  if (study.zone.radar) paragraphs.push_back(radar_methods(study));
   if (has_links(study)) paragraphs.push_back(link_methods(study));
   return paragraphs;
 }

@@ -31,9 +31,8 @@ void add_radio_columns(const ZoneStudy& study, std::vector<TableColumn<TurbineRo
 
 /// Returns how many turbines are concerned; empty where there are neither links nor a radar.
 Document radio_document(const ZoneStudy& study);
-/// Returns paragraphs for the text on methods. `decides` is what decides where ground without data leaves something
-/// open.
-std::vector<std::string> radio_methods(const ZoneStudy& study, const std::string& decides);
+/// Returns paragraphs for the text on methods.
+std::vector<std::string> radio_methods(const ZoneStudy& study);
 void warn_of_radio(const ZoneStudy& study, std::vector<std::string>& warnings);
 
 }  // namespace itin::viewshed

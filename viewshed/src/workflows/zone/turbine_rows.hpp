@@ -6,10 +6,9 @@
 #include <string>
 #include <vector>
 
+#include <itin/feature_style.hpp>
 #include <itin/table_columns.hpp>
 #include <viewshed/zone_study.hpp>
-
-#include "files/vector_styles.hpp"
 
 namespace itin::viewshed {
 
@@ -28,7 +27,7 @@ auto of_turbine(Of of) {
 }
 
 /// The classes of TurbineStatus, in its order.
-inline constexpr std::array<ServiceClass, 3> kTurbineStatuses{{{"proposed", "Proposed", {213, 94, 0}},
+inline constexpr std::array<FeatureClass, 3> kTurbineStatuses{{{"proposed", "Proposed", {213, 94, 0}},
                                                                {"consented", "Consented", {204, 121, 167}},
                                                                {"existing", "Existing", {60, 60, 60}}}};
 

@@ -21,7 +21,7 @@ using MapSample = profile::SheetKey::Sample;
 
 /// The dwellings of a class: buildings by their outlines, places in the open by marks.
 MapObjects dwellings_of(const DwellingsSurvey& survey, FlickerClass flicker) {
-  const ServiceClass& looks = class_of(flicker);
+  const FeatureClass& looks = class_of(flicker);
   profile::SheetLines outlines{{}, looks.colour, 0.5, false};
   profile::SheetMarks marks{profile::SheetSymbol::kViewpoint, looks.colour, {}};
   for (const Dwelling& dwelling : survey.dwellings) {

@@ -3,9 +3,9 @@
 #include <cmath>
 
 #include <itin/calendar_day.hpp>
+#include <itin/feature_style.hpp>
 #include <itin/table_columns.hpp>
 
-#include "files/vector_styles.hpp"
 #include "turbines/sun_behind_rotor.hpp"
 #include "workflows/dwellings/flicker_clock.hpp"
 #include "workflows/dwellings/output/dwelling_classes.hpp"

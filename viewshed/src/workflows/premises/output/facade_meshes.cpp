@@ -30,7 +30,7 @@ std::vector<ColouredMesh> facade_meshes(const PremisesSurvey& survey) {
     for (const WallPlace& wall : p.walls) {
       const WallService service = service_of(wall, survey.request.storey);
       ColouredMesh& mesh = meshes[{wall.mast.value_or(survey.masts.size()), service}];
-      const ServiceClass& looks = class_of(service);
+      const FeatureClass& looks = class_of(service);
       mesh.name = wall.mast ? survey.masts[*wall.mast].name + ": " + looks.name : looks.name;
       mesh.colour = looks.colour;
       add_faces(wall, survey.metadata.grid, mesh);

@@ -17,7 +17,7 @@ namespace {
 
 using Sample = profile::SheetKey::Sample;
 
-MapObjects lines_of_class(profile::SheetLines lines, const ServiceClass& service) {
+MapObjects lines_of_class(profile::SheetLines lines, const FeatureClass& service) {
   lines.colour = service.colour;
   return {{std::move(lines)}, {{Sample::kLine, {service.colour}, service.text}}};
 }

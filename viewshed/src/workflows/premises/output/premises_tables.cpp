@@ -2,9 +2,9 @@
 
 #include <cmath>
 
+#include <itin/feature_style.hpp>
 #include <itin/table_columns.hpp>
 
-#include "files/vector_styles.hpp"
 #include "workflows/premises/output/wall_service.hpp"
 
 namespace itin::viewshed {

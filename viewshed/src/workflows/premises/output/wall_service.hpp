@@ -5,16 +5,15 @@
 #include <cstdint>
 #include <string>
 
+#include <itin/feature_style.hpp>
 #include <itin/raster.hpp>
 #include <viewshed/premises.hpp>
-
-#include "files/vector_styles.hpp"
 
 namespace itin::viewshed {
 
 /// The classes of walls.
 enum class WallService : std::uint8_t { kLow, kHigh, kUndecided, kUnserved };
-inline constexpr std::array<ServiceClass, 4> kWallServices{
+inline constexpr std::array<FeatureClass, 4> kWallServices{
     {{"served", "Wall served from the first storey", {0, 114, 178}},
      {"served higher", "Wall served from higher up", {86, 180, 233}},
      {"undecided", "Wall undecided: ground without data", {140, 140, 140}},
@@ -23,7 +22,7 @@ WallService service_of(const WallPlace& wall, double storey);
 
 /// The classes of buildings.
 enum class PremisesService : std::uint8_t { kWall, kRoof, kUndecided, kUnserved, kOutOfReach };
-inline constexpr std::array<ServiceClass, 5> kPremisesServices{
+inline constexpr std::array<FeatureClass, 5> kPremisesServices{
     {{"wall", "Building served on a wall", {0, 114, 178}},
      {"roof", "Building served on the roof alone", {0, 158, 115}},
      {"undecided", "Building undecided: ground without data", {140, 140, 140}},
@@ -31,10 +30,10 @@ inline constexpr std::array<ServiceClass, 5> kPremisesServices{
      {"out of reach", "Building beyond the radius of all masts", {200, 200, 200}}}};
 PremisesService service_of(const Premises& premises);
 
-inline const ServiceClass& class_of(WallService service) {
+inline const FeatureClass& class_of(WallService service) {
   return kWallServices[static_cast<std::size_t>(service)];
 }
-inline const ServiceClass& class_of(PremisesService service) {
+inline const FeatureClass& class_of(PremisesService service) {
   return kPremisesServices[static_cast<std::size_t>(service)];
 }
 

@@ -7,21 +7,21 @@
 #include <tuple>
 #include <utility>
 
+#include <itin/feature_style.hpp>
 #include <itin/table_columns.hpp>
 #include <viewshed/site_maps.hpp>
 #include <viewshed/site_wording.hpp>
-
-#include "files/vector_styles.hpp"
 
 namespace itin::viewshed {
 
 namespace {
 
 /// The classes of PointService, in its order.
-constexpr std::array<ServiceClass, 7> kPointServices{{{"served", "Point served", {0, 114, 178}},
+constexpr std::array<FeatureClass, 8> kPointServices{{{"served", "Point served", {0, 114, 178}},
                                                       {"too few", "Point served by too few sites", {86, 180, 233}},
                                                       {"undecided", "Point undecided", {140, 140, 140}},
                                                       {"zone cut", "Point in sight, Fresnel zone cut", {230, 159, 0}},
+                                                      {"too weak", "Point whose level is too low", {213, 94, 0}},
                                                       {"hidden", "Point hidden from all sites", {150, 30, 30}},
                                                       {"out of reach", "Point beyond the radius", {205, 205, 205}},
                                                       {"no ground", "Point without ground data", {40, 40, 40}}}};
@@ -45,6 +45,10 @@ PointColumns point_columns(const SitePlan& r) {
   add_of_line("distance_m", &ServingLine::distance_m);
   add_of_line("tightest_clearance_m", &ServingLine::tightest_clearance_m);
   add_of_line("fresnel_fraction", &ServingLine::fresnel_fraction, "{:.4f}");
+  if (r.request.by_level()) {
+    add_of_line("level_dbm", &ServingLine::level_dbm, "{:.2f}");
+    add_of_line("margin_db", &ServingLine::margin_db, "{:.2f}");
+  }
   add_of_line("tightest_m", &ServingLine::tightest_m);
   return columns;
 }

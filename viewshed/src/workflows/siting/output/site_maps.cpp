@@ -41,7 +41,9 @@ std::string subtitle_of_plan(const SitePlanRequest& request) {
                        request.turbines->minimised_height(), request.demand.height, kilometres);
   return fmt::format(
       "Radius {:g} km, targets {:g} m up{}{}", kilometres, request.demand.height,
-      request.frequency_ghz ? fmt::format(", {:g} F1 clear at {:g} GHz", request.fresnel, *request.frequency_ghz) : "",
+      request.by_level() ? fmt::format(", {:g} dBm or more at {:g} GHz", request.least_dbm(), *request.frequency_ghz)
+      : request.frequency_ghz ? fmt::format(", {:g} F1 clear at {:g} GHz", request.fresnel, *request.frequency_ghz)
+                              : "",
       request.cover > 1 ? fmt::format(", by at least {} sites", request.cover) : "");
 }
 

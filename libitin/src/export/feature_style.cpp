@@ -1,10 +1,10 @@
-#include "files/vector_styles.hpp"
 
 #include <fmt/format.h>
 
+#include <itin/feature_style.hpp>
 #include <itin/markup.hpp>
 
-namespace itin::viewshed {
+namespace itin {
 
 namespace {
 
@@ -18,7 +18,7 @@ std::string colour_text(const Rgba& c) {
 
 /// A style with a symbol of this type for each class; layer_of(class) returns what draws it.
 template <class LayerOf>
-std::string classified_style(const char* type, const std::string& field, std::span<const ServiceClass> classes,
+std::string classified_style(const char* type, const std::string& field, std::span<const FeatureClass> classes,
                              const LayerOf& layer_of) {
   std::string categories, symbols;
   for (std::size_t i = 0; i < classes.size(); ++i) {
@@ -42,20 +42,20 @@ std::string symbol_layer(const char* type, const std::string& options) {
 
 }  // namespace
 
-std::string line_style(const std::string& field, std::span<const ServiceClass> classes, double width_mm) {
-  return classified_style("line", field, classes, [&](const ServiceClass& c) {
+std::string line_style(const std::string& field, std::span<const FeatureClass> classes, double width_mm) {
+  return classified_style("line", field, classes, [&](const FeatureClass& c) {
     return symbol_layer("SimpleLine", option("line_color", colour_text(c.colour)) + option("line_style", "solid") +
                                           option("line_width", fmt::format("{:g}", width_mm)) +
                                           option("line_width_unit", "MM"));
   });
 }
 
-std::string point_style(const std::string& field, std::span<const ServiceClass> classes) {
-  return classified_style("marker", field, classes, [](const ServiceClass& c) {
+std::string point_style(const std::string& field, std::span<const FeatureClass> classes) {
+  return classified_style("marker", field, classes, [](const FeatureClass& c) {
     return symbol_layer("SimpleMarker", option("name", "circle") + option("color", colour_text(c.colour)) +
                                             option("outline_color", "35,35,35,255") + option("size", "2") +
                                             option("size_unit", "MM"));
   });
 }
 
-}  // namespace itin::viewshed
+}  // namespace itin

@@ -8,15 +8,15 @@
 
 #include <itin/raster.hpp>
 
-namespace itin::viewshed {
+namespace itin {
 
-struct ServiceClass {
+struct FeatureClass {
   const char* name;  ///< in tables and layers
   const char* text;  ///< in legends
   Rgba colour;
 };
 
-std::string line_style(const std::string& field, std::span<const ServiceClass> classes, double width_mm);
-std::string point_style(const std::string& field, std::span<const ServiceClass> classes);
+std::string line_style(const std::string& field, std::span<const FeatureClass> classes, double width_mm);
+std::string point_style(const std::string& field, std::span<const FeatureClass> classes);
 
-}  // namespace itin::viewshed
+}  // namespace itin
