@@ -68,8 +68,9 @@ void trace(const std::string& path, const RasterGrid& grid, std::span<const T> v
 }
 
 /// Adds the layer of these regions. Returns its name and its style.
-std::pair<std::string, std::string> add_layer(GeoPackage& package, const std::string& name, const RasterGrid& grid,
-                                              const std::vector<RegionClass>& classes, Regions& regions) {
+std::pair<std::string, std::string> add_region_layer(GeoPackage& package, const std::string& name,
+                                                     const RasterGrid& grid, const std::vector<RegionClass>& classes,
+                                                     Regions& regions) {
   OGRLayer& layer = package.add_layer(name, wkbMultiPolygon);
   for (const auto& [field, type] :
        {std::pair{"value", OFTInteger64}, std::pair{"class", OFTString}, std::pair{"area_m2", OFTReal}})
@@ -105,7 +106,7 @@ void write_polygons(const std::string& path, const RasterGrid& grid, std::span<c
   PendingFile output(path, description.overwrite);
   Regions regions = regions_of(path, grid, values, type, description.classes);
   GeoPackage package(output, description.crs_wkt);
-  const auto style = add_layer(package, description.layer, grid, description.classes, regions);
+  const auto style = add_region_layer(package, description.layer, grid, description.classes, regions);
   package.require(add_layer_styles(package.dataset(), {style}));
   package.close();
   output.commit();
@@ -116,7 +117,7 @@ void write_polygons(const std::string& path, const RasterGrid& grid, std::span<c
 std::pair<std::string, std::string> add_regions(GeoPackage& package, const RegionLayer& layer) {
   const std::span<const std::uint8_t> values(layer.values);
   Regions regions = regions_of(package.path(), layer.grid, values, GDT_Byte, layer.classes);
-  return add_layer(package, layer.name, layer.grid, layer.classes, regions);
+  return add_region_layer(package, layer.name, layer.grid, layer.classes, regions);
 }
 
 void write_regions(const std::string& path, const RasterGrid& grid, std::span<const std::uint8_t> values,
