@@ -145,10 +145,15 @@ void write_profile(const profile::PathProfiles& path, const std::string& file, b
 
 struct LineOfSight {
   SharedStore store;
+  profile::StoreLine line;
   profile::LosReport report;
-  std::string json;  ///< its document
-  /// The metres of foliage on the line and the share of the light that comes through, where that was asked for.
-  std::optional<std::pair<double, double>> foliage = {};
+  // Where woods are seen through:
+  std::optional<profile::Foliage> foliage = {};
+  std::optional<profile::FoliageSight> sight = {};
+
+  std::string json() const {
+    return sight ? profile::json_of(*store, line, *sight, *foliage) : profile::json_of(*store, line, report);
+  }
 };
 
 profile::StoreLine line_of(const Point3& from, const Point3& to, const py::dict& fields) {
@@ -172,14 +177,6 @@ profile::LosQuery query_of(const Store& store, const Point3& from, const Point3&
   return query;
 }
 
-LineOfSight line_through(const SharedStore& store, const profile::StoreLine& line, const profile::LosQuery& query,
-                         const profile::Foliage& foliage) {
-  profile::FoliageSight sight = profile::through_foliage(*store, line, query, foliage);
-  std::string json = profile::json_of(*store, line, sight, foliage);
-  const std::pair through(sight.length_m, sight.transmittance);
-  return {store, profile::report_through(std::move(sight), foliage), std::move(json), through};
-}
-
 std::shared_ptr<LineOfSight> line_of_sight(const SharedStore& store, const Numbers& ends, const py::dict& fields,
                                            const py::object& show) {
   const std::vector<Point3> places = places_of(ends, "from");
@@ -189,16 +186,22 @@ std::shared_ptr<LineOfSight> line_of_sight(const SharedStore& store, const Numbe
   const std::optional<profile::Foliage> foliage = foliage_of(fields);
   return result_of(show, [&](Progress& progress) {
     left_out.leave(*store, line.themes, progress);
-    if (foliage) return std::make_shared<LineOfSight>(line_through(store, line, query, *foliage));
-    profile::LosReport report = profile::analyse(*store, line, query);
-    std::string json = profile::json_of(*store, line, report);
-    return std::make_shared<LineOfSight>(LineOfSight{store, std::move(report), std::move(json)});
+    if (!foliage) return std::make_shared<LineOfSight>(LineOfSight{store, line, profile::analyse(*store, line, query)});
+    profile::FoliageSight sight = profile::through_foliage(*store, line, query, *foliage);
+    profile::LosReport report = profile::report_through(sight, *foliage);
+    return std::make_shared<LineOfSight>(LineOfSight{store, line, std::move(report), foliage, std::move(sight)});
   });
+}
+
+/// Returns the metres of foliage on the line and the share of the light that comes through; None where woods are solid.
+py::object foliage_of_line(const LineOfSight& line) {
+  if (!line.sight) return py::none();
+  return py::make_tuple(line.sight->length_m, line.sight->transmittance);
 }
 
 void write_line(const LineOfSight& line, const std::string& path, bool overwrite) {
   profile::require_report(line.report, path);
-  run(py::none(), [&](Progress&) { profile::write_report(line.report, line.json, path, overwrite); });
+  run(py::none(), [&](Progress&) { profile::write_report(line.report, line.json(), path, overwrite); });
 }
 
 // Links.
@@ -321,8 +324,8 @@ void bind_lines(py::module_& module) {
       .def_property_readonly("distance", [](const LineOfSight& l) { return l.report.profile.length_m; })
       .def_property_readonly("clearance", [](const LineOfSight& l) { return l.report.least_clearance_m; })
       .def_property_readonly("profile", [](const LineOfSight& l) { return arrays_of(l.report.profile); })
-      .def_property_readonly("foliage", [](const LineOfSight& l) { return l.foliage; })
-      .def_property_readonly("json", [](const LineOfSight& l) { return l.json; })
+      .def_property_readonly("foliage", &foliage_of_line)
+      .def_property_readonly("json", &LineOfSight::json)
       .def("write", &write_line);
   store_class(module)
       .def("profile", &profile_along)
