@@ -2,7 +2,7 @@
 
 #include <sstream>
 
-#include <itin/site_list.hpp>
+#include <itin/error.hpp>
 
 #include "options/off_the_data.hpp"
 #include "program/call_files.hpp"
@@ -81,18 +81,9 @@ viewshed::DwellingsRequest DwellingsOptions::complete_request(const Store& read,
 }
 
 void DwellingsOptions::read_places(const StoreMetadata& metadata) {
-  SiteQuery query;
-  query.path = places_, query.crs = turbines_.in_crs().crs;
-  take_names(query, LayerFields(query));
-  viewshed::SitePlaces& places = request_.dwellings;
-  places.source = places_;
+  request_.dwellings = viewshed::read_dwellings(places_, turbines_.in_crs().crs, metadata.crs_wkt);
   std::vector<Point2> positions;
-  for (const Site& site : read_sites(query, metadata.crs_wkt, places.warnings)) {
-    const std::string name = site.name.empty() ? std::to_string(site.row + 1) : site.name;
-    places.places.push_back({.name = name, .position = site.position, .origin = site.place});
-    positions.push_back(site.position);
-  }
-  if (places.places.empty()) throw InputError(none_in(query, "dwelling"));
+  for (const viewshed::SitePlace& place : request_.dwellings.places) positions.push_back(place.position);
   require_any_on_the_data(places_ + ": the first dwelling", positions, turbines_.in_crs(), metadata);
 }
 

@@ -145,9 +145,7 @@ LosStoreOptions::Result LosStoreOptions::run(const Store& store, profile::LosQue
     profile::FoliageSight sight = profile::through_foliage(store, line, query, foliage_.foliage());
     result.foliage = profile::foliage_document(sight, foliage_.foliage());
     result.foliage_text = profile::foliage_text(sight, foliage_.foliage());
-    result.report = std::move(sight.solid);
-    result.report.verdict = sight.verdict;
-    result.report.facts.emplace_back("Foliage", result.foliage_text);
+    result.report = profile::report_through(std::move(sight), foliage_.foliage());
   } else {
     result.report = profile::analyse(store, line, query);
   }

@@ -55,11 +55,7 @@ void FoliageOptions::validate() {
     return;
   }
   if (!extinction_text_.empty()) foliage_.extinction = parse_number("--foliage", extinction_text_, Range::kNotNegative);
-  if (leaf_area_text_ == "off") {
-    foliage_.leaf_area = profile::kLeavesOff;
-  } else if (leaf_area_text_ != "on") {
-    foliage_.leaf_area_field = leaf_area_text_;
-  }
+  if (!leaf_area_text_.empty()) foliage_.set_leaf_area(leaf_area_text_);
   if (transmittance_text_.empty()) return;
   foliage_.least_transmittance = parse_number("--transmittance", transmittance_text_, Range::kNotNegative);
   if (foliage_.least_transmittance > 1)
@@ -74,15 +70,6 @@ Document FoliageOptions::parameters() const {
         foliage_.leaf_area_field.empty() ? Document(foliage_.leaf_area) : Document(foliage_.leaf_area_field);
   if (!of_paths_) parameters["transmittance"] = foliage_.least_transmittance;
   return parameters;
-}
-
-std::string FoliageOptions::text() const {
-  if (!given()) return "";
-  const std::string leaves = foliage_.leaf_area_field.empty()
-                                 ? fmt::format("leaf area {:g} m²/m³", foliage_.leaf_area)
-                                 : fmt::format("leaf areas by the field {}", foliage_.leaf_area_field);
-  return fmt::format("{}, extinction {:g}; visible from {:g} % of the light on", leaves, foliage_.extinction,
-                     100 * foliage_.least_transmittance);
 }
 
 }  // namespace itin::cli

@@ -24,8 +24,6 @@ class FoliageOptions {
   const profile::Foliage& foliage() const { return foliage_; }
   /// Nothing where light is not to come through woods.
   Document parameters() const;
-  /// Says in words how woods are seen through; empty where they are solid.
-  std::string text() const;
 
  private:
   void declare_foliage(CLI::App& app);

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "program/likely_meant.hpp"
+#include <itin/likely_meant.hpp>
 
 namespace itin::cli {
 

@@ -19,6 +19,7 @@
 #include <itin/document.hpp>
 #include <itin/error.hpp>
 #include <itin/gdal_ready.hpp>
+#include <itin/likely_meant.hpp>
 #include <itin/network.hpp>
 #include <itin/parallel.hpp>
 
@@ -28,7 +29,6 @@
 #include "program/help.hpp"
 #include "program/help_document.hpp"
 #include "program/interruption.hpp"
-#include "program/likely_meant.hpp"
 #include "program/stderr_progress.hpp"
 #include "program/thread_limit.hpp"
 #include "program/values.hpp"

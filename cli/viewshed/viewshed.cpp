@@ -10,6 +10,7 @@
 #include <itin/gdal_ready.hpp>
 #include <itin/sources_in.hpp>
 #include <itin/store.hpp>
+#include <profile/foliage_text.hpp>
 #include <viewshed/documents.hpp>
 #include <viewshed/exact_cost.hpp>
 #include <viewshed/foliage_view.hpp>
@@ -25,7 +26,6 @@
 #include "program/help.hpp"
 #include "program/verb.hpp"
 #include "viewshed/feature_raster.hpp"
-#include "viewshed/foliage_rasters.hpp"
 #include "viewshed/horizon_output.hpp"
 #include "viewshed/view_options.hpp"
 #include "viewshed/view_warnings.hpp"
@@ -97,8 +97,8 @@ class ViewshedVerb final : public Verb {
     outputs_.prepare(request);
     for (const std::string& raster : features_.paths()) outputs_.claim_style(raster);
     const FoliageOptions& foliage = view_.foliage();
-    const std::string woods = foliage.text();
-    if (foliage.given()) claim_foliage_rasters(outputs_);
+    const std::string woods = foliage.given() ? profile::foliage_rule_text(foliage.foliage()) : "";
+    if (foliage.given()) claim_foliage_rasters();
     compute_options_.whole_surface = outputs_.draws_map() || !horizon_.paths().empty();
     viewshed::ThroughFoliage through = survey(store, request, progress);
     viewshed::ViewshedWithSurface& computed = through.computed;
@@ -113,7 +113,10 @@ class ViewshedVerb final : public Verb {
     const Document targets =
         horizon_.write(store, computed, answered, compute_options_, outputs_.overwrite(), progress, result.warnings);
     outputs_.write(store, computed, context, progress);
-    if (foliage.given()) write_foliage_rasters(outputs_, metadata, through, woods, progress);
+    if (foliage.given())
+      for (const std::string& raster : outputs_.given_rasters())
+        viewshed::write_foliage_rasters(raster, computed.result, through.foliage, metadata,
+                                        {.overwrite = outputs_.overwrite(), .foliage = woods}, progress);
     write_viewshed_sheet(store, computed.result, sheet_, {missing, context.sources, woods}, outputs_.overwrite(),
                          progress);
     outputs_.write_each([&](std::size_t i) { return compute_for_observer(store, computed, i, progress); }, context,
@@ -153,6 +156,12 @@ class ViewshedVerb final : public Verb {
     for (const std::string& path : features_.paths()) paths.push_back(path);
     if (!sheet_.file().empty()) paths.push_back(sheet_.file());
     return paths;
+  }
+
+  /// Lists the rasters that are written beside those of -o, through foliage. Throws FileError, InputError.
+  void claim_foliage_rasters() {
+    for (const std::string& raster : outputs_.given_rasters())
+      for (const std::string& beside : viewshed::foliage_rasters_beside(raster)) outputs_.claim_beside(beside);
   }
 
   /// Computes the viewshed; its foliage is empty where woods are solid.

@@ -22,6 +22,9 @@ Progress = Callable[[str, float], object]
 Themes = str | Sequence[str]
 """Features that stand on the surface: ``"all"``, ``"none"``, or names."""
 
+Features = str | Sequence[str]
+"""Features that do not stand there: one, or several, by the names that reports print."""
+
 NoData = Literal["unknown", "block", "clear"]
 """What ground without data does to sight lines: they are undecided unless known ground hides them, none pass, or all."""
 
@@ -251,6 +254,11 @@ def _plain(value: Any) -> Any:
 def tuple_of(grid: Grid) -> tuple[float, float, float, float, int, int]:
     """Returns a grid as the libraries' grids are made from."""
     return (grid.west, grid.north, grid.cell_width, grid.cell_height, grid.columns, grid.rows)
+
+
+def list_of(features: Features) -> list[str]:
+    """Returns the names of features."""
+    return [features] if isinstance(features, str) else list(features)
 
 
 def names_of(themes: Themes) -> str:

@@ -6,13 +6,13 @@ import json
 import os
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
 from . import _itin
-from ._asked import Grid, Path, Progress, Verdict
+from ._asked import Grid, Path, Progress, Verdict, given
 
 if TYPE_CHECKING:
     import xarray
@@ -88,6 +88,49 @@ class Profile:
     z: NDArray[np.float64]
     theme: NDArray[np.uint16]
     gaps: NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Foliage:
+    """The foliage on a line of sight, or along a path.
+
+    Attributes:
+        length: Metres.
+        transmittance: The share of the light that comes through, or would come along all of the path; 0 to 1.
+    """
+
+    length: float
+    transmittance: float
+
+
+def _foliage(told: tuple[float, float] | None) -> Foliage | None:
+    return None if told is None else Foliage(*told)
+
+
+class PathProfile(Profile):
+    """The surface along a path, which can be written."""
+
+    _core: _itin.PathProfiles
+
+    def __init__(self, core: _itin.PathProfiles) -> None:
+        super().__init__(*core.profile)
+        object.__setattr__(self, "_core", core)
+
+    @property
+    def foliage(self) -> Foliage | None:
+        """The foliage on the path, which keeps to the ground: its length in plan. None where woods were not asked for."""
+        return _foliage(self._core.foliage)
+
+    def write(self, path: Path, *, overwrite: bool = False) -> None:
+        """Writes what ``itin profile -o`` writes: .csv, .json, .geojson, .txt, or a chart: .svg, .pdf, .png.
+
+        The bytes are those of ``itin profile``, but for .json, which has no call.
+
+        Raises:
+            InputError: Another ending.
+            FileError: The place cannot be written, or the file exists and ``overwrite`` is false.
+        """
+        self._core.write(os.fspath(path), overwrite)
 
 
 @dataclass(frozen=True)
@@ -237,6 +280,8 @@ class Viewshed(_OverGrid):
         - ``probability``: ``probability``, float32
         - ``loss``: ``diffraction_db`` and ``free_space_db``, float32
         - ``level``: ``level_dbm``, float32; with rain and a sensitivity also ``outage_minutes`` a year, float32
+        - ``visible`` through foliage: ``foliage_m``, float32, the metres of foliage on the line, NaN where something
+          else hides the cell; ``transmittance``, float32, the share of the light that comes through, 0 there
         """
         return self._core.values
 
@@ -272,7 +317,8 @@ class Viewshed(_OverGrid):
         """Writes the bytes that ``itin viewshed -o`` writes.
 
         A GeoTIFF (.tif), with a QGIS style beside it (.qml) but for the modes angle, height and nearest; or the regions
-        of its classes as polygons (.gpkg, .geojson).
+        of its classes as polygons (.gpkg, .geojson). Through foliage, NAME-foliage.tif and NAME-transmittance.tif lie
+        beside NAME.tif.
 
         Raises:
             InputError: Another ending.
@@ -308,8 +354,13 @@ class LineOfSight:
 
     @property
     def profile(self) -> Profile:
-        """The surface under the line."""
+        """The surface under the line; without its woods where these are seen through."""
         return Profile(*self._core.profile)
+
+    @property
+    def foliage(self) -> Foliage | None:
+        """The foliage on the line, and the light that comes through. None where woods are solid."""
+        return _foliage(self._core.foliage)
 
     @property
     def document(self) -> dict[str, Any]:
@@ -431,6 +482,211 @@ class ZoneStudy(_OverGrid):
             FileError: The place cannot be written, or holds files and ``overwrite`` is false.
         """
         return _written(self._core.write(os.fspath(folder), overwrite, progress))
+
+
+@dataclass(frozen=True)
+class TurbineView:
+    """What a dwelling, or one of its facades, sees of the wind turbines before it.
+
+    Attributes:
+        turbines: How many are before it.
+        tips: How many blade tips are seen.
+        hubs: How many hubs are; None where no hub's height is known.
+        tips_undecided: How many more only ground without data could hide.
+        hubs_undecided: Likewise.
+        nearest: The number of the nearest turbine that is seen, by its row from 1; None where none is.
+        arc: The smallest part of the horizon that holds the rotors whose tips are seen: its anticlockwise end and its
+            width, degrees clockwise from grid north. None where none is seen.
+        vertical_angle: The greatest angle that the visible part of a turbine takes up, degrees.
+    """
+
+    turbines: int
+    tips: int
+    hubs: int | None
+    tips_undecided: int
+    hubs_undecided: int | None
+    nearest: int | None
+    arc: tuple[float, float] | None
+    vertical_angle: float
+
+
+@dataclass(frozen=True)
+class TurbineViews:
+    """What is seen of wind turbines over four surfaces; None where no turbine is before the eye, or none was asked for.
+
+    Attributes:
+        bare: The bare ground.
+        screened: The surface with its features, woods solid; None where nothing stands on the ground.
+        summer: The same, through woods in leaf; None without ``foliage``.
+        winter: The same, through woods in winter; None without ``foliage``.
+    """
+
+    bare: TurbineView | None
+    screened: TurbineView | None
+    summer: TurbineView | None
+    winter: TurbineView | None
+
+
+@dataclass(frozen=True)
+class ShadowFlicker:
+    """The shadow flicker at a dwelling in the worst case: the sun shines all day, and rotors turn and face it.
+
+    Attributes:
+        minutes: In the year. A minute counts once, however many turbines flicker in it.
+        days: Days with flicker.
+        worst_day: The day of the year with the most minutes, from 0; the first of several.
+        worst_minutes: On that day.
+        likely: The likely minutes in the year; None without ``months``.
+        over_year: Whether the limit of the year is exceeded.
+        over_day: Whether the limit of a day is.
+        calendar: Stretches of minutes, turbine by turbine, shape (n, 3): the turbine's number, the first minute of the
+            year, from 0, and how many.
+    """
+
+    minutes: int
+    days: int
+    worst_day: int
+    worst_minutes: int
+    likely: float | None
+    over_year: bool
+    over_day: bool
+    calendar: NDArray[np.uint32]
+
+
+@dataclass(frozen=True)
+class Facade:
+    """An eye before a straight run of walls, or in the open.
+
+    Attributes:
+        x: Easting, metres.
+        y: Northing, metres.
+        ground: Elevation of the bare ground there, metres.
+        outward: Where the facade looks, degrees clockwise from grid north; None in the open.
+        length: Of the facade, metres.
+        views: What is seen of the turbines before it.
+    """
+
+    x: float
+    y: float
+    ground: float
+    outward: float | None
+    length: float
+    views: TurbineViews
+
+
+@dataclass(frozen=True)
+class Dwelling:
+    """A dwelling, and what wind turbines are to it.
+
+    Attributes:
+        name: Of the place that was given, or of the building.
+        id: Of the building.
+        x: Easting of the place, or of the middle of the building's box, metres.
+        y: Northing, metres.
+        nearest: The number of the nearest turbine, by its row from 1.
+        nearest_distance: Metres.
+        views: What its facades see together: a turbine is seen where one of them sees it.
+        flicker: Shadow flicker at any of its facades.
+        facades: One eye before each, or one in the open.
+    """
+
+    name: str
+    id: str
+    x: float
+    y: float
+    nearest: int
+    nearest_distance: float
+    views: TurbineViews
+    flicker: ShadowFlicker
+    facades: tuple[Facade, ...]
+
+
+def _views(told: _itin._Views) -> TurbineViews:
+    return TurbineViews(*(None if view is None else TurbineView(*view) for view in told))
+
+
+def _facade(told: _itin._Facade) -> Facade:
+    x, y, ground, outward, length, views = told
+    return Facade(x, y, ground, outward, length, _views(views))
+
+
+def _dwelling(told: _itin._Dwelling) -> Dwelling:
+    name, identifier, x, y, nearest, distance, views, flicker, calendar, facades = told
+    return Dwelling(
+        name,
+        identifier,
+        x,
+        y,
+        nearest,
+        distance,
+        _views(views),
+        ShadowFlicker(*flicker, calendar),
+        tuple(map(_facade, facades)),
+    )
+
+
+class Dwellings:
+    """What wind turbines are to the dwellings about them."""
+
+    def __init__(self, core: _itin.Dwellings) -> None:
+        self._core = core
+
+    @property
+    def dwellings(self) -> tuple[Dwelling, ...]:
+        """The dwellings, in the order of ``dwellings.csv``."""
+        return tuple(map(_dwelling, self._core.dwellings))
+
+    @property
+    def crs(self) -> str:
+        """The CRS, as WKT."""
+        return self._core.crs_wkt
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """What is to be minded, a line each."""
+        return tuple(self._core.warnings)
+
+    @property
+    def document(self) -> dict[str, Any]:
+        """The JSON document that ``itin dwellings --json`` prints, without the call and its outputs."""
+        return _document(self._core.json)
+
+    def write(
+        self,
+        folder: Path,
+        *,
+        sheets: Sequence[Literal["A3", "A1"]] = (),
+        sheets_of: Sequence[str] = (),
+        scale: float | None = None,
+        basemap: Path | None = None,
+        project: str = "",
+        date: str = "",
+        overwrite: bool = False,
+        progress: Progress | None = None,
+    ) -> tuple[WrittenFile, ...]:
+        """Writes the folder that ``itin dwellings`` writes: tables, layers, a map, calendars.
+
+        The folder appears complete or not at all. Its bytes are those of the program, but for ``dwellings.json``, which
+        has no call.
+
+        Args:
+            sheets: Papers of a sheet for each dwelling, as PDF and PNG.
+            sheets_of: Sheets only of the dwellings with these names or ids, or of these rows of ``dwellings.csv``.
+            scale: Of the sheets' maps, 10000 for 1:10,000. None: the largest usual one that shows all.
+            basemap: A georeferenced picture below these maps, in place of the shaded relief.
+            project: The project's name in title blocks.
+            date: The date in title blocks.
+
+        Raises:
+            InputError: No dwelling has a name of ``sheets_of``, or the scale is too large.
+            FileError: The place cannot be written, or holds files and ``overwrite`` is false.
+        """
+        fields: dict[str, Any] = {"sheets": list(sheets), "sheets_of": list(sheets_of), "overwrite": overwrite}
+        fields |= {"project": project, "date": date} | given({"scale": scale, "basemap": basemap})
+        return _written(self._core.write(os.fspath(folder), fields, progress))
+
+    def __repr__(self) -> str:
+        return f"<itin.Dwellings of {len(self._core.dwellings)} dwellings>"
 
 
 def _written(files: Sequence[tuple[str, str]]) -> tuple[WrittenFile, ...]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import time
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, Literal, cast
 
@@ -14,6 +15,7 @@ from ._asked import (
     Angles,
     Bounds,
     Earth,
+    Features,
     Grid,
     NoData,
     Observer,
@@ -26,16 +28,18 @@ from ._asked import (
     Window,
     fields_of,
     given,
+    list_of,
     names_of,
     tuple_of,
 )
 from ._errors import InputError
 from ._results import (
+    Dwellings,
     Level,
     LineOfSight,
     LinkCounts,
     Links,
-    Profile,
+    PathProfile,
     SitePlan,
     Theme,
     Tin,
@@ -114,6 +118,11 @@ def _named(places: Iterable[Place] | None) -> list[dict[str, Any]] | None:
     for number, place in enumerate(fields or []):
         place["name"] = place["name"] or str(number)
     return fields
+
+
+def _this_year() -> int:
+    """Returns the year that ``itin`` takes where none is given."""
+    return time.gmtime(float(os.environ.get("SOURCE_DATE_EPOCH", time.time()))).tm_year
 
 
 class _InMemory:
@@ -197,7 +206,13 @@ class Store:
 
     Every call that takes long releases the interpreter's lock, hears Ctrl-C within half a second, and tells
     ``progress``. Positions are in the store's CRS, lengths in metres. ``tolerance`` is that of the surface: 0 is every
-    stored point. ``themes`` are the features that stand on it.
+    stored point. ``themes`` are the features that stand on it. ``without`` leaves out some of them, by the names that
+    reports print, as ``itin --without`` does: ``"woods:17"``, ``"woods:Lime Grove"``, ``"woods#16"``.
+
+    ``foliage`` sees through themes of vegetation, as ``itin --foliage`` does. It is the extinction k, 0.5 for leaves
+    turned at random; None takes woods as solid. ``leaf_area`` is that of woods: ``"on"``, 1 square metre of leaves in
+    each cubic metre; ``"off"``, a tenth of that, for a winter without a source; or the field that features have theirs
+    in. What less than ``transmittance`` of the light comes from is hidden.
 
     Raises:
         FileError: The file is missing, or no store.
@@ -293,10 +308,12 @@ class Store:
         *,
         tolerance: float = 0.0,
         themes: Themes = "none",
+        without: Features = (),
         progress: Progress | None = None,
     ) -> Tin:
         """Returns exactly those triangles of the whole store's triangulation that meet the window."""
-        return Tin(*self._core.triangulate(window, _surface(tolerance, themes), progress))
+        fields = _surface(tolerance, themes) | {"without": list_of(without)}
+        return Tin(*self._core.triangulate(window, fields, progress))
 
     def profile(
         self,
@@ -304,14 +321,19 @@ class Store:
         *,
         tolerance: float = 0.0,
         themes: Themes = "all",
+        without: Features = (),
+        foliage: float | None = None,
+        leaf_area: str = "on",
         progress: Progress | None = None,
-    ) -> Profile:
+    ) -> PathProfile:
         """Returns the surface along a path.
 
         Args:
             corners: The path's corners, at least two; shape (n, 2).
+            foliage: Tells the foliage on the path, too; see ``PathProfile.foliage``.
         """
-        return Profile(*self._core.profile(_numbers(corners), _surface(tolerance, themes), progress))
+        fields = _surface(tolerance, themes) | {"without": list_of(without), "leaf_area": leaf_area}
+        return PathProfile(self._core.profile(_numbers(corners), fields | given({"foliage": foliage}), progress))
 
     def line_of_sight(
         self,
@@ -341,6 +363,10 @@ class Store:
         earth: Earth = Earth(),
         tolerance: float = 0.0,
         themes: Themes = "all",
+        without: Features = (),
+        foliage: float | None = None,
+        leaf_area: str = "on",
+        transmittance: float = 0.5,
         nodata: NoData = "unknown",
         progress: Progress | None = None,
     ) -> LineOfSight:
@@ -363,12 +389,14 @@ class Store:
             antenna_azimuth: Where the first antenna points, degrees from grid north, or both; None: at the other end.
             antenna_tilt: Likewise, degrees below the horizontal.
             criteria: Rules of two-criterion planning, (K, fraction of F1).
+            foliage: Sees through woods; see ``LineOfSight.foliage`` and ``document["foliage"]``.
 
         Raises:
             InputError: No ground under an end (``field`` is ``"from"`` or ``"to"``), a height below the ground, ...
         """
         fields = given({k: v for k, v in locals().items() if k not in ("self", "start", "end", "progress")})
         fields["themes"] = names_of(themes)
+        fields["without"] = list_of(without)
         fields["criteria"] = list(criteria)
         return LineOfSight(self._core.line_of_sight(_numbers([start, end]), fields, progress))
 
@@ -385,6 +413,7 @@ class Store:
         earth: Earth = Earth(),
         tolerance: float = 0.0,
         themes: Themes = "all",
+        without: Features = (),
         nodata: NoData = "unknown",
         progress: Progress | None = None,
     ) -> Links:
@@ -400,6 +429,7 @@ class Store:
         """
         fields = given({k: v for k, v in locals().items() if k not in ("self", "start", "end", "progress")})
         fields["themes"] = names_of(themes)
+        fields["without"] = list_of(without)
         return Links(*self._core.links(_numbers(start), _numbers(end), fields, progress))
 
     def link_table(
@@ -431,6 +461,7 @@ class Store:
         earth: Earth = Earth(),
         tolerance: float = 0.0,
         themes: Themes = "all",
+        without: Features = (),
         nodata: NoData = "unknown",
         overwrite: bool = False,
         progress: Progress | None = None,
@@ -448,6 +479,7 @@ class Store:
         """
         fields = given({k: v for k, v in locals().items() if k not in ("self", "path", "outputs", "progress")})
         fields["themes"] = names_of(themes)
+        fields["without"] = list_of(without)
         several = [outputs] if isinstance(outputs, (str, os.PathLike)) else outputs
         texts = [os.fspath(output) for output in several]
         return LinkCounts(*self._core.link_table(os.fspath(path), texts, fields, progress))
@@ -468,6 +500,10 @@ class Store:
         tolerance: float = 0.0,
         rings: Sequence[tuple[float, float]] = (),
         themes: Themes = "all",
+        without: Features = (),
+        foliage: float | None = None,
+        leaf_area: str = "on",
+        transmittance: float = 0.5,
         observers_on_surface: bool = False,
         targets_on_surface: bool = False,
         nodata: NoData = "unknown",
@@ -520,6 +556,7 @@ class Store:
                 cells.
             margins_db: Margins over the sensitivity by which polygons and styles tell levels apart, ascending.
             memory_bytes: Bounds the memory; the result does not depend on it.
+            foliage: Sees through woods, with the mode ``visible`` alone; see ``Viewshed.values``.
 
         Raises:
             InputError: An observer off the data, an unusable radius, cell size or angle; ``field`` has its name.
@@ -537,6 +574,7 @@ class Store:
             raise InputError(f"`mode`: {mode} needs no link budget; give level", "mode")
         fields["observers"] = _observers(observers)
         fields["themes"] = names_of(themes)
+        fields["without"] = list_of(without)
         fields |= _rings(fields.pop("rings"), tolerance, fields["observers"])
         return Viewshed(self._core.viewshed(fields, progress))
 
@@ -597,6 +635,7 @@ class Store:
         hub: Place | None = None,
         earth: Earth = Earth(),
         themes: Themes = "all",
+        without: Features = (),
         nodata: NoData = "unknown",
         memory_bytes: int = 1 << 30,
         progress: Progress | None = None,
@@ -634,6 +673,7 @@ class Store:
         """
         fields = given({k: v for k, v in locals().items() if k not in _PLACES and k not in ("self", "progress")})
         fields["themes"] = names_of(themes)
+        fields["without"] = list_of(without)
         fields["masts"] = [(float(height), float(cost)) for height, cost in masts]
         if turbines is not None:
             fields["turbines"] = fields_of(turbines)
@@ -664,6 +704,7 @@ class Store:
         earth: Earth = Earth(),
         tolerance: float = 0.0,
         themes: Themes = "all",
+        without: Features = (),
         nodata: NoData = "unknown",
         foliage: float | None = None,
         transmittance: float = 0.5,
@@ -692,6 +733,7 @@ class Store:
         """
         fields = given({k: v for k, v in locals().items() if k not in ("self", "turbines", "progress")})
         fields["themes"] = names_of(themes)
+        fields["without"] = list_of(without)
         if cell_size is None and grid is None:
             fields["cell_size"] = 50.0
         if isinstance(turbines, (str, os.PathLike)):
@@ -707,3 +749,66 @@ class Store:
         elif routes is not None:
             fields["routes"] = [(name, _numbers(corners)) for name, corners in routes.items()]
         return ZoneStudy(self._core.ztv(fields, progress))
+
+    def dwellings(
+        self,
+        turbines: Path | Iterable[Turbine],
+        *,
+        crs: str = "",
+        dwellings: Path | Iterable[Place] | None = None,
+        dwelling_theme: str = "",
+        radius: float = 2000.0,
+        eye_height: float = 2.0,
+        year: int | None = None,
+        utc_offset_minutes: int = 0,
+        limit_minutes_year: float = 1800.0,
+        limit_minutes_day: float = 30.0,
+        months: Path | Sequence[tuple[float, float]] | None = None,
+        least_elevation_deg: float = 3.0,
+        reach_diameters: float = 10.0,
+        blade_width: float | None = None,
+        earth: Earth = Earth(),
+        themes: Themes = "all",
+        without: Features = (),
+        nodata: NoData = "unknown",
+        foliage: float | None = None,
+        transmittance: float = 0.5,
+        memory_bytes: int = 1 << 30,
+        progress: Progress | None = None,
+    ) -> Dwellings:
+        """Tells what dwellings see of wind turbines, facade by facade, and when their shadows flicker there.
+
+        Args:
+            turbines: Turbines, or a file of them as ``itin dwellings --turbines`` takes it.
+            crs: The CRS of files that state none.
+            dwellings: Places, or a file of points. One that lies on a building of ``themes`` is that building, any other
+                a place in the open. None: all buildings of ``themes``.
+            dwelling_theme: The theme whose buildings are dwellings; empty: any.
+            radius: Dwellings are studied up to this distance from a turbine, metres, and wherever its shadow reaches.
+            eye_height: Metres above the bare ground.
+            year: The year of the sun, 1950 to 2100. None: the current one.
+            utc_offset_minutes: How far the clock of the calendar is ahead of UTC, summer and winter.
+            limit_minutes_year: How much flicker a dwelling may have in the year, in the worst case.
+            limit_minutes_day: How much on a day.
+            months: Tells the likely flicker, too, by the shares, 0 to 1, of each month's daylight in which the sun
+                shines and of its time in which the turbines turn: twelve pairs, or a table as
+                ``itin dwellings --months`` takes it.
+            least_elevation_deg: A lower sun throws no shadow.
+            reach_diameters: How far a turbine's shadow reaches, in diameters of its rotor.
+            blade_width: The mean width of a blade, metres; shadows reach 687 times as far, instead.
+            foliage: Tells what is seen through woods in summer and in winter, too. Flicker takes them as solid.
+
+        Raises:
+            InputError: No turbine that can be used, one within a building, no dwelling within reach, ...; ``field`` has
+                the argument's name.
+        """
+        fields = given({k: v for k, v in locals().items() if k not in ("self", "crs", "progress")})
+        fields["turbine_crs"] = crs
+        fields["themes"] = names_of(themes)
+        fields["without"] = list_of(without)
+        fields["year"] = _this_year() if year is None else year
+        if not isinstance(turbines, (str, os.PathLike)):
+            fields["turbines"] = [fields_of(turbine) | {"radius": radius} for turbine in turbines]
+        if dwellings is not None and not isinstance(dwellings, (str, os.PathLike)):
+            fields["dwellings"] = _places(dwellings)
+        return Dwellings(self._core.dwellings(fields, progress))

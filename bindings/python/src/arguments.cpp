@@ -9,6 +9,8 @@
 
 #include <itin/celestial_body.hpp>
 #include <itin/error.hpp>
+#include <itin/feature_at.hpp>
+#include <itin/silent_progress.hpp>
 
 namespace itin::python {
 
@@ -87,6 +89,24 @@ ThemeChoice themes_of(const py::dict& fields) {
   std::string themes = "all";
   take(fields, "themes", themes);
   return ThemeChoice::parse(themes);
+}
+
+void LeftOut::leave(const Store& store, ThemeChoice& themes, Progress& progress) const {
+  if (names_.empty()) return;
+  themes.check(store.metadata().themes);
+  SilentProgress quiet(progress);
+  themes = without_features(store, themes, features_called(store, names_), quiet);
+}
+
+std::optional<profile::Foliage> foliage_of(const py::dict& fields) {
+  if (!fields.contains("foliage")) return std::nullopt;
+  profile::Foliage foliage;
+  take(fields, "foliage", foliage.extinction);
+  take(fields, "transmittance", foliage.least_transmittance);
+  std::string leaf_area = "on";
+  take(fields, "leaf_area", leaf_area);
+  foliage.set_leaf_area(leaf_area);
+  return foliage;
 }
 
 Earth earth_of(const py::dict& fields, const std::string& crs_wkt) {

@@ -4,6 +4,7 @@
 // missing keep their defaults.
 #pragma once
 
+#include <optional>
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
@@ -13,10 +14,12 @@
 #include <itin/detail.hpp>
 #include <itin/earth.hpp>
 #include <itin/geometry.hpp>
+#include <itin/progress.hpp>
 #include <itin/raster.hpp>
 #include <itin/store.hpp>
 #include <itin/theme.hpp>
 #include <profile/diffraction.hpp>
+#include <profile/foliage.hpp>
 
 namespace itin::python {
 
@@ -39,6 +42,18 @@ std::vector<Point3> places_of(const Numbers& array, const char* field);
 /// default.
 Detail detail_of(const py::dict& fields);
 ThemeChoice themes_of(const py::dict& fields);
+/// The features that `without` names, which are left out of a choice of themes once the work has begun.
+class LeftOut {
+ public:
+  explicit LeftOut(const py::dict& fields) { take(fields, "without", names_); }
+  /// Leaves them out. Throws InputError for a name of no feature; CorruptStore, FileError, Cancelled.
+  void leave(const Store& store, ThemeChoice& themes, Progress& progress) const;
+
+ private:
+  std::vector<std::string> names_;
+};
+/// Reads `foliage` (the extinction), `leaf_area` and `transmittance`; nothing without the first.
+std::optional<profile::Foliage> foliage_of(const py::dict& fields);
 /// Reads `earth`: (curvature, refraction, radius or None, effective factor or None). The radius is by default that of
 /// the body of the CRS (WKT).
 Earth earth_of(const py::dict& fields, const std::string& crs_wkt);

@@ -69,12 +69,29 @@ py::tuple arrays_of(const profile::Profile& profile) {
                         array_of(std::move(z)), array_of(std::move(theme)), array_of(std::move(gaps), {count, 2}));
 }
 
-py::tuple profile_along(const Store& store, const Numbers& corners, const py::dict& fields, const py::object& show) {
-  const profile::PathQuery query{
-      .corners = points_of(corners, "corners"), .details = {detail_of(fields)}, .themes = themes_of(fields)};
-  return arrays_of(result_of(show, [&](Progress& progress) { return profile::profiles_along(store, query, progress); })
-                       .profiles.front()
-                       .profile);
+profile::PathProfiles profile_along(const Store& store, const Numbers& corners, const py::dict& fields,
+                                    const py::object& show) {
+  profile::PathQuery query{.corners = points_of(corners, "corners"),
+                           .details = {detail_of(fields)},
+                           .themes = themes_of(fields),
+                           .foliage = foliage_of(fields)};
+  const LeftOut left_out(fields);
+  return result_of(show, [&](Progress& progress) {
+    left_out.leave(store, query.themes, progress);
+    return profile::profiles_along(store, query, progress);
+  });
+}
+
+/// Returns the length of foliage and the share of the light that would come along it; None where it was not asked for.
+py::object foliage_of_path(const profile::PathProfiles& path) {
+  const auto& foliage = path.profiles.front().foliage;
+  if (!foliage) return py::none();
+  return py::make_tuple(foliage->length_m, foliage->transmittance);
+}
+
+void write_profile(const profile::PathProfiles& path, const std::string& file, bool overwrite) {
+  profile::require_profile_output(path, file);
+  run(py::none(), [&](Progress&) { profile::write_profiles(path, file, {.overwrite = overwrite}); });
 }
 
 // Lines of sight.
@@ -83,8 +100,13 @@ struct LineOfSight {
   SharedStore store;
   profile::StoreLine line;
   profile::LosReport report;
+  // Where woods are seen through:
+  std::optional<profile::Foliage> foliage = {};
+  std::optional<profile::FoliageSight> sight = {};
 
-  std::string json() const { return profile::json_of(*store, line, report); }
+  std::string json() const {
+    return sight ? profile::json_of(*store, line, *sight, *foliage) : profile::json_of(*store, line, report);
+  }
 };
 
 profile::StoreLine line_of(const Point3& from, const Point3& to, const py::dict& fields) {
@@ -111,10 +133,23 @@ profile::LosQuery query_of(const Store& store, const Point3& from, const Point3&
 std::shared_ptr<LineOfSight> line_of_sight(const SharedStore& store, const Numbers& ends, const py::dict& fields,
                                            const py::object& show) {
   const std::vector<Point3> places = places_of(ends, "from");
-  const profile::StoreLine line = line_of(places.front(), places.back(), fields);
+  profile::StoreLine line = line_of(places.front(), places.back(), fields);
   const profile::LosQuery query = query_of(*store, places.front(), places.back(), fields);
-  auto report = result_of(show, [&](Progress&) { return profile::analyse(*store, line, query); });
-  return std::make_shared<LineOfSight>(LineOfSight{store, line, std::move(report)});
+  const LeftOut left_out(fields);
+  const std::optional<profile::Foliage> foliage = foliage_of(fields);
+  return result_of(show, [&](Progress& progress) {
+    left_out.leave(*store, line.themes, progress);
+    if (!foliage) return std::make_shared<LineOfSight>(LineOfSight{store, line, profile::analyse(*store, line, query)});
+    profile::FoliageSight sight = profile::through_foliage(*store, line, query, *foliage);
+    profile::LosReport report = profile::report_through(sight, *foliage);
+    return std::make_shared<LineOfSight>(LineOfSight{store, line, std::move(report), foliage, std::move(sight)});
+  });
+}
+
+/// Returns the metres of foliage on the line and the share of the light that comes through; None where woods are solid.
+py::object foliage_of_line(const LineOfSight& line) {
+  if (!line.sight) return py::none();
+  return py::make_tuple(line.sight->length_m, line.sight->transmittance);
 }
 
 void write_line(const LineOfSight& line, const std::string& path, bool overwrite) {
@@ -192,8 +227,12 @@ py::tuple links(const Store& store, const Numbers& from_ends, const Numbers& to_
                 const py::object& show) {
   const std::vector<Point3> from = places_of(from_ends, "from"), to = places_of(to_ends, "to");
   if (from.size() != to.size()) throw InputError("`to`: give as many ends as in `from`", "to");
-  const profile::LinkQuery query = link_query(store, fields);
-  LinkColumns c = result_of(show, [&](Progress& progress) { return survey(store, from, to, query, progress); });
+  profile::LinkQuery query = link_query(store, fields);
+  const LeftOut left_out(fields);
+  LinkColumns c = result_of(show, [&](Progress& progress) {
+    left_out.leave(store, query.themes, progress);
+    return survey(store, from, to, query, progress);
+  });
   return py::make_tuple(array_of(std::move(c.verdict)), array_of(std::move(c.distance)),
                         array_of(std::move(c.clearance)), array_of(std::move(c.critical)),
                         array_of(std::move(c.fresnel)), array_of(std::move(c.loss)), array_of(std::move(c.free_space)),
@@ -211,8 +250,10 @@ py::tuple link_table(const Store& store, const std::string& path, const std::vec
   take(fields, "heights", heights), take(fields, "crs", crs), take(fields, "overwrite", options.overwrite);
   take(fields, "layer", choice.layer), take(fields, "where", choice.where);
   for (const std::string& output : outputs) profile::require_link_format(output);
-  const profile::LinkQuery query = link_query(store, fields);
+  profile::LinkQuery query = link_query(store, fields);
+  const LeftOut left_out(fields);
   const profile::LinkSurvey survey = result_of(show, [&](Progress& progress) {
+    left_out.leave(store, query.themes, progress);
     auto table = profile::read_link_table(path, store.metadata().crs_wkt, {heights.first, heights.second}, crs, choice);
     auto judged = profile::survey_link_table(store, std::move(table), query, progress);
     profile::write_link_table(judged, outputs, options);
@@ -226,11 +267,17 @@ py::tuple link_table(const Store& store, const std::string& path, const std::vec
 }  // namespace
 
 void bind_lines(py::module_& module) {
+  py::class_<profile::PathProfiles>(module, "PathProfiles")
+      .def_property_readonly("profile",
+                             [](const profile::PathProfiles& path) { return arrays_of(path.profiles.front().profile); })
+      .def_property_readonly("foliage", &foliage_of_path)
+      .def("write", &write_profile);
   py::class_<LineOfSight, std::shared_ptr<LineOfSight>>(module, "LineOfSight")
       .def_property_readonly("verdict", [](const LineOfSight& l) { return code_of(l.report.verdict); })
       .def_property_readonly("distance", [](const LineOfSight& l) { return l.report.profile.length_m; })
       .def_property_readonly("clearance", [](const LineOfSight& l) { return l.report.least_clearance_m; })
       .def_property_readonly("profile", [](const LineOfSight& l) { return arrays_of(l.report.profile); })
+      .def_property_readonly("foliage", &foliage_of_line)
       .def_property_readonly("json", &LineOfSight::json)
       .def("write", &write_line);
   store_class(module)

@@ -20,4 +20,5 @@ PYBIND11_MODULE(_itin, module) {
   bind_viewsheds(module);
   bind_site_plans(module);
   bind_zone_studies(module);
+  bind_dwellings(module);
 }

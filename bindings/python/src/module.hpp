@@ -13,5 +13,6 @@ void bind_lines(pybind11::module_& module);
 void bind_viewsheds(pybind11::module_& module);
 void bind_site_plans(pybind11::module_& module);
 void bind_zone_studies(pybind11::module_& module);
+void bind_dwellings(pybind11::module_& module);
 
 }  // namespace itin::python

@@ -130,7 +130,11 @@ viewshed::SitePlanRequest plan_request_of(const py::dict& fields, const Store& s
 
 std::shared_ptr<Plan> site(const SharedStore& store, const py::dict& fields, const py::object& show) {
   viewshed::SitePlanRequest request = plan_request_of(fields, *store);
-  auto plan = result_of(show, [&](Progress& progress) { return plan_sites(*store, std::move(request), progress); });
+  const LeftOut left_out(fields);
+  auto plan = result_of(show, [&](Progress& progress) {
+    left_out.leave(*store, request.themes, progress);
+    return plan_sites(*store, std::move(request), progress);
+  });
   return std::make_shared<Plan>(Plan{store, std::move(plan)});
 }
 

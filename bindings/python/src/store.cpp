@@ -81,9 +81,12 @@ py::tuple arrays_of(Tin tin) {
 
 py::tuple triangles_of(const Store& store, const Window& window, const py::dict& fields, const py::object& show) {
   const Detail detail = detail_of(fields);
-  const ThemeChoice themes = themes_of(fields);
-  return arrays_of(
-      result_of(show, [&](Progress& progress) { return triangulate(store, window, detail, progress, themes); }));
+  ThemeChoice themes = themes_of(fields);
+  const LeftOut left_out(fields);
+  return arrays_of(result_of(show, [&](Progress& progress) {
+    left_out.leave(store, themes, progress);
+    return triangulate(store, window, detail, progress, themes);
+  }));
 }
 
 void bind_window(py::module_& module) {

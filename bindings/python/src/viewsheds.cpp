@@ -8,7 +8,10 @@
 
 #include <itin/file_ending.hpp>
 #include <itin/gdal_ready.hpp>
+#include <itin/output_file.hpp>
 #include <itin/tin.hpp>
+#include <profile/foliage_text.hpp>
+#include <viewshed/foliage_view.hpp>
 #include <viewshed/held_surface.hpp>
 #include <viewshed/missing_ground.hpp>
 #include <viewshed/result_files.hpp>
@@ -33,6 +36,9 @@ struct Viewshed {
   std::shared_ptr<const StoreMetadata> metadata;
   viewshed::Result result;
   bool certified = false;
+  /// What a viewshed through foliage tells, and how woods are seen through; empty where they are solid.
+  viewshed::FoliageView foliage = {};
+  std::string woods = {};
 };
 
 std::shared_ptr<Viewshed> viewshed_on(const SharedStore& store, viewshed::Result result, bool certified) {
@@ -109,15 +115,26 @@ std::pair<Request, bool> request_of(const py::dict& fields, const std::string& c
 }
 
 std::shared_ptr<Viewshed> viewshed_of(const SharedStore& store, const py::dict& fields, const py::object& show) {
-  const auto [request, certified] = request_of(fields, store->metadata().crs_wkt);
+  auto [request, certified] = request_of(fields, store->metadata().crs_wkt);
+  const LeftOut left_out(fields);
+  const std::optional<profile::Foliage> foliage = foliage_of(fields);
+  if (foliage && certified) throw InputError("`foliage`: only mode visible sees through woods", "foliage");
   viewshed::ComputeOptions options;
   options.whole_surface = false;
   take(fields, "memory_bytes", options.memory_bytes);
-  auto result = result_of(show, [&, &request = request, certified = certified](Progress& progress) {
-    return certified ? viewshed::compute_certified(*store, request, options, progress).result
-                     : viewshed::compute_with_surface(*store, request, options, progress).result;
-  });
-  return viewshed_on(store, std::move(result), certified);
+  viewshed::ThroughFoliage through =
+      result_of(show, [&, &request = request, certified = certified](Progress& progress) -> viewshed::ThroughFoliage {
+        left_out.leave(*store, request.themes, progress);
+        if (foliage) return viewshed::compute_through_foliage(*store, request, *foliage, options, progress);
+        return {certified ? viewshed::compute_certified(*store, request, options, progress)
+                          : viewshed::compute_with_surface(*store, request, options, progress),
+                {}};
+      });
+  const auto seen = viewshed_on(store, std::move(through.computed.result), certified);
+  if (!foliage) return seen;
+  seen->foliage = std::move(through.foliage);
+  seen->woods = profile::foliage_rule_text(*foliage);
+  return seen;
 }
 
 // A surface that is held.
@@ -183,9 +200,12 @@ void add(py::dict& values, const char* name, const std::vector<Value>& of_cells,
 
 /// Views of the values of the mode, by name.
 py::dict values_of(const py::object& self) {
-  const auto& result = self.cast<const Viewshed&>().result;
+  const auto& seen = self.cast<const Viewshed&>();
+  const viewshed::Result& result = seen.result;
   const Shape shape = shape_of(result.grid);
   py::dict values;
+  add(values, "foliage_m", seen.foliage.length_m, shape, self);
+  add(values, "transmittance", seen.foliage.transmittance, shape, self);
   if (const auto* v = std::get_if<viewshed::Counts>(&result.values)) add(values, "count", v->count, shape, self);
   if (const auto* v = std::get_if<viewshed::ObserverSets>(&result.values)) {
     Shape banded = shape;
@@ -244,7 +264,12 @@ void write_viewshed(const Viewshed& v, const std::string& path, bool overwrite, 
       return viewshed::write_polygons(path, v.result, metadata.crs_wkt, overwrite, no_data);
     }
     make_gdal_ready();
-    viewshed::write_result_raster(path, v.result, metadata, {v.certified, overwrite}, progress);
+    const viewshed::ResultRasterOptions options{v.certified, overwrite, v.woods};
+    if (!v.woods.empty())
+      for (const std::string& beside : viewshed::foliage_rasters_beside(path))
+        require_output_possible(beside, overwrite);
+    viewshed::write_result_raster(path, v.result, metadata, options, progress);
+    if (!v.woods.empty()) viewshed::write_foliage_rasters(path, v.result, v.foliage, metadata, options, progress);
   });
 }
 

@@ -12,6 +12,7 @@
 #include "call.hpp"
 #include "module.hpp"
 #include "shared_store.hpp"
+#include "turbines.hpp"
 
 namespace itin::python {
 
@@ -21,46 +22,6 @@ struct Study {
   SharedStore store;
   viewshed::ZoneStudy study;
 };
-
-/// A turbine is a dictionary of its fields; the rule of radii gives a radius that is missing.
-viewshed::Turbine turbine_of(const py::dict& fields, std::size_t number) {
-  viewshed::Turbine turbine;
-  turbine.number = number;
-  take(fields, "name", turbine.name);
-  take(fields, "farm", turbine.farm);
-  take(fields, "x", turbine.position.x), take(fields, "y", turbine.position.y);
-  viewshed::TurbineSize size;
-  take(fields, "hub_height", size.hub);
-  take(fields, "rotor_diameter", size.rotor);
-  take(fields, "tip_height", size.tip);
-  size.complete();
-  turbine.hub_height = size.hub, turbine.rotor_diameter = size.rotor, turbine.tip_height = *size.tip;
-  turbine.radius = viewshed::RadiusRule().radius(turbine.tip_height);
-  take(fields, "radius", turbine.radius);
-  return turbine;
-}
-
-viewshed::TurbineTable turbines_of(const py::list& list) {
-  viewshed::TurbineTable table;
-  for (const py::handle turbine : list)
-    table.turbines.push_back(turbine_of(turbine.cast<py::dict>(), table.turbines.size() + 1));
-  table.rows = table.turbines.size();
-  for (std::size_t i = 0; i < table.rows; ++i) {
-    table.features.push_back(static_cast<std::int64_t>(i));
-    table.places.push_back("turbine " + std::to_string(i + 1));
-  }
-  return table;
-}
-
-viewshed::TurbineTable turbines_of(const std::string& path, const py::dict& fields, const Store& store) {
-  viewshed::TurbineFile file{.path = path};
-  take(fields, "turbine_crs", file.crs);
-  if (double radius = 0; fields.contains("radius")) {
-    take(fields, "radius", radius);
-    file.radius.fixed = radius, file.radius.source = "radius";
-  }
-  return viewshed::read_turbines(file, store.metadata().crs_wkt);
-}
 
 viewshed::ViewpointTable viewpoints_of(const py::dict& fields, const Store& store) {
   viewshed::ViewpointTable table;
@@ -96,9 +57,7 @@ viewshed::RouteTable routes_of(const py::dict& fields, const Store& store) {
 
 viewshed::ZoneStudyRequest study_request_of(const py::dict& fields, const Store& store) {
   viewshed::ZoneStudyRequest request;
-  const py::object turbines = fields["turbines"];
-  request.turbines = py::isinstance<py::str>(turbines) ? turbines_of(turbines.cast<std::string>(), fields, store)
-                                                       : turbines_of(turbines.cast<py::list>());
+  request.turbines = turbines_of(fields, store.metadata().crs_wkt);
   request.viewpoints = viewpoints_of(fields, store);
   request.routes = routes_of(fields, store);
   take(fields, "route_step", request.route_step);
@@ -114,18 +73,18 @@ viewshed::ZoneStudyRequest study_request_of(const py::dict& fields, const Store&
   zone.detail = detail_of(fields);
   zone.themes = themes_of(fields);
   zone.nodata = nodata_of(fields);
-  if (fields.contains("foliage")) {
-    zone.foliage.emplace();
-    take(fields, "foliage", zone.foliage->extinction);
-    take(fields, "transmittance", zone.foliage->least_transmittance);
-  }
+  if (const auto foliage = foliage_of(fields)) zone.foliage = {foliage->extinction, foliage->least_transmittance};
   take(fields, "memory_bytes", zone.memory_bytes);
   return request;
 }
 
 std::shared_ptr<Study> ztv(const SharedStore& store, const py::dict& fields, const py::object& show) {
   viewshed::ZoneStudyRequest request = study_request_of(fields, *store);
-  auto study = result_of(show, [&](Progress& progress) { return study_zone(*store, std::move(request), progress); });
+  const LeftOut left_out(fields);
+  auto study = result_of(show, [&](Progress& progress) {
+    left_out.leave(*store, *request.zone.themes, progress);
+    return study_zone(*store, std::move(request), progress);
+  });
   return std::make_shared<Study>(Study{store, std::move(study)});
 }
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import subprocess
 from pathlib import Path
@@ -32,6 +33,36 @@ def cardiff_file(tmp_path_factory: pytest.TempPathFactory) -> Path:
 @pytest.fixture(scope="session")
 def cardiff(cardiff_file: Path) -> itin.Store:
     return itin.Store(cardiff_file)
+
+
+@pytest.fixture(scope="session")
+def wooded(tmp_path_factory: pytest.TempPathFactory) -> itin.Store:
+    """The town's houses, and among them an avenue of trees and a grove, both with leaf areas of their own."""
+    path = tmp_path_factory.mktemp("wooded") / "wooded.itin"
+    itin.import_terrain(path, DATA / "alexandria-dtm.tif")
+    itin.import_features(path, DATA / "alexandria-buildings.geojson", kind="buildings", height_field="HEIGHT")
+    boxes = (("Avenue", 0.4, 321810, 4297600, 321830, 4297780), ("Lime Grove", 2, 321760, 4297690, 321800, 4297720))
+    features = [
+        {
+            "type": "Feature",
+            "properties": {"name": name, "leaves": leaves},
+            "geometry": {"type": "Polygon", "coordinates": [[[a, b], [c, b], [c, d], [a, d], [a, b]]]},
+        }
+        for name, leaves, a, b, c, d in boxes
+    ]
+    trees = path.with_name("trees.geojson")
+    trees.write_text(json.dumps({"type": "FeatureCollection", "features": features}))
+    itin.import_features(
+        path,
+        trees,
+        crs="EPSG:26918",
+        kind="vegetation",
+        theme="trees",
+        height=15,
+        name_field="name",
+        attributes=["leaves"],
+    )
+    return itin.Store(path)
 
 
 @pytest.fixture(scope="session")

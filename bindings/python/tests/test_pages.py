@@ -47,8 +47,9 @@ def test_the_blocks_of_a_page_run_one_after_the_other(folder: Path, page: Path) 
     if page.stem != "python":
         return
     assert len(blocks_of(page)) > 5
-    for made in ("seen.tif", "judged.csv", "masts/sites.csv", "zone/tip-count.tif"):
+    for made in ("seen.tif", "judged.csv", "masts/sites.csv", "zone/tip-count.tif", "winter-foliage.tif"):
         assert (folder / made).exists(), made
+    assert (folder / "amenity" / "dwellings.csv").exists()
 
 
 def test_a_mast_is_sited_to_the_same_bytes_by_commands_and_in_python(

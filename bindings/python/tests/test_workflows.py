@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import csv
 import json
 from pathlib import Path
 
 import numpy as np
+import pytest
 from conftest import DATA, run
 
 import itin
@@ -142,3 +144,60 @@ def test_placed_turbines_are_the_command_line_s(cardiff: itin.Store, tmp_path: P
     document = json.loads((tmp_path / "theirs" / "site.json").read_text())
     assert [(site.x, site.y) for site in plan.chosen] == [(site["x"], site["y"]) for site in document["chosen"]]
     assert plan.value == document["value"]
+
+
+def test_dwellings_are_the_command_line_s(wooded: itin.Store, tmp_path: Path) -> None:
+    (tmp_path / "rotors.csv").write_text("name,x,y,hub_height,rotor_diameter\nA,321950,4297600,60,50\nB,321940,4297890,60,50\n")
+    shares = [(0.5, 0.8)] * 6 + [(0.6, 0.7)] * 6
+    rows = [f"{month},{sunshine},{operation}" for month, (sunshine, operation) in enumerate(shares, 1)]
+    (tmp_path / "months.csv").write_text("\n".join(["month,sunshine,operation", *rows]) + "\n")
+    survey = wooded.dwellings(
+        tmp_path / "rotors.csv",
+        year=2027,
+        utc_offset_minutes=-300,
+        limit_minutes_year=600,
+        months=shares,
+        radius=400,
+        foliage=0.4,
+        transmittance=0.3,
+    )
+    files = survey.write(
+        tmp_path / "ours", sheets=["A3"], sheets_of=["feature 17"], project="Old Town", date="1 July 2027"
+    )
+    flicker = ["--year", "2027", "--time-zone", "-5", "--limits", "10h,30min", "--months", tmp_path / "months.csv"]
+    woods = ["--foliage=0.4", "--transmittance", "0.3", "--radius", "400"]
+    sheets = ["--sheets", "A3", "--sheets-of", "feature 17", "--project", "Old Town", "--date", "1 July 2027"]
+    turbines = ["--turbines", tmp_path / "rotors.csv"]
+    run("dwellings", wooded.path, *turbines, *flicker, *woods, *sheets, "-o", tmp_path / "theirs")
+    assert len(files) > 8
+    for file in files:
+        assert (tmp_path / "ours" / Path(file.path).name).read_bytes() == (tmp_path / "theirs" / Path(file.path).name).read_bytes()
+    assert {path.name for path in (tmp_path / "ours").iterdir()} == {path.name for path in (tmp_path / "theirs").iterdir()}
+    table = list(csv.DictReader((tmp_path / "ours" / "dwellings.csv").open()))
+    assert [house.name for house in survey.dwellings] == [row["name"] for row in table]
+    for house, row in zip(survey.dwellings, table, strict=True):
+        assert house.flicker.days == int(row["flicker_days"])
+        assert house.flicker.minutes <= house.flicker.calendar[:, 2].sum()
+        winter = house.views.winter
+        assert (str(winter.tips) if winter else "") == row["tips_visible_winter"]
+        assert all(facade.outward is not None for facade in house.facades)
+    assert any(house.flicker.over_year for house in survey.dwellings)
+    assert survey.document["dwellings"]["all"] == len(table)
+
+
+def test_dwellings_may_be_listed_or_of_a_file(town: itin.Store, tmp_path: Path) -> None:
+    (tmp_path / "homes.csv").write_text("name,x,y\nField,321700,4297700\n")
+    turbines = [itin.Turbine(321950, 4297600, hub_height=60, rotor_diameter=50, name="A")]
+    (tmp_path / "rotors.csv").write_text("name,x,y,hub_height,rotor_diameter\nA,321950,4297600,60,50\n")
+    of_file = town.dwellings(tmp_path / "rotors.csv", dwellings=tmp_path / "homes.csv", year=2027)
+    listed = town.dwellings(turbines, dwellings=[itin.Place(321700, 4297700, "Field")], year=2027)
+    (one,), (other,) = of_file.dwellings, listed.dwellings
+    assert (one.name, one.nearest, one.views) == (other.name, other.nearest, other.views)
+    np.testing.assert_array_equal(one.flicker.calendar, other.flicker.calendar)
+    assert one.views.bare is not None and one.views.summer is None
+    with pytest.raises(itin.InputError) as caught:
+        town.dwellings(turbines, year=1800)
+    assert caught.value.field == "year"
+    with pytest.raises(itin.InputError) as caught:
+        town.dwellings(turbines, year=2027, months=[(0.5, 0.5)])
+    assert caught.value.field == "months"

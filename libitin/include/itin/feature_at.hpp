@@ -57,6 +57,13 @@ struct FeatureNumber {
   friend auto operator<=>(const FeatureNumber&, const FeatureNumber&) = default;
 };
 
+/// Returns the features of these names, as reports and documents print them. A name is the theme's, and
+///   - a colon and the feature's id or name: "woods:17", "houses:Town Hall";
+///   - a comma and its title: "houses, Town Hall (id 42)";
+///   - or # and its number: "woods#16".
+/// Cost: reads all footprints of the themes. Throws InputError for a name of no feature or of several; CorruptStore.
+std::vector<FeatureNumber> features_called(const Store& store, const std::vector<std::string>& names);
+
 /// Returns the choice of themes without these features: a surface on which they do not stand, in every query. Nothing
 /// changes beyond their outlines; within, the surface is the ground as the store has it, whatever else made way for
 /// them. It ends at their outlines, where it is straight between their vertices; at tolerance 0 these lie on each edge

@@ -25,6 +25,9 @@ std::string plain_text(std::string_view text);
 /// Does the same, but keeps tabs and line breaks: the text as any document may hold it, whatever it was made of.
 std::string printable_text(std::string_view text);
 
+/// Returns the text without the blanks, tabs and carriage returns at its ends.
+std::string without_outer_blanks(const std::string& text);
+
 /// Makes the texts of one file plain, and remembers which were not.
 class PlainTexts {
  public:

@@ -22,6 +22,14 @@ struct RegionClass {
   Rgba colour{0, 114, 178};  ///< QGIS draws the class in this colour
 };
 
+/// The regions of a raster as one of several layers of a file; vector_export.hpp writes it.
+struct RegionLayer {
+  std::string name;
+  RasterGrid grid;
+  std::vector<std::uint8_t> values;  ///< one for each cell
+  std::vector<RegionClass> classes;
+};
+
 struct RegionDescription {
   std::string crs_wkt;
   std::string layer = "regions";

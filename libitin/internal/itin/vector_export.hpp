@@ -1,4 +1,4 @@
-// Small sets of points and lines as GeoPackage layers and GeoJSON.
+// Small sets of points and lines, and regions of rasters, as GeoPackage layers and GeoJSON.
 //
 //   VectorLayer ends{"ends", VectorLayer::Shape::kPoints, {{"name", VectorLayer::Type::kText}}, {}};
 //   ends.features.push_back({{{x, y, z}}, {std::string("A")}});
@@ -13,6 +13,7 @@
 
 #include <itin/geometry.hpp>
 #include <itin/progress.hpp>
+#include <itin/raster_regions.hpp>
 
 namespace itin {
 
@@ -33,10 +34,12 @@ struct VectorLayer {
   std::string style = {};  ///< how QGIS draws the layer of a GeoPackage, as QML; empty: as it likes
 };
 
-/// Writes the layers, and their styles in the table in which QGIS looks for them. Equal calls write equal bytes. Throws
-/// FileError if the file exists and may not be replaced, or cannot be written; Cancelled.
+/// Writes the layers, and their styles in the table in which QGIS looks for them; after them the regions, as
+/// write_regions() has them. Equal calls write equal bytes. Throws FileError if the file exists and may not be
+/// replaced, or cannot be written; Cancelled.
 void write_geopackage(const std::string& path, const std::string& crs_wkt, const std::vector<VectorLayer>& layers,
-                      bool overwrite, const Progress& progress = NoProgress());
+                      bool overwrite, const Progress& progress = NoProgress(),
+                      const std::vector<RegionLayer>& regions = {});
 
 /// Writes in the CRS, named in the `crs` member of GeoJSON 2008. Throws as write_geopackage() does, and InputError for
 /// a CRS without EPSG code.

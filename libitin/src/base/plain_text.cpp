@@ -104,6 +104,12 @@ void PlainTexts::Finding::add(std::string_view place) {
   }
 }
 
+std::string without_outer_blanks(const std::string& text) {
+  const char* const blanks = " \t\r";
+  const std::size_t first = text.find_first_not_of(blanks);
+  return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(blanks) + 1 - first);
+}
+
 std::string PlainTexts::plain(std::string_view text, std::string_view place) {
   if (is_plain_text(text)) return std::string(text);
   if (!is_utf8(text)) not_utf8_.add(place);

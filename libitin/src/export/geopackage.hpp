@@ -30,6 +30,7 @@ class GeoPackage {
   void add_field(OGRLayer& layer, const std::string& name, OGRFieldType type);
   void add(OGRLayer& layer, OGRFeature& feature);
   GDALDataset& dataset() { return *dataset_; }
+  const std::string& path() const { return path_; }
   /// Writes everything that is left, such as spatial indices.
   void close();
 

@@ -12,4 +12,8 @@ void write_file(const std::string& path, std::string_view bytes, bool overwrite)
   output.commit();
 }
 
+void require_output_possible(const std::string& path, bool overwrite) {
+  PendingFile::require_possible(path, overwrite);
+}
+
 }  // namespace itin

@@ -14,6 +14,7 @@
 #include "export/export_metadata.hpp"
 #include "export/geopackage.hpp"
 #include "export/polygon_style.hpp"
+#include "export/region_layer.hpp"
 #include "gdal/drivers.hpp"
 #include "gdal/memory_raster.hpp"
 
@@ -69,14 +70,15 @@ void trace(const std::string& path, const RasterGrid& grid, std::span<const T> v
     regions.at(static_cast<std::uint32_t>(feature->GetFieldAsInteger64(0))).add(*feature->GetGeometryRef());
 }
 
-void write_layer(const PendingFile& output, const RasterGrid& grid, Regions& regions,
-                 const RegionDescription& description) {
-  GeoPackage package(output, description.crs_wkt);
-  OGRLayer& layer = package.add_layer(description.layer, wkbMultiPolygon);
-  for (const auto& [name, type] :
+/// Adds the layer of these regions. Returns its name and its style.
+std::pair<std::string, std::string> add_region_layer(GeoPackage& package, const std::string& name,
+                                                     const RasterGrid& grid, const std::vector<RegionClass>& classes,
+                                                     Regions& regions) {
+  OGRLayer& layer = package.add_layer(name, wkbMultiPolygon);
+  for (const auto& [field, type] :
        {std::pair{"value", OFTInteger64}, std::pair{"class", OFTString}, std::pair{"area_m2", OFTReal}})
-    package.add_field(layer, name, type);
-  for (const RegionClass& c : description.classes) {
+    package.add_field(layer, field, type);
+  for (const RegionClass& c : classes) {
     Region& region = regions.at(c.value);
     if (region.cells == 0) continue;
     OGRFeature row(layer.GetLayerDefn());
@@ -86,8 +88,18 @@ void write_layer(const PendingFile& output, const RasterGrid& grid, Regions& reg
     row.SetGeometryDirectly(region.shape.release());
     package.add(layer, row);
   }
-  package.require(add_layer_styles(package.dataset(), {{description.layer, polygon_style(description.classes)}}));
-  package.close();
+  return {name, polygon_style(classes)};
+}
+
+/// Returns the regions of values that are of a class.
+template <class T>
+Regions regions_of(const std::string& path, const RasterGrid& grid, std::span<const T> values, GDALDataType type,
+                   const std::vector<RegionClass>& classes) {
+  ITIN_PRECONDITION(values.size() == grid.cell_count());
+  Regions regions;
+  for (const RegionClass& c : classes) regions[c.value];
+  trace(path, grid, values, type, regions);
+  return regions;
 }
 
 void write_geojson_layer(const PendingFile& output, const RasterGrid& grid, const Regions& regions,
@@ -117,21 +129,27 @@ void write_geojson_layer(const PendingFile& output, const RasterGrid& grid, cons
 template <class T>
 void write_polygons(const std::string& path, const RasterGrid& grid, std::span<const T> values, GDALDataType type,
                     const RegionDescription& description) {
-  ITIN_PRECONDITION(values.size() == grid.cell_count());
   const QuietGdal quiet;
   PendingFile output(path, description.overwrite);
-  Regions regions;
-  for (const RegionClass& c : description.classes) regions[c.value];
-  trace(path, grid, values, type, regions);
+  Regions regions = regions_of(path, grid, values, type, description.classes);
   if (ending_of(path) == ".geojson") {
     write_geojson_layer(output, grid, regions, description);
   } else {
-    write_layer(output, grid, regions, description);
+    GeoPackage package(output, description.crs_wkt);
+    const auto style = add_region_layer(package, description.layer, grid, description.classes, regions);
+    package.require(add_layer_styles(package.dataset(), {style}));
+    package.close();
   }
   output.commit();
 }
 
 }  // namespace
+
+std::pair<std::string, std::string> add_regions(GeoPackage& package, const RegionLayer& layer) {
+  const std::span<const std::uint8_t> values(layer.values);
+  Regions regions = regions_of(package.path(), layer.grid, values, GDT_Byte, layer.classes);
+  return add_region_layer(package, layer.name, layer.grid, layer.classes, regions);
+}
 
 void write_regions(const std::string& path, const RasterGrid& grid, std::span<const std::uint8_t> values,
                    const RegionDescription& description) {

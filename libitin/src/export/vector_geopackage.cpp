@@ -5,6 +5,7 @@
 
 #include "export/geopackage.hpp"
 #include "export/polygon_style.hpp"
+#include "export/region_layer.hpp"
 
 namespace itin {
 
@@ -42,21 +43,19 @@ void add(GeoPackage& package, const VectorLayer& layer, const Progress& progress
   }
 }
 
-void add_styles(GeoPackage& package, const std::vector<VectorLayer>& layers) {
-  std::vector<std::pair<std::string, std::string>> styles;
-  for (const VectorLayer& layer : layers)
-    if (!layer.style.empty()) styles.emplace_back(layer.name, layer.style);
-  package.require(styles.empty() || add_layer_styles(package.dataset(), styles));
-}
-
 }  // namespace
 
 void write_geopackage(const std::string& path, const std::string& crs_wkt, const std::vector<VectorLayer>& layers,
-                      bool overwrite, const Progress& progress) {
+                      bool overwrite, const Progress& progress, const std::vector<RegionLayer>& regions) {
   PendingFile output(path, overwrite);
   GeoPackage package(output, crs_wkt);
-  for (const VectorLayer& layer : layers) add(package, layer, progress);
-  add_styles(package, layers);
+  std::vector<std::pair<std::string, std::string>> styles;
+  for (const VectorLayer& layer : layers) {
+    add(package, layer, progress);
+    if (!layer.style.empty()) styles.emplace_back(layer.name, layer.style);
+  }
+  for (const RegionLayer& layer : regions) styles.push_back(add_regions(package, layer));
+  package.require(styles.empty() || add_layer_styles(package.dataset(), styles));
   package.close();
   output.commit();
 }

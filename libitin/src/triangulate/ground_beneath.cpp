@@ -21,6 +21,8 @@ namespace {
 /// How far, in grid units, a vertex on the border may lie from the edge that an import has put it on: rounding moves
 /// the vertex by less than one step, and once more where lines were made planar.
 constexpr double kBesideEdge = 1.5;
+/// What holds that: whole steps.
+constexpr int kStepsBesideEdge = 2;
 
 Window window_over(const std::vector<GridBox>& boxes, const Grid& grid) {
   std::vector<Window::Polygon> parts;
@@ -73,7 +75,8 @@ std::vector<PlanEdge> kept_edges(const Store& store, const Selection& selection,
   return kept;
 }
 
-/// The edges of the terrain's triangles that reach the region's border, and its lines.
+/// The edges of the terrain's triangles that reach the region's border, and its lines. A triangle reaches it also where
+/// a vertex on the border belongs on one of its edges, and lies a step beyond.
 std::vector<PlanEdge> edges_at_border(const Tin& bare, const OpenedRegion& region) {
   const auto position = [&](std::uint32_t v) { return Position{bare.vertices[v].x, bare.vertices[v].y}; };
   std::vector<PlanEdge> edges;
@@ -82,7 +85,7 @@ std::vector<PlanEdge> edges_at_border(const Tin& bare, const OpenedRegion& regio
     GridBox box;
     for (const std::uint32_t v : {a, b, c}) box.extend(bare.vertices[v].x, bare.vertices[v].y);
     bool near = false;
-    region.for_each_border(box, [&](const PlanEdge&) { near = true; });
+    region.for_each_border(expanded(box, kStepsBesideEdge), [&](const PlanEdge&) { near = true; });
     if (!near) continue;
     for (const auto& [from, to] : {std::pair(a, b), std::pair(b, c), std::pair(c, a)})
       edges.push_back(plan_edge(position(from), position(to)));
@@ -145,7 +148,7 @@ class EdgePieces {
     };
     for (const Position& end : {e.first, e.second})
       if (is_vertex(end)) add(end);
-    region_.for_each_border(expanded(extent_of(e), 2), [&](const PlanEdge& border) {
+    region_.for_each_border(expanded(extent_of(e), kStepsBesideEdge), [&](const PlanEdge& border) {
       for (const Position& end : {border.first, border.second})
         if (has_code(region_.feet(), code_of(end))) add(end);
     });

@@ -29,6 +29,9 @@ struct Foliage {
   double leaf_area = kLeavesOn;      ///< the one of features that state none
   std::string leaf_area_field = {};  ///< the field of a theme's features with theirs; empty: none
   double least_transmittance = 0.5;  ///< what less of the light comes from is hidden
+
+  /// Takes the leaf area from a text: "on", "off", or else the field that features have theirs in.
+  void set_leaf_area(const std::string& text);
 };
 
 /// A stretch of a line within the foliage of one feature.
@@ -77,5 +80,12 @@ struct PathFoliage {
 /// negative, for a least transmittance outside 0 to 1, and for a field that no theme of vegetation has; and what
 /// analyse() throws.
 FoliageSight through_foliage(const Store& store, const StoreLine& line, const LosQuery& query, const Foliage& foliage);
+
+/// Returns the report on a line through foliage: that over everything but vegetation, with the verdict of the sight,
+/// and with the foliage among its facts.
+LosReport report_through(FoliageSight sight, const Foliage& foliage);
+
+/// The JSON document that `itin los --foliage --json` prints, without the call and its outputs.
+std::string json_of(const Store& store, const StoreLine& line, const FoliageSight& sight, const Foliage& foliage);
 
 }  // namespace itin::profile

@@ -9,6 +9,9 @@
 
 namespace itin::profile {
 
+/// Says in words how woods are seen through.
+std::string foliage_rule_text(const Foliage& foliage);
+
 /// Returns `foliage` of a line's document.
 Document foliage_document(const FoliageSight& sight, const Foliage& foliage);
 /// Returns the same in a sentence, without a full stop.

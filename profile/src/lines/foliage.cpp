@@ -40,6 +40,11 @@ std::optional<WoodLoss> wood_loss(const FoliageSight& sight, const Profile& surf
 
 }  // namespace
 
+void Foliage::set_leaf_area(const std::string& text) {
+  leaf_area = text == "off" ? kLeavesOff : kLeavesOn;
+  leaf_area_field = text == "on" || text == "off" ? "" : text;
+}
+
 FoliageSight through_foliage(const Store& store, const StoreLine& line, const LosQuery& query, const Foliage& foliage) {
   const LeafAreas leaves(store, line.themes, foliage);
   StoreLine solid = line;

@@ -1,5 +1,8 @@
+#include <utility>
+
 #include <fmt/format.h>
 
+#include <profile/documents.hpp>
 #include <profile/foliage_text.hpp>
 
 namespace itin::profile {
@@ -25,6 +28,14 @@ Document stretches_document(const std::vector<FoliageStretch>& stretches, const 
 }
 
 }  // namespace
+
+std::string foliage_rule_text(const Foliage& foliage) {
+  const std::string leaves = foliage.leaf_area_field.empty()
+                                 ? fmt::format("leaf area {:g} m²/m³", foliage.leaf_area)
+                                 : fmt::format("leaf areas by the field {}", foliage.leaf_area_field);
+  return fmt::format("{}, extinction {:g}; visible from {:g} % of the light on", leaves, foliage.extinction,
+                     100 * foliage.least_transmittance);
+}
 
 Document foliage_document(const FoliageSight& sight, const Foliage& foliage) {
   Document document{
@@ -63,6 +74,20 @@ std::string foliage_text(const FoliageSight& sight, const Foliage& foliage) {
                     "; {:.1f} dB through the wood, {:.1f} dB over it, {:.1f} dB in all by a preset for P.833 "
                     "section 3",
                     loss.through_db, *loss.over_db, loss.loss_db);
+}
+
+LosReport report_through(FoliageSight sight, const Foliage& foliage) {
+  const std::string text = foliage_text(sight, foliage);
+  LosReport report = std::move(sight.solid);
+  report.verdict = sight.verdict;
+  report.facts.emplace_back("Foliage", text);
+  return report;
+}
+
+std::string json_of(const Store& store, const StoreLine& line, const FoliageSight& sight, const Foliage& foliage) {
+  Document document = los_document(store.metadata(), line, report_through(sight, foliage));
+  document["foliage"] = foliage_document(sight, foliage);
+  return result_text(document);
 }
 
 }  // namespace itin::profile

@@ -26,7 +26,7 @@ struct Part {
 constexpr double kA3Width = 420;
 constexpr Part kHeadingPart{10, 10, 245, 10}, kFactsPart{10, 23, 178, 62}, kPlanPart{194, 26, 61, 56},
     kTablesPart{10, 88, 245, 80}, kMapPart{266, 14, 140, 128}, kKeysPart{266, 146, 144, 22},
-    kCalendarPart{10, 171, 400, 112}, kFootPart{10, 285, 400, 5};
+    kCalendarPart{10, 171, 400, 112}, kFootPart{10, 284.5, 400, 6};
 
 class DwellingPage {
  public:
@@ -59,6 +59,13 @@ class DwellingPage {
  private:
   Box box(const Part& part) const { return box_on(paper_, part); }
 
+  /// The paper of a map in this part, whose letters and symbols are as large as those beside it.
+  Paper paper_of_map(const Part& part) const {
+    Paper paper = paper_;
+    paper.frame = box(part), paper.type = type_;
+    return paper;
+  }
+
   void draw_heading() {
     const Box at = box(kHeadingPart);
     const Lettering title =
@@ -70,7 +77,7 @@ class DwellingPage {
 
   void draw_facts() {
     const Box at = box(kFactsPart);
-    const double values = at.xmin + 44 * millimetre_;
+    const double values = at.xmin + 46 * millimetre_;
     const Lettering plain{.size = 8 * type_, .colour = kInk};
     double y = at.ymin;
     for (const auto& [name, value] : sheet_.facts) {
@@ -85,8 +92,7 @@ class DwellingPage {
   }
 
   void draw_plan() {
-    Paper paper = paper_;
-    paper.frame = box(kPlanPart);
+    const Paper paper = paper_of_map(kPlanPart);
     const double scale = scale_within(paper.frame, sheet_.plan);
     MapFrame(drawing_, paper, ground_in(paper.frame, sheet_.plan.area, scale)).draw(sheet_.plan);
     drawing_.text({paper.frame.xmin, paper.frame.ymin - 3 * type_},
@@ -105,8 +111,7 @@ class DwellingPage {
   }
 
   void draw_map() {
-    Paper paper = paper_;
-    paper.frame = box(kMapPart);
+    const Paper paper = paper_of_map(kMapPart);
     MapFrame map(drawing_, paper, ground_in_dwelling_map(sheet_.map));
     map.draw(sheet_.map);
     draw_keys(map.left_out());
@@ -148,7 +153,16 @@ class DwellingPage {
     add("date: ", block.date), add("figure: ", block.figure);
     for (const std::string& source : block.sources) add(&source == &block.sources.front() ? "sources: " : "", source);
     const Box at = box(kFootPart);
-    drawing_.text({at.xmin, at.ymax}, drawing_.fitted(text, at.width(), faint(6.5)), faint(6.5));
+    std::vector<std::string> lines = drawing_.lines(text, at.width(), faint(6.5));
+    if (lines.size() > 2) {
+      for (std::size_t i = 2; i < lines.size(); ++i) lines[1] += " " + lines[i];
+      lines.resize(2);
+    }
+    double y = at.ymin + 6.5 * type_;
+    for (const std::string& line : lines) {
+      drawing_.text({at.xmin, y}, drawing_.fitted(line, at.width(), faint(6.5)), faint(6.5));
+      y += 8 * type_;
+    }
   }
 
   Lettering faint(double size) const { return {.size = size * type_, .colour = kFaint}; }

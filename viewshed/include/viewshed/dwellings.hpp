@@ -68,6 +68,11 @@ inline constexpr double kReachOfBlade = 687;
 /// which may be missing. Throws FileError, InputError.
 std::array<MonthShare, 12> read_months(const std::string& path);
 
+/// Reads dwellings from a vector file of points, or from CSV with columns x,y or lon,lat, in the CRS `to_crs` (WKT). Of
+/// a file that states no CRS, it is `crs`, or else `to_crs`. Names are those of the field `name`, or rows from 1.
+/// Throws FileError, InputError where the file has none.
+SitePlaces read_dwellings(const std::string& path, const std::string& crs, const std::string& to_crs);
+
 struct DwellingsRequest {
   TurbineTable turbines = {};
   /// The dwellings. One that lies on a building of the themes is that building, any other a place in the open. Without

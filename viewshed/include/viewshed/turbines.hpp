@@ -98,6 +98,7 @@ struct Visibility {
   std::vector<std::uint16_t> hub_undecided;   ///< empty unless the zone leaves_open()
   std::vector<std::uint16_t> tip_undecided;   ///< empty where hub_undecided is; never less than it
   std::vector<std::uint32_t> turbines;        ///< tips seen: grids of 32-bit words, see turbine_bit()
+  std::vector<std::uint32_t> hubs;            ///< hubs seen, likewise; empty unless woods are seen through
   std::vector<float> visible_height_m;        ///< tip less least visible height, the greatest; 0 if none is seen
   std::vector<float> vertical_angle_deg;      ///< angle of a turbine's visible part, the greatest; 0 if none is seen
   std::vector<float> vertical_angle_sum_deg;  ///< over all turbines

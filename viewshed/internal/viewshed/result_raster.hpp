@@ -2,14 +2,18 @@
 // metadata, and with a style for QGIS beside it where the mode has one.
 //
 //   write_result_raster("seen.tif", result, store.metadata(), {.certified = false, .overwrite = true}, progress);
+//
+// Through foliage it has two more beside it.
 #pragma once
 
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <itin/progress.hpp>
 #include <itin/store.hpp>
+#include <viewshed/foliage_view.hpp>
 #include <viewshed/result.hpp>
 
 namespace itin::viewshed {
@@ -31,5 +35,13 @@ std::string mode_name(Mode mode, bool certified);
 /// Cancelled.
 void write_result_raster(const std::string& path, const Result& result, const StoreMetadata& metadata,
                          const ResultRasterOptions& options, const Progress& progress);
+
+/// The files that write_foliage_rasters() writes beside a raster: NAME-foliage.tif and NAME-transmittance.tif beside
+/// NAME.tif.
+std::vector<std::string> foliage_rasters_beside(const std::string& raster);
+/// Writes the metres of foliage on the line to each cell of a result, and the share of the light that comes through.
+/// Throws FileError, Cancelled.
+void write_foliage_rasters(const std::string& raster, const Result& result, const FoliageView& view,
+                           const StoreMetadata& metadata, const ResultRasterOptions& options, const Progress& progress);
 
 }  // namespace itin::viewshed

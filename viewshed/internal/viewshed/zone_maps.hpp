@@ -26,16 +26,18 @@ struct ZoneMap {
   std::string title;         ///< "Zone of theoretical visibility: blade tips"
   std::string heading;       ///< heads its legend
   const char* seen = "tip";  ///< "tip", "hub", "proposal", "additional" or "farms"
-  bool screened = false;
+  bool screened = false;     ///< whether features hide what is behind them
+  std::string season = {};   ///< "summer" or "winter" where woods are seen through
   std::vector<Class> classes;
   std::vector<std::uint8_t> class_of_cell;  ///< index of a class, or kNoMapClass
 };
 
 /// Returns maps of the tips seen, of the hubs seen where a hub is known, of the proposal's tips and of what it adds
-/// where has_proposal(), and of combinations of farms where there are several; then all of these screened. The
-/// commonest combinations, `most_combinations` (up to 250) of them, have classes of their own, and the others share
-/// one. The first class of each map holds the cells that certainly see nothing; where the zone leaves_open(), the last
-/// holds the cells of which that is undecided.
+/// where has_proposal(), and of combinations of farms where there are several; then all of these screened; then of tips
+/// and hubs in each season where woods are seen through. The commonest combinations, `most_combinations` (up to 250) of
+/// them, have classes of their own, and the others share one. The first class of each map holds the cells that
+/// certainly see nothing; where the zone leaves_open(), the last holds the cells of which that is undecided, but for
+/// seasons, of which nothing is undecided.
 std::vector<ZoneMap> zone_maps(const Zone& zone, std::size_t most_combinations = 12);
 
 }  // namespace itin::viewshed

@@ -45,8 +45,10 @@ void write_result_raster(const std::string& path, const Result& result, const St
                        {"target_on", standing_on(r.targets_on_surface)}},
                       options.overwrite};
   if (!options.foliage.empty()) file.metadata.emplace_back("foliage", options.foliage);
+  const bool styled = has_qgis_style(r.mode);
+  if (styled) require_output_possible(style_beside(path), options.overwrite);
   write_geotiff(path, result, file, progress);
-  if (has_qgis_style(r.mode)) write_file(style_beside(path), qgis_style(result), options.overwrite);
+  if (styled) write_file(style_beside(path), qgis_style(result), options.overwrite);
 }
 
 }  // namespace itin::viewshed

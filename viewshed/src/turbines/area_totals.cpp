@@ -21,6 +21,11 @@ struct AreaRow {
   std::uint64_t all;
 };
 
+std::string surface_of(const ZoneMap& map) {
+  if (!map.season.empty()) return map.season;
+  return map.screened ? "screened" : "bare";
+}
+
 /// Returns the rows of a map: its classes, any tip or hub seen, and all.
 std::vector<AreaRow> rows_of_map(const ZoneMap& map) {
   ZoneMap::Class any{"any", {}}, all{"all", {}};
@@ -51,7 +56,7 @@ std::string area_totals(const Zone& zone) {
     return 100.0 * static_cast<double>(row.cells.cells) / static_cast<double>(std::max<std::uint64_t>(1, row.all));
   };
   const std::vector<TableColumn<AreaRow>> columns{
-      {"surface", [](const AreaRow& row) { return row.map.screened ? "screened" : "bare"; }},
+      {"surface", [](const AreaRow& row) { return surface_of(row.map); }},
       {"seen", [](const AreaRow& row) { return row.map.seen; }},
       {"class", [](const AreaRow& row) { return row.name; }},
       {"area_km2", [&](const AreaRow& row) { return zone.km2(row.cells.cells); }, kInCsv, number.c_str()},

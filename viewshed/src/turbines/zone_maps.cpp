@@ -18,14 +18,16 @@ namespace {
 constexpr const char* kNone = "None visible";
 constexpr const char* kUndecided = "Undecided, across ground without data";
 
-/// Puts the cells of the first class that leave something undecided into a last class, and counts all.
+/// Puts the cells of the first class that leave something undecided into a last class, and counts all. Without counts
+/// of the undecided nothing is.
 void count_cells(const Zone& zone, const std::vector<std::uint16_t>& undecided, ZoneMap& map) {
-  if (zone.leaves_open()) map.classes.push_back({kUndecided, kUndecidedGrey, 0, 0, true});
+  const bool leaves_open = zone.leaves_open() && !undecided.empty();
+  if (leaves_open) map.classes.push_back({kUndecided, kUndecidedGrey, 0, 0, true});
   const auto last = static_cast<std::uint8_t>(map.classes.size() - 1);
   for (std::size_t i = 0; i < map.class_of_cell.size(); ++i) {
     std::uint8_t& of_cell = map.class_of_cell[i];
     if (of_cell == kNoMapClass) continue;
-    const bool open = zone.leaves_open() && undecided[i] > 0;
+    const bool open = leaves_open && undecided[i] > 0;
     if (open && of_cell == 0) of_cell = last;
     ++map.classes[of_cell].cells;
     if (open) ++map.classes[of_cell].open_cells;
@@ -46,8 +48,9 @@ ZoneMap banded_map(const Zone& zone, const std::vector<ValueBand>& bands, const 
 }
 
 /// Returns the map of hubs, which says whose hubs are known where not all are.
-ZoneMap hub_map(const Zone& zone, const Visibility& visibility) {
-  ZoneMap map = banded_map(zone, count_bands(zone, TurbinePart::kHub), visibility.hub_count, visibility.hub_undecided);
+ZoneMap hub_map(const Zone& zone, const std::vector<std::uint16_t>& counts,
+                const std::vector<std::uint16_t>& undecided) {
+  ZoneMap map = banded_map(zone, count_bands(zone, TurbinePart::kHub), counts, undecided);
   const std::string known = of_known_hubs(zone);
   map.title = "Zone of theoretical visibility: hubs" + known;
   map.heading = "Turbines with their hub visible";
@@ -57,8 +60,9 @@ ZoneMap hub_map(const Zone& zone, const Visibility& visibility) {
   return map;
 }
 
-ZoneMap tip_map(const Zone& zone, const Visibility& visibility) {
-  ZoneMap map = banded_map(zone, count_bands(zone, TurbinePart::kTip), visibility.tip_count, visibility.tip_undecided);
+ZoneMap tip_map(const Zone& zone, const std::vector<std::uint16_t>& counts,
+                const std::vector<std::uint16_t>& undecided) {
+  ZoneMap map = banded_map(zone, count_bands(zone, TurbinePart::kTip), counts, undecided);
   map.title = "Zone of theoretical visibility: blade tips", map.heading = "Turbines with their blade tip visible";
   return map;
 }
@@ -107,14 +111,21 @@ void add_map(std::vector<ZoneMap>& maps, ZoneMap map, const char* name, const ch
   maps.push_back(std::move(map));
 }
 
+void add_season(std::vector<ZoneMap>& maps, ZoneMap map, const char* name, const char* seen,
+                const std::string& season) {
+  map.title += " through woods in " + season;
+  map.name = name + ("-" + season), map.seen = seen, map.screened = true, map.season = season;
+  maps.push_back(std::move(map));
+}
+
 }  // namespace
 
 std::vector<ZoneMap> zone_maps(const Zone& zone, std::size_t most_combinations) {
   std::vector<ZoneMap> maps;
   const std::size_t farms = farms_of(zone).size();
   const auto add_all = [&](const Visibility& v, bool screened) {
-    add_map(maps, tip_map(zone, v), "tip-count", "tip", screened);
-    if (known_hubs(zone) > 0) add_map(maps, hub_map(zone, v), "hub-count", "hub", screened);
+    add_map(maps, tip_map(zone, v.tip_count, v.tip_undecided), "tip-count", "tip", screened);
+    if (known_hubs(zone) > 0) add_map(maps, hub_map(zone, v.hub_count, v.hub_undecided), "hub-count", "hub", screened);
     if (has_proposal(zone.request)) {
       add_map(maps, proposal_map(zone, v), "proposal-tip-count", "proposal", screened);
       add_map(maps, addition_map(zone, v), "additional", "additional", screened);
@@ -123,6 +134,11 @@ std::vector<ZoneMap> zone_maps(const Zone& zone, std::size_t most_combinations) 
   };
   add_all(zone.bare, false);
   if (zone.screened) add_all(*zone.screened, true);
+  const auto add_both = [&](const SeasonCounts& counts, const char* season) {
+    add_season(maps, tip_map(zone, counts.tip_count, {}), "tip-count", "tip", season);
+    if (known_hubs(zone) > 0) add_season(maps, hub_map(zone, counts.hub_count, {}), "hub-count", "hub", season);
+  };
+  if (zone.seasons) add_both(zone.seasons->summer, "summer"), add_both(zone.seasons->winter, "winter");
   return maps;
 }
 

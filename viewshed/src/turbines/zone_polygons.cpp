@@ -7,7 +7,7 @@
 #include <itin/raster_regions.hpp>
 #include <viewshed/zone_files.hpp>
 
-#include "turbines/count_classes.hpp"
+#include "turbines/count_regions.hpp"
 #include "turbines/farm_combinations.hpp"
 #include "turbines/proposal.hpp"
 #include "turbines/value_bands.hpp"
@@ -18,15 +18,9 @@ namespace {
 
 void write_bands(const std::string& path, const std::string& layer, const Zone& zone, const CountClasses& counts,
                  const ZoneFileOptions& options) {
-  RegionDescription description{options.crs_wkt, layer, {}, true};
-  for (std::size_t c = 1; c < counts.classes().size(); ++c)
-    description.classes.push_back(
-        {static_cast<std::uint32_t>(c), counts.classes()[c].label, counts.classes()[c].colour});
-  constexpr std::uint8_t kOutsideBands = 255;
-  std::vector<std::uint8_t> banded(zone.grid.cell_count());
-  for (std::size_t i = 0; i < banded.size(); ++i)
-    banded[i] = static_cast<std::uint8_t>(counts.of(i).value_or(kOutsideBands));
-  write_regions(path, zone.grid, std::span<const std::uint8_t>(banded), description);
+  const RegionLayer bands = band_layer(layer, zone, counts);
+  write_regions(path, zone.grid, std::span<const std::uint8_t>(bands.values),
+                {options.crs_wkt, layer, bands.classes, true});
 }
 
 void write_farm_polygons(const std::string& path, const Zone& zone, const std::vector<std::uint32_t>& farms,

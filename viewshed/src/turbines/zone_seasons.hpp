@@ -11,7 +11,7 @@
 
 namespace itin::viewshed {
 
-/// Surveys a zone whose woods are solid.
+/// Surveys a zone whose woods are solid. The request has foliage, so that the sets of hubs are told.
 using SolidSurvey = std::function<Zone(const ZoneRequest&, Progress&)>;
 
 /// Returns what is certainly seen of a zone's turbines through the foliage that its request has. What woods do not hide

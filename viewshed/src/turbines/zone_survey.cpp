@@ -21,13 +21,19 @@ namespace itin::viewshed {
 /// Holds what is known of a tile's cells so far.
 struct ZoneSurvey::TileSightings {
   TileSightings(const ExactScene& surface, std::size_t number, std::size_t words)
-      : place(surface.begin(number)), tile(place->tile), centres(place->centres), ground(place->ground), seen(words) {
+      : place(surface.begin(number)),
+        tile(place->tile),
+        centres(place->centres),
+        ground(place->ground),
+        seen(words),
+        hubs_seen(words) {
     hubs.fill(kCountOutside), tips.fill(kCountOutside);
     open_hubs.fill(0), open_tips.fill(0);
     height.fill(0), angle.fill(0), angle_sum.fill(0);
     nearest.fill(kInfinity);
     open.fill(true);
-    for (auto& word : seen) word.fill(0);
+    for (auto* sets : {&seen, &hubs_seen})
+      for (auto& word : *sets) word.fill(0);
   }
   const std::unique_ptr<ExactScene::TileCells> place;  ///< its targets are the eyes, as seen from the current turbine
   const Tile& tile;
@@ -37,7 +43,7 @@ struct ZoneSurvey::TileSightings {
   TileValues<std::uint16_t> hubs, tips;
   TileValues<std::uint16_t> open_hubs, open_tips;  ///< counts of those in the shadow of voids
   TileValues<double> height, angle, angle_sum, nearest;
-  std::vector<TileValues<std::uint32_t>> seen;
+  std::vector<TileValues<std::uint32_t>> seen, hubs_seen;
   TileValues<bool> open;     ///< whether the line to the current turbine is open
   std::vector<double> sums;  ///< one per turbine
   std::uint64_t lines = 0;
@@ -166,10 +172,13 @@ void ZoneSurvey::record(std::size_t turbine, std::size_t cell, double distance, 
                         TileSightings& work) const {
   const Axis& axis = axes_[turbine];
   const double resolution = ground_.units().resolution;
-  ++work.tips[cell];
-  if (least <= axis.hub) ++work.hubs[cell];
   const RasterBit bit = turbine_bit(zone_.request.turbines[turbine].number);
+  ++work.tips[cell];
   work.seen[bit.grid][cell] |= bit.mask;
+  if (least <= axis.hub) {
+    ++work.hubs[cell];
+    work.hubs_seen[bit.grid][cell] |= bit.mask;
+  }
   const double eye = work.ground[cell] * resolution + zone_.request.observer_height;
   const double angle =
       vertical_angle_deg(zone_.request.earth, distance, eye, least * resolution, axis.tip * resolution);
@@ -192,8 +201,10 @@ void ZoneSurvey::store(const TileSightings& work, Visibility& result) const {
       result.hub_undecided[to] = work.open_hubs[from];
       result.tip_undecided[to] = work.open_tips[from];
     }
-    for (std::size_t w = 0; w < zone_.words; ++w)
+    for (std::size_t w = 0; w < zone_.words; ++w) {
       result.turbines[w * zone_.grid.cell_count() + to] = work.seen[w][from];
+      if (!result.hubs.empty()) result.hubs[w * zone_.grid.cell_count() + to] = work.hubs_seen[w][from];
+    }
     result.visible_height_m[to] = static_cast<float>(work.height[from]);
     result.vertical_angle_deg[to] = static_cast<float>(work.angle[from]);
     result.vertical_angle_sum_deg[to] = static_cast<float>(work.angle_sum[from]);

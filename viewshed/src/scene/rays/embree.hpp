@@ -1,4 +1,6 @@
 // Wraps Embree: a tree of boxes, the packets of rays that are cast at it, and what versions 3 and 4 call differently.
+// All tests run with version 3.13. With version 4 only this was checked: embree.cpp and scene.cpp compile against the
+// headers of 4.4.1, without a warning.
 #pragma once
 
 #include <array>

@@ -11,6 +11,7 @@
 #include <viewshed/link_exclusion.hpp>
 #include <viewshed/zone_files.hpp>
 
+#include "turbines/count_regions.hpp"
 #include "turbines/value_bands.hpp"
 #include "workflows/zone/sight_summary.hpp"
 #include "workflows/zone/study_radio.hpp"
@@ -125,6 +126,18 @@ std::vector<VectorLayer> study_layers(const ZoneStudy& study, const StudyLines& 
                                   layer_of_lines("rings", lines.rings, 0.2),
                                   layer_of_lines("study_area", lines.study_area, 0.6)};
   std::erase_if(layers, [](const VectorLayer& layer) { return layer.features.empty(); });
+  return layers;
+}
+
+std::vector<RegionLayer> season_layers(const Zone& zone) {
+  std::vector<RegionLayer> layers;
+  if (!zone.seasons) return layers;
+  for (const auto& [season, counts] :
+       {std::pair("summer", &zone.seasons->summer), std::pair("winter", &zone.seasons->winter)}) {
+    layers.push_back(band_layer(std::string("tips_") + season, zone, {zone, *counts, TurbinePart::kTip}));
+    if (known_hubs(zone) > 0)
+      layers.push_back(band_layer(std::string("hubs_") + season, zone, {zone, *counts, TurbinePart::kHub}));
+  }
   return layers;
 }
 

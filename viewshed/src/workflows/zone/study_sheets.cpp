@@ -9,6 +9,7 @@
 #include <itin/counted.hpp>
 #include <itin/output_file.hpp>
 #include <itin/sources_in.hpp>
+#include <profile/foliage_text.hpp>
 #include <viewshed/area_text.hpp>
 #include <viewshed/result_map.hpp>
 #include <viewshed/result_sheet.hpp>
@@ -154,11 +155,18 @@ std::string radii_in_words(const Zone& zone) {
                        : fmt::format("within {:g} to {:g} km of {}, by its height", least / 1000, most / 1000, each);
 }
 
+profile::Foliage foliage_of_season(const ZoneFoliage& foliage, const std::string& season) {
+  return {.extinction = foliage.extinction,
+          .leaf_area = season == "winter" ? profile::kLeavesOff : profile::kLeavesOn,
+          .least_transmittance = foliage.least_transmittance};
+}
+
 profile::TitleBlock title_block(const ZoneStudy& study, const ZoneMap& map) {
   const Zone& zone = study.zone;
   const StoreMetadata& metadata = study.metadata;
   profile::TitleBlock block;
-  block.title = map.title + (map.screened ? ", screened" : "");
+  const bool solid_woods = map.screened && map.season.empty();
+  block.title = map.title + (solid_woods ? ", screened" : "");
   block.statement =
       statement_of(metadata, map.screened ? *zone.request.themes : ThemeChoice::none(), zone.request.detail);
   if (!map.screened) block.statement += " What is shown as visible may be hidden by them.";
@@ -170,6 +178,8 @@ profile::TitleBlock title_block(const ZoneStudy& study, const ZoneMap& map) {
                                ? "curvature and refraction are taken into account, " + zone.request.earth.convention()
                                : "flat; curvature and refraction are not taken into account"},
                  terrain_fact(metadata, zone.request.detail)};
+  if (!map.season.empty())
+    block.facts.emplace_back("Woods", profile::foliage_rule_text(foliage_of_season(*zone.request.foliage, map.season)));
   if (const std::string undecided = more_in_words(zone, map); !undecided.empty())
     block.facts.emplace_back("Undecided", undecided);
   block.sources = described(study.sources, metadata);

@@ -111,10 +111,12 @@ class StudyWriter {
     if (const std::optional<RadiusRule>& rule = study_.request.turbines.radius)
       add("radius-preset.json", "the radii used, to edit and give by `radius_rule`",
           json_text(radius_document(*rule), 2) + "\n");
-    write_geopackage(folder_ + "/layers.gpkg", study_.metadata.crs_wkt, study_layers(study_, lines_), true);
-    files_.push_back({"layers.gpkg",
-                      "turbines, viewpoints, routes, radio links and what they exclude, rings and study area as layers "
-                      "for a GIS, with styles for QGIS"});
+    write_geopackage(folder_ + "/layers.gpkg", study_.metadata.crs_wkt, study_layers(study_, lines_), true, progress_,
+                     season_layers(zone));
+    files_.push_back(
+        {"layers.gpkg", "turbines, viewpoints, routes, radio links and what they exclude, rings and study area" +
+                            std::string(zone.seasons ? ", and what is seen in summer and in winter," : "") +
+                            " as layers for a GIS, with styles for QGIS"});
     add("methods.md", "how the results were computed, for a chapter on methods", methods_text(study_, options_));
   }
 

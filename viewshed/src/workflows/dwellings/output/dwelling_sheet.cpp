@@ -70,8 +70,9 @@ std::string place_text(const DwellingsSurvey& survey, const Dwelling& dwelling) 
   const std::string at = fmt::format("{:.0f}, {:.0f}; ground {:.1f} m", dwelling.position.x, dwelling.position.y,
                                      dwelling.facades.front().ground_m);
   if (dwelling.theme == 0) return at + "; a place in the open";
-  return fmt::format("{}; a building of {}{}", at, survey.metadata.themes[dwelling.theme - std::size_t{1}].name,
-                     dwelling.id.empty() ? "" : " with the id " + dwelling.id);
+  return fmt::format("{}; a building of the theme {}{}", at,
+                     survey.metadata.themes[dwelling.theme - std::size_t{1}].name,
+                     dwelling.id.empty() ? "" : ", id " + dwelling.id);
 }
 
 Facts facts_of_dwelling(const DwellingsSurvey& survey, const Dwelling& dwelling) {

@@ -1,8 +1,8 @@
-#include "program/likely_meant.hpp"
-
 #include <algorithm>
 
-namespace itin::cli {
+#include <itin/likely_meant.hpp>
+
+namespace itin {
 
 namespace {
 
@@ -47,4 +47,4 @@ std::string did_you_mean(std::string_view given, const std::vector<std::string>&
   return meant ? "; did you mean " + *meant + "?" : "";
 }
 
-}  // namespace itin::cli
+}  // namespace itin

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-namespace itin::cli {
+namespace itin {
 
 /// Returns the name that is nearest to `given` in letters left out, added, exchanged or swapped with their neighbour,
 /// or that `given` begins; nothing where none is near. Among several it is the first. O(length^2) per name.
@@ -15,4 +15,4 @@ std::optional<std::string> likely_meant(std::string_view given, const std::vecto
 /// Returns "; did you mean NAME?", or an empty text.
 std::string did_you_mean(std::string_view given, const std::vector<std::string>& names);
 
-}  // namespace itin::cli
+}  // namespace itin

@@ -1,8 +1,8 @@
-#include "program/likely_meant.hpp"
-
 #include <gtest/gtest.h>
 
-namespace itin::cli {
+#include <itin/likely_meant.hpp>
+
+namespace itin::test {
 
 namespace {
 
@@ -31,4 +31,4 @@ TEST(LikelyMeant, GuessesNothingFarOff) {
 
 }  // namespace
 
-}  // namespace itin::cli
+}  // namespace itin::test
