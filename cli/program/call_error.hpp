@@ -7,7 +7,8 @@
 
 namespace itin::cli {
 
-/// Returns the message about an option that another option follows where its value should be; empty where there is none.
+/// Returns the message about an option that another option follows where its value should be; empty where there is
+/// none.
 std::string option_as_value(const CLI::App& verb);
 
 /// Returns one line, without the advice to see the help. `verb` is the one whose options were being parsed.
