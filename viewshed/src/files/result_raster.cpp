@@ -46,6 +46,7 @@ void write_result_raster(const std::string& path, const Result& result, const St
                       options.overwrite};
   if (!options.foliage.empty()) file.metadata.emplace_back("foliage", options.foliage);
   const bool styled = has_qgis_style(r.mode);
+  require_output_possible(path, options.overwrite);
   if (styled) require_output_possible(style_beside(path), options.overwrite);
   write_geotiff(path, result, file, progress);
   if (styled) write_file(style_beside(path), qgis_style(result), options.overwrite);
