@@ -120,7 +120,7 @@ void for_each_inner_block(const PostWindow& window, const Visit& visit) {
 struct TileLevels {
   PostLattice lattice;
   std::vector<std::pair<LatticePlace, SoundSquares>> blocks;
-  std::vector<std::uint8_t> levels;  ///< of the tile's points, kNoLevel where they are no posts of blocks
+  std::vector<std::uint8_t> levels;  ///< by the tile's points; kNoLevel for those that are no posts
 };
 
 constexpr std::uint8_t kNoLevel = 0xff;

@@ -22,7 +22,7 @@ namespace itin {
 inline constexpr unsigned kLowerLeft = 1, kUpperRight = 2, kUpperLeft = 4, kLowerRight = 8;
 /// Halves of a square with level and plumb diagonals.
 inline constexpr unsigned kSouth = 1, kNorth = 2, kWest = 4, kEast = 8;
-/// Those that both diagonals make.
+/// The halves that both diagonals make.
 inline constexpr unsigned kAllHalves = 15;
 
 /// How far the full surface lies above halves of a square, whose own corners alone are in a level.
@@ -98,7 +98,7 @@ class PostWindow {
 
   PostLattice lattice_;
   LatticePlace first_;
-  std::int64_t columns_ = 0, rows_ = 0;           ///< of blocks
+  std::int64_t columns_ = 0, rows_ = 0;           ///< the number of blocks each way
   std::vector<std::int32_t> heights_;             ///< by post
   std::vector<std::uint8_t> levels_;              ///< by post
   std::vector<std::vector<std::uint8_t>> sound_;  ///< whether a level square is sound, by size, row and column

@@ -16,7 +16,7 @@ namespace {
 
 /// Bounds the places of a lattice. Levels that keep fewer of its posts are not closed.
 constexpr std::int64_t kMostPlacesPerPost = 8;
-/// So many runs of successive positions vote for the lattice, each by so many positions.
+/// Runs of successive positions vote for the lattice: so many runs, each with so many positions.
 constexpr std::size_t kVoters = 16, kPositionsOfVoter = 256;
 
 /// Returns the lattice that most of some runs of positions lie on.

@@ -22,8 +22,8 @@ namespace itin::viewshed {
 
 namespace {
 
-/// The full surface has at least this many times the points of the coarse surfaces.
-constexpr std::uint64_t kEnclosingShare = 2;
+/// The coarse surfaces have at most this share of the full surface's points. Fine levels of rasters have half or more.
+constexpr double kEnclosingShare = 2.0 / 3;
 /// The number of points of the bare ground beneath one roof.
 constexpr double kPointsPerTile = 8;
 
@@ -31,7 +31,8 @@ Envelope enclosing(const Store& store, const ThemeChoice& themes, const Window& 
   const Box box = intersection(window.bounds(), extent_of(store));
   EnvelopeRequest wanted;
   wanted.window = window;
-  wanted.level = finest_level_of(store, box, store.points_about(0, box) / kEnclosingShare, 1);
+  const double most_points = kEnclosingShare * static_cast<double>(store.points_about(0, box));
+  wanted.level = finest_level_of(store, box, static_cast<std::uint64_t>(most_points), 1);
   wanted.cut_by = wanted.enclosed = themes;
   return envelop(store, wanted, progress);
 }
