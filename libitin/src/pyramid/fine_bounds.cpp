@@ -7,6 +7,7 @@
 
 #include <itin/parallel.hpp>
 
+#include "geometry/marked_squares.hpp"
 #include "geometry/whole_division.hpp"
 #include "pyramid/post_window.hpp"
 #include "triangulate/region_reader.hpp"
@@ -24,13 +25,14 @@ struct Squares {
 class TileBounds {
  public:
   TileBounds(const WorkingIndex& index, const PostWindow& window)
-      : window_(window), clear_(static_cast<std::size_t>(window.across() * window.up())), unclear_(window.posts(), 0) {
+      : window_(window), clear_(static_cast<std::size_t>(window.across() * window.up())) {
     for (std::int64_t r = 0; r < window.up(); ++r)
       for (std::int64_t c = 0; c < window.across(); ++c) clear_[square(c, r)] = window.is_sound(0, c, r) ? 1 : 0;
     std::vector<Segment> segments;
     index.segments(window.box_of_squares(0, 0, window.across(), window.up()), segments);
     for (const Segment& s : segments) leave_clear_of(s);
-    count_unclear();
+    unclear_ = {window.across(), window.up(),
+                [&](std::int64_t column, std::int64_t row) { return clear_[square(column, row)] == 0; }};
   }
 
   void measure(int level) {
@@ -96,21 +98,7 @@ class TileBounds {
     });
   }
 
-  void count_unclear() {
-    for (std::int64_t r = 0; r < window_.up(); ++r) {
-      std::uint32_t in_row = 0;
-      for (std::int64_t c = 0; c < window_.across(); ++c) {
-        in_row += 1U - clear_[square(c, r)];
-        unclear_[window_.post(c + 1, r + 1)] = unclear_[window_.post(c + 1, r)] + in_row;
-      }
-    }
-  }
-  bool is_clear(const Squares& s) const {
-    return s.west >= 0 && s.south >= 0 && s.east <= window_.across() && s.north <= window_.up() &&
-           unclear_[window_.post(s.east, s.north)] - unclear_[window_.post(s.west, s.north)] -
-                   unclear_[window_.post(s.east, s.south)] + unclear_[window_.post(s.west, s.south)] ==
-               0;
-  }
+  bool is_clear(const Squares& s) const { return !unclear_.any_in(s.west, s.east, s.south, s.north); }
 
   /// Measures the level's triangles in the square about a post that the level lacks. Where it has the post, it must
   /// have the square's corners.
@@ -202,8 +190,8 @@ class TileBounds {
   }
 
   const PostWindow& window_;
-  std::vector<std::uint8_t> clear_;     ///< by single square: its posts alone are there, and no line is near
-  std::vector<std::uint32_t> unclear_;  ///< by post: how many single squares to its lower left are not clear
+  std::vector<std::uint8_t> clear_;  ///< by single square: its posts alone are there, and no line is near
+  MarkedSquares unclear_;            ///< the single squares that are not clear
   int level_ = 0;
   std::vector<DifferenceRange> ranges_;  ///< by single square
   std::vector<std::uint8_t> known_;      ///< by single square: its range is known

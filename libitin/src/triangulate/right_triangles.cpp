@@ -187,14 +187,9 @@ void RightTriangles::count_open_squares() {
     for (std::int32_t row = s.row; row < s.row + s.side; ++row)
       std::fill_n(closed.begin() + static_cast<std::ptrdiff_t>(square(s.column, row)), s.side, std::uint8_t{1});
   }
-  open_.assign(vertices_.size(), 0);
-  for (std::int32_t row = 0; row < up_; ++row) {
-    std::uint32_t in_row = 0;
-    for (std::int32_t column = 0; column < across_; ++column) {
-      in_row += 1U - closed[square(column, row)];
-      open_[post({column + 1, row + 1})] = open_[post({column + 1, row})] + in_row;
-    }
-  }
+  open_ = {across_, up_, [&](std::int64_t column, std::int64_t row) {
+             return closed[square(static_cast<std::int32_t>(column), static_cast<std::int32_t>(row))] == 0;
+           }};
 }
 
 /// Lists the parts of a triangle whose circles stay within closed squares.
@@ -210,16 +205,14 @@ void RightTriangles::list(const Face& face, const Square& square) {
 bool RightTriangles::has_known_circle(const Face& face, const Square& s) const {
   const auto& [apex, from, to] = face;
   const std::int32_t across = std::abs(to.column - from.column), up = std::abs(to.row - from.row);
-  // The diameter is the side opposite the right angle, rounded up: across, up, or this much more than both.
+  // The diameter is the side opposite the right angle: level, plumb, or a diagonal, at most 1.418 times as long as
+  // wide.
   const std::int32_t diameter = across == 0 || up == 0 ? across + up : across + (across * 107 + 255) / 256;
   const std::int32_t columns = from.column + to.column, rows = from.row + to.row;
   const std::int32_t west = floor_divide(columns - diameter, 2), east = ceil_divide(columns + diameter, 2),
                      south = floor_divide(rows - diameter, 2), north = ceil_divide(rows + diameter, 2);
   if (west >= s.column && south >= s.row && east <= s.column + s.side && north <= s.row + s.side) return true;
-  return west >= 0 && south >= 0 && east <= across_ && north <= up_ &&
-         open_[post({east, north})] - open_[post({west, north})] - open_[post({east, south})] +
-                 open_[post({west, south})] ==
-             0;
+  return !open_.any_in(west, east, south, north);
 }
 
 /// Notes which faces lie left of their edges.

@@ -14,6 +14,7 @@
 #include <span>
 #include <vector>
 
+#include "geometry/marked_squares.hpp"
 #include "geometry/post_lattice.hpp"
 #include "geometry/right_hierarchy.hpp"
 #include "store/point_index.hpp"
@@ -81,7 +82,7 @@ class RightTriangles final : public KnownTriangles {
   std::vector<std::uint32_t> vertices_;  ///< by post: the position's index, or kNone
   std::vector<std::uint8_t> bare_;       ///< by single square: it is known, and nothing but posts is in it
   std::vector<Square> closed_;           ///< the greatest squares whose posts are closed
-  std::vector<std::uint32_t> open_;      ///< by post: how many single squares to its lower left are in none of them
+  MarkedSquares open_;                   ///< the single squares that are in none of them
   std::vector<Face> faces_;
   std::vector<std::uint32_t> left_of_;  ///< by position and direction: the face left of the edge that leaves there
   std::vector<std::uint32_t> rest_;
