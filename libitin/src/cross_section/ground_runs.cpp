@@ -54,8 +54,7 @@ class Collection {
   void collect(double t0, double t1, int halvings) {
     const GridBox box = line_.box(t0, t1);
     std::vector<Segment> found;
-    index_.segments(box, found);
-    std::erase_if(found, [](const Segment& s) { return s.theme != kCoverage; });
+    index_.outline(box, found);
     if (found.size() > kManySegments && halvings > 0) {
       const double middle = (t0 + t1) / 2;
       collect(t0, middle, halvings - 1);

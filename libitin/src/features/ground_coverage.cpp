@@ -20,8 +20,7 @@ bool touch(const Segment& s, Position p, Position q) {
 
 std::vector<Segment> outline_near(const Store& ground, const GridBox& box) {
   std::vector<Segment> segments;
-  ground.points().segments(box, segments);
-  std::erase_if(segments, [](const Segment& s) { return s.theme != kCoverage; });
+  ground.points().outline(box, segments);
   return segments;
 }
 

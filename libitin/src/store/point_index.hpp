@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -125,7 +126,15 @@ class PointIndex {
   /// Appends every segment that meets `box`, of the coverage and of all themes, at all levels, and perhaps others
   /// nearby. A segment may come twice.
   virtual void segments(const GridBox& box, std::vector<Segment>& out) const = 0;
+  /// Appends those of segments() that are of the coverage. An index that keeps them apart does not read the others.
+  virtual void outline(const GridBox& box, std::vector<Segment>& out) const;
 };
+
+inline void PointIndex::outline(const GridBox& box, std::vector<Segment>& out) const {
+  std::vector<Segment> all;
+  segments(box, all);
+  std::copy_if(all.begin(), all.end(), std::back_inserter(out), [](const Segment& s) { return s.theme == kCoverage; });
+}
 
 inline PostLattice PointIndex::lattice_of(const Leaf& leaf) const {
   WidestLattice widest;

@@ -258,6 +258,10 @@ void StoreFile::segments(const GridBox& box, std::vector<Segment>& out) const {
     segments_of(tree->first, box, out);
 }
 
+void StoreFile::outline(const GridBox& box, std::vector<Segment>& out) const {
+  segments_of(format::edge_tree(kCoverage), box, out);
+}
+
 void StoreFile::segments_of(int tree, const GridBox& box, std::vector<Segment>& out) const {
   for_each_leaf(tree, box, [&](const Leaf& leaf) {
     const std::uint64_t key = cache_key(BlobKind::Block, leaf.key);

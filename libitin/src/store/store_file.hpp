@@ -37,6 +37,7 @@ class StoreFile final : public PointIndex {
   PostLattice lattice_of(const Leaf& leaf) const override;
   std::optional<PostHeights> posts_once(const Leaf& leaf) const override;
   void segments(const GridBox& box, std::vector<Segment>& out) const override;
+  void outline(const GridBox& box, std::vector<Segment>& out) const override;
 
   /// Appends every leaf of one tree that meets the box, empty ones too, along the curve.
   void leaves_of(int tree, const GridBox& box, std::vector<Leaf>& out) const;

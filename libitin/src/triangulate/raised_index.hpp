@@ -46,6 +46,8 @@ class RaisedIndex final : public PointIndex {
     return any_ ? std::nullopt : base_.posts_once(leaf);
   }
   void segments(const GridBox& box, std::vector<Segment>& out) const override;
+  /// No feature makes the outline make way.
+  void outline(const GridBox& box, std::vector<Segment>& out) const override { base_.outline(box, out); }
 
   /// Tells whether features are chosen, for which vertices of the store make way.
   bool any_raised() const { return any_; }

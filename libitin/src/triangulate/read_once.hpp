@@ -23,6 +23,7 @@ class ReadOnce final : public PointIndex {
   std::shared_ptr<const Block> unordered_block(const Leaf& leaf) const override { return blocks_.read_unordered(leaf); }
   PostLattice lattice_of(const Leaf& leaf) const override { return base_.lattice_of(leaf); }
   void segments(const GridBox& box, std::vector<Segment>& out) const override { base_.segments(box, out); }
+  void outline(const GridBox& box, std::vector<Segment>& out) const override { base_.outline(box, out); }
 
   bool has_read(const Leaf& leaf) const { return blocks_.has_read(leaf); }
   const RetrievalStatistics& statistics() const { return blocks_.statistics(); }
