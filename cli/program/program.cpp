@@ -22,6 +22,7 @@
 #include <itin/likely_meant.hpp>
 #include <itin/network.hpp>
 #include <itin/parallel.hpp>
+#include <viewshed/job.hpp>
 
 #include "program/call_error.hpp"
 #include "program/call_files.hpp"
@@ -33,66 +34,13 @@
 #include "program/thread_limit.hpp"
 #include "program/values.hpp"
 #include "program/verb.hpp"
+#include "program/verb_call.hpp"
 
 namespace itin::cli {
 
 namespace {
 
-enum Status { kDone = 0, kFailed = 1, kWrongCall = 2, kInterrupted = kInterruptedStatus };
-
-/// The options that every verb has.
-struct Everywhere {
-  bool json = false;
-  bool quiet = false;
-  bool network = false;
-  bool uploads = false;
-  std::string threads, progress;
-
-  void declare(CLI::App& app) {
-    begin_group(app, kRunning);
-    app.add_flag("--json", json, "Print the result as one JSON document");
-    app.add_flag("--quiet", quiet, "No progress; the result and warnings are still told");
-    app.add_option(
-           "--progress", progress,
-           "lines: a line of JSON every 200 ms on stderr, with stage, share and seconds_left, for programs that "
-           "run this one")
-        ->type_name("lines");
-    app.add_option("--threads", threads, "Threads to use; the result never depends on it (default: all cores)")
-        ->type_name("N");
-    app.add_flag("--allow-network", network,
-                 "Let sources send the requests that they name; none leaves this machine else");
-    app.add_flag("--uploads", uploads, "Files were sent by strangers, to itin serve")->group(kHidden);
-  }
-  StderrProgress::Style style() const {
-    return progress.empty() ? StderrProgress::style_for(quiet) : StderrProgress::Style::kJson;
-  }
-  void apply() const {
-    if (network) allow_network();
-    if (uploads) read_tables_alone();
-    if (!progress.empty()) parse_choice("--progress", progress, {"lines"});
-    if (!progress.empty() && quiet) throw InputError("--progress and --quiet exclude each other; give one of them");
-    if (!threads.empty()) set_thread_count(parse_whole("--threads", threads, 1, 4096));
-  }
-};
-
-std::vector<std::unique_ptr<Verb>> make_verbs() {
-  std::vector<std::unique_ptr<Verb>> verbs;
-  verbs.push_back(make_import_verb());
-  verbs.push_back(make_info_verb());
-  verbs.push_back(make_check_verb());
-  verbs.push_back(make_tin_verb());
-  verbs.push_back(make_viewshed_verb());
-  verbs.push_back(make_visibility_verb());
-  verbs.push_back(make_ztv_verb());
-  verbs.push_back(make_profile_verb());
-  verbs.push_back(make_los_verb());
-  verbs.push_back(make_site_verb());
-  verbs.push_back(make_premises_verb());
-  verbs.push_back(make_dwellings_verb());
-  verbs.push_back(make_serve_verb());
-  verbs.push_back(make_read_upload_verb());
-  return verbs;
-}
+enum Status : int { kDone = 0, kFailed = 1, kWrongCall = 2, kInterrupted = kInterruptedStatus };
 
 /// Throws InputError for an unknown verb, which CLI11 would call an unexpected argument.
 void require_known_verb(const std::vector<std::string>& arguments, const std::vector<std::unique_ptr<Verb>>& verbs) {
@@ -107,22 +55,6 @@ void require_known_verb(const std::vector<std::string>& arguments, const std::ve
     throw InputError(fmt::format("unknown verb '{}'{}; the verbs are {}", first, did_you_mean(first, names),
                                  fmt::join(names, ", ")));
   }
-}
-
-/// Repeats the option, since `--observer 1,2,3 4,5,6` means what `--observer 1,2,3 --observer 4,5,6` does. CLI11 by
-/// itself would let an option with any number of values swallow the arguments behind it and stop at a negative number.
-std::vector<std::string> repeat_observer(const std::vector<std::string>& arguments) {
-  const std::string option = "--observer";
-  std::vector<std::string> repeated;
-  bool listing = false;
-  for (std::size_t i = 0; i < arguments.size(); ++i) {
-    const bool value = i > 0 && arguments[i - 1] == option;
-    const bool another = !value && listing && may_be_place(arguments[i]);
-    if (another) repeated.push_back(option);
-    repeated.push_back(arguments[i]);
-    listing = value || another;
-  }
-  return repeated;
 }
 
 std::uint64_t peak_memory_bytes() {
@@ -148,24 +80,9 @@ void print(const std::string& text) {
   if (!std::cout) throw FileError("standard output", "could not be written; check the disk or pipe behind it");
 }
 
-/// Refuses an option in place of a value, and an empty value, which an unset variable of a script gives; it must not
-/// silently mean the default.
-void require_values(const CLI::App& verb) {
-  if (const std::string message = option_as_value(verb); !message.empty()) throw InputError(message);
-  for (const CLI::Option* option : verb.get_options()) {
-    const std::vector<std::string>& values = option->results();
-    if (std::find(values.begin(), values.end(), "") != values.end())
-      throw InputError(fmt::format("{}: its value is empty; give one, or leave it out", option->get_name()));
-  }
-}
-
 void run_verb(Verb& verb, CLI::App& options, const Everywhere& everywhere) {
   const auto start = std::chrono::steady_clock::now();
-  verb.complete();
-  require_values(options);
-  everywhere.apply();
-  static_cast<void>(CallFiles(options));  // throws where a file would be lost
-  verb.validate();
+  complete_call(verb, options, everywhere);
   require_threads();
   Result result;
   {
@@ -179,6 +96,22 @@ void run_verb(Verb& verb, CLI::App& options, const Everywhere& everywhere) {
   if (!result.failure.empty()) throw Error(result.failure);
 }
 
+/// Parts the arguments of a verb that takes a call from those of the call: they begin with the name of a verb, after
+/// the first verb and two words at least.
+std::pair<std::vector<std::string>, std::vector<std::string>> split_at_call(
+    const std::vector<std::string>& arguments, const std::vector<std::unique_ptr<Verb>>& verbs) {
+  constexpr std::ptrdiff_t kWords = 3;
+  const auto is_verb = [&](const std::string& name) {
+    return std::any_of(verbs.begin(), verbs.end(), [&](const auto& verb) { return verb->name() == name; });
+  };
+  const bool takes_call = std::any_of(verbs.begin(), verbs.end(), [&](const auto& verb) {
+    return verb->name() == arguments.front() && verb->takes_call();
+  });
+  if (!takes_call || std::ssize(arguments) <= kWords) return {arguments, {}};
+  const auto call = std::find_if(arguments.begin() + kWords, arguments.end(), is_verb);
+  return {{arguments.begin(), call}, {call, arguments.end()}};
+}
+
 void parse_and_run(const std::vector<std::string>& arguments) {
   const std::vector<std::unique_ptr<Verb>> verbs = make_verbs();
   require_known_verb(arguments, verbs);
@@ -188,32 +121,20 @@ void parse_and_run(const std::vector<std::string>& arguments) {
   app.set_version_flag("--version", "itin " ITIN_VERSION);
   app.require_subcommand(1);
   Everywhere everywhere;
-  for (const auto& verb : verbs) {
-    CLI::App* subcommand = app.add_subcommand(verb->name(), verb->summary());
-    if (verb->is_internal()) subcommand->group(kHidden);
-    verb->declare(*subcommand);
-    everywhere.declare(*subcommand);
-    require_roles(*subcommand);
-  }
-
-  std::vector<std::string> reversed = repeat_observer(arguments);
-  std::reverse(reversed.begin(), reversed.end());
+  for (const auto& verb : verbs) declare_verb(app, *verb, everywhere);
+  const auto [own, call] = split_at_call(arguments, verbs);
   try {
-    app.parse(std::move(reversed));
+    parse_arguments(app, own);
   } catch (const CLI::CallForHelp&) {
     const bool json = std::find(arguments.begin(), arguments.end(), "--json") != arguments.end();
     return print(json ? json_text(help_document(app), 2) + "\n" : app.help());
   } catch (const CLI::CallForVersion&) {
     return print(app.version() + "\n");
-  } catch (const CLI::ParseError& error) {
-    const bool chosen = !app.get_subcommands().empty();
-    const std::string wrong = call_error(chosen ? *app.get_subcommands().front() : app, error);
-    throw InputError(
-        fmt::format("{}; see itin {}--help", wrong, chosen ? app.get_subcommands().front()->get_name() + " " : ""));
   }
   CLI::App& chosen = *app.get_subcommands().front();
   const auto verb =
       std::find_if(verbs.begin(), verbs.end(), [&](const auto& v) { return v->name() == chosen.get_name(); });
+  if (!call.empty()) (*verb)->take_call(call);
   try {
     run_verb(**verb, chosen, everywhere);
   } catch (const std::bad_alloc&) {
@@ -239,6 +160,8 @@ int run(int argc, char** argv) {
     return kDone;
   } catch (const Cancelled& error) {
     return report(error.what(), kInterrupted);
+  } catch (const viewshed::JobError& error) {
+    return report(error.what(), static_cast<Status>(error.end()));
   } catch (const InputError& error) {
     return report(error.what(), kWrongCall);
   } catch (const Error& error) {

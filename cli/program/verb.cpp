@@ -1,10 +1,23 @@
 #include "program/verb.hpp"
 
 #include <algorithm>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include <itin/error.hpp>
 
 #include "program/field_names.hpp"
 
 namespace itin::cli {
+
+std::unique_ptr<viewshed::Tasks> Verb::divide(std::uint64_t, Progress&) {
+  throw InputError(fmt::format("itin job divides viewshed, visibility and ztv, not {}; run it by itself", name()));
+}
+
+void Verb::take_answers(viewshed::Tasks&) {
+  throw std::logic_error(name() + " cannot be divided");
+}
 
 Document call_document(const Verb& verb) {
   Document document{{"itin", ITIN_VERSION}, {"command", {{"verb", verb.name()}}}};

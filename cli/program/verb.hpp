@@ -9,6 +9,7 @@
 
 #include <itin/document.hpp>
 #include <itin/progress.hpp>
+#include <viewshed/tasks.hpp>
 
 namespace itin::cli {
 
@@ -38,6 +39,16 @@ class Verb {
   virtual Document parameters() const = 0;
   /// Runs the verb. Throws itin::Error.
   virtual Result execute(Progress& progress) = 0;
+
+  /// Divides the verb's question into tasks of no more than about so many cells, in place of execute(). The tasks refer
+  /// to the verb. Throws InputError for calls that nobody else can work on.
+  virtual std::unique_ptr<viewshed::Tasks> divide(std::uint64_t most_cells, Progress& progress);
+  /// Makes execute() take its answer from these tasks of divide(), to which all answers have been added.
+  virtual void take_answers(viewshed::Tasks& answered);
+
+  /// Whether the arguments end with the call of another verb, which take_call() takes, its name first.
+  virtual bool takes_call() const { return false; }
+  virtual void take_call(std::vector<std::string>) {}
 };
 
 /// The head of every document: `itin`, and `command` with the verb and its parameters. To be called after execute().
@@ -59,6 +70,7 @@ std::unique_ptr<Verb> make_los_verb();
 std::unique_ptr<Verb> make_site_verb();
 std::unique_ptr<Verb> make_premises_verb();
 std::unique_ptr<Verb> make_dwellings_verb();
+std::unique_ptr<Verb> make_job_verb();
 std::unique_ptr<Verb> make_serve_verb();
 std::unique_ptr<Verb> make_read_upload_verb();
 

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <future>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -83,9 +84,26 @@ class ViewshedVerb final : public Verb {
     return parameters;
   }
 
+  std::unique_ptr<viewshed::Tasks> divide(std::uint64_t most_cells, Progress& progress) override {
+    const std::string together = "is made of the whole viewshed, and a job divides it; leave it out";
+    if (outputs_.draws_map()) throw InputError("--image " + together + ", or give --sheet");
+    if (outputs_.writes_each()) throw InputError("--each " + together);
+    if (!horizon_.paths().empty()) throw InputError("--horizon " + together);
+    if (view_.foliage().given()) throw InputError("--foliage " + together);
+    std::vector<std::string> warnings;
+    const viewshed::Request& request = view_.complete(open_store(), warnings, progress);
+    request.themes.check(opened_->metadata().themes);
+    return std::make_unique<viewshed::ViewshedTasks>(
+        *opened_, request, compute_options_, most_cells,
+        view_.certified() ? viewshed::Certainty::kCertified : viewshed::Certainty::kExact);
+  }
+  void take_answers(viewshed::Tasks& answered) override {
+    answered_ = &dynamic_cast<viewshed::ViewshedTasks&>(answered);
+  }
+
   Result execute(Progress& progress) override {
     const std::future<void> rasters = beside(make_gdal_ready);
-    const Store store(store_, cache_within(compute_options_.memory_bytes));
+    const Store& store = open_store();
     const StoreMetadata& metadata = store.metadata();
     Result result;
     const viewshed::Request& request = view_.complete(store, result.warnings, progress);
@@ -166,6 +184,7 @@ class ViewshedVerb final : public Verb {
 
   /// Computes the viewshed; its foliage is empty where woods are solid.
   viewshed::ThroughFoliage survey(const Store& store, const viewshed::Request& request, Progress& progress) const {
+    if (answered_ != nullptr) return {{nullptr, std::nullopt, false, answered_->take()}, {}};
     if (view_.certified()) return {viewshed::compute_certified(store, request, compute_options_, progress), {}};
     if (view_.foliage().given())
       return viewshed::compute_through_foliage(store, request, view_.foliage().foliage(), compute_options_, progress);
@@ -187,7 +206,11 @@ class ViewshedVerb final : public Verb {
            viewshed_text(metadata, result, missing);
   }
 
+  const Store& open_store() { return opened_.emplace(store_, cache_within(compute_options_.memory_bytes)); }
+
   std::string store_;
+  std::optional<Store> opened_;
+  viewshed::ViewshedTasks* answered_ = nullptr;  ///< what others have found, in place of computing it
   ViewOptions view_;
   MemoryOption memory_;
   viewshed::ComputeOptions compute_options_;

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <filesystem>
 #include <future>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -120,23 +121,22 @@ class VisibilityVerb final : public Verb {
     return parameters;
   }
 
+  std::unique_ptr<viewshed::Tasks> divide(std::uint64_t most_cells, Progress& progress) override {
+    complete_request(progress);
+    return std::make_unique<viewshed::IndexTasks>(*opened_, request_, most_cells);
+  }
+  void take_answers(viewshed::Tasks& answered) override { answered_ = &dynamic_cast<viewshed::IndexTasks&>(answered); }
+
   Result execute(Progress& progress) override {
     const std::future<void> rasters = beside(make_gdal_ready);
     policy_.require_writable(output_);
     policy_.claim(viewshed::style_beside(output_));
     if (!sheet_.file().empty()) policy_.require_writable(sheet_.file());
-    const Store store(store_, cache_within(request_.memory_bytes));
+    complete_request(progress);
+    const Store& store = *opened_;
     const StoreMetadata& metadata = store.metadata();
-    earth_.take_body_of(metadata);
-    request_.earth = earth_.earth();
-    request_.area = window_.region(metadata).window;
-    if (!request_.area.is_all() && !metadata.grid.box(metadata.bounds).meets(request_.area.bounds()))
-      throw InputError(window_.no_ground(metadata));
-    request_.detail = detail_.detail({});
-    themes_.complete(store, progress);
-    request_.themes = themes_.choice();
-    request_.themes.check(metadata.themes);
-    const viewshed::VisibilityIndex index = viewshed::visibility_index(store, request_, progress);
+    const viewshed::VisibilityIndex index =
+        answered_ != nullptr ? answered_->take() : viewshed::visibility_index(store, request_, progress);
     const Document surface = surface_document(metadata, request_.detail, request_.themes);
     viewshed::write_geotiff(
         output_, index, request_,
@@ -174,6 +174,21 @@ class VisibilityVerb final : public Verb {
   }
 
  private:
+  /// Opens the store, and completes the request from it.
+  void complete_request(Progress& progress) {
+    const Store& store = opened_.emplace(store_, cache_within(request_.memory_bytes));
+    const StoreMetadata& metadata = store.metadata();
+    earth_.take_body_of(metadata);
+    request_.earth = earth_.earth();
+    request_.area = window_.region(metadata).window;
+    if (!request_.area.is_all() && !metadata.grid.box(metadata.bounds).meets(request_.area.bounds()))
+      throw InputError(window_.no_ground(metadata));
+    request_.detail = detail_.detail({});
+    themes_.complete(store, progress);
+    request_.themes = themes_.choice();
+    request_.themes.check(metadata.themes);
+  }
+
   /// The box that all sight lines of the observers lie in.
   Box looked_at(const viewshed::VisibilityIndex& index) const {
     const Box observers = index.grid.bounds();
@@ -251,6 +266,8 @@ class VisibilityVerb final : public Verb {
   SheetOptions sheet_;
   OutputPolicy policy_;
   viewshed::IndexRequest request_;
+  std::optional<Store> opened_;
+  viewshed::IndexTasks* answered_ = nullptr;  ///< what others have found, in place of computing it
 };
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <future>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -13,6 +14,7 @@
 #include <viewshed/undecided_area.hpp>
 #include <viewshed/zone_files.hpp>
 #include <viewshed/zone_study_document.hpp>
+#include <viewshed/zone_study_tasks.hpp>
 
 #include "options/detail_options.hpp"
 #include "options/earth_options.hpp"
@@ -141,14 +143,20 @@ class ZtvVerb final : public Verb {
     return parameters;
   }
 
+  std::unique_ptr<viewshed::Tasks> divide(std::uint64_t most_cells, Progress& progress) override {
+    open_store(progress);
+    return viewshed::tasks_of_study(*opened_, request_, most_cells, progress);
+  }
+  void take_answers(viewshed::Tasks& answered) override { answered_ = &dynamic_cast<viewshed::ZoneTasks&>(answered); }
+
   cli::Result execute(Progress& progress) override {
     const std::future<void> rasters = beside(make_gdal_ready);
     viewshed::require_zone_folder(output_, policy_.overwrite);
-    radius_.load();
-    const Store store(store_, cache_within(request_.zone.memory_bytes));
-    themes_.complete(store, progress);
-    complete_request(store.metadata());
-    const viewshed::ZoneStudy study = viewshed::study_zone(store, request_, progress);
+    open_store(progress);
+    const Store& store = *opened_;
+    const auto take = [&](const viewshed::ZoneRequest&) { return answered_->take(); };
+    const viewshed::ZoneStudy study = answered_ != nullptr ? viewshed::study_zone_by(take, store, request_, progress)
+                                                           : viewshed::study_zone(store, request_, progress);
     cli::Result result;
     result.document = viewshed::zone_study_document(study, kDecidesMissingGround);
     result.warnings = study.warnings;
@@ -162,6 +170,13 @@ class ZtvVerb final : public Verb {
 
  private:
   /// Completes the request by the options that need the store.
+  /// Opens the store, and completes the request from it.
+  void open_store(Progress& progress) {
+    radius_.load();
+    themes_.complete(opened_.emplace(store_, cache_within(request_.zone.memory_bytes)), progress);
+    complete_request(opened_->metadata());
+  }
+
   void complete_request(const StoreMetadata& metadata) {
     earth_.take_body_of(metadata);
     request_.zone.earth = earth_.earth();
@@ -241,6 +256,8 @@ class ZtvVerb final : public Verb {
   NoDataOption nodata_;
   OutputPolicy policy_;
   viewshed::ZoneStudyRequest request_;
+  std::optional<Store> opened_;
+  viewshed::ZoneTasks* answered_ = nullptr;  ///< what others have found, in place of computing it
 };
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <itin/parallel.hpp>
 #include <itin/triangulate.hpp>
 #include <profile/los.hpp>
+#include <viewshed/tasks.hpp>
 #include <viewshed/visibility_index.hpp>
 
 #include "index/index_plan.hpp"
@@ -75,6 +76,15 @@ class VisibilityIndexTest : public testing::Test {
       const VisibilityIndex blocks = index(request);
       EXPECT_GT(blocks.triangles, whole.triangles) << "not in blocks";
       expect_same(blocks, whole);
+    }
+    request.memory_bytes = std::uint64_t{1} << 30;
+    for (const std::uint64_t most_cells : {50U, 7U}) {
+      const Store store(path_);
+      NoProgress progress;
+      IndexTasks tasks(store, request, most_cells);
+      EXPECT_GT(tasks.list().size(), 2U);
+      for (std::size_t i = tasks.list().size(); i-- > 0;) tasks.add(i, tasks.answer(i, progress));
+      expect_same(tasks.take(), whole);
     }
   }
 

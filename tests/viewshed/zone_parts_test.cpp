@@ -8,6 +8,7 @@
 
 #include <itin/error.hpp>
 #include <itin/import.hpp>
+#include <viewshed/tasks.hpp>
 #include <viewshed/turbines.hpp>
 #include <viewshed/viewshed.hpp>
 
@@ -97,6 +98,21 @@ class ZoneParts : public testing::Test {
   void expect_parts_make_the_whole() {
     const Zone whole = survey(std::nullopt);
     for (const double share : {0.6, 0.4}) expect_same(survey_in_parts(whole, share), whole);
+    expect_same(survey_in_tasks(20000), whole);
+    expect_same(survey_in_tasks(1), whole);
+  }
+
+  /// In tasks, the last one first, all of them by other objects than the one that puts them together.
+  Zone survey_in_tasks(std::uint64_t most_cells) {
+    request_.memory_bytes.reset();
+    const Store store(path());
+    ZoneTasks tasks(store, request_, most_cells, progress_);
+    EXPECT_GT(tasks.list().size(), 1U);
+    for (std::size_t i = tasks.list().size(); i-- > 0;) {
+      const ZoneTasks other(store, request_, most_cells, progress_);
+      tasks.add(i, other.answer(i, progress_));
+    }
+    return tasks.take();
   }
 
   /// North of the lake, which lies between it and some of the cells.
@@ -176,6 +192,7 @@ TEST_F(ZoneParts, HoldWhatARadarSees) {
     for (const ZonePart& part : zone_parts(Store(path()), parts, true))
       EXPECT_TRUE(part.tiles.empty() || part.radar_tiles.empty());
   }
+  expect_same(survey_in_tasks(20000), whole);
 }
 
 TEST_F(ZoneParts, HoldWhatARadarSeesAcrossMissingGround) {
@@ -189,6 +206,11 @@ TEST_F(ZoneParts, HoldWhatARadarSeesAcrossMissingGround) {
             std::count_if(clear.radar->height_m.begin(), clear.radar->height_m.end(), [](float h) { return h != h; }));
   expect_heights_of_a_viewshed(whole);
   for (const double share : {0.8, 0.6, 0.4}) expect_same(survey_in_parts(whole, share), whole);
+  expect_same(survey_in_tasks(20000), whole);
+  request_.nodata = NoData::kUnknown;
+  const Zone open = survey(std::nullopt);
+  EXPECT_FALSE(open.radar->undecided_height_m.empty());
+  expect_same(survey_in_tasks(20000), open);
 }
 
 /// Over the bare ground alone, on cells that reach beyond the turbines and the data, and with a turbine beyond them.
@@ -201,7 +223,26 @@ TEST_F(ZoneParts, HoldWhatARadarSeesFarFromTheTurbines) {
   request_.grid = RasterGrid({kZoneCorner.x - 100, kZoneCorner.y + 100}, 10, 10, 280, 98);
   const Zone whole = survey(std::nullopt);
   expect_heights_of_a_viewshed(whole);
-  for (const double share : {0.7, 0.4}) expect_same(survey_in_parts(whole, share), whole);
+  for (const double share : {0.75, 0.55}) expect_same(survey_in_parts(whole, share), whole);
+  expect_same(survey_in_tasks(5000), whole);
+}
+
+/// What a proposed farm's study area is, a task of other turbines alone must know, too.
+TEST_F(ZoneParts, HoldAProposalAmongOthers) {
+  for (Turbine& t : request_.turbines) {
+    t.status = t.farm == "west" ? TurbineStatus::kProposed : TurbineStatus::kExisting;
+    t.radius = 700;
+  }
+  expect_parts_make_the_whole();
+  add_radar();
+  expect_same(survey_in_tasks(1), survey(std::nullopt));
+}
+
+TEST_F(ZoneParts, NameThemesThatScreenNothing) {
+  request_.themes = ThemeChoice::none();
+  const Zone whole = survey(std::nullopt);
+  EXPECT_EQ(whole.warnings.size(), 1U);
+  expect_same(survey_in_tasks(20000), whole);
 }
 
 TEST_F(ZoneParts, ARadarOffTheDataIsRefused) {

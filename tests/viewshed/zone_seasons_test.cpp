@@ -7,6 +7,7 @@
 #include <itin/import.hpp>
 #include <itin/store.hpp>
 #include <profile/foliage.hpp>
+#include <viewshed/tasks.hpp>
 #include <viewshed/turbines.hpp>
 
 #include "support/rolling_hill.hpp"
@@ -94,7 +95,19 @@ TEST_F(ZoneSeasons, AreWhatLinesOfSightSay) {
 TEST_F(ZoneSeasons, AreHiddenByHousesInAnySeason) {
   add("houses", ThemeKind::Buildings, 15, 20, 9);
   const Store store(path());
-  expect_agreement(store, survey_turbines(store, request_, progress_), 60);
+  const Zone zone = survey_turbines(store, request_, progress_);
+  expect_agreement(store, zone, 60);
+  request_.cell_size = 5;
+  const Zone whole = survey_turbines(store, request_, progress_);
+  ZoneTasks tasks(store, request_, 4096, progress_);
+  EXPECT_GT(tasks.list().size(), 2U);
+  for (std::size_t i = tasks.list().size(); i-- > 0;) tasks.add(i, tasks.answer(i, progress_));
+  const Zone merged = tasks.take();
+  for (const auto season : {&Seasons::summer, &Seasons::winter}) {
+    EXPECT_EQ(((*merged.seasons).*season).tip_count, ((*whole.seasons).*season).tip_count);
+    EXPECT_EQ(((*merged.seasons).*season).hub_count, ((*whole.seasons).*season).hub_count);
+  }
+  EXPECT_EQ(merged.screened->hubs, whole.screened->hubs);
 }
 
 }  // namespace

@@ -17,4 +17,14 @@ void write_packed(const std::string& path, std::string_view bytes);
 /// write_packed(), or is damaged.
 std::string read_packed(const std::string& path);
 
+/// What became of a file that was to have a name that nobody takes from it again.
+enum class Placed {
+  kPlaced,    ///< it has the name, and is on disk with it
+  kSame,      ///< another file has the name, with the same bytes
+  kDiffering  ///< another file has the name, with other bytes
+};
+/// Gives a file its last name in the same file system, whatever other machines are doing, and removes its first name;
+/// where the bytes differ, that stays. Throws FileError.
+Placed place_for_good(const std::string& path, const std::string& last_name);
+
 }  // namespace itin

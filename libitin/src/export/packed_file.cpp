@@ -1,7 +1,11 @@
+#include <cstdio>
+#include <fcntl.h>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <limits>
 #include <span>
+#include <system_error>
 
 #include <xxhash.h>
 
@@ -73,6 +77,22 @@ std::string read_packed(const std::string& path) {
   } catch (const DecodeError& error) {
     throw FileError(path, error.what());
   }
+}
+
+Placed place_for_good(const std::string& path, const std::string& last_name) {
+  namespace fs = std::filesystem;
+  std::error_code failed;
+  fs::create_hard_link(path, last_name, failed);
+  // Some file systems have no links; there a name that is free is taken by renaming.
+  if (failed && failed != std::errc::file_exists &&
+      ::renameat2(AT_FDCWD, path.c_str(), AT_FDCWD, last_name.c_str(), RENAME_NOREPLACE) == 0)
+    failed.clear();
+  if (failed && !fs::exists(last_name)) throw FileError(last_name, "cannot be written: " + failed.message());
+  const bool placed = !failed;
+  if (!placed && read_all(path) != read_all(last_name)) return Placed::kDiffering;
+  sync_folder_of(last_name);
+  fs::remove(path, failed);
+  return placed ? Placed::kPlaced : Placed::kSame;
 }
 
 }  // namespace itin

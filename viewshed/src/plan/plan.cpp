@@ -15,6 +15,7 @@
 #include "plan/partition.hpp"
 #include "plan/plan_id.hpp"
 #include "plan/point_counts.hpp"
+#include "plan/tile_halves.hpp"
 #include "request/request.hpp"
 #include "request/request_window.hpp"
 
@@ -125,7 +126,7 @@ class Division {
   /// Halves a segment between tiles; both halves have its observers.
   static std::pair<Segment, Segment> halves_of(const Segment& whole) {
     const CellRectangle cells{whole.north_west.column, whole.north_west.row, whole.columns, whole.rows};
-    const auto [first, rest] = halves(cells, [](std::int64_t n) { return (n / Tile::kSide + 1) / 2 * Tile::kSide; });
+    const auto [first, rest] = halves_between_tiles(cells);
     const auto segment = [&](const CellRectangle& c) {
       return Segment{{c.column, c.row}, c.columns, c.rows, whole.observers, 0, 0};
     };

@@ -160,7 +160,8 @@ constexpr double kSolidShare = 0.3;
 Zone survey_turbines(const Tin& ground, const Tin* screened, const ZoneRequest& request, Progress& progress) {
   validate(request);
   const auto height = [&](Point2 p) { return height_on(ground, p); };
-  Zone zone = lay_out(request, ground, height, screened != nullptr);
+  Zone zone = placed_zone(request, ground, height, screened != nullptr);
+  make_room(zone);
   ZoneWork work(ground.grid, height, zone);
   const RasterGrid tiles = grid_of_tiles(zone.grid);
   const ExactScene bare(ground, nullptr, request.earth, zone.grid, tiles);
@@ -175,11 +176,10 @@ namespace {
 
 /// Surveys turbines on a surface whose woods are solid.
 Zone survey_solid(const Store& store, const ZoneRequest& request, Progress& progress) {
-  validate(request);
+  Zone zone = placed_zone(store, request, progress);
+  make_room(zone);
+  const bool screens = zone.screened.has_value();
   const auto height = [&](Point2 p) { return height_at(store, p, ThemeChoice::none(), progress, request.detail); };
-  const Tin outline = coverage_of(store, window_of(request), progress);
-  const bool screens = request.themes && request.themes->includes_raised(store.metadata().themes);
-  Zone zone = lay_out(request, outline, height, screens);
   ZoneWork work(store.metadata().grid, height, zone);
 
   PartReader reader(store, zone);
@@ -197,15 +197,26 @@ Zone survey_solid(const Store& store, const ZoneRequest& request, Progress& prog
     work.survey(lattice->full, std::nullopt, whole_zone(zone), call.step(1));
   else
     for_each_segment(zone_parts(store, zone, screens), effort, call.step(1), survey);
-  if (request.themes && !screens) {
-    zone.screened = zone.bare;
-    zone.warnings.emplace_back("none of the themes has features that stand on the ground: nothing screens");
-  }
+  complete_screen(zone);
   call.finish();
   return zone;
 }
 
 }  // namespace
+
+Zone placed_zone(const Store& store, const ZoneRequest& request, Progress& progress) {
+  validate(request);
+  const Tin outline = coverage_of(store, window_of(request), progress);
+  return placed_zone(
+      request, outline, [&](Point2 p) { return height_at(store, p, ThemeChoice::none(), progress, request.detail); },
+      request.themes && request.themes->includes_raised(store.metadata().themes));
+}
+
+void complete_screen(Zone& zone) {
+  if (!zone.request.themes || zone.screened) return;
+  zone.screened = zone.bare;
+  zone.warnings.emplace_back("none of the themes has features that stand on the ground: nothing screens");
+}
 
 Zone survey_turbines(const Store& store, const ZoneRequest& request, Progress& progress) {
   if (!request.foliage) return survey_solid(store, request, progress);

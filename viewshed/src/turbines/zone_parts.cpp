@@ -14,6 +14,7 @@
 #include <itin/parallel.hpp>
 
 #include "line/cell_tiles.hpp"
+#include "line/hulls.hpp"
 #include "plan/azimuth_order.hpp"
 #include "plan/ground_runs.hpp"
 #include "plan/ground_tiles.hpp"
@@ -47,12 +48,26 @@ Window::Polygon box_with_radar(const std::vector<Window::Polygon>& parts, const 
   return Window::rectangle({box.xmin - beyond, box.ymin - beyond, box.xmax + beyond, box.ymax + beyond});
 }
 
-std::vector<Window::Polygon> farm_discs(const ZoneRequest& request) {
+/// Returns a hull about the farm's turbines and all of the cells that they reach.
+Window::Polygon farm_hull(const std::vector<const Turbine*>& farm, const Box& cells) {
+  constexpr double kMetre = 1;
+  Box reach;
+  std::vector<Point2> corners;
+  for (const Turbine* t : farm) {
+    reach.extend(intersection(cells, square_about(t->position, t->radius)));
+    add_corners(square_about(t->position, kMetre), corners);
+  }
+  if (!reach.empty()) add_corners(reach, corners);
+  return {hull_of(std::move(corners)), {}};
+}
+
+std::vector<Window::Polygon> farm_windows(const ZoneRequest& request) {
   std::map<std::string, std::vector<const Turbine*>> farms;
   for (const Turbine& t : request.turbines) farms[t.farm].push_back(&t);
-  std::vector<Window::Polygon> discs;
-  for (const auto& [name, farm] : farms) discs.push_back(farm_disc(farm));
-  return discs;
+  std::vector<Window::Polygon> windows;
+  for (const auto& [name, farm] : farms)
+    windows.push_back(request.grid ? farm_hull(farm, request.grid->bounds()) : farm_disc(farm));
+  return windows;
 }
 
 std::vector<std::size_t> numbers_to(std::size_t count) {
@@ -163,7 +178,7 @@ class Partition {
 }  // namespace
 
 Window window_of(const ZoneRequest& request) {
-  std::vector<Window::Polygon> parts = farm_discs(request);
+  std::vector<Window::Polygon> parts = farm_windows(request);
   if (request.radar) parts = {box_with_radar(parts, request)};
   return Window::polygons(std::move(parts));
 }

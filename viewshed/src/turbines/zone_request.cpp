@@ -138,8 +138,8 @@ Request view_of(const ZoneRequest& zone) {
   return request;
 }
 
-Zone lay_out(const ZoneRequest& request, const Tin& outline, const std::function<std::optional<double>(Point2)>& ground,
-             bool screens) {
+Zone placed_zone(const ZoneRequest& request, const Tin& outline,
+                 const std::function<std::optional<double>(Point2)>& ground, bool screens) {
   Zone zone;
   zone.request = request;
   place_turbines(ground, zone);
@@ -148,12 +148,15 @@ Zone lay_out(const ZoneRequest& request, const Tin& outline, const std::function
   find_voids_of_zone(outline, zone);
   for (const Turbine& t : zone.request.turbines) zone.words = std::max(zone.words, bit_grids(t.number));
   if (screens) zone.screened.emplace();
+  return zone;
+}
+
+void make_room(Zone& zone) {
   if (const auto memory = zone.request.memory_bytes)
     require_memory_for_rasters(zone.grid, bytes_of_results(zone), *memory);
   zone.bare = nothing_seen(zone);
   if (zone.radar) see_nothing(zone, *zone.radar);
-  if (screens) zone.screened = zone.bare;
-  return zone;
+  if (zone.screened) zone.screened = zone.bare;
 }
 
 std::uint64_t bytes_of_results(const Zone& zone) {

@@ -189,7 +189,6 @@ void ZoneSurvey::record(std::size_t turbine, std::size_t cell, double distance, 
 }
 
 void ZoneSurvey::store(const TileSightings& work, Visibility& result) const {
-  const double all = static_cast<double>(zone_.request.turbines.size());
   std::vector<Arc> arcs;
   for_each_cell(work.tile, [&](std::size_t from, RasterGrid::Cell place) {
     if (work.tips[from] == kCountOutside) return;
@@ -208,7 +207,7 @@ void ZoneSurvey::store(const TileSightings& work, Visibility& result) const {
     result.visible_height_m[to] = static_cast<float>(work.height[from]);
     result.vertical_angle_deg[to] = static_cast<float>(work.angle[from]);
     result.vertical_angle_sum_deg[to] = static_cast<float>(work.angle_sum[from]);
-    result.share[to] = static_cast<float>(work.tips[from] / all);
+    result.share[to] = share_of_turbines(work.tips[from], zone_.request.turbines.size());
     result.horizontal_angle_deg[to] = result.horizontal_occupied_deg[to] = 0;
     if (work.tips[from] == 0) return;
     result.nearest_m[to] = static_cast<float>(work.nearest[from]);

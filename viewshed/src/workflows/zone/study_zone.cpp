@@ -8,6 +8,7 @@
 #include <itin/store_scale.hpp>
 #include <viewshed/missing_ground.hpp>
 #include <viewshed/zone_study.hpp>
+#include <viewshed/zone_study_tasks.hpp>
 
 #include "workflows/zone/route_study.hpp"
 #include "workflows/zone/study_document.hpp"
@@ -80,11 +81,24 @@ std::vector<std::string> warnings_of(const ZoneStudy& study) {
 }  // namespace
 
 ZoneStudy study_zone(const Store& store, ZoneStudyRequest request, Progress& progress) {
+  return study_zone_by(
+      [&](const ZoneRequest& zone) { return survey_turbines(store, zone, progress); }, store, std::move(request),
+      progress);
+}
+
+std::unique_ptr<ZoneTasks> tasks_of_study(const Store& store, ZoneStudyRequest request, std::uint64_t most_cells,
+                                          Progress& progress) {
+  require_reasonable(request);
+  complete(request, store.metadata());
+  return std::make_unique<ZoneTasks>(store, request.zone, most_cells, progress);
+}
+
+ZoneStudy study_zone_by(const SurveyZone& survey, const Store& store, ZoneStudyRequest request, Progress& progress) {
   ZoneStudy study;
   study.metadata = store.metadata();
   require_reasonable(request);
   complete(request, study.metadata);
-  study.zone = survey_turbines(store, request.zone, progress);
+  study.zone = survey(request.zone);
   study.request = std::move(request);
   const ZoneRequest& surveyed = study.zone.request;
   add_misplaced(study.zone, study.request.turbines);

@@ -1,0 +1,50 @@
+// The call of a verb that a job was planned for: recorded in the job's folder, and made again from it, where the store
+// and the tables may lie elsewhere.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <itin/document.hpp>
+#include <itin/progress.hpp>
+#include <viewshed/job.hpp>
+
+#include "program/verb_call.hpp"
+
+namespace itin::cli {
+
+/// What a job needs to be planned.
+struct JobPlan {
+  Document document;                                        ///< for job.json
+  std::vector<std::pair<std::string, std::string>> inputs;  ///< files to copy, and their names within inputs/
+};
+/// Records a call. Reads the store, for its digest. Throws InputError, FileError.
+JobPlan plan_of(const VerbCall& call, std::uint64_t most_cells, Progress& progress);
+
+/// A call that was recorded.
+class PlannedCall {
+ public:
+  /// Finds the store: `store`, where that is not empty, else as the call has it, else where it lay when the job was
+  /// planned; and the tables: as the call has them where these are unchanged, else the job's copies. Throws JobError
+  /// where the store is another one, or this is another version of the program.
+  PlannedCall(const viewshed::JobFolder& job, const std::string& store, Progress& progress);
+
+  const std::string& store() const { return store_; }
+  /// Divides the question as planned.
+  std::unique_ptr<viewshed::Tasks> divide(Progress& progress);
+  /// Throws JobError where the store is no longer what it was.
+  void require_same_store() const;
+  /// Another verb of the same call, for execute().
+  Verb& verb();
+
+ private:
+  std::vector<std::string> arguments_;
+  std::string store_;
+  viewshed::StorePrint print_;
+  std::uint64_t most_cells_;
+  VerbCall dividing_, executing_;
+};
+
+}  // namespace itin::cli

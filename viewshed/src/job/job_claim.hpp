@@ -1,0 +1,36 @@
+// A task that this process works on, for others to see.
+//
+//   const JobClaim claim(job, task, patience);
+//   ...                                         // touched from time to time, until the end of its life
+#pragma once
+
+#include <condition_variable>
+#include <cstddef>
+#include <mutex>
+#include <string>
+#include <thread>
+
+#include <itin/unfinished.hpp>
+#include <viewshed/job.hpp>
+
+namespace itin::viewshed {
+
+class JobClaim {
+ public:
+  /// Throws JobError where the file cannot be written.
+  JobClaim(const JobFolder& job, std::size_t task, double patience_s);
+  ~JobClaim();
+  JobClaim(const JobClaim&) = delete;
+  JobClaim& operator=(const JobClaim&) = delete;
+
+ private:
+  void keep_touching(double every_s);
+
+  Unfinished file_;
+  std::mutex mutex_;
+  std::condition_variable ended_;
+  bool end_ = false;
+  std::thread toucher_;
+};
+
+}  // namespace itin::viewshed

@@ -1,0 +1,122 @@
+#include <algorithm>
+#include <chrono>
+#include <new>
+#include <set>
+#include <sys/resource.h>
+#include <thread>
+
+#include <fmt/format.h>
+
+#include <itin/silent_progress.hpp>
+#include <viewshed/job.hpp>
+
+#include "job/job_claim.hpp"
+#include "progress/stopwatch.hpp"
+
+namespace itin::viewshed {
+
+namespace {
+
+/// How often tasks that others work on are looked at again.
+constexpr std::chrono::milliseconds kPause{500};
+
+std::uint64_t peak_memory_bytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
+}
+
+class Runner {
+ public:
+  Runner(const JobFolder& job, const Tasks& tasks, const std::function<void()>& guard, const RunOptions& options,
+         Progress& progress)
+      : job_(job), tasks_(tasks), guard_(guard), options_(options), progress_(progress) {
+    for (std::size_t i = 0; i < job.order().size(); ++i) {
+      const std::size_t task = job.order()[i];
+      if (options.task ? task == *options.task : i % options.parts == options.part - 1) open_.push_back(task);
+    }
+    all_ = open_.size();
+  }
+
+  RunReport run() {
+    guard_();
+    while (!open_.empty()) {
+      progress_.throw_if_cancelled();
+      job_.remove_stale_claims(options_.patience_s);
+      if (!answer_next()) std::this_thread::sleep_for(kPause);
+    }
+    return std::move(report_);
+  }
+
+ private:
+  /// Answers the first open task that nobody works on. Returns false where there is none.
+  bool answer_next() {
+    std::set<std::size_t> claimed;
+    for (const JobFolder::Claim& claim : job_.claims(options_.patience_s)) claimed.insert(claim.task);
+    for (auto at = open_.begin(); at != open_.end();) {
+      const std::size_t task = *at;
+      if (job_.is_done(task)) {
+        at = open_.erase(at);
+      } else if (job_.is_set_aside(task)) {
+        report_.set_aside.push_back(task);
+        at = open_.erase(at);
+      } else if (claimed.contains(task)) {
+        ++at;
+      } else {
+        answer(task);
+        return true;
+      }
+    }
+    return false;
+  }
+
+  void answer(std::size_t task) {
+    const double share = static_cast<double>(all_ - open_.size()) / static_cast<double>(all_);
+    progress_.report(fmt::format("task {} of {}", task, job_.count()), share);
+    const JobClaim claim(job_, task, options_.patience_s);
+    Stopwatch watch;
+    std::string answer;
+    try {
+      SilentProgress silent(progress_);
+      answer = tasks_.answer(task, silent);
+    } catch (const Cancelled&) {
+      throw;
+    } catch (const std::bad_alloc&) {
+      throw JobError(JobEnd::kTryAgain,
+                     fmt::format("task {}: out of memory; free some, or plan with less --memory", task));
+    } catch (const InputError& error) {
+      return fail(task, error, true);
+    } catch (const Error& error) {
+      return fail(task, error, false);
+    }
+    job_.seal(task, answer, guard_);
+    job_.note_time(task, watch.lap(), peak_memory_bytes());
+    ++report_.answered;
+  }
+
+  void fail(std::size_t task, const Error& error, bool refused) {
+    guard_();
+    job_.fail(task, error.what(), refused);
+    if (options_.task)
+      throw JobError(refused ? JobEnd::kRefused : JobEnd::kFailed, fmt::format("task {}: {}", task, error.what()));
+  }
+
+  const JobFolder& job_;
+  const Tasks& tasks_;
+  const std::function<void()>& guard_;
+  const RunOptions& options_;
+  Progress& progress_;
+  std::vector<std::size_t> open_;
+  std::size_t all_ = 0;
+  RunReport report_;
+};
+
+}  // namespace
+
+RunReport run_job(const JobFolder& job, const Tasks& tasks, const std::function<void()>& guard,
+                  const RunOptions& options, Progress& progress) {
+  job.require_same(tasks);
+  return Runner(job, tasks, guard, options, progress).run();
+}
+
+}  // namespace itin::viewshed

@@ -1,0 +1,71 @@
+#include <itin/byte_archive.hpp>
+#include <itin/level_choice.hpp>
+#include <viewshed/tasks.hpp>
+
+#include "index/index_part.hpp"
+#include "plan/effort.hpp"
+#include "plan/partition.hpp"
+#include "tasks/task_rectangles.hpp"
+
+namespace itin::viewshed {
+
+namespace {
+
+template <class Archive, class Part>
+void exchange_part(Archive& archive, Part& part) {
+  auto& c = part.counts;
+  archive(part.shares.share, part.shares.standard_error, part.shares.undecided, c.any_eye, c.targets, c.lines,
+          c.triangles, c.retrieval.points_read, c.retrieval.blocks_read);
+}
+
+}  // namespace
+
+class IndexTasks::Merging : public IndexMerge {
+ public:
+  using IndexMerge::IndexMerge;
+};
+
+IndexTasks::IndexTasks(const Store& store, const IndexRequest& request, std::uint64_t most_cells)
+    : store_(store), request_(request), grid_(index_grid(store, request)) {
+  const int level = level_within(store.metadata(), request.detail.coarsest());
+  const auto rectangles = parts_that_fit(
+      all_cells(grid_), [&](const CellRectangle& cells) { return cells.count() <= most_cells || cells.count() == 1; },
+      [](const CellRectangle& cells) { return halves(cells); });
+  for (const CellRectangle& cells : rectangles) {
+    const Box observers = grid_.part({cells.column, cells.row}, cells.columns, cells.rows).bounds();
+    if (!request.area.is_all() && !request.area.bounds().meets(observers)) continue;
+    const double reach = request.radius;
+    Task task = task_of(cells);
+    task.eyes = cells.count();
+    task.points = store.points_about(
+        level, {observers.xmin - reach, observers.ymin - reach, observers.xmax + reach, observers.ymax + reach});
+    task.seconds = effort_of_triangles(task.points) +
+                   effort_of_lines(static_cast<double>(cells.count()) * static_cast<double>(request.targets));
+    list_.push_back(task);
+  }
+}
+IndexTasks::~IndexTasks() = default;
+
+std::string IndexTasks::answer(std::size_t task, Progress& progress) const {
+  ByteWriter writer;
+  const IndexPart part = index_part(store_, request_, grid_, cells_of(list_.at(task)), progress);
+  exchange_part(writer, part);
+  return writer.bytes();
+}
+
+void IndexTasks::add(std::size_t task, std::string_view answer) {
+  IndexPart part{cells_of(list_.at(task)), {}};
+  ByteReader reader(answer);
+  exchange_part(reader, part);
+  reader.expect_end();
+  for (const auto* values : {&part.shares.share, &part.shares.standard_error, &part.shares.undecided})
+    if (values->size() != part.cells.count()) throw NotThoseValues();
+  if (!merging_) merging_ = std::make_unique<Merging>(grid_);
+  merging_->add(part);
+}
+
+VisibilityIndex IndexTasks::take() {
+  return merging_->take();
+}
+
+}  // namespace itin::viewshed
