@@ -88,11 +88,11 @@ class JobVerb final : public Verb {
       for (const char* option : names)
         if (action != action_) require_not_given(*app_, {option}, "is of itin job " + action);
     if (action_ != "run" && action_ != "merge") require_not_given(*app_, {"--store"}, "is of itin job run and merge");
-    if (action_ == "plan" && call_.empty())
-      throw InputError("no call: give the verb that the job is for, and its arguments, after the folder");
     if (action_ != "plan" && (!call_.empty() || !unparsed_.empty()))
       throw InputError("a call is given to itin job plan alone");
     if (!unparsed_.empty()) throw InputError(fmt::format("'{}': is no verb", unparsed_.front()));
+    if (action_ == "plan" && call_.empty())
+      throw InputError("no call: give the verb that the job is for, and its arguments, after the folder");
     if (!tasks_text_.empty()) wanted_ = parse_whole("--tasks", tasks_text_, 1, kMostTasks);
     if (!patience_text_.empty()) run_.patience_s = parse_number("--patience", patience_text_, Range::kPositive);
     if (!task_text_.empty()) run_.task = static_cast<std::size_t>(parse_whole("--task", task_text_, 0, kMostTasks));

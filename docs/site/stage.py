@@ -49,6 +49,7 @@ NAVIGATION: list[tuple[str, list[Entry]]] = [
             ("Work in QGIS", "docs/qgis.md"),
             ("Work in Python", "docs/python.md"),
             ("Use the live map", "docs/live-map.md"),
+            ("Use more than one machine", "docs/many-machines.md"),
             ("Come from another program", "docs/coming-from.md"),
         ],
     ),

@@ -21,7 +21,7 @@ const std::set<std::string> kInputs = {
     "--path",         "--route",         "--params",      "--candidates", "--search-area", "--demand",
     "--existing",     "--radius-preset", "--like",        "--turbines",   "--viewpoints",  "--forbidden",
     "--polygon",      "--sea-area",      "--basemap",     "--dwellings",  "--masts",       "--months",
-    "--from-antenna", "--to-antenna",    "--height-from"};
+    "--from-antenna", "--to-antenna",    "--height-from", "--store"};
 
 struct FileOption {
   std::string name;

@@ -1,0 +1,78 @@
+"""Jobs on two workers of Dask: the commands of README and of the guide as they stand there, and what goes wrong."""
+
+from __future__ import annotations
+
+import filecmp
+import os
+import re
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+
+SOURCE = Path(__file__).resolve().parents[3]
+PROGRAM = Path(os.environ["ITIN_PROGRAM"])
+PORT = "8786"
+
+pytestmark = pytest.mark.skipif(
+    shutil.which("dask") is None, reason="Dask is not installed; scripts/bootstrap --dask installs it"
+)
+
+
+def commands_of(page: str, language: str) -> str:
+    return "\n".join(re.findall(rf"^```{language}\n(.*?)^```", (SOURCE / page).read_text(), re.DOTALL | re.MULTILINE))
+
+
+def run(folder: Path, commands: str) -> subprocess.CompletedProcess[str]:
+    """Runs commands as a user would, in one shell, which stops what is left in the background at the end."""
+    path = f"{PROGRAM.parent}:{SOURCE / 'bindings/dask'}:{os.environ['PATH']}"
+    script = f"set -e\ntrap 'kill $(jobs -p) 2>/dev/null; wait' EXIT\n{commands}\n"
+    return subprocess.run(
+        ["bash", "-c", script], cwd=folder, env=os.environ | {"PATH": path}, capture_output=True, text=True, check=False
+    )
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    made = tmp_path_factory.mktemp("dask")
+    (made / "scripts").symlink_to(SOURCE / "scripts")
+    for store in ("country", "cardiff"):
+        done = run(made, f"itin import {store}.itin scripts/demo-data/cardiff.tif --quiet")
+        assert done.returncode == 0, done.stderr
+    return made
+
+
+@pytest.mark.parametrize("page", ["README.md", "docs/many-machines.md"])
+def test_the_commands_of_a_page_write_what_the_call_by_itself_writes(folder: Path, page: str) -> None:
+    commands = commands_of(page, "bash")
+    done = run(folder, commands)
+    assert done.returncode == 0, done.stderr
+    plan = re.search(r"itin job plan \w+ --tasks 12 (.*) -o (\w+\.tif)", commands)
+    assert plan
+    alone = run(folder, f"itin {plan[1]} -o alone.tif --quiet --overwrite")
+    assert alone.returncode == 0, alone.stderr
+    assert filecmp.cmp(folder / "alone.tif", folder / plan[2], shallow=False)
+
+
+def test_a_store_that_changes_ends_the_run(folder: Path) -> None:
+    done = run(
+        folder,
+        "itin job plan changed --tasks 12 visibility country.itin --bbox 308000,180000,314000,186000 --cell 100 "
+        "--radius 5000 -o changed.tif\n"
+        "cp country.itin kept.itin\n"
+        "rm country.itin; itin import country.itin scripts/demo-data/cardiff.tif --levels 4,16 --quiet >/dev/null\n"
+        f"dask scheduler --no-dashboard --port {PORT} >/dev/null 2>&1 &\n"
+        f"dask worker tcp://127.0.0.1:{PORT} --nworkers 2 --nthreads 1 --no-dashboard >/dev/null 2>&1 &\n"
+        f"status=0; itin-dask changed --scheduler tcp://127.0.0.1:{PORT} --quiet || status=$?\n"
+        "mv kept.itin country.itin; exit $status",
+    )
+    assert done.returncode == 4, done.stderr
+    assert re.search(r"error: .*country\.itin: is not the store that .* was planned for", done.stderr)
+    assert not list((folder / "changed/done").rglob("*/*/*"))
+
+
+def test_a_scheduler_that_is_not_there_is_named(folder: Path) -> None:
+    done = run(folder, "itin-dask nothing --scheduler tcp://127.0.0.1:1")
+    assert done.returncode == 1
+    assert "--scheduler tcp://127.0.0.1:1" in done.stderr

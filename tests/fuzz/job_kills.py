@@ -1,0 +1,166 @@
+#!/usr/bin/env python3
+"""Kills the runners of a job, again and again, and compares the merged outputs with those of the call by itself.
+
+    tests/fuzz/job_kills.py PROGRAM [--kills 200] [--seed N]             # two runners: itin job run
+    tests/fuzz/job_kills.py PROGRAM --dask [--kills 200] [--seed N]      # two workers of Dask, and its scheduler at times
+
+The job is a visibility index of the demo's terrain in many tasks. Runners are killed by SIGKILL at random moments. In the
+end every task has one answer, nothing that was begun is left, and no process is.
+"""
+
+import argparse
+import contextlib
+import filecmp
+import os
+import pathlib
+import random
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+TERRAIN = ROOT / "scripts/demo-data/cardiff.tif"
+DASK = ROOT / "bindings/dask/itin-dask"
+PATIENCE = "2"
+
+
+def call(*arguments):
+    return subprocess.run(arguments, check=True, stdout=subprocess.PIPE).stdout.decode()
+
+
+def children_of(pid):
+    found = subprocess.run(["pgrep", "-P", str(pid)], stdout=subprocess.PIPE, check=False).stdout.decode().split()
+    return [int(child) for child in found]
+
+
+def descendants_of(pid):
+    return [d for child in children_of(pid) for d in [child, *descendants_of(child)]]
+
+
+class Runners:
+    """Two runners of the program, each started again when it was killed."""
+
+    def __init__(self, program, job):
+        self.command = [program, "job", "run", job, "--threads", "1", "--quiet", "--patience", PATIENCE]
+        self.runners = [self.start(), self.start()]
+
+    def start(self):
+        return subprocess.Popen(self.command, stdout=subprocess.DEVNULL)
+
+    def kill_one(self, chance):
+        number = chance.randrange(2)
+        runner = self.runners[number]
+        was_running = runner.poll() is None
+        if was_running:
+            runner.kill()
+        elif runner.returncode != 0:
+            sys.exit(f"a runner ended with status {runner.returncode}")
+        runner.wait()
+        self.runners[number] = self.start()
+        return was_running
+
+    def finish(self):
+        if any(runner.wait() != 0 for runner in self.runners):
+            sys.exit("a runner ended with another status than 0")
+
+
+class DaskRunners:
+    """Two workers of Dask, whose nannies start them again, and a scheduler and a client that are started again here."""
+
+    def __init__(self, program, job):
+        self.program, self.job = program, job
+        self.port = str(random.randrange(20000, 30000))
+        self.address = f"tcp://127.0.0.1:{self.port}"
+        self.scheduler = self.start_scheduler()
+        self.workers = subprocess.Popen(
+            ["dask", "worker", self.address, "--nworkers", "2", "--nthreads", "1", "--no-dashboard"],
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL,
+        )
+        self.client = self.start_client()
+
+    def start_scheduler(self):
+        command = ["dask", "scheduler", "--host", "127.0.0.1", "--port", self.port, "--no-dashboard"]
+        return subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+
+    def start_client(self):
+        command = [DASK, self.job, "--scheduler", self.address, "--itin", self.program, "--patience", PATIENCE, "--quiet"]
+        return subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+
+    def kill_one(self, chance):
+        if self.client.poll() is not None:
+            self.client = self.start_client()
+        if chance.random() < 0.02:
+            self.scheduler.kill()
+            self.scheduler.wait()
+            self.scheduler = self.start_scheduler()
+            return True
+        # The nannies' children work.
+        workers = [w for nanny in children_of(self.workers.pid) for w in [nanny, *children_of(nanny)]]
+        busy = [w for w in workers if any(is_program(child) for child in children_of(w))]
+        if not busy:
+            return False
+        os.kill(chance.choice(busy), signal.SIGKILL)
+        return True
+
+    def finish(self):
+        for _ in range(10):
+            if self.client.wait() == 0:
+                break
+            self.client = self.start_client()
+        else:
+            sys.exit("itin-dask does not come to an end")
+        for process in (self.workers, self.scheduler):
+            process.terminate()
+            process.wait()
+
+
+def is_program(pid):
+    with contextlib.suppress(OSError):
+        return b"\0job\0run\0" in pathlib.Path(f"/proc/{pid}/cmdline").read_bytes()
+    return False
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("program")
+    parser.add_argument("--kills", type=int, default=200)
+    parser.add_argument("--every", type=float, default=0.7, help="seconds between kills, on average")
+    parser.add_argument("--targets", default="4096", help="how much work a task is")
+    parser.add_argument("--tasks", default="200", help="about how many tasks the job has")
+    parser.add_argument("--dask", action="store_true")
+    parser.add_argument("--seed", type=int, default=random.randrange(1 << 30))
+    options = parser.parse_args()
+    chance = random.Random(options.seed)
+    print(f"seed {options.seed}", flush=True)
+    program = str(pathlib.Path(options.program).resolve())
+    with tempfile.TemporaryDirectory() as folder:
+        os.chdir(folder)
+        call(program, "import", "c.itin", TERRAIN, "--quiet")
+        question = ["visibility", "c.itin", "--bbox", "308000,180000,314000,186000", "--cell", "60", "--radius", "3000"]
+        question += ["--targets", options.targets]
+        call(program, *question, "-o", "alone.tif", "--quiet")
+        call(program, "job", "plan", "job", "--tasks", options.tasks, *question, "-o", "together.tif")
+        runners = (DaskRunners if options.dask else Runners)(program, "job")
+        kills, begun = 0, time.time()
+        while kills < options.kills and call(program, "job", "status", "job", "--open"):
+            time.sleep(chance.uniform(0, 2 * options.every))
+            kills += runners.kill_one(chance)
+        seconds = time.time() - begun
+        runners.finish()
+        time.sleep(1)
+        orphans = [pid for pid in descendants_of(os.getpid()) if is_program(pid)]
+        done = call(program, "job", "status", "job")
+        call(program, "job", "merge", "job", "--quiet")
+        if not filecmp.cmp("alone.tif", "together.tif", shallow=False):
+            sys.exit("the merged index has other bytes than the index by itself")
+        if orphans:
+            sys.exit(f"processes are left: {orphans}")
+        begun_files = sorted(os.listdir("job/tmp"))
+        print(f"{kills} kills in {seconds:.0f} s; {done.splitlines()[0]}; {len(begun_files)} files in tmp; same bytes")
+
+
+if __name__ == "__main__":
+    main()
