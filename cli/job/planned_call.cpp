@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <sys/stat.h>
 
 #include <fmt/format.h>
 
@@ -56,7 +57,14 @@ void replace_value(std::vector<std::string>& arguments, const std::string& value
 }
 
 StorePrint print_in(const Document& store) {
-  return {store.value("bytes", std::uint64_t{0}), store.value("changes", std::uint64_t{0})};
+  return {store.value("bytes", std::uint64_t{0}), store.value("id", std::uint64_t{0})};
+}
+
+/// What changes whenever a file is written, or exchanged for another one.
+FileStamp stamp_of(const std::string& path) {
+  struct stat status = {};
+  if (::stat(path.c_str(), &status) != 0) return {};
+  return {status.st_ino, status.st_size, status.st_mtim.tv_sec, status.st_mtim.tv_nsec};
 }
 
 /// Returns the path of the store that the job is about.
@@ -67,10 +75,11 @@ std::string find_store(const JobFolder& job, const std::string& given, Progress&
   std::string other;
   for (const std::string& path : paths) {
     if (!is_file(path)) continue;
-    if (viewshed::print_of_store(path) == print_in(store)) return path;
-    // A store that was imported elsewhere has its own history, and yet may have the same content.
-    if (content_digest(Store(path), progress) == store.value("digest", "")) return path;
-    other = path;
+    const Store opened(path);
+    if (viewshed::print_of(opened) == print_in(store)) return path;
+    // A store that was imported elsewhere may have the same content.
+    if (content_digest(opened, progress) == store.value("digest", "")) return path;
+    if (other.empty()) other = path;
   }
   if (!other.empty())
     throw JobError(JobEnd::kStoreChanged,
@@ -105,7 +114,8 @@ std::vector<std::string> arguments_here(const JobFolder& job, const std::string&
 JobPlan plan_of(const VerbCall& call, std::uint64_t most_cells, Progress& progress) {
   const std::string store = call.store();
   if (!is_file(store)) throw FileError(store, "is no store; itin import makes one");
-  const StorePrint print = viewshed::print_of_store(store);
+  const Store opened(store);
+  const StorePrint print = viewshed::print_of(opened);
   JobPlan plan;
   plan.document = {{"itin", ITIN_VERSION},
                    {"arguments", call.arguments()},
@@ -114,8 +124,8 @@ JobPlan plan_of(const VerbCall& call, std::uint64_t most_cells, Progress& progre
                     {{"name", store},
                      {"path", fs::absolute(store).lexically_normal().string()},
                      {"bytes", print.bytes},
-                     {"changes", print.changes},
-                     {"digest", content_digest(Store(store), progress)}}},
+                     {"id", print.id},
+                     {"digest", content_digest(opened, progress)}}},
                    {"inputs", Document::array()}};
   std::vector<std::string> seen;
   for (const std::string& path : call.inputs()) {
@@ -135,7 +145,7 @@ JobPlan plan_of(const VerbCall& call, std::uint64_t most_cells, Progress& progre
 
 PlannedCall::PlannedCall(const JobFolder& job, const std::string& store, Progress& progress)
     : store_(find_store(job, store, progress)),
-      print_(viewshed::print_of_store(store_)),
+      stamp_(stamp_of(store_)),
       most_cells_(job.document().value("most_cells", std::uint64_t{0})),
       dividing_(arguments_here(job, store_, progress)),
       executing_(arguments_here(job, store_, progress)) {}
@@ -145,7 +155,7 @@ std::unique_ptr<viewshed::Tasks> PlannedCall::divide(Progress& progress) {
 }
 
 void PlannedCall::require_same_store() const {
-  if (is_file(store_) && viewshed::print_of_store(store_) == print_) return;
+  if (stamp_of(store_) == stamp_) return;
   throw JobError(JobEnd::kStoreChanged, fmt::format("{}: was changed since this run began; plan the job anew", store_));
 }
 

@@ -2,6 +2,7 @@
 // and the tables may lie elsewhere.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <utility>
@@ -14,6 +15,14 @@
 #include "program/verb_call.hpp"
 
 namespace itin::cli {
+
+/// Tells whether a file is still what it was.
+struct FileStamp {
+  std::uint64_t file = 0;
+  std::int64_t bytes = 0, seconds = 0, nanoseconds = 0;
+
+  bool operator==(const FileStamp&) const = default;
+};
 
 /// What a job needs to be planned.
 struct JobPlan {
@@ -42,7 +51,7 @@ class PlannedCall {
  private:
   std::vector<std::string> arguments_;
   std::string store_;
-  viewshed::StorePrint print_;
+  FileStamp stamp_;  ///< of the store
   std::uint64_t most_cells_;
   VerbCall dividing_, executing_;
 };

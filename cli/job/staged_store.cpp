@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <itin/error.hpp>
+#include <itin/store.hpp>
 #include <itin/unfinished.hpp>
 #include <viewshed/job.hpp>
 
@@ -14,12 +15,11 @@ namespace itin::cli {
 
 std::string staged_store(const std::string& store, const std::string& folder, const Progress& progress) {
   namespace fs = std::filesystem;
-  const viewshed::StorePrint print = viewshed::print_of_store(store);
+  const viewshed::StorePrint print = viewshed::print_of(Store(store));
   const fs::path from = fs::path(store);
-  const std::string path =
-      (fs::path(folder) / fmt::format("{}-{}-{}.itin", from.stem().string(), print.bytes, print.changes)).string();
+  const std::string path = (fs::path(folder) / fmt::format("{}-{:016x}.itin", from.stem().string(), print.id)).string();
   std::error_code error;
-  if (fs::exists(path, error) && viewshed::print_of_store(path) == print) return path;
+  if (fs::exists(path, error) && viewshed::print_of(Store(path)) == print) return path;
   progress.throw_if_cancelled();
   fs::create_directories(folder, error);
   Unfinished copy(fmt::format("{}.{}.tmp", path, ::getpid()));

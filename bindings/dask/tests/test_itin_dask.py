@@ -27,7 +27,7 @@ def commands_of(page: str, language: str) -> str:
 def run(folder: Path, commands: str) -> subprocess.CompletedProcess[str]:
     """Runs commands as a user would, in one shell, which stops what is left in the background at the end."""
     path = f"{PROGRAM.parent}:{SOURCE / 'bindings/dask'}:{os.environ['PATH']}"
-    script = f"set -e\ntrap 'kill $(jobs -p) 2>/dev/null; wait' EXIT\n{commands}\n"
+    script = f"set -e\ntrap 'kill $(jobs -p) 2>/dev/null || true; wait' EXIT\n{commands}\n"
     return subprocess.run(
         ["bash", "-c", script], cwd=folder, env=os.environ | {"PATH": path}, capture_output=True, text=True, check=False
     )

@@ -130,13 +130,12 @@ struct RunReport {
 RunReport run_job(const JobFolder& job, const Tasks& tasks, const std::function<void()>& guard,
                   const RunOptions& options, Progress& progress);
 
-/// What tells a store from another without reading it: the size of its file and the number of its changes.
+/// What tells a store from others without reading all of it.
 struct StorePrint {
-  std::uint64_t bytes = 0, changes = 0;
+  std::uint64_t bytes = 0, id = 0;
 
   bool operator==(const StorePrint&) const = default;
 };
-/// Throws FileError where there is no such file.
-StorePrint print_of_store(const std::string& path);
+StorePrint print_of(const Store& store);
 
 }  // namespace itin::viewshed

@@ -100,8 +100,7 @@ void add_request(Text& text, const Request& request, const std::vector<ThemeInfo
            margins);
 }
 
-/// What tells a store from others is what was imported, and what became of it; not when it was imported. A digest of
-/// its content would take reading all of it.
+/// A digest of the store's content would take reading all of it.
 void add_store(Text& text, const StoreMetadata& store) {
   text.add(store.crs_wkt, store.grid.origin, store.grid.resolution, store.vertices);
   for (const LevelInfo& level : store.levels)
@@ -112,6 +111,12 @@ void add_store(Text& text, const StoreMetadata& store) {
 }
 
 }  // namespace
+
+std::uint64_t id_of(const StoreMetadata& store) {
+  Text text;
+  add_store(text, store);
+  return text.hash();
+}
 
 std::uint64_t id_of(const StoreMetadata& store, const Plan& plan) {
   Text text;
