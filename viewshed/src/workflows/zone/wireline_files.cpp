@@ -206,7 +206,7 @@ profile::SheetTable table_of_sights(const Zone& zone, const std::vector<TurbineS
     table.rows.push_back({t.name.empty() ? fmt::format("{}", t.number) : t.name,
                           fmt::format("{:.2f}", s.distance / 1000), fmt::format("{:.1f}°", s.azimuth),
                           verdict_in_words(s.hub), verdict_in_words(s.tip),
-                          seen ? fmt::format("{:.0f} of {:.0f} m", s.visible, t.tip_height) : "",
+                          seen ? fmt::format("{:.1f} of {:.1f} m", s.visible, t.tip_height) : "",
                           seen ? fmt::format("{:.2f}°", s.vertical_deg) : ""});
   }
   return table;
