@@ -10,6 +10,7 @@
 
 #include "output/store_document.hpp"
 #include "program/help.hpp"
+#include "program/values.hpp"
 
 namespace itin::cli {
 
