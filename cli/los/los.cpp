@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <span>
 
 #include <fmt/format.h>
 
@@ -12,6 +13,7 @@
 #include <itin/store_scale.hpp>
 #include <profile/los.hpp>
 #include <profile/profile.hpp>
+#include <viewshed/map_image.hpp>
 
 #include "los/los_case.hpp"
 #include "los/los_links.hpp"
@@ -140,6 +142,14 @@ class LosVerb final : public Verb {
     return {reports_.title(link.id), people_.facts(), link.from_name, link.to_name, reports_.table_spacing_m()};
   }
 
+  static void add_map(const Store& store, const LosHeader& header, std::span<const profile::Link> others, LosCase& one,
+                      Progress& progress) {
+    viewshed::LocationOptions options{.others = others};
+    if (!header.from_name.empty()) options.from_name = header.from_name;
+    if (!header.to_name.empty()) options.to_name = header.to_name;
+    one.report.location = viewshed::location_map(store, one.report, options, progress);
+  }
+
   LosCase run_profile() {
     query_.from_height_m = heights_[0], query_.to_height_m = heights_[1];
     query_.points_as_given = true;
@@ -164,6 +174,7 @@ class LosVerb final : public Verb {
     earth_.take_body_of(store.metadata());
     query_ = query_of(earth_, radio_, budget_, people_);
     LosCase one = los_case(store, line_.run(store, query_), header());
+    if (reports_.show_location()) add_map(store, header(), {}, one, progress);
     warn_of_grid(store.metadata(), one.result.warnings);
     warn_of_date(one.result);
     return one;
@@ -182,7 +193,9 @@ class LosVerb final : public Verb {
     std::vector<LosReports::Job> jobs = reports_.jobs(table.links, policy_);
     const profile::LinkSurvey survey =
         profile::survey_link_table(store, std::move(table), LosLinks::query(query_, line_), progress);
-    profile::write_link_table(survey, links_.outputs(), {reports_.title(), people_.facts(), policy_.overwrite});
+    profile::LinkFileOptions files{reports_.title(), people_.facts(), policy_.overwrite};
+    if (links_.writes_pages()) files.map = viewshed::links_map(store, survey, files.title, progress);
+    profile::write_link_table(survey, links_.outputs(), files);
     Result result = links_.result_of(survey);
     const std::vector<profile::Link>& links = survey.table.links;
     if (radio) warn_of_refraction(profile::effective_earth_km(query_.earth), result);
@@ -194,6 +207,8 @@ class LosVerb final : public Verb {
       const profile::Link& link = links[i];
       const LosStoreOptions::Ends ends{link.from, link.to, link.from_height, link.to_height};
       LosCase one = los_case(store, line_.run(store, profile::los_query(link, survey.query), ends), header(link));
+      NoProgress quiet;  // reports are made side by side
+      if (reports_.show_location()) add_map(store, header(link), links, one, quiet);
       one.result.document["link"] = link.id;
       return one;
     };

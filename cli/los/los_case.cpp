@@ -12,6 +12,9 @@ namespace itin::cli {
 
 namespace {
 
+/// The unit of the text for people; pages have that of their line.
+constexpr auto kMetres = profile::DistanceUnit::kMetres;
+
 void add_radio_fact(profile::LosReport& report) {
   const profile::RadioPath& radio = *report.query.radio;
   report.facts.emplace_back(
@@ -67,8 +70,8 @@ std::string text_of_findings(const profile::LosReport& report, const profile::Li
                         o.depth_m, o.peak_at_m, cause_of(report, o.theme, o.feature));
   }
   for (const profile::CriterionResult& c : found.criteria)
-    text += fmt::format("K = {}, {:g} F1: {}{}\n", factor_text(c.criterion, c.k), c.criterion.fraction, outcome_text(c),
-                        least_fraction_text(c));
+    text += fmt::format("K = {}, {:g} F1: {}{}\n", factor_text(c.criterion, c.k), c.criterion.fraction,
+                        outcome_text(c, kMetres), least_fraction_text(c, kMetres));
   if (const std::string note = profile::fade_note(found, report.profile.length_m); !note.empty()) text += note + "\n";
   for (const profile::NamedHeights& r : found.required) {
     text +=
@@ -104,7 +107,7 @@ std::string text_of(const profile::LosReport& report) {
                         cause_of(report, report.critical->theme, report.critical->feature));
   }
   text += "\n";
-  if (const std::string why = reason_of(report); !why.empty()) text += why + "\n";
+  if (const std::string why = reason_of(report, kMetres); !why.empty()) text += why + "\n";
   if (report.geodesic_m)
     text += fmt::format("{:.1f} m on the grid, {:.1f} m geodesic{}\n", report.profile.length_m, *report.geodesic_m,
                         body_of(report.crs_wkt).is_earth ? " (WGS 84)" : "");
@@ -124,7 +127,7 @@ std::string text_of(const profile::LosReport& report) {
     for (const std::string& line : profile::budget_lines(*report.budget)) text += line + "\n";
   if (report.reflection)
     text += fmt::format("reflection point at {:.1f} m; reflected path {}\n", report.reflection->distance_m,
-                        screen_text(report));
+                        screen_text(report, kMetres));
   if (report.visible) {
     const profile::VisibleHeight& seen = *report.visible;
     text += fmt::format("{:.1f} m of the object at the second end are seen ({:.0f} %)", seen.tip.visible_m,

@@ -1,6 +1,7 @@
 // `itin los --links`: one row per link.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,6 +22,8 @@ class LosLinks {
   void declare(CLI::App& app);
   bool given() const { return !path_.empty(); }
   const std::vector<std::string>& outputs() const { return outputs_; }
+  /// Whether an output is a .pdf.
+  bool writes_pages() const { return std::any_of(outputs_.begin(), outputs_.end(), profile::shows_location); }
   /// Checks the options. `object` is what stands at each second end; its tip is then the height of second ends for
   /// which the file gives none. Throws InputError.
   void validate(const std::optional<profile::TallObject>& object);

@@ -1,6 +1,7 @@
 // `--report` and `--title`: the files of one line of sight, or of each of many.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <filesystem>
 #include <functional>
@@ -34,6 +35,8 @@ class LosReports {
   void validate(bool has_positions);
   /// Checks the options for links, each of which needs a file name of its own. Throws InputError.
   void validate_links();
+  /// Whether a report shows a map of where its line runs.
+  bool show_location() const { return std::any_of(paths_.begin(), paths_.end(), profile::shows_location); }
   /// The title given, or "Line-of-sight report"; then a colon and `of`, if that is not empty.
   std::string title(const std::string& of = {}) const;
   /// The spacing, in metres, of the rows of the printed profile, as in LosReport.

@@ -17,7 +17,7 @@ namespace {
 
 std::vector<std::string> warnings_about(const profile::LosReport& report) {
   std::vector<std::string> warnings;
-  const std::string gaps = gap_text(report);
+  const std::string gaps = gap_text(report, profile::DistanceUnit::kMetres);
   if (!gaps.empty() && report.query.nodata != profile::NoData::kClear) warnings.push_back(gaps + "; see --nodata");
   if (report.query.radio && !report.losses && report.profile.has_length())
     warnings.emplace_back(

@@ -65,10 +65,9 @@ void BudgetOptions::declare(CLI::App& app, const Ends& ends) {
   app.add_option("--sensitivity-dbm", sensitivity_text_,
                  fmt::format("Least level that the receiver works with: gives the margin for fades{}",
                              ends.single ? " and, with rain or multipath, the availability"
-                             : ends.rain ? " and, with rain, the minutes of outage"
-                                         : ""))
+                                         : " and, with rain, the minutes of outage"))
       ->type_name("DBM");
-  if (ends.rain) declare_rain(app);
+  declare_rain(app);
   if (ends.single) declare_multipath(app);
   for (const auto& [option, end, path] : {std::tuple("--from-antenna", ends.first, &from_antenna_path_),
                                           {"--to-antenna", ends.second, &to_antenna_path_}})

@@ -21,7 +21,6 @@ class BudgetOptions {
     const char* first = "the first end";
     const char* second = "the second";
     bool single = true;  ///< links are single, which may fade by multipath; else one end is anywhere in an area
-    bool rain = true;    ///< outage by rain is told
   };
   void declare(CLI::App& app, const Ends& ends);
   /// Reads the patterns of antennas. Throws InputError, FileError.

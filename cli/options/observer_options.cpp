@@ -4,6 +4,7 @@
 
 #include <itin/error.hpp>
 #include <itin/site_list.hpp>
+#include <profile/antenna_columns.hpp>
 
 #include "options/off_the_data.hpp"
 #include "options/taken_heights.hpp"
@@ -120,12 +121,15 @@ std::vector<viewshed::Observer> ObserverOptions::observers_of_file(const StoreMe
   SiteQuery query = sites_;
   query.crs = in_crs_.crs;
   query.numbers = views_.numbers();
+  std::optional<profile::AntennaColumns> antennas;
+  if (request.mode == viewshed::Mode::kLevel) antennas.emplace(query);
   std::vector<viewshed::Observer> observers;
   for (const Site& site : read_sites(query, metadata.crs_wkt, warnings)) {
     const std::string where = fmt::format("{}: {}", query.path, site.place);
     require_on_the_data(where, site.position, in_crs_, metadata);
     viewshed::Observer observer{site.name, site.position, site.height.value_or(height_), absolute()};
     views_.fill(observer, site.numbers, where);
+    if (antennas) observer.antenna = antennas->of(site);
     views_.require_agreement(observer, request, where);
     if (!views_.arcgis()) height_of(where, site.height);
     if (request.target_absolute && !observer.target_height && !target_height_given)
@@ -148,6 +152,8 @@ Document observers_document(const std::vector<viewshed::Observer>& observers) {
     if (o.min_radius) document["min_radius_m"] = *o.min_radius;
     if (o.azimuth) document["azimuth_deg"] = {o.azimuth->from, o.azimuth->to};
     if (o.elevation) document["elevation_deg"] = {o.elevation->from, o.elevation->to};
+    if (o.antenna.azimuth_deg) document["antenna_azimuth_deg"] = *o.antenna.azimuth_deg;
+    if (o.antenna.tilt_deg) document["antenna_tilt_deg"] = *o.antenna.tilt_deg;
   }
   return documents;
 }

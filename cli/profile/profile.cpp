@@ -144,6 +144,7 @@ class ProfileVerb final : public Verb {
     for (const std::string& output : outputs()) policy_.require_writable(output);
     if (!triangles_.empty()) require_tin_output(triangles_, policy_.overwrite);
     const Store store(store_, cache_within(memory_.bytes()));
+    for (const std::string& output : outputs_) profile::require_profile_crs(output, store.metadata().crs_wkt);
     themes_.complete(store, progress);
     Result result;
     const std::vector<Point2> corners = corners_in(store.metadata(), result.warnings);

@@ -139,9 +139,10 @@ std::vector<viewshed::MapObjects> site_map_objects(const Store& store, const vie
   const auto add = [&](SheetSymbol symbol, const Rgba& colour, const std::string& what, const auto& is_one) {
     objects.push_back(marks(network, symbol, colour, what, is_one));
   };
-  add(SheetSymbol::kExistingMast, kExistingSite, "Existing " + wording.one,
+  const bool wind = r.request.turbines.has_value();
+  add(wind ? SheetSymbol::kTurbine : SheetSymbol::kExistingMast, kExistingSite, "Existing " + wording.one,
       [&](std::size_t i) { return is(i, kExisting); });
-  add(SheetSymbol::kMast, viewshed::kMastColour, "Chosen " + wording.one,
+  add(wind ? SheetSymbol::kTurbine : SheetSymbol::kMast, viewshed::kMastColour, "Chosen " + wording.one,
       [&](std::size_t i) { return is(i, kChosen) && through[i] == 0; });
   add(SheetSymbol::kRelay, viewshed::kMastColour, "Chosen site that relays others",
       [&](std::size_t i) { return is(i, kChosen) && through[i] > 0; });

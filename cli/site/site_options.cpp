@@ -100,7 +100,7 @@ void SiteOptions::declare_antennas(CLI::App& app) {
 }
 
 void SiteOptions::declare_radios(CLI::App& app) {
-  radios.declare(app, {"a site", "the receiver", false, false});
+  radios.declare(app, {"a site", "the receiver", false});
   app.add_option("--margin-db", margin_text_,
                  "With a link budget, a target is served, in sight or not, where its level is the sensitivity and this "
                  "much more (default: 0); links among sites are judged by sight and --fresnel still")

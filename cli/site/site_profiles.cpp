@@ -77,7 +77,7 @@ std::vector<SiteProfile> write_site_profiles(const Store& store, const viewshed:
     const std::string path = (fs::path(folder) / (name + ".svg")).string();
     const profile::LosReport report = report_of(store, r.request, from, to);
     profile::write_report(report, {}, path, overwrite);
-    profiles.push_back({path, fmt::format("{} to {}, {:.1f} km", from.name, to.name, link.line.distance_m / 1000),
+    profiles.push_back({path, fmt::format("{} to {}, {:.2f} km", from.name, to.name, link.line.distance_m / 1000),
                         in_report[i] ? profile::sight_svg(report, kProfileWidth, kProfileHeight) : ""});
     progress.report("profiles of links", static_cast<double>(i + 1) / static_cast<double>(r.network.links.size()));
   }

@@ -87,6 +87,11 @@ std::string turbines_html(const viewshed::SitePlan& r) {
   return table.finish();
 }
 
+/// Distances of a report are all in kilometres, with two decimals.
+std::string kilometres(double metres) {
+  return fmt::format("{:.2f}", metres / 1000);
+}
+
 std::string points_html(const viewshed::SitePlan& r) {
   constexpr std::size_t kMostRows = 100;
   const bool by_level = r.request.by_level();
@@ -106,7 +111,7 @@ std::string points_html(const viewshed::SitePlan& r) {
                                  fmt::format("{:.0f}", p.place.position.y),
                                  amount(p.point.weight)};
     row.resize(9);
-    if (p.line) row[6] = fmt::format("{:.2f}", p.line->distance_m / 1000);
+    if (p.line) row[6] = kilometres(p.line->distance_m);
     if (by_level) {
       if (p.line && p.line->level_dbm) row[7] = fmt::format("{:.1f}", *p.line->level_dbm);
       if (p.line && p.line->margin_db) row[8] = fmt::format("{:.1f}", *p.line->margin_db);
@@ -147,34 +152,35 @@ std::string closest_html(const viewshed::SitePlan& r) {
 
 std::string routes_html(const viewshed::SitePlan& r) {
   const viewshed::SiteNetwork& network = r.network;
-  HtmlTable table({"Site", "Route", "Hops km", "In all km", "Worst hop", "Clearance m", "of F1", "No data m"}, 5, true);
+  HtmlTable table({"Site", "Route", "Hops km", "In all km", "Worst hop", "Clearance m", "of F1", "No data km"}, 5,
+                  true);
   for (const viewshed::SiteRoute& route : r.routes) {
     std::vector<std::string> row{network.ends[route.site].place.name, in_words(network, route)};
     row.resize(8);
     double gap = 0;
     for (const viewshed::RouteHop& hop : route.hops) {
       const profile::LinkResult& line = network.links[hop.link].line;
-      row[2] += (row[2].empty() ? "" : " + ") + fmt::format("{:.2f}", line.distance_m / 1000);
+      row[2] += (row[2].empty() ? "" : " + ") + kilometres(line.distance_m);
       gap += line.gap_m;
     }
-    if (!route.hops.empty()) row[3] = fmt::format("{:.2f}", length_m(network, route) / 1000);
+    if (!route.hops.empty()) row[3] = kilometres(length_m(network, route));
     if (const auto worst = worst_hop(network, route)) {
       const viewshed::SiteLink& link = network.links[worst->link];
       row[4] = network.ends[worst->from].place.name + " to " + network.ends[worst->to].place.name;
       row[5] = metres_clear(link), row[6] = fraction_clear(link);
     }
-    if (gap > 0) row[7] = fmt::format("{:.0f}", gap);
+    if (gap > 0) row[7] = kilometres(gap);
     table.add(row);
   }
   return table.finish();
 }
 
 std::string links_html(const viewshed::SitePlan& r) {
-  HtmlTable table({"From", "To", "Verdict", "km", "Clearance m", "of F1", "No data m"}, 3);
+  HtmlTable table({"From", "To", "Verdict", "km", "Clearance m", "of F1", "No data km"}, 3);
   for (const viewshed::SiteLink& link : r.network.links) {
     table.add({r.network.from(link).name, r.network.to(link).name, viewshed::outcome_of(r.request, link),
-               fmt::format("{:.3f}", link.line.distance_m / 1000), metres_clear(link), fraction_clear(link),
-               link.line.gap_m > 0 ? fmt::format("{:.0f}", link.line.gap_m) : ""});
+               kilometres(link.line.distance_m), metres_clear(link), fraction_clear(link),
+               link.line.gap_m > 0 ? kilometres(link.line.gap_m) : ""});
   }
   return table.finish();
 }

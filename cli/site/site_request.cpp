@@ -1,6 +1,9 @@
 #include "site/site_request.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -9,6 +12,7 @@
 #include <itin/site_list.hpp>
 #include <itin/sites.hpp>
 #include <itin/window_source.hpp>
+#include <profile/antenna_columns.hpp>
 
 #include "options/off_the_data.hpp"
 
@@ -83,14 +87,48 @@ class RequestFiles {
     if (places.places.empty() && places.left_out.empty()) throw InputError(none_in(query, what));
   }
 
+  /// The columns of antennas, where there are link budgets, which alone ask for them.
+  std::optional<profile::AntennaColumns> antennas_of(SiteQuery& query) const {
+    if (!request_.by_level()) return std::nullopt;
+    return std::optional<profile::AntennaColumns>(std::in_place, query);
+  }
+
+  static void take_antenna(std::optional<profile::AntennaColumns>& antennas, const Site& site,
+                           viewshed::SitePlace& place) {
+    if (!antennas) return;
+    viewshed::SiteSector sector{place.name, antennas->of(site)};
+    const profile::AimedAntenna& antenna = sector.antenna;
+    if (antenna.pattern || antenna.azimuth_deg || antenna.tilt_deg) place.sectors.push_back(std::move(sector));
+  }
+
+  /// Makes one place of the rows that are the sectors of a mast: those at one position, of one height, with antennas.
+  static void join_sectors(viewshed::SitePlaces& places) {
+    std::vector<viewshed::SitePlace> joined;
+    for (viewshed::SitePlace& place : places.places) {
+      const auto mast = std::find_if(joined.begin(), joined.end(), [&](const viewshed::SitePlace& other) {
+        return !place.sectors.empty() && !other.sectors.empty() && place.position == other.position &&
+               place.height == other.height;
+      });
+      if (mast == joined.end()) {
+        joined.push_back(std::move(place));
+      } else {
+        mast->sectors.push_back(std::move(place.sectors.front()));
+      }
+    }
+    places.places = std::move(joined);
+  }
+
   void read_candidates() {
     SiteQuery query = options_.candidates;
     query.crs = options_.in_crs.crs;
     viewshed::SitePlaces begun = with_number(query, options_.cost_field, "cost", "--cost-field");
+    auto antennas = antennas_of(query);
     request_.candidates = places_of(query, std::move(begun), [&](const Site& site, viewshed::SitePlace& candidate) {
       candidate.name = query.name_field.empty() ? std::to_string(site.row) : site.name;
-      candidate.cost = number_of(site, 0);
+      candidate.cost = options_.cost_field.empty() ? 0 : number_of(site, 0);
+      take_antenna(antennas, site, candidate);
     });
+    join_sectors(request_.candidates);
     require_any(request_.candidates, query, "candidate");
     std::vector<Point2> positions;
     for (const viewshed::SitePlace& candidate : request_.candidates.places) positions.push_back(candidate.position);
@@ -98,9 +136,13 @@ class RequestFiles {
   }
 
   void read_existing() {
-    const SiteQuery query = query_of(options_.existing, options_.existing_height_field);
-    request_.existing =
-        places_of(query, {}, [](const Site& site, viewshed::SitePlace& place) { place.name = site.name; });
+    SiteQuery query = query_of(options_.existing, options_.existing_height_field);
+    auto antennas = antennas_of(query);
+    request_.existing = places_of(query, {}, [&](const Site& site, viewshed::SitePlace& place) {
+      place.name = site.name;
+      take_antenna(antennas, site, place);
+    });
+    join_sectors(request_.existing);
     require_any(request_.existing, query, "site");
   }
 

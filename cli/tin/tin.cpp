@@ -18,6 +18,7 @@
 #include <itin/store_scale.hpp>
 #include <itin/tin_export.hpp>
 #include <itin/triangulate.hpp>
+#include <itin/vector_export.hpp>
 
 #include "options/detail_options.hpp"
 #include "options/memory_option.hpp"
@@ -100,6 +101,7 @@ class TinVerb final : public Verb {
     for (const std::string& path : outputs()) policy_.require_writable(path);
     require_format();
     const Store store(store_, cache_within(memory_.bytes()));
+    require_crs_for(output_, store.metadata().crs_wkt);
     const auto [window, centre] = window_.region(store.metadata());
     const Detail detail = detail_.detail(centre);
     themes_.complete(store, progress);

@@ -112,7 +112,7 @@ class ViewshedVerb final : public Verb {
     features_.require_themes(metadata, request.themes);
     if (!horizon_.paths().empty() && request.observers.size() > 1)
       throw InputError("--horizon is that of one observer; give one");
-    outputs_.prepare(request);
+    outputs_.prepare(request, metadata.crs_wkt);
     for (const std::string& raster : features_.paths()) outputs_.claim_style(raster);
     const FoliageOptions& foliage = view_.foliage();
     const std::string woods = foliage.given() ? profile::foliage_rule_text(foliage.foliage()) : "";

@@ -8,6 +8,7 @@
 
 #include <itin/error.hpp>
 #include <itin/file_ending.hpp>
+#include <itin/vector_export.hpp>
 #include <viewshed/map_image.hpp>
 #include <viewshed/qgis_styles.hpp>
 #include <viewshed/result_files.hpp>
@@ -57,8 +58,9 @@ void ViewshedOutputs::validate(const std::vector<std::string>& others) {
   if (!image_.empty()) viewshed::require_image_format(image_);
 }
 
-void ViewshedOutputs::prepare(const viewshed::Request& request) {
+void ViewshedOutputs::prepare(const viewshed::Request& request, const std::string& crs_wkt) {
   namespace fs = std::filesystem;
+  for (const std::string& path : outputs_) require_crs_for(path, crs_wkt);
   for (const std::string& path : paths()) policy_.require_writable(path);
   if (!each_.empty()) {
     folder_.emplace(each_);

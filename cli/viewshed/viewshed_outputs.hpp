@@ -23,9 +23,9 @@ class ViewshedOutputs {
   void declare(CLI::App& app);
   /// `others` are files that something else writes. Throws InputError.
   void validate(const std::vector<std::string>& others);
-  /// Throws FileError where something cannot be written. Makes the directory of single observers, which is removed
-  /// again unless write_each() completes it.
-  void prepare(const viewshed::Request& request);
+  /// Throws FileError where something cannot be written, InputError where it is GeoJSON and the CRS has no code. Makes
+  /// the directory of single observers, which is removed again unless write_each() completes it.
+  void prepare(const viewshed::Request& request, const std::string& crs_wkt);
   /// Lists the style that is written beside a raster among the outputs. Throws FileError as prepare() does, and
   /// InputError where the call reads or writes that file already.
   void claim_style(const std::string& raster);

@@ -10,6 +10,7 @@
 
 #include "output/store_document.hpp"
 #include "program/help.hpp"
+#include "program/values.hpp"
 
 namespace itin::cli {
 
@@ -54,7 +55,14 @@ std::string level_text(const viewshed::Result& result) {
                         with.margin_db == 0 ? "" : fmt::format(" with {:g} dB to spare", with.margin_db),
                         grouped(with.cells), counted(known, "cell"), percent(with.cells, known),
                         viewshed::area_text(static_cast<double>(with.cells) * result.grid.cell_area()));
-  return text;
+  constexpr std::size_t kMostObservers = 12;
+  const std::vector<viewshed::CellsOfObserver> served = viewshed::cells_of_observers(result);
+  if (served.empty() || served.size() > kMostObservers) return text;
+  text += "served best by";
+  for (const viewshed::CellsOfObserver& of : served)
+    text += fmt::format("{} {}: {} ({:.1f} %)", of.observer == 0 ? "" : ",", result.request.observers[of.observer].name,
+                        counted(of.cells, "cell"), percent(of.cells, known));
+  return text + "\n";
 }
 
 }  // namespace

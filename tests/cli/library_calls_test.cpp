@@ -8,6 +8,7 @@
 #include <itin/store.hpp>
 #include <profile/links.hpp>
 #include <profile/path_profiles.hpp>
+#include <viewshed/map_image.hpp>
 #include <viewshed/zone_study.hpp>
 
 #include "cli/shell.hpp"
@@ -48,7 +49,9 @@ TEST_F(LibraryCalls, WriteTheLinksOfTheProgram) {
   query.earth = Earth::effective_earth(4.0 / 3);
   query.radio = RadioPath{.frequency_ghz = 6, .effective_earth_km = effective_earth_km(query.earth)};
   const profile::LinkSurvey survey = profile::survey_link_table(store, std::move(table), query, progress_);
-  profile::write_link_table(survey, {path("mine.csv"), path("mine.kml"), path("mine.pdf")});
+  profile::LinkFileOptions options;
+  options.map = viewshed::links_map(store, survey, options.title, progress_);
+  profile::write_link_table(survey, {path("mine.csv"), path("mine.kml"), path("mine.pdf")}, options);
 
   EXPECT_EQ(profile::counts_of(survey).error, 1U);
   ASSERT_EQ(survey.warnings.size(), 1U);

@@ -326,12 +326,13 @@ TEST(Analyse, LeavesOpenWhatLiesBeyondKnownGround) {
   EXPECT_EQ(open.verdict, SightVerdict::kUndecided);
   EXPECT_EQ(open.known_verdict, SightVerdict::kVisible);
   EXPECT_EQ(open.criteria[0].verdict, CriterionVerdict::kUndecided);
-  EXPECT_EQ(gap_text(open),
-            "no data over 1000.0 m of the line, which leaves it undecided; known ground does not hide it");
-  EXPECT_EQ(outcome_text(open.criteria[0]).substr(0, 17), "undecided; met by");
+  EXPECT_EQ(gap_text(open, unit_of(open)),
+            "no data over 1.000 km of the line, which leaves it undecided; known ground does not hide it");
+  EXPECT_EQ(outcome_text(open.criteria[0], unit_of(open)).substr(0, 17), "undecided; met by");
   q.nodata = NoData::kBlock;
   EXPECT_EQ(analyse(with_a_gap(), q).verdict, SightVerdict::kHidden);
-  EXPECT_EQ(outcome_text(analyse(with_a_gap(), q).criteria[0]), "fails: ground without data counts as blocking");
+  EXPECT_EQ(outcome_text(analyse(with_a_gap(), q).criteria[0], DistanceUnit::kMetres),
+            "fails: ground without data counts as blocking");
   q.nodata = NoData::kClear;
   EXPECT_EQ(analyse(with_a_gap(), q).verdict, SightVerdict::kVisible);
   EXPECT_EQ(analyse(with_a_gap(), q).criteria[0].verdict, CriterionVerdict::kMeets);
@@ -339,7 +340,7 @@ TEST(Analyse, LeavesOpenWhatLiesBeyondKnownGround) {
   const LosReport hidden = analyse(with_a_gap(), q);
   EXPECT_EQ(hidden.verdict, SightVerdict::kHidden);
   EXPECT_EQ(hidden.criteria[0].verdict, CriterionVerdict::kFails);
-  EXPECT_EQ(verdict_text(hidden), "Hidden: no data over 1000.0 m of the line; known ground hides it");
+  EXPECT_EQ(verdict_text(hidden), "Hidden: no data over 1.000 km of the line; known ground hides it");
 }
 
 TEST(Analyse, NamesNoFootAsTheCriticalPoint) {

@@ -42,7 +42,8 @@ struct SameModeValues {
     return same_values(a.diffraction_db, b.diffraction_db) && same_values(a.free_space_db, b.free_space_db);
   }
   bool operator()(const viewshed::Levels& a, const viewshed::Levels& b) const {
-    return same_values(a.level_dbm, b.level_dbm) && same_values(a.outage_minutes, b.outage_minutes);
+    return same_values(a.level_dbm, b.level_dbm) && same_values(a.outage_minutes, b.outage_minutes) &&
+           a.observer == b.observer;
   }
   template <class A, class B>
   bool operator()(const A&, const B&) const {

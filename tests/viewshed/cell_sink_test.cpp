@@ -50,6 +50,7 @@ class CellCopy {
   void operator()(const Levels& from, Levels& to) const {
     copy(from.level_dbm, to.level_dbm);
     copy(from.outage_minutes, to.outage_minutes);
+    copy(from.observer, to.observer);
   }
   template <class A, class B>
   void operator()(const A&, const B&) const {

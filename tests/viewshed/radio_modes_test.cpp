@@ -16,6 +16,7 @@
 
 #include "support/hills_and_town.hpp"
 #include "support/raster_file.hpp"
+#include "support/same_result.hpp"
 #include "support/seed.hpp"
 #include "support/temporary_directory.hpp"
 #include "support/terrain_tin.hpp"
@@ -166,6 +167,22 @@ class RadioModes : public ::testing::Test {
     }
   }
 
+  /// The level is the greatest of those that each observer has alone, and the observer the one who has it.
+  void expect_best_of_each(const Store& store, const Result& all) {
+    std::vector<Result> each;
+    for (std::size_t i = 0; i < all.request.observers.size(); ++i)
+      each.push_back(compute(store, request_for_observer(all, i), progress_));
+    const auto& levels = all.get<Levels>();
+    for (std::size_t cell = 0; cell < all.visible.size(); ++cell) {
+      float greatest = std::nanf("");
+      for (const Result& one : each) greatest = std::fmax(greatest, one.get<Levels>().level_dbm[cell]);
+      const float level = levels.level_dbm[cell];
+      ASSERT_TRUE(level == greatest || (std::isnan(level) && std::isnan(greatest)));
+      ASSERT_EQ(levels.observer[cell] == 0, std::isnan(level));
+      if (levels.observer[cell] > 0) ASSERT_EQ(each[levels.observer[cell] - 1].get<Levels>().level_dbm[cell], level);
+    }
+  }
+
   static void expect_least_loss(const std::vector<Result>& each, const Result& all, std::size_t cell) {
     float least = std::numeric_limits<float>::infinity();
     bool unknown = false;
@@ -266,14 +283,35 @@ TEST_F(RadioModes, OfSeveralObserversTheGreatestLevelCounts) {
   for (int i = 0; i < 3; ++i) request.observers.push_back(observer_on(store, middle_of_hills()));
   request.cell_size = 110;
   const Result all = compute(store, request, progress_);
-  std::vector<Result> each;
-  for (std::size_t i = 0; i < 3; ++i) each.push_back(compute(store, request_for_observer(all, i), progress_));
-  for (std::size_t cell = 0; cell < all.visible.size(); ++cell) {
-    float greatest = std::nanf("");
-    for (const Result& one : each) greatest = std::fmax(greatest, one.get<Levels>().level_dbm[cell]);
-    const float level = all.get<Levels>().level_dbm[cell];
-    ASSERT_TRUE(level == greatest || (std::isnan(level) && std::isnan(greatest)));
+  expect_best_of_each(store, all);
+}
+
+TEST_F(RadioModes, SectorsOfAMastHaveAntennasOfTheirOwn) {
+  const Store store(hills());
+  Request request = at_random(Mode::kLevel);
+  request.budget = {.power_dbm = 20, .sensitivity_dbm = -85, .rain_rate_mm_h = 30};
+  request.budget.from_antenna = {sector(), {}, 2};
+  request.radio.frequency_ghz = 7;
+  const Observer mast{"", {kNorthWest.x + 1750, kNorthWest.y - 1750}, 30};
+  for (const double azimuth : {10.0, 130.0, 250.0}) {
+    request.observers.push_back(mast);
+    request.observers.back().antenna.azimuth_deg = azimuth;
   }
+  request.cell_size = 130;
+  const Result all = compute(store, request, progress_);
+  expect_best_of_each(store, all);
+  for (std::size_t i = 0; i < 3; ++i) {
+    Request one = request;
+    one.observers.resize(1);
+    one.observers.front().antenna = {};
+    one.budget.from_antenna.azimuth_deg = request.observers[i].antenna.azimuth_deg;
+    expect_levels_of_lines(store, one);
+    EXPECT_TRUE(test::same_values(compute(store, one, progress_).get<Levels>().level_dbm,
+                                  compute(store, request_for_observer(all, i), progress_).get<Levels>().level_dbm));
+    EXPECT_GT(std::count(all.get<Levels>().observer.begin(), all.get<Levels>().observer.end(), i + 1), 20);
+  }
+  request.observers[1].antenna = {};
+  EXPECT_THROW(compute(store, request, progress_), InputError) << "a pattern without azimuth";
 }
 
 /// Houses stand in the way of both; the smooth surface under a path is that of the ground.

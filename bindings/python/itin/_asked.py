@@ -142,6 +142,8 @@ class Observer:
         absolute: Whether ``height`` is an elevation.
         target_height: The height of this observer's targets, where it is not that of the call. So are
             ``radius``, ``min_radius``, ``azimuth`` and ``elevation``.
+        antenna: In mode ``level``, the file of the pattern of this observer's antenna, where it is not that of the
+            call. So are ``antenna_azimuth`` and ``antenna_tilt``, degrees.
     """
 
     x: float
@@ -154,6 +156,9 @@ class Observer:
     min_radius: float | None = None
     azimuth: Angles | None = None
     elevation: Angles | None = None
+    antenna: Path | None = None
+    antenna_azimuth: float | None = None
+    antenna_tilt: float | None = None
 
 
 @dataclass(frozen=True)

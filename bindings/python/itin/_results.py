@@ -279,7 +279,8 @@ class Viewshed(_OverGrid):
         - ``height``: ``height_m``, float32: the least height at which a target is seen
         - ``probability``: ``probability``, float32
         - ``loss``: ``diffraction_db`` and ``free_space_db``, float32
-        - ``level``: ``level_dbm``, float32; with rain and a sensitivity also ``outage_minutes`` a year, float32
+        - ``level``: ``level_dbm``, float32; with rain and a sensitivity also ``outage_minutes`` a year, float32;
+          ``observer``, uint32: the number, from 1, of the one that serves the cell best, 0 where no level is known
         - ``visible`` through foliage: ``foliage_m``, float32, the metres of foliage on the line, NaN where something
           else hides the cell; ``transmittance``, float32, the share of the light that comes through, 0 there
         """

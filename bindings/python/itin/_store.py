@@ -621,6 +621,7 @@ class Store:
         gain_dbi: float | tuple[float, float] | None = None,
         feeder_loss_db: float | tuple[float, float] | None = None,
         sensitivity_dbm: float | None = None,
+        rain_rate_mm_h: float | None = None,
         from_antenna: Path | None = None,
         to_antenna: Path | None = None,
         antenna_azimuth: float | tuple[float | None, float | None] | None = None,
@@ -659,6 +660,7 @@ class Store:
             frequency_ghz: Serve only what is in sight with ``fresnel`` of its first Fresnel zone clear.
             power_dbm: Of the sites' transmitters; gives a link budget, as do the fields after it (see
                 ``line_of_sight()``). Then a target is served, in sight or not, where it gets the sensitivity and more.
+            rain_rate_mm_h: Tells outages by rain in the files of the plan; no choice depends on it.
             margin_db: How much more than ``sensitivity_dbm`` serves.
             count: How many sites to choose. The choice ends at the first of ``count``, ``budget`` and ``share``.
             budget: The most that the sites may cost together.

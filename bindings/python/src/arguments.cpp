@@ -64,6 +64,13 @@ void take_pattern(const py::dict& fields, const char* name, profile::AimedAntenn
 
 }  // namespace
 
+profile::AimedAntenna antenna_of(const py::dict& fields) {
+  profile::AimedAntenna antenna;
+  take_pattern(fields, "antenna", antenna);
+  take(fields, "antenna_azimuth", antenna.azimuth_deg), take(fields, "antenna_tilt", antenna.tilt_deg);
+  return antenna;
+}
+
 std::vector<Point2> points_of(const Numbers& array, const char* field) {
   return finite_rows<Point2>(array, 2, field, [](const double* v) { return Point2{v[0], v[1]}; });
 }

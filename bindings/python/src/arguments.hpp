@@ -61,6 +61,8 @@ Earth earth_of(const py::dict& fields, const std::string& crs_wkt);
 NoData nodata_of(const py::dict& fields);
 /// Reads `polarisation`: "h" by default, or "v".
 Polarisation polarisation_of(const py::dict& fields);
+/// Reads `antenna`, the file of a pattern, and `antenna_azimuth` and `antenna_tilt`, of an observer's own antenna.
+profile::AimedAntenna antenna_of(const py::dict& fields);
 /// Reads what a link budget needs, by the names of the options of `itin los`.
 profile::BudgetQuery budget_of(const py::dict& fields);
 /// Returns the index of a field's text among the choices. Throws InputError.

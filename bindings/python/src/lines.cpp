@@ -13,6 +13,7 @@
 #include <profile/links.hpp>
 #include <profile/los.hpp>
 #include <profile/path_profiles.hpp>
+#include <viewshed/map_image.hpp>
 
 #include "arguments.hpp"
 #include "arrays.hpp"
@@ -154,7 +155,11 @@ py::object foliage_of_line(const LineOfSight& line) {
 
 void write_line(const LineOfSight& line, const std::string& path, bool overwrite) {
   profile::require_report(line.report, path);
-  run(py::none(), [&](Progress&) { profile::write_report(line.report, line.json(), path, overwrite); });
+  run(py::none(), [&](Progress& progress) {
+    profile::LosReport report = line.report;
+    if (profile::shows_location(path)) report.location = viewshed::location_map(*line.store, report, {}, progress);
+    profile::write_report(report, line.json(), path, overwrite);
+  });
 }
 
 // Links.
@@ -256,6 +261,8 @@ py::tuple link_table(const Store& store, const std::string& path, const std::vec
     left_out.leave(store, query.themes, progress);
     auto table = profile::read_link_table(path, store.metadata().crs_wkt, {heights.first, heights.second}, crs, choice);
     auto judged = profile::survey_link_table(store, std::move(table), query, progress);
+    if (std::any_of(outputs.begin(), outputs.end(), profile::shows_location))
+      options.map = viewshed::links_map(store, judged, options.title, progress);
     profile::write_link_table(judged, outputs, options);
     return judged;
   });

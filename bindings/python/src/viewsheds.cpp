@@ -65,6 +65,7 @@ viewshed::Observer observer_of(const py::dict& fields) {
   take(fields, "min_radius", observer.min_radius);
   observer.azimuth = angles_of(fields, "azimuth");
   observer.elevation = angles_of(fields, "elevation");
+  observer.antenna = antenna_of(fields);
   return observer;
 }
 
@@ -229,6 +230,7 @@ py::dict values_of(const py::object& self) {
   if (const auto* v = std::get_if<viewshed::Levels>(&result.values)) {
     add(values, "level_dbm", v->level_dbm, shape, self);
     add(values, "outage_minutes", v->outage_minutes, shape, self);
+    add(values, "observer", v->observer, shape, self);
   }
   if (const auto* v = std::get_if<viewshed::Losses>(&result.values)) {
     add(values, "diffraction_db", v->diffraction_db, shape, self);

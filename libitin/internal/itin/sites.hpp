@@ -28,6 +28,7 @@ struct SiteQuery {
   std::string height_field;  ///< metres; default: no heights
   std::string name_field;    ///< default: the feature's number
   std::vector<NumberField> numbers;
+  std::vector<std::string> texts = {};  ///< further fields to read as text; of one that the layer lacks, all are empty
   /// The CRS of a file that names none, one that is not defined, or degrees that its coordinates cannot be; it
   /// overrides no other. Default: longitude and latitude where the columns of a CSV file are called so
   /// (position_columns.hpp), else the CRS asked for.
@@ -35,12 +36,13 @@ struct SiteQuery {
 };
 
 struct Site {
-  std::int64_t feature = 0;      ///< the file's own number for the feature
-  std::int64_t row = 0;          ///< the feature's place among the features asked for, from 0
-  std::string place;             ///< where it stands in the file: "feature 3", or "feature 3, line 9" of a table
-  std::string name;              ///< with a number behind it for each of several points of one feature
-  Point2 position;               ///< in the CRS asked for
-  std::optional<double> height;  ///< nothing where the field is empty, or none is asked for
+  std::int64_t feature = 0;        ///< the file's own number for the feature
+  std::int64_t row = 0;            ///< the feature's place among the features asked for, from 0
+  std::string place;               ///< where it stands in the file: "feature 3", or "feature 3, line 9" of a table
+  std::string name;                ///< with a number behind it for each of several points of one feature
+  Point2 position;                 ///< in the CRS asked for
+  std::optional<double> height;    ///< nothing where the field is empty, or none is asked for
+  std::vector<std::string> texts;  ///< one for each SiteQuery::texts
   std::vector<std::optional<double>> numbers;  ///< one for each SiteQuery::numbers; nothing where the field is empty
 };
 

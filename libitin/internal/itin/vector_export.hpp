@@ -45,4 +45,8 @@ void write_geopackage(const std::string& path, const std::string& crs_wkt, const
 /// a CRS without EPSG code.
 void write_geojson(const std::string& path, const std::string& crs_wkt, const VectorLayer& layer, bool overwrite);
 
+/// Throws InputError where the name ends in .geojson and the CRS has no EPSG code: for calls that work long before they
+/// write.
+void require_crs_for(const std::string& path, const std::string& crs_wkt);
+
 }  // namespace itin

@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include <itin/file_ending.hpp>
 #include <itin/vector_export.hpp>
 
 #include "export/buffered_file.hpp"
@@ -25,6 +26,10 @@ void write_positions(const std::vector<Point3>& points, BufferedFile& file) {
 }
 
 }  // namespace
+
+void require_crs_for(const std::string& path, const std::string& crs_wkt) {
+  if (ending_of(path) == ".geojson") crs_urn(crs_wkt);
+}
 
 void write_geojson(const std::string& path, const std::string& crs_wkt, const VectorLayer& layer, bool overwrite) {
   PendingFile output(path, overwrite);

@@ -10,6 +10,7 @@
 #pragma once
 
 #include <chrono>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -186,10 +187,12 @@ struct LinkFileOptions {
   std::string title = "Line-of-sight report";                   ///< the title of pages and maps
   std::vector<std::pair<std::string, std::string>> facts = {};  ///< what pages tell first: name, value
   bool overwrite = false;
+  /// The map of all links, as viewshed::links_map() makes it; null: the .pdf has none.
+  std::shared_ptr<const MapSheet> map = {};
 };
 
 /// Writes each file by its name's ending: .csv (a row per row of the table), .gpkg and .kml (the links that could be
-/// computed, as lines), .pdf (one page: the number of links by verdict, and the links that need attention first). Equal
+/// computed, as lines), .pdf (the number of links by verdict, the links that need attention first, and the map). Equal
 /// surveys give equal bytes. Throws what require_link_format() throws, and FileError.
 void write_link_table(const LinkSurvey& survey, const std::vector<std::string>& paths,
                       const LinkFileOptions& options = {});

@@ -13,6 +13,7 @@
 #include <chrono>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -31,6 +32,8 @@
 #include <profile/required_heights.hpp>
 
 namespace itin::profile {
+
+struct MapSheet;
 
 enum class SightVerdict { kVisible, kHidden, kUndecided };
 /// The verdict on a criterion. The certified error of a coarse surface, or ground without data, leaves it undecided.
@@ -176,6 +179,8 @@ struct LosReport : LineFindings {
   std::map<std::pair<std::uint16_t, std::int64_t>, FeatureAt> features;  ///< by theme and feature
   /// The spacing, in metres, of the rows of the printed profile; nothing: about 30 rows; 0: no such table.
   std::optional<double> table_spacing_m;
+  /// The map of where the line runs, as viewshed::location_map() makes it; null: the report has none.
+  std::shared_ptr<const MapSheet> location;
 
   // These are known only for a line over a store:
   std::vector<SourceInfo> sources;  ///< the surface's under the line, as triangulated along it
@@ -222,13 +227,17 @@ std::string cause_of(const LosReport& report, std::uint16_t theme, std::int64_t 
 /// - .csv: one row for each point of the profile
 /// - .txt: the profile for other programs: distance km, ground m, height of what stands there m, its kind (T
 ///   vegetation, B anything else, N nothing)
-/// - .svg, .pdf, .png: the drawing; the PDF has more pages, which are numbered: the drawing over the Earth of the worst
-///   fade that a criterion asks about, tables, the trade-off chart, the profile as a table
+/// - .svg, .pdf, .png: the drawing; the PDF has more pages, which are numbered: the map of where the line runs, the
+///   drawing over the Earth of the worst fade that a criterion asks about, tables, the trade-off chart, the profile as
+///   a table
 /// - .html: all of it, self-contained
 /// - .kml and .gpkg: the line, its ends, the critical point, the point of reflection, the edges and the obstructions;
 ///   for profiles with positions
 /// Equal reports give equal bytes. Throws what require_report() throws, and FileError.
 void write_report(const LosReport& report, const std::string& json, const std::string& path, bool overwrite);
+
+/// Whether a report of this ending shows LosReport::location: a .pdf or a .html does.
+bool shows_location(const std::string& path);
 
 /// Throws InputError for another ending, and for .kml and .gpkg of a profile without positions.
 void require_report_format(const std::string& path, bool has_positions);

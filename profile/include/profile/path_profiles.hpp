@@ -70,6 +70,8 @@ void write_profiles(const PathProfiles& profiles, const std::string& path, const
 
 /// Throws InputError for any other ending than write_profiles() knows.
 void require_profile_format(const std::string& path);
+/// Throws InputError for a .geojson in a CRS without an authority's code.
+void require_profile_crs(const std::string& path, const std::string& crs_wkt);
 /// Throws InputError where the profiles cannot be written as a file of this ending.
 void require_profile_output(const PathProfiles& profiles, const std::string& path);
 

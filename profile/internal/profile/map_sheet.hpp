@@ -28,10 +28,12 @@ struct SheetCells {
   std::vector<Rgba> colours;
 };
 
-/// A label stands where the line is farthest north: there it runs from west to east.
+/// A label stands where the line is farthest north, for there a contour runs from west to east, or else about its
+/// middle.
 struct SheetLine {
   std::vector<Point2> points;
   std::string label;
+  bool label_in_middle = false;
 };
 struct SheetLines {
   std::vector<SheetLine> lines;
@@ -111,6 +113,8 @@ struct MapPicture {
 /// Draws the map for a screen instead: `area` fills the frame, whose longer side has so many pixels, and the panel is
 /// as high as its content. There is no paper, and no scale in figures.
 MapPicture draw_map_picture(const MapSheet& sheet, int pixels);
+/// Returns the same picture as the bytes of a PNG.
+std::string draw_map_png(const MapSheet& sheet, int pixels);
 /// The distance of the stripes where there is no ground, pixels of such a picture.
 int void_stripe_pixels(int pixels);
 

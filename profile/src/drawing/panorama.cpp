@@ -30,12 +30,6 @@ constexpr std::array<Colour, 5> kNearToFar{
 /// The sky line where the data ends.
 const Stroke kDataEdge{{0.80, 0.10, 0.45, 1}, 2.2, {}};
 
-std::string rounded_distance(double metres) {
-  return metres >= 10000  ? fmt::format("{:.0f} km", metres / 1000)
-         : metres >= 1000 ? fmt::format("{:.1f} km", metres / 1000)
-                          : fmt::format("{:.0f} m", metres);
-}
-
 std::string azimuth_text(double degrees) {
   constexpr std::array<const char*, 8> kNames{"N", "NE", "E", "SE", "S", "SW", "W", "NW"};
   const double turned = within_turn(degrees);
@@ -55,6 +49,7 @@ class PanoramaPage {
       : panorama_(panorama), frame_{52, 130, kPanoramaWidth - 18, kPanoramaHeight - 66} {
     if (panorama.skyline.size() < 2)
       throw InputError("a panorama of fewer than two azimuths: widen `azimuth`", "azimuth");
+    in_km_ = is_far();
     unwrap();
     x_ = {azimuths_.front(), azimuths_.back(), frame_.xmin, frame_.xmax};
     place_names(format);
@@ -96,7 +91,7 @@ class PanoramaPage {
     for (const PanoramaPlace& place : panorama_.places) {
       const auto x = column_of(place.azimuth_deg);
       if (!x) continue;
-      const std::string text = place.name + ", " + rounded_distance(place.distance_m);
+      const std::string text = place.name + ", " + distance_text(place.distance_m);
       marks_.push_back({&place, measure.fitted(text, kLongestName, kPlaceNames), *x, *x});
       // A place that is seen matters more than one that is hidden, and a near one more than a far one.
       wanted.push_back({*x, (place.visible ? 1 : 0) + 1 / (2 + place.distance_m)});
@@ -125,6 +120,16 @@ class PanoramaPage {
     for (const PanoramaPlace& p : panorama_.places) extend(p.elevation_deg);
     const double margin = std::max(0.12 * (high - low), 0.2);
     y_ = {low - 2 * margin, high + margin, frame_.ymax, frame_.ymin};
+  }
+
+  /// All distances are in one unit: kilometres where anything is 2 km away.
+  std::string distance_text(double metres) const {
+    return in_km_ ? fmt::format("{:.1f} km", metres / 1000) : fmt::format("{:.0f} m", metres);
+  }
+  bool is_far() const {
+    const auto far = [](const auto& p) { return p.distance_m >= 2000; };
+    return std::any_of(panorama_.skyline.begin(), panorama_.skyline.end(), far) ||
+           std::any_of(panorama_.places.begin(), panorama_.places.end(), far);
   }
 
   /// Sets limits between the shades, so that each has an equal share of the sky line.
@@ -220,7 +225,7 @@ class PanoramaPage {
     x += 110;
     for (std::size_t i = 0; i <= limits_.size(); ++i) {
       drawing_->rectangle({x, y - 8, x + 24, y + 1}, kNearToFar[i]);
-      const std::string text = i < limits_.size() ? "to " + rounded_distance(limits_[i]) : std::string("beyond");
+      const std::string text = i < limits_.size() ? "to " + distance_text(limits_[i]) : std::string("beyond");
       drawing_->text({x + 28, y}, text, {.size = 8, .colour = kInk});
       x += 90;
     }
@@ -247,7 +252,7 @@ class PanoramaPage {
   std::vector<double> azimuths_;
   double step_ = 0;
   std::vector<double> limits_;
-  bool has_data_edge_ = false;
+  bool has_data_edge_ = false, in_km_ = false;
   Axis x_, y_;
 };
 

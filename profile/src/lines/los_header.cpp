@@ -16,6 +16,7 @@
 #include <itin/level_choice.hpp>
 #include <itin/sources_in.hpp>
 #include <itin/surface_text.hpp>
+#include <profile/report_text.hpp>
 
 #include "lines/line_sources.hpp"
 #include "lines/magnetic_azimuth.hpp"
@@ -81,11 +82,10 @@ std::vector<std::pair<std::string, std::string>> facts_about(const Store& store,
       {"Store", std::filesystem::path(store.path()).filename().string()}};
   for (const std::string& text : described(sources, metadata)) facts.emplace_back("Source", text);
   const std::string omitted = omitted_text(line.themes);
-  facts.insert(
-      facts.end(),
-      {{"CRS", fmt::format("{} ({})", crs_title(metadata.crs_wkt), crs_identifier(metadata.crs_wkt))},
-       {"Surface", fmt::format("{}; themes: {}{}{}", surface_text(metadata, line.detail),
-                               names_in(line.themes.names(metadata.themes)), omitted.empty() ? "" : "; ", omitted)}});
+  facts.insert(facts.end(), {{"CRS", crs_in_full(metadata.crs_wkt)},
+                             {"Surface", fmt::format("{}; themes: {}{}{}", surface_text(metadata, line.detail),
+                                                     names_in(line.themes.names(metadata.themes)),
+                                                     omitted.empty() ? "" : "; ", omitted)}});
   return facts;
 }
 
@@ -155,7 +155,7 @@ void add_header(const Store& store, const StoreLine& line, LosReport& report) {
   report.sources = sources_under(store, line);
   report.facts = facts_about(store, line, report.sources);
   if (const auto& day = report.query.day) report.facts.emplace_back("Magnetic north", magnetic_fact(report, *day));
-  const std::string crs = crs_identifier(metadata.crs_wkt);
+  const std::string crs = crs_in_short(metadata.crs_wkt);
   report.from_lines = lines_about(report.from, crs, metadata.crs_wkt);
   report.to_lines = lines_about(report.to, crs, metadata.crs_wkt);
 }

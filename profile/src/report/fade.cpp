@@ -19,9 +19,9 @@ const CriterionResult* worst_fade(const LosReport& report) {
   return worst;
 }
 
-std::string fade_line(const CriterionResult& fade) {
+std::string fade_line(const CriterionResult& fade, DistanceUnit unit) {
   return fmt::format("At K = {}, where {:g} F1 is wanted: {}{}.", factor_text(fade.criterion, fade.k),
-                     fade.criterion.fraction, outcome_text(fade), least_fraction_text(fade));
+                     fade.criterion.fraction, outcome_text(fade, unit), least_fraction_text(fade, unit));
 }
 
 LosReport over_earth_of(const LosReport& report, const CriterionResult& fade) {

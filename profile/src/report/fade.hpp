@@ -4,6 +4,7 @@
 #include <string>
 
 #include <profile/los.hpp>
+#include <profile/report_text.hpp>
 
 namespace itin::profile {
 
@@ -11,7 +12,7 @@ namespace itin::profile {
 const CriterionResult* worst_fade(const LosReport& report);
 
 /// Tells about it: "At K = 0.6667, where 0.3 F1 is wanted: fails by 4.81 m at 5.021 km; least ..."
-std::string fade_line(const CriterionResult& fade);
+std::string fade_line(const CriterionResult& fade, DistanceUnit unit);
 
 /// Returns what a drawing needs for the same line over that criterion's Earth. It has no criteria, losses and
 /// reflection, which belong to the report's Earth.

@@ -9,10 +9,10 @@
 #include <itin/error.hpp>
 #include <itin/file_ending.hpp>
 #include <itin/output_file.hpp>
+#include <profile/line_classes.hpp>
 #include <profile/links.hpp>
 
 #include "report/kml.hpp"
-#include "report/line_classes.hpp"
 #include "report/link_columns.hpp"
 
 namespace itin::profile {

@@ -106,7 +106,7 @@ std::vector<std::string> cells_of(const LinkRow& row) {
           row.result->gap_m > 0 ? kilometres(row.result->gap_m) : "",
           c == nullptr ? ""
                        : fmt::format("K = {}, {:g} F1: {}", factor_text(c->criterion, c->k), c->criterion.fraction,
-                                     outcome_text(*c))};
+                                     outcome_text(*c, DistanceUnit::kKilometres))};
 }
 
 std::string counts_text(const std::vector<LinkRow>& rows) {
@@ -132,6 +132,16 @@ bool has_budgets(const std::vector<LinkRow>& rows) {
   return std::any_of(rows.begin(), rows.end(), [](const LinkRow& row) { return row.budget != nullptr; });
 }
 
+void leave_out_empty_columns(Table& table) {
+  for (std::size_t i = table.header.size(); i-- > 0;) {
+    if (std::any_of(table.rows.begin(), table.rows.end(), [&](const auto& cells) { return !cells[i].empty(); }))
+      continue;
+    const auto at = static_cast<std::ptrdiff_t>(i);
+    table.header.erase(table.header.begin() + at);
+    for (auto& cells : table.rows) cells.erase(cells.begin() + at);
+  }
+}
+
 Table table_of(const std::vector<LinkRow>& rows) {
   std::vector<std::pair<std::pair<int, double>, const LinkRow*>> order;
   for (const LinkRow& row : rows) order.emplace_back(urgency(row), &row);
@@ -151,6 +161,7 @@ Table table_of(const std::vector<LinkRow>& rows) {
     const std::vector<std::string> further = budgets ? budget_cells(*row) : std::vector<std::string>();
     cells.insert(cells.end(), further.begin(), further.end());
   }
+  leave_out_empty_columns(table);
   if (budgets) table.note += fmt::format(" Budgets do not count {}.", kNeverInBudgets);
   if (const std::string note = fade_note_of(rows); !note.empty()) table.note += " " + note;
   return table;
@@ -162,7 +173,7 @@ std::vector<std::pair<std::string, std::string>> facts_of(const LinkSurvey& surv
   const std::string& crs = survey.metadata.crs_wkt;
   std::vector<std::pair<std::string, std::string>> facts = options.facts;
   facts.insert(facts.end(), {{"Store", std::filesystem::path(survey.store).filename().string()},
-                             {"CRS", fmt::format("{} ({})", crs_title(crs), crs_identifier(crs))},
+                             {"CRS", crs_in_full(crs)},
                              {"Refraction", survey.query.earth.convention()}});
   if (const std::string frequency = shared_frequency(rows); !frequency.empty())
     facts.emplace_back("Frequency", frequency);
@@ -187,6 +198,7 @@ std::string link_summary(const LinkSurvey& survey, const std::vector<LinkRow>& r
       draw_title(drawing, options.title);
       row = PageColumn(drawing, kMargin, kWidth - 2 * kMargin, kBelowTitle).set_rows(table, row);
     }
+    pages.add_map(options.map.get());
   });
 }
 

@@ -5,11 +5,14 @@
 
 #include <fmt/format.h>
 
+#include "sheet/map_page.hpp"
+
 namespace itin::profile {
 
 namespace {
 
-constexpr double kFactName = 76, kTitleRow = 16, kRow = 11.5, kNoteRow = 10;
+constexpr double kFactName = 76, kTitleRow = 16, kRow = 11.5, kNoteRow = 10,
+                 kCellLine = 9.5;  ///< the distance of lines within a cell
 
 const Lettering kHeadline{10, kReportInk, Align::kLeft, false, 0}, kNote{7.5, kReportGrey, Align::kLeft, false, 0},
     kFact{8, kReportGrey, Align::kLeft, false, 0};
@@ -23,6 +26,14 @@ Pages::Pages(int count) : drawing_(Drawing::Format::kPdf, kWidth, kHeight), coun
 void Pages::begin_page() {
   drawing_.new_page();
   ++page_;
+  number();
+}
+
+void Pages::add_map(const MapSheet* map) {
+  if (map == nullptr) return;
+  drawing_.new_page();
+  ++page_;
+  draw_map_page(drawing_, *map);
   number();
 }
 
@@ -76,9 +87,16 @@ bool PageColumn::has_room_for(const Table& table, double bottom) const {
 }
 
 std::size_t PageColumn::rows_that_fit(const Table& table, double bottom) const {
-  const double rest = bottom - y_ - kTitleRow - (table.header.empty() ? 0 : kRow) -
-                      kNoteRow * static_cast<double>(note_lines(table).size());
-  return rest < 0 ? 0 : static_cast<std::size_t>(rest / kRow);
+  const std::vector<double> widths = column_widths(table);
+  double rest = bottom - y_ - kTitleRow - (table.header.empty() ? 0 : row_height(table.header, widths, kBold)) -
+                kNoteRow * static_cast<double>(note_lines(table).size());
+  std::size_t rows = 0;
+  for (const auto& cells : table.rows) {
+    rest -= row_height(cells, widths, kPlain);
+    if (rest < 0) break;
+    ++rows;
+  }
+  return rows;
 }
 
 void PageColumn::set(const Table& table) {
@@ -97,12 +115,14 @@ void PageColumn::set(const Table& table) {
 }
 
 std::size_t PageColumn::set_rows(const Table& table, std::size_t from, double bottom) {
+  constexpr std::size_t kMostOnPage = 60;
   Table part{table.title + (from == 0 ? "" : ", continued"), table.header, {}, table.note};
-  const std::size_t to = std::min(table.rows.size(), from + rows_that_fit(part, bottom));
+  const std::size_t most = std::min(table.rows.size(), from + kMostOnPage);
   part.rows.assign(table.rows.begin() + static_cast<std::ptrdiff_t>(from),
-                   table.rows.begin() + static_cast<std::ptrdiff_t>(to));
+                   table.rows.begin() + static_cast<std::ptrdiff_t>(most));
+  part.rows.resize(std::min(part.rows.size(), std::max<std::size_t>(rows_that_fit(part, bottom), 1)));
   set(part);
-  return to;
+  return from + part.rows.size();
 }
 
 std::vector<std::string> PageColumn::note_lines(const Table& table) const {
@@ -136,14 +156,41 @@ std::vector<double> PageColumn::column_widths(const Table& table) const {
   return widths;
 }
 
+std::vector<std::vector<std::string>> PageColumn::cell_lines(const std::vector<std::string>& cells,
+                                                             const std::vector<double>& widths,
+                                                             const Lettering& lettering) const {
+  constexpr std::size_t kMostLines = 4;
+  std::vector<std::vector<std::string>> lines;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const double width = widths[i] - 3;
+    std::vector<std::string>& cell = lines.emplace_back(drawing_.lines(cells[i], width, lettering));
+    if (cell.size() <= kMostLines) continue;
+    cell.resize(kMostLines);
+    cell.back() = drawing_.fitted(cell.back() + "\xE2\x80\xA6", width, lettering);
+  }
+  return lines;
+}
+
+double PageColumn::row_height(const std::vector<std::string>& cells, const std::vector<double>& widths,
+                              const Lettering& lettering) const {
+  std::size_t most = 1;
+  for (const auto& lines : cell_lines(cells, widths, lettering)) most = std::max(most, lines.size());
+  return kRow + kCellLine * static_cast<double>(most - 1);
+}
+
 void PageColumn::row(const std::vector<std::string>& cells, const std::vector<double>& widths,
                      const Lettering& lettering) {
-  y_ += kRow;
   double x = left_;
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    drawing_.text({x, y_}, drawing_.fitted(cells[i], widths[i] - 3, lettering), lettering);
+  const std::vector<std::vector<std::string>> all = cell_lines(cells, widths, lettering);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    double y = y_ + kRow;
+    for (const std::string& line : all[i]) {
+      drawing_.text({x, y}, line, lettering);
+      y += kCellLine;
+    }
     x += widths[i];
   }
+  y_ += row_height(cells, widths, lettering);
 }
 
 }  // namespace itin::profile

@@ -27,6 +27,8 @@ class Pages {
   Drawing& drawing() { return drawing_; }
   /// Goes on to another page.
   void begin_page();
+  /// Goes on to a page with a map, made for A4; does nothing where it is null.
+  void add_map(const MapSheet* map);
   /// The number of pages so far.
   int count() const { return page_; }
 
@@ -59,7 +61,7 @@ class PageColumn {
 
   double y() const { return y_; }
   bool has_room_for(const Table& table, double bottom = kHeight - kMargin) const;
-  /// The number of rows of such a table that fit.
+  /// The number of the table's rows that fit.
   std::size_t rows_that_fit(const Table& table, double bottom) const;
   void set(const Table& table);
   /// Sets as many rows of a longer table as fit above `bottom`, `from` the first. Returns the number of the next row.
@@ -68,6 +70,11 @@ class PageColumn {
  private:
   std::vector<std::string> note_lines(const Table& table) const;
   std::vector<double> column_widths(const Table& table) const;
+  /// The cells of a row in lines of their columns' widths.
+  std::vector<std::vector<std::string>> cell_lines(const std::vector<std::string>& cells,
+                                                   const std::vector<double>& widths, const Lettering& lettering) const;
+  double row_height(const std::vector<std::string>& cells, const std::vector<double>& widths,
+                    const Lettering& lettering) const;
   void row(const std::vector<std::string>& cells, const std::vector<double>& widths, const Lettering& lettering);
 
   Drawing& drawing_;

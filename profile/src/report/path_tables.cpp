@@ -28,24 +28,25 @@ std::string share_text(double part, double whole) {
 
 Table cover_table(const LosReport& report, const std::vector<ThemeLength>& cover) {
   const double length = report.profile.length_m, gap = report.profile.gap_length_m();
+  const DistanceUnit unit = unit_of(report);
   Table table{"What the path crosses", {"over", "length", "of the path"}, {}, ""};
   for (const ThemeLength& part : cover)
     table.rows.push_back({part.theme == 0 ? "ground on which nothing stands" : cause_of(report, part.theme),
-                          fmt::format("{:.1f} m", part.length_m), share_text(part.length_m, length)});
-  if (gap > 0) table.rows.push_back({"ground without data", fmt::format("{:.1f} m", gap), share_text(gap, length)});
+                          distance_text(part.length_m, unit), share_text(part.length_m, length)});
+  if (gap > 0) table.rows.push_back({"ground without data", distance_text(gap, unit), share_text(gap, length)});
   return table;
 }
 
-std::vector<std::string> edge_row(const char* what, const DiffractionEdge& edge) {
-  return {what, distance_text(edge.distance_m), fmt::format("{:.2f} m", edge.elevation_m),
+std::vector<std::string> edge_row(const char* what, const DiffractionEdge& edge, DistanceUnit unit) {
+  return {what, distance_text(edge.distance_m, unit), fmt::format("{:.2f} m", edge.elevation_m),
           fmt::format("{:.3f}", edge.v), fmt::format("{:.2f} dB", edge.loss_db)};
 }
 
-Table edges_table(const PathLosses& losses) {
+Table edges_table(const PathLosses& losses, DistanceUnit unit) {
   Table table{"Diffraction edges", {"edge", "at", "elevation", "v", "J(v)"}, {}, "", true};
-  if (losses.bullington) table.rows.push_back(edge_row("Bullington's", *losses.bullington));
+  if (losses.bullington) table.rows.push_back(edge_row("Bullington's", *losses.bullington, unit));
   for (std::size_t i = 0; i < losses.deygout.size(); ++i)
-    table.rows.push_back(edge_row(i == 0 ? "Deygout's main edge" : "Deygout's, beside it", losses.deygout[i]));
+    table.rows.push_back(edge_row(i == 0 ? "Deygout's main edge" : "Deygout's, beside it", losses.deygout[i], unit));
   table.note =
       "Bullington's edge stands for the whole terrain: where the lines to the two horizons meet or, within sight, the "
       "point of the largest v. The delta-Bullington loss is worked out from it.";
@@ -56,13 +57,13 @@ Table reflection_table(const LosReport& report) {
   const Reflection& r = *report.reflection;
   Table table{"Reflection point", {}, {}, "", true};
   table.rows = {
-      {"Distance from A", distance_text(r.distance_m)},
+      {"Distance from A", distance_text(r.distance_m, unit_of(report))},
       {"Grazing angle", fmt::format("{:.3f}\xC2\xB0", r.grazing_deg)},
       {"Reflected path is longer by", fmt::format("{:.3f} m, {:.2f} wavelengths", r.longer_by_m,
                                                   r.longer_by_m / wavelength_m(report.query.radio->frequency_ghz))}};
   if (r.ground_m)
     table.rows.push_back({"Elevation there", fmt::format("{:.2f} m, {}", *r.ground_m, cause_of(report, r.theme))});
-  table.rows.push_back({"Reflected path", screen_text(report)});
+  table.rows.push_back({"Reflected path", screen_text(report, unit_of(report))});
   table.note =
       "On the straight surface that fits the ground best (P.452 attachment 2, 5.1.6), over the effective Earth, where "
       "the angles of incidence and reflection are equal. The reflected path runs to what stands there.";
@@ -117,6 +118,12 @@ std::vector<NamedPlace> places_at(const LosReport& report, double spacing) {
   return places;
 }
 
+/// A distance without its unit.
+std::string number_text(double metres, DistanceUnit unit) {
+  const std::string text = distance_text(metres, unit);
+  return text.substr(0, text.find(' '));
+}
+
 std::vector<std::string> profile_row(const LosReport& report, const NamedPlace& place) {
   const double d = place.distance_m, rest = report.profile.length_m - d;
   const auto metres = [](double value) { return fmt::format("{:.2f}", value); };
@@ -125,7 +132,7 @@ std::vector<std::string> profile_row(const LosReport& report, const NamedPlace& 
   const std::optional<double> ground = report.ground.points.empty() ? top : height_at(report.ground, d);
   const double radius =
       report.query.radio ? fresnel_radius_m(d, rest, wavelength_m(report.query.radio->frequency_ghz)) : 0;
-  std::vector<std::string> cells = {fmt::format("{:.1f}", d), ground ? metres(*ground) : "no data",
+  std::vector<std::string> cells = {number_text(d, unit_of(report)), ground ? metres(*ground) : "no data",
                                     top ? metres(*top) : "no data", metres(bulge), metres(line)};
   const std::optional<double> clearance = top ? std::optional(line - *top - bulge) : std::nullopt;
   if (report.query.radio) cells.push_back(metres(radius));
@@ -147,7 +154,7 @@ std::vector<Table> path_tables(const LosReport& report) {
   if (cover.size() > 1 || (!cover.empty() && cover.front().theme != 0) || !report.profile.gaps.empty())
     tables.push_back(cover_table(report, cover));
   if (report.losses && (report.losses->bullington || !report.losses->deygout.empty()))
-    tables.push_back(edges_table(*report.losses));
+    tables.push_back(edges_table(*report.losses, unit_of(report)));
   if (report.reflection) tables.push_back(reflection_table(report));
   return tables;
 }
@@ -155,8 +162,9 @@ std::vector<Table> path_tables(const LosReport& report) {
 std::optional<Table> profile_table(const LosReport& report) {
   if (!report.profile.has_length() || report.table_spacing_m == 0) return std::nullopt;
   const double spacing = spacing_of(report);
-  Table table{fmt::format("Profile, every {:g} m", spacing),
-              {"distance m", "ground m", "top m", "bulge m", "line m"},
+  const bool in_km = unit_of(report) == DistanceUnit::kKilometres;
+  Table table{fmt::format("Profile, every {:g} {}", in_km ? spacing / 1000 : spacing, in_km ? "km" : "m"),
+              {fmt::format("distance {}", in_km ? "km" : "m"), "ground m", "top m", "bulge m", "line m"},
               {},
               "Besides, whatever the spacing: the ends, the critical point, the deepest place of each obstruction"};
   if (report.query.radio) {

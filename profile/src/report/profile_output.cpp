@@ -58,12 +58,17 @@ std::set<std::uint16_t> themes_of(const Profile& profile) {
   return themes;
 }
 
-std::string profiles_geojson(const PathProfiles& all) {
-  const std::string crs = crs_identifier(all.metadata.crs_wkt);
-  const std::size_t colon = crs.find(':');
-  if (colon == std::string::npos || crs.size() > 32) {
+/// The CRS by an authority's code: "EPSG:27700". Throws InputError for one that has none.
+std::string crs_code(const std::string& crs_wkt) {
+  const std::string crs = crs_identifier(crs_wkt);
+  if (crs.find(':') == std::string::npos || crs.size() > 32)
     throw InputError("the store's CRS has no authority code, which .geojson needs; write .csv or .json");
-  }
+  return crs;
+}
+
+std::string profiles_geojson(const PathProfiles& all) {
+  const std::string crs = crs_code(all.metadata.crs_wkt);
+  const std::size_t colon = crs.find(':');
   Document document{{"type", "FeatureCollection"}, {"name", "profile"}};
   const std::string urn = fmt::format("urn:ogc:def:crs:{}::{}", crs.substr(0, colon), crs.substr(colon + 1));
   document["crs"] = {{"type", "name"}, {"properties", {{"name", urn}}}};
@@ -134,6 +139,10 @@ void require_profile_format(const std::string& path) {
   }
   throw InputError(
       fmt::format("`output` '{}': a profile ends in .csv, .txt, .json, .geojson, .svg, .pdf or .png", path), "output");
+}
+
+void require_profile_crs(const std::string& path, const std::string& crs_wkt) {
+  if (ending_of(path) == ".geojson") crs_code(crs_wkt);
 }
 
 void require_profile_output(const PathProfiles& profiles, const std::string& path) {

@@ -25,6 +25,11 @@ std::string bytes_of(const LosReport& report, const std::string& json, const std
 
 }  // namespace
 
+bool shows_location(const std::string& path) {
+  const std::string ending = ending_of(path);
+  return ending == ".pdf" || ending == ".html";
+}
+
 void require_report_format(const std::string& path, bool has_positions) {
   constexpr std::string_view kEndings[] = {".json", ".csv", ".txt", ".svg", ".pdf", ".png", ".html", ".kml", ".gpkg"};
   const std::string ending = ending_of(path);

@@ -45,7 +45,7 @@ void draw_fade_page(Pages& pages, const LosReport& report) {
   pages.begin_page();
   Drawing& drawing = pages.drawing();
   draw_title(drawing, report.title);
-  const double top = draw_headline(drawing, fade_line(*fade)) + 12;
+  const double top = draw_headline(drawing, fade_line(*fade, unit_of(report))) + 12;
   draw_sight_chart(drawing, {kMargin, top, kWidth - kMargin, kHeight - kMargin}, over_earth_of(report, *fade));
 }
 
@@ -112,6 +112,7 @@ std::string report_drawing(const LosReport& report, Drawing::Format format) {
   }
   return numbered_pdf([&](Pages& pages) {
     draw_first_page(pages.drawing(), report);
+    pages.add_map(report.location.get());
     draw_fade_page(pages, report);
     TablePages(pages, report).draw();
     draw_profile_pages(pages, report);

@@ -5,6 +5,7 @@
 
 #include <itin/base64.hpp>
 #include <itin/markup.hpp>
+#include <profile/map_sheet.hpp>
 #include <profile/sight_svg.hpp>
 
 #include "report/fade.hpp"
@@ -25,9 +26,10 @@ constexpr const char* kStyle =
     ".verdict{font-size:1.1rem;font-weight:600}@media print{body{margin:0;max-width:none}h2{break-after:avoid}}";
 
 constexpr double kDrawingWidth = 842, kDrawingHeight = 420;
+constexpr int kMapPixels = 800;
 
-std::string image(const char* what, const std::string& svg) {
-  return fmt::format("<img alt=\"{}\" src=\"data:image/svg+xml;base64,{}\">\n", what, base64(svg));
+std::string image(const char* what, const std::string& bytes, const char* type = "image/svg+xml") {
+  return fmt::format("<img alt=\"{}\" src=\"data:{};base64,{}\">\n", what, type, base64(bytes));
 }
 
 std::string trade_off_svg(const LosReport& report) {
@@ -61,10 +63,12 @@ std::string report_html(const LosReport& report) {
       escaped_markup(report.title), kStyle, escaped_markup(verdict_line(report)));
   html += image("Sight line over the terrain", sight_svg(report, kDrawingWidth, kDrawingHeight));
   if (const CriterionResult* fade = worst_fade(report)) {
-    html += fmt::format("<p>{}</p>\n", escaped_markup(fade_line(*fade)));
+    html += fmt::format("<p>{}</p>\n", escaped_markup(fade_line(*fade, unit_of(report))));
     html += image("Sight line over the Earth of the worst fade",
                   sight_svg(over_earth_of(report, *fade), kDrawingWidth, kDrawingHeight));
   }
+  if (report.location)
+    html += image("Map of where the line runs", draw_map_png(*report.location, kMapPixels), "image/png");
   html += html_table(ends_table(report));
   for (const Table& table : result_tables(report)) html += html_table(table);
   if (has_trade_off(report)) html += image("Heights at A against B", trade_off_svg(report));

@@ -6,11 +6,11 @@
 
 #include <fmt/format.h>
 
+#include <profile/line_classes.hpp>
 #include <profile/report_text.hpp>
 
 #include "report/formats.hpp"
 #include "report/kml.hpp"
-#include "report/line_classes.hpp"
 #include "report/tables.hpp"
 
 namespace itin::profile {
@@ -122,7 +122,8 @@ std::vector<PointOfPath> path_points(const LosReport& report) {
   };
   const std::optional<Reflection>& r = report.reflection;
   if (r && r->ground_m)
-    add("reflection", "Reflection point, reflected path " + screen_text(report), r->distance_m, *r->ground_m);
+    add("reflection", "Reflection point, reflected path " + screen_text(report, unit_of(report)), r->distance_m,
+        *r->ground_m);
   if (!report.losses) return points;
   const auto add_edge = [&](const char* what, const char* name, const DiffractionEdge& e) {
     add(what, fmt::format("{}, {:.2f} dB", name, e.loss_db), e.distance_m, e.elevation_m);
@@ -132,8 +133,8 @@ std::vector<PointOfPath> path_points(const LosReport& report) {
   return points;
 }
 
-std::string gap_name(double from_m, double to_m) {
-  return "No data, " + distance_text(to_m - from_m);
+std::string gap_name(const LosReport& report, double from_m, double to_m) {
+  return "No data, " + distance_text(to_m - from_m, unit_of(report));
 }
 
 std::string obstruction_name(const LosReport& report, const Obstruction& o) {
@@ -155,7 +156,8 @@ std::string report_kml(const LosReport& report) {
   for (const Obstruction& o : report.obstructions) {
     kml.line(obstruction_name(report, o), "cut", path.obstruction_line(o));
   }
-  for (const auto& [from, to] : report.profile.gaps) kml.line(gap_name(from, to), "gap", path.ray_line(from, to));
+  for (const auto& [from, to] : report.profile.gaps)
+    kml.line(gap_name(report, from, to), "gap", path.ray_line(from, to));
   if (report.query.radio && length > 0) {
     kml.open_folder("First Fresnel zone");
     for (int i = 0; i < kZoneLines; ++i) {

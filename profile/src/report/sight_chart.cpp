@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include <profile/report_text.hpp>
 #include <profile/sight_svg.hpp>
 
 #include "drawing/theme_colour.hpp"
@@ -231,7 +232,7 @@ class SightChart {
   }
 
   void draw_axes() {
-    const bool km = length_ >= 2000;
+    const bool km = unit_of(report_) == DistanceUnit::kKilometres;
     frame_.x_title = km ? "Distance from A, km" : "Distance from A, m";
     frame_.y_title = "Elevation, m";
     draw_frame(drawing_, frame_, [km](double value, double step) {

@@ -27,10 +27,10 @@ std::string fraction_text(double fraction) {
 /// Ends of titles, where the line is judged with its clutter and without it.
 constexpr const char *kWithClutter = ", with clutter", *kBareGround = ", bare ground";
 
-std::vector<std::string> criterion_row(const CriterionResult& c) {
+std::vector<std::string> criterion_row(const CriterionResult& c, DistanceUnit unit) {
   const bool open = c.verdict == CriterionVerdict::kUndecided;
   return {factor_text(c.criterion, c.k), fmt::format("{:g} F1", c.criterion.fraction), clearance_text(c.clearance_m),
-          c.clearance_f1 ? fraction_text(*c.clearance_f1) : "", open ? name_of(c.verdict) : outcome_text(c)};
+          c.clearance_f1 ? fraction_text(*c.clearance_f1) : "", open ? name_of(c.verdict) : outcome_text(c, unit)};
 }
 
 Table criteria_table(const LosReport& report, const LineFindings& found, const std::string& of) {
@@ -39,8 +39,8 @@ Table criteria_table(const LosReport& report, const LineFindings& found, const s
   const std::string k = drop == 0 ? "flat" : fmt::format("{:.4g}", 1 / (2 * drop * report.query.earth.radius));
   table.rows.push_back({k, "line of sight", clearance_text(found.clearance_m),
                         found.fresnel ? fraction_text(found.fresnel->fraction) : "", name_of(found.verdict)});
-  for (const CriterionResult& c : found.criteria) table.rows.push_back(criterion_row(c));
-  table.note = gap_text(report);
+  for (const CriterionResult& c : found.criteria) table.rows.push_back(criterion_row(c, unit_of(report)));
+  table.note = gap_text(report, unit_of(report));
   if (!table.note.empty()) table.note[0] = 'N', table.note += ".";
   if (const std::string note = fade_note(found, report.profile.length_m); !note.empty())
     table.note += (table.note.empty() ? "" : " ") + note;
@@ -63,9 +63,10 @@ Table obstructions_table(const LosReport& report) {
     table.note = fmt::format("The {} deepest of {}; the JSON document has them all.", kMostObstructions,
                              report.obstructions.size());
   }
+  const DistanceUnit unit = unit_of(report);
   for (const Obstruction* o : list) {
-    table.rows.push_back({fmt::format("{:.1f} m", o->from_m), fmt::format("{:.1f} m", o->to_m),
-                          fmt::format("{:.1f} m", o->peak_at_m), fmt::format("{:.2f} m", o->peak_m),
+    table.rows.push_back({distance_text(o->from_m, unit), distance_text(o->to_m, unit),
+                          distance_text(o->peak_at_m, unit), fmt::format("{:.2f} m", o->peak_m),
                           fmt::format("{:.2f} m", o->depth_m), cause_of(report, o->theme, o->feature)});
   }
   return table;
@@ -109,15 +110,18 @@ Table losses_table(const LosReport& report) {
 
 Table geometry_table(const LosReport& report) {
   const PathLosses& l = *report.losses;
-  const auto km = [](const std::optional<double>& v) { return v ? fmt::format("{:.3f} km", *v) : std::string("none"); };
+  const DistanceUnit unit = unit_of(report);
+  const auto horizon = [&](const std::optional<double>& km) {
+    return km ? distance_text(1000 * *km, unit) : std::string("none");
+  };
   Table table{"Path", {}, {}, "", true};
   table.rows = {
       {"Path (P.452)", l.horizons.trans_horizon ? "trans-horizon" : "line-of-sight"},
-      {"Least clearance / F1",
-       report.fresnel ? fmt::format("{:.2f} at {}", report.fresnel->fraction, distance_text(report.fresnel->distance_m))
-                      : "none"},
+      {"Least clearance / F1", report.fresnel ? fmt::format("{:.2f} at {}", report.fresnel->fraction,
+                                                            distance_text(report.fresnel->distance_m, unit))
+                                              : "none"},
       {"Horizon angles", fmt::format("{:.3f} and {:.3f} mrad", l.horizons.theta_t_mrad, l.horizons.theta_r_mrad)},
-      {"Horizon distances", km(l.horizons.dlt_km) + " and " + km(l.horizons.dlr_km)},
+      {"Horizon distances", horizon(l.horizons.dlt_km) + " and " + horizon(l.horizons.dlr_km)},
       {"Smooth surface at the ends", fmt::format("{:.2f} and {:.2f} m", l.smooth.hstd_m, l.smooth.hsrd_m)},
       {"Largest v", l.largest_v ? fmt::format("{:.3f}", *l.largest_v) : "none"}};
   return table;
@@ -146,25 +150,24 @@ const char* base_name(bool on_surface) {
   return on_surface ? "surface" : "ground";
 }
 
-std::string distance_text(double metres) {
-  return metres < 2000 ? fmt::format("{:.1f} m", metres) : fmt::format("{:.3f} km", metres / 1000);
-}
-
 std::string critical_line(const LosReport& report) {
   if (!report.critical) return "no ground between the ends";
   const ProfilePoint& p = *report.critical;
-  const std::string place = fmt::format("{}: clearance {:.2f} m", distance_text(p.distance_m), *report.clearance_m);
+  const DistanceUnit unit = unit_of(report);
+  const std::string place =
+      fmt::format("{}: clearance {:.2f} m", distance_text(p.distance_m, unit), *report.clearance_m);
   const std::string cause = cause_of(report, p.theme, p.feature);
   if (!report.fresnel) return place + "; " + cause;
   const std::string fraction = fraction_text(report.fresnel->fraction);
-  const std::string at = distance_text(report.fresnel->distance_m);
-  if (at == distance_text(p.distance_m)) return fmt::format("{}, {}; {}", place, fraction, cause);
+  const std::string at = distance_text(report.fresnel->distance_m, unit);
+  if (at == distance_text(p.distance_m, unit)) return fmt::format("{}, {}; {}", place, fraction, cause);
   return fmt::format("{}; {}; least clearance {} at {}", place, cause, fraction, at);
 }
 
 std::string verdict_line(const LosReport& report) {
-  std::string distance = distance_text(report.profile.length_m);
-  if (report.geodesic_m) distance += fmt::format(" on the grid, {} geodesic", distance_text(*report.geodesic_m));
+  const DistanceUnit unit = unit_of(report);
+  std::string distance = distance_text(report.profile.length_m, unit);
+  if (report.geodesic_m) distance += fmt::format(" on the grid, {} geodesic", distance_text(*report.geodesic_m, unit));
   const std::string bare = report.bare ? fmt::format(" Over bare ground {}.", name_of(report.bare->verdict)) : "";
   return fmt::format("{}{}.{} Distance {}; critical point at {}.", verdict_text(report),
                      report.bare ? kWithClutter : "", bare, distance, critical_line(report));

@@ -33,7 +33,4 @@ std::vector<Table> result_tables(const LosReport& report);
 /// The base that an end's heights count from: "ground" or "surface".
 const char* base_name(bool on_surface);
 
-/// Writes metres up to 2 km, kilometres beyond.
-std::string distance_text(double metres);
-
 }  // namespace itin::profile

@@ -83,14 +83,25 @@ void MapFrame::draw_layer(const SheetMarks& marks) {
   }
 }
 
+/// The points of a line in the drawing, the best place for its label first.
+std::vector<Point2> MapFrame::label_places(const SheetLine& line) const {
+  std::vector<Point2> places;
+  for (const Point2& p : line.points) places.push_back(at(p));
+  if (!line.label_in_middle) {
+    std::sort(places.begin(), places.end(), [](Point2 a, Point2 b) { return a.y != b.y ? a.y < b.y : a.x < b.x; });
+    return places;
+  }
+  const Point2 middle = places[places.size() / 2];
+  std::stable_sort(places.begin(), places.end(),
+                   [&](Point2 a, Point2 b) { return distance(a, middle) < distance(b, middle); });
+  return places;
+}
+
 void MapFrame::label_line(const SheetLine& line, const Rgba& colour) {
   if (line.label.empty()) return;
   const Lettering lettering{.size = 6 * paper_.type, .colour = opaque(colour), .align = Align::kCentre, .rim = 1.4};
   const double half = drawing_.text_width(line.label, lettering) / 2 + 1, up = lettering.size / 2;
-  std::vector<Point2> north;
-  for (const Point2& p : line.points) north.push_back(at(p));
-  std::sort(north.begin(), north.end(), [](Point2 a, Point2 b) { return a.y != b.y ? a.y < b.y : a.x < b.x; });
-  for (const Point2& p : north) {
+  for (const Point2& p : label_places(line)) {
     const Box box{p.x - half, p.y - up, p.x + half, p.y + up};
     if (box.xmin < paper_.frame.xmin || box.xmax > paper_.frame.xmax || box.ymin < paper_.frame.ymin ||
         box.ymax > paper_.frame.ymax || !places_.free(box))

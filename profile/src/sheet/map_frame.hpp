@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <string>
+#include <vector>
 
 #include <itin/geometry.hpp>
 #include <itin/label_places.hpp>
@@ -28,6 +29,7 @@ class MapFrame {
   void draw_layer(const SheetCells& cells);
   void draw_layer(const SheetLines& lines);
   void draw_layer(const SheetMarks& marks);
+  std::vector<Point2> label_places(const SheetLine& line) const;
   void label_line(const SheetLine& line, const Rgba& colour);
   void label_marks(const SheetMarks& marks);
   void draw_grid(const std::string& crs_wkt);

@@ -9,6 +9,7 @@
 #include "drawing/drawing.hpp"
 #include "drawing/palette.hpp"
 #include "sheet/map_frame.hpp"
+#include "sheet/map_page.hpp"
 #include "sheet/paper.hpp"
 #include "sheet/side_panel.hpp"
 
@@ -42,6 +43,16 @@ double panel_height(const MapSheet& sheet, const Paper& picture, double pixels_p
   return panel.height();
 }
 
+MapPicture drawn_picture(const MapSheet& sheet, int pixels, Drawing::Format format) {
+  const double pixels_per_point = pixels_per_point_of(pixels);
+  Paper picture = picture_of(sheet.area, pixels, pixels_per_point);
+  picture = with_panel(picture, panel_height(sheet, picture, pixels_per_point));
+  Drawing drawing(format, picture.width, picture.height, pixels_per_point);
+  draw(sheet, picture, sheet.area, drawing);
+  const auto whole = [&](double points) { return static_cast<int>(std::lround(points * pixels_per_point)); };
+  return {whole(picture.width), whole(picture.height), drawing.finish()};
+}
+
 }  // namespace
 
 double scale_of(const MapSheet& sheet) {
@@ -63,18 +74,20 @@ std::string draw_map_sheet(const MapSheet& sheet, const std::string& path) {
   require_sheet_format(path);
   const Paper paper = paper_of(sheet.paper);
   Drawing drawing(*Drawing::format_of(path), paper.width, paper.height, kPixelsPerPointOfSheets);
-  draw(sheet, paper, ground_in_frame(sheet), drawing);
+  draw_map_page(drawing, sheet);
   return drawing.finish();
 }
 
+void draw_map_page(Drawing& drawing, const MapSheet& sheet) {
+  draw(sheet, paper_of(sheet.paper), ground_in_frame(sheet), drawing);
+}
+
 MapPicture draw_map_picture(const MapSheet& sheet, int pixels) {
-  const double pixels_per_point = pixels_per_point_of(pixels);
-  Paper picture = picture_of(sheet.area, pixels, pixels_per_point);
-  picture = with_panel(picture, panel_height(sheet, picture, pixels_per_point));
-  Drawing drawing(Drawing::Format::kPixels, picture.width, picture.height, pixels_per_point);
-  draw(sheet, picture, sheet.area, drawing);
-  const auto whole = [&](double points) { return static_cast<int>(std::lround(points * pixels_per_point)); };
-  return {whole(picture.width), whole(picture.height), drawing.finish()};
+  return drawn_picture(sheet, pixels, Drawing::Format::kPixels);
+}
+
+std::string draw_map_png(const MapSheet& sheet, int pixels) {
+  return drawn_picture(sheet, pixels, Drawing::Format::kPng).rgb;
 }
 
 int void_stripe_pixels(int pixels) {

@@ -9,12 +9,16 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include <itin/progress.hpp>
 #include <itin/tin.hpp>
+#include <profile/links.hpp>
+#include <profile/los.hpp>
 #include <viewshed/viewshed.hpp>
 
 namespace itin::viewshed {
@@ -92,6 +96,22 @@ struct PerspectiveOptions {
 
 /// Draws what an eye sees. Cost and errors are those of draw_oblique(). Nothing nearer than 0.1 m is drawn.
 MapImage draw_perspective(const Tin& tin, const PerspectiveOptions& options);
+
+/// What a map of one line shows besides the line.
+struct LocationOptions {
+  std::string from_name = "A", to_name = "B";
+  std::span<const profile::Link> others = {};  ///< neighbours, in grey; the line itself may be among them
+};
+
+/// Draws where a line over a store runs, over the relief of its surroundings, for profile::LosReport::location. Throws
+/// CorruptStore, Cancelled.
+std::shared_ptr<const profile::MapSheet> location_map(const Store& store, const profile::LosReport& report,
+                                                      const LocationOptions& options, Progress& progress);
+
+/// Draws all links of a survey, in colours by verdict, for profile::LinkFileOptions::map; null where none could be
+/// computed. `title` is that of the page. Throws CorruptStore, Cancelled.
+std::shared_ptr<const profile::MapSheet> links_map(const Store& store, const profile::LinkSurvey& survey,
+                                                   const std::string& title, Progress& progress);
 
 /// Throws InputError if OpenImageIO knows no format for the path's ending (png, jpg, tif, ...).
 void require_image_format(const std::string& path);

@@ -44,6 +44,8 @@ struct Observer {
   std::optional<double> min_radius = std::nullopt;
   std::optional<AngleRange> azimuth = std::nullopt;
   std::optional<AngleRange> elevation = std::nullopt;
+  /// kLevel: the observer's own antenna. What it has takes the place of what Request::budget has of the first end's.
+  profile::AimedAntenna antenna = {};
 };
 
 /// Under kUnknown a line is undecided if only ground without data could hide it. Modes that count or name observers
@@ -114,7 +116,8 @@ struct Request {
   FresnelCriterion fresnel = {};      ///< kFresnel: a visible cell is one whose zone is clear
   RadioPath radio = {};               ///< kLoss, kLevel; its effective radius is that of `earth`
   /// kLevel: the first end of each link is an observer, the second is in a cell. Antennas with a pattern at observers
-  /// need an azimuth and a tilt, for they cannot aim at all cells. Multipath is of single links, and refused.
+  /// need an azimuth and a tilt, for they cannot aim at all cells; observers may have antennas of their own, as the
+  /// sectors of a mast have. Multipath is of single links, and refused.
   profile::BudgetQuery budget = {};
   /// kLevel: the margins over the sensitivity between which regions and legends tell cells apart, ascending, dB;
   /// none: 0 alone. They need a sensitivity, and no value depends on them.

@@ -141,6 +141,9 @@ struct Levels {
   /// 0.001 % of the year counts as 0.001 %, 5.26 minutes. NaN where the level is not above the sensitivity, where rain
   /// takes more for over 1 % of the year, and beyond the lengths and frequencies of P.530. Otherwise empty.
   std::vector<float> outage_minutes;
+  /// Which observer it is, its number from 1 in their order; 0 where the level has no value. Of equal levels, the one
+  /// with the least outage counts, and then the first.
+  std::vector<std::uint32_t> observer;
 };
 /// The values of a mode; kVisible and kFresnel have none.
 using ModeValues = std::variant<std::monostate, Counts, ObserverSets, Angles, NearestObservers, Blockers, LeastHeights,

@@ -44,11 +44,20 @@
 namespace itin::viewshed {
 
 /// A site on its ground.
+/// An antenna of a site that has several, each of which looks its own way.
+struct SiteSector {
+  std::string name = {};
+  profile::AimedAntenna antenna = {};
+};
+
 struct SitePosition {
   std::string name = {};
   Point2 position = {};
   double height = 0;  ///< metres above the ground
   double ground = 0;  ///< metres; the surface's elevation there, with features if it stands on these
+  /// With a link budget: the antennas in place of the budget's, each with its pattern and where it points; empty: the
+  /// one of the budget.
+  std::vector<SiteSector> sectors = {};
 
   double elevation() const { return ground + height; }
 };

@@ -48,6 +48,9 @@ struct SitePlace {
   double cost = 0;                    ///< the cost of a candidate's place, without its mast; NaN: missing
   double weight = 1;                  ///< the weight of a point of the demand; NaN: missing
   std::string origin = {};            ///< where it stands in its source, for messages: "line 3"
+  /// The antennas of a mast that has its own, for link budgets. What one has takes the place of what `link_budget` has
+  /// of the first end's.
+  std::vector<SiteSector> sectors = {};
 };
 
 /// Places, and what there is to say about the file or the person that they come from.
@@ -144,8 +147,8 @@ struct SitePlanRequest {
   std::optional<double> frequency_ghz = {};
   double fresnel = 0.6;
   /// With a link budget, which needs a frequency and a sensitivity, a target is served instead where its receiver gets
-  /// the sensitivity and `margin_db` more, in sight or not. Not for `turbines` and premises; without rain and
-  /// multipath.
+  /// the sensitivity and `margin_db` more, in sight or not. Not for `turbines` and premises; without multipath. Rain
+  /// takes no part in the choice; it is told of each point.
   profile::BudgetQuery link_budget = {};
   double margin_db = 0;
 
@@ -311,6 +314,10 @@ struct ServingLine {
   // With a link budget; nothing where an antenna is within a feature:
   std::optional<double> level_dbm = {};
   std::optional<double> margin_db = {};  ///< over the sensitivity
+  std::string sector = {};               ///< the site's antenna that it is, where the site has several
+  // With rain besides, as profile::LinkBudget has them:
+  std::optional<double> rain_exceeded_db = {};  ///< for 0.01 % of an average year
+  std::optional<profile::Availability> availability = {};
 };
 
 /// What the chosen and the existing masts are to a point of the demand.

@@ -42,6 +42,15 @@ struct CellsWithMargin {
 /// without a sensitivity.
 std::vector<CellsWithMargin> cells_with_margins(const Result& result);
 
+/// How many cells an observer serves best.
+struct CellsOfObserver {
+  std::size_t observer = 0;  ///< from 0
+  std::uint64_t cells = 0;
+};
+/// Returns the observers in their order with the cells where their level is the greatest, in kLevel of several
+/// observers: with a sensitivity, only where that is reached. Nothing otherwise.
+std::vector<CellsOfObserver> cells_of_observers(const Result& result);
+
 /// Returns `crs`, `surface`, `refraction`, `grid`, `cells`, `area_m2` and `statistics`, and for a certified result
 /// `decided_percent` and `decided_exactly`.
 Document viewshed_document(const StoreMetadata& metadata, const Result& result);

@@ -338,7 +338,8 @@ void MapOverlay::add_key(std::vector<Tint> tints, const std::string& what, std::
 }
 
 std::string MapOverlay::area_of(std::uint64_t cells) const {
-  return area_text(static_cast<double>(cells) * result_.grid.cell_area());
+  const double cell_area = result_.grid.cell_area();
+  return part_text(static_cast<double>(cells) * cell_area, static_cast<double>(result_.cells.in_view()) * cell_area);
 }
 
 void MapOverlay::make_keys(const MapOptions& options) {

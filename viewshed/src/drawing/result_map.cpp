@@ -20,7 +20,8 @@ Rgba colour_of(const Tint& tint) {
 }
 
 std::string key_text(const std::string& what, std::uint64_t cells, std::uint64_t of, double cell_area) {
-  return fmt::format("{}: {} ({:.1f} %)", what, area_text(static_cast<double>(cells) * cell_area),
+  return fmt::format("{}: {} ({:.1f} %)", what,
+                     part_text(static_cast<double>(cells) * cell_area, static_cast<double>(of) * cell_area),
                      100.0 * static_cast<double>(cells) / static_cast<double>(of));
 }
 

@@ -12,6 +12,7 @@
 #include <viewshed/documents.hpp>
 #include <viewshed/site_plan.hpp>
 
+#include "line/infinity.hpp"
 #include "turbines/value_bands.hpp"
 
 namespace itin::viewshed {
@@ -103,6 +104,20 @@ std::vector<CellsWithMargin> cells_with_margins(const Result& result) {
   return with;
 }
 
+std::vector<CellsOfObserver> cells_of_observers(const Result& result) {
+  const auto* levels = std::get_if<Levels>(&result.values);
+  const std::size_t observers = result.request.observers.size();
+  if (levels == nullptr || observers < 2) return {};
+  const std::optional<double>& sensitivity = result.request.budget.sensitivity_dbm;
+  const double least = sensitivity.value_or(-kInfinity);
+  std::vector<CellsOfObserver> of(observers);
+  for (std::size_t i = 0; i < observers; ++i) of[i].observer = i;
+  for (std::size_t cell = 0; cell < levels->observer.size(); ++cell)
+    if (const std::uint32_t number = levels->observer[cell]; number > 0 && levels->level_dbm[cell] >= least)
+      ++of[number - 1].cells;
+  return of;
+}
+
 Document viewshed_document(const StoreMetadata& metadata, const Result& result) {
   const Request& request = result.request;
   const double area = result.grid.cell_area();
@@ -116,6 +131,10 @@ Document viewshed_document(const StoreMetadata& metadata, const Result& result) 
   for (const CellsWithMargin& with : cells_with_margins(result))
     document["margins"].push_back(
         {{"margin_db", with.margin_db}, {"cells", with.cells}, {"area_m2", static_cast<double>(with.cells) * area}});
+  for (const CellsOfObserver& of : cells_of_observers(result))
+    document["served_best"].push_back({{"observer", request.observers[of.observer].name},
+                                       {"cells", of.cells},
+                                       {"area_m2", static_cast<double>(of.cells) * area}});
   if (result.certified) {
     document["decided_percent"] = decided_percent(result.cells);
     document["decided_exactly"] = result.decided_exactly;

@@ -68,6 +68,16 @@ void add_budget(const profile::BudgetQuery& budget, Metadata& items) {
   add("antenna2_tilt_deg", budget.to_antenna.tilt_deg);
 }
 
+/// Adds what the observers' own antennas have, with a dash where one has nothing; nothing where none has.
+void add_of_antennas(const char* name, const Request& r, std::optional<double> profile::AimedAntenna::*value,
+                     Metadata& items) {
+  std::vector<std::string> texts;
+  for (const Observer& observer : r.observers)
+    texts.push_back(observer.antenna.*value ? text_of(*(observer.antenna.*value)) : "-");
+  if (std::any_of(texts.begin(), texts.end(), [](const std::string& text) { return text != "-"; }))
+    items.emplace_back(name, fmt::format("{}", fmt::join(texts, " ")));
+}
+
 Metadata metadata_of(const Result& result) {
   const Request& r = result.request;
   Metadata items{{"observers", observers_text(r.observers)},
@@ -97,7 +107,11 @@ Metadata metadata_of(const Result& result) {
     items.emplace_back("polarisation", r.radio.polarisation == Polarisation::kVertical ? "v" : "h");
     items.emplace_back("over_sea", fmt::format("{:.12g}", r.radio.over_sea));
   }
-  if (r.mode == Mode::kLevel) add_budget(r.budget, items);
+  if (r.mode == Mode::kLevel) {
+    add_budget(r.budget, items);
+    add_of_antennas("antenna1_azimuths_deg", r, &profile::AimedAntenna::azimuth_deg, items);
+    add_of_antennas("antenna1_tilts_deg", r, &profile::AimedAntenna::tilt_deg, items);
+  }
   if (r.mode == Mode::kBlocker) {
     for (std::size_t i = 0; i < result.theme_names.size(); ++i)
       items.emplace_back(fmt::format("theme_{}", i + 1), result.theme_names[i]);
@@ -135,6 +149,11 @@ class Writer {
     if (!levels.outage_minutes.empty()) {
       bands.emplace_back("outage by rain, minutes a year; 5.26 and less counts as 5.26");
       values.insert(values.end(), levels.outage_minutes.begin(), levels.outage_minutes.end());
+    }
+    if (result_.request.observers.size() > 1) {
+      bands.emplace_back("observer that serves best, its number from 1");
+      for (const std::uint32_t number : levels.observer)
+        values.push_back(number == 0 ? std::numeric_limits<float>::quiet_NaN() : static_cast<float>(number));
     }
     write<float>(bands, kNaN, values);
   }

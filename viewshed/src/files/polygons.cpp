@@ -13,6 +13,7 @@
 #include "files/verdict_classes.hpp"
 #include "line/verdicts.hpp"
 #include "modes/feature_names.hpp"
+#include "request/request.hpp"
 #include "turbines/value_bands.hpp"
 
 namespace itin::viewshed {
@@ -59,13 +60,13 @@ RegionClasses classes_of_blockers(const Result& result) {
   return classes;
 }
 
-/// The band of each cell in view, from 1; 0 where no level is known.
-std::vector<std::uint8_t> codes_of_levels(const Result& result, const std::vector<ValueBand>& bands) {
-  const std::vector<float>& levels = result.get<Levels>().level_dbm;
-  std::vector<std::uint8_t> codes(levels.size());
-  for (std::size_t i = 0; i < levels.size(); ++i) {
+/// The band of each cell in view, from 1; 0 where its value is not known.
+std::vector<std::uint8_t> codes_of_bands(const Result& result, const std::vector<float>& values,
+                                         const std::vector<ValueBand>& bands) {
+  std::vector<std::uint8_t> codes(values.size());
+  for (std::size_t i = 0; i < values.size(); ++i) {
     if (result.visible[i] == Verdict::kOutside) codes[i] = code_of(Verdict::kOutside);
-    if (!std::isnan(levels[i])) codes[i] = static_cast<std::uint8_t>(band_of(bands, levels[i]) + 1);
+    if (!std::isnan(values[i])) codes[i] = static_cast<std::uint8_t>(band_of(bands, values[i]) + 1);
   }
   return codes;
 }
@@ -76,6 +77,15 @@ RegionClasses classes_of_levels(const std::vector<ValueBand>& bands) {
   for (std::size_t i = bands.size(); i-- > 0;)
     classes.push_back({static_cast<std::uint32_t>(i + 1), bands[i].label, bands[i].colour});
   classes.push_back({0, "level not known", kUndecidedGrey});
+  return classes;
+}
+
+/// The least losses come first, the unknown last.
+RegionClasses classes_of_losses(const std::vector<ValueBand>& bands) {
+  RegionClasses classes;
+  for (std::size_t i = 0; i < bands.size(); ++i)
+    classes.push_back({static_cast<std::uint32_t>(i + 1), bands[i].label, bands[i].colour});
+  classes.push_back({0, "loss not known", kUndecidedGrey});
   return classes;
 }
 
@@ -97,7 +107,7 @@ void write_polygons(const std::string& path, const Result& result, const std::st
       values = marked;
     }
     description.classes = std::move(classes);
-    const bool ordered = result.request.mode == Mode::kLevel;
+    const bool ordered = studies_paths(result.request);
     for (std::size_t i = 0; i < description.classes.size() && description.classes.size() > 1 && !ordered; ++i)
       description.classes[i].colour = distinct_colour(i);
     if (!no_data.empty()) description.classes.push_back({kNoData, "no ground data", {160, 160, 160}});
@@ -112,7 +122,11 @@ void write_polygons(const std::string& path, const Result& result, const std::st
       return write(result.get<Blockers>().theme, classes_of_blockers(result));
     case Mode::kLevel: {
       const std::vector<ValueBand> bands = level_bands(result.request);
-      return write(codes_of_levels(result, bands), classes_of_levels(bands));
+      return write(codes_of_bands(result, result.get<Levels>().level_dbm, bands), classes_of_levels(bands));
+    }
+    case Mode::kLoss: {
+      const std::vector<ValueBand> bands = loss_bands();
+      return write(codes_of_bands(result, result.get<Losses>().diffraction_db, bands), classes_of_losses(bands));
     }
     case Mode::kFresnel:
     case Mode::kVisible:
@@ -120,7 +134,6 @@ void write_polygons(const std::string& path, const Result& result, const std::st
     case Mode::kAngle:
     case Mode::kHeight:
     case Mode::kProbability:
-    case Mode::kLoss:
       return write(codes_of(result.visible), regions_of_verdicts(result));
   }
 }

@@ -16,13 +16,6 @@ namespace itin::viewshed {
 
 namespace {
 
-/// A loss of 0 has a colour, too: only cells without a loss have none.
-std::vector<ValueBand> loss_bands() {
-  std::vector<ValueBand> bands = limit_bands({kLossLimitsDb.begin(), kLossLimitsDb.end()}, "dB");
-  bands.front() = {0, "0 dB", {0, 114, 178}};
-  return bands;
-}
-
 /// The lower a target is seen, the darker: from the ground on.
 std::vector<ValueBand> height_bands() {
   constexpr std::array<Rgba, kMastHeightLimits.size() + 2> kBlues{

@@ -38,7 +38,7 @@ void exchange_values(Archive& archive, Values& values) {
   if constexpr (std::is_same_v<Mode, LeastHeights>) archive(values.height_m);
   if constexpr (std::is_same_v<Mode, Probabilities>) archive(values.probability);
   if constexpr (std::is_same_v<Mode, Losses>) archive(values.diffraction_db, values.free_space_db);
-  if constexpr (std::is_same_v<Mode, Levels>) archive(values.level_dbm, values.outage_minutes);
+  if constexpr (std::is_same_v<Mode, Levels>) archive(values.level_dbm, values.outage_minutes, values.observer);
 }
 
 template <class Archive, class R>

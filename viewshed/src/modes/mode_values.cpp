@@ -29,7 +29,7 @@ ModeValues values_outside(const Request& request, std::size_t cells) {
     case Mode::kLoss:
       return Losses{none(), none()};
     case Mode::kLevel:
-      return Levels{none(), tells_outage(request) ? none() : std::vector<float>()};
+      return Levels{none(), tells_outage(request) ? none() : std::vector<float>(), std::vector<std::uint32_t>(cells)};
   }
   return {};
 }

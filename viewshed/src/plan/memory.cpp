@@ -30,9 +30,10 @@ std::uint64_t bytes_per_cell(const Request& request) {
       return kVerdict + 8;
     case Mode::kProbability:
     case Mode::kLoss:
-    case Mode::kLevel:
     case Mode::kNearest:
       return kVerdict + 20;
+    case Mode::kLevel:
+      return kVerdict + 28;
     case Mode::kBlocker:
       return kVerdict + 28;
   }

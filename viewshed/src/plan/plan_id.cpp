@@ -46,8 +46,8 @@ class Text {
 
   // Every field of these is named, so that a new one cannot be forgotten.
   void put(const Observer& v) {
-    const auto& [name, position, height, absolute, target_height, radius, min_radius, azimuth, elevation] = v;
-    add(name, position, height, absolute, target_height, radius, min_radius, azimuth, elevation);
+    const auto& [name, position, height, absolute, target_height, radius, min_radius, azimuth, elevation, antenna] = v;
+    add(name, position, height, absolute, target_height, radius, min_radius, azimuth, elevation, antenna);
   }
   void put(const Earth& v) {
     const auto& [curvature, refraction, radius, effective_factor] = v;

@@ -91,12 +91,15 @@ class Merge::Rasters {
   void add(const Segment& segment, const Levels& from, Levels& to) {
     copy(segment, from.level_dbm, to.level_dbm);
     copy(segment, from.outage_minutes, to.outage_minutes);
+    copy(segment, from.observer, to.observer, [&](std::uint32_t number) { return of_all(segment, number); });
   }
-  /// Renumbers the observers, which have other numbers among all than among the segment's.
+  /// The number among all observers, from 1, of one that has this number among the segment's; 0 stands for none.
+  static std::uint32_t of_all(const Segment& segment, std::uint32_t number) {
+    return number == 0 ? 0 : static_cast<std::uint32_t>(segment.observers[number - 1] + 1);
+  }
   void add(const Segment& segment, const NearestObservers& from, NearestObservers& to) {
     copy(segment, from.distance_m, to.distance_m);
-    copy(segment, from.number, to.number,
-         [&](std::uint32_t from_1) { return from_1 == 0 ? 0 : segment.observers[from_1 - 1] + 1; });
+    copy(segment, from.number, to.number, [&](std::uint32_t number) { return of_all(segment, number); });
   }
   void add(const Segment& segment, const Blockers& from, Blockers& to) {
     const std::vector<std::uint32_t> numbers = blockers_.numbers_of(from.triangles);

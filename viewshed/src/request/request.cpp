@@ -154,6 +154,25 @@ void validate_radio(const Request& request) {
                      "radio");
 }
 
+/// Whether the observer has something of an antenna of its own.
+bool has_antenna(const Observer& observer) {
+  const profile::AimedAntenna& antenna = observer.antenna;
+  return antenna.pattern || antenna.azimuth_deg || antenna.tilt_deg;
+}
+
+void validate_budgets(const Request& request) {
+  const bool all = std::all_of(request.observers.begin(), request.observers.end(), has_antenna);
+  if (!all) validate_budget_of_area(request.budget);
+  for (const Observer& observer : request.observers) {
+    if (!has_antenna(observer)) continue;
+    try {
+      validate_budget_of_area(budget_of(request, observer));
+    } catch (const InputError& error) {
+      throw InputError(fmt::format("observer '{}': {}", observer.name, error.what()), error.field());
+    }
+  }
+}
+
 void validate_margins(const Request& request) {
   constexpr std::size_t kMostMargins = 20;
   const std::vector<double>& margins = request.margins_db;
@@ -216,8 +235,22 @@ void validate(const Request& request) {
   if (request.mode == Mode::kFresnel) validate_zones(request);
   if (studies_paths(request)) validate_radio(request);
   if (request.mode != Mode::kLevel) return;
-  validate_budget_of_area(request.budget);
+  validate_budgets(request);
   validate_margins(request);
+}
+
+profile::AimedAntenna completed(const profile::AimedAntenna& own, const profile::AimedAntenna& of_all) {
+  profile::AimedAntenna antenna = of_all;
+  if (own.pattern) antenna.pattern = own.pattern;
+  if (own.azimuth_deg) antenna.azimuth_deg = own.azimuth_deg;
+  if (own.tilt_deg) antenna.tilt_deg = own.tilt_deg;
+  return antenna;
+}
+
+profile::BudgetQuery budget_of(const Request& request, const Observer& observer) {
+  profile::BudgetQuery budget = request.budget;
+  budget.from_antenna = completed(observer.antenna, budget.from_antenna);
+  return budget;
 }
 
 void validate_budget_of_area(const profile::BudgetQuery& budget) {

@@ -27,6 +27,11 @@ bool casts_rays(const Request& request);
 bool needs_triangles(const Request& request);
 /// Whether the request's mode asks about the ground under raised features, too, all along its lines.
 bool needs_bare_lines(const Request& request);
+/// An antenna that has what this one has, and otherwise what that of all has.
+profile::AimedAntenna completed(const profile::AimedAntenna& own, const profile::AimedAntenna& of_all);
+/// The link budget of an observer, with its own antenna.
+profile::BudgetQuery budget_of(const Request& request, const Observer& observer);
+
 /// Throws InputError for a link budget that is none of an area: without a power, with multipath, or with an antenna at
 /// its first end that points nowhere.
 void validate_budget_of_area(const profile::BudgetQuery& budget);

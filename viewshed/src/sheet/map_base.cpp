@@ -64,6 +64,7 @@ void add_contours(const Heights& heights, MapBase& base) {
       (fifth ? index : plain).lines.push_back({std::move(points), label});
     }
   }
+  if (plain.lines.empty() && index.lines.empty()) return;
   base.contours = {std::move(plain), std::move(index)};
   base.keys.push_back({profile::SheetKey::Sample::kLine, {kContour}, fmt::format("Contours every {:g} m", interval)});
 }

@@ -128,6 +128,12 @@ std::vector<ValueBand> level_bands(const Request& request) {
   return bands;
 }
 
+std::vector<ValueBand> loss_bands() {
+  std::vector<ValueBand> bands = limit_bands({kLossLimitsDb.begin(), kLossLimitsDb.end()}, "dB");
+  bands.front() = {0, "0 dB", {0, 114, 178}};
+  return bands;
+}
+
 std::vector<ValueBand> share_bands() {
   return limit_bands({0.01, 0.02, 0.05, 0.1, 0.2, 0.5}, "of the ground");
 }

@@ -99,6 +99,7 @@ class SiteMasts(Task):
         Number("FREQUENCY", "Frequency [GHz]", "--frequency", unit="GHz", minimum=0, help="Left blank: light"),
         shared.FRESNEL,
         *shared.LEVELS,
+        shared.RAIN,
         Number(
             "MARGIN_DB",
             "Link budget: margin over the sensitivity that serves [dB]",

@@ -35,6 +35,7 @@ class SiteReader {
         places_(file_, query, to_crs) {
     for (const NumberField& field : query.numbers)
       numbers_.push_back(field.required ? field_index(file_, path_, field.name) : file_.field(field.name));
+    for (const std::string& field : query.texts) texts_.push_back(file_.field(field));
     select_features(file_.layer(), path_, query.where);
   }
 
@@ -65,6 +66,7 @@ class SiteReader {
     if (!found.wrong.empty()) throw FileError(where, found.wrong);
     site.height = height_of(feature, where);
     site.numbers = numbers_of(feature, where);
+    for (const int field : texts_) site.texts.push_back(field < 0 ? "" : file_.text(feature, field));
     const std::string name = site.name;
     for (std::size_t i = 0; i < found.positions.size(); ++i) {
       if (found.positions.size() > 1) site.name = fmt::format("{} ({})", name, i + 1);
@@ -96,7 +98,7 @@ class SiteReader {
   std::string path_;
   PlaceFile file_;
   int height_, name_;
-  std::vector<int> numbers_;
+  std::vector<int> numbers_, texts_;
   Places places_;
   std::vector<Site> sites_;
 };

@@ -73,6 +73,8 @@ class LevelSurvey final : public GroupSurvey {
   Request request_about(const SitePosition& site) const {
     Request request;
     request.observers = {{site.name, site.position, site.elevation(), true}};
+    request.observers.resize(std::max<std::size_t>(site.sectors.size(), 1), request.observers.front());
+    for (std::size_t i = 0; i < site.sectors.size(); ++i) request.observers[i].antenna = site.sectors[i].antenna;
     request.target_height = survey_.targets.height;
     request.targets_on_surface = survey_.targets.on_surface;
     request.radius = survey_.radius;
@@ -109,7 +111,7 @@ class LevelSurvey final : public GroupSurvey {
     Blocks blocks;
     for (std::size_t i = 0; i < lines.size(); ++i) {
       statistics.add_retrieval(lines[i].statistics, lines[i].triangles, 0);
-      if (serves(links[i], lines[i])) add(points[i], blocks);
+      if (serves(site, links[i], lines[i])) add(points[i], blocks);
     }
     statistics.lines += lines.size();
     return exactly(blocks);
@@ -125,10 +127,17 @@ class LevelSurvey final : public GroupSurvey {
             .nodata = survey_.nodata};
   }
 
-  bool serves(const profile::Link& link, const profile::LinkResult& line) const {
+  bool serves(const SitePosition& site, profile::Link& link, const profile::LinkResult& line) const {
     if (line.found && line.distance_m == 0) return true;
-    const auto budget = link_budget_of(link, line, query());
-    return budget && budget->level_dbm >= level_.least_dbm;
+    const auto enough = [&] {
+      const auto budget = link_budget_of(link, line, query());
+      return budget && budget->level_dbm >= level_.least_dbm;
+    };
+    if (site.sectors.empty()) return enough();
+    return std::any_of(site.sectors.begin(), site.sectors.end(), [&](const SiteSector& sector) {
+      link.budget.from_antenna = sector.antenna;
+      return enough();
+    });
   }
 
   const Store& store_;

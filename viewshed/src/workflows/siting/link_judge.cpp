@@ -15,13 +15,19 @@ profile::LineFindings LinkJudge::found(const SitePosition& from, const SitePosit
   return profile::judge(line, los_query(link_between(from, to), rules_.query), ground);
 }
 
-std::pair<profile::LineFindings, std::optional<profile::LinkBudget>> LinkJudge::measured(const SitePosition& from,
-                                                                                         const SitePosition& to) const {
+LinkJudge::Measured LinkJudge::measured(const SitePosition& from, const SitePosition& to) const {
   const auto [line, ground] = profiles(from, to);
-  const profile::Link link = link_between(from, to);
-  profile::LinkResult result = profile::judge_link(line, los_query(link, rules_.query), ground);
-  auto budget = link_budget_of(link, result, rules_.query);
-  return {std::move(*result.found), std::move(budget)};
+  profile::Link link = link_between(from, to);
+  const profile::LinkResult result = profile::judge_link(line, los_query(link, rules_.query), ground);
+  Measured measured{*result.found, {}};
+  if (from.sectors.empty()) measured.budget = link_budget_of(link, result, rules_.query);
+  for (const SiteSector& sector : from.sectors) {
+    link.budget.from_antenna = sector.antenna;
+    auto budget = link_budget_of(link, result, rules_.query);
+    if (!budget || (measured.budget && budget->level_dbm <= measured.budget->level_dbm)) continue;
+    measured.budget = std::move(budget), measured.sector = sector.name;
+  }
+  return measured;
 }
 
 std::pair<profile::Profile, profile::Profile> LinkJudge::profiles(const SitePosition& from,

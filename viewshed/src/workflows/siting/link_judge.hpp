@@ -5,6 +5,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <utility>
 
 #include <itin/cross_section.hpp>
@@ -22,10 +23,14 @@ class LinkJudge {
   /// Judges the line as `itin los` does. May be called from several threads. Throws InputError where an end has no
   /// ground.
   profile::LineFindings found(const SitePosition& from, const SitePosition& to) const;
-  /// Judges the line, and works out its budget: nothing where the rules ask for none, or an antenna is within a
-  /// feature. Throws as found() does.
-  std::pair<profile::LineFindings, std::optional<profile::LinkBudget>> measured(const SitePosition& from,
-                                                                                const SitePosition& to) const;
+  /// A line with its budget, which is nothing where the rules ask for none, or an antenna is within a feature.
+  struct Measured {
+    profile::LineFindings found;
+    std::optional<profile::LinkBudget> budget;
+    std::string sector = {};  ///< the antenna of the first end whose level is the greatest, where it has several
+  };
+  /// Judges the line, and works out its budget. Throws as found() does.
+  Measured measured(const SitePosition& from, const SitePosition& to) const;
   /// Tells whether the line meets the rules.
   bool linked(const SitePosition& from, const SitePosition& to) const { return rules_.met_by(found(from, to)); }
   const LinkRules& rules() const { return rules_; }

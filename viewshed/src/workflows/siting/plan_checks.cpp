@@ -19,13 +19,31 @@ void require_that(bool holds, const char* field, const char* what) {
   if (!holds) throw InputError(what, field);
 }
 
+/// The antennas of sites, each completed by that of the budget, must point somewhere.
+void check_antennas(const SitePlanRequest& r) {
+  profile::BudgetQuery budget = r.link_budget;
+  bool all = r.search_area == std::nullopt;
+  for (const SitePlaces* places : {&r.candidates, &r.existing})
+    for (const SitePlace& place : places->places) {
+      all = all && !place.sectors.empty();
+      for (const SiteSector& sector : place.sectors) {
+        budget.from_antenna = completed(sector.antenna, r.link_budget.from_antenna);
+        try {
+          validate_budget_of_area(budget);
+        } catch (const InputError& error) {
+          throw InputError(fmt::format("sector '{}' of '{}': {}", sector.name, place.name, error.what()),
+                           error.field());
+        }
+      }
+    }
+  if (!all) validate_budget_of_area(r.link_budget);
+}
+
 void check_budget(const SitePlanRequest& r) {
-  validate_budget_of_area(r.link_budget);
+  check_antennas(r);
   require_that(r.frequency_ghz.has_value(), "frequency_ghz", "a link budget needs `frequency_ghz`");
   require_that(r.link_budget.sensitivity_dbm.has_value(), "sensitivity_dbm",
                "a link budget needs `sensitivity_dbm`: it says what level serves");
-  require_that(!r.link_budget.rain_rate_mm_h, "rain_rate_mm_h",
-               "`rain_rate_mm_h`: a choice of sites looks at levels in clear air; leave it out");
   require_that(std::isfinite(r.margin_db), "margin_db", "`margin_db`: give a finite number");
   require_that(!r.turbines && !r.demand.premises, "power_dbm",
                "a link budget is for masts that serve cells or points, not for `turbines` or premises");

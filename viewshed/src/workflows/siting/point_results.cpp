@@ -121,10 +121,13 @@ class PointJudge {
   }
 
   MeasuredLine measured_line(std::size_t site, const PointResult& result) const {
-    const auto [found, budget] = lines_.measured(sites_[site], result.place);
+    const auto [found, budget, sector] = lines_.measured(sites_[site], result.place);
     MeasuredLine measured{told_line(site, metres_to(site, result), found)};
     if (!budget) return measured;
     measured.line.level_dbm = budget->level_dbm, measured.line.margin_db = budget->margin_db;
+    measured.line.sector = sector;
+    if (budget->rain) measured.line.rain_exceeded_db = budget->rain->exceeded_db;
+    measured.line.availability = budget->availability;
     measured.unserved = PointService::kTooWeak;
     return measured;
   }

@@ -167,8 +167,15 @@ class InputReader {
       if (!(place.cost + mast.cost > 0))
         throw InputError(fmt::format("candidate {}: its cost is 0; costs must be positive", place.name), "candidates");
       inputs_.options.push_back({number, place.cost + mast.cost});
-      inputs_.positions.push_back({place.name, place.position, mast.height, ground});
+      inputs_.positions.push_back({place.name, place.position, mast.height, ground, sectors_of(place)});
     }
+  }
+
+  /// The antennas of a place, completed by that of the request.
+  std::vector<SiteSector> sectors_of(const SitePlace& place) const {
+    std::vector<SiteSector> sectors = place.sectors;
+    for (SiteSector& sector : sectors) sector.antenna = completed(sector.antenna, request_.link_budget.from_antenna);
+    return sectors;
   }
 
   void place_existing() {
@@ -182,7 +189,7 @@ class InputReader {
         reject(name_of(request_.existing, "existing site", site) +
                (ground[i] ? ": its height is negative" : ": there is no data there"));
       } else {
-        inputs_.positions.push_back({site.name, site.position, height, *ground[i]});
+        inputs_.positions.push_back({site.name, site.position, height, *ground[i], sectors_of(site)});
       }
     }
   }

@@ -103,10 +103,11 @@ ResultMap classes_of(const Zone& zone, const ZoneMap& map) {
   ResultMap result;
   std::uint64_t all = 0;
   for (const ZoneMap::Class& c : map.classes) all += c.cells;
+  const double cell_area = zone.grid.cell_area(), whole = static_cast<double>(all) * cell_area;
   for (const ZoneMap::Class& c : map.classes) {
     result.keys.push_back(
         {{over_relief(c.colour)},
-         fmt::format("{}: {} ({:.1f} %)", c.label, area_text(static_cast<double>(c.cells) * zone.grid.cell_area()),
+         fmt::format("{}: {} ({:.1f} %)", c.label, part_text(static_cast<double>(c.cells) * cell_area, whole),
                      100.0 * static_cast<double>(c.cells) / static_cast<double>(std::max<std::uint64_t>(1, all)))});
   }
   for (const std::uint8_t c : map.class_of_cell)

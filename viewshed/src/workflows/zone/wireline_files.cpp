@@ -79,9 +79,14 @@ std::string place_in_words(const Viewpoint& v, const std::string& crs_wkt) {
   return reference ? fmt::format("{} ({})", *reference, numbers) : numbers;
 }
 
+/// The number by which pictures and maps call a turbine, with its name if that is another.
+std::string number_and_name(const Turbine& t) {
+  const std::string number = fmt::format("{}", t.number);
+  return t.name.empty() || t.name == number ? number : number + " " + t.name;
+}
+
 std::string turbine_in_words(const Turbine& t) {
-  return fmt::format("turbine {}{}{}", t.number, t.name == fmt::format("{}", t.number) ? "" : " " + t.name,
-                     t.farm.empty() ? "" : " of " + t.farm);
+  return fmt::format("turbine {}{}", number_and_name(t), t.farm.empty() ? "" : " of " + t.farm);
 }
 
 /// Returns degrees that look random, but are always the same for a turbine.
@@ -203,19 +208,31 @@ profile::SheetTable table_of_sights(const Zone& zone, const std::vector<TurbineS
     const TurbineSight& s = sights[k];
     const Turbine& t = zone.request.turbines[k];
     const bool seen = s.tip == TurbineSight::Verdict::kVisible;
-    table.rows.push_back({t.name.empty() ? fmt::format("{}", t.number) : t.name,
-                          fmt::format("{:.2f}", s.distance / 1000), fmt::format("{:.1f}°", s.azimuth),
-                          verdict_in_words(s.hub), verdict_in_words(s.tip),
-                          seen ? fmt::format("{:.0f} of {:.0f} m", s.visible, t.tip_height) : "",
+    table.rows.push_back({number_and_name(t), fmt::format("{:.2f}", s.distance / 1000),
+                          fmt::format("{:.1f}°", s.azimuth), verdict_in_words(s.hub), verdict_in_words(s.tip),
+                          seen ? fmt::format("{:.1f} of {:.1f} m", s.visible, t.tip_height) : "",
                           seen ? fmt::format("{:.2f}°", s.vertical_deg) : ""});
   }
   return table;
 }
 
-/// Returns the direction of a picture that is too narrow for all turbines: to the nearest whose tip is seen, else to
-/// the nearest.
-double bearing_of_nearest(const Zone& zone, const std::vector<TurbineSight>& sights) {
-  const SightSummary seen = seen_of(zone, sights, all_turbines(zone));
+/// The turbines that a study is about: those proposed where there is a proposal, else all.
+std::vector<std::size_t> turbines_of_interest(const Zone& zone) {
+  std::vector<std::size_t> turbines = all_turbines(zone);
+  if (has_proposal(zone.request))
+    std::erase_if(turbines, [&](std::size_t k) { return zone.request.turbines[k].status != TurbineStatus::kProposed; });
+  return turbines;
+}
+
+/// Returns the direction of a picture that is too narrow for all turbines: to the middle of those of interest or, where
+/// it is too narrow for these, to the nearest of them whose tip is seen, else to the nearest.
+double bearing_of_narrow(const Zone& zone, const std::vector<TurbineSight>& sights) {
+  const std::vector<std::size_t> turbines = turbines_of_interest(zone);
+  std::vector<TurbineSight> their_sights;
+  for (const std::size_t k : turbines) their_sights.push_back(sights[k]);
+  const Arc arc = arc_to_shown(their_sights);
+  if (arc.width + kRoomBeside <= profile::kPlanarField) return within_turn(arc.from + arc.width / 2);
+  const SightSummary seen = seen_of(zone, sights, turbines);
   return sights[seen.nearest_seen.value_or(seen.nearest)].azimuth;
 }
 
@@ -307,7 +324,7 @@ void WirelineWriter::write(const Viewpoint& v, const ViewedSurface& view, const 
   if (!sheets_.project.empty()) sheet.facts.insert(sheet.facts.begin(), {"Project", sheets_.project});
   sheet.facts.emplace_back("Date", sheets_.date);
   const bool fits = choice_.bearing_deg || arc.width + kRoomBeside <= profile::kPlanarField;
-  const double bearing = fits ? centre : bearing_of_nearest(zone_, sights);
+  const double bearing = fits ? centre : bearing_of_narrow(zone_, sights);
   query.width_deg = kCylinder, query.from_deg = within_turn(bearing - kCylinder / 2);
   std::optional<profile::Wireline> turned;
   if (!fits) turned = profile::survey_wireline(view.surface, query, progress);

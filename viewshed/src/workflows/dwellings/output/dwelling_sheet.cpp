@@ -53,7 +53,7 @@ std::string date_on_sheet(const DwellingsSurvey& survey, std::uint32_t day) {
 std::string flicker_text(const DwellingsSurvey& survey, const FlickerSum& sum) {
   const FlickerRules& rules = survey.request.flicker;
   if (sum.minutes == 0) return "none";
-  return fmt::format("{:.1f} h on {}, {}; {} min on {}, {}", sum.hours(), counted(sum.days, "day"),
+  return fmt::format("{:.2f} h on {}, {}; {} min on {}, {}", sum.hours(), counted(sum.days, "day"),
                      limit_text(rules.limit_minutes_year / 60, "h in the year", sum.over_year), sum.worst_minutes,
                      date_on_sheet(survey, sum.worst_day),
                      limit_text(rules.limit_minutes_day, "min on a day", sum.over_day));
@@ -91,7 +91,7 @@ Facts facts_of_dwelling(const DwellingsSurvey& survey, const Dwelling& dwelling)
                                      std::pair("Seen through woods, winter", SightSurface::kWinter)})
     if (!any.winter.empty()) facts.emplace_back(name, view_text(view_of(survey, dwelling, season)));
   facts.emplace_back("Shadow flicker, worst", flicker_text(survey, sum));
-  if (sum.likely) facts.emplace_back("Shadow flicker, likely", fmt::format("{:.1f} h", *sum.likely / 60));
+  if (sum.likely) facts.emplace_back("Shadow flicker, likely", fmt::format("{:.2f} h", *sum.likely / 60));
   facts.emplace_back("Sun", rules_text(request.flicker));
   facts.emplace_back("Surface", statement_of(survey.metadata, request.themes, Detail::tolerance(0)));
   facts.emplace_back("Earth", request.earth.convention());

@@ -26,6 +26,11 @@ constexpr std::array<FeatureClass, 8> kPointServices{{{"served", "Point served",
                                                       {"out of reach", "Point beyond the radius", {205, 205, 205}},
                                                       {"no ground", "Point without ground data", {40, 40, 40}}}};
 
+bool has_sectors(const SitePlan& r) {
+  return std::any_of(r.inputs.positions.begin(), r.inputs.positions.end(),
+                     [](const SitePosition& site) { return !site.sectors.empty(); });
+}
+
 using PointColumns = std::vector<TableColumn<PointResult>>;
 
 PointColumns point_columns(const SitePlan& r) {
@@ -49,6 +54,17 @@ PointColumns point_columns(const SitePlan& r) {
     add_of_line("level_dbm", &ServingLine::level_dbm, "{:.2f}");
     add_of_line("margin_db", &ServingLine::margin_db, "{:.2f}");
   }
+  if (r.request.link_budget.rain_rate_mm_h) {
+    add_of_line("rain_exceeded_0_01_db", &ServingLine::rain_exceeded_db, "{:.2f}");
+    const auto add_of_year = [&](const char* name, auto member, const char* number) {
+      columns.emplace_back(
+          name, [member](const PointResult& p) { return p.line ? if_any(p.line->availability, member) : std::nullopt; },
+          kInAllFormats, number);
+    };
+    add_of_year("availability_percent", &profile::Availability::percent, "{:.4f}");
+    add_of_year("outage_minutes", &profile::Availability::outage_minutes, "{:.2f}");
+  }
+  if (has_sectors(r)) columns.emplace_back("sector", [](const PointResult& p) { return p.line ? p.line->sector : ""; });
   add_of_line("tightest_m", &ServingLine::tightest_m);
   return columns;
 }

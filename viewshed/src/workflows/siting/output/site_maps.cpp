@@ -33,14 +33,16 @@ Result plan_as_viewshed(const SitePlan& r) {
 }
 
 /// Tells what the maps are for, in one line.
-std::string subtitle_of_plan(const SitePlanRequest& request) {
+std::string subtitle_of_plan(const SitePlan& plan) {
+  const SitePlanRequest& request = plan.request;
   const double kilometres = request.radius / 1000;
   if (request.turbines)
     return fmt::format("{} {:g} m above the ground, eyes {:g} m, within {:g} km",
                        request.turbines->minimised == Minimised::kHubs ? "Hubs" : "Blade tips",
                        request.turbines->minimised_height(), request.demand.height, kilometres);
   return fmt::format(
-      "Radius {:g} km, targets {:g} m up{}{}", kilometres, request.demand.height,
+      "Radius {:g} km, targets {}{}{}", kilometres,
+      plan.inputs.targets.heights.empty() ? fmt::format("{:g} m up", request.demand.height) : "at heights of their own",
       request.by_level() ? fmt::format(", {:g} dBm or more at {:g} GHz", request.least_dbm(), *request.frequency_ghz)
       : request.frequency_ghz ? fmt::format(", {:g} F1 clear at {:g} GHz", request.fresnel, *request.frequency_ghz)
                               : "",
@@ -81,7 +83,7 @@ std::vector<SiteMap> site_maps(const Store& store, const SitePlan& r, Progress& 
   options.outside = "Beyond the radius, or no data";
   options.title = fmt::format("{} {}", wording.by, counted(r.choice.chosen.size(), wording.one));
   if (r.inputs.existing() > 0) options.title += fmt::format(" and {} existing", r.inputs.existing());
-  options.subtitle = subtitle_of_plan(r.request);
+  options.subtitle = subtitle_of_plan(r);
   options.dots = dots_of_points(r);
   std::vector<SiteMap> maps{{"coverage", result, options, missing}};
   result.request.mode = Mode::kCount;
