@@ -1,7 +1,8 @@
 // A call of the program that the planner starts: how far it is, what is wrong with it, and the files that it wrote.
 
 import { make } from "../panel/elements.js";
-import { messageOf, numberText } from "../panel/words.js";
+import { problemText } from "../panel/page_words.js";
+import { numberText } from "../panel/words.js";
 
 /** @typedef {import("../server/api.js").Jobs} Jobs */
 /** @typedef {import("../server/api.js").Job} Job */
@@ -17,10 +18,12 @@ export class JobRun {
   #given = new AbortController();
 
   /** @param {HTMLElement} box @param {Jobs} jobs @param {string} what  What is being done, for those who hear it.
-   * @param {(name: string) => boolean} [listed]  Which of the files are listed. */
-  constructor(box, jobs, what, listed = () => true) {
+   * @param {(name: string) => boolean} [listed]  Which of the files are listed.
+   * @param {Map<string, string>} [names]  What options are called that have fields of their own. */
+  constructor(box, jobs, what, listed = () => true, names = new Map()) {
     this.jobs = jobs;
     this.listed = listed;
+    this.names = names;
     const cancel = make("button", "", "Cancel");
     cancel.type = "button";
     cancel.addEventListener("click", () => this.cancel());
@@ -63,7 +66,9 @@ export class JobRun {
     try {
       job = await this.#ended(await prepare(), given.signal);
     } catch (problem) {
-      if (!given.signal.aborted) this.#problem.textContent = messageOf(problem);
+      if (!given.signal.aborted) {
+        this.#problem.textContent = problemText(problem, this.names).replace(/upload-\d+\.\w+/g, "the table sent");
+      }
     }
     if (this.#given === given) this.#show(false);
     if (given.signal.aborted) return null;
