@@ -34,6 +34,11 @@ const load = async (page, name, text_) => {
   await (await page.$("#candidates")).uploadFile(join(world.folder, name));
 };
 
+async function loadCandidates(page) {
+  await load(page, "places.csv", CANDIDATES);
+  await until(async () => /^4 candidates of places\.csv/.test(await text(page, "#search-said")), "candidates are told");
+}
+
 async function choose(page, count) {
   await page.$eval("#site-count", (input, to) => (input.value = to), String(count));
   await page.$eval("#choose", (button) => button.click());
@@ -44,8 +49,7 @@ async function choose(page, count) {
 
 test("sites are chosen among places of a file; what each adds, and what a swap costs, is what the command line says", async () => {
   const page = await pageOfSites();
-  await load(page, "places.csv", CANDIDATES);
-  await until(async () => /^4 candidates of places\.csv/.test(await text(page, "#search-said")), "candidates are told");
+  await loadCandidates(page);
   await choose(page, 2);
   const { chosen, value, served_percent: percent } = chosenOf("--count 2 --name-field name");
   const km2 = (cells) => `${((cells * 200 ** 2) / 1e6).toFixed((cells * 200 ** 2) / 1e6 < 100 ? 1 : 0)} km²`;
@@ -111,7 +115,7 @@ async function serve(page, kind, words) {
 test("sites serve places of a file, and the result says of which", async () => {
   const page = await pageOfSites();
   assert.match(await text(page, "#served-said"), /^To be served: all ground within 10 km of a candidate\.$/);
-  await load(page, "places.csv", CANDIDATES);
+  await loadCandidates(page);
   await serve(page, "places", /^Load the households/);
   await page.$eval("#choose", (button) => button.click());
   await until(async () => /^Load the places/.test(await text(page, "#choice-run .problem")), "places are asked for");
@@ -123,7 +127,7 @@ test("sites serve places of a file, and the result says of which", async () => {
   const { value } = chosenOf("--count 2 --name-field name --demand homes.csv");
   const sum = await text(page, "#plan-sum");
   assert.ok(
-    sum.includes(`serve ${value} places: ${((100 * value) / 40).toFixed(1)} % of the places of homes.csv (40 places)`),
+    sum.includes(`${value} places: ${((100 * value) / 40).toFixed(1)} % of the places of homes.csv (40 places)`),
     sum,
   );
   await keepPicture(page, "served-places");
@@ -138,7 +142,7 @@ test("sites serve places of a file, and the result says of which", async () => {
 
 test("sites serve the ground in view or in an area that is drawn", async () => {
   const page = await pageOfSites();
-  await load(page, "places.csv", CANDIDATES);
+  await loadCandidates(page);
   await serve(page, "area", /^Draw the area/);
   await page.$eval("#served-button", (button) => button.click());
   for (const [x, y] of [
@@ -155,7 +159,7 @@ test("sites serve the ground in view or in an area that is drawn", async () => {
   assert.match(await text(page, "#search-said"), /^4 candidates of/);
   await page.waitForFunction(() => location.hash.includes("&served="));
   await choose(page, 2);
-  assert.match(await text(page, "#plan-sum"), /serve [\d.]+ km²: [\d.]+ % of the area drawn \([\d.]+ km²\)/);
+  assert.match(await text(page, "#plan-sum"), /serves? [\d.]+ km²: [\d.]+ % of the area drawn \([\d.]+ km²\)/);
   await keepPicture(page, "served-area");
 
   // The choice in the page and what the map shows of it are one number.
@@ -163,9 +167,9 @@ test("sites serve the ground in view or in an area that is drawn", async () => {
   for (const key of ["ArrowRight", "ArrowLeft"]) await page.keyboard.press(key);
   await settledViews(page);
   await drawn(page);
-  await serve(page, "view", /^To be served: [\d.]+ km² of ground, all that is in view/);
+  await serve(page, "view", /^To be served: [\d.\s]+ km² of ground, all that is in view/);
   await choose(page, 1);
-  assert.match(await text(page, "#plan-sum"), /^The site serves [\d.]+ km²: [\d.]+ % of the ground that was in view/);
+  assert.match(await text(page, "#plan-sum"), /^The site serves [\d.\s]+ km²: [\d.]+ % of the ground that was in view/);
   await closed(page);
 });
 
