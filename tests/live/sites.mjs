@@ -130,6 +130,8 @@ test("sites serve places of a file, and the result says of which", async () => {
     sum.includes(`${value} places: ${((100 * value) / 40).toFixed(1)} % of the places of homes.csv (40 places)`),
     sum,
   );
+  assert.match(sum, /2 were asked for: one more would add nothing\.$/);
+  assert.match(await text(page, "#choice-run .run-files"), /demand\.csv a row for each point/);
   await keepPicture(page, "served-places");
   await page.focus(".marker");
   for (let i = 0; i < 3; ++i) await page.keyboard.press("ArrowRight");

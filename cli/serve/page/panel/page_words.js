@@ -10,6 +10,7 @@ const DEGREES = "type degrees with their letters, such as 51.54N 3.29W";
  * @type {[RegExp, string][]} */
 const ADVICE = [
   [/^--(to|from|observer) '[^']*': /, "this place "],
+  [/ --nodata says what it does to sight lines that cross it; import a larger/g, " To know more, import a larger"],
   [/import with --sea-level, and beyond the sources with --sea-area/g, SEA],
   [/import with --sea-level/g, SEA],
   [/it is in degrees: give --in-crs \S+, too/g, `it is in degrees: ${DEGREES}`],

@@ -58,12 +58,12 @@ async function siteCall({ scene, map, info, jobs }) {
   return { call, asked: served.asked };
 }
 
-/** @param {Job} job @param {number} cell @param {import("./served_form.js").Asked} asked @returns {Promise<Plan>} */
-async function planOf({ document, files }, cell, asked) {
+/** @param {Job} job @param {Pick<Plan["result"], "cell" | "asked" | "wanted">} asked @returns {Promise<Plan>} */
+async function planOf({ document, files }, asked) {
   const sites = sitesOf(document.chosen);
   const table = files.find(({ name }) => name === `${SITES}/candidates.csv`);
   const candidates = table ? placesIn(await (await fetch(table.url)).text()) : [];
-  const result = { value: document.value, demand: document.demand, gap: document.gap_percent, cell, asked };
+  const result = { value: document.value, demand: document.demand, gap: document.gap_percent, ...asked };
   return { sites, selected: sites[0]?.id ?? -1, candidates, result };
 }
 
@@ -73,7 +73,7 @@ export function makeSiteChoice(world) {
   const button = /** @type {HTMLButtonElement} */ (element("choose"));
   const run = new JobRun(element("choice-run"), jobs, "Choosing sites");
   button.addEventListener("click", async () => {
-    const cell = Number(scene.state.options.cell);
+    const [cell, count] = [Number(scene.state.options.cell), Number(field("site-count"))];
     scene.change({ plan: null });
     /** @type {import("./served_form.js").Asked | null} */
     let asked = null;
@@ -82,7 +82,7 @@ export function makeSiteChoice(world) {
       asked = wanted.asked;
       return wanted.call;
     });
-    if (job && asked) scene.change({ plan: await planOf(job, cell, asked) });
+    if (job && asked) scene.change({ plan: await planOf(job, { cell, asked, wanted: count }) });
   });
   element("plan-back").addEventListener("click", () => putBack(scene));
   element("plan-keep").addEventListener("click", () => keepAsMasts(scene));
@@ -121,12 +121,13 @@ function amountText(value, { cell, asked }) {
 
 /** @param {Plan} plan */
 function sumText({ sites, result }) {
-  const { value, demand, gap, asked } = result;
+  const { value, demand, gap, asked, wanted } = result;
+  const all = sites.length < wanted ? ` ${wanted} were asked for: one more would add nothing.` : "";
   const one = sites.length === 1;
   const proof = gap > 0 ? `No choice serves more than ${numberText(gap, 1)} % beyond that` : "No choice serves more";
   return (
     `${one ? "The site serves" : `The ${sites.length} sites serve`} ${amountText(value, result)}: ` +
-    `${shareText(value, demand)} of ${asked.what} (${amountText(demand, result)}). ${proof}.`
+    `${shareText(value, demand)} of ${asked.what} (${amountText(demand, result)}). ${proof}.${all}`
   );
 }
 
