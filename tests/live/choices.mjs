@@ -22,8 +22,10 @@ test("before the first mast stands the readout tells the ground, the place and i
   const { from } = JSON.parse(itin(`los hills.itin --from ${at},0 --to ${at},0 --json`, world.folder));
   assert.ok(Math.abs(from.ground_m - Number(ground)) < 2, `${from.ground_m}: ${readout}`);
   assert.ok(readout.includes(`${from.lat.toFixed(3)}`), `${from.lat}: ${readout}`);
-  const reference = readout.match(/Grid referenceST (\d{5}) (\d{5})/);
-  assert.ok(Math.abs(300000 + Number(reference[1]) - x) <= 1 && Math.abs(100000 + Number(reference[2]) - y) <= 1);
+  const reference = readout.match(/Grid referenceS[TO] (\d{5}) (\d{5})/);
+  for (const [part, i] of [x, y].map((metres, axis) => [metres % 100000, axis + 1])) {
+    assert.ok(Math.abs(Number(reference[i]) - part) <= 1, readout);
+  }
   await keepPicture(page, "ground");
 
   // Beside the data there is nothing to tell.

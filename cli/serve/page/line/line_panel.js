@@ -48,13 +48,16 @@ export function makeLinePanel(scene, connection, map, layer, dark) {
     () => (panel.ariaBusy = "true"),
     (line, error, newest) => {
       panel.ariaBusy = String(!newest);
-      // The panel is as high as what it says.
-      keepingPlace(map, scene.farEnd, () => {
+      const fill = () => {
         panel.hidden = line === null && error === "";
         verdict.textContent = line ? verdictOf(scene, line) : capital(inPageWords(error));
         verdict.dataset.verdict = line?.verdict ?? "";
         facts.replaceChildren(...(line ? lineFacts(line) : []).map(factElement));
-      });
+      };
+      // The panel is as high as what it says. A page that opens with a line has its map where it was left.
+      const opens = !panel.hidden && verdict.textContent === "";
+      if (opens) fill();
+      else keepingPlace(map, scene.farEnd, fill);
       length = line?.distance_m ?? 0;
       chart.show(line, scene.mast?.hue ?? 0);
       if (!line) layer.mark(null);
