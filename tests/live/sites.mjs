@@ -248,6 +248,10 @@ test("premises are surveyed from the masts on the map", async () => {
   );
   assert.ok((await text(page, "#premises-sum")).startsWith(`${premises.served} of ${premises.all} buildings served`));
   assert.match(await text(page, "#premises-run .run-files"), /premises\.csv/);
+  assert.match(
+    await text(page, "#premises-run .run-warnings"),
+    /5 buildings not counted: the import of theme 'buildings'/,
+  );
   await keepPicture(page, "premises");
   assert.deepEqual(await axeFindings(page), []);
   await closed(page);
